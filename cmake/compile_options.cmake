@@ -1,0 +1,28 @@
+# How every source of the project is compiled: link raytrace_options, privately.
+add_library(raytrace_options INTERFACE)
+target_compile_features(raytrace_options INTERFACE cxx_std_20)
+target_compile_options(raytrace_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+  # A picture must not depend on where the compiler saw fit to fuse a multiplication and an addition.
+  -ffp-contract=off
+  # GCC 12 warns of overlaps in "text" + std::string which cannot be (GCC bug 105651, mended in 13).
+  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>
+  # Clang warns of entry points with C names and C++ types, which we mean, and of deprecated functions that libstdc++'s own
+  # std::stable_sort calls.
+  "$<$<CXX_COMPILER_ID:Clang>:-Wno-return-type-c-linkage;-Wno-deprecated-declarations>"
+  $<$<BOOL:${RAYTRACE_WERROR}>:-Werror>)
+
+if(RAYTRACE_SANITIZERS)
+  # A report must fail the test that caused it, so nothing is recovered from.
+  target_compile_options(raytrace_options INTERFACE
+    -fsanitize=${RAYTRACE_SANITIZERS} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(raytrace_options INTERFACE -fsanitize=${RAYTRACE_SANITIZERS})
+endif()
+
+if(RAYTRACE_FUZZERS)
+  if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    message(FATAL_ERROR "RAYTRACE_FUZZERS needs Clang, which brings libFuzzer")
+  endif()
+  # The fuzzer follows coverage through the whole library.
+  target_compile_options(raytrace_options INTERFACE -fsanitize=fuzzer-no-link)
+endif()

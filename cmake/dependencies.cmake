@@ -1,0 +1,54 @@
+# The one list of what the project needs, each with its least version. The packages of Debian and Ubuntu that bring
+# them stand in cmake/setup.sh.
+include(FetchContent)
+
+# find_package with a version refuses the next major version of many packages; here the least version is all that counts.
+macro(raytrace_require package least_version)
+  find_package(${package} CONFIG REQUIRED ${ARGN})
+  if(${package}_VERSION VERSION_LESS ${least_version})
+    message(FATAL_ERROR "${package} ${${package}_VERSION} is too old: at least ${least_version} is needed")
+  endif()
+endmacro()
+
+set(THREADS_PREFER_PTHREAD_FLAG ON)
+find_package(Threads REQUIRED)
+
+# Embree 4 where there is one; the bridge between the two is lib/raytrace/accel/embree.h.
+find_package(embree 4 CONFIG QUIET)
+if(NOT embree_FOUND)
+  find_package(embree 3.13 CONFIG REQUIRED)
+endif()
+
+# Debian's Imath, which both of these look for, tells at length that its Python module is not installed.
+set(CMAKE_MESSAGE_LOG_LEVEL NOTICE)
+raytrace_require(OpenImageIO 2.4)
+raytrace_require(OpenEXR 3.1)
+unset(CMAKE_MESSAGE_LOG_LEVEL)
+raytrace_require(TBB 2021)
+raytrace_require(xsimd 8.1)
+raytrace_require(CLI11 2.1)
+raytrace_require(nlohmann_json 3.11)
+include(cmake/package_faults.cmake)
+
+FetchContent_Declare(tinyxml2
+  GIT_REPOSITORY https://github.com/leethomason/tinyxml2.git
+  GIT_TAG 9148bdf719e997d1f474be6bcc7943881046dba1 # 11.0.0
+  FIND_PACKAGE_ARGS CONFIG)
+FetchContent_MakeAvailable(tinyxml2)
+
+if(RAYTRACE_TESTS)
+  FetchContent_Declare(Catch2
+    GIT_REPOSITORY https://github.com/catchorg/Catch2.git
+    GIT_TAG fa43b77429ba76c462b1898d6cd2f2d7a9416b14 # 3.7.1
+    FIND_PACKAGE_ARGS CONFIG)
+  FetchContent_MakeAvailable(Catch2)
+  if(Catch2_FOUND AND Catch2_VERSION VERSION_LESS 2.13)
+    message(FATAL_ERROR "Catch2 ${Catch2_VERSION} is too old: at least 2.13 is needed")
+  endif()
+  # Where catch_discover_tests is: beside the installed package, or in the fetched source.
+  list(APPEND CMAKE_MODULE_PATH ${Catch2_DIR} ${catch2_SOURCE_DIR}/extras)
+endif()
+
+if(RAYTRACE_BENCHMARKS)
+  find_package(benchmark CONFIG QUIET) # Google Benchmark; without it the micro benchmarks are left out
+endif()

@@ -1,0 +1,30 @@
+# cmake --install: program, library, headers, scenes and their schema, man page, and the package for find_package(raytrace).
+include(CMakePackageConfigHelpers)
+
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/raytrace)
+
+install(TARGETS raytrace_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS raytrace EXPORT raytraceTargets
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+  INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+
+# accel/, scene/ and integrators/ are the inside of the library: users go through render/renderer.h.
+install(DIRECTORY lib/raytrace DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+  FILES_MATCHING PATTERN "*.h"
+  PATTERN accel EXCLUDE
+  PATTERN scene EXCLUDE
+  PATTERN integrators EXCLUDE)
+
+install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/raytrace
+  FILES_MATCHING PATTERN "*.xml" PATTERN "*.xsd")
+install(FILES ${PROJECT_BINARY_DIR}/share/man/man1/raytrace.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+install(EXPORT raytraceTargets NAMESPACE raytrace:: DESTINATION ${package_folder})
+string(REGEX MATCH "^[0-9]+" embree_major "${embree_VERSION}")
+configure_package_config_file(cmake/raytraceConfig.cmake.in ${PROJECT_BINARY_DIR}/raytraceConfig.cmake
+  INSTALL_DESTINATION ${package_folder})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/raytraceConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/raytraceConfig.cmake ${PROJECT_BINARY_DIR}/raytraceConfigVersion.cmake
+    cmake/package_faults.cmake
+  DESTINATION ${package_folder})
