@@ -1,0 +1,259 @@
+#include "raytrace/accel/accelerator.h"
+
+#include <atomic>
+#include <new>
+#include <string>
+
+#include "raytrace/render/handover.h"
+#include "raytrace/render/renderer.h"
+
+namespace raytrace {
+
+namespace {
+
+using Packet = embree::Packet<native_lanes>;
+
+/// Embree asserts |component| < 1.844e18 for every ray and aborts otherwise, where it is built with assertions as
+/// Debian's is. NaN fails every comparison.
+MaskN embree_takes(const Ray<FloatN>& rays) {
+  const auto inside = [](const Vec3<FloatN>& v) {
+    const FloatN limit(1.8e18f);
+    return (xsimd::abs(v.x) < limit) & (xsimd::abs(v.y) < limit) & (xsimd::abs(v.z) < limit);
+  };
+  const FloatN largest =
+      xsimd::max(xsimd::max(xsimd::abs(rays.direction.x), xsimd::abs(rays.direction.y)), xsimd::abs(rays.direction.z));
+  // Directions whose square would vanish in float count as 0.
+  return inside(rays.origin) & inside(rays.direction) & (largest > FloatN(1e-18f)) & (rays.near >= FloatN(0)) &
+         (rays.far > rays.near);
+}
+
+void store_valid(const MaskN& active, int* valid) {
+  std::bit_cast<IntN>(xsimd::select(active, std::bit_cast<FloatN>(IntN(-1)), FloatN(0))).store_aligned(valid);
+}
+
+template <class EmbreeRays>
+void store_rays(const Ray<FloatN>& rays, EmbreeRays& out) {
+  rays.origin.x.store_aligned(out.org_x);
+  rays.origin.y.store_aligned(out.org_y);
+  rays.origin.z.store_aligned(out.org_z);
+  rays.near.store_aligned(out.tnear);
+  rays.direction.x.store_aligned(out.dir_x);
+  rays.direction.y.store_aligned(out.dir_y);
+  rays.direction.z.store_aligned(out.dir_z);
+  FloatN(0).store_aligned(out.time);
+  rays.far.store_aligned(out.tfar);
+  UintN(0xffffffffu).store_aligned(out.mask);
+  UintN(0).store_aligned(out.id);
+  UintN(0).store_aligned(out.flags);
+}
+
+RTCRay single_ray(const typename Packet::Ray& rays, int lane) {
+  RTCRay ray{};
+  ray.org_x = rays.org_x[lane];
+  ray.org_y = rays.org_y[lane];
+  ray.org_z = rays.org_z[lane];
+  ray.tnear = rays.tnear[lane];
+  ray.dir_x = rays.dir_x[lane];
+  ray.dir_y = rays.dir_y[lane];
+  ray.dir_z = rays.dir_z[lane];
+  ray.tfar = rays.tfar[lane];
+  ray.mask = rays.mask[lane];
+  return ray;
+}
+
+[[noreturn]] void throw_embree_error(RTCError code, const char* message) {
+  if (code == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+  throw RenderError(std::string("Embree: ") + (message != nullptr ? message : "unknown error"));
+}
+
+/// What Embree's callbacks report, to be thrown where it is safe: not through Embree's own frames.
+struct BuildReport {
+  std::atomic<std::int64_t> bytes{0};
+  RTCError error = RTC_ERROR_NONE;
+  std::string message;
+};
+
+void on_error(void* user, RTCError code, const char* message) {
+  auto& report = *static_cast<BuildReport*>(user);
+  if (report.error != RTC_ERROR_NONE) return;
+  report.error = code;
+  report.message = message != nullptr ? message : "";
+}
+
+/// Embree's builder threads see the report that the constructor made.
+constinit Handover report_made;
+
+bool on_memory(void* user, ssize_t bytes, bool) {
+  report_made.take();
+  static_cast<BuildReport*>(user)->bytes += bytes;
+  return true;
+}
+
+template <class Shape>
+void fill_table(const SceneDescription& description, ShapeTable<Shape>& table) {
+  const auto& items = std::get<ObjectItems<Shape>>(description.objects);
+  table.records.reserve(items.size() + 1);  // Embree reads whole 16 byte words of the last vertex
+  for (const auto& item : items) table.records.push_back(Shape::record(item.parameters));
+}
+
+/// Embree's triangles, straight from the table.
+template <class Shape>
+embree::Geometry make_triangles(RTCDevice device, const ShapeTable<Shape>& table) {
+  const auto count = static_cast<unsigned>(table.records.size());
+  embree::Geometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
+  rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, table.records.data(), 0,
+                             sizeof(Vec3f), 3 * static_cast<std::size_t>(count));
+  auto* index = static_cast<unsigned*>(
+      rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), count));
+  if (index == nullptr) throw std::bad_alloc();
+  for (unsigned i = 0; i < 3 * count; ++i) index[i] = i;
+  return geometry;
+}
+
+/// The surfaces of one shape, under the wide type of its table's precision.
+template <class Shape>
+SurfacePoint<FloatN> surface_of(const ShapeTable<Shape>& table, const IntN& primitive, const Ray<FloatN>& rays,
+                                const Hits& hits) {
+  constexpr bool in_float = std::is_same_v<typename ShapeTable<Shape>::Record, typename Shape::template Record<float>>;
+  using Wide = std::conditional_t<in_float, FloatN, Doubles<FloatN>>;
+  const auto records = gather_records<Shape::template Record, Wide>(table.records.data(), primitive);
+  if constexpr (UserGeometry<Shape>) {
+    return Shape::template surface<FloatN>(records, rays, hits.distance);
+  } else {
+    return Shape::template surface<FloatN>(records, hits.u, hits.v);
+  }
+}
+
+}  // namespace
+
+Accelerator::Accelerator(const SceneDescription& description, int threads, const char* isa) {
+  BuildReport report;
+  report_made.give();
+  const std::string configuration = "threads=" + std::to_string(threads) + ",set_affinity=0,isa=" + isa;
+  device_.reset(rtcNewDevice(configuration.c_str()));
+  if (!device_) throw_embree_error(rtcGetDeviceError(nullptr), "no device could be created");
+  rtcSetDeviceErrorFunction(device_.get(), &on_error, &report);
+  rtcSetDeviceMemoryMonitorFunction(device_.get(), &on_memory, &report);
+
+  scene_.reset(rtcNewScene(device_.get()));
+  rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_MEDIUM);
+  rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);  // no misses at box borders far from the origin
+  for_each_type(Shapes{}, [&](auto type) {
+    using Shape = typename decltype(type)::type;
+    auto& table = std::get<ShapeTable<Shape>>(tables_);
+    fill_table(description, table);
+    if (table.records.empty()) return;
+    embree::Geometry geometry;
+    if constexpr (UserGeometry<Shape>) {
+      geometry = make_user_geometry(device_.get(), table);
+    } else {
+      geometry = make_triangles(device_.get(), table);
+    }
+    rtcCommitGeometry(geometry.get());
+    rtcAttachGeometryByID(scene_.get(), geometry.get(), static_cast<unsigned>(index_of<Shape>(Shapes{})));
+  });
+  rtcCommitScene(scene_.get());
+  bytes_ = static_cast<std::uint64_t>(std::max<std::int64_t>(report.bytes, 0));
+  rtcSetDeviceMemoryMonitorFunction(device_.get(), nullptr, nullptr);
+  rtcSetDeviceErrorFunction(device_.get(), nullptr, nullptr);
+  if (report.error != RTC_ERROR_NONE) throw_embree_error(report.error, report.message.c_str());
+}
+
+Hits Accelerator::intersect(const Ray<FloatN>& rays, const MaskN& active, Coherence coherence) const {
+  const MaskN valid_lanes = active & embree_takes(rays);
+  Hits hits;
+  hits.hit = MaskN(false);
+  if (xsimd::none(valid_lanes)) return hits;
+
+  embree::Query query(coherence == Coherence::coherent);
+  alignas(64) typename Packet::RayHit packet;
+  store_rays(rays, packet.ray);
+  UintN(RTC_INVALID_GEOMETRY_ID).store_aligned(packet.hit.geomID);
+  UintN(RTC_INVALID_GEOMETRY_ID).store_aligned(packet.hit.instID[0]);
+  if (coherence == Coherence::coherent) {
+    alignas(64) int valid[native_lanes];
+    store_valid(valid_lanes, valid);
+    Packet::intersect(valid, scene_.get(), query, packet);
+  } else {
+    for (std::uint32_t lanes = bits_of<FloatN>(valid_lanes); lanes != 0; lanes &= lanes - 1) {
+      const int lane = std::countr_zero(lanes);
+      RTCRayHit single{};
+      single.ray = single_ray(packet.ray, lane);
+      single.hit.geomID = single.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+      embree::intersect1(scene_.get(), query, single);
+      packet.ray.tfar[lane] = single.ray.tfar;
+      packet.hit.u[lane] = single.hit.u;
+      packet.hit.v[lane] = single.hit.v;
+      packet.hit.primID[lane] = single.hit.primID;
+      packet.hit.geomID[lane] = single.hit.geomID;
+    }
+  }
+  hits.kind = UintN::load_aligned(packet.hit.geomID);
+  hits.hit = valid_lanes & float_mask<FloatN>(std::bit_cast<IntN>(hits.kind) != IntN(-1));
+  hits.primitive = std::bit_cast<IntN>(UintN::load_aligned(packet.hit.primID));
+  hits.distance = FloatN::load_aligned(packet.ray.tfar);
+  hits.u = FloatN::load_aligned(packet.hit.u);
+  hits.v = FloatN::load_aligned(packet.hit.v);
+  return hits;
+}
+
+MaskN Accelerator::occluded(const Ray<FloatN>& rays, const MaskN& active, Coherence coherence) const {
+  const MaskN valid_lanes = active & embree_takes(rays);
+  if (xsimd::none(valid_lanes)) return MaskN(false);
+
+  embree::Query query(coherence == Coherence::coherent);
+  alignas(64) typename Packet::Ray packet;
+  store_rays(rays, packet);
+  if (coherence == Coherence::coherent) {
+    alignas(64) int valid[native_lanes];
+    store_valid(valid_lanes, valid);
+    Packet::occluded(valid, scene_.get(), query, packet);
+  } else {
+    for (std::uint32_t lanes = bits_of<FloatN>(valid_lanes); lanes != 0; lanes &= lanes - 1) {
+      const int lane = std::countr_zero(lanes);
+      RTCRay single = single_ray(packet, lane);
+      embree::occluded1(scene_.get(), query, single);
+      packet.tfar[lane] = single.tfar;
+    }
+  }
+  return valid_lanes & (FloatN::load_aligned(packet.tfar) < FloatN(0));
+}
+
+SurfacePoint<FloatN> Accelerator::surface(const Ray<FloatN>& rays, const Hits& hits) const {
+  SurfacePoint<FloatN> result;
+  std::uint32_t lanes_left = bits_of<FloatN>(hits.hit);
+  alignas(64) std::uint32_t kinds[native_lanes];
+  hits.kind.store_aligned(kinds);
+  bool first = true;
+  for_each_type(Shapes{}, [&](auto type) {
+    using Shape = typename decltype(type)::type;
+    const auto kind = static_cast<std::uint32_t>(index_of<Shape>(Shapes{}));
+    if (lanes_left == 0 || std::get<ShapeTable<Shape>>(tables_).records.empty()) return;
+    const MaskN here =
+        hits.hit & float_mask<FloatN>(std::bit_cast<IntN>(hits.kind) == IntN(static_cast<std::int32_t>(kind)));
+    const std::uint32_t lanes = bits_of<FloatN>(here);
+    if (lanes == 0) return;
+    lanes_left &= ~lanes;
+    // The other lanes follow the first of these, so that they read a record that exists, and no further ones.
+    const IntN primitive =
+        select_lanes(here, hits.primitive, IntN(hits.primitive.get(static_cast<std::size_t>(std::countr_zero(lanes)))));
+    const auto point = surface_of<Shape>(std::get<ShapeTable<Shape>>(tables_), primitive, rays, hits);
+    result = first ? point : select(here, point, result);
+    first = false;
+  });
+  return result;
+}
+
+std::uint64_t Accelerator::primitive_count() const {
+  return std::apply([](const auto&... table) { return (std::uint64_t{table.records.size()} + ...); }, tables_);
+}
+
+std::string Accelerator::embree_version() const {
+  const auto number = [&](RTCDeviceProperty property) {
+    return std::to_string(rtcGetDeviceProperty(device_.get(), property));
+  };
+  return number(RTC_DEVICE_PROPERTY_VERSION_MAJOR) + '.' + number(RTC_DEVICE_PROPERTY_VERSION_MINOR) + '.' +
+         number(RTC_DEVICE_PROPERTY_VERSION_PATCH);
+}
+
+}  // namespace raytrace

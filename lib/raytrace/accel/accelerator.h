@@ -1,0 +1,64 @@
+// The scene's geometry in Embree: packets of rays in, nearest hits out.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "raytrace/accel/embree.h"
+#include "raytrace/accel/user_geometry.h"
+#include "raytrace/description/scene_description.h"
+
+namespace raytrace {
+
+/// How the rays of one call relate: it decides how they are traced, not what they hit.
+enum class Coherence {
+  coherent,    ///< neighbours take the same way (camera rays, shadow rays to one light): a packet query
+  incoherent,  ///< they scatter (bounces): one query a ray, up to 4 times faster there (docs/design.md)
+};
+
+/// The nearest hits of a packet. Lanes that hit nothing hold kind == no_hit.
+struct Hits {
+  MaskN hit;
+  UintN kind;      ///< position of the shape's type in the Shapes registry
+  IntN primitive;  ///< index among the objects of that type
+  FloatN distance;
+  FloatN u, v;  ///< barycentric coordinates on triangles
+};
+
+/// Owns Embree's device and scene, and the tables of all shapes.
+class Accelerator {
+ public:
+  /// Builds the BVH with `threads` threads; isa is Embree's name of the best instruction set that it may use.
+  /// Throws RenderError with Embree's message, std::bad_alloc where memory runs out.
+  Accelerator(const SceneDescription& description, int threads, const char* isa);
+
+  /// Nearest hits in the lanes of `active`. Rays that Embree cannot take (a component that is NaN, infinite or beyond
+  /// 1.8e18, or a direction of length 0) hit nothing.
+  Hits intersect(const Ray<FloatN>& rays, const MaskN& active, Coherence coherence) const;
+
+  /// The lanes of `active` in which anything lies between near and far.
+  MaskN occluded(const Ray<FloatN>& rays, const MaskN& active, Coherence coherence) const;
+
+  /// The surfaces that were hit; lanes without a hit hold anything.
+  SurfacePoint<FloatN> surface(const Ray<FloatN>& rays, const Hits& hits) const;
+
+  std::uint64_t primitive_count() const;
+  std::uint64_t bvh_bytes() const { return bytes_; }
+
+  /// "3.13.5"
+  std::string embree_version() const;
+
+  /// Embree's scene, for tests and benchmarks that put their own queries to it.
+  RTCScene embree_scene() const { return scene_.get(); }
+
+ private:
+  std::uint64_t bytes_ = 0;  ///< counted by Embree's memory monitor: before device_, which still reports while it ends
+  TupleOf<Shapes, ShapeTable>::type tables_;
+  embree::Device device_;
+  embree::Scene scene_;
+};
+
+}  // namespace raytrace

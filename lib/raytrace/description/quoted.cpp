@@ -1,0 +1,47 @@
+#include "raytrace/description/quoted.h"
+
+#include <cstddef>
+
+#include "raytrace/description/utf8.h"
+
+namespace raytrace {
+namespace {
+
+constexpr std::size_t most_shown = 40;  // bytes of the original
+
+}  // namespace
+
+std::string printable(std::string_view text) {
+  static constexpr char digits[] = "0123456789abcdef";
+  std::string result;
+  std::size_t i = 0;
+  while (i < text.size() && i < most_shown) {
+    const unsigned char byte = static_cast<unsigned char>(text[i]);
+    const std::size_t length = utf8_length(text.substr(i));
+    if (length > 1 || (length == 1 && byte >= 0x20 && byte < 0x7f)) {
+      result.append(text.substr(i, length));
+      i += length;
+    } else {
+      result.append({'\\', 'x', digits[byte >> 4], digits[byte & 15]});
+      ++i;
+    }
+  }
+  if (i < text.size()) result += "...";
+  return result;
+}
+
+std::string in_quotes(std::string_view text) { return std::string("'").append(printable(text)).append("'"); }
+
+std::string tag(std::string_view name) { return std::string("<").append(printable(name)).append(">"); }
+
+std::string closing_tag(std::string_view name) { return std::string("</").append(printable(name)).append(">"); }
+
+std::string list_of_tags(std::span<const std::string_view> names) {
+  if (names.empty()) return "nothing";
+  std::string list = tag(names[0]);
+  for (std::size_t i = 1; i < names.size(); ++i)
+    list.append(i + 1 < names.size() ? ", " : " and ").append(tag(names[i]));
+  return list;
+}
+
+}  // namespace raytrace

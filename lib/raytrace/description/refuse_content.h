@@ -1,0 +1,18 @@
+// Reports what stands in an element that must not.
+#pragma once
+
+#include <span>
+
+#include "raytrace/description/diagnostics.h"
+#include "raytrace/description/document.h"
+#include "raytrace/description/read_value.h"
+
+namespace raytrace {
+
+/// Reports the attributes of an element that takes none; children: what it takes instead. False if there were any.
+bool refuse_attributes(Element element, std::span<const FieldInfo> children, Diagnostics& diagnostics);
+
+/// Reports a text among the children of an element that takes only elements. True if `node` is one.
+bool refuse_text(Node node, Element parent, Diagnostics& diagnostics);
+
+}  // namespace raytrace

@@ -1,0 +1,25 @@
+// Reports a finding about a place in the document, but composes it only if it will be shown.
+#pragma once
+
+#include "raytrace/description/diagnostics.h"
+
+namespace raytrace {
+
+/// place: an Element, Node or Attribute. make_message: called, for the text, only if the finding is kept.
+template <class Place, class MakeMessage>
+void report_error(Diagnostics& diagnostics, const Place& place, MakeMessage&& make_message) {
+  if (diagnostics.keeps_another(Severity::error))
+    diagnostics.error(place.location(), make_message());
+  else
+    diagnostics.error({}, {});
+}
+
+template <class Place, class MakeMessage>
+void report_warning(Diagnostics& diagnostics, const Place& place, MakeMessage&& make_message) {
+  if (diagnostics.keeps_another(Severity::warning))
+    diagnostics.warning(place.location(), make_message());
+  else
+    diagnostics.warning({}, {});
+}
+
+}  // namespace raytrace

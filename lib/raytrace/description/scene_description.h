@@ -1,0 +1,86 @@
+// The passive description of a scene: names, numbers and lines of the file, before any Embree call.
+//
+// It is made as a whole by load_scene (or by hand, in tests and tools), validated as a whole, and never changes after.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <variant>
+#include <vector>
+
+#include "raytrace/cameras/registry.h"
+#include "raytrace/description/diagnostics.h"
+#include "raytrace/description/view_plane.h"
+#include "raytrace/lights/registry.h"
+#include "raytrace/materials/registry.h"
+#include "raytrace/math/type_list.h"
+#include "raytrace/shapes/registry.h"
+
+namespace raytrace {
+
+template <class Light>
+struct LightItem {
+  typename Light::Parameters parameters;
+  std::uint32_t line = 0;
+};
+
+template <class Material>
+struct MaterialItem {
+  typename Material::Parameters parameters;
+  std::string name;
+  std::uint32_t line = 0;
+};
+
+/// A material by its kind (the position in the Materials registry) and its index among the items of that kind.
+struct MaterialReference {
+  std::uint32_t kind = 0;
+  std::uint32_t index = 0;
+};
+
+template <class Shape>
+struct ObjectItem {
+  typename Shape::Parameters parameters;
+  std::string name;  ///< empty: unnamed
+  MaterialReference material;
+  std::uint32_t line = 0;
+};
+
+template <class T>
+using LightItems = std::vector<LightItem<T>>;
+template <class T>
+using MaterialItems = std::vector<MaterialItem<T>>;
+template <class T>
+using ObjectItems = std::vector<ObjectItem<T>>;
+
+/// One of the registered cameras' parameters.
+template <class List>
+struct ParametersVariant;
+template <class... Types>
+struct ParametersVariant<TypeList<Types...>> {
+  using type = std::variant<typename Types::Parameters...>;
+};
+using CameraParameters = ParametersVariant<Cameras>::type;
+
+struct SceneDescription {
+  std::string file;  ///< as given on the command line; "-" for standard input
+  ViewPlane viewplane;
+  CameraParameters camera;
+  TupleOf<Lights, LightItems>::type lights;           ///< std::get<LightItems<PointLight>>(lights)
+  TupleOf<Materials, MaterialItems>::type materials;  ///< std::get<MaterialItems<Matte>>(materials)
+  TupleOf<Shapes, ObjectItems>::type objects;         ///< std::get<ObjectItems<Sphere>>(objects)
+};
+
+/// Reads and validates a scene file ("-": standard input). All problems go to `diagnostics`; no value if one of them
+/// is an error. Warnings alone still give a scene. A file that cannot be read is an error at line 0.
+std::optional<SceneDescription> load_scene(const std::string& file, Diagnostics& diagnostics);
+
+/// The same for a text that is already in memory.
+std::optional<SceneDescription> parse_scene(std::string text, Diagnostics& diagnostics);
+
+/// Writes the description as a scene file in canonical form: every value spelled out, defaults included; reading it
+/// back gives an equal description (all doubles round-trip).
+std::string print_scene(const SceneDescription& description);
+
+}  // namespace raytrace

@@ -1,0 +1,59 @@
+#include "raytrace/description/utf8.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace raytrace {
+namespace {
+
+// All of it is ASCII that XML allows. Compilers turn this loop into SIMD code, and nearly every block is plain.
+bool surely_plain(std::string_view block) {
+  std::uint8_t plain = 1;
+  for (const char c : block) {
+    const bool printable = static_cast<signed char>(c) >= 0x20;
+    const bool white_space = (c == '\t') | (c == '\n') | (c == '\r');
+    plain &= static_cast<std::uint8_t>(printable | white_space);
+  }
+  return plain != 0;
+}
+
+}  // namespace
+
+std::size_t utf8_length(std::string_view text) {
+  if (text.empty()) return 0;
+  const auto byte = [&](std::size_t i) { return static_cast<std::uint32_t>(static_cast<unsigned char>(text[i])); };
+  const std::uint32_t first = byte(0);
+  if (first < 0x80) return first >= 0x20 || first == '\t' || first == '\n' || first == '\r' ? 1 : 0;
+
+  const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
+  if (first < 0xc2 || first > 0xf4 || text.size() < length) return 0;
+  std::uint32_t character = first & (0x7fu >> length);
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xc0u) != 0x80u) return 0;
+    character = (character << 6) | (byte(i) & 0x3fu);
+  }
+  static constexpr std::uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
+  const bool surrogate = character >= 0xd800 && character <= 0xdfff;
+  const bool refused =
+      character < least[length] || character > 0x10ffff || surrogate || character == 0xfffe || character == 0xffff;
+  return refused ? 0 : length;
+}
+
+std::size_t find_invalid_utf8(std::string_view text) {
+  constexpr std::size_t block = 4096;
+  std::size_t i = 0;
+  while (i < text.size()) {
+    if (surely_plain(text.substr(i, block))) {
+      i += block;
+      continue;
+    }
+    for (const std::size_t end = std::min(i + block, text.size()); i < end;) {
+      const std::size_t length = utf8_length(text.substr(i));
+      if (length == 0) return i;
+      i += length;
+    }
+  }
+  return std::string_view::npos;
+}
+
+}  // namespace raytrace

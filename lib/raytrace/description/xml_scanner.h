@@ -1,0 +1,35 @@
+// Checks that a text is well-formed XML, and finds where its parts stand.
+//
+// tinyxml2 builds the tree, but it forgives much that other XML tools refuse (a second root, unknown entities, bytes
+// that are no text), explains a mistake by the name of an internal constant, and knows no columns. So every text passes
+// this check first, and a text that does is one that tinyxml2 reads.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace raytrace {
+
+/// What is wrong with the text, and at which of its bytes.
+struct XmlProblem {
+  std::size_t offset;
+  std::string message;
+};
+
+/// The first place where `text` is not well-formed XML 1.0 in UTF-8, with or without byte order mark. Document type
+/// declarations with declarations of their own, processing instructions, elements nested more than 64 deep and tags of
+/// more than 64 attributes are refused too: no scene has them, and they are where XML readers get into trouble.
+std::optional<XmlProblem> find_xml_problem(const std::string& text);
+
+/// Where the elements (the '<' of their start tags) and the texts (their first character that is no white space) of a
+/// well-formed text begin, in the order of the document: the order of a walk through its tree, parents before children.
+/// White space between tags is no text; a CDATA section is one, and a comment ends one.
+std::vector<std::size_t> find_nodes(const std::string& text);
+
+/// Where the attribute `name` stands in the start tag at `tag_offset` of a well-formed text.
+std::size_t find_attribute(const std::string& text, std::size_t tag_offset, std::string_view name);
+
+}  // namespace raytrace

@@ -1,0 +1,58 @@
+#include "raytrace/integrators/raycast.h"
+
+#include <array>
+#include <bit>
+
+#include "raytrace/integrators/secondary_ray.h"
+
+namespace raytrace {
+
+namespace {
+
+/// Lights are gathered in runs of this many before the materials see them, so that each material reads its parameters
+/// once a run.
+constexpr std::size_t lights_per_run = 16;
+
+}  // namespace
+
+SeenRadiance Raycast::radiance(const TracedScene& scene, const Ray<FloatN>& rays, const MaskN& active,
+                               RayCounts& counts) {
+  const Rgb<FloatN> background{Rgb<float>(scene.viewplane().background)};
+  const Hits hits = scene.accelerator().intersect(rays, active, Coherence::coherent);
+  if (xsimd::none(hits.hit)) return {background, hits.hit};
+
+  SurfacePoint<FloatN> point = scene.accelerator().surface(rays, hits);
+  const Vec3<FloatN> wo = -rays.direction;
+  point.normal = select(dot(point.normal, wo) < FloatN(0), -point.normal, point.normal);
+  const Vec3<FloatN> origin = leaving_origin(point);
+
+  std::array<ArrivingLight, lights_per_run> arriving;
+  std::size_t count = 0;
+  Rgb<FloatN> radiance{Rgb<float>(0, 0, 0)};
+  Rgb<float> ambient = scene.ambient_radiance();
+  const auto shade_run = [&] {
+    radiance += scene.shade(hits, wo, point.normal, ambient, {arriving.data(), count});
+    ambient = Rgb<float>(0, 0, 0);
+    count = 0;
+  };
+  for (const auto& light : scene.lights()) {
+    const LightSample<FloatN> sample = light->sample(point.position);
+    const Vec3<FloatN> wi = normalize(sample.to_light);
+    const FloatN cosine = dot(point.normal, wi);
+    MaskN lit = hits.hit & (cosine > FloatN(0));
+    if (light->shadows() && xsimd::any(lit)) {
+      const LightSample<FloatN> shadow = light->sample(origin);
+      counts.shadow += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(lit)));
+      const Ray<FloatN> shadow_rays{origin, shadow.to_light, FloatN(0), shadow.end};
+      const MaskN occluded = scene.accelerator().occluded(shadow_rays, lit, Coherence::coherent);
+      lit = lit & !occluded;
+    }
+    if (xsimd::none(lit)) continue;
+    arriving[count++] = {wi, xsimd::select(lit, cosine, FloatN(0)), sample.radiance};
+    if (count == lights_per_run) shade_run();
+  }
+  shade_run();
+  return {select(hits.hit, radiance, background), hits.hit};
+}
+
+}  // namespace raytrace

@@ -1,0 +1,25 @@
+// Direct light by ray casting (Suffern, chapters 14 to 16): the nearest hit, lit by the scene's lights, with a shadow
+// ray to each that casts shadows.
+#pragma once
+
+#include "raytrace/scene/traced_scene.h"
+
+namespace raytrace {
+
+/// What a packet of camera rays sees.
+struct SeenRadiance {
+  Rgb<FloatN> radiance;
+  MaskN hit;  ///< false: the background was seen
+};
+
+class Raycast {
+ public:
+  static constexpr std::string_view name = "raycast";
+
+  /// The radiance that arrives along the rays, whose directions have unit length, in the lanes of `active`; adds the
+  /// shadow rays to `counts`.
+  static SeenRadiance radiance(const TracedScene& scene, const Ray<FloatN>& rays, const MaskN& active,
+                               RayCounts& counts);
+};
+
+}  // namespace raytrace

@@ -1,0 +1,11 @@
+// All integrators. A new integrator: its own pair of files, one include and one name here. (docs/how-to-add-a-type.md)
+#pragma once
+
+#include "raytrace/integrators/raycast.h"
+#include "raytrace/math/type_list.h"
+
+namespace raytrace {
+
+using Integrators = TypeList<Raycast>;
+
+}  // namespace raytrace

@@ -1,0 +1,30 @@
+// Ambient light: a constant radiance from everywhere, never shadowed (Suffern, chapter 14).
+//
+//   <ambientlight> <scaleradiance>1</scaleradiance> <color red="1" green="1" blue="1"/> </ambientlight>
+#pragma once
+
+#include "raytrace/description/fields.h"
+#include "raytrace/lights/light.h"
+
+namespace raytrace {
+
+class AmbientLight {
+ public:
+  struct Parameters {
+    double scaleradiance = 1;
+    Rgb<double> color{1, 1, 1};
+  };
+  static constexpr std::string_view group = "";  ///< stands in <lights> itself, at most once
+  static constexpr std::string_view element = "ambientlight";
+  static Fields<Parameters> fields();
+
+  explicit AmbientLight(const Parameters& parameters) : radiance_(parameters.color * parameters.scaleradiance) {}
+
+  static constexpr bool ambient = true;
+  Rgb<float> radiance() const { return radiance_; }
+
+ private:
+  Rgb<float> radiance_;
+};
+
+}  // namespace raytrace

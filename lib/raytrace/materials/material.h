@@ -1,0 +1,60 @@
+// How a surface answers light.
+//
+// A material type provides, besides its Parameters and fields():
+//   template <class T> struct Brdfs { ... };         its BRDFs, members of type T only
+//   static Brdfs<float> brdfs(const Parameters&);
+//   template <class T> static Rgb<T> ambient(const Brdfs<T>&, const Rgb<T>& radiance);
+//   template <class T> static Rgb<T> reflect(const Brdfs<T>&, const Vec3<T>& wo, const Vec3<T>& wi, const Vec3<T>&
+//   normal);
+// reflect is the sum of its BRDFs' f: without the cosine, all vectors unit length and away from the surface.
+//
+// Here they become MaterialTables: all materials of one type together, shaded for a packet in one call, whichever of
+// them its lanes hit.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "raytrace/math/color.h"
+#include "raytrace/math/simd.h"
+#include "raytrace/math/vec3.h"
+
+namespace raytrace {
+
+/// The light that reaches a packet's surface points from one light: nothing where it is shadowed or from behind.
+struct ArrivingLight {
+  Vec3<FloatN> wi;  ///< unit length, towards the light
+  FloatN cosine;    ///< of wi and the normal; 0 where nothing arrives
+  Rgb<FloatN> radiance;
+};
+
+class MaterialTable {
+ public:
+  virtual ~MaterialTable() = default;
+
+  /// The radiance that leaves along wo. `index`: each lane's material, for every lane one that exists.
+  virtual Rgb<FloatN> shade(const IntN& index, const Vec3<FloatN>& wo, const Vec3<FloatN>& normal,
+                            const Rgb<float>& ambient_radiance, std::span<const ArrivingLight> lights) const = 0;
+};
+
+template <class Material>
+class MaterialTableOf final : public MaterialTable {
+ public:
+  explicit MaterialTableOf(std::vector<typename Material::template Brdfs<float>> brdfs) : brdfs_(std::move(brdfs)) {}
+
+  Rgb<FloatN> shade(const IntN& index, const Vec3<FloatN>& wo, const Vec3<FloatN>& normal,
+                    const Rgb<float>& ambient_radiance, std::span<const ArrivingLight> lights) const override {
+    const auto brdfs = gather_records<Material::template Brdfs, FloatN>(brdfs_.data(), index);
+    Rgb<FloatN> result = Material::template ambient<FloatN>(brdfs, Rgb<FloatN>(ambient_radiance));
+    for (const ArrivingLight& light : lights)
+      // The cosine first: where it is 0, a product beyond the range of floats would make it NaN.
+      result += Material::template reflect<FloatN>(brdfs, wo, light.wi, normal) * (light.radiance * light.cosine);
+    return result;
+  }
+
+ private:
+  std::vector<typename Material::template Brdfs<float>> brdfs_;
+};
+
+}  // namespace raytrace

@@ -1,0 +1,12 @@
+// All materials. A new material: its own pair of files, one include and one name here. (docs/how-to-add-a-type.md)
+#pragma once
+
+#include "raytrace/materials/matte.h"
+#include "raytrace/materials/phong.h"
+#include "raytrace/math/type_list.h"
+
+namespace raytrace {
+
+using Materials = TypeList<Matte, Phong>;
+
+}  // namespace raytrace

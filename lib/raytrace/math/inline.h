@@ -1,0 +1,5 @@
+// For the small functions of the innermost loop, which the compiler's own estimate would leave as calls through memory
+// once the function that uses them is large.
+#pragma once
+
+#define RAYTRACE_INLINE inline __attribute__((always_inline))

@@ -1,0 +1,41 @@
+// Rays and where they end.
+#pragma once
+
+#include "raytrace/math/vec3.h"
+
+namespace raytrace {
+
+/// The points origin + t * direction with near < t < far, in every lane of F. The direction may have any length but 0:
+/// distances count in multiples of it.
+template <class F>
+struct Ray {
+  Vec3<F> origin;
+  Vec3<F> direction;
+  F near;
+  F far;
+
+  Vec3<F> at(const F& t) const { return origin + direction * t; }
+};
+
+/// The point of a surface that a ray hit.
+template <class F>
+struct SurfacePoint {
+  Vec3<F> position;  ///< on the surface as closely as floats allow, not merely on the ray
+  Vec3<F> normal;    ///< unit length, to either side
+  F error;           ///< bound of the distance between `position` and the true surface
+};
+
+/// Lane by lane: a where the mask is true, else b.
+template <class F, class MaskType>
+RAYTRACE_INLINE SurfacePoint<F> select(const MaskType& mask, const SurfacePoint<F>& a, const SurfacePoint<F>& b) {
+  return {select(mask, a.position, b.position), select(mask, a.normal, b.normal), select(mask, a.error, b.error)};
+}
+
+/// Bound of the rounding errors of a point computed in float from numbers of its own magnitude and of `size`.
+template <class F>
+RAYTRACE_INLINE F rounding_error(const Vec3<F>& position, const F& size) {
+  const F magnitude = max(max(abs(position.x), abs(position.y)), max(abs(position.z), size));
+  return magnitude * F(4 * 0x1p-24f);
+}
+
+}  // namespace raytrace

@@ -1,0 +1,350 @@
+// SIMD types of the instruction set being compiled: one lane a ray.
+//
+// A thin layer over xsimd (which carries the arithmetic, comparisons, select, sqrt, pow...) that adds what its 8.x
+// and 13.x series spell differently or lack: masks as bits, lane counts of other sizes, and double precision at float's
+// lane count. The only header of the project in which intrinsics may stand.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+#include <utility>
+#include <xsimd/xsimd.hpp>
+
+#include "raytrace/math/inline.h"
+#include "raytrace/math/vec3.h"
+
+namespace raytrace {
+
+/// Floats of the native width: 4 lanes with x86-64-v2 and NEON, 8 with v3, 16 with v4.
+using FloatN = xsimd::batch<float>;
+inline constexpr int native_lanes = static_cast<int>(FloatN::size);
+
+template <class F>
+using Mask = typename F::batch_bool_type;
+template <class F>
+using Ints = xsimd::batch<std::int32_t, typename F::arch_type>;
+template <class F>
+using Uints = xsimd::batch<std::uint32_t, typename F::arch_type>;
+
+using MaskN = Mask<FloatN>;
+using IntN = Ints<FloatN>;
+using UintN = Uints<FloatN>;
+
+template <class F>
+inline constexpr int lane_count = static_cast<int>(F::size);
+
+namespace detail {
+template <int lanes>
+struct FloatLanesOf {
+  using type = std::conditional_t<std::is_void_v<xsimd::make_sized_batch_t<float, static_cast<std::size_t>(lanes)>>,
+                                  FloatN, xsimd::make_sized_batch_t<float, static_cast<std::size_t>(lanes)>>;
+};
+}  // namespace detail
+
+/// Floats of the given number of lanes where the instruction set has such registers, else of the native width.
+template <int lanes>
+using FloatLanes = typename detail::FloatLanesOf<lanes>::type;
+
+template <class F>
+F infinity() {
+  return F(std::numeric_limits<float>::infinity());
+}
+
+/// The mask's lanes as bits, lane 0 lowest.
+template <class F>
+std::uint32_t bits_of(const Mask<F>& mask) {
+  using Register = typename Mask<F>::register_type;
+  const Register value = mask;
+  if constexpr (sizeof(Register) <= 2) {
+    return static_cast<std::uint32_t>(value);
+#if defined(__AVX__)
+  } else if constexpr (sizeof(Register) == 32) {
+    return static_cast<std::uint32_t>(_mm256_movemask_ps(value));
+#endif
+#if defined(__SSE__)
+  } else if constexpr (sizeof(Register) == 16) {
+    return static_cast<std::uint32_t>(_mm_movemask_ps(value));
+#endif
+  } else {
+    alignas(64) std::array<bool, F::size> lanes{};
+    mask.store_unaligned(lanes.data());
+    std::uint32_t bits = 0;
+    for (std::size_t i = 0; i < F::size; ++i) bits |= static_cast<std::uint32_t>(lanes[i]) << i;
+    return bits;
+  }
+}
+
+/// A mask of float lanes from a comparison of integers of the same lane count.
+template <class F>
+Mask<F> float_mask(const typename Ints<F>::batch_bool_type& mask) {
+  return std::bit_cast<Mask<F>>(mask);
+}
+
+/// Lane by lane: a where the mask of float lanes is true, else b.
+inline IntN select_lanes(const MaskN& mask, const IntN& a, const IntN& b) {
+  return std::bit_cast<IntN>(xsimd::select(mask, std::bit_cast<FloatN>(a), std::bit_cast<FloatN>(b)));
+}
+
+/// base[index], lane for lane. Through float's gather: xsimd 8 has no instruction for that of integers.
+inline IntN gather(const std::int32_t* base, const IntN& index) {
+  return std::bit_cast<IntN>(FloatN::gather(reinterpret_cast<const float*>(base), index));
+}
+inline FloatN gather(const float* base, const IntN& index) { return FloatN::gather(base, index); }
+
+/// The mask that is true in lanes [0, count).
+template <class F>
+Mask<F> first_lanes(int count) {
+  alignas(64) static constexpr auto numbers = [] {
+    std::array<float, F::size> result{};
+    for (std::size_t i = 0; i < F::size; ++i) result[i] = static_cast<float>(i);
+    return result;
+  }();
+  return F::load_aligned(numbers.data()) < F(static_cast<float>(count));
+}
+
+namespace detail {
+
+/// Vector types of the compiler, which it converts where there is no instruction that xsimd knows of.
+template <class T, std::size_t lanes>
+struct CompilerVector {
+  typedef T type __attribute__((vector_size(lanes * sizeof(T))));
+};
+
+/// The lower and upper half of the floats as doubles, and back: in registers where the instruction set is known,
+/// since memory that is written in halves and read whole stalls.
+template <class F, class D>
+RAYTRACE_INLINE void widen(const F& floats, D& lower, D& upper) {
+#if defined(__AVX512F__)
+  if constexpr (F::size == 16) {
+    lower = _mm512_cvtps_pd(_mm512_castps512_ps256(floats));
+    upper = _mm512_cvtps_pd(_mm512_extractf32x8_ps(floats, 1));
+    return;
+  }
+#endif
+#if defined(__AVX__)
+  if constexpr (F::size == 8) {
+    lower = _mm256_cvtps_pd(_mm256_castps256_ps128(floats));
+    upper = _mm256_cvtps_pd(_mm256_extractf128_ps(floats, 1));
+    return;
+  }
+#endif
+#if defined(__SSE2__)
+  if constexpr (F::size == 4) {
+    lower = _mm_cvtps_pd(floats);
+    upper = _mm_cvtps_pd(_mm_movehl_ps(floats, floats));
+    return;
+  }
+#endif
+  alignas(64) std::array<float, F::size> lanes;
+  floats.store_aligned(lanes.data());
+  typename CompilerVector<float, D::size>::type half;
+  using Doubled = typename CompilerVector<double, D::size>::type;
+  std::memcpy(&half, lanes.data(), sizeof half);
+  lower = std::bit_cast<D>(__builtin_convertvector(half, Doubled));
+  std::memcpy(&half, lanes.data() + D::size, sizeof half);
+  upper = std::bit_cast<D>(__builtin_convertvector(half, Doubled));
+}
+
+template <class F, class D>
+RAYTRACE_INLINE F narrow(const D& lower, const D& upper) {
+#if defined(__AVX512F__)
+  if constexpr (F::size == 16)
+    return _mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(lower)), _mm512_cvtpd_ps(upper), 1);
+#endif
+#if defined(__AVX__)
+  if constexpr (F::size == 8)
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps(lower)), _mm256_cvtpd_ps(upper), 1);
+#endif
+#if defined(__SSE2__)
+  if constexpr (F::size == 4) return _mm_movelh_ps(_mm_cvtpd_ps(lower), _mm_cvtpd_ps(upper));
+#endif
+  alignas(64) std::array<float, F::size> lanes;
+  using Doubled = typename CompilerVector<double, D::size>::type;
+  using Half = typename CompilerVector<float, D::size>::type;
+  Half half = __builtin_convertvector(std::bit_cast<Doubled>(lower), Half);
+  std::memcpy(lanes.data(), &half, sizeof half);
+  half = __builtin_convertvector(std::bit_cast<Doubled>(upper), Half);
+  std::memcpy(lanes.data() + D::size, &half, sizeof half);
+  return F::load_aligned(lanes.data());
+}
+
+}  // namespace detail
+
+/// a * b + c of a batch of floats or doubles, with a single rounding where the instruction set can. Not xsimd::fma:
+/// that of xsimd 8 multiplies, rounds and adds for AVX-512, and for the narrower registers beside it.
+template <class Batch>
+RAYTRACE_INLINE Batch multiply_add(const Batch& a, const Batch& b, const Batch& c) {
+  [[maybe_unused]] constexpr bool floats = std::is_same_v<typename Batch::value_type, float>;
+#if defined(__AVX512F__)
+  if constexpr (sizeof(Batch) == 64) {
+    if constexpr (floats) {
+      return _mm512_fmadd_ps(a, b, c);
+    } else {
+      return _mm512_fmadd_pd(a, b, c);
+    }
+  }
+#endif
+#if defined(__FMA__)
+  if constexpr (sizeof(Batch) == 32) {
+    if constexpr (floats) {
+      return _mm256_fmadd_ps(a, b, c);
+    } else {
+      return _mm256_fmadd_pd(a, b, c);
+    }
+  }
+  if constexpr (sizeof(Batch) == 16) {
+    if constexpr (floats) {
+      return _mm_fmadd_ps(a, b, c);
+    } else {
+      return _mm_fmadd_pd(a, b, c);
+    }
+  }
+#endif
+  return xsimd::fma(a, b, c);
+}
+
+/// Double precision, lane for lane beside the floats F: for what cancels in float. Two registers of half the lanes.
+template <class F>
+class Doubles {
+ public:
+  using Part = xsimd::batch<double, typename F::arch_type>;
+  static_assert(2 * Part::size == F::size);
+
+  struct MaskType {
+    typename Part::batch_bool_type lower, upper;
+    friend RAYTRACE_INLINE MaskType operator&(const MaskType& a, const MaskType& b) {
+      return {a.lower & b.lower, a.upper & b.upper};
+    }
+    friend RAYTRACE_INLINE MaskType operator|(const MaskType& a, const MaskType& b) {
+      return {a.lower | b.lower, a.upper | b.upper};
+    }
+    friend RAYTRACE_INLINE bool any(const MaskType& a) { return xsimd::any(a.lower | a.upper); }
+  };
+
+  Doubles() = default;
+  RAYTRACE_INLINE Doubles(const Part& lower, const Part& upper) : lower_(lower), upper_(upper) {}
+  /// The same value in every lane.
+  RAYTRACE_INLINE explicit Doubles(double value) : lower_(value), upper_(value) {}
+  RAYTRACE_INLINE Doubles(const F& floats) { detail::widen(floats, lower_, upper_); }  // implicit: no value changes
+
+  /// Rounds to float; values beyond float's range become infinite.
+  RAYTRACE_INLINE F to_float() const { return detail::narrow<F>(lower_, upper_); }
+
+  static RAYTRACE_INLINE Doubles load_aligned(const double* lanes) {
+    return {Part::load_aligned(lanes), Part::load_aligned(lanes + Part::size)};
+  }
+
+  friend RAYTRACE_INLINE Doubles operator+(const Doubles& a, const Doubles& b) {
+    return {a.lower_ + b.lower_, a.upper_ + b.upper_};
+  }
+  friend RAYTRACE_INLINE Doubles operator-(const Doubles& a, const Doubles& b) {
+    return {a.lower_ - b.lower_, a.upper_ - b.upper_};
+  }
+  friend RAYTRACE_INLINE Doubles operator*(const Doubles& a, const Doubles& b) {
+    return {a.lower_ * b.lower_, a.upper_ * b.upper_};
+  }
+  friend RAYTRACE_INLINE Doubles operator/(const Doubles& a, const Doubles& b) {
+    return {a.lower_ / b.lower_, a.upper_ / b.upper_};
+  }
+  friend RAYTRACE_INLINE Doubles operator-(const Doubles& a) { return {-a.lower_, -a.upper_}; }
+  RAYTRACE_INLINE Doubles& operator+=(const Doubles& b) { return *this = *this + b; }
+  friend RAYTRACE_INLINE Doubles sqrt(const Doubles& a) { return {xsimd::sqrt(a.lower_), xsimd::sqrt(a.upper_)}; }
+  friend RAYTRACE_INLINE Doubles cbrt(const Doubles& a) { return {xsimd::cbrt(a.lower_), xsimd::cbrt(a.upper_)}; }
+  friend RAYTRACE_INLINE Doubles abs(const Doubles& a) { return {xsimd::abs(a.lower_), xsimd::abs(a.upper_)}; }
+  friend RAYTRACE_INLINE Doubles min(const Doubles& a, const Doubles& b) {
+    return {xsimd::min(a.lower_, b.lower_), xsimd::min(a.upper_, b.upper_)};
+  }
+  friend RAYTRACE_INLINE Doubles max(const Doubles& a, const Doubles& b) {
+    return {xsimd::max(a.lower_, b.lower_), xsimd::max(a.upper_, b.upper_)};
+  }
+  /// a * b + c; fused where the instruction set can.
+  friend RAYTRACE_INLINE Doubles fma(const Doubles& a, const Doubles& b, const Doubles& c) {
+    return {multiply_add(a.lower_, b.lower_, c.lower_), multiply_add(a.upper_, b.upper_, c.upper_)};
+  }
+  friend RAYTRACE_INLINE MaskType operator<(const Doubles& a, const Doubles& b) {
+    return {a.lower_ < b.lower_, a.upper_ < b.upper_};
+  }
+  friend RAYTRACE_INLINE MaskType operator>(const Doubles& a, const Doubles& b) {
+    return {a.lower_ > b.lower_, a.upper_ > b.upper_};
+  }
+  friend RAYTRACE_INLINE MaskType operator<=(const Doubles& a, const Doubles& b) {
+    return {a.lower_ <= b.lower_, a.upper_ <= b.upper_};
+  }
+  friend RAYTRACE_INLINE MaskType operator>=(const Doubles& a, const Doubles& b) {
+    return {a.lower_ >= b.lower_, a.upper_ >= b.upper_};
+  }
+
+  friend RAYTRACE_INLINE Doubles select(const MaskType& mask, const Doubles& a, const Doubles& b) {
+    return {xsimd::select(mask.lower, a.lower_, b.lower_), xsimd::select(mask.upper, a.upper_, b.upper_)};
+  }
+
+  /// The same lanes of floats.
+  static RAYTRACE_INLINE Mask<F> float_mask(const MaskType& doubles) {
+    using Register = typename Mask<F>::register_type;
+    if constexpr (sizeof(Register) <= 2) {  // AVX-512: a bit a lane
+      return static_cast<Register>(bits(doubles.lower) | bits(doubles.upper) << Part::size);
+    } else {
+      return select(doubles, Doubles(1.0), Doubles(0.0)).to_float() > F(0);
+    }
+  }
+
+ private:
+  static RAYTRACE_INLINE std::uint32_t bits(typename Part::batch_bool_type::register_type mask) {
+    std::uint32_t result = 0;
+    std::memcpy(&result, &mask, std::min(sizeof mask, sizeof result));
+    return result;
+  }
+
+  Part lower_, upper_;
+};
+
+template <class F>
+RAYTRACE_INLINE Vec3<F> to_float(const Vec3<Doubles<F>>& v) {
+  return {v.x.to_float(), v.y.to_float(), v.z.to_float()};
+}
+
+/// a * b + c with a single rounding (as good as: where there is no FMA, the product is exact in double).
+template <class F>
+RAYTRACE_INLINE F exact_fma(const F& a, const F& b, const F& c) {
+#if defined(__FMA__) || defined(__aarch64__)
+  return multiply_add(a, b, c);
+#else
+  return (Doubles<F>(a) * Doubles<F>(b) + Doubles<F>(c)).to_float();
+#endif
+}
+
+inline Doubles<FloatN> gather(const double* base, const IntN& index) {
+  alignas(64) std::array<std::int32_t, native_lanes> indices;
+  index.store_aligned(indices.data());
+  alignas(64) std::array<double, native_lanes> values;
+  for (std::size_t lane = 0; lane < native_lanes; ++lane) values[lane] = base[indices[lane]];
+  return Doubles<FloatN>::load_aligned(values.data());
+}
+
+/// The lanes' records, gathered from a table: Record<T> is a struct template of T members only, and the result holds in
+/// each lane the fields of table[index of that lane]. Wide is FloatN-like for float tables, Doubles for double ones.
+template <template <class> class Record, class Wide, class Scalar>
+Record<Wide> gather_records(const Record<Scalar>* table, const IntN& index) {
+  constexpr std::size_t fields = sizeof(Record<Scalar>) / sizeof(Scalar);
+  static_assert(sizeof(Record<Scalar>) == fields * sizeof(Scalar) && sizeof(Record<Wide>) == fields * sizeof(Wide),
+                "a record has members of its template argument's type only");
+  const Scalar* base = reinterpret_cast<const Scalar*>(table);
+  const IntN first_field = index * IntN(static_cast<std::int32_t>(fields));
+  std::array<Wide, fields> gathered;
+  const auto first = static_cast<std::size_t>(first_field.get(0));
+  if (xsimd::all(first_field == IntN(first_field.get(0)))) {  // neighbours mostly hit the same thing
+    for (std::size_t field = 0; field < fields; ++field) gathered[field] = Wide(base[first + field]);
+  } else {
+    for (std::size_t field = 0; field < fields; ++field) gathered[field] = gather(base + field, first_field);
+  }
+  Record<Wide> result;
+  std::memcpy(static_cast<void*>(&result), gathered.data(), sizeof result);
+  return result;
+}
+
+}  // namespace raytrace

@@ -1,0 +1,39 @@
+// A compile-time list of types: how each concept's registry.h names its members.
+#pragma once
+
+#include <cstddef>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+namespace raytrace {
+
+template <class... Types>
+struct TypeList {
+  static constexpr std::size_t size = sizeof...(Types);
+};
+
+/// A tuple with one Container<T> for each T of a list.
+template <class List, template <class> class Container>
+struct TupleOf;
+template <class... Types, template <class> class Container>
+struct TupleOf<TypeList<Types...>, Container> {
+  using type = std::tuple<Container<Types>...>;
+};
+
+/// Calls f(std::type_identity<T>{}) for each T of the list, in the list's order.
+template <class... Types, class Function>
+void for_each_type(TypeList<Types...>, Function&& f) {
+  (f(std::type_identity<Types>{}), ...);
+}
+
+/// The position of T in the list.
+template <class T, class... Types>
+constexpr std::size_t index_of(TypeList<Types...>) {
+  constexpr bool same[] = {std::is_same_v<T, Types>...};
+  std::size_t i = 0;
+  while (!same[i]) ++i;
+  return i;
+}
+
+}  // namespace raytrace

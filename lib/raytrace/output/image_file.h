@@ -1,0 +1,56 @@
+// Writes a film to an image file; the format follows from the file name's extension.
+//
+// .exr and .hdr (and .pfm, where OpenImageIO writes it) hold linear radiance as it is. Every other format that
+// OpenImageIO writes (.png, .jpg, .tif, ...) holds it clamped to [0, 1] and encoded with the sRGB curve.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "raytrace/cameras/camera_matrices.h"
+#include "raytrace/film/film.h"
+#include "raytrace/output/output_error.h"
+
+namespace raytrace {
+
+struct ImageFileSettings {
+  bool full_float = false;  ///< EXR: 32 bit instead of half. TIFF: linear 32 bit float instead of sRGB.
+  int bit_depth = 8;        ///< 8 or 16: PNG, TIFF and others that can; no matter to formats that hold linear radiance
+  int threads = 0;          ///< for compression; 0: all processors. Holds for the process, as OpenImageIO has it.
+};
+
+/// What a picture says about itself.
+struct ImageMetadata {
+  std::string software;  ///< "raytrace 1.2.3"
+  std::string scene_file;
+  int samples = 1;  ///< a pixel
+  std::uint64_t seed = 0;
+  int threads = 1;
+  double render_seconds = 0;
+  CameraMatrices camera;
+};
+
+/// Values (not pixels) that were changed because the format, or any format, cannot hold them.
+struct Repairs {
+  std::uint64_t clamped = 0;     ///< linear formats: beyond the largest number (half: 65504), which is stored instead
+  std::uint64_t not_finite = 0;  ///< NaN, stored as 0, and infinities, stored as the largest number
+};
+
+/// Whether ImageFileSettings::full_float matters to a file of this name, or it holds floats anyway. Throws OutputError
+/// if its extension is unknown.
+bool holds_float(const std::string& file);
+
+/// Throws OutputError if files of this name cannot be written: no known extension, no such folder, no permission, a bit
+/// depth that the format lacks. Leaves no trace. To be called before the render, so that hours of work do not end in
+/// an error that could be told at once.
+void check_writable(const std::string& file, const ImageFileSettings& settings);
+
+/// Writes a temporary file in the same folder, flushes it to disk and renames it (AtomicFile).
+/// EXR: half (or float) RGBA, zip, scanlines, the film's region as data window in the full display window. All others:
+/// RGB, just the region.
+/// Dates are UTC. Where the environment has SOURCE_DATE_EPOCH, it is the date, and what differs from one run to the
+/// next (the render time, the number of threads) is left out: same picture, same bytes. Throws OutputError.
+Repairs write_image(const std::string& file, const Film& film, const ImageMetadata& metadata,
+                    const ImageFileSettings& settings);
+
+}  // namespace raytrace

@@ -1,0 +1,59 @@
+#include "raytrace/output/pixel_format.h"
+
+#include <OpenImageIO/color.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace raytrace {
+
+namespace {
+
+float storable(float radiance, const PixelFormat& format, Repairs& repairs) {
+  if (!std::isfinite(radiance)) {
+    ++repairs.not_finite;
+    if (std::isnan(radiance)) return 0;
+    return radiance > 0 ? format.highest : format.lowest;
+  }
+  const float clamped = std::clamp(radiance, format.lowest, format.highest);
+  if (format.srgb) return OIIO::linear_to_sRGB(clamped);
+  if (clamped != radiance) ++repairs.clamped;
+  return clamped;
+}
+
+}  // namespace
+
+PixelFormat pixel_format(const std::string& oiio_name, const std::string& extension,
+                         const ImageFileSettings& settings) {
+  constexpr float largest_float = std::numeric_limits<float>::max();
+  constexpr float largest_half = 65504;
+  constexpr float largest_rgbe = 1.6e38F;  // 255/256 x 2^127, with room for its rounding
+
+  if (oiio_name == "openexr") {
+    if (settings.full_float) return {OIIO::TypeFloat, 4, false, -largest_float, largest_float};
+    return {OIIO::TypeHalf, 4, false, -largest_half, largest_half};
+  }
+  if (oiio_name == "hdr") return {OIIO::TypeFloat, 3, false, 0, largest_rgbe};
+  if (extension == ".pfm" || (oiio_name == "tiff" && settings.full_float)) {
+    return {OIIO::TypeFloat, 3, false, -largest_float, largest_float};
+  }
+  return {settings.bit_depth == 16 ? OIIO::TypeUInt16 : OIIO::TypeUInt8, 3, true, 0, 1};
+}
+
+void convert_rows(const Film& film, int y0, int y1, const PixelFormat& format, std::vector<float>& values,
+                  Repairs& repairs) {
+  const Region& region = film.region();
+  const auto width = static_cast<std::size_t>(region.width());
+  const std::span<const Pixel> pixels = film.pixels().subspan(static_cast<std::size_t>(y0 - region.y0) * width,
+                                                              static_cast<std::size_t>(y1 - y0) * width);
+  values.clear();
+  for (const Pixel& pixel : pixels) {
+    values.push_back(storable(pixel.red, format, repairs));
+    values.push_back(storable(pixel.green, format, repairs));
+    values.push_back(storable(pixel.blue, format, repairs));
+    if (format.channels == 4) values.push_back(storable(pixel.alpha, format, repairs));
+  }
+}
+
+}  // namespace raytrace

@@ -1,0 +1,93 @@
+// From a description to pixels: what programs call. No SIMD type appears here; the wide part stands behind Scene,
+// compiled once for each instruction set (render/variant.h).
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "raytrace/description/scene_description.h"
+#include "raytrace/film/film.h"
+
+namespace raytrace {
+
+/// A scene that could not be built or rendered (Embree's or the machine's fault, not the scene file's).
+class RenderError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct BuildSettings {
+  int threads = 0;  ///< 0: all processors
+  std::string isa;  ///< one of isa_names(); empty: the best that this processor has
+};
+
+struct RenderSettings {
+  int threads = 0;  ///< 0: all processors; at most these work, and at most as many as a living scene was built with
+  std::uint64_t seed = 0;  ///< another seed gives another, equally good, pattern of samples
+  Region region;           ///< the pixels wanted; those outside are not in the film
+};
+
+/// The rays of a render, by kind.
+struct RayCounts {
+  std::uint64_t camera = 0;
+  std::uint64_t shadow = 0;
+  RayCounts& operator+=(const RayCounts& other) {
+    camera += other.camera;
+    shadow += other.shadow;
+    return *this;
+  }
+};
+
+struct SceneStatistics {
+  std::uint64_t primitives = 0;
+  std::uint64_t bvh_bytes = 0;  ///< what Embree holds for this scene
+  std::string isa;              ///< of the variant in use
+  int lanes = 0;                ///< rays a packet
+  std::string embree_version;
+};
+
+/// An immutable scene, ready to be traced.
+class Scene {
+ public:
+  virtual ~Scene() = default;
+
+  /// Renders the pixels of `region`, which must lie inside the film's, and writes each once. Pixels do not depend on
+  /// how a picture is cut into regions. Safe to call from many threads for disjoint regions.
+  virtual RayCounts render_region(const Region& region, std::uint64_t seed, Film& film) const = 0;
+
+  virtual SceneStatistics statistics() const = 0;
+};
+
+/// The instruction sets that this program was built for, least first: "x86-64-v2", "x86-64-v3", "x86-64-v4".
+std::vector<std::string> isa_names();
+
+/// Whether this processor can run the named one.
+bool isa_supported(const std::string& name);
+
+/// The best one of isa_names() on this processor.
+std::string best_isa();
+
+/// The threads that a setting stands for: itself, or all processors for 0.
+int thread_count(int wanted);
+
+/// Builds the scene's BVH. Throws RenderError, or std::bad_alloc where memory runs out.
+std::unique_ptr<const Scene> build_scene(const SceneDescription& description, const BuildSettings& settings);
+
+/// What a render tells while it runs. Calls come from any thread, one at a time and not often.
+using ProgressFunction = std::function<void(double fraction)>;
+
+/// Renders `settings.region` of the scene into a new film. Returns early, with the pixels that are done, once `stop` is
+/// set.
+Film render(const Scene& scene, const SceneDescription& description, const RenderSettings& settings, RayCounts& rays,
+            const ProgressFunction& progress = {}, const std::atomic<bool>* stop = nullptr);
+
+/// The matrices that image metadata carries for the description's camera.
+CameraMatrices camera_matrices(const SceneDescription& description);
+
+}  // namespace raytrace

@@ -1,0 +1,43 @@
+// The samples of a block of pixels, one pixel a lane.
+#pragma once
+
+#include "raytrace/math/simd.h"
+#include "raytrace/sampling/hash.h"
+#include "raytrace/sampling/sobol_sequence.h"
+
+namespace raytrace {
+
+/// Points in the unit square of each lane's pixel, for the pixel's samples in order. They depend on the pixel, the seed
+/// and the sample's index alone; if there is only one sample, it is the center.
+class PixelSampler {
+ public:
+  struct Point {
+    FloatN x, y;  ///< in [0, 1)
+  };
+
+  /// column, row: of the lanes' pixels, in the whole picture.
+  PixelSampler(const UintN& column, const UintN& row, std::uint64_t seed, int samples) : centered_(samples == 1) {
+    const UintN low(static_cast<std::uint32_t>(seed)), high(static_cast<std::uint32_t>(seed >> 32));
+    shift_x_ = hash(column, row, low, high);
+    shift_y_ = mix_bits(shift_x_ + UintN(0x9e3779b9u));
+  }
+
+  Point next() {
+    if (centered_) return {FloatN(0.5f), FloatN(0.5f)};
+    const SobolSequence::Point point = sequence_.point();
+    sequence_.advance();
+    return {to_unit(UintN(point.x) ^ shift_x_), to_unit(UintN(point.y) ^ shift_y_)};
+  }
+
+ private:
+  /// The 24 leading bits as a fraction: every float of the result is exact and below 1.
+  static FloatN to_unit(const UintN& bits) {
+    return xsimd::to_float(std::bit_cast<IntN>(bits >> 8)) * FloatN(0x1p-24f);
+  }
+
+  SobolSequence sequence_;
+  UintN shift_x_, shift_y_;
+  bool centered_;
+};
+
+}  // namespace raytrace

@@ -1,0 +1,54 @@
+// The immutable scene that integrators trace: geometry in Embree, materials, lights and camera, made from a
+// description.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "raytrace/accel/accelerator.h"
+#include "raytrace/cameras/camera.h"
+#include "raytrace/lights/light_source.h"
+#include "raytrace/materials/material.h"
+#include "raytrace/render/renderer.h"
+
+namespace raytrace {
+
+class TracedScene final : public Scene {
+ public:
+  /// Throws as build_scene does.
+  TracedScene(const SceneDescription& description, int threads, const char* isa_name, const char* embree_isa);
+
+  RayCounts render_region(const Region& region, std::uint64_t seed, Film& film) const override;
+  SceneStatistics statistics() const override;
+
+  const Accelerator& accelerator() const { return accelerator_; }
+  const Camera& camera() const { return *camera_; }
+  const ViewPlane& viewplane() const { return viewplane_; }
+  /// The sum of all ambient lights.
+  const Rgb<float>& ambient_radiance() const { return ambient_radiance_; }
+  const std::vector<std::unique_ptr<LightSource>>& lights() const { return lights_; }
+
+  /// The radiance that leaves the points hit along wo, each by its own material: one call for each material type among
+  /// the lanes. Lanes without a hit hold anything.
+  Rgb<FloatN> shade(const Hits& hits, const Vec3<FloatN>& wo, const Vec3<FloatN>& normal,
+                    const Rgb<float>& ambient_radiance, std::span<const ArrivingLight> lights) const;
+
+ private:
+  template <class T>
+  struct ObjectMaterial {
+    T kind, index;
+  };
+
+  ViewPlane viewplane_;
+  Accelerator accelerator_;
+  std::unique_ptr<Camera> camera_;
+  Rgb<float> ambient_radiance_{0, 0, 0};
+  std::vector<std::unique_ptr<LightSource>> lights_;
+  std::array<std::unique_ptr<MaterialTable>, Materials::size> materials_;
+  std::array<std::int32_t, Shapes::size> first_object_{};  ///< of each shape's type in object_materials_
+  std::vector<ObjectMaterial<std::int32_t>> object_materials_;
+  const char* isa_name_;
+};
+
+}  // namespace raytrace

@@ -1,0 +1,64 @@
+// Infinite plane (Suffern, chapter 3).
+//
+//   <plane> <point x="0" y="0" z="0"/> <normal x="0" y="1" z="0"/> <material>floor</material> </plane>
+//
+// Embree wants finite boxes, so the plane's is as large as Embree takes; the plane itself has no edge. Distances are
+// computed in double: far from the origin, or at the horizon, both terms of the quotient cancel.
+#pragma once
+
+#include <cmath>
+
+#include "raytrace/description/fields.h"
+#include "raytrace/math/bounds.h"
+#include "raytrace/math/ray.h"
+#include "raytrace/math/simd.h"
+
+namespace raytrace {
+
+class Plane {
+ public:
+  struct Parameters {
+    Vec3d point{};   ///< any point on the plane
+    Vec3d normal{};  ///< of any length but 0; either side is shaded
+  };
+  static constexpr std::string_view group = "planes";
+  static constexpr std::string_view element = "plane";
+  static Fields<Parameters> fields();
+
+  template <class T>
+  struct Record {
+    Vec3<T> normal;  ///< unit length
+    T offset;        ///< dot(normal, any point of the plane)
+  };
+  static Record<double> record(const Parameters& parameters);
+  static Bounds bounds(const Record<double>& plane);
+
+  /// The distance if it is inside (ray.near, ray.far), in each lane of `active`; infinity elsewhere.
+  template <class F>
+  static F intersect(const Record<double>& plane, const Ray<F>& ray, const Mask<F>& active);
+
+  /// The surface at a distance that intersect() gave.
+  template <class F>
+  static SurfacePoint<F> surface(const Record<Doubles<F>>& plane, const Ray<F>& ray, const F& distance);
+};
+
+template <class F>
+RAYTRACE_INLINE F Plane::intersect(const Record<double>& plane, const Ray<F>& ray, const Mask<F>& active) {
+  using D = Doubles<F>;
+  const Vec3<D> normal(plane.normal);
+  const D height = D(plane.offset) - dot(normal, Vec3<D>(ray.origin));
+  const D speed = dot(normal, Vec3<D>(ray.direction));
+  const F t = height.to_float() / speed.to_float();  // a ray in the plane gives infinity or NaN: no hit
+  return xsimd::select(active & (t > ray.near) & (t < ray.far), t, infinity<F>());
+}
+
+template <class F>
+SurfacePoint<F> Plane::surface(const Record<Doubles<F>>& plane, const Ray<F>& ray, const F& distance) {
+  using D = Doubles<F>;
+  const Vec3<D> on_ray = Vec3<D>(ray.origin) + Vec3<D>(ray.direction) * D(distance);
+  const Vec3<D> on_plane = on_ray + plane.normal * (plane.offset - dot(plane.normal, on_ray));
+  const Vec3<F> position = to_float(on_plane);
+  return {position, to_float(plane.normal), rounding_error(position, F(0))};
+}
+
+}  // namespace raytrace
