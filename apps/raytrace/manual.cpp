@@ -1,0 +1,140 @@
+#include "manual.h"
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "exit_code.h"
+
+namespace raytrace {
+
+namespace {
+
+struct Entry {
+  std::string term;
+  std::string text;
+};
+
+struct Section {
+  std::string title;
+  std::vector<Entry> entries;
+};
+
+constexpr std::string_view purpose = "render a scene file to image files";
+constexpr std::string_view synopsis = "raytrace SCENE.xml -o FILE [options]";
+
+const Section examples = {
+    "Examples",
+    {{"raytrace scenes/seed.xml -o seed.exr -o seed.png", "Both files from one render."},
+     {"raytrace scene.xml -o draft.png --scale 0.25 -s 1 --stats", "A quick look, and what it took."}}};
+
+const Section exit_codes = {
+    "Exit codes",
+    {{std::to_string(exit_code::done), "Done."},
+     {std::to_string(exit_code::failed), "The scene has errors, the render failed, or a file could not be written."},
+     {std::to_string(exit_code::usage), "The command line makes no sense."},
+     {std::to_string(exit_code::out_of_memory), "Out of memory."},
+     {"130, 143", "Stopped by SIGINT or SIGTERM. Earlier pictures are as they were."}}};
+
+std::string term_of(const CLI::Option& option) {
+  if (option.get_positional()) return option.get_type_name();
+  std::string term;
+  for (const std::string& name : option.get_snames()) term += (term.empty() ? "-" : ", -") + name;
+  for (const std::string& name : option.get_lnames()) term += (term.empty() ? "--" : ", --") + name;
+  if (!option.get_option_text().empty()) return term + option.get_option_text();
+  return option.get_items_expected_max() == 0 ? term : term + " " + option.get_type_name();
+}
+
+std::vector<Section> option_sections(const CLI::App& parser) {
+  std::vector<Section> sections;
+  for (const CLI::Option* const option : parser.get_options()) {
+    if (sections.empty() || sections.back().title != option->get_group()) sections.push_back({option->get_group(), {}});
+    sections.back().entries.push_back({term_of(*option), option->get_description()});
+  }
+  return sections;
+}
+
+std::size_t longest_term(const std::vector<Section>& sections) {
+  std::size_t longest = 0;
+  for (const Section& section : sections) {
+    for (const Entry& entry : section.entries) longest = std::max(longest, entry.term.size());
+  }
+  return longest;
+}
+
+/// The text in lines of at most `width`, all but the first one indented.
+std::string wrapped(std::string_view text, std::size_t width, std::size_t indent) {
+  std::string result;
+  while (text.size() > width) {
+    const std::size_t space = text.rfind(' ', width);
+    const std::size_t end = space == std::string_view::npos ? std::min(text.find(' '), text.size()) : space;
+    result += text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    result += '\n' + std::string(indent, ' ');
+  }
+  return result + std::string(text);
+}
+
+/// A backslash and a leading dot or quote mean something to troff, and a bare "-" is a hyphen, which cannot be copied
+/// to a shell.
+std::string troff(std::string_view text) {
+  std::string result;
+  if (text.starts_with('.') || text.starts_with('\'')) result = "\\&";
+  for (const char c : text) {
+    if (c == '-') {
+      result += "\\-";
+    } else if (c == '\\') {
+      result += "\\e";
+    } else {
+      result += c;
+    }
+  }
+  return result;
+}
+
+std::string troff_section(const Section& section) {
+  std::string title = section.title;
+  std::transform(title.begin(), title.end(), title.begin(),
+                 [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
+  std::string page = ".SH " + title + "\n";
+  for (const Entry& entry : section.entries) {
+    page += ".TP\n\\fB" + troff(entry.term) + "\\fR\n" + troff(entry.text) + "\n";
+  }
+  return page;
+}
+
+}  // namespace
+
+std::string help_text(const CLI::App& parser) {
+  constexpr std::size_t columns = 80;
+  std::string help = "raytrace: " + std::string(purpose) + "\n\nUsage: " + std::string(synopsis) + "\n";
+  std::vector<Section> sections = option_sections(parser);
+  const std::size_t options_indent = longest_term(sections) + 4;
+  for (const Section& section : sections) {
+    help += "\n" + section.title + ":\n";
+    for (const Entry& entry : section.entries) {
+      help += "  " + entry.term + std::string(options_indent - 2 - entry.term.size(), ' ') +
+              wrapped(entry.text, columns - options_indent, options_indent) + "\n";
+    }
+  }
+  help += "\n" + examples.title + ":\n";
+  for (const Entry& example : examples.entries) help += "  " + example.term + "\n      " + example.text + "\n";
+  help += "\n" + exit_codes.title + ":\n";
+  const std::size_t codes_indent = longest_term({exit_codes}) + 4;
+  for (const Entry& code : exit_codes.entries) {
+    help += "  " + code.term + std::string(codes_indent - 2 - code.term.size(), ' ') +
+            wrapped(code.text, columns - codes_indent, codes_indent) + "\n";
+  }
+  return help;
+}
+
+std::string man_page(const CLI::App& parser, const std::string& software) {
+  std::string page = ".TH RAYTRACE 1 \"\" \"" + troff(software) + "\"\n";
+  page += ".SH NAME\nraytrace \\- " + troff(purpose) + "\n";
+  page += ".SH SYNOPSIS\n\\fB" + troff(synopsis) + "\\fR\n";
+  for (const Section& section : option_sections(parser)) page += troff_section(section);
+  page += troff_section(examples) + troff_section(exit_codes);
+  return page;
+}
+
+}  // namespace raytrace

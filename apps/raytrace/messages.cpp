@@ -1,0 +1,31 @@
+#include "messages.h"
+
+#include <cstdio>
+
+namespace raytrace {
+
+namespace {
+
+Verbosity told = Verbosity::warnings;
+
+void write(const char* weight, const std::string& text) {
+  std::fprintf(stderr, "raytrace: %s%s\n", weight, text.c_str());
+}
+
+}  // namespace
+
+void set_verbosity(Verbosity verbosity) { told = verbosity; }
+
+bool tells(Verbosity verbosity) { return verbosity <= told; }
+
+void tell_error(const std::string& text) { write("error: ", text); }
+
+void tell_warning(const std::string& text) {
+  if (tells(Verbosity::warnings)) write("warning: ", text);
+}
+
+void tell_step(const std::string& text) {
+  if (tells(Verbosity::steps)) write("", text);
+}
+
+}  // namespace raytrace

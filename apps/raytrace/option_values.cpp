@@ -1,0 +1,108 @@
+#include "option_values.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "raytrace/description/nearest_name.h"
+#include "raytrace/description/quoted.h"
+
+namespace raytrace {
+
+namespace {
+
+/// The whole text as a number; none if it is not one.
+template <class Number>
+std::optional<Number> number(std::string_view text) {
+  Number value{};
+  const char* const begin = text.data();
+  const char* const end = begin + text.size();
+  const auto [stop, error] = std::from_chars(begin, end, value);
+  if (error != std::errc() || stop != end) return std::nullopt;
+  return value;
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (;;) {
+    const std::size_t end = text.find(separator);
+    parts.push_back(text.substr(0, end));
+    if (end == std::string_view::npos) return parts;
+    text.remove_prefix(end + 1);
+  }
+}
+
+}  // namespace
+
+std::string joined(const Names& names, const char* separator) {
+  std::string all;
+  for (const std::string& name : names) all += (all.empty() ? "" : separator) + name;
+  return all;
+}
+
+std::string suggestion(const std::string& wrong, const Names& names) {
+  const std::vector<std::string_view> candidates(names.begin(), names.end());
+  const std::string_view nearest = nearest_name(wrong, candidates);
+  return nearest.empty() ? "" : "; did you mean " + in_quotes(nearest) + "?";
+}
+
+int integer(const std::string& text, int least, int most) {
+  const std::optional<int> value = number<int>(text);
+  if (!value || *value < least || *value > most) {
+    throw UsageError(in_quotes(text) + " is not a whole number from " + std::to_string(least) + " to " +
+                     std::to_string(most));
+  }
+  return *value;
+}
+
+std::uint64_t natural_number(const std::string& text) {
+  const std::optional<std::uint64_t> value = number<std::uint64_t>(text);
+  if (!value) throw UsageError(in_quotes(text) + " is not a whole number from 0 to 2^64 - 1");
+  return *value;
+}
+
+std::string one_of(const std::string& text, const Names& names) {
+  if (std::find(names.begin(), names.end(), text) != names.end()) return text;
+  throw UsageError(in_quotes(text) + " is not one of " + joined(names, ", ") + suggestion(text, names));
+}
+
+Resolution resolution(const std::string& text) {
+  const auto parts = split(text, 'x');
+  const auto width = number<int>(parts.front());
+  const auto height = number<int>(parts.back());
+  if (parts.size() != 2 || !width || !height || *width < 1 || *height < 1) {
+    throw UsageError(in_quotes(text) + " is not a resolution; use WIDTHxHEIGHT, e.g. 1920x1080");
+  }
+  return {*width, *height};
+}
+
+double scale(const std::string& text) {
+  const std::optional<double> value = number<double>(text);
+  if (!value || !std::isfinite(*value) || *value <= 0) {
+    throw UsageError(in_quotes(text) + " is not a scale; use a number above 0, e.g. 0.5 for half the resolution");
+  }
+  return *value;
+}
+
+Region crop(const std::string& text) {
+  int edges[4] = {};
+  const auto parts = split(text, ',');
+  bool whole = parts.size() == 4;
+  for (std::size_t i = 0; whole && i < 4; ++i) {
+    const auto edge = number<int>(parts[i]);
+    whole = edge.has_value();
+    edges[i] = edge.value_or(0);
+  }
+  if (!whole) {
+    throw UsageError(
+        in_quotes(text) +
+        " is not a crop; use x0,y0,x1,y1 in pixels from the top left, x1 and y1 exclusive, e.g. 0,0,64,64");
+  }
+  if (edges[0] >= edges[2] || edges[1] >= edges[3]) {
+    throw UsageError(in_quotes(text) + " holds no pixel: x1 must be above x0, and y1 above y0");
+  }
+  return {edges[0], edges[1], edges[2], edges[3]};
+}
+
+}  // namespace raytrace

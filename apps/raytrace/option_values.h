@@ -1,0 +1,47 @@
+// The values that options take: from text, or a UsageError that says what would have been right.
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "raytrace/film/film.h"
+
+namespace raytrace {
+
+/// A command line that makes no sense: exit code 2.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+using Names = std::vector<std::string>;
+
+std::string joined(const Names& names, const char* separator);
+
+/// "; did you mean 'name'?", if any of the names is like the wrong one.
+std::string suggestion(const std::string& wrong, const Names& names);
+
+int integer(const std::string& text, int least, int most);
+
+/// Any that 64 bits hold.
+std::uint64_t natural_number(const std::string& text);
+
+/// The text, if it is one of the names.
+std::string one_of(const std::string& text, const Names& names);
+
+struct Resolution {
+  int width = 0, height = 0;
+};
+
+/// "1920x1080"
+Resolution resolution(const std::string& text);
+
+/// A finite number above 0.
+double scale(const std::string& text);
+
+/// "x0,y0,x1,y1", at least one pixel; it may reach outside of the picture.
+Region crop(const std::string& text);
+
+}  // namespace raytrace

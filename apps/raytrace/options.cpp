@@ -1,0 +1,202 @@
+#include "options.h"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <string_view>
+
+#include "listing.h"
+#include "option_values.h"
+#include "raytrace/description/quoted.h"
+#include "raytrace/render/renderer.h"
+
+namespace raytrace {
+
+namespace {
+
+std::string instruction_set(const std::string& text) {
+  one_of(text, isa_names());
+  if (!isa_supported(text)) {
+    throw UsageError("this processor has no " + text + "; its best is " + best_isa());
+  }
+  return text;
+}
+
+ProgressStyle progress_style(const std::string& text) {
+  const Names names = {"auto", "bar", "plain", "none"};
+  const ProgressStyle styles[] = {ProgressStyle::automatic, ProgressStyle::bar, ProgressStyle::plain,
+                                  ProgressStyle::none};
+  return styles[std::find(names.begin(), names.end(), one_of(text, names)) - names.begin()];
+}
+
+/// An option with a value; the last one counts, so that a wrapper script's can be overridden.
+CLI::Option* add(CLI::App& parser, const std::string& names, const std::string& value_name, const std::string& help,
+                 const std::function<void(const std::string&)>& take) {
+  const std::string name = names.substr(names.rfind(',') + 1);
+  const auto take_named = [take, name](const std::string& text) {
+    try {
+      take(text);
+    } catch (const UsageError& error) {
+      throw UsageError(name + ": " + error.what());
+    }
+  };
+  return parser.add_option_function<std::string>(names, take_named, help)->type_name(value_name)->take_last();
+}
+
+/// An option without a value.
+template <class Flag>
+CLI::Option* add_switch(CLI::App& parser, const std::string& names, Flag& flag, const std::string& help) {
+  return parser.add_flag(names, flag, help)->disable_flag_override();
+}
+
+/// CLI11's message in other words, where they are clearer.
+std::string explained(const std::string& message) {
+  static constexpr std::string_view missing_value = ": 1 required ";                           // --spp ... N missing
+  static constexpr std::string_view needless_value = " was given a disallowed flag override";  // float ...
+  if (const std::size_t found = message.find(missing_value); found != std::string::npos) {
+    const std::string rest = message.substr(found + missing_value.size());
+    return message.substr(0, found) + " needs a value: " + rest.substr(0, rest.find(' '));
+  }
+  if (message.ends_with(needless_value)) {
+    return "--" + message.substr(0, message.size() - needless_value.size()) + " takes no value";
+  }
+  return message;
+}
+
+/// Everything that starts with a dash in the parser's own options.
+Names option_names(const CLI::App& parser) {
+  Names names;
+  for (const CLI::Option* const option : parser.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+void refuse_unknown(const CLI::App& parser) {
+  const Names unknown = parser.remaining();
+  for (const std::string& argument : unknown) {
+    if (argument.size() < 2 || argument.front() != '-') continue;
+    const std::string name = argument.substr(0, argument.find('='));
+    const bool is_long = name.size() > 2 && name[1] == '-';
+    throw UsageError("there is no option " + in_quotes(name) + (is_long ? suggestion(name, option_names(parser)) : ""));
+  }
+  if (!unknown.empty()) throw UsageError(in_quotes(unknown.front()) + " is one scene too many: a run takes one");
+}
+
+void refuse_incomplete(const Options& options) {
+  const bool looks_only = options.validate || options.print_scene;
+  if (options.scene.empty()) throw UsageError("no scene given; for example: raytrace scene.xml -o picture.exr");
+  if (options.outputs.empty() && !looks_only) {
+    throw UsageError("no output given; for example: raytrace " + options.scene + " -o picture.exr");
+  }
+  for (auto output = options.outputs.begin(); output != options.outputs.end(); ++output) {
+    if (output->empty()) throw UsageError("--output: the file name is empty");
+    if (std::find(options.outputs.begin(), output, *output) != output) {
+      throw UsageError("--output: " + *output + " is given twice");
+    }
+  }
+}
+
+}  // namespace
+
+Verbosity Options::verbosity() const {
+  if (quiet) return Verbosity::errors;
+  if (verbose == 0) return Verbosity::warnings;
+  return verbose == 1 ? Verbosity::steps : Verbosity::details;
+}
+
+void define_options(CLI::App& parser, Options& options) {
+  constexpr int largest = std::numeric_limits<int>::max();
+  constexpr int most_threads = 1024;
+  parser.set_help_flag();  // ours is like any other option
+  parser.allow_extras();   // refuse_unknown() tells what was meant
+
+  parser.add_option("scene", options.scene, "Scene file; - reads it from standard input")
+      ->type_name("SCENE.xml")
+      ->group("Input");
+
+  parser
+      .add_option("-o,--output", options.outputs,
+                  "Write the picture to FILE, in the format of its extension (.exr, .png, .tif, .jpg, .hdr...); "
+                  "repeatable, for several files from one render")
+      ->type_name("FILE")
+      ->allow_extra_args(false)
+      ->group("Output");
+  add_switch(parser, "--float", options.full_float, "32 bit floats in EXR (else 16 bit) and in TIFF (else sRGB)")
+      ->group("Output");
+  add(parser, "--bit-depth", "8|16", "Bits a channel in PNG, TIFF and other sRGB-encoded files (8)",
+      [&](const std::string& text) {
+        if (text != "8" && text != "16") throw UsageError(in_quotes(text) + " is neither 8 nor 16");
+        options.bit_depth = integer(text, 8, 16);
+      })
+      ->group("Output");
+
+  add(parser, "-r,--resolution", "WxH", "Size in pixels instead of the scene's; what was in view stays in view",
+      [&](const std::string& text) { options.resolution = resolution(text); })
+      ->group("Picture");
+  add(parser, "--scale", "F", "Multiply the resolution by F (1)", [&](const std::string& text) {
+    options.scale = scale(text);
+  })->group("Picture");
+  add(parser, "--crop", "x0,y0,x1,y1",
+      "Only these pixels: origin at the top left, x1 and y1 exclusive; an EXR says where in the whole picture they are",
+      [&](const std::string& text) { options.crop = crop(text); })
+      ->group("Picture");
+  add(parser, "-s,--spp", "N", "Samples a pixel instead of the scene's; 1 goes through the pixel's centre",
+      [&](const std::string& text) { options.samples = integer(text, 1, largest); })
+      ->group("Picture");
+  add(parser, "--seed", "N", "Another, equally good, pattern of samples (0)", [&](const std::string& text) {
+    options.seed = natural_number(text);
+  })->group("Picture");
+
+  add(parser, "-t,--threads", "N", "Use N threads (all processors); the picture does not depend on it",
+      [&](const std::string& text) { options.threads = integer(text, 1, most_threads); })
+      ->group("Work");
+  add(parser, "--isa", "NAME", "Instruction set: " + joined(isa_names(), ", ") + " (the best that the processor has)",
+      [&](const std::string& text) { options.isa = instruction_set(text); })
+      ->group("Work");
+
+  add_switch(parser, "-q,--quiet", options.quiet, "Errors only: no warnings, no progress")->group("Messages");
+  add_switch(parser, "-v,--verbose", options.verbose, "Tell what is done; twice: all that --stats tells, too")
+      ->group("Messages");
+  add(parser, "--progress", "STYLE",
+      "auto, bar, plain or none: how far the render is, on standard error (auto: a bar on a terminal, plain lines "
+      "elsewhere)",
+      [&](const std::string& text) { options.progress = progress_style(text); })
+      ->group("Messages");
+  // A flag that can have a value: no word after it is taken for the value, only what follows a "=".
+  parser
+      .add_flag("--stats{" + std::string(statistics_as_text) + "}", options.statistics,
+                "Times, rays, memory: as text on standard error, or as JSON in a file")
+      ->option_text("[=FILE.json]")
+      ->group("Messages");
+
+  add_switch(parser, "--validate", options.validate, "Check the scene and render nothing")->group("Look first");
+  add_switch(parser, "--print-scene", options.print_scene,
+             "Print the scene with every value spelled out, as it would be rendered, and render nothing")
+      ->group("Look first");
+  add(parser, "--list", "KIND", "Print the " + joined(listing_kinds(), ", ") + " that scenes can use",
+      [&](const std::string& text) { options.list = one_of(text, listing_kinds()); })
+      ->group("Look first");
+  add_switch(parser, "--version", options.version, "Print the version, the libraries' and the instruction sets")
+      ->group("Look first");
+  add_switch(parser, "-h,--help", options.help, "Print this")->group("Look first");
+}
+
+Options parse_options(int argc, const char* const* argv) {
+  Options options;
+  CLI::App parser;
+  define_options(parser, options);
+  try {
+    parser.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(explained(error.what()));
+  }
+  options.threads = thread_count(options.threads);
+  refuse_unknown(parser);
+  // Not by CLI11's excludes(): from version 2.4 on, a counting flag counts as given when it is not.
+  if (options.quiet && options.verbose > 0) throw UsageError("--quiet excludes --verbose");
+  if (!options.help && !options.version && options.list.empty()) refuse_incomplete(options);
+  return options;
+}
+
+}  // namespace raytrace

@@ -1,0 +1,59 @@
+// What the command line asks for. The options themselves, with their help, stand in options.cpp, once: the parser,
+// --help and the man page are all made of them.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "messages.h"
+#include "option_values.h"
+#include "progress.h"
+#include "raytrace/film/film.h"
+#include "raytrace/output/image_file.h"
+
+namespace raytrace {
+
+/// The value of Options::statistics for --stats without a file.
+inline constexpr std::string_view statistics_as_text = "text";
+
+struct Options {
+  std::string scene;  ///< "-": standard input
+  std::vector<std::string> outputs;
+
+  std::optional<Resolution> resolution;  ///< none: the scene's
+  std::optional<Region> crop;            ///< none: the whole picture
+  double scale = 1;                      ///< of the resolution
+  std::uint64_t seed = 0;
+  std::optional<int> samples;  ///< a pixel; none: the scene's
+
+  int threads = 0;  ///< after parse_options never 0
+  int bit_depth = 8;
+  std::string isa;  ///< empty: the best
+
+  int verbose = 0;  ///< how often asked
+  ProgressStyle progress = ProgressStyle::automatic;
+  std::string statistics;  ///< empty: none; statistics_as_text; or the JSON file to write
+  std::string list;        ///< empty, or the kind of thing to list
+
+  bool full_float = false;
+  bool quiet = false;
+  bool validate = false;
+  bool print_scene = false;
+  bool version = false;
+  bool help = false;
+
+  Verbosity verbosity() const;
+  ImageFileSettings image_file_settings() const { return {full_float, bit_depth, threads}; }
+};
+
+/// Adds all options to a parser, which fills `options`.
+void define_options(CLI::App& parser, Options& options);
+
+/// Throws UsageError, which tells what is wrong and, where a name is not known, the nearest one.
+Options parse_options(int argc, const char* const* argv);
+
+}  // namespace raytrace

@@ -1,0 +1,108 @@
+#include "statistics.h"
+
+#include <sys/resource.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace raytrace {
+
+namespace {
+
+std::string line(const char* name, const std::string& value) {
+  char start[32];
+  std::snprintf(start, sizeof start, "%-16s", name);
+  return start + value + "\n";
+}
+
+std::string seconds_text(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%10.3f s", seconds);
+  return text;
+}
+
+/// With a metric prefix: "12.3 M".
+std::string amount_text(double amount, const char* unit) {
+  const char* const prefixes[] = {"", "k", "M", "G", "T"};
+  int prefix = 0;
+  while (amount >= 1000 && prefix < 4) {
+    amount /= 1000;
+    ++prefix;
+  }
+  char text[64];
+  const int length =
+      std::snprintf(text, sizeof text, prefix == 0 ? "%10.0f %s%s" : "%10.1f %s%s", amount, prefixes[prefix], unit);
+  std::string result(text, static_cast<std::size_t>(length));
+  while (result.back() == ' ') result.pop_back();
+  return result;
+}
+
+std::string amount_text(std::uint64_t amount, const char* unit) {
+  return amount_text(static_cast<double>(amount), unit);
+}
+
+}  // namespace
+
+double Statistics::rays_per_second() const {
+  return seconds.render > 0 ? static_cast<double>(total_rays()) / seconds.render : 0;
+}
+
+std::uint64_t peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  constexpr std::uint64_t unit = 1024;  // Linux counts kibibytes
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * unit;
+}
+
+std::string text(const Statistics& s) {
+  const std::string picture = std::to_string(s.width) + " x " + std::to_string(s.height) + ", " +
+                              std::to_string(s.samples) + (s.samples == 1 ? " sample" : " samples") + " a pixel";
+  const Region whole{0, 0, s.width, s.height};
+  const Region& r = s.region;
+  const std::string crop = r == whole ? ""
+                                      : ", crop " + std::to_string(r.x0) + "," + std::to_string(r.y0) + "," +
+                                            std::to_string(r.x1) + "," + std::to_string(r.y1);
+  return line("scene", s.scene_file) + line("picture", picture + crop) + line("load", seconds_text(s.seconds.load)) +
+         line("build", seconds_text(s.seconds.build)) + line("render", seconds_text(s.seconds.render)) +
+         line("write", seconds_text(s.seconds.write)) + line("total", seconds_text(s.seconds.total())) +
+         line("camera rays", amount_text(s.rays.camera, "")) + line("shadow rays", amount_text(s.rays.shadow, "")) +
+         line("rays a second", amount_text(s.rays_per_second(), "")) +
+         line("primitives", amount_text(s.scene.primitives, "")) + line("BVH", amount_text(s.scene.bvh_bytes, "B")) +
+         line("peak memory", amount_text(s.peak_memory_bytes, "B")) + line("threads", std::to_string(s.threads)) +
+         line("instructions", s.scene.isa + ", " + std::to_string(s.scene.lanes) + " lanes") +
+         line("Embree", s.scene.embree_version);
+}
+
+std::string json(const Statistics& s) {
+  const nlohmann::ordered_json report = {
+      {"software", s.software},
+      {"scene", s.scene_file},
+      {"outputs", s.outputs},
+      {"picture",
+       {{"width", s.width},
+        {"height", s.height},
+        {"region", {s.region.x0, s.region.y0, s.region.x1, s.region.y1}},
+        {"samples", s.samples},
+        {"seed", s.seed}}},
+      {"seconds",
+       {{"load", s.seconds.load},
+        {"build", s.seconds.build},
+        {"render", s.seconds.render},
+        {"write", s.seconds.write},
+        {"total", s.seconds.total()}}},
+      {"rays",
+       {{"camera", s.rays.camera},
+        {"shadow", s.rays.shadow},
+        {"total", s.total_rays()},
+        {"per_second", s.rays_per_second()}}},
+      {"primitives", s.scene.primitives},
+      {"memory", {{"bvh_bytes", s.scene.bvh_bytes}, {"peak_bytes", s.peak_memory_bytes}}},
+      {"threads", s.threads},
+      {"instruction_set", {{"name", s.scene.isa}, {"lanes", s.scene.lanes}}},
+      {"embree", s.scene.embree_version},
+  };
+  // A file name need not be UTF-8; JSON must.
+  return report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace raytrace

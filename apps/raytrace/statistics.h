@@ -1,0 +1,62 @@
+// What a run took and how much it did: for people as text, for programs as JSON (keys: docs/command-line.md).
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "raytrace/film/film.h"
+#include "raytrace/render/renderer.h"
+
+namespace raytrace {
+
+struct PhaseSeconds {
+  double load = 0;    ///< scene file -> description
+  double build = 0;   ///< description -> scene with its BVH
+  double render = 0;  ///< scene -> film
+  double write = 0;   ///< film -> image files
+  double total() const { return load + build + render + write; }
+};
+
+struct Statistics {
+  std::string software;
+  std::string scene_file;
+  std::vector<std::string> outputs;
+  int width = 0, height = 0;  ///< of the whole picture
+  Region region;              ///< rendered
+  int samples = 0;            ///< a pixel
+  std::uint64_t seed = 0;
+  int threads = 0;
+  PhaseSeconds seconds;
+  RayCounts rays;
+  SceneStatistics scene;
+  std::uint64_t peak_memory_bytes = 0;
+
+  std::uint64_t total_rays() const { return rays.camera + rays.shadow; }
+  double rays_per_second() const;
+};
+
+/// The most memory that this process has held so far.
+std::uint64_t peak_memory_bytes();
+
+/// Aligned lines, each with its end.
+std::string text(const Statistics& statistics);
+
+std::string json(const Statistics& statistics);
+
+/// Adds the time from its making to its end to a phase.
+class PhaseTimer {
+ public:
+  explicit PhaseTimer(double& seconds) : seconds_(seconds) {}
+  ~PhaseTimer() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+  PhaseTimer(const PhaseTimer&) = delete;
+  PhaseTimer& operator=(const PhaseTimer&) = delete;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double& seconds_;
+  Clock::time_point start_ = Clock::now();
+};
+
+}  // namespace raytrace
