@@ -1,0 +1,152 @@
+// What the parser makes of command lines, and what it says about those that make no sense.
+#include "options.h"
+#include "raytrace/render/renderer.h"
+#include "support/catch.h"
+
+namespace raytrace::test {
+
+namespace {
+
+Options parse(std::vector<const char*> arguments) {
+  arguments.insert(arguments.begin(), "raytrace");
+  return parse_options(static_cast<int>(arguments.size()), arguments.data());
+}
+
+/// The parsed options of a complete command line and these arguments.
+Options with(const std::vector<const char*>& more) {
+  std::vector<const char*> arguments = {"scene.xml", "-o", "a.exr"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return parse(arguments);
+}
+
+/// The message of the refusal contains the text.
+#define CHECK_REFUSED(expression, text)             \
+  do {                                              \
+    std::string message;                            \
+    try {                                           \
+      expression;                                   \
+    } catch (const UsageError& error) {             \
+      message = error.what();                       \
+    }                                               \
+    INFO("message: " << message);                   \
+    CHECK(message.find(text) != std::string::npos); \
+  } while (false)
+
+}  // namespace
+
+TEST_CASE("defaults") {
+  const Options options = parse({"scene.xml", "-o", "a.exr"});
+  CHECK(options.scene == "scene.xml");
+  CHECK(options.outputs == std::vector<std::string>{"a.exr"});
+  CHECK_FALSE(options.full_float);
+  CHECK(options.bit_depth == 8);
+  CHECK_FALSE(options.resolution.has_value());
+  CHECK(options.scale == 1);
+  CHECK_FALSE(options.crop.has_value());
+  CHECK_FALSE(options.samples.has_value());
+  CHECK(options.seed == 0);
+  CHECK(options.threads == thread_count(0));
+  CHECK(options.isa.empty());
+  CHECK(options.verbosity() == Verbosity::warnings);
+  CHECK(options.progress == ProgressStyle::automatic);
+  CHECK(options.statistics.empty());
+  CHECK_FALSE(options.validate);
+  CHECK_FALSE(options.print_scene);
+}
+
+TEST_CASE("every option reaches its setting, in each of its spellings") {
+  CHECK(parse({"--output", "a.exr", "-ob.png", "--output=c.tif", "-"}).outputs ==
+        std::vector<std::string>{"a.exr", "b.png", "c.tif"});
+  CHECK(parse({"--output", "a.exr", "-"}).scene == "-");
+  CHECK(with({"--float"}).full_float);
+  CHECK(with({"--bit-depth", "16"}).bit_depth == 16);
+  for (const std::vector<const char*>& spelling :
+       {std::vector{"-r", "20x30"}, std::vector{"-r20x30"}, std::vector{"--resolution=20x30"}}) {
+    const Options options = with(spelling);
+    REQUIRE(options.resolution.has_value());
+    CHECK(options.resolution->width == 20);
+    CHECK(options.resolution->height == 30);
+  }
+  CHECK(with({"--scale", "0.25"}).scale == 0.25);
+  CHECK(with({"--crop", "1,2,3,4"}).crop == Region{1, 2, 3, 4});
+  CHECK(with({"--crop", "-1,0,5,5"}).crop == Region{-1, 0, 5, 5});
+  CHECK(with({"-s", "7"}).samples == 7);
+  CHECK(with({"--spp=2147483647"}).samples == 2147483647);
+  CHECK(with({"--seed", "18446744073709551615"}).seed == 18446744073709551615U);
+  CHECK(with({"-t", "3"}).threads == 3);
+  CHECK(with({"--threads", "1024"}).threads == 1024);
+  CHECK(with({"--isa", isa_names().front().c_str()}).isa == isa_names().front());
+  CHECK(with({"-q"}).verbosity() == Verbosity::errors);
+  CHECK(with({"--quiet"}).verbosity() == Verbosity::errors);
+  CHECK(with({"-v"}).verbosity() == Verbosity::steps);
+  CHECK(with({"-vv"}).verbosity() == Verbosity::details);
+  CHECK(with({"--verbose", "--verbose", "-v"}).verbosity() == Verbosity::details);
+  CHECK(with({"--progress=auto"}).progress == ProgressStyle::automatic);
+  CHECK(with({"--progress=bar"}).progress == ProgressStyle::bar);
+  CHECK(with({"--progress", "plain"}).progress == ProgressStyle::plain);
+  CHECK(with({"--progress", "none"}).progress == ProgressStyle::none);
+  CHECK(parse({"scene.xml", "--validate"}).validate);
+  CHECK(parse({"scene.xml", "--print-scene"}).print_scene);
+  CHECK(parse({"--list", "shapes"}).list == "shapes");
+  CHECK(parse({"--version"}).version);
+  CHECK(parse({"--help"}).help);
+  CHECK(parse({"-h"}).help);
+}
+
+TEST_CASE("the option --stats takes a file only after an equals sign") {
+  CHECK(with({"--stats"}).statistics == statistics_as_text);
+  CHECK(with({"--stats=file.json"}).statistics == "file.json");
+  const Options options = parse({"-o", "a.exr", "--stats", "scene.xml"});
+  CHECK(options.statistics == statistics_as_text);
+  CHECK(options.scene == "scene.xml");
+}
+
+TEST_CASE("the last of several settings counts") {
+  CHECK(with({"-s", "7", "--spp=8"}).samples == 8);
+  CHECK(with({"-r", "1x1", "-r", "2x2"}).resolution->width == 2);
+}
+
+TEST_CASE("incomplete command lines are refused with what to type") {
+  CHECK_REFUSED(parse({}), "raytrace scene.xml -o picture.exr");
+  CHECK_REFUSED(parse({"my.xml"}), "raytrace my.xml -o picture.exr");
+  CHECK_REFUSED(parse({"my.xml", "-o"}), "--output needs a value: FILE");
+  CHECK_REFUSED(parse({"my.xml", "-o", "a.exr", "-t"}), "--threads needs a value: N");
+  CHECK_REFUSED(parse({"my.xml", "second.xml", "-o", "a.exr"}), "'second.xml' is one scene too many");
+  CHECK_REFUSED(with({"-o", "a.exr"}), "a.exr is given twice");
+  CHECK_REFUSED(with({"-o", ""}), "the file name is empty");
+}
+
+TEST_CASE("an unknown option is refused with the nearest known one") {
+  CHECK_REFUSED(with({"--thread", "4"}), "'--thread'; did you mean '--threads'?");
+  CHECK_REFUSED(with({"--resolutoin=8x8"}), "'--resolutoin'; did you mean '--resolution'?");
+  CHECK_REFUSED(with({"--stat"}), "did you mean '--stats'?");
+  CHECK_REFUSED(with({"-x"}), "there is no option '-x'");
+  CHECK_REFUSED(parse({"--frobnicate"}), "there is no option '--frobnicate'");
+}
+
+TEST_CASE("what is no value of an option is refused with what would be one") {
+  CHECK_REFUSED(with({"--resolution", "800by600"}),
+                "--resolution: '800by600' is not a resolution; use WIDTHxHEIGHT, e.g. 1920x1080");
+  for (const char* const text : {"0x10", "10x-1", "10x", "x10", "10x10x10", "1e3x10", "10 x 10", ""})
+    CHECK_REFUSED(with({"-r", text}), "use WIDTHxHEIGHT");
+  for (const char* const text : {"0", "-1", "nan", "inf", "2x", "", " 1", "1e999"})
+    CHECK_REFUSED(with({"--scale", text}), "is not a scale");
+  for (const char* const text : {"0", "-3", "1.5", "many", "2147483648", ""})
+    CHECK_REFUSED(with({"-s", text}), "--spp: '" + std::string(text) + "' is not a whole number from 1 to 2147483647");
+  for (const char* const text : {"0", "-2", "1025"})
+    CHECK_REFUSED(with({"-t", text}), "is not a whole number from 1 to 1024");
+  for (const char* const text : {"-1", "18446744073709551616", "0x10", "1.0"})
+    CHECK_REFUSED(with({"--seed", text}), "is not a whole number from 0");
+  for (const char* const text : {"1,2,3", "1,2,3,4,5", "a,b,c,d", "0.5,0,1,1", "1 2 3 4", "", "1,2,3,"})
+    CHECK_REFUSED(with({"--crop", text}), "use x0,y0,x1,y1");
+  for (const char* const text : {"5,5,5,6", "5,5,6,5", "9,0,1,1"})
+    CHECK_REFUSED(with({"--crop", text}), "holds no pixel");
+  CHECK_REFUSED(with({"--bit-depth", "12"}), "neither 8 nor 16");
+  CHECK_REFUSED(with({"--progress", "plan"}), "did you mean 'plain'?");
+  CHECK_REFUSED(with({"--isa", (isa_names().front() + "x").c_str()}), "did you mean '" + isa_names().front() + "'?");
+  CHECK_REFUSED(parse({"--list", "shape"}), "did you mean 'shapes'?");
+  CHECK_REFUSED(with({"--float=yes"}), "--float takes no value");
+  CHECK_REFUSED(with({"-q", "-v"}), "excludes");
+}
+
+}  // namespace raytrace::test

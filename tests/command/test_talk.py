@@ -1,0 +1,224 @@
+"""What the program says, where, and how it stops."""
+
+import json
+import os
+import pty
+import re
+import signal
+import subprocess
+import time
+import unittest
+
+import support
+from exr import Exr
+from support import CommandTest
+
+STRAY = support.SCENE.replace("</pointlight>", "<shadows>>true</shadows></pointlight>", 1)
+
+# One line at the end, and before it as many as the render had seconds.
+PLAIN = r"^(raytrace: rendered \d+ %(, [^\r\n]* left)?\r?\n)*raytrace: rendered 100 %\r?\n$"
+
+
+class Messages(CommandTest):
+    def test_silence(self):
+        self.write("warned.xml", STRAY)
+        done = self.succeed("warned.xml", "-q", "-o", "a.exr")
+        self.assertEqual((done.stdout, done.stderr), ("", ""))
+
+    def test_warnings(self):
+        self.write("warned.xml", STRAY)
+        done = self.succeed("warned.xml", "-o", "a.exr", "--progress=none")
+        self.assertEqual(done.stdout, "")
+        self.assertRegex(done.stderr, r"^warned\.xml:\d+:\d+: warning: .*\n$")
+
+    def test_verbose(self):
+        done = self.succeed("scene.xml", "-v", "-o", "a.exr", "--progress=none")
+        self.assertEqual(done.stdout, "")
+        for line in done.stderr.splitlines():
+            self.assertTrue(line.startswith("raytrace: "), line)
+        self.assertIn("2 objects, 3 lights", done.stderr)
+        self.assertIn("wrote a.exr", done.stderr)
+        self.assertNotIn("peak memory", done.stderr)
+        self.assertIn("peak memory", self.succeed("scene.xml", "-vv", "-o", "a.exr").stderr)
+
+    def test_validate(self):
+        done = self.succeed("scene.xml", "--validate", "-o", "a.exr")
+        self.assertEqual(done.stdout, "scene.xml: ok (2 objects, 3 lights)\n")
+        self.assertEqual(done.stderr, "")
+        self.assertEqual(self.names(), ["scene.xml"])
+        self.assertEqual(self.succeed("-", "--validate", input=support.SCENE).stdout,
+                         "<stdin>: ok (2 objects, 3 lights)\n")
+        self.assertEqual(self.succeed("scene.xml", "--validate", "-q").stdout, "")
+        self.write("bad.xml", "<raytracer/>")
+        self.assertIn("bad.xml:1:1: error: ", self.fail_with(1, "bad.xml", "--validate", "-q"))
+
+    def test_print_scene(self):
+        printed = self.succeed("scene.xml", "--print-scene").stdout
+        self.write("printed.xml", printed)
+        self.assertEqual(self.succeed("printed.xml", "--print-scene").stdout, printed)
+        self.succeed("scene.xml", "-q", "-o", "a.exr", "--float")
+        self.succeed("printed.xml", "-q", "-o", "b.exr", "--float")
+        self.assertEqual(Exr(self.read("a.exr")).pixels(), Exr(self.read("b.exr")).pixels())
+
+    def test_print_scene_shows_what_the_options_ask_for(self):
+        printed = self.succeed("scene.xml", "--print-scene", "-r", "40x30", "-s", "7").stdout
+        self.assertIn("<hres>40</hres>", printed)
+        self.assertIn("<pixelsize>2</pixelsize>", printed)
+        self.assertIn("<samples>7</samples>", printed)
+
+    def test_list(self):
+        for kind, member in [("shapes", "sphere"), ("materials", "phong"), ("lights", "pointlight"),
+                             ("cameras", "pinhole"), ("integrators", "raycast")]:
+            self.assertIn(member, self.succeed("--list", kind).stdout.splitlines())
+        self.assertIn("did you mean 'shapes'?", self.fail_with(2, "--list", "shape"))
+
+    def test_version(self):
+        version = self.succeed("--version").stdout
+        self.assertRegex(version, r"^raytrace \d+\.\d+\.\d+\nEmbree \d+\.\d+\.\d+\nOpenImageIO \d+\.\d+\.\d+\noneTBB \d+")
+
+
+class Statistics(CommandTest):
+    def test_text(self):
+        done = self.succeed("scene.xml", "-o", "a.exr", "--stats", "--progress=none")
+        self.assertEqual(done.stdout, "")
+        names = [line[:16].strip() for line in done.stderr.splitlines()]
+        self.assertEqual(names, ["scene", "picture", "load", "build", "render", "write", "total", "camera rays",
+                                 "shadow rays", "rays a second", "primitives", "BVH", "peak memory", "threads",
+                                 "instructions", "Embree"])
+
+    def test_json(self):
+        self.succeed("scene.xml", "-q", "-o", "a.exr", "-o", "b.png", "--stats=stats.json", "-t", "2", "-s", "3",
+                     "--crop", "0,0,40,30", "--seed", "5")
+        report = json.loads(self.read("stats.json"))
+        self.assertEqual(report["scene"], "scene.xml")
+        self.assertEqual(report["outputs"], ["a.exr", "b.png"])
+        self.assertEqual(report["picture"], {"width": 80, "height": 60, "region": [0, 0, 40, 30], "samples": 3, "seed": 5})
+        self.assertEqual(report["threads"], 2)
+        self.assertEqual(report["primitives"], 2)
+        self.assertGreaterEqual(report["rays"]["camera"], 40 * 30 * 3)
+        self.assertEqual(report["rays"]["total"], report["rays"]["camera"] + report["rays"]["shadow"])
+        self.assertGreater(report["rays"]["shadow"], 0)
+        self.assertGreater(report["rays"]["per_second"], 0)
+        self.assertAlmostEqual(report["seconds"]["total"],
+                               sum(report["seconds"][phase] for phase in ("load", "build", "render", "write")))
+        self.assertGreater(report["memory"]["peak_bytes"], 1 << 20)
+        self.assertGreater(report["memory"]["bvh_bytes"], 0)
+        self.assertIn(report["instruction_set"]["name"], self.succeed("--version").stdout)
+        self.assertGreaterEqual(report["instruction_set"]["lanes"], 1)
+        self.assertRegex(report["embree"], r"^\d+\.\d+")
+        self.assertRegex(report["software"], r"^raytrace \d")
+
+    def test_every_key_is_documented(self):
+        self.succeed("scene.xml", "-q", "-o", "a.exr", "--stats=stats.json")
+        with open(os.path.join(support.REPOSITORY, "docs", "command-line.md"), encoding="utf-8") as file:
+            document = file.read()
+        for key, value in json.loads(self.read("stats.json")).items():
+            for name in value if isinstance(value, dict) else ():
+                self.assertIn(f"`{key}.{name}`", document)
+            if not isinstance(value, dict):
+                self.assertIn(f"`{key}`", document)
+
+
+class ProgressOnTerminal(CommandTest):
+    def on_terminal(self, *arguments, kind="xterm"):
+        """What the program writes to a terminal as its standard error."""
+        ours, theirs = pty.openpty()
+        process = subprocess.Popen([support.PROGRAM, *arguments], cwd=self.folder, stdin=subprocess.DEVNULL,
+                                   stdout=subprocess.DEVNULL, stderr=theirs, env=dict(os.environ, TERM=kind))
+        os.close(theirs)
+        shown = b""
+        while True:
+            try:
+                part = os.read(ours, 65536)
+            except OSError:  # the program's end of a closed terminal
+                break
+            if not part:
+                break
+            shown += part
+        os.close(ours)
+        self.assertEqual(process.wait(), 0, shown)
+        return shown.decode()
+
+    def test_bar(self):
+        shown = self.on_terminal("scene.xml", "-o", "a.exr")
+        self.assertRegex(shown, r"\r\[#* *\] \d+ %")
+        self.assertTrue(shown.endswith("\r\x1b[K"), repr(shown))
+        self.assertNotIn("\n", shown)
+
+    def test_bar_is_gone_before_messages(self):
+        shown = self.on_terminal("scene.xml", "-v", "-o", "a.exr")
+        self.assertIn("\r\x1b[Kraytrace: rendered ", shown)
+
+    def test_none_and_quiet_and_plain(self):
+        self.assertEqual(self.on_terminal("scene.xml", "-o", "a.exr", "--progress=none"), "")
+        self.assertEqual(self.on_terminal("scene.xml", "-o", "a.exr", "-q"), "")
+        self.assertRegex(self.on_terminal("scene.xml", "-o", "a.exr", "--progress=plain"), PLAIN)
+        self.assertRegex(self.on_terminal("scene.xml", "-o", "a.exr", kind="dumb"), PLAIN)
+
+
+class ProgressInLog(CommandTest):
+    def test_plain_lines(self):
+        done = self.succeed("scene.xml", "-o", "a.exr")
+        self.assertRegex(done.stderr, PLAIN)
+        self.assertEqual(done.stdout, "")
+
+    def test_bar_where_asked_for(self):
+        self.assertIn("] ", self.succeed("scene.xml", "-o", "a.exr", "--progress=bar").stderr)
+
+    def test_lines_come_while_it_renders(self):
+        process = self.start_program("scene.xml", "-o", "a.exr", *support.ENDLESS)
+        self.addCleanup(process.stdout.close)
+        self.addCleanup(process.stderr.close)
+        line = process.stderr.readline()
+        process.kill()
+        process.wait()
+        self.assertRegex(line, r"^raytrace: rendered \d+ %(, .* left)?\n$")
+
+
+class Signals(CommandTest):
+    def catches(self, process, number):
+        """Whether the process has a handler for the signal now."""
+        with open(f"/proc/{process.pid}/status", encoding="ascii") as file:
+            caught = re.search(r"^SigCgt:\s*([0-9a-f]+)$", file.read(), re.M).group(1)
+        return int(caught, 16) >> (number - 1) & 1 == 1
+
+    def wait_until(self, condition):
+        while not condition():
+            time.sleep(0.01)
+
+    def rendering(self, *arguments, **keywords):
+        """A process that is in its render, as its handlers tell."""
+        process = self.start_program("scene.xml", "-q", "-o", "a.exr", *arguments, **keywords)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        self.addCleanup(process.stdout.close)
+        self.addCleanup(process.stderr.close)
+        self.wait_until(lambda: self.catches(process, signal.SIGTERM))
+        return process
+
+    def test_first_signal_stops(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            self.write("a.exr", "old")
+            process = self.rendering(*support.ENDLESS)
+            process.send_signal(number)
+            self.assertEqual(process.wait(timeout=300), 128 + number)
+            self.assertEqual(self.names(), ["a.exr", "scene.xml"])
+            self.assertEqual(self.read("a.exr"), b"old")
+
+    def test_second_signal_ends_at_once(self):
+        process = self.rendering("-s", "1000000")  # every tile takes seconds, in which a stop waits
+        process.send_signal(signal.SIGINT)
+        self.wait_until(lambda: not self.catches(process, signal.SIGTERM))
+        process.send_signal(signal.SIGTERM)
+        self.assertEqual(process.wait(timeout=300), -signal.SIGTERM)
+        self.assertEqual(self.names(), ["scene.xml"])
+
+    def test_ignored_signals_stay_ignored(self):
+        process = self.rendering(*support.ENDLESS, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN))
+        process.send_signal(signal.SIGINT)
+        process.send_signal(signal.SIGTERM)
+        self.assertEqual(process.wait(timeout=300), 128 + signal.SIGTERM)
+
+
+if __name__ == "__main__":
+    unittest.main()

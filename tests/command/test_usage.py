@@ -1,0 +1,37 @@
+"""Command lines that make no sense: exit code 2, and a message that says what to type. The messages themselves are
+tested one by one, and faster, in parse_options.cpp; here is what only a whole run shows."""
+
+import unittest
+
+from support import CommandTest
+
+
+class Usage(CommandTest):
+    def refused(self, *arguments, **keywords):
+        message = self.fail_with(2, *arguments, **keywords)
+        self.assertTrue(message.startswith("raytrace: error: "), message)
+        self.assertTrue(message.endswith("Try 'raytrace --help'.\n"), message)
+        self.assertEqual(self.names(), ["scene.xml"])
+        return message
+
+    def test_command_line(self):
+        self.assertIn("raytrace scene.xml -o picture.exr", self.refused())
+        self.assertIn("'--thread'; did you mean '--threads'?", self.refused("scene.xml", "--thread", "4", "-o", "a.exr"))
+
+    def test_crops_outside_the_picture(self):
+        for text in ["0,0,81,60", "0,0,80,61", "-1,0,5,5", "100,100,110,110"]:
+            self.assertIn("outside the picture of 80 x 60",
+                          self.refused("scene.xml", "-q", "-o", "a.exr", "--crop", text))
+        self.assertIn("outside the picture of 40 x 30",
+                      self.refused("scene.xml", "-q", "-o", "a.exr", "--crop", "0,0,41,30", "--scale", "0.5"))
+
+    def test_too_large(self):
+        for size in (["-r", "65537x1"], ["-r", "20000x20000"], ["--scale", "1e300"]):
+            self.assertIn("too large", self.refused("scene.xml", "-q", "-o", "a.exr", *size))
+
+    def test_float_where_nothing_can_hold_it(self):
+        self.assertIn("--float", self.refused("scene.xml", "-o", "a.png", "--float"))
+
+
+if __name__ == "__main__":
+    unittest.main()

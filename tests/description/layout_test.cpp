@@ -1,0 +1,154 @@
+// The frame of a scene: sections, groups and names.
+#include <string>
+#include <vector>
+
+#include "findings.h"
+#include "raytrace/description/quoted.h"
+#include "raytrace/description/scene_layout.h"
+#include "support/catch.h"
+
+namespace raytrace::test {
+namespace {
+
+const std::string sphere = "<sphere><center x='0' y='0' z='0'/><radius>1</radius><material>clay</material></sphere>";
+
+template <class T>
+std::size_t count(const SceneDescription& scene) {
+  return std::get<ObjectItems<T>>(scene.objects).size();
+}
+
+}  // namespace
+
+TEST_CASE("sections and groups may be missing, empty and repeated") {
+  CHECK(count<Sphere>(accepted(scene_with(""))) == 0);
+  CHECK(count<Sphere>(accepted(scene_with("<objects/>"))) == 0);
+  CHECK(count<Sphere>(accepted(scene_with("<objects> <spheres/> <spheres> </spheres> <!-- --> </objects><lights/>"))) ==
+        0);
+  CHECK(count<Sphere>(
+            accepted(scene_with("<objects><spheres>" + sphere + sphere + "</spheres><planes/><spheres>" + sphere +
+                                "</spheres></objects><objects><spheres>" + sphere + "</spheres></objects>"))) == 4);
+  const SceneDescription lit = accepted(scene_with(
+      "<lights><pointlights><pointlight><location x='0' y='1' z='2'/></pointlight></pointlights></lights><lights>"
+      "<ambientlight/></lights><lights><pointlights><pointlight><location x='3' y='4' "
+      "z='5'/></pointlight></pointlights></lights>"));
+  CHECK(std::get<LightItems<PointLight>>(lit.lights).size() == 2);
+  CHECK(std::get<LightItems<PointLight>>(lit.lights)[1].parameters.location.z == 5);
+  CHECK(std::get<LightItems<AmbientLight>>(lit.lights).size() == 1);
+}
+
+TEST_CASE("order is free: objects may come before their materials") {
+  const std::string text = scene_with("");
+  const std::string late_materials = text.substr(0, text.find("<materials>")) + "<objects><spheres>" + sphere +
+                                     "</spheres></objects>" + text.substr(text.find("<materials>"));
+  const SceneDescription scene = accepted(late_materials);
+  REQUIRE(count<Sphere>(scene) == 1);
+  CHECK(std::get<ObjectItems<Sphere>>(scene.objects)[0].material.kind == index_of<Matte>(Materials{}));
+  CHECK(std::get<ObjectItems<Sphere>>(scene.objects)[0].material.index == 0);
+}
+
+TEST_CASE("objects refer to materials by kind and index") {
+  const SceneDescription scene = accepted(scene_with(
+      "<materials><phongs><phong><name>gold</name><ka>0</ka><kd>1</kd><ks>1</ks><cd red='1' green='1' blue='1'/>"
+      "<cs red='1' green='1' blue='1'/></phong></phongs></materials><objects><spheres><sphere><material>gold</material>"
+      "<radius>1</radius><center x='0' y='0' z='0'/></sphere></spheres></objects>"));
+  const MaterialReference gold = std::get<ObjectItems<Sphere>>(scene.objects).at(0).material;
+  CHECK(gold.kind == index_of<Phong>(Materials{}));
+  CHECK(std::get<MaterialItems<Phong>>(scene.materials).at(gold.index).name == "gold");
+}
+
+TEST_CASE("defaults stand where nothing is said") {
+  const SceneDescription scene = accepted(scene_with(
+      "<lights><ambientlight/><directionallights><directionallight><direction x='0' y='1' z='0'/></directionallight>"
+      "</directionallights></lights><objects><toruses><torus><sweptradius>2</sweptradius><tuberadius>1</tuberadius>"
+      "<material>clay</material></torus></toruses></objects>"));
+  CHECK(scene.viewplane.pixelsize == 1);
+  CHECK(scene.viewplane.samples == 1);
+  CHECK(scene.viewplane.background.green == 0);
+  CHECK(std::get<PinholeCamera::Parameters>(scene.camera).up.y == 1);
+  CHECK(std::get<LightItems<AmbientLight>>(scene.lights).at(0).parameters.scaleradiance == 1);
+  CHECK(std::get<LightItems<DirectionalLight>>(scene.lights).at(0).parameters.shadows);
+  CHECK(std::get<LightItems<DirectionalLight>>(scene.lights).at(0).parameters.color.blue == 1);
+  CHECK(std::get<ObjectItems<Torus>>(scene.objects).at(0).parameters.axis.y == 1);
+  CHECK(std::get<MaterialItems<Phong>>(scene.materials).at(0).parameters.exp == 20);
+}
+
+TEST_CASE("every element of the frame is told where it belongs when it stands elsewhere") {
+  const std::vector<LayoutEntry> layout = scene_layout();
+  for (const LayoutEntry& entry : layout) {
+    for (const LayoutEntry& other : layout) {
+      if (other.parent == entry.parent) continue;
+      CHECK(explain_misplaced(entry.element, other.parent) ==
+            tag(entry.element) + " does not belong in " + tag(other.parent) + "; put it into " + tag(entry.parent));
+    }
+    const std::string misspelt = std::string(entry.element) + "x";
+    CHECK(explain_misplaced(misspelt, entry.parent) == "unknown element " + tag(misspelt) + " in " + tag(entry.parent) +
+                                                           "; did you mean " + tag(entry.element) + "?");
+  }
+  CHECK(explain_misplaced("shpere", "objects") == "unknown element <shpere> in <objects>; did you mean <spheres>?");
+  CHECK(explain_misplaced("directionalligth", "lights") ==
+        "unknown element <directionalligth> in <lights>; did you mean <directionallights>?");
+  CHECK(explain_misplaced("matt", "raytracer") ==
+        "unknown element <matt> in <raytracer>; did you mean <matte>, which belongs in <mattes>?");
+  CHECK(explain_misplaced("cone", "spheres") == "unknown element <cone> in <spheres>; it takes <sphere>");
+}
+
+TEST_CASE("a degenerate triangle is a warning and is left out, its name stays taken") {
+  const std::string flat =
+      "<triangle><name>flat</name><vertexposition1 x='0' y='0' z='0'/><vertexposition2 x='1' y='0' z='0'/>"
+      "<vertexposition3 x='2' y='0' z='0'/><material>clay</material></triangle>";
+  const std::string scene = scene_with("<objects><triangles>" + flat + "</triangles></objects>");
+  CHECK(count<Triangle>(accepted(scene)) == 0);
+  CHECK(findings(scene) == "s:2:21: warning: the triangle is degenerate (its corners lie on a line) and is left out\n");
+  CHECK(contains(findings(scene_with("<objects><triangles>" + flat + flat + "</triangles></objects>")),
+                 "error: the object name 'flat' is taken by the <triangle> in line 2; choose another\n"));
+}
+
+TEST_CASE("an object may have the name of a material, and names count by letter") {
+  const std::string scene =
+      scene_with_sphere("<name>clay</name><center x='0' y='0' z='0'/><radius>1</radius><material>clay</material>");
+  CHECK(findings(scene) == "");
+  CHECK(contains(findings(scene_with_sphere("<center x='0' y='0' z='0'/><radius>1</radius><material>Clay</material>")),
+                 "unknown material 'Clay' in <sphere>; did you mean 'clay'?"));
+}
+
+TEST_CASE("of several things of one name each but the first is reported") {
+  const std::string named =
+      "<sphere><name>a</name><center x='0' y='0' z='0'/><radius>1</radius><material>clay</material></sphere>\n";
+  const std::string found =
+      findings(scene_with("<objects><spheres>\n" + named + named + named + "</spheres></objects>"));
+  CHECK(found ==
+        "s:4:15: error: the object name 'a' is taken by the <sphere> in line 3; choose another\n"
+        "s:5:15: error: the object name 'a' is taken by the <sphere> in line 3; choose another\n");
+}
+
+TEST_CASE("a faulty material is no second fault for the objects that use it") {
+  const std::string text = scene_with_sphere("<center x='0' y='0' z='0'/><radius>1</radius><material>clay</material>");
+  std::string faulty = text;
+  faulty.replace(faulty.find("<ka>0</ka>"), 10, "<ka>x</ka>");
+  const std::string found = findings(faulty);
+  CHECK(contains(found, "'x' in <ka> is not a number"));
+  CHECK_FALSE(contains(found, "unknown material"));
+}
+
+TEST_CASE("the root may name its schema, and nothing else") {
+  std::string scene = scene_with("");
+  scene.replace(0, 10,
+                "<raytracer xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" "
+                "xsi:noNamespaceSchemaLocation=\"raytracer.xsd\"");
+  CHECK(findings(scene) == "");
+  scene.replace(scene.find("2001"), 4, "2002");
+  CHECK(contains(findings(scene), "s:1:12: error: unexpected attribute 'xmlns:xsi' in <raytracer>; remove it"));
+}
+
+TEST_CASE("the stray > of the seed's sample is a warning before every boolean, and an error elsewhere") {
+  const auto lit = [](const std::string& shadows, const std::string& radiance) {
+    return scene_with("<lights><pointlights><pointlight><location x='0' y='1' z='2'/><shadows>" + shadows +
+                      "</shadows><scaleradiance>" + radiance + "</scaleradiance></pointlight></pointlights></lights>");
+  };
+  CHECK(findings(lit("> false", "1")) ==
+        "s:2:72: warning: stray '>' before 'false' in <shadows> is ignored; remove it\n");
+  CHECK_FALSE(std::get<LightItems<PointLight>>(accepted(lit(">false", "1")).lights).at(0).parameters.shadows);
+  CHECK(contains(findings(lit("true", ">1")), "error: '>1' in <scaleradiance> is not a number"));
+}
+
+}  // namespace raytrace::test

@@ -1,0 +1,83 @@
+#include "findings.h"
+#include "random_description.h"
+#include "support/catch.h"
+
+namespace raytrace::test {
+
+TEST_CASE("what is printed is read back as the same scene") {
+  std::mt19937_64 random(2011);
+  std::size_t objects = 0;
+  for (int i = 0; i < 300; ++i) {
+    const SceneDescription scene = random_description(random);
+    const std::string text = print_scene(scene);
+    const SceneDescription again = accepted(text);
+    REQUIRE(same_scene(scene, again));
+    REQUIRE(findings(text) == "");
+    REQUIRE(print_scene(again) == text);
+    objects += std::get<ObjectItems<Sphere>>(scene.objects).size();
+  }
+  CHECK(objects > 300);
+}
+
+TEST_CASE("scenes that differ are told apart") {
+  std::mt19937_64 random(7);
+  SceneDescription a;
+  do a = random_description(random);
+  while (std::get<ObjectItems<Sphere>>(a.objects).empty());
+  CHECK(same_scene(a, a));
+  SceneDescription b = a;
+  std::get<ObjectItems<Sphere>>(b.objects)[0].parameters.center.y += 1e20;
+  CHECK_FALSE(same_scene(a, b));
+  b = a;
+  std::get<ObjectItems<Sphere>>(b.objects)[0].name += "x";
+  CHECK_FALSE(same_scene(a, b));
+  b = a;
+  b.viewplane.samples += 1;
+  CHECK_FALSE(same_scene(a, b));
+}
+
+TEST_CASE("a scene is printed with every value spelled out") {
+  CHECK(print_scene(accepted(scene_with(""))) == R"(<raytracer>
+  <viewplane>
+    <hres>4</hres>
+    <vres>3</vres>
+    <pixelsize>1</pixelsize>
+    <samples>1</samples>
+    <background red="0" green="0" blue="0"/>
+  </viewplane>
+  <camera>
+    <eye x="0" y="0" z="9"/>
+    <lookat x="0" y="0" z="0"/>
+    <up x="0" y="1" z="0"/>
+    <viewdistance>4</viewdistance>
+  </camera>
+  <lights>
+  </lights>
+  <materials>
+    <mattes>
+      <matte>
+        <name>clay</name>
+        <ka>0</ka>
+        <kd>1</kd>
+        <cd red="1" green="1" blue="1"/>
+      </matte>
+    </mattes>
+    <phongs>
+      <phong>
+        <name>steel</name>
+        <ka>0</ka>
+        <kd>1</kd>
+        <ks>1</ks>
+        <cd red="1" green="1" blue="1"/>
+        <cs red="1" green="1" blue="1"/>
+        <exp>20</exp>
+      </phong>
+    </phongs>
+  </materials>
+  <objects>
+  </objects>
+</raytracer>
+)");
+}
+
+}  // namespace raytrace::test

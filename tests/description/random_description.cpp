@@ -1,0 +1,151 @@
+#include "random_description.h"
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <type_traits>
+
+namespace raytrace::test {
+namespace {
+
+using Random = std::mt19937_64;
+
+std::size_t below(Random& random, std::size_t end) { return static_cast<std::size_t>(random() % end); }
+
+double random_number(Random& random, Range range) {
+  if (range != Range::positive && below(random, 4) == 0) return static_cast<double>(below(random, 3));
+  const double mantissa = 1 + static_cast<double>(random() >> 11) * 0x1p-53;
+  const double size = mantissa * std::pow(10.0, static_cast<double>(below(random, 33)) - 16.0);
+  return range == Range::any && below(random, 2) == 0 ? -size : size;
+}
+
+std::string random_name(Random& random) {
+  static const char* const pieces[] = {
+      "a", "Z", "7", "&", "<", ">", "]]>", "\"", "'", " b", "\xc3\xa4", "\xf0\x9f\x98\x80", "--", ";", "#"};
+  std::string name = "n";
+  for (std::size_t i = below(random, 12); i > 0; --i) name += pieces[below(random, std::size(pieces))];
+  return name;
+}
+
+void randomize(Random& random, Range range, double& value) { value = random_number(random, range); }
+void randomize(Random& random, Range range, int& value) {
+  // Squares of edges must stay below the limit of a picture.
+  value = static_cast<int>(below(random, 10000)) + (range == Range::positive ? 1 : 0);
+}
+void randomize(Random& random, Range, bool& value) { value = below(random, 2) == 0; }
+void randomize(Random& random, Range, std::string& value) { value = random_name(random); }
+void randomize(Random& random, Range range, Vec3d& value) {
+  const Range each = range == Range::nonzero ? Range::any : range;
+  value = {random_number(random, each), random_number(random, each),
+           range == Range::nonzero ? 1.5 : random_number(random, each)};
+}
+void randomize(Random& random, Range range, Rgb<double>& value) {
+  value = {random_number(random, range), random_number(random, range), random_number(random, range)};
+}
+
+/// Whether the type itself has nothing against the parameters.
+template <class T>
+bool allowed(const typename T::Parameters& parameters) {
+  if constexpr (requires { T::check(parameters); })
+    return !T::check(parameters);
+  else
+    return true;
+}
+
+template <class T>
+typename T::Parameters random_parameters(Random& random) {
+  typename T::Parameters parameters;
+  do {
+    for (const auto& field : T::fields()) {
+      std::visit([&](auto member) { randomize(random, field.range, parameters.*member); }, field.member);
+    }
+  } while (!allowed<T>(parameters));
+  return parameters;
+}
+
+bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
+bool same(int a, int b) { return a == b; }
+bool same(bool a, bool b) { return a == b; }
+bool same(const std::string& a, const std::string& b) { return a == b; }
+bool same(const Vec3d& a, const Vec3d& b) { return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z); }
+bool same(const Rgb<double>& a, const Rgb<double>& b) {
+  return same(a.red, b.red) && same(a.green, b.green) && same(a.blue, b.blue);
+}
+
+template <class T>
+bool same_parameters(const typename T::Parameters& a, const typename T::Parameters& b) {
+  bool all = true;
+  for (const auto& field : T::fields()) {
+    std::visit([&](auto member) { all = all && same(a.*member, b.*member); }, field.member);
+  }
+  return all;
+}
+
+/// equal(item, item): what items of this kind have beside their parameters.
+template <class List, class Tuple, class Equal>
+bool same_items(List list, const Tuple& a, const Tuple& b, Equal equal) {
+  bool all = true;
+  for_each_type(list, [&]<class T>(std::type_identity<T>) {
+    const auto& x = std::get<index_of<T>(List{})>(a);
+    const auto& y = std::get<index_of<T>(List{})>(b);
+    all = all && x.size() == y.size();
+    for (std::size_t i = 0; all && i < x.size(); ++i) {
+      all = same_parameters<T>(x[i].parameters, y[i].parameters) && equal(x[i], y[i]);
+    }
+  });
+  return all;
+}
+
+}  // namespace
+
+SceneDescription random_description(Random& random) {
+  SceneDescription scene;
+  scene.viewplane = random_parameters<ViewPlane>(random);
+  const std::size_t camera = below(random, Cameras::size);
+  for_each_type(Cameras{}, [&]<class T>(std::type_identity<T>) {
+    if (index_of<T>(Cameras{}) == camera)
+      scene.camera.template emplace<index_of<T>(Cameras{})>(random_parameters<T>(random));
+  });
+  for_each_type(Lights{}, [&]<class T>(std::type_identity<T>) {
+    for (std::size_t i = below(random, T::group.empty() ? 2 : 8); i > 0; --i) {
+      std::get<LightItems<T>>(scene.lights).push_back({random_parameters<T>(random)});
+    }
+  });
+  std::vector<MaterialReference> materials;
+  for_each_type(Materials{}, [&]<class T>(std::type_identity<T>) {
+    auto& items = std::get<MaterialItems<T>>(scene.materials);
+    for (std::size_t i = below(random, 8); i > 0; --i) {
+      materials.push_back(
+          {static_cast<std::uint32_t>(index_of<T>(Materials{})), static_cast<std::uint32_t>(items.size())});
+      items.push_back({random_parameters<T>(random), random_name(random) + std::to_string(materials.size())});
+    }
+  });
+  if (materials.empty()) return scene;
+  int named = 0;
+  for_each_type(Shapes{}, [&]<class T>(std::type_identity<T>) {
+    for (std::size_t i = below(random, 8); i > 0; --i) {
+      const std::string name = below(random, 2) == 0 ? "" : random_name(random) + std::to_string(++named);
+      std::get<ObjectItems<T>>(scene.objects)
+          .push_back({random_parameters<T>(random), name, materials[below(random, materials.size())]});
+    }
+  });
+  return scene;
+}
+
+bool same_scene(const SceneDescription& a, const SceneDescription& b) {
+  bool cameras = a.camera.index() == b.camera.index();
+  for_each_type(Cameras{}, [&]<class T>(std::type_identity<T>) {
+    constexpr std::size_t i = index_of<T>(Cameras{});
+    if (cameras && a.camera.index() == i) cameras = same_parameters<T>(std::get<i>(a.camera), std::get<i>(b.camera));
+  });
+  return cameras && same_parameters<ViewPlane>(a.viewplane, b.viewplane) &&
+         same_items(Lights{}, a.lights, b.lights, [](const auto&, const auto&) { return true; }) &&
+         same_items(Materials{}, a.materials, b.materials,
+                    [](const auto& x, const auto& y) { return x.name == y.name; }) &&
+         same_items(Shapes{}, a.objects, b.objects, [](const auto& x, const auto& y) {
+           return x.name == y.name && x.material.kind == y.material.kind && x.material.index == y.material.index;
+         });
+}
+
+}  // namespace raytrace::test

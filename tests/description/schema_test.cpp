@@ -1,0 +1,233 @@
+// scenes/raytracer.xsd and the program: the same format, and what the schema refuses the program refuses too.
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "findings.h"
+#include "random_description.h"
+#include "raytrace/description/print_schema.h"
+#include "raytrace/description/scene_layout.h"
+#include "support/catch.h"
+
+namespace raytrace::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path schema = RAYTRACE_SOURCE_DIR "/scenes/raytracer.xsd";
+
+std::string contents(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// The scene files below a folder.
+std::vector<fs::path> scenes_in(const fs::path& folder) {
+  std::vector<fs::path> scenes;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.path().extension() == ".xml") scenes.push_back(entry.path());
+  }
+  std::sort(scenes.begin(), scenes.end());
+  return scenes;
+}
+
+bool program_accepts(const fs::path& file) {
+  Diagnostics diagnostics(file.string());
+  return load_scene(file.string(), diagnostics).has_value();
+}
+
+/// Those of the files that xmllint finds valid.
+std::set<fs::path> valid_by_schema(const std::vector<fs::path>& files) {
+  std::string command = "xmllint --noout --schema '" + schema.string() + "'";
+  for (const fs::path& file : files) command += " '" + file.string() + "'";
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> output(popen((command + " 2>&1").c_str(), "r"), pclose);
+  REQUIRE(output);
+  std::string said;
+  std::array<char, 4096> buffer{};
+  while (const std::size_t length = std::fread(buffer.data(), 1, buffer.size(), output.get()))
+    said.append(buffer.data(), length);
+  INFO(said.substr(0, 2000));
+  REQUIRE_FALSE(contains(said, "xmllint: not found"));
+  REQUIRE_FALSE(contains(said, "Schemas parser error"));
+  std::set<fs::path> valid;
+  for (const fs::path& file : files) {
+    if (contains("\n" + said, "\n" + file.string() + " validates\n")) valid.insert(file);
+  }
+  return valid;
+}
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string pattern = (fs::temp_directory_path() / "raytrace-schema-XXXXXX").string();
+    REQUIRE(mkdtemp(pattern.data()));
+    path = pattern;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  fs::path path;
+};
+
+/// Damages a scene a little, in ways that keep it well-formed more often than not.
+std::string mutated(const std::string& text, std::mt19937_64& random) {
+  static const std::vector<std::string> values = {
+      "0",     "-1",  "+1",         " 2 ",        "1.",   ".5",    "1e3",  "1E-3",  "1e+17",  "1e18",  "-1e17",
+      "nan",   "INF", "",           " ",          "true", ">true", "> 1",  ">>1",   "false ", "0x1",   "1,5",
+      "00012", "-0",  "2147483647", "2147483648", "1.0",  "a",     "a  b", "65537", "1e-17",  "1e-18", "\n3\t"};
+  static const std::vector<std::string> names = {"sphere", "spheres", "radius", "name", "material",
+                                                 "x",      "matte",   "lights", "foo"};
+  std::string result = text;
+  for (std::size_t i = 1 + random() % 2; i > 0; --i) {
+    const std::size_t from = random() % result.size();
+    const std::string& value = values[random() % values.size()];
+    const std::size_t close = result.find("</", from);
+    const std::size_t quote = result.find('"', from);
+    switch (random() % 6) {
+      case 0: {  // another text in an element
+        if (close == std::string::npos) break;
+        const std::size_t open = result.rfind('>', close);
+        result.replace(open + 1, close - open - 1, value);
+        break;
+      }
+      case 1: {  // another value of an attribute
+        if (quote == std::string::npos) break;
+        const std::size_t end = result.find('"', quote + 1);
+        if (end != std::string::npos && result.find_first_of("<>", quote) > end)
+          result.replace(quote + 1, end - quote - 1, value);
+        break;
+      }
+      case 2:
+      case 3: {  // a line removed, or repeated somewhere
+        const std::size_t start = result.rfind('\n', from) + 1;
+        const std::size_t end = std::min(result.find('\n', from), result.size() - 1) + 1;
+        const std::string line = result.substr(start, end - start);
+        if (random() % 2)
+          result.erase(start, end - start);
+        else
+          result.insert(result.rfind('\n', random() % result.size()) + 1, line);
+        break;
+      }
+      case 4: {  // another name of an element
+        const std::size_t open = result.find('<', from);
+        if (open == std::string::npos) break;
+        const std::size_t end = result.find_first_of(" />", open + 1);
+        const std::string old = result.substr(open + 1, end - open - 1);
+        const std::string& name = names[random() % names.size()];
+        const std::size_t closing = old.empty() ? std::string::npos : result.find("</" + old + ">", open);
+        if (closing != std::string::npos) result.replace(closing + 2, old.size(), name);
+        result.replace(open + 1, old.size(), name);
+        break;
+      }
+      default: {  // text or an attribute where none was
+        const std::size_t end = result.find('>', from);
+        if (end == std::string::npos || end == 0) break;
+        if (random() % 2)
+          result.insert(end + 1, value);
+        else
+          result.insert(result[end - 1] == '/' ? end - 1 : end,
+                        " " + names[random() % names.size()] + "=\"" + value + "\"");
+      }
+    }
+    if (result.empty()) result = text;
+  }
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("the schema file is the one that the registries make", "[schema]") {
+  if (std::getenv("RAYTRACE_UPDATE_SCHEMA")) std::ofstream(schema, std::ios::binary) << print_schema();
+  INFO("After a change of the registries: RAYTRACE_UPDATE_SCHEMA=1 description_tests '[schema]' writes it anew.");
+  CHECK(contents(schema) == print_schema());
+}
+
+TEST_CASE("the schema has an element for each field and each part of the frame", "[schema]") {
+  const std::string text = contents(schema);
+  const auto has = [&](std::string_view element) {
+    return contains(text, "<xs:element name=\"" + std::string(element) + "\" type=");
+  };
+  for (const LayoutEntry& entry : scene_layout()) CHECK(has(entry.element));
+  const auto check_fields = [&]<class T>(std::type_identity<T>) {
+    for (const auto& field : T::fields()) CHECK(has(field.name));
+  };
+  check_fields(std::type_identity<ViewPlane>{});
+  for_each_type(Cameras{}, check_fields);
+  for_each_type(Lights{}, check_fields);
+  for_each_type(Materials{}, check_fields);
+  for_each_type(Shapes{}, check_fields);
+}
+
+TEST_CASE("every scene of the repository is valid and accepted", "[schema]") {
+  const std::vector<fs::path> scenes = scenes_in(RAYTRACE_SOURCE_DIR "/scenes");
+  REQUIRE_FALSE(scenes.empty());
+  const std::set<fs::path> valid = valid_by_schema(scenes);
+  for (const fs::path& scene : scenes) {
+    INFO(scene);
+    CHECK(valid.count(scene) == 1);
+    CHECK(program_accepts(scene));
+  }
+}
+
+TEST_CASE("the schema refuses most of the bad scenes, the program all", "[schema]") {
+  const std::vector<fs::path> scenes = scenes_in(RAYTRACE_SOURCE_DIR "/tests/description/bad");
+  for (const fs::path& scene : scenes) {
+    INFO(scene);
+    CHECK_FALSE(program_accepts(scene));
+  }
+  std::set<std::string> valid_names;
+  for (const fs::path& scene : valid_by_schema(scenes)) valid_names.insert(scene.stem().string());
+  // What no schema can say, or the program alone does not want.
+  const std::set<std::string> expected = {"cylinder_without_length",
+                                          "eye_at_lookat",
+                                          "instruction",
+                                          "name_with_line_break",
+                                          "number_in_pieces",
+                                          "other_encoding",
+                                          "second_ambientlight",
+                                          "too_many_pixels",
+                                          "utf16",
+                                          "edge_too_long",
+                                          "zero_direction",
+                                          "zero_normal",
+                                          "zero_up",
+                                          "internal_subset"};
+  CHECK(valid_names == expected);
+}
+
+TEST_CASE("what the schema refuses the program refuses, over many damaged scenes", "[schema]") {
+  const TemporaryFolder folder;
+  std::mt19937_64 random(19450508);
+  std::vector<std::string> sound = {contents(RAYTRACE_SOURCE_DIR "/scenes/seed.xml")};
+  for (int i = 0; i < 4; ++i) sound.push_back(print_scene(random_description(random)));
+  std::vector<fs::path> files;
+  for (int i = 0; i < 800; ++i) {
+    files.push_back(folder.path / ("scene" + std::to_string(i) + ".xml"));
+    std::ofstream(files.back(), std::ios::binary) << mutated(sound[static_cast<std::size_t>(i) % sound.size()], random);
+  }
+  const std::set<fs::path> valid = valid_by_schema(files);
+  std::size_t accepted_count = 0;
+  for (const fs::path& file : files) {
+    const bool accepted = program_accepts(file);
+    accepted_count += accepted;
+    if (accepted && !valid.count(file)) FAIL_CHECK("accepted, but invalid by the schema:\n" << contents(file));
+  }
+  // Both kinds must be there for the test to say anything.
+  CHECK(accepted_count > 50);
+  CHECK(valid.size() < 700);
+}
+
+}  // namespace raytrace::test

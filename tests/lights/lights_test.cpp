@@ -1,0 +1,70 @@
+// The way from points to lights, and what they send.
+#include <limits>
+
+#include "raytrace/lights/light_source.h"
+#include "raytrace/lights/registry.h"
+#include "support/catch.h"
+#include "support/lanes.h"
+
+namespace raytrace::test {
+
+namespace {
+
+const Vec3<FloatN> positions = vectors_of([](std::size_t i) {
+  const auto x = static_cast<double>(i);
+  return Vec3d{x * x - 3, 0.5 - x, 1 / (1 + x)};
+});
+
+}  // namespace
+
+TEST_CASE("a point light is reached from each point along the difference, and ends there") {
+  const LightSourceOf<PointLight> light(PointLight({{2, 30, -4}, 3, {1, 0.5, 0.25}, true}));
+  const LightSample<FloatN> sample = light.sample(positions);
+  CHECK(xsimd::all(sample.end == FloatN(1)));
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const Vec3d reached = lane_of(positions, lane) + lane_of(sample.to_light, lane);
+    CHECK(length(reached - Vec3d{2, 30, -4}) < 1e-5);
+  }
+}
+
+TEST_CASE("a directional light lies in the same direction from everywhere, infinitely far") {
+  for (const double scale : {1e-9, 1.0, 1e9}) {
+    const LightSourceOf<DirectionalLight> light(DirectionalLight({Vec3d{3, -4, 12} * scale, 1, {1, 1, 1}, true}));
+    const LightSample<FloatN> sample = light.sample(positions);
+    CHECK(xsimd::all(sample.end == FloatN(std::numeric_limits<float>::infinity())));
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+      CHECK(length(normalize(lane_of(sample.to_light, lane)) - Vec3d{3.0 / 13, -4.0 / 13, 12.0 / 13}) < 1e-6);
+  }
+}
+
+TEST_CASE("a light's radiance is its color times its scale, and shadows are cast as it says") {
+  const auto check = [](const Rgb<float>& radiance) {
+    CHECK(radiance.red == 3.0f);
+    CHECK(radiance.green == 1.5f);
+    CHECK(radiance.blue == 0.75f);
+  };
+  const auto sampled = [](const LightSource& light) {
+    const Rgb<FloatN> radiance = light.sample({FloatN(1), FloatN(2), FloatN(3)}).radiance;
+    return Rgb<float>(radiance.red.get(1), radiance.green.get(1), radiance.blue.get(1));
+  };
+  check(AmbientLight({3, {1, 0.5, 0.25}}).radiance());
+  for (const bool shadows : {true, false}) {
+    const PointLight point({{0, 0, 0}, 3, {1, 0.5, 0.25}, shadows});
+    const DirectionalLight directional({{0, 1, 0}, 3, {1, 0.5, 0.25}, shadows});
+    check(sampled(LightSourceOf<PointLight>(point)));
+    check(sampled(LightSourceOf<DirectionalLight>(directional)));
+    CHECK(LightSourceOf<PointLight>(point).shadows() == shadows);
+    CHECK(LightSourceOf<DirectionalLight>(directional).shadows() == shadows);
+  }
+}
+
+TEST_CASE("a light that a scene says nothing more about is white, of radiance 1, and casts shadows") {
+  const PointLight::Parameters point;
+  const DirectionalLight::Parameters directional;
+  CHECK(PointLight(point).sample(Vec3f(0, 0, 0)).radiance.green == 1.0f);
+  CHECK(PointLight(point).shadows());
+  CHECK(DirectionalLight({{0, 1, 0}, directional.scaleradiance, directional.color, directional.shadows}).shadows());
+  CHECK(AmbientLight(AmbientLight::Parameters{}).radiance().blue == 1.0f);
+}
+
+}  // namespace raytrace::test

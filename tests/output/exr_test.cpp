@@ -1,0 +1,136 @@
+#include <cmath>
+#include <limits>
+
+#include "pictures.h"
+#include "support/catch.h"
+#include "temporary_folder.h"
+
+namespace raytrace::test {
+
+namespace {
+
+ImageFileSettings float_settings() {
+  ImageFileSettings settings;
+  settings.full_float = true;
+  return settings;
+}
+
+}  // namespace
+
+TEST_CASE("EXR holds radiance and coverage as they are") {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("a.exr");
+  const Film film = distinct_film(33, 21);
+  const bool full_float = GENERATE(false, true);
+  const Repairs repairs = write_image(file, film, {}, full_float ? float_settings() : ImageFileSettings{});
+
+  const ReadPicture picture = read_picture(file);
+  CHECK(repairs.clamped == 0);
+  CHECK(repairs.not_finite == 0);
+  CHECK(picture.spec.format == (full_float ? OIIO::TypeFloat : OIIO::TypeHalf));
+  CHECK(picture.spec.channelnames == std::vector<std::string>{"R", "G", "B", "A"});
+  CHECK(picture.spec.get_string_attribute("compression") == "zip");
+  CHECK(picture.spec.tile_width == 0);
+  REQUIRE(picture.spec.width == 33);
+  REQUIRE(picture.spec.height == 21);
+  int wrong = 0;
+  for (int y = 0; y < 21; ++y) {
+    for (int x = 0; x < 33; ++x) {
+      const Pixel& pixel = film.at(x, y);
+      wrong += picture.value(x, y, 0) != pixel.red;
+      wrong += picture.value(x, y, 1) != pixel.green;
+      wrong += picture.value(x, y, 2) != pixel.blue;
+      wrong += picture.value(x, y, 3) != pixel.alpha;
+    }
+  }
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("an EXR's data window is the region, its display window the whole picture") {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("crop.exr");
+  const Film film = distinct_film(64, 48, {5, 7, 25, 40});
+  write_image(file, film, {}, {});
+
+  const ReadPicture picture = read_picture(file);
+  CHECK(picture.spec.x == 5);
+  CHECK(picture.spec.y == 7);
+  CHECK(picture.spec.width == 20);
+  CHECK(picture.spec.height == 33);
+  CHECK(picture.spec.full_x == 0);
+  CHECK(picture.spec.full_y == 0);
+  CHECK(picture.spec.full_width == 64);
+  CHECK(picture.spec.full_height == 48);
+  CHECK(picture.value(0, 0, 0) == film.at(5, 7).red);
+  CHECK(picture.value(19, 32, 2) == film.at(24, 39).blue);
+}
+
+TEST_CASE("an EXR of several bands has no seams") {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("wide.exr");
+  constexpr int width = 40000, height = 70;  // more values than a band has
+  Film film(width, height, {0, 0, width, height});
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) film.at(x, y) = {static_cast<float>(y), static_cast<float>(x % 1024), 1, 1};
+  }
+  write_image(file, film, {}, {});
+
+  const ReadPicture picture = read_picture(file);
+  REQUIRE(picture.spec.height == height);
+  std::size_t wrong = 0;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      wrong +=
+          picture.value(x, y, 0) != static_cast<float>(y) || picture.value(x, y, 1) != static_cast<float>(x % 1024);
+    }
+  }
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("what half cannot hold becomes its largest number, and is counted") {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("bright.exr");
+  Film film(4, 1, {0, 0, 4, 1});
+  film.at(0, 0) = {65504, 65505, 1e30F, 1};
+  film.at(1, 0) = {-1e30F, -65504, 0, 0};
+  const Repairs half = write_image(file, film, {}, {});
+  const ReadPicture stored = read_picture(file);
+  CHECK(half.clamped == 3);
+  CHECK(half.not_finite == 0);
+  CHECK(stored.value(0, 0, 0) == 65504);
+  CHECK(stored.value(0, 0, 1) == 65504);
+  CHECK(stored.value(0, 0, 2) == 65504);
+  CHECK(stored.value(1, 0, 0) == -65504);
+
+  const Repairs full = write_image(file, film, {}, float_settings());
+  CHECK(full.clamped == 0);
+  CHECK(read_picture(file).value(0, 0, 2) == 1e30F);
+}
+
+TEST_CASE("no NaN and no infinity reaches a file") {
+  const TemporaryFolder folder;
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  Film film(2, 1, {0, 0, 2, 1});
+  film.at(0, 0) = {std::nanf(""), infinity, -infinity, 1};
+  film.at(1, 0) = {1, 1, 1, std::nanf("")};
+
+  const std::string exr = folder.file("a.exr");
+  CHECK(write_image(exr, film, {}, {}).not_finite == 4);
+  const ReadPicture half = read_picture(exr);
+  CHECK(half.value(0, 0, 0) == 0);
+  CHECK(half.value(0, 0, 1) == 65504);
+  CHECK(half.value(0, 0, 2) == -65504);
+  CHECK(half.value(1, 0, 3) == 0);
+
+  CHECK(write_image(exr, film, {}, float_settings()).not_finite == 4);
+  CHECK(read_picture(exr).value(0, 0, 1) == std::numeric_limits<float>::max());
+
+  const std::string png = folder.file("a.png");
+  CHECK(write_image(png, film, {}, {}).not_finite == 3);  // no alpha
+  const ReadPicture eight = read_picture(png);
+  CHECK(eight.value(0, 0, 0) == 0);
+  CHECK(eight.value(0, 0, 1) == 1);
+  CHECK(eight.value(0, 0, 2) == 0);
+}
+
+}  // namespace raytrace::test

@@ -1,0 +1,80 @@
+// Progress, and renders that are stopped.
+#include <atomic>
+#include <vector>
+
+#include "render/scenes.h"
+#include "support/catch.h"
+
+namespace raytrace::test {
+
+namespace {
+
+const Pixel untouched;
+
+/// How many pixels are done; each must be as in the whole picture, the others untouched.
+int whole_pixels(const Film& film, const Film& all) {
+  int done = 0;
+  for (std::size_t i = 0; i < film.pixels().size(); ++i) {
+    if (identical(film.pixels()[i], untouched)) continue;
+    if (!identical(film.pixels()[i], all.pixels()[i])) FAIL("pixel " << i << " is neither done nor untouched");
+    ++done;
+  }
+  return done;
+}
+
+}  // namespace
+
+TEST_CASE("progress grows with each call, one call at a time, and ends at 1") {
+  const SceneDescription description = parsed_scene(busy_scene(200, 130, 1));
+  for (const int threads : {1, 4}) {
+    const auto scene = build_scene(description, {threads, {}});
+    std::vector<double> told;
+    std::atomic<int> inside{0};
+    bool overlapped = false;
+    RayCounts rays;
+    render(*scene, description, {threads, 0, {3, 7, 200, 130}}, rays, [&](double fraction) {
+      overlapped = overlapped || ++inside > 1;
+      told.push_back(fraction);
+      --inside;
+    });
+    CHECK(!overlapped);
+    REQUIRE(told.size() > 10);
+    CHECK(told.front() > 0);
+    for (std::size_t i = 1; i < told.size(); ++i) CHECK(told[i] > told[i - 1]);
+    CHECK(told.back() == 1.0);
+  }
+}
+
+TEST_CASE("a render that is stopped ends early, with pixels that are done or untouched") {
+  const SceneDescription description = parsed_scene(busy_scene(256, 192, 1));
+  const Film all = rendered(description);
+  for (const int threads : {1, 3}) {
+    const auto scene = build_scene(description, {threads, {}});
+    for (const int calls : {1, 5}) {
+      std::atomic<bool> stop{false};
+      int told = 0;
+      RayCounts rays;
+      const Film film = render(
+          *scene, description, {threads, 0, whole(description)}, rays, [&](double) { stop = ++told >= calls; }, &stop);
+      const int done = whole_pixels(film, all);
+      INFO(threads << " threads, stopped at call " << calls << ", done " << done);
+      CHECK(done > 0);
+      CHECK(done < 256 * 192 / 2);
+      CHECK(rays.camera == static_cast<std::uint64_t>(done));
+      CHECK(told < calls + threads);  // no thread begins another tile
+    }
+  }
+}
+
+TEST_CASE("a render that is stopped before it begins does nothing") {
+  const SceneDescription description = parsed_scene(busy_scene(64, 64, 1));
+  const auto scene = build_scene(description, {2, {}});
+  const std::atomic<bool> stop{true};
+  RayCounts rays{7, 7};
+  const Film film = render(*scene, description, {2, 0, whole(description)}, rays, {}, &stop);
+  CHECK(whole_pixels(film, rendered(description)) == 0);
+  CHECK(rays.camera == 0);
+  CHECK(rays.shadow == 0);
+}
+
+}  // namespace raytrace::test

@@ -1,0 +1,81 @@
+// Light adds up, however many lights there are.
+#include <cmath>
+#include <vector>
+
+#include "render/scenes.h"
+#include "support/catch.h"
+#include "support/usable_isas.h"
+
+namespace raytrace::test {
+
+namespace {
+
+constexpr int width = 40, height = 30;
+
+/// Light i of a ring about the scene, some of them below the floor, without shadows, or directional; colours differ.
+std::string light(int i) {
+  const double x = 9 * std::cos(i * 1.1), z = 9 * std::sin(i * 1.1);
+  const std::string rest = "<scaleradiance>" + std::to_string(0.1 + 0.02 * i) + "</scaleradiance><color red='" +
+                           std::to_string(0.2 + 0.02 * i) + "' green='0.5' blue='" + std::to_string(1 - 0.015 * i) +
+                           "'/><shadows>" + (i % 5 == 3 ? "false" : "true") + "</shadows>";
+  if (i % 3 == 2)
+    return "<directionallights><directionallight>" + vector_text("direction", x, 4, z) + rest +
+           "</directionallight></directionallights>";
+  return "<pointlights><pointlight>" + vector_text("location", x, i % 7 == 6 ? -8 : 3 + 0.1 * i, z) + rest +
+         "</pointlight></pointlights>";
+}
+
+SceneDescription lit_by(const std::string& lights) {
+  return parsed_scene(scene_text(
+      width, height, 2,
+      "<lights><ambientlight><scaleradiance>0.25</scaleradiance></ambientlight>" + lights +
+          "</lights><materials><mattes><matte><name>floor</name><ka>0.5</ka><kd>0.7</kd><cd red='0.7' green='0.8' "
+          "blue='0.6'/></matte></mattes>"
+          "<phongs><phong><name>ball</name><ka>0.4</ka><kd>0.5</kd><ks>0.5</ks><cd red='0.2' green='0.3' blue='1'/>"
+          "<cs red='1' green='1' blue='0.9'/><exp>30</exp></phong></phongs></materials>"
+          "<objects><planes><plane><point x='0' y='-1' z='0'/><normal x='0' y='1' "
+          "z='0'/><material>floor</material></plane></planes>"
+          "<spheres><sphere><center x='0' y='0.5' z='0'/><radius>1.5</radius><material>ball</material></sphere>"
+          "<sphere><center x='3' y='0' "
+          "z='2'/><radius>1</radius><material>floor</material></sphere></spheres></objects>"));
+}
+
+struct Sum {
+  double red = 0, green = 0, blue = 0;
+};
+
+}  // namespace
+
+TEST_CASE("many lights are the sum of the pictures that each makes alone") {
+  for (const std::string& isa : usable_isas()) {
+    const Film ambient = rendered(lit_by(""), 1, isa);
+    std::vector<Sum> sums;
+    for (const Pixel& pixel : ambient.pixels())
+      sums.push_back({double{pixel.red}, double{pixel.green}, double{pixel.blue}});
+    std::string lights;
+    for (int count = 1; count <= 40; ++count) {
+      lights += light(count);
+      const Film alone = rendered(lit_by(light(count)), 1, isa);
+      for (std::size_t i = 0; i < sums.size(); ++i) {
+        sums[i].red += double{alone.pixels()[i].red} - double{ambient.pixels()[i].red};
+        sums[i].green += double{alone.pixels()[i].green} - double{ambient.pixels()[i].green};
+        sums[i].blue += double{alone.pixels()[i].blue} - double{ambient.pixels()[i].blue};
+      }
+      // Around the lengths at which an implementation may gather lights in runs.
+      if (count != 2 && (count < 15 || count > 17) && (count < 31 || count > 33) && count != 40) continue;
+      const Film together = rendered(lit_by(lights), 1, isa);
+      double worst = 0;
+      for (std::size_t i = 0; i < sums.size(); ++i) {
+        // The background is no sum of lights.
+        if (ambient.pixels()[i].alpha != 1.0f) continue;
+        const Pixel& pixel = together.pixels()[i];
+        worst = std::max({worst, std::abs(double{pixel.red} - sums[i].red),
+                          std::abs(double{pixel.green} - sums[i].green), std::abs(double{pixel.blue} - sums[i].blue)});
+      }
+      INFO(isa << ", " << count << " lights");
+      CHECK(worst < 2e-5);
+    }
+  }
+}
+
+}  // namespace raytrace::test

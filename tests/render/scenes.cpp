@@ -1,0 +1,59 @@
+#include "render/scenes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <random>
+
+namespace raytrace::test {
+
+std::string busy_scene(int width, int height, int samples) {
+  std::mt19937 bits(3);
+  const auto between = [&](double low, double high) {
+    return low + (high - low) * static_cast<double>(bits()) / 4294967296.0;
+  };
+  std::string spheres;
+  for (int i = 0; i < 1000; ++i)
+    spheres += "<sphere>" + vector_text("center", between(-6, 6), between(-1, 4), between(-6, 4)) + "<radius>" +
+               std::to_string(between(0.02, 0.2)) + "</radius><material>" + (i % 2 == 0 ? "red" : "shiny") +
+               "</material></sphere>";
+  return scene_text(
+      width, height, samples,
+      "<lights><ambientlight><scaleradiance>0.3</scaleradiance></ambientlight>"
+      "<pointlights><pointlight><location x='5' y='8' z='9'/><scaleradiance>2</scaleradiance></pointlight>"
+      "<pointlight><location x='-7' y='3' z='4'/><color red='0.3' green='0.5' "
+      "blue='1'/><shadows>false</shadows></pointlight></pointlights>"
+      "<directionallights><directionallight><direction x='0.2' y='1' "
+      "z='0.1'/></directionallight></directionallights></lights>"
+      "<materials><mattes>"
+      "<matte><name>red</name><ka>0.5</ka><kd>0.8</kd><cd red='1' green='0.2' blue='0.1'/></matte>"
+      "<matte><name>floor</name><ka>0.5</ka><kd>0.7</kd><cd red='0.7' green='0.8' blue='0.6'/></matte></mattes>"
+      "<phongs><phong><name>shiny</name><ka>0.4</ka><kd>0.5</kd><ks>0.5</ks><cd red='0.2' green='0.3' blue='1'/>"
+      "<cs red='1' green='1' blue='0.9'/><exp>30</exp></phong></phongs></materials>"
+      "<objects><planes><plane><point x='0' y='-1.2' z='0'/><normal x='0' y='1' "
+      "z='0.02'/><material>floor</material></plane></planes>"
+      "<spheres>" +
+          spheres +
+          "</spheres>"
+          "<triangles><triangle><vertexposition1 x='-4' y='-1' z='-3'/><vertexposition2 x='4' y='-1' z='-4'/>"
+          "<vertexposition3 x='0' y='5' z='-3.5'/><material>shiny</material></triangle></triangles>"
+          "<cylinders><cylinder><bottom x='-3' y='-1' z='1'/><top x='-2.5' y='1' "
+          "z='0'/><radius>0.6</radius><material>red</material></cylinder></cylinders>"
+          "<toruses><torus><center x='2' y='0' z='2'/><axis x='0.3' y='1' "
+          "z='0.4'/><sweptradius>1</sweptradius><tuberadius>0.3</tuberadius>"
+          "<material>shiny</material></torus></toruses></objects>");
+}
+
+bool identical(const Pixel& a, const Pixel& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+bool identical(const Film& a, const Film& b) {
+  return a.region() == b.region() && std::equal(a.pixels().begin(), a.pixels().end(), b.pixels().begin(),
+                                                [](const Pixel& p, const Pixel& q) { return identical(p, q); });
+}
+
+double difference(const Pixel& a, const Pixel& b) {
+  const auto of = [](float p, float q) { return std::abs(static_cast<double>(p) - static_cast<double>(q)); };
+  return std::max({of(a.red, b.red), of(a.green, b.green), of(a.blue, b.blue), of(a.alpha, b.alpha)});
+}
+
+}  // namespace raytrace::test

@@ -1,0 +1,49 @@
+// Scenes as texts, and renders of them, for the tests of what must not change a picture.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "raytrace/render/renderer.h"
+#include "support/parsed_scene.h"
+
+namespace raytrace::test {
+
+/// The scene's text around the given parts.
+inline std::string scene_text(int width, int height, int samples, const std::string& parts,
+                              const std::string& camera = "<eye x='0' y='2' z='12'/><lookat x='0' y='0' z='0'/>") {
+  return "<raytracer><viewplane><hres>" + std::to_string(width) + "</hres><vres>" + std::to_string(height) +
+         "</vres><samples>" + std::to_string(samples) +
+         "</samples><background red='0.1' green='0.2' blue='0.4'/></viewplane><camera>" + camera + "<viewdistance>" +
+         std::to_string(width) + "</viewdistance></camera>" + parts + "</raytracer>";
+}
+
+inline std::string vector_text(const std::string& element, double x, double y, double z) {
+  return "<" + element + " x='" + std::to_string(x) + "' y='" + std::to_string(y) + "' z='" + std::to_string(z) + "'/>";
+}
+
+/// All shapes and both materials under three lights, with a thousand small spheres among them.
+std::string busy_scene(int width, int height, int samples);
+
+inline Region whole(const SceneDescription& description) {
+  return {0, 0, description.viewplane.hres, description.viewplane.vres};
+}
+
+/// The whole picture, built and rendered with the same number of threads.
+inline Film rendered(const SceneDescription& description, int threads = 1, const std::string& isa = {},
+                     std::uint64_t seed = 0) {
+  const auto scene = build_scene(description, {threads, isa});
+  RayCounts rays;
+  return render(*scene, description, {threads, seed, whole(description)}, rays);
+}
+
+inline Film rendered(const std::string& text) { return rendered(parsed_scene(text)); }
+
+/// Whether all bits of the pixels are the same.
+bool identical(const Pixel& a, const Pixel& b);
+bool identical(const Film& a, const Film& b);
+
+/// The largest difference of their channels.
+double difference(const Pixel& a, const Pixel& b);
+
+}  // namespace raytrace::test

@@ -1,0 +1,52 @@
+#include "support/probe.h"
+
+#include <stdexcept>
+
+#include "raytrace/render/variant_list.h"
+#include "support/probe_backend.h"
+
+#define RAYTRACE_DECLARE(name, isa) \
+  extern "C" raytrace::test::ProbeBackend* raytrace_probe_##name(const raytrace::SceneDescription& description);
+RAYTRACE_VARIANTS(RAYTRACE_DECLARE)
+
+namespace raytrace::test {
+
+struct Probe::Implementation {
+  std::unique_ptr<ProbeBackend> backend;
+};
+
+Probe::Probe(const SceneDescription& description, const std::string& isa)
+    : implementation_(std::make_unique<Implementation>()) {
+#define RAYTRACE_CHOOSE(name, text) \
+  if (isa == text) implementation_->backend.reset(raytrace_probe_##name(description));
+  RAYTRACE_VARIANTS(RAYTRACE_CHOOSE)
+  if (!implementation_->backend) throw std::invalid_argument("no probe for " + isa);
+}
+
+Probe::~Probe() = default;
+
+std::vector<ProbeHit> Probe::intersect_single(std::span<const ProbeRay> rays) const {
+  return implementation_->backend->intersect(rays, false);
+}
+
+std::vector<ProbeHit> Probe::intersect_packet(std::span<const ProbeRay> rays) const {
+  return implementation_->backend->intersect(rays, true);
+}
+
+std::vector<ProbeHit> Probe::intersect_embree(std::span<const ProbeRay> rays, int packet_size) const {
+  return implementation_->backend->intersect_embree(rays, packet_size);
+}
+
+std::vector<bool> Probe::occluded_single(std::span<const ProbeRay> rays) const {
+  return implementation_->backend->occluded(rays, false);
+}
+
+std::vector<bool> Probe::occluded_packet(std::span<const ProbeRay> rays) const {
+  return implementation_->backend->occluded(rays, true);
+}
+
+std::vector<bool> Probe::occluded_embree(std::span<const ProbeRay> rays, int packet_size) const {
+  return implementation_->backend->occluded_embree(rays, packet_size);
+}
+
+}  // namespace raytrace::test

@@ -1,0 +1,17 @@
+// What stands behind a Probe: one implementation, compiled for each instruction set.
+#pragma once
+
+#include "support/probe.h"
+
+namespace raytrace::test {
+
+class ProbeBackend {
+ public:
+  virtual ~ProbeBackend() = default;
+  virtual std::vector<ProbeHit> intersect(std::span<const ProbeRay> rays, bool coherent) const = 0;
+  virtual std::vector<ProbeHit> intersect_embree(std::span<const ProbeRay> rays, int packet_size) const = 0;
+  virtual std::vector<bool> occluded(std::span<const ProbeRay> rays, bool coherent) const = 0;
+  virtual std::vector<bool> occluded_embree(std::span<const ProbeRay> rays, int packet_size) const = 0;
+};
+
+}  // namespace raytrace::test

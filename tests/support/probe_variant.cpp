@@ -1,0 +1,173 @@
+#include <algorithm>
+#include <array>
+
+#include "raytrace/accel/accelerator.h"
+#include "raytrace/integrators/secondary_ray.h"
+#include "support/probe_backend.h"
+
+namespace raytrace::test {
+
+namespace {
+
+using Lanes = std::array<float, native_lanes>;
+
+Vec3f lane_of(const Vec3<FloatN>& v, std::size_t lane) { return {v.x.get(lane), v.y.get(lane), v.z.get(lane)}; }
+
+/// Calls f(first, count, rays, active) for each packet of the rays.
+template <class Function>
+void for_each_packet(std::span<const ProbeRay> all, Function f) {
+  constexpr std::size_t size = native_lanes;
+  for (std::size_t first = 0; first < all.size(); first += size) {
+    const std::size_t count = std::min(size, all.size() - first);
+    alignas(64) std::array<Lanes, 8> lanes{};
+    for (std::size_t i = 0; i < count; ++i) {
+      const ProbeRay& ray = all[first + i];
+      const std::array<float, 8> values{ray.origin.x,    ray.origin.y,    ray.origin.z, ray.direction.x,
+                                        ray.direction.y, ray.direction.z, ray.near,     ray.far};
+      for (std::size_t field = 0; field < 8; ++field) lanes[field][i] = values[field];
+    }
+    const auto field = [&](std::size_t i) { return FloatN::load_aligned(lanes[i].data()); };
+    const Ray<FloatN> rays{{field(0), field(1), field(2)}, {field(3), field(4), field(5)}, field(6), field(7)};
+    f(first, count, rays, first_lanes<FloatN>(static_cast<int>(count)));
+  }
+}
+
+template <int size>
+class EmbreePackets {
+ public:
+  using Packet = embree::Packet<size>;
+
+  static std::vector<ProbeHit> intersect(RTCScene scene, std::span<const ProbeRay> rays) {
+    std::vector<ProbeHit> result(rays.size());
+    embree::Query query(true);
+    for (std::size_t first = 0; first < rays.size(); first += size) {
+      alignas(64) typename Packet::RayHit packet{};
+      alignas(64) std::array<int, size> valid{};
+      for (std::size_t i = 0; i < size; ++i) packet.hit.geomID[i] = packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+      load(rays, first, packet.ray, valid);
+      Packet::intersect(valid.data(), scene, query, packet);
+      for (std::size_t i = 0; i < size && first + i < rays.size(); ++i)
+        if (packet.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID) {
+          ProbeHit& hit = result[first + i];
+          hit.hit = true;
+          hit.distance = packet.ray.tfar[i];
+          hit.kind = packet.hit.geomID[i];
+          hit.index = packet.hit.primID[i];
+        }
+    }
+    return result;
+  }
+
+  static std::vector<bool> occluded(RTCScene scene, std::span<const ProbeRay> rays) {
+    std::vector<bool> result(rays.size());
+    embree::Query query(true);
+    for (std::size_t first = 0; first < rays.size(); first += size) {
+      alignas(64) typename Packet::Ray packet{};
+      alignas(64) std::array<int, size> valid{};
+      load(rays, first, packet, valid);
+      Packet::occluded(valid.data(), scene, query, packet);
+      for (std::size_t i = 0; i < size && first + i < rays.size(); ++i) result[first + i] = packet.tfar[i] < 0;
+    }
+    return result;
+  }
+
+ private:
+  template <class Rays>
+  static void load(std::span<const ProbeRay> all, std::size_t first, Rays& packet, std::array<int, size>& valid) {
+    for (std::size_t i = 0; i < size && first + i < all.size(); ++i) {
+      const ProbeRay& ray = all[first + i];
+      packet.org_x[i] = ray.origin.x;
+      packet.org_y[i] = ray.origin.y;
+      packet.org_z[i] = ray.origin.z;
+      packet.dir_x[i] = ray.direction.x;
+      packet.dir_y[i] = ray.direction.y;
+      packet.dir_z[i] = ray.direction.z;
+      packet.tnear[i] = ray.near;
+      packet.tfar[i] = ray.far;
+      packet.mask[i] = 0xffffffffu;
+      valid[i] = -1;
+    }
+  }
+};
+
+class Backend final : public ProbeBackend {
+ public:
+  explicit Backend(const SceneDescription& description)
+      : accelerator_(description, 1,
+                     native_lanes == 16  ? "avx512"
+                     : native_lanes == 8 ? "avx2"
+                                         : "sse4.2") {}
+
+  std::vector<ProbeHit> intersect(std::span<const ProbeRay> all, bool coherent) const override {
+    std::vector<ProbeHit> result(all.size());
+    for_each_packet(all, [&](std::size_t first, std::size_t count, const Ray<FloatN>& rays, const MaskN& active) {
+      const Hits hits = accelerator_.intersect(rays, active, coherence(coherent));
+      const std::uint32_t lanes = bits_of<FloatN>(hits.hit);
+      if (lanes == 0) return;
+      SurfacePoint<FloatN> point = accelerator_.surface(rays, hits);
+      point.normal = select(dot(point.normal, rays.direction) > FloatN(0), -point.normal, point.normal);
+      const Vec3<FloatN> leaving = leaving_origin(point);
+      for (std::size_t i = 0; i < count; ++i)
+        if ((lanes >> i & 1) != 0)
+          result[first + i] = {true,
+                               hits.distance.get(i),
+                               hits.kind.get(i),
+                               static_cast<std::uint32_t>(hits.primitive.get(i)),
+                               lane_of(point.position, i),
+                               lane_of(point.normal, i),
+                               lane_of(leaving, i)};
+    });
+    return result;
+  }
+
+  std::vector<bool> occluded(std::span<const ProbeRay> all, bool coherent) const override {
+    std::vector<bool> result(all.size());
+    for_each_packet(all, [&](std::size_t first, std::size_t count, const Ray<FloatN>& rays, const MaskN& active) {
+      const std::uint32_t lanes = bits_of<FloatN>(accelerator_.occluded(rays, active, coherence(coherent)));
+      for (std::size_t i = 0; i < count; ++i) result[first + i] = (lanes >> i & 1) != 0;
+    });
+    return result;
+  }
+
+  std::vector<ProbeHit> intersect_embree(std::span<const ProbeRay> rays, int packet_size) const override {
+    const RTCScene scene = accelerator_.embree_scene();
+    switch (packet_size) {
+      case 4:
+        return EmbreePackets<4>::intersect(scene, rays);
+      case 8:
+        return EmbreePackets<8>::intersect(scene, rays);
+      default:
+        return EmbreePackets<16>::intersect(scene, rays);
+    }
+  }
+
+  std::vector<bool> occluded_embree(std::span<const ProbeRay> rays, int packet_size) const override {
+    const RTCScene scene = accelerator_.embree_scene();
+    switch (packet_size) {
+      case 4:
+        return EmbreePackets<4>::occluded(scene, rays);
+      case 8:
+        return EmbreePackets<8>::occluded(scene, rays);
+      default:
+        return EmbreePackets<16>::occluded(scene, rays);
+    }
+  }
+
+ private:
+  static Coherence coherence(bool coherent) { return coherent ? Coherence::coherent : Coherence::incoherent; }
+
+  Accelerator accelerator_;
+};
+
+}  // namespace
+
+}  // namespace raytrace::test
+
+#define RAYTRACE_JOIN_NAMES(a, b) a##b
+#define RAYTRACE_JOIN(a, b) RAYTRACE_JOIN_NAMES(a, b)
+
+/// The caller owns the result.
+extern "C" raytrace::test::ProbeBackend* RAYTRACE_JOIN(raytrace_probe_, RAYTRACE_VARIANT)(
+    const raytrace::SceneDescription& description) {
+  return new raytrace::test::Backend(description);
+}

@@ -1,0 +1,58 @@
+#include "raytrace/math/simd.h"
+#include "support/wide_arithmetic.h"
+
+namespace raytrace::test {
+
+namespace {
+
+template <int lanes, class Operation>
+WideLanes in_registers(const WideLanes& a, const WideLanes& b, const WideLanes& c, Operation operation) {
+  using F = FloatLanes<lanes>;
+  WideLanes result;
+  for (std::size_t first = 0; first < result.size(); first += F::size) {
+    const auto load = [&](const WideLanes& values) { return F::load_unaligned(values.data() + first); };
+    operation(load(a), load(b), load(c)).store_unaligned(result.data() + first);
+  }
+  return result;
+}
+
+template <class Operation>
+WideLanes apply(int lanes, const WideLanes& a, const WideLanes& b, const WideLanes& c, Operation operation) {
+  switch (lanes) {
+    case 4:
+      return in_registers<4>(a, b, c, operation);
+    case 8:
+      return in_registers<8>(a, b, c, operation);
+    default:
+      return in_registers<16>(a, b, c, operation);
+  }
+}
+
+WideLanes fused(int lanes, const WideLanes& a, const WideLanes& b, const WideLanes& c) {
+  return apply(lanes, a, b, c, []<class F>(const F& x, const F& y, const F& z) { return exact_fma(x, y, z); });
+}
+
+WideLanes double_sum(int lanes, const WideLanes& a, const WideLanes& b, const WideLanes& c) {
+  return apply(lanes, a, b, c, []<class F>(const F& x, const F& y, const F& z) {
+    return fma(Doubles<F>(x), Doubles<F>(y), Doubles<F>(z)).to_float();
+  });
+}
+
+WideLanes below(int lanes, const WideLanes& a, const WideLanes& b, const WideLanes& c) {
+  return apply(lanes, a, b, c, []<class F>(const F& x, const F& y, const F& z) {
+    return xsimd::select(Doubles<F>::float_mask(Doubles<F>(x) * Doubles<F>(y) < Doubles<F>(z)), F(1), F(0));
+  });
+}
+
+}  // namespace
+
+}  // namespace raytrace::test
+
+#define RAYTRACE_JOIN_NAMES(a, b) a##b
+#define RAYTRACE_JOIN(a, b) RAYTRACE_JOIN_NAMES(a, b)
+
+extern "C" const raytrace::test::WideArithmetic* RAYTRACE_JOIN(raytrace_arithmetic_, RAYTRACE_VARIANT)() {
+  static constexpr raytrace::test::WideArithmetic arithmetic{&raytrace::test::fused, &raytrace::test::double_sum,
+                                                             &raytrace::test::below};
+  return &arithmetic;
+}
