@@ -1,0 +1,35 @@
+// What a render could cost at least: the very same camera and shadow rays in a plain loop of Embree packet queries,
+// without a line of shading.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "raytrace/render/renderer.h"
+
+namespace raytrace::benchmark {
+
+/// Who intersects the spheres.
+enum class SphereGeometry {
+  callback,  ///< Sphere::intersect, as the renderer does
+  embree,    ///< Embree's built-in RTC_GEOMETRY_TYPE_SPHERE_POINT
+};
+
+struct CeilingResult {
+  double seconds = 0;  ///< in the queries alone, summed over all threads
+  RayCounts rays;
+};
+
+class Ceiling {
+ public:
+  virtual ~Ceiling() = default;
+  /// Makes the rays of the whole picture tile by tile, and times only their tracing.
+  virtual CeilingResult trace(int threads) const = 0;
+};
+
+/// isa: one of isa_names() that isa_supported().
+std::unique_ptr<Ceiling> make_ceiling(const SceneDescription& description, const std::string& isa,
+                                      SphereGeometry spheres);
+
+}  // namespace raytrace::benchmark
