@@ -15,11 +15,6 @@ using reference::Vector;
 constexpr int rays_a_scene = 2000;
 constexpr int rays_a_shape = 1'000'000;
 
-/// Embree's distance to a triangle is off in proportion to its length over its altitude, the offset of secondary rays
-/// is not: from about 200 on, 1 in 500 rays re-hits. (Tubes are no slivers, but thinner ones are not asked about
-/// either.)
-constexpr Real most_sliver = 100;
-
 /// In a direction on the normal's side; every other one grazes the surface, by down to 1e-4.
 Vector leaving_direction(const Vector& normal, Random& random) {
   const Vector any = random.direction();
@@ -55,7 +50,7 @@ void LeavingTally::count(const ShapeCase& shape, const ProbeRay& ray, const Prob
   // How far the secondary ray starts from the exact point. Where that is not small, floats cannot tell the point's
   // surroundings.
   const Real offset = length(exact_vector(leaving.origin) - p);
-  if (offset * 64 > shape.shape->smallest_extent() || shape.length_over_altitude() > most_sliver) return;
+  if (offset * 64 > shape.shape->smallest_extent()) return;
 
   ++rays;
   const reference::Crossings ahead = reference::crossings_leaving(*shape.shape, {p, direction});

@@ -1,5 +1,8 @@
 // Progress, and renders that are stopped.
+#include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <thread>
 #include <vector>
 
 #include "render/scenes.h"
@@ -60,10 +63,26 @@ TEST_CASE("a render that is stopped ends early, with pixels that are done or unt
       INFO(threads << " threads, stopped at call " << calls << ", done " << done);
       CHECK(done > 0);
       CHECK(done < 256 * 192 / 2);
-      CHECK(rays.camera == static_cast<std::uint64_t>(done));
+      CHECK(rays.camera >= static_cast<std::uint64_t>(done));
       CHECK(told < calls + threads);  // no thread begins another tile
     }
   }
+}
+
+TEST_CASE("a render stops inside a pixel, however many samples that has") {
+  // One tile, of more samples than a day could trace.
+  const SceneDescription description = parsed_scene(busy_scene(32, 32, 2'000'000'000));
+  const auto scene = build_scene(description, {1, {}});
+  std::atomic<bool> stop{false};
+  std::thread stopper([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    stop = true;
+  });
+  RayCounts rays;
+  const Film film = render(*scene, description, {1, 0, whole(description)}, rays, {}, &stop);
+  stopper.join();
+  CHECK(std::all_of(film.pixels().begin(), film.pixels().end(),
+                    [](const Pixel& pixel) { return identical(pixel, untouched); }));
 }
 
 TEST_CASE("a render that is stopped before it begins does nothing") {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <optional>
 
 #include "raytrace/integrators/registry.h"
 #include "raytrace/sampling/pixel_sampler.h"
@@ -51,8 +52,10 @@ void write_block(const BlockSum& sum, int samples, int left, int top, const Regi
     }
 }
 
+/// Nothing if `stop` was set before the last sample.
 template <class Integrator>
-BlockSum render_block(const TracedScene& scene, int left, int top, std::uint64_t seed, RayCounts& counts) {
+std::optional<BlockSum> render_block(const TracedScene& scene, int left, int top, std::uint64_t seed,
+                                     const std::atomic<bool>* stop, RayCounts& counts) {
   const ViewPlane& viewplane = scene.viewplane();
   const UintN column = UintN(static_cast<std::uint32_t>(left)) + UintN::load_aligned(lane_numbers.column.data());
   const UintN row = UintN(static_cast<std::uint32_t>(top)) + UintN::load_aligned(lane_numbers.row.data());
@@ -66,6 +69,7 @@ BlockSum render_block(const TracedScene& scene, int left, int top, std::uint64_t
   PixelSampler sampler(column, row, seed, viewplane.samples);
   BlockSum sum;
   for (int first = 0; first < viewplane.samples; first += samples_per_run) {
+    if (stop != nullptr && stop->load(std::memory_order_relaxed)) return std::nullopt;
     const int last = std::min(first + samples_per_run, viewplane.samples);
     Rgb<FloatN> run{Rgb<float>(0, 0, 0)};
     FloatN hits(0);
@@ -87,12 +91,14 @@ BlockSum render_block(const TracedScene& scene, int left, int top, std::uint64_t
 
 }  // namespace
 
-RayCounts render_pixels(const TracedScene& scene, const Region& region, std::uint64_t seed, Film& film) {
+RayCounts render_pixels(const TracedScene& scene, const Region& region, std::uint64_t seed, Film& film,
+                        const std::atomic<bool>* stop) {
   RayCounts counts;
   for (int top = region.y0 / block_height * block_height; top < region.y1; top += block_height)
     for (int left = region.x0 / block_width * block_width; left < region.x1; left += block_width) {
-      const BlockSum sum = render_block<Raycast>(scene, left, top, seed, counts);
-      write_block(sum, scene.viewplane().samples, left, top, region, film);
+      const std::optional<BlockSum> sum = render_block<Raycast>(scene, left, top, seed, stop, counts);
+      if (!sum) return counts;
+      write_block(*sum, scene.viewplane().samples, left, top, region, film);
     }
   return counts;
 }

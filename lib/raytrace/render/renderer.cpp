@@ -60,7 +60,7 @@ Film render(const Scene& scene, const SceneDescription& description, const Rende
   const auto render_tile = [&](int index) {
     to_workers.take();
     if (stop == nullptr || !stop->load(std::memory_order_relaxed)) {
-      const RayCounts tile_counts = scene.render_region(grid.tile(index), settings.seed, film);
+      const RayCounts tile_counts = scene.render_region(grid.tile(index), settings.seed, film, stop);
       const std::lock_guard lock(mutex);
       counts += tile_counts;
       ++done;

@@ -58,8 +58,10 @@ class Scene {
   virtual ~Scene() = default;
 
   /// Renders the pixels of `region`, which must lie inside the film's, and writes each once. Pixels do not depend on
-  /// how a picture is cut into regions. Safe to call from many threads for disjoint regions.
-  virtual RayCounts render_region(const Region& region, std::uint64_t seed, Film& film) const = 0;
+  /// how a picture is cut into regions. Safe to call from many threads for disjoint regions. Once `stop` is set (null:
+  /// never), no further pixel is written; it is looked at every few samples.
+  virtual RayCounts render_region(const Region& region, std::uint64_t seed, Film& film,
+                                  const std::atomic<bool>* stop) const = 0;
 
   virtual SceneStatistics statistics() const = 0;
 };

@@ -67,8 +67,9 @@ Rgb<FloatN> TracedScene::shade(const Hits& hits, const Vec3<FloatN>& wo, const V
   return radiance;
 }
 
-RayCounts TracedScene::render_region(const Region& region, std::uint64_t seed, Film& film) const {
-  return render_pixels(*this, region, seed, film);
+RayCounts TracedScene::render_region(const Region& region, std::uint64_t seed, Film& film,
+                                     const std::atomic<bool>* stop) const {
+  return render_pixels(*this, region, seed, film, stop);
 }
 
 SceneStatistics TracedScene::statistics() const {

@@ -19,7 +19,8 @@ class TracedScene final : public Scene {
   /// Throws as build_scene does.
   TracedScene(const SceneDescription& description, int threads, const char* isa_name, const char* embree_isa);
 
-  RayCounts render_region(const Region& region, std::uint64_t seed, Film& film) const override;
+  RayCounts render_region(const Region& region, std::uint64_t seed, Film& film,
+                          const std::atomic<bool>* stop) const override;
   SceneStatistics statistics() const override;
 
   const Accelerator& accelerator() const { return accelerator_; }

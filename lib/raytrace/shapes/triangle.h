@@ -47,7 +47,11 @@ SurfacePoint<F> Triangle::surface(const Record<F>& triangle, const F& u, const F
   const Vec3<F> position = triangle.vertex1 + edge1 * u + edge2 * v;
   const F size = xsimd::max(xsimd::max(xsimd::max(xsimd::abs(edge1.x), xsimd::abs(edge1.y)), xsimd::abs(edge1.z)),
                             xsimd::max(xsimd::max(xsimd::abs(edge2.x), xsimd::abs(edge2.y)), xsimd::abs(edge2.z)));
-  return {position, normalize(cross(edge1, edge2)), rounding_error(position, size)};
+  // Embree's distance is off in proportion to the triangle's length over its altitude, as far as that exceeds 1.
+  const Vec3<F> perpendicular = cross(edge1, edge2);
+  const F inverse_area = F(1) / length(perpendicular);
+  const F sliver = xsimd::max(F(1), xsimd::max(dot(edge1, edge1), dot(edge2, edge2)) * inverse_area);
+  return {position, perpendicular * inverse_area, rounding_error(position, size) * sliver};
 }
 
 }  // namespace raytrace
