@@ -2,13 +2,15 @@
 # installed library, whose configuration file includes this one too.
 
 # OpenImageIO 2.4 names header folders of packages that it does not depend on, which CMake refuses.
-get_target_property(raytrace_folders OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)
-foreach(folder IN LISTS raytrace_folders)
-  if(NOT EXISTS ${folder})
-    list(REMOVE_ITEM raytrace_folders ${folder})
-  endif()
-endforeach()
-set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${raytrace_folders}")
+if(TARGET OpenImageIO::OpenImageIO)
+  get_target_property(raytrace_folders OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)
+  foreach(folder IN LISTS raytrace_folders)
+    if(NOT EXISTS ${folder})
+      list(REMOVE_ITEM raytrace_folders ${folder})
+    endif()
+  endforeach()
+  set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${raytrace_folders}")
+endif()
 
 # xsimd has only headers, but wants to be linked with xtl, which is there for its batches of xtl's complex numbers.
 if(NOT TARGET xtl)

@@ -1,6 +1,5 @@
 #include "about.h"
 
-#include <OpenImageIO/imageio.h>
 #include <tbb/version.h>
 
 #include "listing.h"
@@ -20,14 +19,11 @@ std::string help() {
 
 /// The version, the libraries' and the instruction sets, one a line.
 std::string version() {
-  const int oiio = OIIO::openimageio_version();  // 20407: 2.4.7
-  const std::string oiio_version =
-      std::to_string(oiio / 10000) + "." + std::to_string(oiio / 100 % 100) + "." + std::to_string(oiio % 100);
   std::string isas;
   for (const std::string& name : isa_names()) isas += (isas.empty() ? "" : ", ") + name;
   // An empty scene knows which Embree it is made with.
   const std::string embree_version = build_scene({}, {1, ""})->statistics().embree_version;
-  return software_name() + "\nEmbree " + embree_version + "\nOpenImageIO " + oiio_version + "\noneTBB " +
+  return software_name() + "\nEmbree " + embree_version + "\nOpenImageIO " OPENIMAGEIO_VERSION "\noneTBB " +
          TBB_runtime_version() + "\ninstruction sets: " + isas + " (best here: " + best_isa() + ")\n";
 }
 

@@ -35,10 +35,12 @@ int run(const Options& options) {
 
   const std::unique_ptr<const Scene> scene = build(*description, options, statistics);
   const StopOnSignal stop;
-  const Film film = render(*scene, *description, region, options, stop.flag(), statistics);
+  const ViewPlane& viewplane = description->viewplane;
+  Outputs outputs(options, {viewplane.hres, viewplane.vres, region}, camera_matrices(*description));
+  render(*scene, *description, region, options, stop.flag(), outputs, statistics);
   if (stop.signal() != 0) return exit_code::stopped + stop.signal();
 
-  const bool written = write(film, *description, options, statistics);
+  const bool written = outputs.commit(statistics);
   report(statistics, options);
   return written ? exit_code::done : exit_code::failed;
 }

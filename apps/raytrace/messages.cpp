@@ -28,4 +28,8 @@ void tell_step(const std::string& text) {
   if (tells(Verbosity::steps)) write("", text);
 }
 
+std::string counted(std::uint64_t count, const std::string& thing) {
+  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
+}
+
 }  // namespace raytrace

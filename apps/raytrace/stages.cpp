@@ -22,10 +22,6 @@ std::size_t count_items(const ItemLists& lists) {
   return std::apply([](const auto&... list) { return (list.size() + ...); }, lists);
 }
 
-std::string counted(std::uint64_t count, const std::string& thing) {
-  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
-}
-
 std::string in_seconds(double seconds) {
   char text[32];
   std::snprintf(text, sizeof text, " in %.3f s", seconds);
@@ -36,26 +32,12 @@ std::string contents(const SceneDescription& description) {
   return counted(count_items(description.objects), "object") + ", " + counted(count_items(description.lights), "light");
 }
 
-ImageMetadata metadata_of(const SceneDescription& description, const Statistics& statistics) {
-  ImageMetadata metadata;
-  metadata.software = statistics.software;
-  metadata.scene_file = statistics.scene_file;
-  metadata.samples = statistics.samples;
-  metadata.seed = statistics.seed;
-  metadata.threads = statistics.threads;
-  metadata.render_seconds = statistics.seconds.render;
-  metadata.camera = camera_matrices(description);
-  return metadata;
-}
-
-void tell_repairs(const std::string& file, const Repairs& repairs) {
-  if (repairs.clamped > 0) {
-    tell_warning(file + ": " + counted(repairs.clamped, "value") +
-                 " beyond what the format holds became its largest; in EXR, --float keeps them");
-  }
-  if (repairs.not_finite > 0) {
-    tell_warning(file + ": " + counted(repairs.not_finite, "value") + " not finite; NaN became 0");
-  }
+/// Rows of a band: the most whose film is not larger than a GiB, and a multiple of every packet's height.
+int band_rows(const Region& region) {
+  constexpr int unit = 32;
+  constexpr std::size_t most_bytes = std::size_t{1} << 30U;
+  const std::size_t unit_bytes = unit * sizeof(Pixel) * static_cast<std::size_t>(region.width());
+  return unit * static_cast<int>(std::max<std::size_t>(1, most_bytes / unit_bytes));
 }
 
 void write_statistics(const Statistics& statistics, const std::string& file) {
@@ -108,8 +90,8 @@ std::unique_ptr<const Scene> build(const SceneDescription& description, const Op
   return scene;
 }
 
-Film render(const Scene& scene, const SceneDescription& description, const Region& region, const Options& options,
-            const std::atomic<bool>& stop, Statistics& statistics) {
+void render(const Scene& scene, const SceneDescription& description, const Region& region, const Options& options,
+            const std::atomic<bool>& stop, Outputs& outputs, Statistics& statistics) {
   statistics.software = software_name();
   statistics.scene_file = shown_name(options.scene);
   statistics.width = description.viewplane.hres;
@@ -120,30 +102,22 @@ Film render(const Scene& scene, const SceneDescription& description, const Regio
   statistics.threads = options.threads;
 
   Progress progress(options.quiet ? ProgressStyle::none : options.progress);
-  const PhaseTimer timer(statistics.seconds.render);
-  Film film = render(
-      scene, description, {options.threads, options.seed, region}, statistics.rays,
-      [&](double fraction) { progress.update(fraction); }, &stop);
-  if (!stop) progress.finish();
-  return film;
-}
-
-bool write(const Film& film, const SceneDescription& description, const Options& options, Statistics& statistics) {
+  for (Region band = region; band.y0 < region.y1; band.y0 = band.y1) {
+    band.y1 = std::min(band.y0 + band_rows(region), region.y1);
+    const auto update = [&](double fraction) {
+      progress.update((band.y0 - region.y0 + fraction * band.height()) / region.height());
+    };
+    PhaseTimer timer(statistics.seconds.render);
+    RayCounts rays;
+    const Film film = raytrace::render(scene, description, {options.threads, options.seed, band}, rays, update, &stop);
+    timer.stop();
+    if (stop) return;
+    statistics.rays += rays;
+    if (band.y1 == region.y1) progress.finish();
+    if (!outputs.write(film, statistics)) return;
+  }
   tell_step("rendered " + counted(statistics.total_rays(), "ray") + " on " +
             counted(static_cast<std::uint64_t>(options.threads), "thread") + in_seconds(statistics.seconds.render));
-  const ImageMetadata metadata = metadata_of(description, statistics);
-  for (const std::string& file : options.outputs) {
-    const PhaseTimer timer(statistics.seconds.write);
-    try {
-      const Repairs repairs = write_image(file, film, metadata, options.image_file_settings());
-      statistics.outputs.push_back(file);
-      tell_repairs(file, repairs);
-      tell_step("wrote " + file);
-    } catch (const OutputError& error) {
-      tell_error(error.what());
-    }
-  }
-  return statistics.outputs.size() == options.outputs.size();
 }
 
 void report(Statistics& statistics, const Options& options) {

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "options.h"
+#include "outputs.h"
 #include "raytrace/description/scene_description.h"
-#include "raytrace/film/film.h"
 #include "raytrace/render/renderer.h"
 #include "statistics.h"
 
@@ -22,11 +22,10 @@ std::optional<SceneDescription> load(const Options& options, Statistics& statist
 
 std::unique_ptr<const Scene> build(const SceneDescription& description, const Options& options, Statistics& statistics);
 
-Film render(const Scene& scene, const SceneDescription& description, const Region& region, const Options& options,
-            const std::atomic<bool>& stop, Statistics& statistics);
-
-/// Writes all files, even after one could not be written; false if there was such a one.
-bool write(const Film& film, const SceneDescription& description, const Options& options, Statistics& statistics);
+/// Renders the region into the outputs; large ones in bands from the top, so that no more than one of them need be in
+/// memory. Returns early once `stop` is set, or if no output is left that could be written.
+void render(const Scene& scene, const SceneDescription& description, const Region& region, const Options& options,
+            const std::atomic<bool>& stop, Outputs& outputs, Statistics& statistics);
 
 /// Completes the statistics, and tells or writes them if they were asked for.
 void report(Statistics& statistics, const Options& options);

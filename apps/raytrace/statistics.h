@@ -45,18 +45,25 @@ std::string text(const Statistics& statistics);
 
 std::string json(const Statistics& statistics);
 
-/// Adds the time from its making to its end to a phase.
+/// Adds the time from its making to its end, or to stop(), to a phase.
 class PhaseTimer {
  public:
   explicit PhaseTimer(double& seconds) : seconds_(seconds) {}
-  ~PhaseTimer() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+  ~PhaseTimer() { stop(); }
   PhaseTimer(const PhaseTimer&) = delete;
   PhaseTimer& operator=(const PhaseTimer&) = delete;
+
+  /// Ends it before its scope does.
+  void stop() {
+    if (running_) seconds_ += std::chrono::duration<double>(Clock::now() - start_).count();
+    running_ = false;
+  }
 
  private:
   using Clock = std::chrono::steady_clock;
   double& seconds_;
   Clock::time_point start_ = Clock::now();
+  bool running_ = true;
 };
 
 }  // namespace raytrace

@@ -67,7 +67,7 @@ class Failures(CommandTest):
     @unittest.skipIf(support.SANITIZERS, "a sanitizer needs more address space than any limit leaves")
     def test_out_of_memory(self):
         def little_memory():
-            resource.setrlimit(resource.RLIMIT_AS, (3 << 30, resource.RLIM_INFINITY))
+            resource.setrlimit(resource.RLIMIT_AS, (1 << 30, resource.RLIM_INFINITY))
 
         message = self.fail_with(33, "scene.xml", "-q", "-r", "16384x16384", "-o", "a.exr", preexec_fn=little_memory)
         self.assertEqual(message, "raytrace: error: out of memory\n")

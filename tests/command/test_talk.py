@@ -206,7 +206,10 @@ class Signals(CommandTest):
             self.assertEqual(self.read("a.exr"), b"old")
 
     def test_second_signal_ends_at_once(self):
-        process = self.rendering("-s", "1000000")  # every tile takes seconds, in which a stop waits
+        # So many lights that a stop, which is looked for every few samples, takes seconds.
+        light = '<pointlight><location x="4" y="6" z="4"/></pointlight>'
+        self.write("scene.xml", support.SCENE.replace("</pointlights>", 200000 * light + "</pointlights>"))
+        process = self.rendering("-s", "20000")
         process.send_signal(signal.SIGINT)
         self.wait_until(lambda: not self.catches(process, signal.SIGTERM))
         process.send_signal(signal.SIGTERM)

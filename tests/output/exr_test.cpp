@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "pictures.h"
+#include "source_date_epoch.h"
 #include "support/catch.h"
 #include "temporary_folder.h"
 
@@ -85,6 +87,36 @@ TEST_CASE("an EXR of several bands has no seams") {
     }
   }
   CHECK(wrong == 0);
+}
+
+TEST_CASE("a picture written in bands has the bytes of the same picture written at once") {
+  const SourceDateEpoch epoch("86399");
+  const TemporaryFolder folder;
+  const std::string extension = GENERATE(".exr", ".png", ".tif", ".hdr", ".jpg");
+  const std::string file = folder.file("a" + extension);
+  const Film film = distinct_film(50, 90, {3, 5, 47, 88});
+  write_image(file, film, {}, {});
+  const std::string at_once = bytes_of(file);
+  {
+    ImageFile image(file, {50, 90, film.region()}, {}, {});
+    for (Region band = film.region(); band.y0 < 88; band.y0 = band.y1) {
+      band.y1 = std::min(band.y0 + 32, 88);
+      image.write(distinct_film(50, 90, band));
+      CHECK(bytes_of(file) == at_once);  // nothing is seen before the last
+    }
+    image.commit();
+  }
+  CHECK(bytes_of(file) == at_once);
+}
+
+TEST_CASE("a picture that is not ended leaves nothing") {
+  const TemporaryFolder folder;
+  const std::string file = folder.file(GENERATE("a.exr", "a.png", "a.tif"));
+  {
+    ImageFile image(file, {40, 64, {0, 0, 40, 64}}, {}, {});
+    image.write(distinct_film(40, 64, {0, 0, 40, 32}));
+  }
+  CHECK(folder.names().empty());
 }
 
 TEST_CASE("what half cannot hold becomes its largest number, and is counted") {

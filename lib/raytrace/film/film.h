@@ -2,8 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdlib>
+#include <memory>
 #include <span>
-#include <vector>
 
 namespace raytrace {
 
@@ -15,20 +16,23 @@ struct Region {
   friend bool operator==(const Region&, const Region&) = default;
 };
 
+/// The whole picture's size, and the part of it that is rendered.
+struct PictureExtent {
+  int full_width = 0, full_height = 0;
+  Region region;
+};
+
 /// Linear RGB radiance, and A: the part of the pixel's samples that hit an object.
 struct Pixel {
   float red = 0, green = 0, blue = 0, alpha = 0;
 };
 
-/// Holds the finished pixels of `region`, a part of a picture of full_width x full_height.
-/// Threads may write different pixels at the same time.
+/// Holds the finished pixels of `region`, a part of a picture of full_width x full_height; they are black and empty at
+/// first. Threads may write different pixels at the same time.
 class Film {
  public:
-  Film(int full_width, int full_height, Region region)
-      : full_width_(full_width),
-        full_height_(full_height),
-        region_(region),
-        pixels_(static_cast<std::size_t>(region.width()) * static_cast<std::size_t>(region.height())) {}
+  /// Throws std::bad_alloc.
+  Film(int full_width, int full_height, Region region);
 
   int full_width() const { return full_width_; }
   int full_height() const { return full_height_; }
@@ -39,9 +43,16 @@ class Film {
   const Pixel& at(int x, int y) const { return pixels_[index(x, y)]; }
 
   /// Row by row from the region's top, each from its left.
-  std::span<const Pixel> pixels() const { return pixels_; }
+  std::span<const Pixel> pixels() const { return {pixels_.get(), count()}; }
 
  private:
+  struct Free {
+    void operator()(Pixel* pixels) const { std::free(pixels); }
+  };
+
+  std::size_t count() const {
+    return static_cast<std::size_t>(region_.width()) * static_cast<std::size_t>(region_.height());
+  }
   std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y - region_.y0) * static_cast<std::size_t>(region_.width()) +
            static_cast<std::size_t>(x - region_.x0);
@@ -49,7 +60,9 @@ class Film {
 
   int full_width_, full_height_;
   Region region_;
-  std::vector<Pixel> pixels_;
+  /// Zeros from the system, page by page as they are first written: by the threads that render, not by the one that
+  /// makes the film.
+  std::unique_ptr<Pixel[], Free> pixels_;
 };
 
 }  // namespace raytrace

@@ -1,7 +1,5 @@
-// Turns a film into the bytes of an image format, through OpenImageIO.
+// What turns a picture into the bytes of an image format, band by band.
 #pragma once
-
-#include <OpenImageIO/imageio.h>
 
 #include <cstdio>
 #include <memory>
@@ -9,37 +7,33 @@
 
 #include "raytrace/film/film.h"
 #include "raytrace/output/image_file.h"
-#include "raytrace/output/pixel_format.h"
 
 namespace raytrace {
 
+/// begin(), write() from the picture's top to its bottom, finish(): once each, but for write(). All throw OutputError,
+/// and the encoder is of no more use then. The destination may be destroyed only after the encoder.
 class ImageEncoder {
  public:
-  /// For the format that the extension of `file` names. Throws OutputError if there is none.
-  ImageEncoder(const std::string& file, const ImageFileSettings& settings);
+  ImageEncoder() = default;
+  virtual ~ImageEncoder() = default;
+  ImageEncoder(const ImageEncoder&) = delete;
+  ImageEncoder& operator=(const ImageEncoder&) = delete;
 
-  const PixelFormat& pixel_format() const { return pixels_; }
+  /// Whether it stores 32 bit floats.
+  virtual bool holds_float() const = 0;
 
-  /// Writes the picture to an open, empty file, and flushes it. Once only. Throws OutputError.
-  Repairs encode(const Film& film, const ImageMetadata& metadata, std::FILE* destination);
+  /// destination: an open, empty file.
+  virtual void begin(const PictureExtent& extent, const ImageMetadata& metadata, std::FILE* destination) = 0;
 
- private:
-  OIIO::ImageSpec image_spec(const Film& film, const ImageMetadata& metadata) const;
-  Repairs write_pixels(const Film& film, const std::string& name, const OIIO::ImageSpec& spec);
-  void check(bool done) const;
-  [[noreturn]] void fail(const std::string& reason) const;
+  /// band: whole rows of the extent's region, the next below those written before.
+  virtual void write(const Film& band) = 0;
 
-  std::string file_;  ///< for messages
-  std::unique_ptr<OIIO::ImageOutput> writer_;
-  PixelFormat pixels_;
+  /// After the last row; empties the destination's buffer.
+  virtual Repairs finish() = 0;
 };
 
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using FileHandle = std::unique_ptr<std::FILE, CloseFile>;
-
-/// A file in memory. Throws std::bad_alloc.
-FileHandle open_memory_file();
+/// For the format that the extension of `file` names; the name itself is only for messages. Throws OutputError if there
+/// is none, or if it cannot hold what the settings ask for.
+std::unique_ptr<ImageEncoder> make_image_encoder(const std::string& file, const ImageFileSettings& settings);
 
 }  // namespace raytrace

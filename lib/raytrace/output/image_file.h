@@ -5,10 +5,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 
 #include "raytrace/cameras/camera_matrices.h"
 #include "raytrace/film/film.h"
+#include "raytrace/output/atomic_file.h"
+#include "raytrace/output/file_handle.h"
 #include "raytrace/output/output_error.h"
 
 namespace raytrace {
@@ -26,7 +30,7 @@ struct ImageMetadata {
   int samples = 1;  ///< a pixel
   std::uint64_t seed = 0;
   int threads = 1;
-  double render_seconds = 0;
+  std::optional<double> render_seconds;  ///< absent where the file is begun before the render ends
   CameraMatrices camera;
 };
 
@@ -34,6 +38,11 @@ struct ImageMetadata {
 struct Repairs {
   std::uint64_t clamped = 0;     ///< linear formats: beyond the largest number (half: 65504), which is stored instead
   std::uint64_t not_finite = 0;  ///< NaN, stored as 0, and infinities, stored as the largest number
+  Repairs& operator+=(const Repairs& other) {
+    clamped += other.clamped;
+    not_finite += other.not_finite;
+    return *this;
+  }
 };
 
 /// Whether ImageFileSettings::full_float matters to a file of this name, or it holds floats anyway. Throws OutputError
@@ -45,11 +54,37 @@ bool holds_float(const std::string& file);
 /// an error that could be told at once.
 void check_writable(const std::string& file, const ImageFileSettings& settings);
 
-/// Writes a temporary file in the same folder, flushes it to disk and renames it (AtomicFile).
+class ImageEncoder;
+
+/// An image file that is written band by band, so that no more than a band of a large picture need be in memory, and
+/// appears whole or not at all (AtomicFile).
+///
 /// EXR: half (or float) RGBA, zip, scanlines, the film's region as data window in the full display window. All others:
 /// RGB, just the region.
 /// Dates are UTC. Where the environment has SOURCE_DATE_EPOCH, it is the date, and what differs from one run to the
-/// next (the render time, the number of threads) is left out: same picture, same bytes. Throws OutputError.
+/// next (the render time, the number of threads) is left out: same picture, same bytes.
+class ImageFile {
+ public:
+  /// Begins it under a temporary name. Throws OutputError, as all of these.
+  ImageFile(const std::string& file, const PictureExtent& extent, const ImageMetadata& metadata,
+            const ImageFileSettings& settings);
+  ~ImageFile();
+  ImageFile(const ImageFile&) = delete;
+  ImageFile& operator=(const ImageFile&) = delete;
+
+  /// band: whole rows of the extent's region, the next below those written before.
+  void write(const Film& band);
+
+  /// After the last row: flushes it to disk and gives it its name.
+  Repairs commit();
+
+ private:
+  AtomicFile atomic_;
+  FileHandle temporary_;
+  std::unique_ptr<ImageEncoder> encoder_;
+};
+
+/// The whole film as one ImageFile.
 Repairs write_image(const std::string& file, const Film& film, const ImageMetadata& metadata,
                     const ImageFileSettings& settings);
 

@@ -1,4 +1,4 @@
-#include "raytrace/output/pixel_format.h"
+#include "raytrace/output/openimageio/pixel_format.h"
 
 #include <OpenImageIO/color.h>
 
@@ -27,18 +27,13 @@ float storable(float radiance, const PixelFormat& format, Repairs& repairs) {
 PixelFormat pixel_format(const std::string& oiio_name, const std::string& extension,
                          const ImageFileSettings& settings) {
   constexpr float largest_float = std::numeric_limits<float>::max();
-  constexpr float largest_half = 65504;
   constexpr float largest_rgbe = 1.6e38F;  // 255/256 x 2^127, with room for its rounding
 
-  if (oiio_name == "openexr") {
-    if (settings.full_float) return {OIIO::TypeFloat, 4, false, -largest_float, largest_float};
-    return {OIIO::TypeHalf, 4, false, -largest_half, largest_half};
-  }
-  if (oiio_name == "hdr") return {OIIO::TypeFloat, 3, false, 0, largest_rgbe};
+  if (oiio_name == "hdr") return {OIIO::TypeFloat, false, 0, largest_rgbe};
   if (extension == ".pfm" || (oiio_name == "tiff" && settings.full_float)) {
-    return {OIIO::TypeFloat, 3, false, -largest_float, largest_float};
+    return {OIIO::TypeFloat, false, -largest_float, largest_float};
   }
-  return {settings.bit_depth == 16 ? OIIO::TypeUInt16 : OIIO::TypeUInt8, 3, true, 0, 1};
+  return {settings.bit_depth == 16 ? OIIO::TypeUInt16 : OIIO::TypeUInt8, true, 0, 1};
 }
 
 void convert_rows(const Film& film, int y0, int y1, const PixelFormat& format, std::vector<float>& values,
@@ -52,7 +47,6 @@ void convert_rows(const Film& film, int y0, int y1, const PixelFormat& format, s
     values.push_back(storable(pixel.red, format, repairs));
     values.push_back(storable(pixel.green, format, repairs));
     values.push_back(storable(pixel.blue, format, repairs));
-    if (format.channels == 4) values.push_back(storable(pixel.alpha, format, repairs));
   }
 }
 

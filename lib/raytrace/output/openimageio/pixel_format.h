@@ -12,16 +12,16 @@
 namespace raytrace {
 
 struct PixelFormat {
-  OIIO::TypeDesc type;  ///< of a stored channel
-  int channels;         ///< 4: RGBA, 3: RGB
-  bool srgb;            ///< [0, 1] and the sRGB curve; otherwise linear
+  static constexpr int channels = 3;  ///< RGB
+  OIIO::TypeDesc type;                ///< of a stored channel
+  bool srgb;                          ///< [0, 1] and the sRGB curve; otherwise linear
   float lowest, highest;
 };
 
-/// oiio_name: OpenImageIO's name of the format ("openexr"); extension: in lower case, with its dot.
+/// oiio_name: OpenImageIO's name of the format ("png"); extension: in lower case, with its dot.
 PixelFormat pixel_format(const std::string& oiio_name, const std::string& extension, const ImageFileSettings& settings);
 
-/// The film's rows [y0, y1), `format.channels` floats a pixel, ready to be stored; `values` is overwritten.
+/// The film's rows [y0, y1), PixelFormat::channels floats a pixel, ready to be stored; `values` is overwritten.
 void convert_rows(const Film& film, int y0, int y1, const PixelFormat& format, std::vector<float>& values,
                   Repairs& repairs);
 

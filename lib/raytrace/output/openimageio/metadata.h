@@ -9,9 +9,9 @@
 
 namespace raytrace {
 
-/// Adds the metadata to an image of the format that OpenImageIO calls `oiio_name`: as typed attributes to EXR, as text
-/// to PNG, which drops numbers, and as one line of description to the rest, which keep only standard attributes.
-/// Throws OutputError if SOURCE_DATE_EPOCH is not a time.
+/// Adds the metadata to an image of the format that OpenImageIO calls `oiio_name`: as text to PNG, which drops
+/// numbers, and as one line of description to the rest, which keep only standard attributes. Throws OutputError if
+/// SOURCE_DATE_EPOCH is not a time.
 void add_metadata(OIIO::ImageSpec& spec, const std::string& oiio_name, const ImageMetadata& metadata);
 
 }  // namespace raytrace

@@ -1,0 +1,37 @@
+// OpenEXR files: scanlines of R, G, B and A, compressed in zip blocks.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "raytrace/output/image_encoder.h"
+
+namespace raytrace {
+
+class ExrEncoder final : public ImageEncoder {
+ public:
+  /// file: for messages.
+  ExrEncoder(std::string file, const ImageFileSettings& settings);
+  ~ExrEncoder() override;
+
+  bool holds_float() const override { return settings_.full_float; }
+  void begin(const PictureExtent& extent, const ImageMetadata& metadata, std::FILE* destination) override;
+  void write(const Film& band) override;
+  Repairs finish() override;
+
+ private:
+  struct OpenFile;
+  template <class Value>
+  void write_rows(const Film& band, std::vector<Value>& values);
+  /// Runs it, and throws an OutputError with the true reason for whatever it throws.
+  template <class Action>
+  void guard(const Action& action) const;
+
+  std::string file_;
+  ImageFileSettings settings_;
+  Repairs repairs_;
+  std::unique_ptr<OpenFile> open_;
+};
+
+}  // namespace raytrace

@@ -1,0 +1,50 @@
+#include "raytrace/output/openimageio/metadata.h"
+
+#include <sstream>
+
+#include "raytrace/output/picture_date.h"
+
+namespace raytrace {
+
+namespace {
+
+std::string matrix_text(const float (&matrix)[16]) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(9);  // every float survives
+  for (int i = 0; i < 16; ++i) text << (i == 0 ? "" : " ") << matrix[i];
+  return text.str();
+}
+
+std::string seconds_text(double seconds) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << seconds;
+  return text.str();
+}
+
+}  // namespace
+
+void add_metadata(OIIO::ImageSpec& spec, const std::string& oiio_name, const ImageMetadata& metadata) {
+  const PictureDate date = picture_date();
+  spec.attribute("DateTime", date.text);
+  if (!metadata.software.empty()) spec.attribute("Software", metadata.software);  // JPEG's IPTC aborts on empty text
+
+  const std::string seed = std::to_string(metadata.seed);
+  if (oiio_name == "png") {
+    spec.attribute("worldToCamera", matrix_text(metadata.camera.world_to_camera));
+    spec.attribute("worldToNDC", matrix_text(metadata.camera.world_to_ndc));
+    spec.attribute("raytrace:scene", metadata.scene_file);
+    spec.attribute("raytrace:samples", std::to_string(metadata.samples));
+    spec.attribute("raytrace:seed", seed);
+    if (!date.fixed) {
+      spec.attribute("raytrace:threads", std::to_string(metadata.threads));
+      if (metadata.render_seconds) spec.attribute("raytrace:renderSeconds", seconds_text(*metadata.render_seconds));
+    }
+  } else {
+    spec.attribute("ImageDescription", "scene " + metadata.scene_file + ", " + std::to_string(metadata.samples) +
+                                           " samples a pixel, seed " + seed);
+  }
+}
+
+}  // namespace raytrace

@@ -1,0 +1,46 @@
+// All formats that OpenImageIO writes.
+#pragma once
+
+#include <OpenImageIO/imageio.h>
+
+#include <memory>
+#include <string>
+
+#include "raytrace/output/file_handle.h"
+#include "raytrace/output/image_encoder.h"
+#include "raytrace/output/openimageio/pixel_format.h"
+
+namespace raytrace {
+
+class OpenImageIOEncoder final : public ImageEncoder {
+ public:
+  /// file: for messages; extension: in lower case, with its dot. Throws OutputError.
+  OpenImageIOEncoder(std::string file, const std::string& extension, const ImageFileSettings& settings);
+  ~OpenImageIOEncoder() override;
+
+  bool holds_float() const override { return pixels_.type == OIIO::TypeFloat; }
+  void begin(const PictureExtent& extent, const ImageMetadata& metadata, std::FILE* destination) override;
+  void write(const Film& band) override;
+  Repairs finish() override;
+
+ private:
+  class CheckedFile;
+
+  OIIO::ImageSpec image_spec(const ImageMetadata& metadata) const;
+  /// Runs it; where a failed write is the cause of its error, throws that instead.
+  template <class Action>
+  void guard(const Action& action);
+  void check(bool done) const;
+  [[noreturn]] void fail(const std::string& reason) const;
+
+  std::string file_;
+  PictureExtent extent_;
+  std::FILE* destination_ = nullptr;
+  std::unique_ptr<CheckedFile> checked_;  ///< the destination, for writers that take such a thing
+  FileHandle memory_;                     ///< to be copied there, for the others
+  std::unique_ptr<OIIO::ImageOutput> writer_;
+  PixelFormat pixels_{};
+  Repairs repairs_;
+};
+
+}  // namespace raytrace
