@@ -36,14 +36,13 @@ SeenRadiance Raycast::radiance(const TracedScene& scene, const Ray<FloatN>& rays
     count = 0;
   };
   for (const auto& light : scene.lights()) {
-    const LightSample<FloatN> sample = light->sample(point.position);
+    const LightSample<FloatN> sample = light->sample(origin);
     const Vec3<FloatN> wi = normalize(sample.to_light);
     const FloatN cosine = dot(point.normal, wi);
     MaskN lit = hits.hit & (cosine > FloatN(0));
     if (light->shadows() && xsimd::any(lit)) {
-      const LightSample<FloatN> shadow = light->sample(origin);
       counts.shadow += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(lit)));
-      const Ray<FloatN> shadow_rays{origin, shadow.to_light, FloatN(0), shadow.end};
+      const Ray<FloatN> shadow_rays{origin, sample.to_light, FloatN(0), sample.end};
       const MaskN occluded = scene.accelerator().occluded(shadow_rays, lit, Coherence::coherent);
       lit = lit & !occluded;
     }

@@ -114,12 +114,11 @@ void depressed_cubic_roots(const D& p, const D& q, D (&root)[3]) {
   root[1] = select(single, first, max(min(first, high), min(max(first, low), high)));
 }
 
-/// The root of the distance form between left and right, where it has different signs and one root: Newton's method,
-/// and bisection where that would leave the bracket.
+/// The root of the distance form between left and right, where it has different signs and one root: Newton's method
+/// from `s`, and bisection where that would leave the bracket.
 template <class F, class D>
-D root_in_bracket(const TorusProfile<F>& profile, const D& side, D left, D right, const D& left_sign,
+D root_in_bracket(const TorusProfile<F>& profile, const D& side, D s, D left, D right, const D& left_sign,
                   const D& tolerance) {
-  D s = D(0.5) * (left + right);
   for (int i = 0; i < 60; ++i) {
     const auto at = profile.distance_form(s, side);
     const auto still_left = at.value * left_sign > D(0.0);
@@ -178,21 +177,22 @@ F Torus::intersect(const Record<double>& torus, const Ray<F>& ray, const Mask<F>
   const D linear = D(2.0) * swept2 * py * dy;
   D stationary[3];
   detail::depressed_cubic_roots(D(0.5) * quadratic, D(0.25) * linear, stationary);
-  D left = low, right = high, left_sign(0.0);
+  D left = low, right = high, left_sign(0.0), right_sign(0.0);
   D end = high, end_sign = profile.sign(high);
-  auto found = low > high;  // nowhere yet
+  auto found = possible & (low > high);  // nowhere yet
   for (int i = 2; i >= -1; --i) {
     const D start = i < 0 ? low : min(max(stationary[i], low), high);
     const D start_sign = profile.sign(start);
-    const auto change = start_sign * end_sign < D(0.0);
+    const auto change = possible & (start_sign * end_sign < D(0.0));
     left = select(change, start, left);
     right = select(change, end, right);
     left_sign = select(change, start_sign, left_sign);
+    right_sign = select(change, end_sign, right_sign);
     found = found | change;
     end = start;
     end_sign = start_sign;
   }
-  const Mask<F> hit = active & D::float_mask(found & possible);
+  const Mask<F> hit = active & D::float_mask(found);
   if (xsimd::none(hit)) return infinity<F>();
 
   D side(1.0);
@@ -201,8 +201,17 @@ F Torus::intersect(const Record<double>& torus, const Ray<F>& ray, const Mask<F>
         profile.distance_form(left, side).value * profile.distance_form(right, side).value <= D(0.0);
     side = select(outer_sheet, side, D(-1.0));
     left_sign = profile.distance_form(left, side).value;
+    right_sign = profile.distance_form(right, side).value;
   }
-  const D s = detail::root_in_bracket(profile, side, left, right, left_sign, D(outer * 1e-13));
+  // Along the ray the distance form is much like a parabola whose vertex is the end that lies in the tube. Where that
+  // end is hardly inside, so that Newton's method would creep, it is most like one.
+  const F left_value = left_sign.to_float(), right_value = right_sign.to_float();
+  const F inside = xsimd::min(left_value, right_value), outside = xsimd::max(left_value, right_value);
+  const D way(xsimd::sqrt(inside / xsimd::min(inside - outside, F(-1e-30f))));
+  const D guess = select(left_sign < D(0.0), left + (right - left) * way, right - (right - left) * way);
+  // Lanes without a root have nothing to look for, and must not hold up the others.
+  const D s = detail::root_in_bracket(profile, side, select(found, guess, left), left, select(found, right, left),
+                                      left_sign, D(torus.tube * 1e-9));
   const F t = ((s + to_closest) / scale).to_float();
   return xsimd::select(hit & (t > ray.near) & (t < ray.far), t, infinity<F>());
 }
