@@ -13,7 +13,7 @@ namespace raytrace::benchmark {
 /// Who intersects the spheres.
 enum class SphereGeometry {
   callback,  ///< Sphere::intersect, as the renderer does
-  embree,    ///< Embree's built-in RTC_GEOMETRY_TYPE_SPHERE_POINT
+  embree,    ///< Embree's built-in RTC_GEOMETRY_TYPE_SPHERE_POINT; only for scenes of spheres and planes
 };
 
 struct CeilingResult {

@@ -1,0 +1,138 @@
+// Whole renders of random scenes, each against the bare loop of Embree packet queries for the same rays.
+//
+// Render and bare loop take turns, so that a machine whose speed drifts does not favour one; medians are printed.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "ceiling.h"
+#include "scenes.h"
+
+namespace {
+
+using namespace raytrace;
+using namespace raytrace::benchmark;
+
+struct Options {
+  std::vector<std::string> scenes{"spheres:1000", "spheres:100000", "mix:5000"};
+  std::vector<int> threads{1, 0};
+  int resolution = 1024, samples = 16, runs = 5;
+  std::string isa = best_isa();
+  std::string sphere = "callback";
+  bool json = false;
+};
+
+/// The count of a scene's name, "kind:count"; 0 if it is no such name.
+int count_of(const std::string& scene) {
+  int count = 0;
+  const char* end = scene.data() + scene.size();
+  for (const std::string_view kind : {"spheres:", "mix:"})
+    if (scene.starts_with(kind) && std::from_chars(scene.data() + kind.size(), end, count).ptr != end) count = 0;
+  return count;
+}
+
+SceneDescription make_scene(const std::string& name, const Options& options) {
+  const auto make = name.starts_with("mix:") ? random_mix : random_spheres;
+  return make(count_of(name), options.resolution, options.samples);
+}
+
+std::string check_scene(const std::string& name) {
+  return count_of(name) > 0 ? "" : "no scene " + name + ": it is spheres:COUNT or mix:COUNT";
+}
+
+Options parse(int argc, char** argv) {
+  Options options;
+  CLI::App parser("Renders random scenes and times the same rays in a bare loop of Embree packet queries.");
+  parser
+      .add_option("--scene", options.scenes,
+                  "spheres:COUNT over a plane, or mix:COUNT of planes, spheres, triangles, cylinders and toruses")
+      ->check(check_scene)
+      ->capture_default_str();
+  parser.add_option("-t,--threads", options.threads, "Threads; 0: all processors")->capture_default_str();
+  parser.add_option("--resolution", options.resolution, "Pixels an edge")->capture_default_str();
+  parser.add_option("--samples", options.samples, "Samples a pixel")->capture_default_str();
+  parser.add_option("--runs", options.runs, "Runs of which the median counts")->capture_default_str();
+  parser.add_option("--isa", options.isa, "Instruction set")->check(CLI::IsMember(isa_names()))->capture_default_str();
+  parser
+      .add_option("--sphere", options.sphere,
+                  "Who intersects spheres in the bare loop, where they are alone with planes: our callback, or "
+                  "Embree's built-in sphere")
+      ->check(CLI::IsMember({"callback", "embree"}))
+      ->capture_default_str();
+  parser.add_flag("--json", options.json, "Print JSON instead of a table, times in seconds");
+  try {
+    parser.parse(argc, argv);
+    for (const std::string& scene : options.scenes)
+      if (options.sphere == "embree" && !scene.starts_with("spheres:"))
+        throw CLI::ValidationError("--sphere", "Embree's built-in sphere cannot stand in for the shapes of " + scene);
+  } catch (const CLI::ParseError& error) {
+    std::exit(parser.exit(error));
+  }
+  for (int& threads : options.threads) threads = thread_count(threads);
+  const auto repeated = std::unique(options.threads.begin(), options.threads.end());  // 1 and all, with one processor
+  options.threads.erase(repeated, options.threads.end());
+  return options;
+}
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
+struct Timing {
+  double render_seconds, bare_seconds;
+  double ratio;  ///< the median of the runs' own ratios
+  double million_rays;
+};
+
+Timing time_scene(const SceneDescription& description, int threads, const Options& options) {
+  const auto scene = build_scene(description, {threads, options.isa});
+  const auto ceiling = make_ceiling(description, options.isa,
+                                    options.sphere == "embree" ? SphereGeometry::embree : SphereGeometry::callback);
+  std::vector<double> render_seconds, bare_seconds, ratios;
+  RayCounts rays;
+  for (int run = 0; run < options.runs; ++run) {
+    const auto start = std::chrono::steady_clock::now();
+    render(*scene, description, {threads, 0, {0, 0, options.resolution, options.resolution}}, rays);
+    render_seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    bare_seconds.push_back(ceiling->trace(threads).seconds / threads);
+    ratios.push_back(render_seconds.back() / bare_seconds.back());
+  }
+  return {median(render_seconds), median(bare_seconds), median(ratios),
+          static_cast<double>(rays.camera + rays.shadow) * 1e-6};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const Options options = parse(argc, argv);
+  nlohmann::json results = nlohmann::json::array();
+  if (!options.json) {
+    std::printf("%s, %d x %d, %d samples, spheres of the bare loop by %s; medians of %d runs\n", options.isa.c_str(),
+                options.resolution, options.resolution, options.samples, options.sphere.c_str(), options.runs);
+    std::printf("%-16s %7s %10s %10s %10s %14s %14s\n", "scene", "threads", "render s", "bare s", "ratio",
+                "render Mray/s", "bare Mray/s");
+  }
+  for (const std::string& name : options.scenes) {
+    const SceneDescription description = make_scene(name, options);
+    for (const int threads : options.threads) {
+      const Timing timing = time_scene(description, threads, options);
+      if (options.json) {
+        results.push_back({{"scene", name},
+                           {"threads", threads},
+                           {"render", timing.render_seconds},
+                           {"bare", timing.bare_seconds},
+                           {"ratio", timing.ratio}});
+        continue;
+      }
+      std::printf("%-16s %7d %10.4f %10.4f %10.3f %14.1f %14.1f\n", name.c_str(), threads, timing.render_seconds,
+                  timing.bare_seconds, timing.ratio, timing.million_rays / timing.render_seconds,
+                  timing.million_rays / timing.bare_seconds);
+      std::fflush(stdout);
+    }
+  }
+  if (options.json) std::printf("%s\n", results.dump(2).c_str());
+}
