@@ -50,5 +50,8 @@ if(RAYTRACE_TESTS)
 endif()
 
 if(RAYTRACE_BENCHMARKS)
-  find_package(benchmark CONFIG QUIET) # Google Benchmark; without it the micro benchmarks are left out
+  find_package(benchmark 1.6 CONFIG QUIET)
+  if(NOT benchmark_FOUND)
+    message(STATUS "Google Benchmark 1.6 or later is not installed: raytrace_micro_benchmark is left out")
+  endif()
 endif()

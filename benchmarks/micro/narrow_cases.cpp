@@ -27,7 +27,7 @@ MicroCase film_case() {
 }
 
 MicroCase xml_case() {
-  constexpr int objects = 5000;
+  constexpr int objects = 1000;
   const std::string text = print_scene(random_mix(objects, 1024, 16));
   return {"xml/load", objects, static_cast<std::int64_t>(text.size()), [text] {
             Diagnostics diagnostics("random objects");
