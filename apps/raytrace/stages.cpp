@@ -67,7 +67,7 @@ std::optional<SceneDescription> load(const Options& options, Statistics& statist
   std::optional<SceneDescription> description;
   {
     const PhaseTimer timer(statistics.seconds.load);
-    description = load_scene(options.scene, diagnostics);
+    description = load_scene(options.scene, diagnostics, options.threads);
   }
   if (diagnostics.has_errors() || tells(Verbosity::warnings)) diagnostics.print(std::cerr);
   if (description) {

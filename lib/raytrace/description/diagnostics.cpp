@@ -6,6 +6,17 @@
 
 namespace raytrace {
 
+Diagnostics Diagnostics::counter() {
+  Diagnostics counter{std::string()};
+  counter.limit_ = 0;
+  return counter;
+}
+
+void Diagnostics::count(const Diagnostics& other) {
+  error_count_ += other.error_count_;
+  warning_count_ += other.warning_count_;
+}
+
 void Diagnostics::error(SourceLocation location, std::string message) {
   if (keeps_another(Severity::error)) kept_.push_back({Severity::error, location, std::move(message)});
   ++error_count_;

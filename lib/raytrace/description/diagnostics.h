@@ -30,12 +30,17 @@ class Diagnostics {
   /// file: as given on the command line; messages show "<stdin>" for "-".
   explicit Diagnostics(std::string file) : file_(file == "-" ? "<stdin>" : std::move(file)) {}
 
+  /// Keeps none and only counts.
+  static Diagnostics counter();
+
   /// At most `most_kept` findings of each severity are kept, the rest only counted: a file of a million bad objects
   /// must not exhaust the memory or the terminal.
   static constexpr std::size_t most_kept = 100;
 
   void error(SourceLocation location, std::string message);
   void warning(SourceLocation location, std::string message);
+  /// Counts the findings of another, without keeping them.
+  void count(const Diagnostics& other);
 
   bool has_errors() const { return error_count_ > 0; }
   std::size_t error_count() const { return error_count_; }
@@ -48,7 +53,7 @@ class Diagnostics {
   /// True while another finding of that severity would be kept: finding a column costs a scan of the file, so callers
   /// may leave out location and message for the rest (description/report.h does).
   bool keeps_another(Severity severity) const {
-    return (severity == Severity::error ? error_count_ : warning_count_) < most_kept;
+    return (severity == Severity::error ? error_count_ : warning_count_) < limit_;
   }
 
   /// One line each, "file:line:column: error: message", in the order of the file, then the counts of those not kept.
@@ -57,6 +62,7 @@ class Diagnostics {
 
  private:
   std::string file_;
+  std::size_t limit_ = most_kept;
   std::vector<Diagnostic> kept_;
   std::size_t error_count_ = 0;
   std::size_t warning_count_ = 0;

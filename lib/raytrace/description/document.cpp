@@ -2,28 +2,65 @@
 
 #include <tinyxml2.h>
 
+#include <algorithm>
 #include <cstddef>
-#include <optional>
-#include <utility>
 #include <vector>
 
-#include "raytrace/description/line_index.h"
 #include "raytrace/description/xml_scanner.h"
 
 namespace raytrace {
 
-/// Lines and columns are wanted for messages only, so nothing is spent on them before the first one. Then one scan of
-/// the text finds where all nodes stand, and each node of the tree gets its offset as its user data.
+/// Columns are wanted for messages only, so nothing is spent on them before the first one. Then one scan of the text
+/// finds where all nodes stand, and each node of the tree gets its offset as its user data.
 struct Document::Implementation {
-  explicit Implementation(std::string source) : text(std::move(source)) { tree.SetUserData(this); }
+  /// What was parsed from a span of the source.
+  struct Part {
+    std::size_t begin;
+    std::uint32_t line;
+    Span source;
+  };
+
+  explicit Implementation(const SceneText& scene_text) : source(scene_text) { tree.SetUserData(this); }
 
   static Implementation& of(const tinyxml2::XMLNode& node) {
     return *static_cast<Implementation*>(node.GetDocument()->GetUserData());
   }
 
+  void clear() {
+    text.clear();
+    parts.clear();
+    offsets.clear();
+  }
+
+  /// Parts are told apart by their lines, so each must start a new one.
+  void add(const Span& span, std::uint32_t line) {
+    parts.push_back({text.size(), line, span});
+    text += source.of(span);
+  }
+
+  void parse(Diagnostics& diagnostics) {
+    if (tree.Parse(text.data(), text.size()) == tinyxml2::XML_SUCCESS) return;
+    diagnostics.error({source_line(static_cast<std::uint32_t>(tree.ErrorLineNum())), 0}, "this is no well-formed XML");
+    tree.Clear();
+  }
+
+  std::uint32_t source_line(std::uint32_t line) const {
+    const auto next = std::upper_bound(parts.begin() + 1, parts.end(), line,
+                                       [](std::uint32_t wanted, const Part& part) { return wanted < part.line; });
+    const Part& part = *(next - 1);
+    return part.source.line + (line - part.line);
+  }
+
+  std::size_t source_offset(std::size_t offset) const {
+    const auto next = std::upper_bound(parts.begin() + 1, parts.end(), offset,
+                                       [](std::size_t wanted, const Part& part) { return wanted < part.begin; });
+    const Part& part = *(next - 1);
+    return part.source.begin + (offset - part.begin);
+  }
+
+  /// In `text`.
   std::size_t offset(const tinyxml2::XMLNode& node) {
-    if (!lines) {
-      lines.emplace(text);
+    if (offsets.empty()) {
       offsets = find_nodes(text);
       std::size_t next = 0;
       number(tree, next);
@@ -40,9 +77,10 @@ struct Document::Implementation {
     }
   }
 
-  std::string text;
+  const SceneText& source;
   tinyxml2::XMLDocument tree;
-  std::optional<LineIndex> lines;
+  std::string text;         // that of the tree
+  std::vector<Part> parts;  // of the text, in its order
   std::vector<std::size_t> offsets;
 };
 
@@ -56,34 +94,51 @@ const tinyxml2::XMLNode* skip_comments(const tinyxml2::XMLNode* node) {
 
 }  // namespace
 
-Document::Document(std::string text, Diagnostics& diagnostics)
-    : implementation_(std::make_unique<Implementation>(std::move(text))) {
-  const std::string& source = implementation_->text;
-  if (const auto problem = find_xml_problem(source)) {
-    diagnostics.error(LineIndex(source).locate(problem->offset), problem->message);
-    return;
-  }
-  tinyxml2::XMLDocument& tree = implementation_->tree;
-  if (tree.Parse(source.data(), source.size()) != tinyxml2::XML_SUCCESS) {
-    diagnostics.error({static_cast<std::uint32_t>(tree.ErrorLineNum()), 0}, "this is no well-formed XML");
-    tree.Clear();
-  }
-}
+Document::Document(const SceneText& source) : implementation_(std::make_unique<Implementation>(source)) {}
 
 Document::~Document() = default;
 
+void Document::parse_frame(Diagnostics& diagnostics) {
+  Implementation& document = *implementation_;
+  document.clear();
+  std::uint32_t line = 1;
+  for (const Span& span : document.source.frame()) {
+    document.add(span, line);
+    document.text += '\n';
+    const std::string_view text = document.source.of(span);
+    line += static_cast<std::uint32_t>(std::count(text.begin(), text.end(), '\n')) + 1;
+  }
+  document.parse(diagnostics);
+}
+
+void Document::parse_piece(std::size_t index, Diagnostics& diagnostics) {
+  Implementation& document = *implementation_;
+  document.clear();
+  document.text = "<_>";
+  document.add(document.source.piece(index), 1);
+  document.text += "</_>";
+  document.parse(diagnostics);
+}
+
 Element Document::root() const { return Element(implementation_->tree.RootElement()); }
 
-SourceLocation Document::location(const tinyxml2::XMLNode& node) {
+std::size_t Document::offset(const tinyxml2::XMLNode& node) {
   Implementation& document = Implementation::of(node);
-  const std::size_t offset = document.offset(node);
-  return document.lines->locate(offset);
+  return document.source_offset(document.offset(node));
+}
+
+SourceLocation Document::location(const tinyxml2::XMLNode& node) {
+  return Implementation::of(node).source.locate(offset(node));
 }
 
 SourceLocation Document::location(const tinyxml2::XMLElement& element, std::string_view attribute) {
   Implementation& document = Implementation::of(element);
   const std::size_t offset = find_attribute(document.text, document.offset(element), attribute);
-  return document.lines->locate(offset);
+  return document.source.locate(document.source_offset(offset));
+}
+
+std::uint32_t Document::line(const tinyxml2::XMLNode& node) {
+  return Implementation::of(node).source_line(static_cast<std::uint32_t>(node.GetLineNum()));
 }
 
 std::string_view Attribute::name() const { return attribute_->Name(); }
@@ -108,7 +163,8 @@ Element Element::child(std::string_view name) const {
   return Element();
 }
 
-std::uint32_t Element::line() const { return static_cast<std::uint32_t>(element_->GetLineNum()); }
+std::uint32_t Element::line() const { return Document::line(*element_); }
+std::size_t Element::offset() const { return Document::offset(*element_); }
 SourceLocation Element::location() const { return Document::location(*element_); }
 
 std::string_view trimmed(std::string_view text) {

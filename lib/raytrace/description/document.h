@@ -1,14 +1,17 @@
-// A parsed XML text and handles to its parts: what the rest of the reader sees of tinyxml2.
+// Parsed parts of a scene's text and handles to what is in them: what the rest of the reader sees of tinyxml2.
 //
-// Handles are as light as pointers, and valid as long as their Document.
+// Handles are as light as pointers, and valid until their Document parses something else. Reading through them is no
+// matter of one thread only by looks: tinyxml2 finishes names and texts when they are first read.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
 
 #include "raytrace/description/diagnostics.h"
+#include "raytrace/description/scene_text.h"
 
 namespace tinyxml2 {
 class XMLAttribute;
@@ -61,6 +64,7 @@ class Element {
   Node first_child() const;
   Element child(std::string_view name) const;  ///< the first of that name; false if there is none
   std::uint32_t line() const;
+  std::size_t offset() const;       ///< of the start tag, in the scene's text
   SourceLocation location() const;  ///< of the start tag
 
  private:
@@ -69,12 +73,19 @@ class Element {
 
 class Document {
  public:
-  /// Parses a text. If it is not well-formed, the reason goes to `diagnostics`, and root() is false.
-  Document(std::string text, Diagnostics& diagnostics);
+  /// source: must outlive the document.
+  explicit Document(const SceneText& source);
   ~Document();
   Document(const Document&) = delete;
   Document& operator=(const Document&) = delete;
 
+  /// Parses the frame. The root is that of the scene.
+  void parse_frame(Diagnostics& diagnostics);
+  /// Parses a piece. The root stands for the group that it was cut from, and bears another name. Many pieces parsed by
+  /// one document take less time than by as many, since tinyxml2 uses its memory again.
+  void parse_piece(std::size_t index, Diagnostics& diagnostics);
+
+  /// Of what was parsed last; false if that failed.
   Element root() const;
 
  private:
@@ -83,6 +94,8 @@ class Document {
   friend class Node;
   struct Implementation;
 
+  static std::uint32_t line(const tinyxml2::XMLNode& node);
+  static std::size_t offset(const tinyxml2::XMLNode& node);
   static SourceLocation location(const tinyxml2::XMLNode& node);
   static SourceLocation location(const tinyxml2::XMLElement& element, std::string_view attribute);
 

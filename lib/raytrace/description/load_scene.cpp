@@ -1,3 +1,6 @@
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -14,10 +17,12 @@
 #include "raytrace/description/nearest_name.h"
 #include "raytrace/description/quoted.h"
 #include "raytrace/description/read_fields.h"
+#include "raytrace/description/read_pieces.h"
 #include "raytrace/description/refuse_content.h"
 #include "raytrace/description/report.h"
 #include "raytrace/description/scene_description.h"
 #include "raytrace/description/scene_layout.h"
+#include "raytrace/description/scene_text.h"
 #include "raytrace/description/text_file.h"
 
 namespace raytrace {
@@ -32,12 +37,39 @@ struct Item {
   bool usable = false;                     ///< free of errors, and not to be left out
 };
 
+/// What remains of an item when the tree that it was read from is gone. Stored: of the description, such as LightItem.
+template <class Stored>
+struct Harvested {
+  Stored item;
+  std::uint32_t number;  ///< among the elements of its piece
+  bool usable;
+};
+
 /// Where the text of a label stands.
 Node label_text(Element item, std::string_view label) { return item.child(label).first_child(); }
 
+int arena_size(int threads) {
+  // Asking for more than there can be would have oneTBB warn on the standard error output.
+  const auto most = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  return static_cast<int>(threads > 0 ? std::min(static_cast<std::size_t>(threads), most) : most);
+}
+
 class SceneReader {
  public:
-  explicit SceneReader(Diagnostics& diagnostics) : diagnostics_(diagnostics) { scene_.file = diagnostics.file(); }
+  SceneReader(const SceneText& text, int threads, Diagnostics& diagnostics)
+      : text_(text), diagnostics_(diagnostics), frame_(text), arena_(arena_size(threads)) {
+    scene_.file = diagnostics.file();
+  }
+
+  void read() {
+    frame_.parse_frame(diagnostics_);
+    if (const Element root = frame_.root()) read(root);
+  }
+
+  SceneDescription take() { return std::move(scene_); }
+
+ private:
+  static constexpr std::string_view camera_key = "camera";
 
   void read(Element root) {
     if (root.name() != root_element) {
@@ -60,7 +92,7 @@ class SceneReader {
       else if (child.name() == ViewPlane::element)
         read_viewplane(child);
       else if (!read_camera(child))
-        refuse_misplaced(child, root_element);
+        refuse_misplaced(child, root_element, diagnostics_);
     }
     // Objects name materials, which may come after them.
     report_taken("material", material_names_);
@@ -70,16 +102,10 @@ class SceneReader {
     if (!first_of(camera_key)) report_missing(root, camera_key);
   }
 
-  SceneDescription take() { return std::move(scene_); }
-
- private:
-  static constexpr std::string_view camera_key = "camera";
-
   void read_viewplane(Element element) {
     if (!is_first(ViewPlane::element, element)) return;
     FieldsReader<ViewPlane> reader(ViewPlane::fields());
-    read_item<ViewPlane>(
-        element, reader, [&](const Item<ViewPlane>& item) { scene_.viewplane = item.parameters; }, false);
+    scene_.viewplane = read_item<ViewPlane>(element, reader, false, diagnostics_).parameters;
   }
 
   /// False if the element is no camera.
@@ -90,49 +116,64 @@ class SceneReader {
       found = true;
       if (!is_first(camera_key, element)) return;
       FieldsReader<typename Camera::Parameters> reader(Camera::fields());
-      read_item<Camera>(element, reader, [&](const Item<Camera>& item) { scene_.camera = item.parameters; }, false);
+      scene_.camera = read_item<Camera>(element, reader, false, diagnostics_).parameters;
     });
     return found;
   }
 
   void read_lights(Element section) {
-    read_section(section, Lights{}, scene_.lights, {}, true, [](auto&& item, auto& items) {
-      if (item.usable) items.push_back({item.parameters, item.element.line()});
-    });
-  }
-
-  void read_materials(Element section) {
-    read_section(section, Materials{}, scene_.materials, {{"name"}}, false, [&]<class T>(Item<T>&& item, auto& items) {
-      const std::string_view name = item.labels[0];
-      // A faulty material keeps its name, so that the objects that use it are not reported too.
-      if (!name.empty()) {
-        material_names_.add(name, item.element);
-        materials_.push_back(
-            {static_cast<std::uint32_t>(index_of<T>(Materials{})), static_cast<std::uint32_t>(items.size())});
-      }
-      if (item.usable) items.push_back({item.parameters, std::string(name), item.element.line()});
-    });
-  }
-
-  void read_objects(Element section) {
-    read_section(section, Shapes{}, scene_.objects, {{"name", false}, {"material"}}, true,
-                 [&](auto&& item, auto& items) {
-                   const auto [name, material_name] = item.labels;
-                   if (!name.empty()) object_names_.add(name, item.element);
-                   if (material_name.empty()) return;
-                   const std::optional<std::size_t> material = material_names_.find(material_name);
-                   if (!material)
-                     report_unknown_material(item.element, material_name);
-                   else if (item.usable)
-                     items.push_back({item.parameters, std::string(name), materials_[*material], item.element.line()});
+    const auto convert = []<class T>(Item<T>& item, Diagnostics&) {
+      return LightItem<T>{item.parameters, item.element.line()};
+    };
+    read_section(section, Lights{}, scene_.lights, {}, true, convert,
+                 []<class T>(auto&& light, ItemPlace, auto& items) {
+                   if (light.usable) items.push_back(std::move(light.item));
                  });
   }
 
+  void read_materials(Element section) {
+    const auto convert = []<class T>(Item<T>& item, Diagnostics&) {
+      return MaterialItem<T>{item.parameters, std::string(item.labels[0]), item.element.line()};
+    };
+    const auto accept = [&]<class T>(auto&& material, ItemPlace place, auto& items) {
+      // A faulty material keeps its name, so that the objects that use it are not reported too.
+      if (!material.item.name.empty()) {
+        material_names_.add(material.item.name, place);
+        materials_.push_back(
+            {static_cast<std::uint32_t>(index_of<T>(Materials{})), static_cast<std::uint32_t>(items.size())});
+      }
+      if (material.usable) items.push_back(std::move(material.item));
+    };
+    read_section(section, Materials{}, scene_.materials, {{"name"}}, false, convert, accept);
+  }
+
+  void read_objects(Element section) {
+    const auto convert = [this]<class T>(Item<T>& item, Diagnostics& diagnostics) {
+      const auto [name, material_name] = item.labels;
+      ObjectItem<T> object{item.parameters, std::string(name), {}, item.element.line()};
+      // Without one it has been reported.
+      if (material_name.empty()) return object;
+      if (const std::optional<std::size_t> material = material_names_.find(material_name)) {
+        object.material = materials_[*material];
+      } else {
+        report_unknown_material(item.element, material_name, diagnostics);
+        item.usable = false;
+      }
+      return object;
+    };
+    const auto accept = [&]<class T>(auto&& object, ItemPlace place, auto& items) {
+      if (!object.item.name.empty()) object_names_.add(object.item.name, place);
+      if (object.usable) items.push_back(std::move(object.item));
+    };
+    read_section(section, Shapes{}, scene_.objects, {{"name", false}, {"material"}}, true, convert, accept);
+  }
+
   /// Reads the groups of a section. tuple: its vectors of items, one for each type of the list. labels: what its items
-  /// have beside their parameters. accept(Item<T>&&, the vector): stores an item.
-  template <class List, class Tuple, class Accept>
+  /// have beside their parameters. convert(Item<T>&, diagnostics): gives what the vector holds, and may find the item
+  /// not usable; called by several threads at once. accept<T>(Harvested, its place, the vector): stores an item.
+  template <class List, class Tuple, class Convert, class Accept>
   void read_section(Element section, List list, Tuple& tuple, const std::vector<FieldInfo>& labels, bool may_skip,
-                    Accept accept) {
+                    const Convert& convert, const Accept& accept) {
     refuse_attributes(section, {}, diagnostics_);
     for (Node node = section.first_child(); node; node = node.next()) {
       if (refuse_text(node, section, diagnostics_)) continue;
@@ -142,57 +183,84 @@ class SceneReader {
         if (found || child.name() != (T::group.empty() ? T::element : T::group)) return;
         found = true;
         auto& items = std::get<index_of<T>(List{})>(tuple);
-        FieldsReader<typename T::Parameters> reader(T::fields(), labels);
-        const auto store = [&](Item<T>&& item) { accept(std::move(item), items); };
+        using Stored = typename std::remove_reference_t<decltype(items)>::value_type;
+        const auto read_one = [&](Element element, FieldsReader<typename T::Parameters>& reader, std::uint32_t number,
+                                  Diagnostics& diagnostics) {
+          Item<T> item = read_item<T>(element, reader, may_skip, diagnostics);
+          Stored stored = convert(item, diagnostics);
+          return Harvested<Stored>{std::move(stored), number, item.usable};
+        };
         if constexpr (T::group.empty()) {
-          if (is_first(T::element, child)) read_item<T>(child, reader, store, may_skip);
+          FieldsReader<typename T::Parameters> reader(T::fields(), labels);
+          if (is_first(T::element, child))
+            accept.template operator()<T>(read_one(child, reader, 0, diagnostics_), ItemPlace{}, items);
         } else {
-          reserve_for(child, items);
-          read_group<T>(child, reader, store, may_skip);
+          read_group<T, Stored>(child, labels, read_one, items, [&](Harvested<Stored>&& harvested, ItemPlace place) {
+            accept.template operator()<T>(std::move(harvested), place, items);
+          });
         }
       });
-      if (!found) refuse_misplaced(child, section.name());
+      if (!found) refuse_misplaced(child, section.name(), diagnostics_);
     }
   }
 
-  template <class T, class Reader, class Store>
-  void read_group(Element group, Reader& reader, Store&& store, bool may_skip) {
+  /// read_one: gives an element's Harvested. accept(Harvested, its place): called in the order of the file.
+  template <class T, class Stored, class ReadOne, class Accept>
+  void read_group(Element group, const std::vector<FieldInfo>& labels, const ReadOne& read_one,
+                  std::vector<Stored>& items, const Accept& accept) {
     refuse_attributes(group, {}, diagnostics_);
-    for (Node node = group.first_child(); node; node = node.next()) {
-      if (refuse_text(node, group, diagnostics_)) continue;
-      const Element child = node.element();
-      if (child.name() == T::element)
-        read_item<T>(child, reader, store, may_skip);
-      else
-        refuse_misplaced(child, group.name());
-    }
+    // What stands before the first item; that one and the rest are in the pieces.
+    for (Node node = group.first_child(); node; node = node.next()) refuse_text(node, group, diagnostics_);
+
+    using Harvest = std::vector<Harvested<Stored>>;
+    const auto read = [&](Element root, Harvest& harvest, Diagnostics& diagnostics) {
+      FieldsReader<typename T::Parameters> reader(T::fields(), labels);
+      std::uint32_t number = 0;
+      for (Node node = root.first_child(); node; node = node.next()) {
+        if (refuse_text(node, group, diagnostics)) continue;
+        const Element child = node.element();
+        if (child.name() == T::element)
+          harvest.push_back(read_one(child, reader, number, diagnostics));
+        else
+          refuse_misplaced(child, group.name(), diagnostics);
+        ++number;
+      }
+    };
+    const auto take = [&](std::size_t piece, Harvest& harvest) {
+      for (Harvested<Stored>& harvested : harvest) {
+        const ItemPlace place{static_cast<std::uint32_t>(piece), harvested.number};
+        accept(std::move(harvested), place);
+      }
+    };
+    const SceneText::PieceRange pieces = text_.pieces_of(group.offset());
+    reserve_more(items, pieces.items);
+    read_pieces<Harvest>(text_, pieces, arena_, diagnostics_, read, take);
   }
 
   /// may_skip: whether the item may be left out where its type says so; otherwise that is an error.
-  template <class T, class Reader, class Store>
-  void read_item(Element element, Reader& reader, Store&& store, bool may_skip) {
+  template <class T, class Reader>
+  static Item<T> read_item(Element element, Reader& reader, bool may_skip, Diagnostics& diagnostics) {
     Item<T> item;
     item.element = element;
-    item.usable = reader.read(element, item.parameters, item.labels, diagnostics_);
+    item.usable = reader.read(element, item.parameters, item.labels, diagnostics);
     if constexpr (requires { T::check(item.parameters); }) {
       if (item.usable) {
         if (const std::optional<Problem> problem = T::check(item.parameters)) {
           const auto message = [&] { return problem->message; };
           if (problem->kind == Problem::Kind::skip && may_skip)
-            report_warning(diagnostics_, element, message);
+            report_warning(diagnostics, element, message);
           else
-            report_error(diagnostics_, element, message);
+            report_error(diagnostics, element, message);
           item.usable = false;
         }
       }
     }
-    store(std::move(item));
+    return item;
   }
 
   template <class Items>
-  static void reserve_for(Element group, Items& items) {
-    std::size_t count = items.size();
-    for (Node node = group.first_child(); node; node = node.next()) ++count;
+  static void reserve_more(Items& items, std::size_t more) {
+    const std::size_t count = items.size() + more;
     // No less than vectors grow by themselves: there may be a million groups of one item each.
     if (count > items.capacity()) items.reserve(std::max(count, 2 * items.capacity()));
   }
@@ -219,7 +287,11 @@ class SceneReader {
   }
 
   void report_taken(const char* what, NameTable& names) {
-    names.finish([&](std::string_view name, Element first, Element other) {
+    Document first_document(text_), other_document(text_);
+    names.finish([&](std::string_view name, ItemPlace first_place, ItemPlace other_place) {
+      if (!diagnostics_.keeps_another(Severity::error)) return diagnostics_.error({}, {});
+      const Element first = item_at(first_place, first_document);
+      const Element other = item_at(other_place, other_document);
       report_error(diagnostics_, label_text(other, "name"), [&] {
         return "the " + std::string(what) + " name " + in_quotes(name) + " is taken by the " + tag(first.name()) +
                " in line " + std::to_string(first.line()) + "; choose another";
@@ -227,8 +299,18 @@ class SceneReader {
     });
   }
 
-  void report_unknown_material(Element object, std::string_view name) {
-    report_error(diagnostics_, label_text(object, "material"), [&] {
+  /// The item once more, parsed by `document`.
+  static Element item_at(ItemPlace place, Document& document) {
+    Diagnostics none = Diagnostics::counter();
+    document.parse_piece(place.piece, none);
+    std::uint32_t number = 0;
+    Node node = document.root().first_child();
+    while (!node.element() || number++ < place.number) node = node.next();
+    return node.element();
+  }
+
+  void report_unknown_material(Element object, std::string_view name, Diagnostics& diagnostics) const {
+    report_error(diagnostics, label_text(object, "material"), [&] {
       const std::string_view nearest = nearest_name(name, material_names_.names());
       return "unknown material " + in_quotes(name) + " in " + tag(object.name()) + "; " +
              (nearest.empty() ? "add one of that name to " + tag(materials_element)
@@ -248,15 +330,18 @@ class SceneReader {
     }
   }
 
-  void refuse_misplaced(Element element, std::string_view parent) {
-    report_error(diagnostics_, element, [&] { return explain_misplaced(element.name(), parent); });
+  static void refuse_misplaced(Element element, std::string_view parent, Diagnostics& diagnostics) {
+    report_error(diagnostics, element, [&] { return explain_misplaced(element.name(), parent); });
   }
 
   void report_missing(Element root, std::string_view section) {
     report_error(diagnostics_, root, [&] { return "the scene has no " + tag(section) + "; add one"; });
   }
 
+  const SceneText& text_;
   Diagnostics& diagnostics_;
+  Document frame_;
+  tbb::task_arena arena_;
   SceneDescription scene_;
   std::vector<std::pair<std::string_view, Element>> firsts_;
   NameTable material_names_, object_names_;
@@ -265,19 +350,19 @@ class SceneReader {
 
 }  // namespace
 
-std::optional<SceneDescription> parse_scene(std::string text, Diagnostics& diagnostics) {
-  const Document document(std::move(text), diagnostics);
-  if (!document.root()) return std::nullopt;
-  SceneReader reader(diagnostics);
-  reader.read(document.root());
+std::optional<SceneDescription> parse_scene(std::string text, Diagnostics& diagnostics, int threads) {
+  const SceneText scene_text(std::move(text), diagnostics);
+  if (!scene_text.well_formed()) return std::nullopt;
+  SceneReader reader(scene_text, threads, diagnostics);
+  reader.read();
   if (diagnostics.has_errors()) return std::nullopt;
   return reader.take();
 }
 
-std::optional<SceneDescription> load_scene(const std::string& file, Diagnostics& diagnostics) {
+std::optional<SceneDescription> load_scene(const std::string& file, Diagnostics& diagnostics, int threads) {
   std::optional<std::string> text = read_text_file(file, diagnostics);
   if (!text) return std::nullopt;
-  std::optional<SceneDescription> scene = parse_scene(std::move(*text), diagnostics);
+  std::optional<SceneDescription> scene = parse_scene(std::move(*text), diagnostics, threads);
   if (scene) scene->file = file;
   return scene;
 }

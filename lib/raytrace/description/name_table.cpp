@@ -5,24 +5,31 @@
 
 namespace raytrace {
 
+std::string_view NameTable::name(std::size_t position) const {
+  const std::size_t begin = position == 0 ? 0 : bearers_[position - 1].name_end;
+  return std::string_view(characters_).substr(begin, bearers_[position].name_end - begin);
+}
+
 // By hash first: most comparisons are then of two numbers, not of texts all over the memory.
 bool NameTable::less(const Key& a, const Key& b) const {
   if (a.hash != b.hash) return a.hash < b.hash;
-  const int order = bearers_[a.position].name.compare(bearers_[b.position].name);
+  const int order = name(a.position).compare(name(b.position));
   return order != 0 ? order < 0 : a.position < b.position;
 }
 
-void NameTable::add(std::string_view name, Element element) {
+void NameTable::add(std::string_view name, ItemPlace place) {
   keys_.push_back({std::hash<std::string_view>{}(name), bearers_.size()});
-  bearers_.push_back({name, element});
+  characters_ += name;
+  bearers_.push_back({characters_.size(), place});
 }
 
-void NameTable::finish(const std::function<void(std::string_view name, Element first, Element other)>& report_taken) {
+void NameTable::finish(
+    const std::function<void(std::string_view name, ItemPlace first, ItemPlace other)>& report_taken) {
   std::sort(keys_.begin(), keys_.end(), [this](const Key& a, const Key& b) { return less(a, b); });
   std::vector<std::pair<std::size_t, std::size_t>> taken;  // a name's second and further bearers, each with the first
   const Key* first = nullptr;
   for (const Key& key : keys_) {
-    if (first && first->hash == key.hash && bearers_[first->position].name == bearers_[key.position].name) {
+    if (first && first->hash == key.hash && name(first->position) == name(key.position)) {
       taken.emplace_back(key.position, first->position);
     } else {
       first = &key;
@@ -30,7 +37,7 @@ void NameTable::finish(const std::function<void(std::string_view name, Element f
   }
   std::sort(taken.begin(), taken.end());
   for (const auto& [other, bearer] : taken) {
-    report_taken(bearers_[other].name, bearers_[bearer].element, bearers_[other].element);
+    report_taken(name(other), bearers_[bearer].place, bearers_[other].place);
   }
 }
 
@@ -38,7 +45,7 @@ std::optional<std::size_t> NameTable::find(std::string_view name) const {
   const std::size_t hash = std::hash<std::string_view>{}(name);
   auto key = std::lower_bound(keys_.begin(), keys_.end(), hash, [](const Key& k, std::size_t h) { return k.hash < h; });
   for (; key != keys_.end() && key->hash == hash; ++key) {
-    if (bearers_[key->position].name == name) return key->position;
+    if (this->name(key->position) == name) return key->position;
   }
   return std::nullopt;
 }
@@ -46,7 +53,7 @@ std::optional<std::size_t> NameTable::find(std::string_view name) const {
 std::vector<std::string_view> NameTable::names() const {
   std::vector<std::string_view> names;
   names.reserve(bearers_.size());
-  for (const Bearer& bearer : bearers_) names.push_back(bearer.name);
+  for (std::size_t i = 0; i < bearers_.size(); ++i) names.push_back(name(i));
   return names;
 }
 

@@ -4,22 +4,28 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
-#include "raytrace/description/document.h"
-
 namespace raytrace {
+
+/// Where an item stands.
+struct ItemPlace {
+  std::uint32_t piece;   ///< of the SceneText
+  std::uint32_t number;  ///< among the elements of the piece, from 0
+};
 
 class NameTable {
  public:
-  /// Adds the name of an element; both must outlive the table.
-  void add(std::string_view name, Element element);
+  /// Adds the name of an item.
+  void add(std::string_view name, ItemPlace place);
 
-  /// To be called once all names are there: reports each element whose name another, its first bearer, has already.
-  void finish(const std::function<void(std::string_view name, Element first, Element other)>& report_taken);
+  /// To be called once all names are there: reports each item whose name another, its first bearer, has already.
+  void finish(const std::function<void(std::string_view name, ItemPlace first, ItemPlace other)>& report_taken);
 
   /// Which call of add brought the name; after finish.
   std::optional<std::size_t> find(std::string_view name) const;
@@ -29,16 +35,18 @@ class NameTable {
 
  private:
   struct Bearer {
-    std::string_view name;
-    Element element;
+    std::size_t name_end;  // in characters_; the name starts where the one before ends
+    ItemPlace place;
   };
   struct Key {
     std::size_t hash;
     std::size_t position;  // in bearers_
   };
 
+  std::string_view name(std::size_t position) const;
   bool less(const Key& a, const Key& b) const;
 
+  std::string characters_;       // all names, one behind the other
   std::vector<Bearer> bearers_;  // in the order of add
   std::vector<Key> keys_;        // sorted by finish
 };

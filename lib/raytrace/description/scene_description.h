@@ -74,10 +74,11 @@ struct SceneDescription {
 
 /// Reads and validates a scene file ("-": standard input). All problems go to `diagnostics`; no value if one of them
 /// is an error. Warnings alone still give a scene. A file that cannot be read is an error at line 0.
-std::optional<SceneDescription> load_scene(const std::string& file, Diagnostics& diagnostics);
+/// threads: so many at most share the work; 0: all that the machine has. The result does not depend on it.
+std::optional<SceneDescription> load_scene(const std::string& file, Diagnostics& diagnostics, int threads = 0);
 
 /// The same for a text that is already in memory.
-std::optional<SceneDescription> parse_scene(std::string text, Diagnostics& diagnostics);
+std::optional<SceneDescription> parse_scene(std::string text, Diagnostics& diagnostics, int threads = 0);
 
 /// Writes the description as a scene file in canonical form: every value spelled out, defaults included; reading it
 /// back gives an equal description (all doubles round-trip).

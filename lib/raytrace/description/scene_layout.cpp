@@ -22,6 +22,13 @@ void add_section(std::vector<LayoutEntry>& layout, std::string_view section, Lis
   });
 }
 
+template <class List>
+void add_groups(std::vector<std::string_view>& groups, List list) {
+  for_each_type(list, [&]<class T>(std::type_identity<T>) {
+    if (!T::group.empty()) groups.push_back(T::group);
+  });
+}
+
 }  // namespace
 
 std::vector<LayoutEntry> scene_layout() {
@@ -31,6 +38,14 @@ std::vector<LayoutEntry> scene_layout() {
   add_section(layout, materials_element, Materials{});
   add_section(layout, objects_element, Shapes{});
   return layout;
+}
+
+std::vector<std::string_view> group_elements() {
+  std::vector<std::string_view> groups;
+  add_groups(groups, Lights{});
+  add_groups(groups, Materials{});
+  add_groups(groups, Shapes{});
+  return groups;
 }
 
 std::string explain_misplaced(std::string_view element, std::string_view parent) {

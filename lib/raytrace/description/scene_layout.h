@@ -21,6 +21,9 @@ struct LayoutEntry {
 /// All sections, groups and items; every element once.
 std::vector<LayoutEntry> scene_layout();
 
+/// The elements that hold any number of one type's items, such as <spheres>.
+std::vector<std::string_view> group_elements();
+
 /// The message for an element that does not belong where it stands: where it does, or which name was meant.
 std::string explain_misplaced(std::string_view element, std::string_view parent);
 

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,10 +20,22 @@ struct XmlProblem {
   std::string message;
 };
 
+/// A part of a group's content that may be read apart from the rest: whole items, the first of which starts it, and
+/// what stands behind them. A group's pieces follow each other, from its first item to its end tag.
+struct Piece {
+  std::size_t group;  ///< where the group's start tag begins
+  std::size_t begin, end;
+  std::size_t items = 0;  ///< how many elements
+};
+
 /// The first place where `text` is not well-formed XML 1.0 in UTF-8, with or without byte order mark. Document type
 /// declarations with declarations of their own, processing instructions, elements nested more than 64 deep and tags of
 /// more than 64 attributes are refused too: no scene has them, and they are where XML readers get into trouble.
-std::optional<XmlProblem> find_xml_problem(const std::string& text);
+///
+/// pieces: receives those of all elements that bear one of the names in `groups` and stand where groups do (root,
+/// section, group), unless there is a problem.
+std::optional<XmlProblem> find_xml_problem(const std::string& text, std::span<const std::string_view> groups,
+                                           std::vector<Piece>& pieces);
 
 /// Where the elements (the '<' of their start tags) and the texts (their first character that is no white space) of a
 /// well-formed text begin, in the order of the document: the order of a walk through its tree, parents before children.

@@ -1,0 +1,152 @@
+// Scenes so large that they are read in pieces, by several threads: nobody must be able to tell.
+#include <algorithm>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "findings.h"
+#include "raytrace/description/line_index.h"
+#include "raytrace/description/xml_scanner.h"
+#include "support/catch.h"
+
+namespace raytrace::test {
+namespace {
+
+constexpr int sphere_count = 4000;
+
+std::string sphere(int i, const std::string& material = "clay") {
+  const std::string number = std::to_string(i);
+  return "  <sphere>\n    <name>sphere-" + number + "</name>\n    <center x=\"" + number +
+         "\" y=\"0\" z=\"0\"/>\n    <radius>1</radius>\n    <material>" + material + "</material>\n  </sphere>\n";
+}
+
+/// Some 500 kB. at(i): what stands in place of sphere i.
+template <class At>
+std::string large_scene(At&& at) {
+  std::string items;
+  for (int i = 0; i < sphere_count; ++i) items += at(i);
+  return scene_with("<objects><spheres>\n" + items + "</spheres><disks/></objects>");
+}
+
+std::string large_scene() {
+  return large_scene([](int i) { return sphere(i); });
+}
+
+std::string findings(const std::string& text, int threads) {
+  Diagnostics diagnostics("s");
+  parse_scene(text, diagnostics, threads);
+  std::ostringstream out;
+  diagnostics.print(out);
+  return out.str();
+}
+
+std::string line_and_column(const std::string& text, const std::string& part) {
+  REQUIRE(text.find(part) == text.rfind(part));
+  const SourceLocation location = LineIndex(text).locate(text.find(part));
+  return "s:" + std::to_string(location.line) + ":" + std::to_string(location.column);
+}
+
+std::string without_line_ends(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("groups are cut into pieces of whole items") {
+  const std::string text = large_scene();
+  std::vector<Piece> pieces;
+  const std::string_view groups[] = {"spheres", "disks", "mattes"};
+  REQUIRE_FALSE(find_xml_problem(text, groups, pieces));
+  REQUIRE(pieces.size() > 5);
+
+  CHECK(text.compare(pieces[0].begin, 7, "<matte>") == 0);
+  CHECK(text.compare(pieces[0].end, 9, "</mattes>") == 0);
+  CHECK(pieces[0].items == 1);
+
+  std::size_t items = 0;
+  for (std::size_t i = 1; i < pieces.size(); ++i) {
+    items += pieces[i].items;
+    CHECK(pieces[i].group == text.find("<spheres>"));
+    CHECK(pieces[i].begin == (i == 1 ? text.find("<sphere>") : pieces[i - 1].end));
+    CHECK(text.compare(pieces[i].begin, 8, "<sphere>") == 0);
+  }
+  CHECK(pieces.back().end == text.find("</spheres>"));
+  CHECK(items == sphere_count);
+}
+
+TEST_CASE("a scene in pieces is read as it stands, by any number of threads") {
+  const std::string text = large_scene();
+  Diagnostics diagnostics("s");
+  const auto scene = parse_scene(text, diagnostics, 1);
+  REQUIRE(scene);
+  const auto& spheres = std::get<ObjectItems<Sphere>>(scene->objects);
+  REQUIRE(spheres.size() == sphere_count);
+  for (int i = 0; i < sphere_count; ++i) {
+    const ObjectItem<Sphere>& item = spheres[static_cast<std::size_t>(i)];
+    REQUIRE(item.name == "sphere-" + std::to_string(i));
+    REQUIRE(item.parameters.center.x == i);
+    REQUIRE(item.line == static_cast<std::uint32_t>(3 + 6 * i));
+  }
+  for (const int threads : {0, 2, 5}) {
+    CHECK(print_scene(*parse_scene(text, diagnostics, threads)) == print_scene(*scene));
+  }
+}
+
+TEST_CASE("findings in pieces have their places") {
+  const std::string text = large_scene([](int i) {
+    if (i == 0) return "before" + sphere(i, "one");
+    if (i == 1500) return sphere(i, "two");
+    if (i == 2500) return "<!-- \n --> <spehre/>" + sphere(i);
+    if (i == 3500)
+      return sphere(i) + "<sphere><center x='a>b'\ty='0' z='0'/><radius>1</radius>" +
+             "<material>clay</material></sphere>";
+    if (i == 3999) return sphere(i) + "\n behind ";
+    return sphere(i);
+  });
+  for (const std::string& in : {text, without_line_ends(text)}) {
+    const std::string expected =
+        line_and_column(in, "before") + ": error: unexpected text 'before' in <spheres>, which takes only elements\n" +
+        line_and_column(in, "one</material>") +
+        ": error: unknown material 'one' in <sphere>; add one of that name to <materials>\n" +
+        line_and_column(in, "two</material>") +
+        ": error: unknown material 'two' in <sphere>; add one of that name to <materials>\n" +
+        line_and_column(in, "<spehre/>") + ": error: unknown element <spehre> in <spheres>; did you mean <sphere>?\n" +
+        line_and_column(in, "x='a>b'") + ": error: 'a>b' for x in <center> is not a number; write one such as 1.5\n" +
+        line_and_column(in, "behind") + ": error: unexpected text 'behind' in <spheres>, which takes only elements\n";
+    for (const int threads : {1, 4}) CHECK(findings(in, threads) == expected);
+  }
+}
+
+TEST_CASE("a name that is taken in another piece is reported where it stands") {
+  const std::string text = large_scene([](int i) { return sphere(i == 3500 ? 17 : i); });
+  const std::size_t at = text.rfind("sphere-17</name>");
+  const SourceLocation place = LineIndex(text).locate(at);
+  CHECK(findings(text, 4) == "s:" + std::to_string(place.line) + ":" + std::to_string(place.column) +
+                                 ": error: the object name 'sphere-17' is taken by the <sphere> in line " +
+                                 std::to_string(3 + 6 * 17) + "; choose another\n");
+}
+
+TEST_CASE("which findings are shown does not depend on the threads") {
+  const std::string text = large_scene([](int i) {
+    const std::string shadows = "<sphere><radius>-1</radius><raduis>1</raduis></sphere>";
+    return i % 25 == 24 ? shadows : sphere(i, i % 31 == 7 ? "cley" : "clay");
+  });
+  const std::string alone = findings(text, 1);
+  CHECK(contains(alone, "more errors not shown"));
+  CHECK(findings(text, 4) == alone);
+  CHECK(findings(text, 0) == alone);
+}
+
+TEST_CASE("what follows a group in pieces keeps its place") {
+  std::string text = large_scene();
+  text.replace(text.find("<disks/>"), 8, "<discs/>\n <disks>x</disks>");
+  CHECK(findings(text) == line_and_column(text, "<discs/>") +
+                              ": error: unknown element <discs> in <objects>; did you mean <disks>?\n" +
+                              line_and_column(text, "x</disks>") +
+                              ": error: unexpected text 'x' in <disks>, which takes only elements\n");
+  const std::string flat = without_line_ends(text);
+  CHECK(contains(findings(flat), line_and_column(flat, "<discs/>") + ": error:"));
+}
+
+}  // namespace raytrace::test
