@@ -1,0 +1,1 @@
+"""The side-by-side benchmark of raytrace and other renderers: benchmarks/compare runs it."""

@@ -1,0 +1,167 @@
+"""Compares raytrace with other renderers: writes each scene in each one's language, checks that the pictures agree, renders
+in turns, and writes docs/comparison.md, .json and .svg."""
+
+import argparse
+import os
+import shutil
+import statistics
+import sys
+import time
+
+from . import pictures, renderers, report, scenes
+from .paths import REPOSITORY, WORK
+from .process import Failed, TooSlow
+
+OURS = "raytrace"
+QUICK_SCENES = ["spheres-10", "spheres-1k", "mix-5k", "mix-without-tori-5k"]
+CHECK_HEIGHT = 512  # of the pictures that are compared
+
+
+def say(text):
+    print(text, file=sys.stderr, flush=True)
+
+
+def options():
+    parser = argparse.ArgumentParser(prog="benchmarks/compare", description=__doc__)
+    processors = len(os.sched_getaffinity(0))
+    parser.add_argument("--quick", action="store_true", help="a few scenes, small, once: to try it out")
+    parser.add_argument("--scenes", nargs="+", choices=scenes.SCENES, metavar="SCENE", help=" ".join(scenes.SCENES))
+    parser.add_argument("--renderers", nargs="+", choices=renderers.ALL, default=list(renderers.ALL))
+    parser.add_argument("--threads", nargs="+", type=int, default=sorted({1, processors}), help="numbers of threads")
+    parser.add_argument("--repeats", type=int, help="rounds, in which each renderer renders once (5)")
+    parser.add_argument("--budget", type=float, default=8, metavar="SECONDS",
+                        help="a renderer that has taken this long with a scene sits out further rounds (8)")
+    parser.add_argument("--limit", type=float, default=120, metavar="SECONDS", help="for one run (120)")
+    parser.add_argument("--output", default=os.path.join(REPOSITORY, "docs"),
+                        help="folder of comparison.md, .json and .svg (docs, whose README is brought up to date, too)")
+    chosen = parser.parse_args()
+    chosen.scenes = chosen.scenes or (QUICK_SCENES if chosen.quick else list(scenes.SCENES))
+    chosen.repeats = chosen.repeats or (1 if chosen.quick else 5)
+    return chosen
+
+
+def taking_part(names):
+    """raytrace first, then those that are installed."""
+    chosen = [OURS] + [name for name in names if name != OURS]
+    result = {}
+    for name in chosen:
+        renderer = renderers.ALL[name]
+        reason = renderer.available()
+        if reason is None:
+            result[name] = renderer
+        elif name == OURS:
+            sys.exit(reason)
+        else:
+            say(f"{renderer.NAME} is left out: {reason}")
+    return result
+
+
+def written(scene, name, renderer):
+    """The folder with the scene in the renderer's language."""
+    folder = os.path.join(WORK, "scenes", scene.name, name)
+    shutil.rmtree(folder, ignore_errors=True)
+    os.makedirs(folder)
+    renderer.write(scene, folder)
+    return folder
+
+
+def agreement(scene, participants):
+    """What part of the pixels differs from our picture, for each peer: {name: (coverage, shading)}."""
+    # A small copy of the scene of the same shape: one ray through each pixel's centre shows all there is to compare.
+    small = scenes.make(scene.name)
+    small.width, small.height = scene.width * CHECK_HEIGHT // scene.height, CHECK_HEIGHT
+    shown = {}
+    for name, renderer in participants.items():
+        folder = written(small, name, renderer)
+        shown[name] = renderer.picture(small, folder)
+        pictures.save_png(shown[name], os.path.join(WORK, "pictures", f"{scene.name}-{name}.png"))
+    result = {}
+    for name in participants:
+        if name != OURS:
+            result[name] = pictures.difference(shown[OURS], shown[name])
+            shares_shading = getattr(renderers.ALL[name], "shares_shading", lambda _: True)(scene)
+            pictures.demand_agreement(scene, renderers.ALL[name].NAME, result[name], shares_shading)
+    return result
+
+
+def rounds(scene, participants, folders, threads, chosen):
+    """Renders in turns. Returns {name: {"render": [...], "whole": [...], "processors": [...]} or {"failure": text}}, a None
+    in a list where the renderer sat out the round."""
+    taken = {name: {"render": [], "whole": [], "processors": []} for name in participants}
+    spent = dict.fromkeys(participants, 0.0)
+    for _ in range(chosen.repeats):
+        # Our own render goes on as long as there is another to be held against.
+        waiting = [name for name in participants if spent[name] < chosen.budget and "failure" not in taken[name]]
+        if not [name for name in waiting if name != OURS] and len(participants) > 1:
+            break
+        for name, renderer in participants.items():
+            if "failure" in taken[name]:
+                continue
+            if name not in waiting and name != OURS:
+                for clock in taken[name].values():
+                    clock.append(None)
+                continue
+            start = time.perf_counter()
+            try:
+                times = renderer.render(folders[name], threads, chosen.limit)
+            except TooSlow as slow:
+                taken[name] = {"failure": str(slow)}
+                continue
+            except Failed as failed:
+                say(str(failed))
+                taken[name] = {"failure": "failed"}
+                continue
+            spent[name] += time.perf_counter() - start
+            for clock, values in taken[name].items():
+                values.append(getattr(times, clock))
+    return taken
+
+
+def summary(taken):
+    """Medians, and ratios pair by pair: those of one round against each other, of which the median counts."""
+    result = {}
+    for name, times in taken.items():
+        if "failure" in times:
+            result[name] = {"failure": times["failure"]}
+            continue
+        entry = {"runs": len([x for x in times["whole"] if x is not None])}
+        for clock in ("render", "whole"):
+            entry[clock] = statistics.median(x for x in times[clock] if x is not None)
+            if name != OURS:
+                pairs = [peer / ours for peer, ours in zip(times[clock], taken[OURS][clock]) if peer is not None]
+                entry[f"{clock}_ratio"] = statistics.median(pairs)
+        entry["processors"] = statistics.median(x for x in times["processors"] if x is not None)
+        entry["seconds"] = {clock: times[clock] for clock in ("render", "whole")}
+        result[name] = entry
+    return result
+
+
+def main():
+    chosen = options()
+    all_participants = taking_part(chosen.renderers)
+    os.makedirs(os.path.join(WORK, "pictures"), exist_ok=True)
+    os.makedirs(chosen.output, exist_ok=True)
+    machine = report.machine(all_participants, chosen)
+    results = []
+    start = time.perf_counter()
+    for scene_name in chosen.scenes:
+        scene = scenes.make(scene_name)
+        if chosen.quick:
+            scene.width, scene.height, scene.samples = scene.width // 4, scene.height // 4, min(scene.samples, 16)
+        participants = {name: renderer for name, renderer in all_participants.items() if renderer.can(scene)}
+        try:
+            agrees = agreement(scene, participants)
+        except (pictures.Disagreement, Failed) as problem:
+            sys.exit(f"{scene.title}: {problem}")
+        folders = {name: written(scene, name, renderer) for name, renderer in participants.items()}
+        result = {"scene": scene.name, "title": scene.title, "differences": agrees, "threads": {}}
+        for threads in chosen.threads:
+            result["threads"][threads] = summary(rounds(scene, participants, folders, threads, chosen))
+            say(f"{time.perf_counter() - start:6.0f} s  {report.line(result, threads)}")
+        results.append(result)
+        shutil.rmtree(os.path.join(WORK, "scenes", scene.name))
+        report.write(machine, results, chosen)
+
+
+if __name__ == "__main__":
+    main()
