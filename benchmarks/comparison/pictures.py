@@ -6,7 +6,7 @@ from .scenes import BACKGROUND
 
 # Rays that pass an edge within the rounding of their numbers may hit in one renderer and miss in the other.
 COVERAGE_TOLERANCE = 0.005  # of the pixels: hit in one picture only
-SHADING_TOLERANCE = 0.02  # of the pixels that both hit: colours further apart than
+SHADING_TOLERANCE = 0.04  # of the pixels that both hit: colours further apart than
 COLOR_TOLERANCE = 0.01  # this, of the range from 0 to 1
 
 

@@ -15,6 +15,7 @@ from .process import Failed, TooSlow
 OURS = "raytrace"
 QUICK_SCENES = ["spheres-10", "spheres-1k", "mix-5k", "mix-without-tori-5k"]
 CHECK_HEIGHT = 512  # of the pictures that are compared
+CHECK_LIMIT = 60  # seconds for one of them
 
 
 def say(text):
@@ -66,17 +67,21 @@ def written(scene, name, renderer):
 
 
 def agreement(scene, participants):
-    """What part of the pixels differs from our picture, for each peer: {name: (coverage, shading)}."""
+    """What part of the pixels differs from our picture, for each peer: {name: (coverage, shading)}. A peer that is too slow
+    even for this is missing."""
     # A small copy of the scene of the same shape: one ray through each pixel's centre shows all there is to compare.
     small = scenes.make(scene.name)
     small.width, small.height = scene.width * CHECK_HEIGHT // scene.height, CHECK_HEIGHT
     shown = {}
     for name, renderer in participants.items():
         folder = written(small, name, renderer)
-        shown[name] = renderer.picture(small, folder)
+        try:
+            shown[name] = renderer.picture(small, folder, CHECK_LIMIT)
+        except TooSlow:
+            continue
         pictures.save_png(shown[name], os.path.join(WORK, "pictures", f"{scene.name}-{name}.png"))
     result = {}
-    for name in participants:
+    for name in shown:
         if name != OURS:
             result[name] = pictures.difference(shown[OURS], shown[name])
             shares_shading = getattr(renderers.ALL[name], "shares_shading", lambda _: True)(scene)
@@ -84,7 +89,7 @@ def agreement(scene, participants):
     return result
 
 
-def rounds(scene, participants, folders, threads, chosen):
+def rounds(participants, folders, threads, chosen):
     """Renders in turns. Returns {name: {"render": [...], "whole": [...], "processors": [...]} or {"failure": text}}, a None
     in a list where the renderer sat out the round."""
     taken = {name: {"render": [], "whole": [], "processors": []} for name in participants}
@@ -153,10 +158,14 @@ def main():
             agrees = agreement(scene, participants)
         except (pictures.Disagreement, Failed) as problem:
             sys.exit(f"{scene.title}: {problem}")
+        too_slow = [name for name in participants if name != OURS and name not in agrees]
+        participants = {name: renderer for name, renderer in participants.items() if name not in too_slow}
         folders = {name: written(scene, name, renderer) for name, renderer in participants.items()}
         result = {"scene": scene.name, "title": scene.title, "differences": agrees, "threads": {}}
         for threads in chosen.threads:
-            result["threads"][threads] = summary(rounds(scene, participants, folders, threads, chosen))
+            result["threads"][threads] = summary(rounds(participants, folders, threads, chosen))
+            for name in too_slow:
+                result["threads"][threads][name] = {"failure": f"more than {CHECK_LIMIT} s"}
             say(f"{time.perf_counter() - start:6.0f} s  {report.line(result, threads)}")
         results.append(result)
         shutil.rmtree(os.path.join(WORK, "scenes", scene.name))

@@ -8,7 +8,7 @@ write(scene, folder)
                 writes the scene into the folder as it is timed: it renders to an 8-bit PNG
 render(folder, threads, limit)
                 renders what write() left there once; returns a Times
-picture(scene, folder)
+picture(scene, folder, limit)
                 renders the scene once more, untimed: one ray through the centre of each pixel; returns linear radiance,
                 top row first, as an array of height x width x 3 with the scene's background where nothing is hit
 shares_shading(scene)

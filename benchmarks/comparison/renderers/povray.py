@@ -108,8 +108,8 @@ def render(folder, threads, limit):
     return Times(float(re.search(r"Trace Time:.*\(([\d.]+) seconds\)", text).group(1)), whole, processors)
 
 
-def picture(scene, folder):
+def picture(scene, folder, limit):
     from ..pictures import read_exr
 
-    run(["povray", "scene.ini", "+Ocheck.exr", "+FE", "-A"], folder, 600)
+    run(["povray", "scene.ini", "+Ocheck.exr", "+FE", "-A"], folder, limit)
     return read_exr(os.path.join(folder, "check.exr"))

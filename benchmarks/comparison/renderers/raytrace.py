@@ -83,8 +83,8 @@ def render(folder, threads, limit):
         return Times(json.load(file)["seconds"]["render"], whole, processors)
 
 
-def picture(scene, folder):
+def picture(scene, folder, limit):
     from ..pictures import read_exr
 
-    run([PROGRAM, "scene.xml", "-q", "-s", 1, "-o", "check.exr"], folder, 600)
+    run([PROGRAM, "scene.xml", "-q", "-s", 1, "-o", "check.exr"], folder, limit)
     return read_exr(os.path.join(folder, "check.exr"))

@@ -80,8 +80,8 @@ def render(folder, threads, limit):
     return Times(float(re.search(r"Ray Tracing Time:\s*([\d.]+) seconds", text).group(1)), whole, processors)
 
 
-def picture(scene, folder):
+def picture(scene, folder, limit):
     from ..pictures import read_ppm48
 
-    run([EXECUTABLE, "scene.dat", "-aasamples", 0, "-format", "PPM48", "-o", "check.ppm"], folder, 600)
+    run([EXECUTABLE, "scene.dat", "-aasamples", 0, "-format", "PPM48", "-o", "check.ppm"], folder, limit)
     return read_ppm48(os.path.join(folder, "check.ppm"))
