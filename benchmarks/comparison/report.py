@@ -127,7 +127,7 @@ def page(facts, results, all_threads):
         "One ray through the centre of each pixel of a picture 512 pixels high, against raytrace's: the share of the pixels"
         " that one hits and the other misses, and the share of those that both hit whose colours are more than"
         f" {pictures.COLOR_TOLERANCE} of the range apart. More than {pictures.COVERAGE_TOLERANCE:.1%} or"
-        f" {pictures.SHADING_TOLERANCE:.0%} stops the comparison.\n"
+        f" {pictures.SHADING_TOLERANCE:.0%}, and there is no time but `other picture`.\n"
     )
     peers = [name for name in names if name != OURS]
     rows = [["scene", *(names[name] for name in peers)], ["---"] * (len(peers) + 1)]

@@ -16,6 +16,7 @@ OURS = "raytrace"
 QUICK_SCENES = ["spheres-10", "spheres-1k", "mix-5k", "mix-without-tori-5k"]
 CHECK_HEIGHT = 512  # of the pictures that are compared
 CHECK_LIMIT = 60  # seconds for one of them
+OTHER_PICTURE = "other picture"  # in place of a time
 
 
 def say(text):
@@ -67,26 +68,33 @@ def written(scene, name, renderer):
 
 
 def agreement(scene, participants):
-    """What part of the pixels differs from our picture, for each peer: {name: (coverage, shading)}. A peer that is too slow
-    even for this is missing."""
+    """What part of the pixels differs from our picture, for each peer: {name: (coverage, shading)}; and why peers must be left
+    out: {name: reason}."""
     # A small copy of the scene of the same shape: one ray through each pixel's centre shows all there is to compare.
     small = scenes.make(scene.name)
     small.width, small.height = scene.width * CHECK_HEIGHT // scene.height, CHECK_HEIGHT
-    shown = {}
+    ours = None
+    found, left_out = {}, {}
     for name, renderer in participants.items():
-        folder = written(small, name, renderer)
         try:
-            shown[name] = renderer.picture(small, folder, CHECK_LIMIT)
-        except TooSlow:
+            picture = renderer.picture(small, written(small, name, renderer), CHECK_LIMIT)
+        except TooSlow as slow:
+            left_out[name] = str(slow)
             continue
-        pictures.save_png(shown[name], os.path.join(WORK, "pictures", f"{scene.name}-{name}.png"))
-    result = {}
-    for name in shown:
-        if name != OURS:
-            result[name] = pictures.difference(shown[OURS], shown[name])
-            shares_shading = getattr(renderers.ALL[name], "shares_shading", lambda _: True)(scene)
-            pictures.demand_agreement(scene, renderers.ALL[name].NAME, result[name], shares_shading)
-    return result
+        except Failed as failed:
+            say(str(failed))
+            left_out[name] = "failed"
+            continue
+        pictures.save_png(picture, os.path.join(WORK, "pictures", f"{scene.name}-{name}.png"))
+        if name == OURS:
+            ours = picture
+            continue
+        found[name] = pictures.difference(ours, picture)
+        shares_shading = getattr(renderer, "shares_shading", lambda _: True)(scene)
+        if not pictures.agree(found[name], shares_shading):
+            say(f"{scene.title}: the picture of {renderer.NAME} is another one; see {WORK}/pictures/{scene.name}-*.png")
+            left_out[name] = OTHER_PICTURE
+    return found, left_out
 
 
 def rounds(participants, folders, threads, chosen):
@@ -148,28 +156,29 @@ def main():
     os.makedirs(chosen.output, exist_ok=True)
     machine = report.machine(all_participants, chosen)
     results = []
+    disagreements = 0
     start = time.perf_counter()
     for scene_name in chosen.scenes:
         scene = scenes.make(scene_name)
         if chosen.quick:
             scene.width, scene.height, scene.samples = scene.width // 4, scene.height // 4, min(scene.samples, 16)
         participants = {name: renderer for name, renderer in all_participants.items() if renderer.can(scene)}
-        try:
-            agrees = agreement(scene, participants)
-        except (pictures.Disagreement, Failed) as problem:
-            sys.exit(f"{scene.title}: {problem}")
-        too_slow = [name for name in participants if name != OURS and name not in agrees]
-        participants = {name: renderer for name, renderer in participants.items() if name not in too_slow}
+        agrees, left_out = agreement(scene, participants)
+        disagreements += list(left_out.values()).count(OTHER_PICTURE)
+        if OURS in left_out:
+            sys.exit(f"{scene.title}: raytrace {left_out[OURS]}")
+        participants = {name: renderer for name, renderer in participants.items() if name not in left_out}
         folders = {name: written(scene, name, renderer) for name, renderer in participants.items()}
         result = {"scene": scene.name, "title": scene.title, "differences": agrees, "threads": {}}
         for threads in chosen.threads:
             result["threads"][threads] = summary(rounds(participants, folders, threads, chosen))
-            for name in too_slow:
-                result["threads"][threads][name] = {"failure": f"more than {CHECK_LIMIT} s"}
+            result["threads"][threads] |= {name: {"failure": reason} for name, reason in left_out.items()}
             say(f"{time.perf_counter() - start:6.0f} s  {report.line(result, threads)}")
         results.append(result)
         shutil.rmtree(os.path.join(WORK, "scenes", scene.name))
         report.write(machine, results, chosen)
+    if disagreements:
+        sys.exit("Not all pictures agree, so that not all times are there.")
 
 
 if __name__ == "__main__":
