@@ -19,7 +19,8 @@ def machine(participants, chosen):
     with open("/proc/cpuinfo", encoding="utf-8") as file:
         model = re.search(r"model name\s*: (.*)", file.read())
     system = platform.freedesktop_os_release().get("PRETTY_NAME", platform.system())
-    commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=REPOSITORY, capture_output=True, text=True, check=False)
+    git = ["git", "rev-parse", "--short", "HEAD"]
+    commit = subprocess.run(git, cwd=REPOSITORY, capture_output=True, text=True, check=False)
     return {
         "processor": model.group(1) if model else platform.machine(),
         "processors": len(os.sched_getaffinity(0)),
@@ -86,7 +87,8 @@ def ratios_table(names, results, threads):
 
 
 def machine_line(facts):
-    return f"{facts['processor']}, {facts['processors']} processors, {facts['system']}; raytrace at commit {facts['commit']}"
+    where = f"{facts['processor']}, {facts['processors']} processors, {facts['system']}"
+    return f"{where}; raytrace at commit {facts['commit']}"
 
 
 def threads_text(count):
@@ -97,8 +99,8 @@ def page(facts, results, all_threads):
     names = facts["names"]
     text = [
         "# Comparison with other renderers\n",
-        "`benchmarks/compare` writes this page. It installs the other renderers, writes each scene in each one's language,"
-        " checks that the pictures agree, and renders in turns.\n",
+        "`benchmarks/compare` writes this page. It installs the other renderers, writes each scene in each one's"
+        " language, checks that the pictures agree, and renders in turns.\n",
         f"{machine_line(facts)}. Load when it began: {facts['load_at_start']}.\n",
         "![How many times as long as raytrace each renderer takes](comparison.svg)\n",
         "Each cell: the median, and how many times as long as raytrace it is, the median of the ratios of each round."
@@ -111,21 +113,23 @@ def page(facts, results, all_threads):
             text.append(table(names, results, threads, clock))
     text.append("## What is rendered\n")
     text.append(
-        "Objects at random places over an endless floor, in 9 matte colours, under one point light with shadows, 1024 x 1024"
-        " pixels, 16 samples a pixel, unless the name says otherwise. No ambient light and no highlights, since the"
-        " renderers have different ideas of them; the background is blue where nothing is hit, so that coverage can be"
-        " compared. [scenes.py](../benchmarks/comparison/scenes.py) makes the scenes. Each run reads its scene from a file"
+        "Objects at random places over an endless floor, in 9 matte colours, under one point light with shadows,"
+        " 1024 x 1024 pixels, 16 samples a pixel, unless the name says otherwise. No ambient light and no highlights,"
+        " since the renderers have different ideas of them; the background is blue where nothing is hit, so that coverage"
+        " can be compared. [scenes.py](../benchmarks/comparison/scenes.py) makes the scenes. Each run reads its scene from a file"
         " and writes an 8-bit PNG.\n"
     )
-    text.append("**Render only** is each renderer's own clock, without reading the scene, building its tree, or writing the"
-                " picture. **Whole process** is from its start to its end, with the file closed.\n")
+    text.append(
+        "**Render only** is each renderer's own clock, without reading the scene, building its tree, or writing the"
+        " picture. **Whole process** is from its start to its end, with the file closed.\n"
+    )
     text.append("| renderer | version | command | |\n| --- | --- | --- | --- |\n" + "".join(
         f"| {name} | {facts['versions'][key]} | `{facts['commands'][key]}` | {facts['notes'][key]} |\n"
         for key, name in names.items()))
     text.append("## Do the pictures agree?\n")
     text.append(
-        "One ray through the centre of each pixel of a picture 512 pixels high, against raytrace's: the share of the pixels"
-        " that one hits and the other misses, and the share of those that both hit whose colours are more than"
+        "One ray through the centre of each pixel of a picture 512 pixels high, against raytrace's: the share of the"
+        " pixels that one hits and the other misses, and the share of those that both hit whose colours are more than"
         f" {pictures.COLOR_TOLERANCE} of the range apart. More than {pictures.COVERAGE_TOLERANCE:.1%} or"
         f" {pictures.SHADING_TOLERANCE:.0%}, and there is no time but `other picture`.\n"
     )
@@ -133,7 +137,8 @@ def page(facts, results, all_threads):
     rows = [["scene", *(names[name] for name in peers)], ["---"] * (len(peers) + 1)]
     for result in results:
         found = result["differences"]
-        rows.append([result["title"], *(" / ".join(f"{x:.3%}" for x in found[name]) if name in found else "-" for name in peers)])
+        cells = [" / ".join(f"{x:.3%}" for x in found[name]) if name in found else "-" for name in peers]
+        rows.append([result["title"], *cells])
     text.append("".join(f"| {' | '.join(row)} |\n" for row in rows))
     return "\n".join(text)
 
@@ -145,8 +150,8 @@ def readme_section(facts, results, threads):
         + "\n"
         + f"{machine_line(facts)}; "
         + "; ".join(version for name, version in facts["versions"].items() if name != OURS)
-        + ".\n1 thread, seconds, how it was measured, and whether the pictures agree: [docs/comparison.md](docs/comparison.md);"
-        " `benchmarks/compare` measures it on your machine.\n\n"
+        + ".\n1 thread, seconds, how it was measured, and whether the pictures agree:"
+        " [docs/comparison.md](docs/comparison.md); `benchmarks/compare` measures it on your machine.\n\n"
         "![How many times as long as raytrace each renderer takes](docs/comparison.svg)\n"
     )
 

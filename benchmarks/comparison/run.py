@@ -1,5 +1,5 @@
-"""Compares raytrace with other renderers: writes each scene in each one's language, checks that the pictures agree, renders
-in turns, and writes docs/comparison.md, .json and .svg."""
+"""Compares raytrace with other renderers: writes each scene in each one's language, checks that the pictures agree,
+renders in turns, and writes docs/comparison.md, .json and .svg."""
 
 import argparse
 import os
@@ -68,8 +68,8 @@ def written(scene, name, renderer):
 
 
 def agreement(scene, participants):
-    """What part of the pixels differs from our picture, for each peer: {name: (coverage, shading)}; and why peers must be left
-    out: {name: reason}."""
+    """What part of the pixels differs from our picture, for each peer: {name: (coverage, shading)}; and why peers must
+    be left out: {name: reason}."""
     # A small copy of the scene of the same shape: one ray through each pixel's centre shows all there is to compare.
     small = scenes.make(scene.name)
     small.width, small.height = scene.width * CHECK_HEIGHT // scene.height, CHECK_HEIGHT
@@ -98,8 +98,8 @@ def agreement(scene, participants):
 
 
 def rounds(participants, folders, threads, chosen):
-    """Renders in turns. Returns {name: {"render": [...], "whole": [...], "processors": [...]} or {"failure": text}}, a None
-    in a list where the renderer sat out the round."""
+    """Renders in turns. Returns {name: {"render": [...], "whole": [...], "processors": [...]} or {"failure": text}}, a
+    None in a list where the renderer sat out the round."""
     taken = {name: {"render": [], "whole": [], "processors": []} for name in participants}
     spent = dict.fromkeys(participants, 0.0)
     for _ in range(chosen.repeats):

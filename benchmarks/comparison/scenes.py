@@ -1,7 +1,7 @@
 """The scenes that are compared, in no renderer's language. Standard library only; the same scene on every machine.
 
-All that the renderers share is in them: a pinhole camera, point lights with shadows and no fall-off with distance, matte
-materials, a background where nothing is hit, no ambient light. A hit shows
+All that the renderers share is in them: a pinhole camera, point lights with shadows and no fall-off with distance,
+matte materials, a background where nothing is hit, no ambient light. A hit shows
 
     color / pi * sum over the unshadowed lights of radiance * cos(angle of incidence)
 """

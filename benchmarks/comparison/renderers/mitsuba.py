@@ -17,13 +17,15 @@ NAME = "Mitsuba 3"
 VARIANT = "llvm_ad_rgb"
 COMMAND = "python -m comparison.mitsuba_render scene.xml picture.png THREADS"
 NOTE = (
-    "Variant `llvm_ad_rgb`, integrator `direct` with as many emitter samples as there are lights, box filter. Render only is"
-    " its steady state: the median of renders after the first in one process, which compiles. The whole process compiles"
-    " too, unless Dr.Jit finds the compiled code in its cache from an earlier run, as here it does; its `mitsuba` command"
-    " is not used, since it hangs when it writes the picture with few threads. Its lights fall off with the square of the"
-    " distance. The floor is a rectangle of 40,000 x 40,000, as far as single precision allows. Triangles are in meshes, one for each"
-    " material. Spheres are its `sphere`, a shape for each; its `ellipsoids`, many in one shape, render 1,000 in 0.75 of the"
-    " time and 100,000 in 0.05, but holes appear in small ones, and the pictures do not agree. It has no torus."
+    "Variant `llvm_ad_rgb`, integrator `direct` with as many emitter samples as there are lights, box filter."
+    " Render only is its steady state: the median of renders after the first in one process, which compiles."
+    " The whole process finds the compiled code in Dr.Jit's cache on disk, from the run before."
+    " Its `mitsuba` command is not used, since with few threads it hangs when it writes the picture."
+    " Its lights fall off with the square of the distance."
+    " The floor is a rectangle of 40,000 x 40,000, as far as single precision allows."
+    " Triangles are in meshes, one for each material. Spheres are its `sphere`, a shape for each; its `ellipsoids`,"
+    " many in one shape, render 1,000 in 0.75 of the time and 100,000 in 0.05, but holes appear in small ones, and the"
+    " pictures do not agree. It has no torus."
 )
 FLOOR_SIZE = 2e4
 LIBRARIES = ("/usr/lib/llvm-{0}/lib/libLLVM*.so*", "/usr/lib/*/libLLVM-{0}.so*", "/usr/lib*/libLLVM-{0}.so*")
@@ -100,12 +102,13 @@ def write(scene, folder):
 
 def _sensor(scene):
     angle = 2 * math.degrees(math.atan(VIEW_HEIGHT / 2))
+    view = f'origin="{_vector(EYE)}" target="{_vector(LOOKAT)}" up="0,1,0"'
     return (
-        f'<sensor type="perspective"><string name="fov_axis" value="y"/><float name="fov" value="{angle:.12g}"/><float name="far_clip" value="1e6"/>'
-        f'<transform name="to_world"><lookat origin="{_vector(EYE)}" target="{_vector(LOOKAT)}" up="0,1,0"/></transform>\n'
+        f'<sensor type="perspective"><string name="fov_axis" value="y"/><float name="fov" value="{angle:.12g}"/>'
+        f'<float name="far_clip" value="1e6"/><transform name="to_world"><lookat {view}/></transform>\n'
         f'<sampler type="independent"><integer name="sample_count" value="{scene.samples}"/></sampler>\n'
-        f'<film type="hdrfilm"><integer name="width" value="{scene.width}"/><integer name="height" value="{scene.height}"/>'
-        f'<rfilter type="box"/></film></sensor>\n'
+        f'<film type="hdrfilm"><integer name="width" value="{scene.width}"/>'
+        f'<integer name="height" value="{scene.height}"/><rfilter type="box"/></film></sensor>\n'
     )
 
 

@@ -52,7 +52,8 @@ def write(scene, folder):
             say(f"<matte><name>m{index}</name><ka>0</ka><kd>1</kd>{_color('cd', color)}</matte>\n")
         say("</mattes></materials>\n<objects>\n<planes>\n")
         point, normal = FLOOR
-        say(f"<plane>{_vector('point', point)}{_vector('normal', normal)}{_material(len(scene.materials) - 1)}</plane>\n")
+        material = _material(len(scene.materials) - 1)
+        say(f"<plane>{_vector('point', point)}{_vector('normal', normal)}{material}</plane>\n")
         say("</planes>\n<spheres>\n")
         for s in scene.of(Sphere):
             shape = f"{_vector('center', s.center)}<radius>{s.radius:.9g}</radius>"
@@ -64,7 +65,8 @@ def write(scene, folder):
         say("</cylinders>\n<toruses>\n")
         for t in scene.of(Torus):
             radii = f"<sweptradius>{t.swept_radius:.9g}</sweptradius><tuberadius>{t.tube_radius:.9g}</tuberadius>"
-            say(f"<torus>{_vector('center', t.center)}{_vector('axis', t.axis)}{radii}{_material(t.material)}</torus>\n")
+            place = _vector("center", t.center) + _vector("axis", t.axis)
+            say(f"<torus>{place}{radii}{_material(t.material)}</torus>\n")
         say("</toruses>\n<triangles>\n")
         for t in scene.of(Triangle):
             corners = "".join(_vector(f"vertexposition{i}", v) for i, v in enumerate(t.corners, 1))

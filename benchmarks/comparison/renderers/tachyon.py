@@ -12,7 +12,10 @@ from ..scenes import BACKGROUND, EYE, FLOOR, LOOKAT, VIEW_HEIGHT, Cylinder, Sphe
 NAME = "Tachyon"
 EXECUTABLE = "tachyon"
 COMMAND = "tachyon scene.dat -numthreads THREADS -format PNG -o picture.png"
-NOTE = "Render only: the `Ray Tracing Time` that it prints. The first sample of a pixel is its centre, the others are random. It has no torus."
+NOTE = (
+    "Render only: the `Ray Tracing Time` that it prints. The first sample of a pixel is its centre, the others are"
+    " random. It has no torus."
+)
 
 
 def available():
@@ -60,8 +63,8 @@ def _camera(scene):
     view = tuple(a - b for a, b in zip(LOOKAT, EYE))
     length = math.sqrt(sum(x * x for x in view))
     view = tuple(x / length for x in view)
-    # The frustum is that of the whole view at distance 1, half a pixel to the left and down, since Tachyon counts pixels
-    # from 1 and takes the number for the pixel's place. Left is right, since its coordinates are left-handed.
+    # The frustum is that of the whole view at distance 1, half a pixel to the left and down, since Tachyon counts
+    # pixels from 1 and takes the number for the pixel's place. Left is right, since its coordinates are left-handed.
     pixel = VIEW_HEIGHT / scene.height
     right = (scene.width / 2 - 0.5) * pixel
     left = (-scene.width / 2 - 0.5) * pixel
