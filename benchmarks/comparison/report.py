@@ -114,10 +114,10 @@ def page(facts, results, all_threads):
     text.append("## What is rendered\n")
     text.append(
         "Objects at random places over an endless floor, in 9 matte colours, under one point light with shadows,"
-        " 1024 x 1024 pixels, 16 samples a pixel, unless the name says otherwise. No ambient light and no highlights,"
-        " since the renderers have different ideas of them; the background is blue where nothing is hit, so that coverage"
-        " can be compared. [scenes.py](../benchmarks/comparison/scenes.py) makes the scenes. Each run reads its scene from a file"
-        " and writes an 8-bit PNG.\n"
+        " 1024 x 1024 pixels, 16 samples a pixel, unless the name says otherwise. No ambient light and no"
+        " highlights, since the renderers have different ideas of them; the background is blue where nothing is hit, so"
+        " that coverage can be compared. [scenes.py](../benchmarks/comparison/scenes.py) makes the scenes. Each run"
+        " reads its scene from a file and writes an 8-bit PNG.\n"
     )
     text.append(
         "**Render only** is each renderer's own clock, without reading the scene, building its tree, or writing the"
@@ -175,7 +175,8 @@ def plot(facts, results, threads, file):
     from matplotlib import pyplot
 
     peers = [name for name in facts["names"] if name != OURS]
-    figure, panels = pyplot.subplots(1, 2, sharey=True, figsize=(11, 1.2 + 0.38 * len(results)), layout="constrained")
+    size = (11, 1.5 + 0.38 * len(results))
+    figure, panels = pyplot.subplots(1, 2, sharex=True, sharey=True, figsize=size, layout="constrained")
     for panel, (clock, title) in zip(panels, CLOCKS.items()):
         for row, result in enumerate(results):
             for index, name in enumerate(peers):
@@ -189,13 +190,14 @@ def plot(facts, results, threads, file):
         panel.set_xlabel("times as long as raytrace")
         panel.set_title(f"{title}, {threads_text(threads)}")
         panel.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
+        panel.xaxis.set_minor_formatter("")
         panel.grid(axis="x", alpha=0.3)
     panels[0].set_yticks(range(len(results)), [result["title"] for result in results])
     panels[0].invert_yaxis()
     labelled = {}
     for handle, label in zip(*panels[0].get_legend_handles_labels()):
         labelled.setdefault(label, handle)
-    panels[1].legend(labelled.values(), labelled.keys(), loc="best")
+    figure.legend(labelled.values(), labelled.keys(), loc="outside lower center", ncols=len(peers))
     figure.savefig(file, metadata={"Date": None})
     pyplot.close(figure)
 

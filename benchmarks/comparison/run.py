@@ -2,6 +2,7 @@
 renders in turns, and writes docs/comparison.md, .json and .svg."""
 
 import argparse
+import dataclasses
 import os
 import shutil
 import statistics
@@ -71,8 +72,8 @@ def agreement(scene, participants):
     """What part of the pixels differs from our picture, for each peer: {name: (coverage, shading)}; and why peers must
     be left out: {name: reason}."""
     # A small copy of the scene of the same shape: one ray through each pixel's centre shows all there is to compare.
-    small = scenes.make(scene.name)
-    small.width, small.height = scene.width * CHECK_HEIGHT // scene.height, CHECK_HEIGHT
+    width = scene.width * CHECK_HEIGHT // scene.height
+    small = dataclasses.replace(scene, width=width, height=CHECK_HEIGHT)
     ours = None
     found, left_out = {}, {}
     for name, renderer in participants.items():

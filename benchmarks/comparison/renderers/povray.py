@@ -12,9 +12,9 @@ from ..scenes import BACKGROUND, EYE, FLOOR, LOOKAT, VIEW_HEIGHT, Cylinder, Sphe
 NAME = "POV-Ray"
 COMMAND = "povray scene.ini +WTTHREADS"
 NOTE = (
-    "Render only: the `Trace Time` that it prints, which is up to 0.1 s too long. Its antialiasing is adaptive;"
-    " threshold 0 makes it take all N x N samples of every pixel, and one more that its method needs, 17 for 16. Triangles are in"
-    " meshes, one for each material."
+    "Render only: the `Trace Time` that it prints, which is up to 0.1 s too long."
+    " Its antialiasing is adaptive; threshold 0 makes it take all N x N samples of every pixel, and one more that its"
+    " method needs, 17 for 16. Triangles are in meshes, one for each material."
 )
 
 
