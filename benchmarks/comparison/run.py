@@ -156,6 +156,8 @@ def main():
     os.makedirs(os.path.join(WORK, "pictures"), exist_ok=True)
     os.makedirs(chosen.output, exist_ok=True)
     machine = report.machine(all_participants, chosen)
+    if machine["load_at_start"] > 0.3:
+        say(f"Others are at work on this machine (load {machine['load_at_start']}): the times will not be worth much.")
     results = []
     disagreements = 0
     start = time.perf_counter()
