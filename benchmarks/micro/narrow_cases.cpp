@@ -3,8 +3,8 @@
 #include <memory>
 #include <stdexcept>
 
+#include "../scenes.h"
 #include "raytrace/film/film.h"
-#include "scenes.h"
 
 namespace raytrace::benchmark {
 
