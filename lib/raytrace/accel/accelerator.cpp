@@ -16,14 +16,11 @@ using Packet = embree::Packet<native_lanes>;
 /// Embree asserts |component| < 1.844e18 for every ray and aborts otherwise, where it is built with assertions as
 /// Debian's is. NaN fails every comparison.
 MaskN embree_takes(const Ray<FloatN>& rays) {
-  const auto inside = [](const Vec3<FloatN>& v) {
-    const FloatN limit(1.8e18f);
-    return (xsimd::abs(v.x) < limit) & (xsimd::abs(v.y) < limit) & (xsimd::abs(v.z) < limit);
-  };
-  const FloatN largest =
-      xsimd::max(xsimd::max(xsimd::abs(rays.direction.x), xsimd::abs(rays.direction.y)), xsimd::abs(rays.direction.z));
+  // Of a whole vector at once: the sum of its components' sizes is NaN or infinite if any of them is.
+  const auto size = [](const Vec3<FloatN>& v) { return xsimd::abs(v.x) + xsimd::abs(v.y) + xsimd::abs(v.z); };
+  const FloatN direction = size(rays.direction);
   // Directions whose square would vanish in float count as 0.
-  return inside(rays.origin) & inside(rays.direction) & (largest > FloatN(1e-18f)) & (rays.near >= FloatN(0)) &
+  return (size(rays.origin) + direction < FloatN(1.8e18f)) & (direction > FloatN(1e-18f)) & (rays.near >= FloatN(0)) &
          (rays.far > rays.near);
 }
 
