@@ -2,23 +2,22 @@
 
 #include <sys/mman.h>
 
-#include <cstdint>
 #include <new>
+#include <type_traits>
 
 namespace raytrace {
+
+void Film::Unmap::operator()(Pixel* pixels) const { munmap(pixels, bytes); }
 
 Film::Film(int full_width, int full_height, Region region)
     : full_width_(full_width), full_height_(full_height), region_(region) {
   static_assert(std::is_trivially_copyable_v<Pixel>);
-  if (count() == 0) return;
-  pixels_.reset(static_cast<Pixel*>(std::calloc(count(), sizeof(Pixel))));
-  if (!pixels_) throw std::bad_alloc();
-
-  // Pages of 2 MiB where the system has them: 500 times fewer to be asked for. Only those that lie wholly inside.
-  constexpr std::uintptr_t page = 2U << 20U;
-  const auto begin = (reinterpret_cast<std::uintptr_t>(pixels_.get()) + page - 1) / page * page;
-  const auto end = reinterpret_cast<std::uintptr_t>(pixels_.get() + count()) / page * page;
-  if (begin < end) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+  const std::size_t bytes = count() * sizeof(Pixel);
+  if (bytes == 0) return;
+  void* const memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED) throw std::bad_alloc();
+  pixels_ = {static_cast<Pixel*>(memory), Unmap{bytes}};
+  madvise(memory, bytes, MADV_HUGEPAGE);  // where the system has larger pages: fewer to be asked for
 }
 
 }  // namespace raytrace

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdlib>
 #include <memory>
 #include <span>
 
@@ -46,8 +45,9 @@ class Film {
   std::span<const Pixel> pixels() const { return {pixels_.get(), count()}; }
 
  private:
-  struct Free {
-    void operator()(Pixel* pixels) const { std::free(pixels); }
+  struct Unmap {
+    std::size_t bytes;
+    void operator()(Pixel* pixels) const;
   };
 
   std::size_t count() const {
@@ -62,7 +62,7 @@ class Film {
   Region region_;
   /// Zeros from the system, page by page as they are first written: by the threads that render, not by the one that
   /// makes the film.
-  std::unique_ptr<Pixel[], Free> pixels_;
+  std::unique_ptr<Pixel[], Unmap> pixels_;
 };
 
 }  // namespace raytrace

@@ -1,6 +1,7 @@
 #include "raytrace/render/renderer.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -15,20 +16,24 @@ namespace raytrace {
 
 namespace {
 
-/// Pixels an edge of a tile, the unit of work of a thread: a multiple of every packet's block, large enough that taking
-/// one costs nothing, small enough that the last ones keep all threads busy.
-constexpr int tile_edge = 32;
+/// Pixels an edge of a tile, the unit of work of a thread: multiples of every packet's block. Large ones cost nothing to
+/// take; small ones leave the threads less to wait for at the end.
+constexpr int largest_tile_edge = 32, smallest_tile_edge = 8;
+
+/// The last tiles keep some threads waiting, for half a tile each on average: a thirty-second of the render's time.
+constexpr int tiles_a_thread = 16;
 
 struct TileGrid {
   Region region;
-  int first_column, first_row, columns, rows;
+  int edge, first_column, first_row, columns, rows;
 
-  explicit TileGrid(const Region& wanted)
+  TileGrid(const Region& wanted, int tile_edge)
       : region(wanted),
-        first_column(wanted.x0 / tile_edge),
-        first_row(wanted.y0 / tile_edge),
-        columns((wanted.x1 + tile_edge - 1) / tile_edge - first_column),
-        rows((wanted.y1 + tile_edge - 1) / tile_edge - first_row) {}
+        edge(tile_edge),
+        first_column(wanted.x0 / edge),
+        first_row(wanted.y0 / edge),
+        columns((wanted.x1 + edge - 1) / edge - first_column),
+        rows((wanted.y1 + edge - 1) / edge - first_row) {}
 
   int count() const { return columns * rows; }
 
@@ -36,9 +41,35 @@ struct TileGrid {
   /// block.
   Region tile(int index) const {
     const int column = first_column + index % columns, row = first_row + index / columns;
-    return {std::max(column * tile_edge, region.x0), std::max(row * tile_edge, region.y0),
-            std::min((column + 1) * tile_edge, region.x1), std::min((row + 1) * tile_edge, region.y1)};
+    return {std::max(column * edge, region.x0), std::max(row * edge, region.y0),
+            std::min((column + 1) * edge, region.x1), std::min((row + 1) * edge, region.y1)};
   }
+};
+
+/// The largest tiles of which there are enough.
+TileGrid tiles_for(const Region& region, int threads) {
+  int edge = largest_tile_edge;
+  while (edge > smallest_tile_edge && TileGrid(region, edge).count() < tiles_a_thread * threads) edge /= 2;
+  return {region, edge};
+}
+
+/// Tells the progress without making any thread wait for another.
+class Teller {
+ public:
+  Teller(const ProgressFunction& progress, int tiles) : progress_(progress), tiles_(tiles) {}
+
+  void tell(int done) {
+    if (!progress_) return;
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    if (!lock || done <= told_) return;
+    told_ = done;
+    progress_(static_cast<double>(done) / tiles_);
+  }
+
+ private:
+  const ProgressFunction& progress_;
+  int tiles_, told_ = 0;
+  std::mutex mutex_;
 };
 
 }  // namespace
@@ -46,33 +77,29 @@ struct TileGrid {
 Film render(const Scene& scene, const SceneDescription& description, const RenderSettings& settings, RayCounts& rays,
             const ProgressFunction& progress, const std::atomic<bool>* stop) {
   Film film(description.viewplane.hres, description.viewplane.vres, settings.region);
-  const TileGrid grid(settings.region);
   // Asking for more than there can be (Embree sets that limit, too) would have oneTBB warn on the standard error
   // output.
   const auto most_threads = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
   const int threads =
       static_cast<int>(std::min(static_cast<std::size_t>(thread_count(settings.threads)), most_threads));
-  std::mutex mutex;
-  int done = 0;
-  RayCounts counts;
+  const TileGrid grid = tiles_for(settings.region, threads);
+  Teller teller(progress, grid.count());
+  tbb::enumerable_thread_specific<RayCounts> counts;
   // Static: a worker must find it before it reads any argument of the loop.
-  static constinit Handover to_workers, from_workers;
+  static constinit Handover to_workers;
+  // All that threads write and others read: once a tile. It hands the pixels over, too.
+  std::atomic<int> done{0};
   const auto render_tile = [&](int index) {
     to_workers.take();
-    if (stop == nullptr || !stop->load(std::memory_order_relaxed)) {
-      const RayCounts tile_counts = scene.render_region(grid.tile(index), settings.seed, film, stop);
-      const std::lock_guard lock(mutex);
-      counts += tile_counts;
-      ++done;
-      if (progress) progress(static_cast<double>(done) / grid.count());
-    }
-    from_workers.give();
+    if (stop != nullptr && stop->load(std::memory_order_relaxed)) return;
+    counts.local() += scene.render_region(grid.tile(index), settings.seed, film, stop);
+    teller.tell(done.fetch_add(1, std::memory_order_acq_rel) + 1);
   };
   tbb::task_arena arena(threads);
   to_workers.give();
   arena.execute([&] { tbb::parallel_for(0, grid.count(), render_tile, tbb::simple_partitioner()); });
-  from_workers.take();
-  rays = counts;
+  teller.tell(done.load(std::memory_order_acquire));  // the last may have found another thread telling
+  rays = counts.combine([](RayCounts a, const RayCounts& b) { return a += b; });
   return film;
 }
 
