@@ -1,6 +1,6 @@
 """Renders a scene with Mitsuba 3: python -m comparison.mitsuba_render scene.xml OUTPUT THREADS
 
-OUTPUT is a PNG to write; or "steady", to print the median of the seconds of renders after the first; or an .npz for the
+OUTPUT is an EXR to write; or "steady", to print the median of the seconds of renders after the first; or an .npz for the
 colours, coverage and positions seen through the pixels' centres.
 """
 

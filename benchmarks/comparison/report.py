@@ -117,7 +117,8 @@ def page(facts, results, all_threads):
         " 1024 x 1024 pixels, 16 samples a pixel, unless the name says otherwise. No ambient light and no"
         " highlights, since the renderers have different ideas of them; the background is blue where nothing is hit, so"
         " that coverage can be compared. [scenes.py](../benchmarks/comparison/scenes.py) makes the scenes. Each run"
-        " reads its scene from a file and writes an 8-bit PNG.\n"
+        " reads its scene from a file and writes what it is at home in: raytrace and Mitsuba an EXR, the others an 8-bit"
+        " PNG.\n"
     )
     text.append(
         "**Render only** is each renderer's own clock, without reading the scene, building its tree, or writing the"

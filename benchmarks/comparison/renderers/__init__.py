@@ -5,7 +5,7 @@ available()     None, or why it cannot take part
 version()       of the renderer, and of what its speed depends on
 can(scene)      whether its language can express the scene
 write(scene, folder)
-                writes the scene into the folder as it is timed: it renders to an 8-bit PNG
+                writes the scene into the folder as it is timed
 render(folder, threads, limit)
                 renders what write() left there once; returns a Times
 picture(scene, folder, limit)

@@ -15,7 +15,7 @@ from ..scenes import BACKGROUND, EYE, FLOOR, LOOKAT, VIEW_HEIGHT, Cylinder, Sphe
 
 NAME = "Mitsuba 3"
 VARIANT = "llvm_ad_rgb"
-COMMAND = "python -m comparison.mitsuba_render scene.xml picture.png THREADS"
+COMMAND = "python -m comparison.mitsuba_render scene.xml picture.exr THREADS"
 NOTE = (
     "Variant `llvm_ad_rgb`, integrator `direct` with as many emitter samples as there are lights, box filter."
     " Render only is its steady state: the median of renders after the first in one process, which compiles."
@@ -140,7 +140,7 @@ def _run(folder, limit, *arguments):
 
 
 def render(folder, threads, limit):
-    _, whole, processors = _run(folder, limit, "scene.xml", "picture.png", threads)
+    _, whole, processors = _run(folder, limit, "scene.xml", "picture.exr", threads)
     text, _, _ = _run(folder, limit, "scene.xml", "steady", threads)
     return Times(float(text.split()[-1]), whole, processors)
 

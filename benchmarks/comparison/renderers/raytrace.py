@@ -9,7 +9,7 @@ from ..process import Times, run
 from ..scenes import BACKGROUND, EYE, FLOOR, LOOKAT, VIEW_HEIGHT, Cylinder, Sphere, Torus, Triangle
 
 NAME = "raytrace"
-COMMAND = "raytrace scene.xml -q -t THREADS -o picture.png --stats=stats.json"
+COMMAND = "raytrace scene.xml -q -t THREADS -o picture.exr --stats=stats.json"
 NOTE = "Render only: `seconds.render` of `--stats`."
 
 
@@ -79,7 +79,7 @@ def _material(index):
 
 
 def render(folder, threads, limit):
-    command = [PROGRAM, "scene.xml", "-q", "-t", threads, "-o", "picture.png", "--stats=stats.json"]
+    command = [PROGRAM, "scene.xml", "-q", "-t", threads, "-o", "picture.exr", "--stats=stats.json"]
     _, whole, processors = run(command, folder, limit)
     with open(os.path.join(folder, "stats.json"), encoding="utf-8") as file:
         return Times(json.load(file)["seconds"]["render"], whole, processors)
