@@ -180,17 +180,12 @@ void ExrEncoder::write_rows(const Film& band, std::vector<Value>& values) {
     });
     for (const Repairs& local : repairs) repairs_ += local;
 
-    // OpenEXR wants the address that the pixel (0, 0) would have, which lies before the array: no pointer can say that.
-    const auto row_bytes = static_cast<std::ptrdiff_t>(channels * width * sizeof(Value));
-    const std::ptrdiff_t origin = reinterpret_cast<std::ptrdiff_t>(values.data()) - y0 * row_bytes -
-                                  region.x0 * static_cast<std::ptrdiff_t>(channels * sizeof(Value));
+    const Imath::Box2i window({region.x0, y0}, {region.x1 - 1, y1 - 1});
     Imf::FrameBuffer frame;
-    std::ptrdiff_t offset = 0;
+    const Value* first = values.data();
     for (const char* channel : {"R", "G", "B", "A"}) {
-      frame.insert(channel,
-                   Imf::Slice(settings_.full_float ? Imf::FLOAT : Imf::HALF, reinterpret_cast<char*>(origin + offset),
-                              channels * sizeof(Value), static_cast<std::size_t>(row_bytes)));
-      offset += sizeof(Value);
+      frame.insert(channel, Imf::Slice::Make(settings_.full_float ? Imf::FLOAT : Imf::HALF, first++, window,
+                                             channels * sizeof(Value), channels * width * sizeof(Value)));
     }
     guard([&] {
       open_->exr->setFrameBuffer(frame);
