@@ -15,9 +15,6 @@
 #include <ImfStringAttribute.h>
 #include <ImfThreading.h>
 #include <half.h>
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -114,14 +111,22 @@ Value storable(float radiance, Repairs& repairs) {
   return Value(std::isnan(radiance) ? 0.0F : std::copysign(largest<Value>, radiance));
 }
 
+/// OpenEXR's pool is one for the whole process, and must not change while a file is written: the first to ask decides.
+void make_thread_pool(int threads) {
+  static const bool made = [threads] {
+    Imf::setGlobalThreadCount(threads == 1 ? 0 : threads);
+    return true;
+  }();
+  static_cast<void>(made);
+}
+
 }  // namespace
 
 struct ExrEncoder::OpenFile {
-  OpenFile(std::FILE* file, int threads) : destination(file), arena(threads) {}
+  explicit OpenFile(std::FILE* file) : destination(file) {}
 
   Destination destination;
   std::optional<Imf::OutputFile> exr;
-  tbb::task_arena arena;
   std::vector<Imath::half> halves;
   std::vector<float> floats;
 };
@@ -137,10 +142,10 @@ void ExrEncoder::begin(const PictureExtent& extent, const ImageMetadata& metadat
   // OpenEXR compresses this many rows together, so that threads have work for no more of them.
   constexpr int block_rows = 16;
   const int threads = std::min(settings_.threads, (extent.region.height() + block_rows - 1) / block_rows);
-  const int helpers = threads == 1 ? 0 : threads;                              // 0: the calling thread does it
-  if (helpers > Imf::globalThreadCount()) Imf::setGlobalThreadCount(helpers);  // a pool of the whole process
+  const int helpers = threads == 1 ? 0 : threads;  // 0: the calling thread does it
+  make_thread_pool(settings_.threads);
   const Imf::Header header = header_of(extent, metadata, settings_.full_float);
-  open_ = std::make_unique<OpenFile>(destination, threads);
+  open_ = std::make_unique<OpenFile>(destination);
   guard([&] { open_->exr.emplace(open_->destination, header, helpers); });
 }
 
@@ -164,21 +169,14 @@ void ExrEncoder::write_rows(const Film& band, std::vector<Value>& values) {
 
   for (int y0 = region.y0; y0 < region.y1; y0 += most_rows) {
     const int y1 = std::min(y0 + most_rows, region.y1);
-    tbb::enumerable_thread_specific<Repairs> repairs;
-    open_->arena.execute([&] {
-      tbb::parallel_for(tbb::blocked_range<int>(y0, y1, 16), [&](const tbb::blocked_range<int>& rows) {
-        Repairs& local = repairs.local();
-        Value* value = values.data() + channels * width * static_cast<std::size_t>(rows.begin() - y0);
-        for (int y = rows.begin(); y < rows.end(); ++y) {
-          for (int x = region.x0; x < region.x1; ++x) {
-            const Pixel& pixel = band.at(x, y);
-            for (const float channel : {pixel.red, pixel.green, pixel.blue, pixel.alpha})
-              *value++ = storable<Value>(channel, local);
-          }
-        }
-      });
-    });
-    for (const Repairs& local : repairs) repairs_ += local;
+    Value* value = values.data();
+    for (int y = y0; y < y1; ++y) {
+      for (int x = region.x0; x < region.x1; ++x) {
+        const Pixel& pixel = band.at(x, y);
+        for (const float channel : {pixel.red, pixel.green, pixel.blue, pixel.alpha})
+          *value++ = storable<Value>(channel, repairs_);
+      }
+    }
 
     const Imath::Box2i window({region.x0, y0}, {region.x1 - 1, y1 - 1});
     Imf::FrameBuffer frame;

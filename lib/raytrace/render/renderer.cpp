@@ -16,8 +16,8 @@ namespace raytrace {
 
 namespace {
 
-/// Pixels an edge of a tile, the unit of work of a thread: multiples of every packet's block. Large ones cost nothing to
-/// take; small ones leave the threads less to wait for at the end.
+/// Pixels an edge of a tile, the unit of work of a thread: multiples of every packet's block. Large ones cost nothing
+/// to take; small ones leave the threads less to wait for at the end.
 constexpr int largest_tile_edge = 32, smallest_tile_edge = 8;
 
 /// The last tiles keep some threads waiting, for half a tile each on average: a thirty-second of the render's time.
@@ -86,19 +86,22 @@ Film render(const Scene& scene, const SceneDescription& description, const Rende
   Teller teller(progress, grid.count());
   tbb::enumerable_thread_specific<RayCounts> counts;
   // Static: a worker must find it before it reads any argument of the loop.
-  static constinit Handover to_workers;
-  // All that threads write and others read: once a tile. It hands the pixels over, too.
+  static constinit Handover to_workers, from_workers;
+  // With the handover, all that threads write and others read: once a tile.
   std::atomic<int> done{0};
   const auto render_tile = [&](int index) {
     to_workers.take();
-    if (stop != nullptr && stop->load(std::memory_order_relaxed)) return;
-    counts.local() += scene.render_region(grid.tile(index), settings.seed, film, stop);
-    teller.tell(done.fetch_add(1, std::memory_order_acq_rel) + 1);
+    if (stop == nullptr || !stop->load(std::memory_order_relaxed)) {
+      counts.local() += scene.render_region(grid.tile(index), settings.seed, film, stop);
+      teller.tell(done.fetch_add(1, std::memory_order_relaxed) + 1);
+    }
+    from_workers.give();
   };
   tbb::task_arena arena(threads);
   to_workers.give();
   arena.execute([&] { tbb::parallel_for(0, grid.count(), render_tile, tbb::simple_partitioner()); });
-  teller.tell(done.load(std::memory_order_acquire));  // the last may have found another thread telling
+  from_workers.take();
+  teller.tell(done.load(std::memory_order_relaxed));  // the last may have found another thread telling
   rays = counts.combine([](RayCounts a, const RayCounts& b) { return a += b; });
   return film;
 }
