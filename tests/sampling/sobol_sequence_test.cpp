@@ -24,8 +24,10 @@ std::size_t box_of(const SobolSequence::Point& point, int a, int b) {
 std::vector<SobolSequence::Point> points(std::uint32_t first, std::uint32_t count, SobolSequence::Point shift = {}) {
   SobolSequence sequence(first);
   std::vector<SobolSequence::Point> result;
-  for (std::uint32_t i = 0; i < count; ++i, sequence.advance())
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (i > 0) sequence.advance();  // not past the last, which may be the sequence's
     result.push_back({sequence.point().x ^ shift.x, sequence.point().y ^ shift.y});
+  }
   return result;
 }
 
