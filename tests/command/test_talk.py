@@ -182,8 +182,10 @@ class Signals(CommandTest):
             caught = re.search(r"^SigCgt:\s*([0-9a-f]+)$", file.read(), re.M).group(1)
         return int(caught, 16) >> (number - 1) & 1 == 1
 
-    def wait_until(self, condition):
+    def wait_until(self, condition, process):
         while not condition():
+            if process.poll() is not None:
+                self.fail(f"the program ended with {process.returncode}: {process.stderr.read()}")
             time.sleep(0.01)
 
     def rendering(self, *arguments, **keywords):
@@ -193,7 +195,7 @@ class Signals(CommandTest):
         self.addCleanup(process.kill)
         self.addCleanup(process.stdout.close)
         self.addCleanup(process.stderr.close)
-        self.wait_until(lambda: self.catches(process, signal.SIGTERM))
+        self.wait_until(lambda: self.catches(process, signal.SIGTERM), process)
         return process
 
     def test_first_signal_stops(self):
@@ -212,7 +214,7 @@ class Signals(CommandTest):
         process = self.rendering("-s", "20000", "--crop", "0,50,80,60")
         time.sleep(0.1)  # handlers come before rays
         process.send_signal(signal.SIGINT)
-        self.wait_until(lambda: not self.catches(process, signal.SIGTERM))
+        self.wait_until(lambda: not self.catches(process, signal.SIGTERM), process)
         process.send_signal(signal.SIGTERM)
         self.assertEqual(process.wait(timeout=300), -signal.SIGTERM)
         self.assertEqual(self.names(), ["scene.xml"])
