@@ -1,3 +1,8 @@
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -107,6 +112,78 @@ TEST_CASE("a picture written in bands has the bytes of the same picture written 
     image.commit();
   }
   CHECK(bytes_of(file) == at_once);
+}
+
+TEST_CASE("an EXR holds any channels, each of its type") {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("a.exr");
+  const Film film = distinct_film(30, 50, {4, 6, 25, 48});
+  std::vector<Channel> channels = color_channels(false);
+  const std::vector<Channel> data = {{"Z", ChannelType::float32},
+                                     {"id.object", ChannelType::uint32},
+                                     {"a_layer_of_a_rather_long_name.R", ChannelType::half}};
+  channels.insert(channels.end(), data.begin(), data.end());
+  {
+    ImageFile image(file, {30, 50, film.region()}, channels, {}, {});
+    ImageBand band;
+    for (int y0 = 6; y0 < 48; y0 = band.region.y1) {
+      fill_color(band, film, y0, std::min(y0 + 32, 48));
+      std::vector<float> depth, fraction;
+      std::vector<std::uint32_t> id;
+      for (std::uint32_t i = 0; i < 21U * static_cast<std::uint32_t>(band.region.height()); ++i) {
+        depth.push_back(std::ldexp(16777215.0F, static_cast<int>(i % 100)));
+        id.push_back(4294967295U - i);
+        fraction.push_back(static_cast<float>(i % 64) / 64);
+      }
+      band.planes.resize(4);
+      band.planes.insert(band.planes.end(), {depth, id, fraction});
+      image.write(band);
+    }
+    const Repairs repairs = image.commit();
+    CHECK(repairs.clamped == 0);
+    CHECK(repairs.not_finite == 0);
+  }
+
+  Imf::InputFile exr(file.c_str());
+  const Imath::Box2i window = exr.header().dataWindow();
+  const auto type_of = [&](const char* name) { return exr.header().channels()[name].type; };
+  CHECK(type_of("R") == Imf::HALF);
+  CHECK(type_of("Z") == Imf::FLOAT);
+  CHECK(type_of("id.object") == Imf::UINT);
+  CHECK(type_of("a_layer_of_a_rather_long_name.R") == Imf::HALF);
+  std::vector<float> red(21U * 42), depth(21U * 42);
+  std::vector<std::uint32_t> id(21U * 42);
+  Imf::FrameBuffer frame;
+  frame.insert("R", Imf::Slice::Make(Imf::FLOAT, red.data(), window));
+  frame.insert("Z", Imf::Slice::Make(Imf::FLOAT, depth.data(), window));
+  frame.insert("id.object", Imf::Slice::Make(Imf::UINT, id.data(), window));
+  exr.setFrameBuffer(frame);
+  exr.readPixels(6, 47);
+  int wrong = 0;
+  for (std::uint32_t i = 0; i < red.size(); ++i) {
+    const std::uint32_t in_band = i % (21U * 32);
+    wrong += red[i] != film.at(4 + static_cast<int>(i % 21), 6 + static_cast<int>(i / 21)).red;
+    wrong += depth[i] != std::ldexp(16777215.0F, static_cast<int>(in_band % 100));
+    wrong += id[i] != 4294967295U - in_band;
+  }
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("formats without further channels store the colours of them") {
+  const SourceDateEpoch epoch("86399");
+  const TemporaryFolder folder;
+  const std::string extension = GENERATE(".png", ".tif", ".hdr");
+  const Film film = distinct_film(9, 7);
+  write_image(folder.file("a" + extension), film, {}, {});
+  std::vector<Channel> channels = color_channels(false);
+  channels.push_back({"Z", ChannelType::float32});
+  ImageBand band;
+  fill_color(band, film, 0, 7);
+  band.planes.emplace_back(std::vector<float>(63, 1e30F));
+  ImageFile image(folder.file("b" + extension), {9, 7, film.region()}, channels, {}, {});
+  image.write(band);
+  image.commit();
+  CHECK(bytes_of(folder.file("b" + extension)) == bytes_of(folder.file("a" + extension)));
 }
 
 TEST_CASE("a picture that is not ended leaves nothing") {

@@ -15,7 +15,10 @@ TEST_CASE("EXR metadata is typed and has OpenEXR's standard names") {
   const SourceDateEpoch unset(nullptr);
   const TemporaryFolder folder;
   const std::string file = folder.file("a.exr");
-  const ImageMetadata metadata = some_metadata();
+  ImageMetadata metadata = some_metadata();
+  metadata.attributes = {{"cryptomatte/0123456/conversion", std::string("uint32_to_float32")},
+                         {"raytrace:tile", 7},
+                         {"raytrace:an attribute with a longer name", 0.1F}};
   write_image(file, distinct_film(8, 8), metadata, {});
 
   const OIIO::ImageSpec spec = read_picture(file).spec;
@@ -26,6 +29,9 @@ TEST_CASE("EXR metadata is typed and has OpenEXR's standard names") {
   CHECK(spec.get_int_attribute("raytrace:threads") == 3);
   CHECK(spec.get_float_attribute("raytrace:renderSeconds") == 12.5F);
   CHECK(spec.get_string_attribute("DateTime").size() == 19);
+  CHECK(spec.get_string_attribute("cryptomatte/0123456/conversion") == "uint32_to_float32");
+  CHECK(spec.get_int_attribute("raytrace:tile") == 7);
+  CHECK(spec.get_float_attribute("raytrace:an attribute with a longer name") == 0.1F);
 
   const auto* const camera = spec.find_attribute("worldToCamera", OIIO::TypeMatrix);
   const auto* const ndc = spec.find_attribute("worldToNDC", OIIO::TypeMatrix);
@@ -45,9 +51,14 @@ TEST_CASE("PNG metadata is text, since PNG drops numbers") {
   const SourceDateEpoch unset(nullptr);
   const TemporaryFolder folder;
   const std::string file = folder.file("a.png");
-  write_image(file, distinct_film(8, 8), some_metadata(), {});
+  ImageMetadata metadata = some_metadata();
+  metadata.attributes = {{"raytrace:part", std::string("left")}, {"raytrace:tile", 7}, {"raytrace:weight", 0.5F}};
+  write_image(file, distinct_film(8, 8), metadata, {});
 
   const OIIO::ImageSpec spec = read_picture(file).spec;
+  CHECK(spec.get_string_attribute("raytrace:part") == "left");
+  CHECK(spec.get_string_attribute("raytrace:tile") == "7");
+  CHECK(spec.get_string_attribute("raytrace:weight") == "0.5");
   CHECK(spec.get_string_attribute("Software") == "raytrace 1.2.3");
   CHECK(spec.get_string_attribute("raytrace:scene") == "folder/scene.xml");
   CHECK(spec.get_string_attribute("raytrace:samples") == "16");

@@ -73,13 +73,30 @@ Imath::M44f matrix_of(const float (&values)[16]) {
   return matrix;
 }
 
-Imf::Header header_of(const PictureExtent& extent, const ImageMetadata& metadata, bool full_float) {
+Imf::PixelType pixel_type(ChannelType type) {
+  if (type == ChannelType::half) return Imf::HALF;
+  return type == ChannelType::float32 ? Imf::FLOAT : Imf::UINT;
+}
+
+void insert(Imf::Header& header, const ImageAttribute& attribute) {
+  const std::string& name = attribute.name;
+  if (const auto* const text = std::get_if<std::string>(&attribute.value)) {
+    header.insert(name, Imf::StringAttribute(*text));
+  } else if (const auto* const integer = std::get_if<int>(&attribute.value)) {
+    header.insert(name, Imf::IntAttribute(*integer));
+  } else {
+    header.insert(name, Imf::FloatAttribute(std::get<float>(attribute.value)));
+  }
+}
+
+Imf::Header header_of(const PictureExtent& extent, const std::vector<Channel>& channels,
+                      const ImageMetadata& metadata) {
   const Region& region = extent.region;
   Imf::Header header(Imath::Box2i({0, 0}, {extent.full_width - 1, extent.full_height - 1}),
                      Imath::Box2i({region.x0, region.y0}, {region.x1 - 1, region.y1 - 1}));
   header.compression() = Imf::ZIP_COMPRESSION;
-  for (const char* channel : {"R", "G", "B", "A"})
-    header.channels().insert(channel, Imf::Channel(full_float ? Imf::FLOAT : Imf::HALF));
+  for (const Channel& channel : channels)
+    header.channels().insert(channel.name, Imf::Channel(pixel_type(channel.type)));
 
   const PictureDate date = picture_date();
   Imf::addCapDate(header, date.text);
@@ -96,6 +113,7 @@ Imf::Header header_of(const PictureExtent& extent, const ImageMetadata& metadata
     if (metadata.render_seconds)
       header.insert("raytrace:renderSeconds", Imf::FloatAttribute(static_cast<float>(*metadata.render_seconds)));
   }
+  for (const ImageAttribute& attribute : metadata.attributes) insert(header, attribute);
   return header;
 }
 
@@ -105,10 +123,26 @@ template <>
 constexpr float largest<Imath::half> = 65504;
 
 template <class Value>
-Value storable(float radiance, Repairs& repairs) {
-  if (std::abs(radiance) <= largest<Value>) return Value(radiance);  // false for NaN
-  ++(std::isfinite(radiance) ? repairs.clamped : repairs.not_finite);
-  return Value(std::isnan(radiance) ? 0.0F : std::copysign(largest<Value>, radiance));
+Value storable(float value, Repairs& repairs) {
+  if (std::abs(value) <= largest<Value>) return Value(value);  // false for NaN
+  ++(std::isfinite(value) ? repairs.clamped : repairs.not_finite);
+  return Value(std::isnan(value) ? 0.0F : std::copysign(largest<Value>, value));
+}
+
+template <class Value>
+const Value* convert(const ChannelValues& plane, std::vector<Value>& converted, Repairs& repairs) {
+  const auto& values = std::get<std::vector<float>>(plane);
+  converted.resize(values.size());
+  std::transform(values.begin(), values.end(), converted.begin(),
+                 [&](float value) { return storable<Value>(value, repairs); });
+  return converted.data();
+}
+
+/// A plane's values where OpenEXR finds them: row by row within the window.
+template <class Value>
+Imf::Slice slice(Imf::PixelType type, const Value* values, const Imath::Box2i& window) {
+  const auto width = static_cast<std::size_t>(window.max.x - window.min.x + 1);
+  return Imf::Slice::Make(type, values, window, sizeof(Value), width * sizeof(Value));
 }
 
 /// OpenEXR's pool is one for the whole process, and must not change while a file is written: the first to ask decides.
@@ -123,12 +157,15 @@ void make_thread_pool(int threads) {
 }  // namespace
 
 struct ExrEncoder::OpenFile {
-  explicit OpenFile(std::FILE* file) : destination(file) {}
+  OpenFile(std::FILE* file, const std::vector<Channel>& its_channels)
+      : destination(file), channels(its_channels), halves(channels.size()), floats(channels.size()) {}
 
   Destination destination;
   std::optional<Imf::OutputFile> exr;
-  std::vector<Imath::half> halves;
-  std::vector<float> floats;
+  std::vector<Channel> channels;
+  /// What is written of each channel; kept from band to band.
+  std::vector<std::vector<Imath::half>> halves;
+  std::vector<std::vector<float>> floats;
 };
 
 ExrEncoder::ExrEncoder(std::string file, const ImageFileSettings& settings)
@@ -138,58 +175,42 @@ ExrEncoder::ExrEncoder(std::string file, const ImageFileSettings& settings)
 
 ExrEncoder::~ExrEncoder() = default;
 
-void ExrEncoder::begin(const PictureExtent& extent, const ImageMetadata& metadata, std::FILE* destination) {
+void ExrEncoder::begin(const PictureExtent& extent, const std::vector<Channel>& channels, const ImageMetadata& metadata,
+                       std::FILE* destination) {
   // OpenEXR compresses this many rows together, so that threads have work for no more of them.
   constexpr int block_rows = 16;
   const int threads = std::min(settings_.threads, (extent.region.height() + block_rows - 1) / block_rows);
   const int helpers = threads == 1 ? 0 : threads;  // 0: the calling thread does it
   make_thread_pool(settings_.threads);
-  const Imf::Header header = header_of(extent, metadata, settings_.full_float);
-  open_ = std::make_unique<OpenFile>(destination);
+  const Imf::Header header = header_of(extent, channels, metadata);
+  open_ = std::make_unique<OpenFile>(destination, channels);
   guard([&] { open_->exr.emplace(open_->destination, header, helpers); });
 }
 
-void ExrEncoder::write(const Film& band) {
-  if (settings_.full_float) {
-    write_rows(band, open_->floats);
-  } else {
-    write_rows(band, open_->halves);
-  }
-}
-
-template <class Value>
-void ExrEncoder::write_rows(const Film& band, std::vector<Value>& values) {
-  // A few rows at a time, so that no second copy of the picture is needed.
-  constexpr std::size_t most_values = 4U << 20U;
-  constexpr std::size_t channels = 4;
-  const Region& region = band.region();
-  const auto width = static_cast<std::size_t>(region.width());
-  const int most_rows = static_cast<int>(std::max<std::size_t>(1, most_values / (channels * width * 16)) * 16);
-  values.resize(channels * width * static_cast<std::size_t>(std::min(most_rows, region.height())));
-
-  for (int y0 = region.y0; y0 < region.y1; y0 += most_rows) {
-    const int y1 = std::min(y0 + most_rows, region.y1);
-    Value* value = values.data();
-    for (int y = y0; y < y1; ++y) {
-      for (int x = region.x0; x < region.x1; ++x) {
-        const Pixel& pixel = band.at(x, y);
-        for (const float channel : {pixel.red, pixel.green, pixel.blue, pixel.alpha})
-          *value++ = storable<Value>(channel, repairs_);
-      }
+void ExrEncoder::write(const ImageBand& band) {
+  const Region& region = band.region;
+  const Imath::Box2i window({region.x0, region.y0}, {region.x1 - 1, region.y1 - 1});
+  Imf::FrameBuffer frame;
+  for (std::size_t i = 0; i < open_->channels.size(); ++i) {
+    const Channel& channel = open_->channels[i];
+    const ChannelValues& plane = band.planes[i];
+    const Imf::PixelType type = pixel_type(channel.type);
+    switch (channel.type) {
+      case ChannelType::half:
+        frame.insert(channel.name, slice(type, convert(plane, open_->halves[i], repairs_), window));
+        break;
+      case ChannelType::float32:
+        frame.insert(channel.name, slice(type, convert(plane, open_->floats[i], repairs_), window));
+        break;
+      case ChannelType::uint32:
+        frame.insert(channel.name, slice(type, std::get<std::vector<std::uint32_t>>(plane).data(), window));
+        break;
     }
-
-    const Imath::Box2i window({region.x0, y0}, {region.x1 - 1, y1 - 1});
-    Imf::FrameBuffer frame;
-    const Value* first = values.data();
-    for (const char* channel : {"R", "G", "B", "A"}) {
-      frame.insert(channel, Imf::Slice::Make(settings_.full_float ? Imf::FLOAT : Imf::HALF, first++, window,
-                                             channels * sizeof(Value), channels * width * sizeof(Value)));
-    }
-    guard([&] {
-      open_->exr->setFrameBuffer(frame);
-      open_->exr->writePixels(y1 - y0);
-    });
   }
+  guard([&] {
+    open_->exr->setFrameBuffer(frame);
+    open_->exr->writePixels(region.height());
+  });
 }
 
 Repairs ExrEncoder::finish() {

@@ -1,4 +1,4 @@
-// OpenEXR files: scanlines of R, G, B and A, compressed in zip blocks.
+// OpenEXR files: scanlines of any channels, each of its own type, compressed in zip blocks.
 #pragma once
 
 #include <memory>
@@ -16,14 +16,13 @@ class ExrEncoder final : public ImageEncoder {
   ~ExrEncoder() override;
 
   bool holds_float() const override { return settings_.full_float; }
-  void begin(const PictureExtent& extent, const ImageMetadata& metadata, std::FILE* destination) override;
-  void write(const Film& band) override;
+  void begin(const PictureExtent& extent, const std::vector<Channel>& channels, const ImageMetadata& metadata,
+             std::FILE* destination) override;
+  void write(const ImageBand& band) override;
   Repairs finish() override;
 
  private:
   struct OpenFile;
-  template <class Value>
-  void write_rows(const Film& band, std::vector<Value>& values);
   /// Runs it, and throws an OutputError with the true reason for whatever it throws.
   template <class Action>
   void guard(const Action& action) const;

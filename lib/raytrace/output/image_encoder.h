@@ -4,8 +4,9 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <vector>
 
-#include "raytrace/film/film.h"
+#include "raytrace/output/image_band.h"
 #include "raytrace/output/image_file.h"
 
 namespace raytrace {
@@ -22,11 +23,13 @@ class ImageEncoder {
   /// Whether it stores 32 bit floats.
   virtual bool holds_float() const = 0;
 
+  /// channels: color_channels() and any others, of which only EXR stores more than the former.
   /// destination: an open, empty file.
-  virtual void begin(const PictureExtent& extent, const ImageMetadata& metadata, std::FILE* destination) = 0;
+  virtual void begin(const PictureExtent& extent, const std::vector<Channel>& channels, const ImageMetadata& metadata,
+                     std::FILE* destination) = 0;
 
-  /// band: whole rows of the extent's region, the next below those written before.
-  virtual void write(const Film& band) = 0;
+  /// band: whole rows of the extent's region, the next below those written before, with a plane for each channel.
+  virtual void write(const ImageBand& band) = 0;
 
   /// After the last row; empties the destination's buffer.
   virtual Repairs finish() = 0;

@@ -1,5 +1,6 @@
 #include "raytrace/output/image_file.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <system_error>
 
@@ -27,24 +28,39 @@ bool holds_float(const std::string& file) {
 
 void check_writable(const std::string& file, const ImageFileSettings& settings) {
   constexpr int edge = 64;  // JPEG 2000 takes none below 32
-  const Film black(edge, edge, {0, 0, edge, edge});
+  const PictureExtent extent{edge, edge, {0, 0, edge, edge}};
+  const std::vector<Channel> channels = color_channels(settings.full_float);
+  const ImageBand black{extent.region, {channels.size(), std::vector<float>(edge * edge)}};
   const FileHandle memory = open_memory_file();
   const std::unique_ptr<ImageEncoder> encoder = make_image_encoder(file, settings);
-  encoder->begin(extent_of(black), {}, memory.get());
+  encoder->begin(extent, channels, {}, memory.get());
   encoder->write(black);
   encoder->finish();
   const AtomicFile made_and_removed(file);
 }
 
+ImageFile::ImageFile(const std::string& file, const PictureExtent& extent, const std::vector<Channel>& channels,
+                     const ImageMetadata& metadata, const ImageFileSettings& settings)
+    : atomic_(file), temporary_(open_to_write(atomic_, file)), encoder_(make_image_encoder(file, settings)) {
+  encoder_->begin(extent, channels, metadata, temporary_.get());
+}
+
 ImageFile::ImageFile(const std::string& file, const PictureExtent& extent, const ImageMetadata& metadata,
                      const ImageFileSettings& settings)
-    : atomic_(file), temporary_(open_to_write(atomic_, file)), encoder_(make_image_encoder(file, settings)) {
-  encoder_->begin(extent, metadata, temporary_.get());
-}
+    : ImageFile(file, extent, color_channels(settings.full_float), metadata, settings) {}
 
 ImageFile::~ImageFile() = default;
 
-void ImageFile::write(const Film& band) { encoder_->write(band); }
+void ImageFile::write(const ImageBand& band) { encoder_->write(band); }
+
+void ImageFile::write(const Film& film) {
+  const Region& region = film.region();
+  ImageBand band;  // a few rows at a time, so that no second copy of the picture is needed
+  for (int y0 = region.y0; y0 < region.y1; y0 = band.region.y1) {
+    fill_color(band, film, y0, std::min(y0 + band_rows(region.width(), 4), region.y1));
+    encoder_->write(band);
+  }
+}
 
 Repairs ImageFile::commit() {
   const Repairs repairs = encoder_->finish();

@@ -8,19 +8,28 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
+#include <vector>
 
 #include "raytrace/cameras/camera_matrices.h"
 #include "raytrace/film/film.h"
 #include "raytrace/output/atomic_file.h"
 #include "raytrace/output/file_handle.h"
+#include "raytrace/output/image_band.h"
 #include "raytrace/output/output_error.h"
 
 namespace raytrace {
 
 struct ImageFileSettings {
-  bool full_float = false;  ///< EXR: 32 bit instead of half. TIFF: linear 32 bit float instead of sRGB.
+  bool full_float = false;  ///< EXR: colours in 32 bit instead of half. TIFF: linear 32 bit float instead of sRGB.
   int bit_depth = 8;        ///< 8 or 16: PNG, TIFF and others that can; no matter to formats that hold linear radiance
   int threads = 0;          ///< for compression; 0: all processors. Holds for the process, as OpenImageIO has it.
+};
+
+/// Something more that a picture says about itself. EXR keeps the type, PNG stores text, and other formats nothing.
+struct ImageAttribute {
+  std::string name;  ///< "raytrace:...", "cryptomatte/..."; at most 79 bytes, which is what PNG takes
+  std::variant<std::string, int, float> value;
 };
 
 /// What a picture says about itself.
@@ -32,6 +41,7 @@ struct ImageMetadata {
   int threads = 1;
   std::optional<double> render_seconds;  ///< absent where the file is begun before the render ends
   CameraMatrices camera;
+  std::vector<ImageAttribute> attributes;
 };
 
 /// Values (not pixels) that were changed because the format, or any format, cannot hold them.
@@ -59,13 +69,17 @@ class ImageEncoder;
 /// An image file that is written band by band, so that no more than a band of a large picture need be in memory, and
 /// appears whole or not at all (AtomicFile).
 ///
-/// EXR: half (or float) RGBA, zip, scanlines, the film's region as data window in the full display window. All others:
-/// RGB, just the region.
+/// EXR: half (or float) RGBA and further channels, zip, scanlines, the film's region as data window in the full display
+/// window. All others: RGB, just the region.
 /// Dates are UTC. Where the environment has SOURCE_DATE_EPOCH, it is the date, and what differs from one run to the
 /// next (the render time, the number of threads) is left out: same picture, same bytes.
 class ImageFile {
  public:
-  /// Begins it under a temporary name. Throws OutputError, as all of these.
+  /// Begins it under a temporary name. Throws OutputError, as all of these. channels: the first four are
+  /// color_channels().
+  ImageFile(const std::string& file, const PictureExtent& extent, const std::vector<Channel>& channels,
+            const ImageMetadata& metadata, const ImageFileSettings& settings);
+  /// Of color_channels() alone.
   ImageFile(const std::string& file, const PictureExtent& extent, const ImageMetadata& metadata,
             const ImageFileSettings& settings);
   ~ImageFile();
@@ -73,6 +87,8 @@ class ImageFile {
   ImageFile& operator=(const ImageFile&) = delete;
 
   /// band: whole rows of the extent's region, the next below those written before.
+  void write(const ImageBand& band);
+  /// The same from a film, for a file of color_channels() alone.
   void write(const Film& band);
 
   /// After the last row: flushes it to disk and gives it its name.

@@ -16,10 +16,11 @@ std::string matrix_text(const float (&matrix)[16]) {
   return text.str();
 }
 
-std::string seconds_text(double seconds) {
+template <class Value>
+std::string text_of(const Value& value) {
   std::ostringstream text;
   text.imbue(std::locale::classic());
-  text << seconds;
+  text << value;
   return text.str();
 }
 
@@ -39,8 +40,10 @@ void add_metadata(OIIO::ImageSpec& spec, const std::string& oiio_name, const Ima
     spec.attribute("raytrace:seed", seed);
     if (!date.fixed) {
       spec.attribute("raytrace:threads", std::to_string(metadata.threads));
-      if (metadata.render_seconds) spec.attribute("raytrace:renderSeconds", seconds_text(*metadata.render_seconds));
+      if (metadata.render_seconds) spec.attribute("raytrace:renderSeconds", text_of(*metadata.render_seconds));
     }
+    for (const ImageAttribute& attribute : metadata.attributes)
+      spec.attribute(attribute.name, std::visit([](const auto& value) { return text_of(value); }, attribute.value));
   } else {
     spec.attribute("ImageDescription", "scene " + metadata.scene_file + ", " + std::to_string(metadata.samples) +
                                            " samples a pixel, seed " + seed);

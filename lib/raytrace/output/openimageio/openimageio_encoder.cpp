@@ -120,7 +120,8 @@ OpenImageIOEncoder::OpenImageIOEncoder(std::string file, const std::string& exte
 
 OpenImageIOEncoder::~OpenImageIOEncoder() = default;
 
-void OpenImageIOEncoder::begin(const PictureExtent& extent, const ImageMetadata& metadata, std::FILE* destination) {
+void OpenImageIOEncoder::begin(const PictureExtent& extent, const std::vector<Channel>& /*only the first are stored*/,
+                               const ImageMetadata& metadata, std::FILE* destination) {
   extent_ = extent;
   destination_ = destination;
   std::string name = file_;
@@ -156,19 +157,10 @@ OIIO::ImageSpec OpenImageIOEncoder::image_spec(const ImageMetadata& metadata) co
   return spec;
 }
 
-void OpenImageIOEncoder::write(const Film& band) {
-  // A few rows at a time, so that no second copy of the picture is needed.
-  constexpr std::size_t most_values = 4U << 20U;
-  const auto row_values =
-      static_cast<std::size_t>(extent_.region.width()) * static_cast<std::size_t>(PixelFormat::channels);
-  const auto most_rows = static_cast<int>(std::max<std::size_t>(1, most_values / row_values));
-  std::vector<float> values;
-  for (int y0 = band.region().y0; y0 < band.region().y1; y0 += most_rows) {
-    const int y1 = std::min(y0 + most_rows, band.region().y1);
-    convert_rows(band, y0, y1, pixels_, values, repairs_);
-    const int top = extent_.region.y0;
-    guard([&] { check(writer_->write_scanlines(y0 - top, y1 - top, 0, OIIO::TypeFloat, values.data())); });
-  }
+void OpenImageIOEncoder::write(const ImageBand& band) {
+  const std::vector<float> values = interleaved_rgb(band, pixels_, repairs_);
+  const int y0 = band.region.y0 - extent_.region.y0, y1 = band.region.y1 - extent_.region.y0;
+  guard([&] { check(writer_->write_scanlines(y0, y1, 0, OIIO::TypeFloat, values.data())); });
 }
 
 Repairs OpenImageIOEncoder::finish() {

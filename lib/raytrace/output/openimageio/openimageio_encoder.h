@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "raytrace/output/file_handle.h"
 #include "raytrace/output/image_encoder.h"
@@ -19,8 +20,9 @@ class OpenImageIOEncoder final : public ImageEncoder {
   ~OpenImageIOEncoder() override;
 
   bool holds_float() const override { return pixels_.type == OIIO::TypeFloat; }
-  void begin(const PictureExtent& extent, const ImageMetadata& metadata, std::FILE* destination) override;
-  void write(const Film& band) override;
+  void begin(const PictureExtent& extent, const std::vector<Channel>& channels, const ImageMetadata& metadata,
+             std::FILE* destination) override;
+  void write(const ImageBand& band) override;
   Repairs finish() override;
 
  private:

@@ -36,18 +36,18 @@ PixelFormat pixel_format(const std::string& oiio_name, const std::string& extens
   return {settings.bit_depth == 16 ? OIIO::TypeUInt16 : OIIO::TypeUInt8, true, 0, 1};
 }
 
-void convert_rows(const Film& film, int y0, int y1, const PixelFormat& format, std::vector<float>& values,
-                  Repairs& repairs) {
-  const Region& region = film.region();
-  const auto width = static_cast<std::size_t>(region.width());
-  const std::span<const Pixel> pixels = film.pixels().subspan(static_cast<std::size_t>(y0 - region.y0) * width,
-                                                              static_cast<std::size_t>(y1 - y0) * width);
-  values.clear();
-  for (const Pixel& pixel : pixels) {
-    values.push_back(storable(pixel.red, format, repairs));
-    values.push_back(storable(pixel.green, format, repairs));
-    values.push_back(storable(pixel.blue, format, repairs));
+std::vector<float> interleaved_rgb(const ImageBand& band, const PixelFormat& format, Repairs& repairs) {
+  const auto& red = std::get<std::vector<float>>(band.planes[0]);
+  const auto& green = std::get<std::vector<float>>(band.planes[1]);
+  const auto& blue = std::get<std::vector<float>>(band.planes[2]);
+  std::vector<float> values;
+  values.reserve(red.size() * static_cast<std::size_t>(PixelFormat::channels));
+  for (std::size_t i = 0; i < red.size(); ++i) {
+    values.push_back(storable(red[i], format, repairs));
+    values.push_back(storable(green[i], format, repairs));
+    values.push_back(storable(blue[i], format, repairs));
   }
+  return values;
 }
 
 }  // namespace raytrace

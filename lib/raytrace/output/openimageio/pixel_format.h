@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "raytrace/film/film.h"
+#include "raytrace/output/image_band.h"
 #include "raytrace/output/image_file.h"
 
 namespace raytrace {
@@ -21,8 +21,7 @@ struct PixelFormat {
 /// oiio_name: OpenImageIO's name of the format ("png"); extension: in lower case, with its dot.
 PixelFormat pixel_format(const std::string& oiio_name, const std::string& extension, const ImageFileSettings& settings);
 
-/// The film's rows [y0, y1), PixelFormat::channels floats a pixel, ready to be stored; `values` is overwritten.
-void convert_rows(const Film& film, int y0, int y1, const PixelFormat& format, std::vector<float>& values,
-                  Repairs& repairs);
+/// The band's first three planes, R, G and B, as floats that are ready to be stored, pixel by pixel.
+std::vector<float> interleaved_rgb(const ImageBand& band, const PixelFormat& format, Repairs& repairs);
 
 }  // namespace raytrace

@@ -1,0 +1,43 @@
+// Rows of a picture as a list of named channels, colour and data alike: what goes into image files.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "raytrace/film/film.h"
+
+namespace raytrace {
+
+/// How a file stores a channel's values. Only EXR has the choice, and keeps it.
+enum class ChannelType { half, float32, uint32 };
+
+struct Channel {
+  std::string name;  ///< as EXR has it: "R", "Z", "N.X", "crypto_object00.R"
+  ChannelType type = ChannelType::float32;
+  friend bool operator==(const Channel&, const Channel&) = default;
+};
+
+/// A channel's values, row by row: floats for ChannelType::half and float32, integers for uint32.
+using ChannelValues = std::variant<std::vector<float>, std::vector<std::uint32_t>>;
+
+struct ImageBand {
+  Region region;  ///< whole rows of a picture's region
+  std::vector<ChannelValues>
+      planes;  ///< one for each channel of the picture, in its order, each with a value for each pixel
+};
+
+/// R, G, B and A: 16 bits each, or 32.
+std::vector<Channel> color_channels(bool full_float);
+
+/// Rows of a band of the picture whose planes together take a few megabytes: a multiple of 16, since EXR compresses
+/// that many rows together.
+int band_rows(int width, std::size_t channels);
+
+/// The film's rows [y0, y1) as the first four planes of `band`, those of color_channels(); further ones stay. Planes
+/// that are there are filled again, so that bands of one size take memory once.
+void fill_color(ImageBand& band, const Film& film, int y0, int y1);
+
+}  // namespace raytrace
