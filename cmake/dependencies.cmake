@@ -28,6 +28,8 @@ raytrace_require(TBB 2021)
 raytrace_require(xsimd 8.1)
 raytrace_require(CLI11 2.1)
 raytrace_require(nlohmann_json 3.11)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash>=0.8.1)
 include(cmake/package_faults.cmake)
 
 FetchContent_Declare(tinyxml2

@@ -18,7 +18,8 @@ install(DIRECTORY lib/raytrace DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
 
 install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/raytrace
   FILES_MATCHING PATTERN "*.xml" PATTERN "*.xsd")
-install(FILES ${PROJECT_BINARY_DIR}/share/man/man1/raytrace.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+install(FILES ${PROJECT_BINARY_DIR}/share/man/man1/raytrace.1 ${PROJECT_BINARY_DIR}/share/man/man1/raytrace-merge.1
+  DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 install(EXPORT raytraceTargets NAMESPACE raytrace:: DESTINATION ${package_folder})

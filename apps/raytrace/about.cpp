@@ -14,7 +14,7 @@ std::string help() {
   CLI::App parser;
   Options options;
   define_options(parser, options);
-  return help_text(parser);
+  return help_text(render_manual, parser);
 }
 
 /// The version, the libraries' and the instruction sets, one a line.

@@ -4,8 +4,10 @@
 
 #include "about.h"
 #include "exit_code.h"
+#include "merge_command.h"
 #include "messages.h"
 #include "options.h"
+#include "picture_render.h"
 #include "picture_settings.h"
 #include "signals.h"
 #include "stages.h"
@@ -24,25 +26,28 @@ int print(const std::string& text) {
 int run(const Options& options) {
   if (const auto answer = about_program(options)) return print(*answer);
 
+  const auto start = PictureRender::Clock::now();
+  ignore_picture_requests();
   check_outputs(options);
   Statistics statistics;
   std::optional<SceneDescription> description = load(options, statistics);
   if (!description) return exit_code::failed;
   description->viewplane = asked_viewplane(description->viewplane, options);
-  const Region region = asked_region(description->viewplane, options);
+  const Region whole = asked_whole(description->viewplane, options);
+  const Region region = asked_region(whole, options);
   if (options.print_scene) return print(print_scene(*description));
   if (options.validate) return options.quiet ? exit_code::done : print(summary(*description) + "\n");
 
   const std::unique_ptr<const Scene> scene = build(*description, options, statistics);
-  const StopOnSignal stop;
-  const ViewPlane& viewplane = description->viewplane;
-  Outputs outputs(options, {viewplane.hres, viewplane.vres, region}, camera_matrices(*description));
-  render(*scene, *description, region, options, stop.flag(), outputs, statistics);
-  if (stop.signal() != 0) return exit_code::stopped + stop.signal();
-
-  const bool written = outputs.commit(statistics);
+  if (options.pixel) return print(pixel_text(*scene, *description, region, options));
+  describe(*description, region, options, statistics);
+  const Signals signals;
+  const Ending ending = PictureRender(*scene, *description, options, whole, region, signals, start, statistics).run();
+  if (ending == Ending::stopped) {
+    return options.checkpoint.empty() ? exit_code::stopped + signals.stop_signal() : exit_code::resumable;
+  }
   report(statistics, options);
-  return written ? exit_code::done : exit_code::failed;
+  return ending == Ending::written ? exit_code::done : exit_code::failed;
 }
 
 }  // namespace
@@ -52,6 +57,7 @@ int run(const Options& options) {
 int main(int argc, char** argv) {
   using namespace raytrace;
   try {
+    if (is_merge_command(argc, argv)) return merge_command(argc, argv);
     const Options options = parse_options(argc, argv);
     set_verbosity(options.verbosity());
     return run(options);

@@ -8,8 +8,6 @@
 
 namespace raytrace {
 
-namespace {
-
 struct Entry {
   std::string term;
   std::string text;
@@ -20,21 +18,49 @@ struct Section {
   std::vector<Entry> entries;
 };
 
-constexpr std::string_view purpose = "render a scene file to image files";
-constexpr std::string_view synopsis = "raytrace SCENE.xml -o FILE [options]";
+struct Manual {
+  std::string command;   ///< "raytrace"
+  std::string purpose;   ///< after "command: "
+  std::string synopsis;  ///< the form of the command line
+  Section examples;
+  Section exit_codes;
+};
 
-const Section examples = {
-    "Examples",
-    {{"raytrace scenes/seed.xml -o seed.exr -o seed.png", "Both files from one render."},
-     {"raytrace scene.xml -o draft.png --scale 0.25 -s 1 --stats", "A quick look, and what it took."}}};
+const Manual render_manual = {
+    "raytrace",
+    "render a scene file to image files",
+    "raytrace SCENE.xml -o FILE [options]",
+    {"Examples",
+     {{"raytrace scenes/seed.xml -o seed.exr -o seed.png", "Both files from one render."},
+      {"raytrace scene.xml -o draft.png --scale 0.25 -s 1 --stats", "A quick look, and what it took."},
+      {"raytrace scene.xml -o final.exr --checkpoint final.state --resume",
+       "Goes on where an earlier run of the same command was stopped."},
+      {"raytrace scene.xml -o tile.2.exr --tile 2/8", "The third of eight parts."},
+      {"raytrace merge tile.*.exr -o whole.exr", "Puts the parts together: see raytrace merge --help."}}},
+    {"Exit codes",
+     {{std::to_string(exit_code::done), "Done."},
+      {std::to_string(exit_code::failed), "The scene has errors, the render failed, or a file could not be written."},
+      {std::to_string(exit_code::usage), "The command line makes no sense."},
+      {std::to_string(exit_code::out_of_memory), "Out of memory."},
+      {std::to_string(exit_code::resumable),
+       "Stopped by SIGINT or SIGTERM with the checkpoint and the picture so far written: --resume goes on."},
+      {"130, 143", "Stopped by SIGINT or SIGTERM without a checkpoint. Earlier pictures are as they were."}}}};
 
-const Section exit_codes = {
-    "Exit codes",
-    {{std::to_string(exit_code::done), "Done."},
-     {std::to_string(exit_code::failed), "The scene has errors, the render failed, or a file could not be written."},
-     {std::to_string(exit_code::usage), "The command line makes no sense."},
-     {std::to_string(exit_code::out_of_memory), "Out of memory."},
-     {"130, 143", "Stopped by SIGINT or SIGTERM. Earlier pictures are as they were."}}};
+const Manual merge_manual = {
+    "raytrace merge",
+    "put pieces of a picture together",
+    "raytrace merge PIECES... -o FILE [options]",
+    {"Examples",
+     {{"raytrace merge tile.*.exr -o whole.exr", "Tiles, crops, ranges of samples, or all of these, in any order."},
+      {"raytrace merge part.*.exr -o whole.exr -o whole.png -s 64", "Refuses to end with less than 64 samples."}}},
+    {"Exit codes",
+     {{std::to_string(exit_code::done), "Done."},
+      {std::to_string(exit_code::failed),
+       "The pieces do not fit together, or do not cover the picture; a file could not be read or written."},
+      {std::to_string(exit_code::usage), "The command line makes no sense."},
+      {std::to_string(exit_code::out_of_memory), "Out of memory."}}}};
+
+namespace {
 
 std::string term_of(const CLI::Option& option) {
   if (option.get_positional()) return option.get_type_name();
@@ -92,11 +118,14 @@ std::string troff(std::string_view text) {
   return result;
 }
 
-std::string troff_section(const Section& section) {
-  std::string title = section.title;
-  std::transform(title.begin(), title.end(), title.begin(),
+std::string in_capitals(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
                  [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
-  std::string page = ".SH " + title + "\n";
+  return text;
+}
+
+std::string troff_section(const Section& section) {
+  std::string page = ".SH " + in_capitals(section.title) + "\n";
   for (const Entry& entry : section.entries) {
     page += ".TP\n\\fB" + troff(entry.term) + "\\fR\n" + troff(entry.text) + "\n";
   }
@@ -105,9 +134,9 @@ std::string troff_section(const Section& section) {
 
 }  // namespace
 
-std::string help_text(const CLI::App& parser) {
+std::string help_text(const Manual& manual, const CLI::App& parser) {
   constexpr std::size_t columns = 80;
-  std::string help = "raytrace: " + std::string(purpose) + "\n\nUsage: " + std::string(synopsis) + "\n";
+  std::string help = manual.command + ": " + manual.purpose + "\n\nUsage: " + manual.synopsis + "\n";
   std::vector<Section> sections = option_sections(parser);
   const std::size_t options_indent = longest_term(sections) + 4;
   for (const Section& section : sections) {
@@ -117,23 +146,25 @@ std::string help_text(const CLI::App& parser) {
               wrapped(entry.text, columns - options_indent, options_indent) + "\n";
     }
   }
-  help += "\n" + examples.title + ":\n";
-  for (const Entry& example : examples.entries) help += "  " + example.term + "\n      " + example.text + "\n";
-  help += "\n" + exit_codes.title + ":\n";
-  const std::size_t codes_indent = longest_term({exit_codes}) + 4;
-  for (const Entry& code : exit_codes.entries) {
+  help += "\n" + manual.examples.title + ":\n";
+  for (const Entry& example : manual.examples.entries) help += "  " + example.term + "\n      " + example.text + "\n";
+  help += "\n" + manual.exit_codes.title + ":\n";
+  const std::size_t codes_indent = longest_term({manual.exit_codes}) + 4;
+  for (const Entry& code : manual.exit_codes.entries) {
     help += "  " + code.term + std::string(codes_indent - 2 - code.term.size(), ' ') +
             wrapped(code.text, columns - codes_indent, codes_indent) + "\n";
   }
   return help;
 }
 
-std::string man_page(const CLI::App& parser, const std::string& software) {
-  std::string page = ".TH RAYTRACE 1 \"\" \"" + troff(software) + "\"\n";
-  page += ".SH NAME\nraytrace \\- " + troff(purpose) + "\n";
-  page += ".SH SYNOPSIS\n\\fB" + troff(synopsis) + "\\fR\n";
+std::string man_page(const Manual& manual, const CLI::App& parser, const std::string& software) {
+  std::string name = manual.command;  // a page is one word
+  std::replace(name.begin(), name.end(), ' ', '-');
+  std::string page = ".TH " + troff(in_capitals(name)) + " 1 \"\" \"" + troff(software) + "\"\n";
+  page += ".SH NAME\n" + troff(name) + " \\- " + troff(manual.purpose) + "\n";
+  page += ".SH SYNOPSIS\n\\fB" + troff(manual.synopsis) + "\\fR\n";
   for (const Section& section : option_sections(parser)) page += troff_section(section);
-  page += troff_section(examples) + troff_section(exit_codes);
+  page += troff_section(manual.examples) + troff_section(manual.exit_codes);
   return page;
 }
 

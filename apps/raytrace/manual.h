@@ -6,10 +6,15 @@
 
 namespace raytrace {
 
-/// For a terminal: no line above 80 columns.
-std::string help_text(const CLI::App& parser);
+/// What a manual says besides the options.
+struct Manual;
+extern const Manual render_manual;  ///< of raytrace
+extern const Manual merge_manual;   ///< of raytrace merge
 
-/// For man(1), in the man macros of troff. `software` and `date` stand in the page's margins.
-std::string man_page(const CLI::App& parser, const std::string& software);
+/// For a terminal: no line above 80 columns.
+std::string help_text(const Manual& manual, const CLI::App& parser);
+
+/// For man(1), in the man macros of troff. `software` stands in the page's margins.
+std::string man_page(const Manual& manual, const CLI::App& parser, const std::string& software);
 
 }  // namespace raytrace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "raytrace/description/nearest_name.h"
@@ -62,6 +63,11 @@ std::uint64_t natural_number(const std::string& text) {
   return *value;
 }
 
+int bit_depth(const std::string& text) {
+  if (text != "8" && text != "16") throw UsageError(in_quotes(text) + " is neither 8 nor 16");
+  return integer(text, 8, 16);
+}
+
 std::string one_of(const std::string& text, const Names& names) {
   if (std::find(names.begin(), names.end(), text) != names.end()) return text;
   throw UsageError(in_quotes(text) + " is not one of " + joined(names, ", ") + suggestion(text, names));
@@ -83,6 +89,51 @@ double scale(const std::string& text) {
     throw UsageError(in_quotes(text) + " is not a scale; use a number above 0, e.g. 0.5 for half the resolution");
   }
   return *value;
+}
+
+Tile tile(const std::string& text) {
+  const auto parts = split(text, '/');
+  const auto index = number<int>(parts.front());
+  const auto count = number<int>(parts.back());
+  if (parts.size() != 2 || !index || !count || *count < 1) {
+    throw UsageError(in_quotes(text) + " is not a tile; use I/N, e.g. 0/4 for the first of four");
+  }
+  if (*index < 0 || *index >= *count) {
+    throw UsageError("there is no tile " + in_quotes(text) + ": they count from 0 to " + std::to_string(*count - 1));
+  }
+  return {*index, *count};
+}
+
+PixelPlace pixel_place(const std::string& text) {
+  const auto parts = split(text, ',');
+  const auto x = number<int>(parts.front());
+  const auto y = number<int>(parts.back());
+  if (parts.size() != 2 || !x || !y) {
+    throw UsageError(in_quotes(text) + " is not a pixel; use x,y from the top left, e.g. 12,40");
+  }
+  return {*x, *y};
+}
+
+double duration(const std::string& text) {
+  double seconds = 0;
+  const char* next = text.data();
+  const char* const end = next + text.size();
+  double largest_unit = std::numeric_limits<double>::infinity();
+  while (next != end) {
+    double value = 0;
+    const auto [stop, error] = std::from_chars(next, end, value);
+    const char letter = stop == end ? 's' : *stop;
+    const double unit = letter == 's' ? 1 : letter == 'm' ? 60 : letter == 'h' ? 3600 : 0;
+    // The larger units first, each once.
+    if (error != std::errc() || !(value >= 0) || unit == 0 || unit >= largest_unit) break;
+    largest_unit = unit;
+    seconds += value * unit;
+    next = stop == end ? end : stop + 1;
+  }
+  if (text.empty() || next != end || !(seconds > 0) || seconds > 1e9) {
+    throw UsageError(in_quotes(text) + " is not a time; use e.g. 90s, 10m or 1h30m");
+  }
+  return seconds;
 }
 
 Region crop(const std::string& text) {

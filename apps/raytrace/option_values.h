@@ -28,6 +28,9 @@ int integer(const std::string& text, int least, int most);
 /// Any that 64 bits hold.
 std::uint64_t natural_number(const std::string& text);
 
+/// 8 or 16.
+int bit_depth(const std::string& text);
+
 /// The text, if it is one of the names.
 std::string one_of(const std::string& text, const Names& names);
 
@@ -37,6 +40,24 @@ struct Resolution {
 
 /// "1920x1080"
 Resolution resolution(const std::string& text);
+
+/// Part `index` of `count`.
+struct Tile {
+  int index = 0, count = 1;
+};
+
+/// "2/8": the third of eight.
+Tile tile(const std::string& text);
+
+struct PixelPlace {
+  int x = 0, y = 0;
+};
+
+/// "x,y", from the top left.
+PixelPlace pixel_place(const std::string& text);
+
+/// "90", "90s", "10m", "1h30m": in seconds.
+double duration(const std::string& text);
 
 /// A finite number above 0.
 double scale(const std::string& text);

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "listing.h"
+#include "option_parser.h"
 #include "option_values.h"
 #include "raytrace/description/quoted.h"
 #include "raytrace/render/renderer.h"
@@ -29,65 +30,18 @@ ProgressStyle progress_style(const std::string& text) {
   return styles[std::find(names.begin(), names.end(), one_of(text, names)) - names.begin()];
 }
 
-/// An option with a value; the last one counts, so that a wrapper script's can be overridden.
-CLI::Option* add(CLI::App& parser, const std::string& names, const std::string& value_name, const std::string& help,
-                 const std::function<void(const std::string&)>& take) {
-  const std::string name = names.substr(names.rfind(',') + 1);
-  const auto take_named = [take, name](const std::string& text) {
-    try {
-      take(text);
-    } catch (const UsageError& error) {
-      throw UsageError(name + ": " + error.what());
-    }
-  };
-  return parser.add_option_function<std::string>(names, take_named, help)->type_name(value_name)->take_last();
-}
-
-/// An option without a value.
-template <class Flag>
-CLI::Option* add_switch(CLI::App& parser, const std::string& names, Flag& flag, const std::string& help) {
-  return parser.add_flag(names, flag, help)->disable_flag_override();
-}
-
-/// CLI11's message in other words, where they are clearer.
-std::string explained(const std::string& message) {
-  static constexpr std::string_view missing_value = ": 1 required ";                           // --spp ... N missing
-  static constexpr std::string_view needless_value = " was given a disallowed flag override";  // float ...
-  if (const std::size_t found = message.find(missing_value); found != std::string::npos) {
-    const std::string rest = message.substr(found + missing_value.size());
-    return message.substr(0, found) + " needs a value: " + rest.substr(0, rest.find(' '));
-  }
-  if (message.ends_with(needless_value)) {
-    return "--" + message.substr(0, message.size() - needless_value.size()) + " takes no value";
-  }
-  return message;
-}
-
-/// Everything that starts with a dash in the parser's own options.
-Names option_names(const CLI::App& parser) {
-  Names names;
-  for (const CLI::Option* const option : parser.get_options()) {
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  }
-  return names;
-}
-
-void refuse_unknown(const CLI::App& parser) {
-  const Names unknown = parser.remaining();
-  for (const std::string& argument : unknown) {
-    if (argument.size() < 2 || argument.front() != '-') continue;
-    const std::string name = argument.substr(0, argument.find('='));
-    const bool is_long = name.size() > 2 && name[1] == '-';
-    throw UsageError("there is no option " + in_quotes(name) + (is_long ? suggestion(name, option_names(parser)) : ""));
-  }
-  if (!unknown.empty()) throw UsageError(in_quotes(unknown.front()) + " is one scene too many: a run takes one");
-}
-
 void refuse_incomplete(const Options& options) {
-  const bool looks_only = options.validate || options.print_scene;
+  const bool looks_only = options.validate || options.print_scene || options.pixel;
   if (options.scene.empty()) throw UsageError("no scene given; for example: raytrace scene.xml -o picture.exr");
   if (options.outputs.empty() && !looks_only) {
     throw UsageError("no output given; for example: raytrace " + options.scene + " -o picture.exr");
+  }
+  if (options.resume && options.checkpoint.empty()) {
+    throw UsageError("--resume goes on from a checkpoint: say which with --checkpoint FILE");
+  }
+  if (!options.checkpoint.empty() &&
+      std::find(options.outputs.begin(), options.outputs.end(), options.checkpoint) != options.outputs.end()) {
+    throw UsageError("--checkpoint: " + options.checkpoint + " is an output, too");
   }
   for (auto output = options.outputs.begin(); output != options.outputs.end(); ++output) {
     if (output->empty()) throw UsageError("--output: the file name is empty");
@@ -108,8 +62,7 @@ Verbosity Options::verbosity() const {
 void define_options(CLI::App& parser, Options& options) {
   constexpr int largest = std::numeric_limits<int>::max();
   constexpr int most_threads = 1024;
-  parser.set_help_flag();  // ours is like any other option
-  parser.allow_extras();   // refuse_unknown() tells what was meant
+  prepare(parser);
 
   parser.add_option("scene", options.scene, "Scene file; - reads it from standard input")
       ->type_name("SCENE.xml")
@@ -125,10 +78,7 @@ void define_options(CLI::App& parser, Options& options) {
   add_switch(parser, "--float", options.full_float, "32 bit floats in EXR (else 16 bit) and in TIFF (else sRGB)")
       ->group("Output");
   add(parser, "--bit-depth", "8|16", "Bits a channel in PNG, TIFF and other sRGB-encoded files (8)",
-      [&](const std::string& text) {
-        if (text != "8" && text != "16") throw UsageError(in_quotes(text) + " is neither 8 nor 16");
-        options.bit_depth = integer(text, 8, 16);
-      })
+      [&](const std::string& text) { options.bit_depth = bit_depth(text); })
       ->group("Output");
 
   add(parser, "-r,--resolution", "WxH", "Size in pixels instead of the scene's; what was in view stays in view",
@@ -141,8 +91,21 @@ void define_options(CLI::App& parser, Options& options) {
       "Only these pixels: origin at the top left, x1 and y1 exclusive; an EXR says where in the whole picture they are",
       [&](const std::string& text) { options.crop = crop(text); })
       ->group("Picture");
+  add(parser, "--tile", "I/N",
+      "Only part I (from 0) of N of the picture or crop, for as many machines: together they cover it; `raytrace "
+      "merge` "
+      "puts them together",
+      [&](const std::string& text) { options.tile = tile(text); })
+      ->group("Picture");
   add(parser, "-s,--spp", "N", "Samples a pixel instead of the scene's; 1 goes through the pixel's centre",
       [&](const std::string& text) { options.samples = integer(text, 1, largest); })
+      ->group("Picture");
+  add(parser, "--sample-offset", "K",
+      "These --spp samples are the picture's from number K on; the EXR keeps their sums for `raytrace merge`",
+      [&](const std::string& text) { options.sample_offset = static_cast<std::uint32_t>(integer(text, 0, largest)); })
+      ->group("Picture");
+  add(parser, "--pixel", "x,y", "Print the samples of one pixel, from the top left, instead of rendering a picture",
+      [&](const std::string& text) { options.pixel = pixel_place(text); })
       ->group("Picture");
   add(parser, "--seed", "N", "Another, equally good, pattern of samples (0)", [&](const std::string& text) {
     options.seed = natural_number(text);
@@ -154,6 +117,20 @@ void define_options(CLI::App& parser, Options& options) {
   add(parser, "--isa", "NAME", "Instruction set: " + joined(isa_names(), ", ") + " (the best that the processor has)",
       [&](const std::string& text) { options.isa = instruction_set(text); })
       ->group("Work");
+
+  add(parser, "--time-limit", "TIME",
+      "Stop adding samples when TIME (90s, 10m, 1h30m) has passed since the start; the picture has as many as fit, at "
+      "least 1",
+      [&](const std::string& text) { options.time_limit = duration(text); })
+      ->group("Work");
+
+  add(parser, "--checkpoint", "FILE", "Keep what is rendered in FILE, once a minute and when stopped by a signal",
+      [&](const std::string& text) { options.checkpoint = text; })
+      ->group("Safety");
+  add(parser, "--checkpoint-interval", "TIME", "Time between two checkpoints (60s)", [&](const std::string& text) {
+    options.checkpoint_interval = duration(text);
+  })->group("Safety");
+  add_switch(parser, "--resume", options.resume, "Go on from the checkpoint, if there is one")->group("Safety");
 
   add_switch(parser, "-q,--quiet", options.quiet, "Errors only: no warnings, no progress")->group("Messages");
   add_switch(parser, "-v,--verbose", options.verbose, "Tell what is done; twice: all that --stats tells, too")
@@ -186,13 +163,8 @@ Options parse_options(int argc, const char* const* argv) {
   Options options;
   CLI::App parser;
   define_options(parser, options);
-  try {
-    parser.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    throw UsageError(explained(error.what()));
-  }
+  parse(parser, argc, argv);
   options.threads = thread_count(options.threads);
-  refuse_unknown(parser);
   // Not by CLI11's excludes(): from version 2.4 on, a counting flag counts as given when it is not.
   if (options.quiet && options.verbose > 0) throw UsageError("--quiet excludes --verbose");
   if (!options.help && !options.version && options.list.empty()) refuse_incomplete(options);

@@ -28,7 +28,15 @@ struct Options {
   std::optional<Region> crop;            ///< none: the whole picture
   double scale = 1;                      ///< of the resolution
   std::uint64_t seed = 0;
-  std::optional<int> samples;  ///< a pixel; none: the scene's
+  std::optional<int> samples;                  ///< a pixel; none: the scene's
+  std::optional<std::uint32_t> sample_offset;  ///< none: all samples of the picture, not a part of them
+  std::optional<Tile> tile;                    ///< none: all of the picture, or of the crop
+  std::optional<PixelPlace> pixel;             ///< to be printed instead of a picture
+
+  std::string checkpoint;           ///< file; empty: none
+  double checkpoint_interval = 60;  ///< seconds
+  bool resume = false;
+  std::optional<double> time_limit;  ///< seconds
 
   int threads = 0;  ///< after parse_options never 0
   int bit_depth = 8;
@@ -47,7 +55,7 @@ struct Options {
   bool help = false;
 
   Verbosity verbosity() const;
-  ImageFileSettings image_file_settings() const { return {full_float, bit_depth, threads}; }
+  ImageFileSettings image_file_settings() const { return {full_float, bit_depth, true, threads}; }
 };
 
 /// Adds all options to a parser, which fills `options`.

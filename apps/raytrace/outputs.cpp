@@ -1,6 +1,9 @@
 #include "outputs.h"
 
+#include <algorithm>
+
 #include "messages.h"
+#include "raytrace/output/film_channels.h"
 
 namespace raytrace {
 
@@ -30,32 +33,35 @@ bool succeeds(const Action& action) {
 
 }  // namespace
 
-void Outputs::begin(const Film& first_band, const Statistics& statistics) {
-  ImageMetadata metadata;
-  metadata.software = statistics.software;
-  metadata.scene_file = statistics.scene_file;
-  metadata.samples = statistics.samples;
-  metadata.seed = statistics.seed;
-  metadata.threads = statistics.threads;
-  if (first_band.region() == extent_.region) metadata.render_seconds = statistics.seconds.render;
-  metadata.camera = camera_;
+Outputs::Outputs(const Options& options, const PictureExtent& extent, ImageMetadata metadata, bool with_sums)
+    : options_(options), with_sums_(with_sums), channels_(color_channels(options.full_float)) {
+  if (with_sums_) {
+    for (Channel& channel : sum_channels()) channels_.push_back(std::move(channel));
+  }
   for (const std::string& name : options_.outputs) {
     succeeds([&] {
-      files_.push_back({name, std::make_unique<ImageFile>(name, extent_, metadata, options_.image_file_settings())});
+      files_.push_back(
+          {name, std::make_unique<ImageFile>(name, extent, channels_, metadata, options_.image_file_settings())});
     });
   }
-  begun_ = true;
 }
 
-bool Outputs::write(const Film& band, Statistics& statistics) {
+bool Outputs::write(const Film& film, Statistics& statistics) {
   const PhaseTimer timer(statistics.seconds.write);
-  if (!begun_) begin(band, statistics);
-  std::erase_if(files_, [&](File& file) { return !succeeds([&] { file.image->write(band); }); });
+  const Region& region = film.region();
+  ImageBand band;  // a few rows at a time, so that no second copy of the picture is needed
+  for (int y0 = region.y0; y0 < region.y1 && !files_.empty(); y0 = band.region.y1) {
+    band.planes.resize(std::min<std::size_t>(band.planes.size(), 4));
+    fill_color(band, film, y0, std::min(y0 + band_rows(region.width(), channels_.size()), region.y1));
+    if (with_sums_) append_sums(band, film);
+    std::erase_if(files_, [&](File& file) { return !succeeds([&] { file.image->write(band); }); });
+  }
   return !files_.empty();
 }
 
 bool Outputs::commit(Statistics& statistics) {
   const PhaseTimer timer(statistics.seconds.write);
+  statistics.outputs.clear();
   for (File& file : files_) {
     succeeds([&] {
       const Repairs repairs = file.image->commit();

@@ -1,4 +1,4 @@
-// The image files of a run. One that cannot be written is told, and the others go on.
+// The image files of a picture. One that cannot be written is told, and the others go on.
 #pragma once
 
 #include <memory>
@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "options.h"
-#include "raytrace/cameras/camera_matrices.h"
 #include "raytrace/output/image_file.h"
 #include "statistics.h"
 
@@ -14,14 +13,14 @@ namespace raytrace {
 
 class Outputs {
  public:
-  Outputs(const Options& options, const PictureExtent& extent, const CameraMatrices& camera)
-      : options_(options), extent_(extent), camera_(camera) {}
+  /// with_sums: EXR files keep the sums of the samples, too.
+  Outputs(const Options& options, const PictureExtent& extent, ImageMetadata metadata, bool with_sums);
 
-  /// band: whole rows of the extent's region, the next below those written before. The files are begun with the first.
-  /// False if none is left.
-  bool write(const Film& band, Statistics& statistics);
+  /// film: whole rows of the extent's region, the next below those written before. False if no file is left that could
+  /// be written.
+  bool write(const Film& film, Statistics& statistics);
 
-  /// After the last band: gives the files their names. False if any could not be written.
+  /// After the last row: gives the files their names. False if any could not be written.
   bool commit(Statistics& statistics);
 
  private:
@@ -30,13 +29,10 @@ class Outputs {
     std::unique_ptr<ImageFile> image;
   };
 
-  void begin(const Film& first_band, const Statistics& statistics);
-
   const Options& options_;
-  PictureExtent extent_;
-  CameraMatrices camera_;
+  bool with_sums_;
+  std::vector<Channel> channels_;
   std::vector<File> files_;  ///< those without a fault
-  bool begun_ = false;
 };
 
 }  // namespace raytrace

@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <string>
+
+#include "raytrace/film/tiles.h"
 
 namespace raytrace {
 
@@ -30,10 +34,19 @@ ViewPlane asked_viewplane(const ViewPlane& viewplane, const Options& options) {
     asked = with_resolution(viewplane, static_cast<int>(width), static_cast<int>(height));
   }
   asked.samples = options.samples.value_or(viewplane.samples);
+  if (std::int64_t{options.sample_offset.value_or(0)} + asked.samples > std::numeric_limits<int>::max()) {
+    throw UsageError("--sample-offset: a picture has at most 2147483647 samples a pixel");
+  }
   return asked;
 }
 
-Region asked_region(const ViewPlane& viewplane, const Options& options) {
+SampleRange sample_range(const ViewPlane& viewplane, const Options& options) {
+  const auto count = static_cast<std::uint32_t>(viewplane.samples);
+  if (options.sample_offset) return {*options.sample_offset, count, false};
+  return {0, count, count == 1};
+}
+
+Region asked_whole(const ViewPlane& viewplane, const Options& options) {
   if (!options.crop) return {0, 0, viewplane.hres, viewplane.vres};
   const Region& crop = *options.crop;
   if (crop.x0 < 0 || crop.y0 < 0 || crop.x1 > viewplane.hres || crop.y1 > viewplane.vres) {
@@ -41,6 +54,23 @@ Region asked_region(const ViewPlane& viewplane, const Options& options) {
                      " pixels");
   }
   return crop;
+}
+
+Region asked_region(const Region& whole, const Options& options) {
+  if (options.pixel) {
+    const auto [x, y] = *options.pixel;
+    if (x < whole.x0 || y < whole.y0 || x >= whole.x1 || y >= whole.y1) {
+      throw UsageError("--pixel: there is no pixel " + std::to_string(x) + "," + std::to_string(y) +
+                       " in the picture of " + size_text(whole.width(), whole.height()) + " pixels");
+    }
+    return {x, y, x + 1, y + 1};
+  }
+  if (!options.tile) return whole;
+  const auto pixels = std::int64_t{whole.width()} * whole.height();
+  if (options.tile->count > pixels) {
+    throw UsageError("--tile: the picture has only " + std::to_string(pixels) + " pixels");
+  }
+  return tile_of(whole, options.tile->index, options.tile->count);
 }
 
 }  // namespace raytrace

@@ -11,7 +11,13 @@ namespace raytrace {
 /// large.
 ViewPlane asked_viewplane(const ViewPlane& viewplane, const Options& options);
 
-/// The crop, or the whole picture. Throws UsageError if the crop is not inside.
-Region asked_region(const ViewPlane& viewplane, const Options& options);
+/// Which of each pixel's samples: --sample-offset makes them a part of the picture's.
+SampleRange sample_range(const ViewPlane& viewplane, const Options& options);
+
+/// What is cut into tiles: the crop, or the whole picture. Throws UsageError if the crop is not inside.
+Region asked_whole(const ViewPlane& viewplane, const Options& options);
+
+/// The tile or pixel of it, or all. Throws UsageError if there are more tiles than pixels, or no such pixel.
+Region asked_region(const Region& whole, const Options& options);
 
 }  // namespace raytrace

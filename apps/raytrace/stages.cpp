@@ -1,13 +1,15 @@
 #include "stages.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <tuple>
 
 #include "about.h"
 #include "messages.h"
-#include "progress.h"
+#include "picture_settings.h"
+#include "raytrace/description/parse_value.h"
 #include "raytrace/output/atomic_file.h"
 #include "raytrace/output/image_file.h"
 
@@ -32,14 +34,6 @@ std::string contents(const SceneDescription& description) {
   return counted(count_items(description.objects), "object") + ", " + counted(count_items(description.lights), "light");
 }
 
-/// Rows of a band: the most whose film is not larger than a GiB, and a multiple of every packet's height.
-int band_rows(const Region& region) {
-  constexpr int unit = 32;
-  constexpr std::size_t most_bytes = std::size_t{1} << 30U;
-  const std::size_t unit_bytes = unit * sizeof(Pixel) * static_cast<std::size_t>(region.width());
-  return unit * static_cast<int>(std::max<std::size_t>(1, most_bytes / unit_bytes));
-}
-
 void write_statistics(const Statistics& statistics, const std::string& file) {
   AtomicFile atomic(file);
   std::ofstream stream(atomic.temporary_name());
@@ -52,7 +46,7 @@ void write_statistics(const Statistics& statistics, const std::string& file) {
 }  // namespace
 
 void check_outputs(const Options& options) {
-  if (options.validate || options.print_scene) return;
+  if (options.validate || options.print_scene || options.pixel) return;
   for (const std::string& file : options.outputs) check_writable(file, options.image_file_settings());
   if (options.full_float && std::none_of(options.outputs.begin(), options.outputs.end(), holds_float)) {
     throw UsageError("--float: none of the outputs can hold floats; .exr and .tif can");
@@ -60,6 +54,12 @@ void check_outputs(const Options& options) {
   if (!options.statistics.empty() && options.statistics != statistics_as_text) {
     const AtomicFile made_and_removed(options.statistics);
   }
+  if (options.checkpoint.empty()) return;
+  if (!options.resume && std::filesystem::exists(options.checkpoint)) {
+    throw UsageError("--checkpoint: there is a " + options.checkpoint +
+                     " already; --resume goes on from it, or remove it");
+  }
+  const AtomicFile made_and_removed(options.checkpoint);
 }
 
 std::optional<SceneDescription> load(const Options& options, Statistics& statistics) {
@@ -90,8 +90,8 @@ std::unique_ptr<const Scene> build(const SceneDescription& description, const Op
   return scene;
 }
 
-void render(const Scene& scene, const SceneDescription& description, const Region& region, const Options& options,
-            const std::atomic<bool>& stop, Outputs& outputs, Statistics& statistics) {
+void describe(const SceneDescription& description, const Region& region, const Options& options,
+              Statistics& statistics) {
   statistics.software = software_name();
   statistics.scene_file = shown_name(options.scene);
   statistics.width = description.viewplane.hres;
@@ -100,24 +100,30 @@ void render(const Scene& scene, const SceneDescription& description, const Regio
   statistics.samples = description.viewplane.samples;
   statistics.seed = options.seed;
   statistics.threads = options.threads;
+}
 
-  Progress progress(options.quiet ? ProgressStyle::none : options.progress);
-  for (Region band = region; band.y0 < region.y1; band.y0 = band.y1) {
-    band.y1 = std::min(band.y0 + band_rows(region), region.y1);
-    const auto update = [&](double fraction) {
-      progress.update((band.y0 - region.y0 + fraction * band.height()) / region.height());
-    };
-    PhaseTimer timer(statistics.seconds.render);
-    RayCounts rays;
-    const Film film = raytrace::render(scene, description, {options.threads, options.seed, band}, rays, update, &stop);
-    timer.stop();
-    if (stop) return;
-    statistics.rays += rays;
-    if (band.y1 == region.y1) progress.finish();
-    if (!outputs.write(film, statistics)) return;
+std::string pixel_text(const Scene& scene, const SceneDescription& description, const Region& pixel,
+                       const Options& options) {
+  const auto values = [&](const Film& film) {
+    const Pixel mean = film.pixel(pixel.x0, pixel.y0);
+    std::string text;
+    for (const float value : {mean.red, mean.green, mean.blue, mean.alpha}) text += " " + number_text(double{value});
+    return text + "\n";
+  };
+  RenderSettings settings{1, options.seed, pixel, sample_range(description.viewplane, options)};
+  const SampleRange samples = *settings.samples;
+  std::string text;
+  for (std::uint32_t i = 0; i < samples.count; ++i) {
+    settings.samples = SampleRange{samples.first + i, 1, samples.centered};
+    Film film(film_settings(scene, description, settings));
+    const RenderReport report = render(scene, film, 1, 1);
+    text += "sample " + std::to_string(samples.first + i) + ":" +
+            (report.set_aside.count > 0 ? " not finite\n" : values(film));
   }
-  tell_step("rendered " + counted(statistics.total_rays(), "ray") + " on " +
-            counted(static_cast<std::uint64_t>(options.threads), "thread") + in_seconds(statistics.seconds.render));
+  settings.samples = samples;
+  Film film(film_settings(scene, description, settings));
+  render(scene, film, samples.count, 1);
+  return text + "mean:" + values(film);
 }
 
 void report(Statistics& statistics, const Options& options) {

@@ -1,13 +1,11 @@
 // The stages of a run, each with its messages and its part of the statistics.
 #pragma once
 
-#include <atomic>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "options.h"
-#include "outputs.h"
 #include "raytrace/description/scene_description.h"
 #include "raytrace/render/renderer.h"
 #include "statistics.h"
@@ -22,10 +20,13 @@ std::optional<SceneDescription> load(const Options& options, Statistics& statist
 
 std::unique_ptr<const Scene> build(const SceneDescription& description, const Options& options, Statistics& statistics);
 
-/// Renders the region into the outputs; large ones in bands from the top, so that no more than one of them need be in
-/// memory. Returns early once `stop` is set, or if no output is left that could be written.
-void render(const Scene& scene, const SceneDescription& description, const Region& region, const Options& options,
-            const std::atomic<bool>& stop, Outputs& outputs, Statistics& statistics);
+/// What the statistics say of the picture that is to be rendered.
+void describe(const SceneDescription& description, const Region& region, const Options& options,
+              Statistics& statistics);
+
+/// The pixel's samples, one a line, and their mean.
+std::string pixel_text(const Scene& scene, const SceneDescription& description, const Region& pixel,
+                       const Options& options);
 
 /// Completes the statistics, and tells or writes them if they were asked for.
 void report(Statistics& statistics, const Options& options);

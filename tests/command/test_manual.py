@@ -32,15 +32,16 @@ class Manual(CommandTest):
             self.assertLessEqual(len(line), 80, line)
         self.assertEqual(self.help, self.succeed("-h").stdout)
         tail = self.help[self.help.index("\nExamples:"):]
-        self.assertEqual(len(re.findall(r"^  raytrace .*-o", tail, re.M)), 2)
-        for code in ("0 ", "1 ", "2 ", "33 ", "130, 143"):
+        self.assertEqual(len(re.findall(r"^  raytrace .*-o", tail, re.M)), 5)
+        for code in ("0 ", "1 ", "2 ", "33 ", "75 ", "130, 143"):
             self.assertIn(f"\n  {code}", tail)
 
     def test_the_options_are_those_we_know(self):
         self.assertEqual(self.defined_in_help(), {
             "-o", "--output", "--float", "--bit-depth", "-r", "--resolution", "--scale", "--crop", "-s", "--spp",
             "--seed", "-t", "--threads", "--isa", "-q", "--quiet", "-v", "--verbose", "--progress", "--stats",
-            "--validate", "--print-scene", "--list", "--version", "-h", "--help"})
+            "--validate", "--print-scene", "--list", "--version", "-h", "--help", "--tile", "--sample-offset", "--pixel",
+            "--time-limit", "--checkpoint", "--checkpoint-interval", "--resume"})
 
     def test_man_page_has_the_same_options(self):
         terms = re.findall(r"^\.TP\n\\fB(.*)\\fR$", self.man_page.replace(r"\-", "-"), re.M)

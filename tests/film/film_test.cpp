@@ -1,27 +1,69 @@
-// Where the film keeps its pixels.
+// What the film keeps, and what it makes of it.
 #include "raytrace/film/film.h"
+
+#include <cmath>
+#include <limits>
 
 #include "support/catch.h"
 
 namespace raytrace::test {
 
-TEST_CASE("a film holds the pixels of its region, row by row, under their places in the whole picture") {
-  Film film(640, 480, {100, 50, 107, 53});
-  CHECK(film.full_width() == 640);
-  CHECK(film.full_height() == 480);
-  CHECK(film.region() == Region{100, 50, 107, 53});
-  REQUIRE(film.pixels().size() == 21);
-  for (const Pixel& pixel : film.pixels()) {
-    CHECK(pixel.red == 0.0f);
-    CHECK(pixel.alpha == 0.0f);
-  }
+namespace {
 
+FilmSettings settings_of(const Region& region, int unit_exponent) {
+  FilmSettings settings;
+  settings.extent = {640, 480, region};
+  settings.unit_exponent = unit_exponent;
+  return settings;
+}
+
+}  // namespace
+
+TEST_CASE("a film holds the sums of its region, row by row, under their places in the whole picture") {
+  Film film(settings_of({100, 50, 107, 53}, 0));
+  CHECK(film.region() == Region{100, 50, 107, 53});
+  REQUIRE(film.sums().size() == 21);
+  for (const PixelSum& sum : film.sums()) CHECK(sum == PixelSum{});
   for (int y = 50; y < 53; ++y)
-    for (int x = 100; x < 107; ++x) film.at(x, y) = {static_cast<float>(x), static_cast<float>(y), 0, 1};
+    for (int x = 100; x < 107; ++x) film.sum(x, y) += {x, y, 0, 1, 1};
   for (std::size_t i = 0; i < 21; ++i) {
+    CHECK(film.sums()[i].red == static_cast<std::int64_t>(100 + i % 7));
+    CHECK(film.sums()[i].green == static_cast<std::int64_t>(50 + i / 7));
     CHECK(film.pixels()[i].red == static_cast<float>(100 + i % 7));
-    CHECK(film.pixels()[i].green == static_cast<float>(50 + i / 7));
   }
+}
+
+TEST_CASE("a pixel is the mean of its samples in the film's units, and black and empty without any") {
+  Film film(settings_of({0, 0, 2, 1}, -10));
+  film.sum(1, 0) += {1024, -512, 3 * 1024, 1, 2};
+  film.sum(1, 0) += {1024, -512, 1024, 0, 2};
+  const Pixel pixel = film.pixel(1, 0);
+  CHECK(pixel.red == 0.5f);
+  CHECK(pixel.green == -0.25f);
+  CHECK(pixel.blue == 1.0f);
+  CHECK(pixel.alpha == 0.25f);
+  const Pixel empty = film.pixel(0, 0);
+  CHECK(empty.red == 0.0f);
+  CHECK(empty.alpha == 0.0f);
+  CHECK(film.fewest_samples() == 0);
+  film.sum(0, 0).samples = 7;
+  CHECK(film.fewest_samples() == 4);
+}
+
+TEST_CASE("a film's unit leaves room for the sums, and is the same for all parts of a picture") {
+  for (const float largest : {1e-20f, 0.7f, 1.0f, 1.5f, 1e17f, std::numeric_limits<float>::max()})
+    for (const double samples : {1.0, 16.0, 524288.0, 524289.0, 1e7, 4294967295.0}) {
+      const int exponent = unit_exponent(largest, static_cast<std::uint64_t>(samples));
+      const double sum = std::ldexp(static_cast<double>(largest), -exponent) * samples;
+      INFO(largest << " x " << samples << ": 2^" << exponent);
+      CHECK(sum <= 0x1p63);
+      CHECK(std::ldexp(static_cast<double>(largest), -exponent) <= 0x1p44);
+      if (samples <= 524288) CHECK(exponent == unit_exponent(largest, 1));
+      if (samples <= 524288) CHECK(std::ldexp(static_cast<double>(largest), -exponent) >= 0x1p43);
+    }
+  CHECK(unit_exponent(0, 1) == unit_exponent(0, 1000));
+  CHECK(unit_exponent(std::numeric_limits<float>::infinity(), 1) ==
+        unit_exponent(std::numeric_limits<float>::max(), 1));
 }
 
 }  // namespace raytrace::test

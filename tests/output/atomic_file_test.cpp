@@ -167,7 +167,7 @@ TEST_CASE("what cannot be written is refused at once, with the reason") {
 TEST_CASE("whoever reads while pictures are written sees whole ones only") {
   const TemporaryFolder folder;
   const std::string file = folder.file("a.exr");
-  Film black(64, 64, {0, 0, 64, 64}), white(64, 64, {0, 0, 64, 64});
+  FloatPicture black(64, 64, {0, 0, 64, 64}), white(64, 64, {0, 0, 64, 64});
   for (int y = 0; y < 64; ++y) {
     for (int x = 0; x < 64; ++x) white.at(x, y) = {1, 1, 1, 1};
   }

@@ -17,8 +17,8 @@ double srgb_of(double linear) {
 }
 
 /// Reds from below 0 to above 1, most of them dark.
-Film ramp(int width) {
-  Film film(width, 1, {0, 0, width, 1});
+FloatPicture ramp(int width) {
+  FloatPicture film(width, 1, {0, 0, width, 1});
   for (int x = 0; x < width; ++x) {
     const double t = 1.1 * x / (width - 1) - 0.05;
     film.at(x, 0) = {static_cast<float>(t * std::abs(t)), 0.5F, 1, 0};
@@ -34,7 +34,7 @@ TEST_CASE("PNG and TIFF hold the sRGB curve, rounded to the nearest step") {
   const int bits = GENERATE(8, 16);
   const std::string file = folder.file("ramp" + extension);
   constexpr int width = 5000;
-  const Film film = ramp(width);
+  const FloatPicture film = ramp(width);
   ImageFileSettings settings;
   settings.bit_depth = bits;
   const Repairs repairs = write_image(file, film, {}, settings);
@@ -58,7 +58,7 @@ TEST_CASE("PNG and TIFF hold the sRGB curve, rounded to the nearest step") {
 TEST_CASE("a file for eyes is just the region") {
   const TemporaryFolder folder;
   const std::string file = folder.file("crop.png");
-  const Film film = distinct_film(64, 48, {5, 7, 25, 40});
+  const FloatPicture film = distinct_film(64, 48, {5, 7, 25, 40});
   write_image(file, film, {}, {});
   const ReadPicture picture = read_picture(file);
   CHECK(picture.spec.x == 0);
@@ -71,7 +71,7 @@ TEST_CASE("a file for eyes is just the region") {
 TEST_CASE("HDR holds linear radiance, to the eight bits of its mantissa") {
   const TemporaryFolder folder;
   const std::string file = folder.file("a.hdr");
-  Film film(8, 8, {0, 0, 8, 8});
+  FloatPicture film(8, 8, {0, 0, 8, 8});
   film.at(3, 2) = {1000, 500, 250, 1};
   write_image(file, film, {}, {});
   const ReadPicture picture = read_picture(file);
@@ -85,7 +85,7 @@ TEST_CASE("TIFF holds linear floats where they are asked for") {
   const std::string file = folder.file("a.tif");
   ImageFileSettings settings;
   settings.full_float = true;
-  const Film film = distinct_film(40, 30);
+  const FloatPicture film = distinct_film(40, 30);
   write_image(file, film, some_metadata(), settings);
   const ReadPicture picture = read_picture(file);
   CHECK(picture.spec.format == OIIO::TypeFloat);
@@ -96,7 +96,7 @@ TEST_CASE("other formats work by their extension, in any case") {
   const TemporaryFolder folder;
   const std::string extension = GENERATE(".jpg", ".JPEG", ".PNG", ".bmp", ".tga", ".ppm", ".sgi", ".TIFF");
   const std::string file = folder.file("a" + extension);
-  const Film film = distinct_film(48, 40);
+  const FloatPicture film = distinct_film(48, 40);
   check_writable(file, {});
   write_image(file, film, some_metadata(), {});
   const ReadPicture picture = read_picture(file);

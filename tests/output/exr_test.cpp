@@ -27,7 +27,7 @@ ImageFileSettings float_settings() {
 TEST_CASE("EXR holds radiance and coverage as they are") {
   const TemporaryFolder folder;
   const std::string file = folder.file("a.exr");
-  const Film film = distinct_film(33, 21);
+  const FloatPicture film = distinct_film(33, 21);
   const bool full_float = GENERATE(false, true);
   const Repairs repairs = write_image(file, film, {}, full_float ? float_settings() : ImageFileSettings{});
 
@@ -56,7 +56,7 @@ TEST_CASE("EXR holds radiance and coverage as they are") {
 TEST_CASE("an EXR's data window is the region, its display window the whole picture") {
   const TemporaryFolder folder;
   const std::string file = folder.file("crop.exr");
-  const Film film = distinct_film(64, 48, {5, 7, 25, 40});
+  const FloatPicture film = distinct_film(64, 48, {5, 7, 25, 40});
   write_image(file, film, {}, {});
 
   const ReadPicture picture = read_picture(file);
@@ -76,7 +76,7 @@ TEST_CASE("an EXR of several bands has no seams") {
   const TemporaryFolder folder;
   const std::string file = folder.file("wide.exr");
   constexpr int width = 40000, height = 70;  // more values than a band has
-  Film film(width, height, {0, 0, width, height});
+  FloatPicture film(width, height, {0, 0, width, height});
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) film.at(x, y) = {static_cast<float>(y), static_cast<float>(x % 1024), 1, 1};
   }
@@ -99,14 +99,14 @@ TEST_CASE("a picture written in bands has the bytes of the same picture written 
   const TemporaryFolder folder;
   const std::string extension = GENERATE(".exr", ".png", ".tif", ".hdr", ".jpg");
   const std::string file = folder.file("a" + extension);
-  const Film film = distinct_film(50, 90, {3, 5, 47, 88});
+  const FloatPicture film = distinct_film(50, 90, {3, 5, 47, 88});
   write_image(file, film, {}, {});
   const std::string at_once = bytes_of(file);
   {
     ImageFile image(file, {50, 90, film.region()}, {}, {});
     for (Region band = film.region(); band.y0 < 88; band.y0 = band.y1) {
       band.y1 = std::min(band.y0 + 32, 88);
-      image.write(distinct_film(50, 90, band));
+      image.write(color_band(distinct_film(50, 90, band)));
       CHECK(bytes_of(file) == at_once);  // nothing is seen before the last
     }
     image.commit();
@@ -117,7 +117,7 @@ TEST_CASE("a picture written in bands has the bytes of the same picture written 
 TEST_CASE("an EXR holds any channels, each of its type") {
   const TemporaryFolder folder;
   const std::string file = folder.file("a.exr");
-  const Film film = distinct_film(30, 50, {4, 6, 25, 48});
+  const FloatPicture film = distinct_film(30, 50, {4, 6, 25, 48});
   std::vector<Channel> channels = color_channels(false);
   const std::vector<Channel> data = {{"Z", ChannelType::float32},
                                      {"id.object", ChannelType::uint32},
@@ -173,7 +173,7 @@ TEST_CASE("formats without further channels store the colours of them") {
   const SourceDateEpoch epoch("86399");
   const TemporaryFolder folder;
   const std::string extension = GENERATE(".png", ".tif", ".hdr");
-  const Film film = distinct_film(9, 7);
+  const FloatPicture film = distinct_film(9, 7);
   write_image(folder.file("a" + extension), film, {}, {});
   std::vector<Channel> channels = color_channels(false);
   channels.push_back({"Z", ChannelType::float32});
@@ -191,7 +191,7 @@ TEST_CASE("a picture that is not ended leaves nothing") {
   const std::string file = folder.file(GENERATE("a.exr", "a.png", "a.tif"));
   {
     ImageFile image(file, {40, 64, {0, 0, 40, 64}}, {}, {});
-    image.write(distinct_film(40, 64, {0, 0, 40, 32}));
+    image.write(color_band(distinct_film(40, 64, {0, 0, 40, 32})));
   }
   CHECK(folder.names().empty());
 }
@@ -199,7 +199,7 @@ TEST_CASE("a picture that is not ended leaves nothing") {
 TEST_CASE("what half cannot hold becomes its largest number, and is counted") {
   const TemporaryFolder folder;
   const std::string file = folder.file("bright.exr");
-  Film film(4, 1, {0, 0, 4, 1});
+  FloatPicture film(4, 1, {0, 0, 4, 1});
   film.at(0, 0) = {65504, 65505, 1e30F, 1};
   film.at(1, 0) = {-1e30F, -65504, 0, 0};
   const Repairs half = write_image(file, film, {}, {});
@@ -219,7 +219,7 @@ TEST_CASE("what half cannot hold becomes its largest number, and is counted") {
 TEST_CASE("no NaN and no infinity reaches a file") {
   const TemporaryFolder folder;
   constexpr float infinity = std::numeric_limits<float>::infinity();
-  Film film(2, 1, {0, 0, 2, 1});
+  FloatPicture film(2, 1, {0, 0, 2, 1});
   film.at(0, 0) = {std::nanf(""), infinity, -infinity, 1};
   film.at(1, 0) = {1, 1, 1, std::nanf("")};
 

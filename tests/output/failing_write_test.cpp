@@ -52,7 +52,7 @@ class TinyDisk {
   bool mounted_;
 };
 
-std::string failure(const std::string& file, const Film& film) {
+std::string failure(const std::string& file, const FloatPicture& film) {
   try {
     write_image(file, film, some_metadata(), {});
   } catch (const OutputError& error) {
@@ -69,7 +69,7 @@ TEST_CASE("a write that fails in the middle leaves the earlier picture and nothi
   const std::string file = folder.file(name);
   write_image(file, distinct_film(16, 16), {}, {});
   const std::string before = bytes_of(file);
-  const Film film = noise_film(400, 400);
+  const FloatPicture film = noise_film(400, 400);
   {
     const FileSizeLimit limit(40000);
     CHECK(contains(failure(file, film), "File too large"));

@@ -82,7 +82,7 @@ TEST_CASE("with SOURCE_DATE_EPOCH, the same picture gives the same bytes") {
   const TemporaryFolder folder;
   const std::string extension = GENERATE(".exr", ".png", ".tif", ".jpg");
   const std::string file = folder.file("a" + extension);
-  const Film film = noise_film(50, 50);
+  const FloatPicture film = noise_film(50, 50);
   ImageMetadata metadata = some_metadata();
   ImageFileSettings settings;
   settings.threads = 1;

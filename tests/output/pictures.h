@@ -1,21 +1,23 @@
-// Films to write, and image files as read back.
+// Pictures to write, and image files as read back.
 #pragma once
 
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "raytrace/film/film.h"
 #include "raytrace/output/image_file.h"
+#include "support/float_picture.h"
 
 namespace raytrace::test {
 
 /// Every pixel's channels differ from each other's and from all other pixels', and half holds them exactly.
-inline Film distinct_film(int full_width, int full_height, const Region& region) {
-  Film film(full_width, full_height, region);
+inline FloatPicture distinct_film(int full_width, int full_height, const Region& region) {
+  FloatPicture film(full_width, full_height, region);
   for (int y = region.y0; y < region.y1; ++y) {
     for (int x = region.x0; x < region.x1; ++x) {
       const auto column = static_cast<float>(x), row = static_cast<float>(y);
@@ -25,11 +27,11 @@ inline Film distinct_film(int full_width, int full_height, const Region& region)
   return film;
 }
 
-inline Film distinct_film(int width, int height) { return distinct_film(width, height, {0, 0, width, height}); }
+inline FloatPicture distinct_film(int width, int height) { return distinct_film(width, height, {0, 0, width, height}); }
 
 /// Noise in [0, 1), the same each time: hardly compressible.
-inline Film noise_film(int width, int height) {
-  Film film(width, height, {0, 0, width, height});
+inline FloatPicture noise_film(int width, int height) {
+  FloatPicture film(width, height, {0, 0, width, height});
   std::uint32_t state = 1;
   const auto next = [&] {
     state = state * 1664525 + 1013904223;
@@ -39,6 +41,33 @@ inline Film noise_film(int width, int height) {
     for (int x = 0; x < width; ++x) film.at(x, y) = {next(), next(), next(), next()};
   }
   return film;
+}
+
+/// As for a film.
+inline void fill_color(ImageBand& band, const FloatPicture& picture, int y0, int y1) {
+  band.region = {picture.region().x0, y0, picture.region().x1, y1};
+  band.planes.resize(std::max<std::size_t>(band.planes.size(), 4));
+  const std::array<float Pixel::*, 4> channels = {&Pixel::red, &Pixel::green, &Pixel::blue, &Pixel::alpha};
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    std::vector<float> plane;
+    for (int y = y0; y < y1; ++y) {
+      for (int x = band.region.x0; x < band.region.x1; ++x) plane.push_back(picture.at(x, y).*channels[i]);
+    }
+    band.planes[i] = std::move(plane);
+  }
+}
+
+inline ImageBand color_band(const FloatPicture& picture) {
+  ImageBand band;
+  fill_color(band, picture, picture.region().y0, picture.region().y1);
+  return band;
+}
+
+inline Repairs write_image(const std::string& file, const FloatPicture& picture, const ImageMetadata& metadata,
+                           const ImageFileSettings& settings) {
+  ImageFile image(file, picture.extent(), metadata, settings);
+  image.write(color_band(picture));
+  return image.commit();
 }
 
 struct ReadPicture {

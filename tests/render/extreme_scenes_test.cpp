@@ -16,7 +16,7 @@ const std::string white =
     "<materials><phongs><phong><name>m</name><ka>0.5</ka><kd>0.5</kd><ks>0.5</ks><cd red='1' green='1' blue='1'/>"
     "<cs red='1' green='1' blue='1'/><exp>20</exp></phong></phongs></materials>";
 
-int not_finite(const Film& film) {
+int not_finite(const FloatPicture& film) {
   int count = 0;
   for (const Pixel& pixel : film.pixels())
     count += !std::isfinite(pixel.red) || !std::isfinite(pixel.green) || !std::isfinite(pixel.blue) ||
@@ -28,7 +28,7 @@ int not_finite(const Film& film) {
 
 TEST_CASE("a scene without objects is its background, and covers nothing") {
   for (const std::string& isa : usable_isas()) {
-    const Film film =
+    const FloatPicture film =
         rendered(parsed_scene(scene_text(33, 17, 3,
                                          "<lights><pointlights><pointlight><location x='0' y='0' z='0'/></pointlight>"
                                          "</pointlights></lights>")),
@@ -83,7 +83,7 @@ TEST_CASE("coordinates and sizes as large and as small as the format takes give 
       }
 }
 
-TEST_CASE("more light than floats can hold is infinite where it falls, and nothing elsewhere") {
+TEST_CASE("more light than floats can hold is set aside where it falls, told, and nothing elsewhere") {
   const std::string text =
       scene_text(16, 16, 1,
                  "<lights><pointlights><pointlight><location x='20' y='0' "
@@ -94,17 +94,27 @@ TEST_CASE("more light than floats can hold is infinite where it falls, and nothi
                  "x='0' y='0' z='0'/><radius>4</radius>"
                  "<material>m</material></sphere></spheres></objects>");
   for (const std::string& isa : usable_isas()) {
-    const Film film = rendered(parsed_scene(text), 1, isa);
-    int infinite = 0, dark = 0, nan = 0;
-    for (const Pixel& pixel : film.pixels()) {
-      infinite += std::isinf(pixel.red);
-      dark += pixel.alpha == 1 && pixel.red == 0;
-      nan += std::isnan(pixel.red) || std::isnan(pixel.green) || std::isnan(pixel.blue);
-    }
+    const SceneDescription description = parsed_scene(text);
+    const auto scene = build_scene(description, {1, isa});
+    Film film(film_settings(*scene, description, {1, 0, whole(description), {}}));
+    const SetAsideSamples told = render(*scene, film, 1, 1).set_aside;
+    std::uint64_t lit = 0, hit = 0;
+    for (int y = 0; y < 16; ++y)
+      for (int x = 0; x < 16; ++x) {
+        hit += film.sum(x, y).hits;
+        CHECK(film.sum(x, y).samples == 1);
+        if (film.sum(x, y).hits == 1) CHECK(film.sum(x, y).red == 0);
+      }
+    lit = told.count;
     INFO(isa);
-    CHECK(infinite > 20);
-    CHECK(dark > 20);
-    CHECK(nan == 0);
+    CHECK(lit > 20);
+    CHECK(lit < hit - 20);  // the sphere's far side is dark, and fine
+    REQUIRE(told.told.size() == SetAsideSamples::most_told);
+    for (std::size_t i = 1; i < told.told.size(); ++i) {
+      const SampleId &a = told.told[i - 1], &b = told.told[i];
+      CHECK((a.y < b.y || (a.y == b.y && a.x < b.x)));
+    }
+    for (const SampleId& id : told.told) CHECK(film.sum(id.x, id.y).hits == 1);
   }
 }
 
@@ -131,10 +141,11 @@ TEST_CASE("ten thousand planes: each pixel sees the nearest") {
                vector_text("normal", direction.x, direction.y, direction.z) + "<material>m" +
                std::to_string(i % colors) + "</material></plane>";
   }
-  const Film film = rendered(scene_text(edge, edge, 1,
-                                        "<lights><ambientlight/></lights><materials><mattes>" + materials +
-                                            "</mattes></materials><objects><planes>" + objects + "</planes></objects>",
-                                        "<eye x='0' y='0' z='0'/><lookat x='0' y='0' z='-1'/>"));
+  const FloatPicture film =
+      rendered(scene_text(edge, edge, 1,
+                          "<lights><ambientlight/></lights><materials><mattes>" + materials +
+                              "</mattes></materials><objects><planes>" + objects + "</planes></objects>",
+                          "<eye x='0' y='0' z='0'/><lookat x='0' y='0' z='-1'/>"));
   int wrong = 0;
   for (int y = 0; y < edge; ++y)
     for (int x = 0; x < edge; ++x) {

@@ -15,7 +15,7 @@ namespace {
 const Pixel untouched;
 
 /// How many pixels are done; each must be as in the whole picture, the others untouched.
-int whole_pixels(const Film& film, const Film& all) {
+int whole_pixels(const FloatPicture& film, const FloatPicture& all) {
   int done = 0;
   for (std::size_t i = 0; i < film.pixels().size(); ++i) {
     if (identical(film.pixels()[i], untouched)) continue;
@@ -50,14 +50,14 @@ TEST_CASE("progress grows with each call, one call at a time, and ends at 1") {
 
 TEST_CASE("a render that is stopped ends early, with pixels that are done or untouched") {
   const SceneDescription description = parsed_scene(busy_scene(256, 192, 1));
-  const Film all = rendered(description);
+  const FloatPicture all = rendered(description);
   for (const int threads : {1, 3}) {
     const auto scene = build_scene(description, {threads, {}});
     for (const int calls : {1, 5}) {
       std::atomic<bool> stop{false};
       int told = 0;
       RayCounts rays;
-      const Film film = render(
+      const FloatPicture film = render(
           *scene, description, {threads, 0, whole(description)}, rays, [&](double) { stop = ++told >= calls; }, &stop);
       const int done = whole_pixels(film, all);
       INFO(threads << " threads, stopped at call " << calls << ", done " << done);
@@ -78,11 +78,51 @@ TEST_CASE("a render stops inside a pixel, however many samples that has") {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
     stop = true;
   });
-  RayCounts rays;
-  const Film film = render(*scene, description, {1, 0, whole(description)}, rays, {}, &stop);
+  Film film(film_settings(*scene, description, {1, 0, whole(description), {}}));
+  render(*scene, film, 2'000'000'000, 1, {}, &stop);
   stopper.join();
-  CHECK(std::all_of(film.pixels().begin(), film.pixels().end(),
-                    [](const Pixel& pixel) { return identical(pixel, untouched); }));
+  CHECK(film.fewest_samples() < 2'000'000'000);
+}
+
+TEST_CASE("a render that is paused again and again ends in the same sums") {
+  const SceneDescription description = parsed_scene(busy_scene(61, 47, 40));
+  for (const int threads : {1, 3}) {
+    const auto scene = build_scene(description, {threads, {}});
+    const RenderSettings settings{threads, 5, whole(description), {}};
+    Film once(film_settings(*scene, description, settings)), paused(once.settings());
+    render(*scene, once, 40, threads);
+    int pauses = 0;
+    while (paused.fewest_samples() < 40) {
+      std::atomic<bool> stop{false};
+      const std::uint32_t target = std::min(40U, paused.fewest_samples() + 7);
+      // Further on each time, since tiles that are done count again; the other threads are in the middle of theirs.
+      int calls = 0;
+      render(*scene, paused, target, threads, [&](double) { stop = calls++ >= pauses; }, &stop);
+      ++pauses;
+    }
+    CHECK(pauses > 10);
+    CHECK(std::equal(once.sums().begin(), once.sums().end(), paused.sums().begin(), paused.sums().end()));
+  }
+}
+
+TEST_CASE("sums of parts of the samples add up to those of all") {
+  const SceneDescription description = parsed_scene(busy_scene(50, 30, 21));
+  const auto scene = build_scene(description, {1, {}});
+  const auto part = [&](std::uint32_t first, std::uint32_t count) {
+    Film film(film_settings(*scene, description, {1, 5, whole(description), SampleRange{first, count, false}}));
+    render(*scene, film, count, 1);
+    return film;
+  };
+  const Film all = part(0, 21);
+  const Film first = part(0, 1), second = part(1, 6), third = part(7, 14);
+  int wrong = 0;
+  for (std::size_t i = 0; i < all.sums().size(); ++i) {
+    PixelSum sum = third.sums()[i];
+    sum += first.sums()[i];
+    sum += second.sums()[i];
+    wrong += !(sum == all.sums()[i]);
+  }
+  CHECK(wrong == 0);
 }
 
 TEST_CASE("a render that is stopped before it begins does nothing") {
@@ -90,7 +130,7 @@ TEST_CASE("a render that is stopped before it begins does nothing") {
   const auto scene = build_scene(description, {2, {}});
   const std::atomic<bool> stop{true};
   RayCounts rays{7, 7};
-  const Film film = render(*scene, description, {2, 0, whole(description)}, rays, {}, &stop);
+  const FloatPicture film = render(*scene, description, {2, 0, whole(description)}, rays, {}, &stop);
   CHECK(whole_pixels(film, rendered(description)) == 0);
   CHECK(rays.camera == 0);
   CHECK(rays.shadow == 0);

@@ -11,7 +11,7 @@ namespace raytrace::test {
 
 TEST_CASE("a picture's bytes are the same from any number of threads") {
   const SceneDescription description = parsed_scene(busy_scene(150, 110, 3));
-  const Film wanted = rendered(description, 1);
+  const FloatPicture wanted = rendered(description, 1);
   for (const int threads : {2, 3, 8}) {
     INFO(threads << " threads");
     CHECK(identical(rendered(description, threads), wanted));
@@ -23,7 +23,7 @@ TEST_CASE("a crop's bytes are those of the whole picture") {
   for (const std::string& isa : usable_isas()) {
     const auto scene = build_scene(description, {1, isa});
     RayCounts rays;
-    const Film all = render(*scene, description, {1, 5, whole(description)}, rays);
+    const FloatPicture all = render(*scene, description, {1, 5, whole(description)}, rays);
     std::mt19937 bits(9);
     const auto below = [&](int n) { return static_cast<int>(bits() % static_cast<unsigned>(n)); };
     for (int i = 0; i < 20; ++i) {
@@ -32,8 +32,8 @@ TEST_CASE("a crop's bytes are those of the whole picture") {
       crop.y0 = below(77);
       crop.x1 = i % 5 == 0 ? crop.x0 + 1 : crop.x0 + 1 + below(101 - crop.x0);
       crop.y1 = i % 7 == 0 ? crop.y0 + 1 : crop.y0 + 1 + below(77 - crop.y0);
-      const Film part = render(*scene, description, {1, 5, crop}, rays);
-      CHECK(part.full_width() == 101);
+      const FloatPicture part = render(*scene, description, {1, 5, crop}, rays);
+      CHECK(part.extent().full_width == 101);
       CHECK(part.region() == crop);
       int wrong = 0;
       for (int y = crop.y0; y < crop.y1; ++y)
@@ -46,7 +46,7 @@ TEST_CASE("a crop's bytes are those of the whole picture") {
 
 TEST_CASE("another seed gives another picture of the same thing, the same seed the same picture") {
   const SceneDescription description = parsed_scene(busy_scene(64, 48, 64));
-  const Film first = rendered(description, 1, {}, 1), second = rendered(description, 1, {}, 2);
+  const FloatPicture first = rendered(description, 1, {}, 1), second = rendered(description, 1, {}, 2);
   CHECK(identical(rendered(description, 1, {}, 1), first));
   CHECK(!identical(rendered(description, 1, {}, 1ull << 32), rendered(description, 1, {}, 0)));
 
@@ -72,9 +72,9 @@ TEST_CASE("one sample a pixel leaves nothing to the seed") {
 TEST_CASE("instruction sets agree but for silhouettes") {
   const SceneDescription description = parsed_scene(busy_scene(160, 120, 1));
   const std::vector<std::string> isas = usable_isas();
-  const Film wanted = rendered(description, 1, isas.front());
+  const FloatPicture wanted = rendered(description, 1, isas.front());
   for (const std::string& isa : isas) {
-    const Film film = rendered(description, 1, isa);
+    const FloatPicture film = rendered(description, 1, isa);
     int differing = 0;
     for (std::size_t i = 0; i < film.pixels().size(); ++i)
       differing += difference(film.pixels()[i], wanted.pixels()[i]) > 1e-4;

@@ -48,14 +48,14 @@ struct Sum {
 
 TEST_CASE("many lights are the sum of the pictures that each makes alone") {
   for (const std::string& isa : usable_isas()) {
-    const Film ambient = rendered(lit_by(""), 1, isa);
+    const FloatPicture ambient = rendered(lit_by(""), 1, isa);
     std::vector<Sum> sums;
     for (const Pixel& pixel : ambient.pixels())
       sums.push_back({double{pixel.red}, double{pixel.green}, double{pixel.blue}});
     std::string lights;
     for (int count = 1; count <= 40; ++count) {
       lights += light(count);
-      const Film alone = rendered(lit_by(light(count)), 1, isa);
+      const FloatPicture alone = rendered(lit_by(light(count)), 1, isa);
       for (std::size_t i = 0; i < sums.size(); ++i) {
         sums[i].red += double{alone.pixels()[i].red} - double{ambient.pixels()[i].red};
         sums[i].green += double{alone.pixels()[i].green} - double{ambient.pixels()[i].green};
@@ -63,7 +63,7 @@ TEST_CASE("many lights are the sum of the pictures that each makes alone") {
       }
       // Around the lengths at which an implementation may gather lights in runs.
       if (count != 2 && (count < 15 || count > 17) && (count < 31 || count > 33) && count != 40) continue;
-      const Film together = rendered(lit_by(lights), 1, isa);
+      const FloatPicture together = rendered(lit_by(lights), 1, isa);
       double worst = 0;
       for (std::size_t i = 0; i < sums.size(); ++i) {
         // The background is no sum of lights.

@@ -62,7 +62,7 @@ TEST_CASE("each pixel of a packet is shaded by its own object's material") {
       "</triangles><disks>" + disks + "</disks></objects></raytracer>";
   const SceneDescription description = parsed_scene(text);
   for (const std::string& isa : usable_isas()) {
-    const Film film = rendered(description, 1, isa);
+    const FloatPicture film = rendered(description, 1, isa);
     double worst = 0;
     for (int i = 0; i < edge * edge; ++i) {
       const Tile& tile = tiles[static_cast<std::size_t>(i)];

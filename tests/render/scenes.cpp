@@ -46,7 +46,7 @@ std::string busy_scene(int width, int height, int samples) {
 
 bool identical(const Pixel& a, const Pixel& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
-bool identical(const Film& a, const Film& b) {
+bool identical(const FloatPicture& a, const FloatPicture& b) {
   return a.region() == b.region() && std::equal(a.pixels().begin(), a.pixels().end(), b.pixels().begin(),
                                                 [](const Pixel& p, const Pixel& q) { return identical(p, q); });
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "raytrace/render/renderer.h"
+#include "support/float_picture.h"
 #include "support/parsed_scene.h"
 
 namespace raytrace::test {
@@ -30,18 +31,18 @@ inline Region whole(const SceneDescription& description) {
 }
 
 /// The whole picture, built and rendered with the same number of threads.
-inline Film rendered(const SceneDescription& description, int threads = 1, const std::string& isa = {},
-                     std::uint64_t seed = 0) {
+inline FloatPicture rendered(const SceneDescription& description, int threads = 1, const std::string& isa = {},
+                             std::uint64_t seed = 0) {
   const auto scene = build_scene(description, {threads, isa});
   RayCounts rays;
   return render(*scene, description, {threads, seed, whole(description)}, rays);
 }
 
-inline Film rendered(const std::string& text) { return rendered(parsed_scene(text)); }
+inline FloatPicture rendered(const std::string& text) { return rendered(parsed_scene(text)); }
 
 /// Whether all bits of the pixels are the same.
 bool identical(const Pixel& a, const Pixel& b);
-bool identical(const Film& a, const Film& b);
+bool identical(const FloatPicture& a, const FloatPicture& b);
 
 /// The largest difference of their channels.
 double difference(const Pixel& a, const Pixel& b);

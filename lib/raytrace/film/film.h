@@ -1,9 +1,11 @@
-// The picture in memory: linear radiance and coverage of each pixel of a region.
+// The picture in memory while it is rendered: sums of samples, from which the means of pixels are made.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace raytrace {
 
@@ -19,50 +21,88 @@ struct Region {
 struct PictureExtent {
   int full_width = 0, full_height = 0;
   Region region;
+  friend bool operator==(const PictureExtent&, const PictureExtent&) = default;
 };
 
-/// Linear RGB radiance, and A: the part of the pixel's samples that hit an object.
+/// Linear RGB radiance, and A: the part of the pixel's samples that hit an object. A mean of samples.
 struct Pixel {
   float red = 0, green = 0, blue = 0, alpha = 0;
 };
 
-/// Holds the finished pixels of `region`, a part of a picture of full_width x full_height; they are black and empty at
-/// first. Threads may write different pixels at the same time.
+/// The sums of a pixel's samples: radiance in fixed point, in the film's units, so that they are exact. The same
+/// samples give the same sums in whatever order, and in however many parts, they are added.
+struct PixelSum {
+  std::int64_t red = 0, green = 0, blue = 0;
+  std::uint32_t hits = 0;     ///< samples that hit an object
+  std::uint32_t samples = 0;  ///< all
+  PixelSum& operator+=(const PixelSum& other);
+  friend bool operator==(const PixelSum&, const PixelSum&) = default;
+};
+
+/// Which samples a film takes: indices of each pixel's sequence.
+struct SampleRange {
+  std::uint32_t first = 0;
+  std::uint32_t count = 1;
+  bool centered = false;  ///< the only sample is not the sequence's first, but the pixel's center
+  friend bool operator==(const SampleRange&, const SampleRange&) = default;
+};
+
+/// What a film's samples depend on besides the scene, and what its sums mean.
+struct FilmSettings {
+  PictureExtent extent;
+  SampleRange samples;
+  std::uint64_t seed = 0;
+  int unit_exponent = -44;  ///< the sums count radiance in units of 2^unit_exponent
+  friend bool operator==(const FilmSettings&, const FilmSettings&) = default;
+};
+
+/// The exponent of a unit so small that a sample's rounding to it cannot be seen, and so large that the sums of
+/// `samples` radiances up to `largest_radiance` fit: 2^-44 of the next power of two above it, for up to 524,288
+/// samples. It depends on nothing else, so that the parts of a picture agree on it.
+int unit_exponent(float largest_radiance, std::uint64_t samples);
+
+/// Holds the sums of the pixels of a region, all zero at first. Threads may write different pixels at the same time.
 class Film {
  public:
   /// Throws std::bad_alloc.
-  Film(int full_width, int full_height, Region region);
+  explicit Film(const FilmSettings& settings);
 
-  int full_width() const { return full_width_; }
-  int full_height() const { return full_height_; }
-  const Region& region() const { return region_; }
+  const FilmSettings& settings() const { return settings_; }
+  const Region& region() const { return settings_.extent.region; }
 
   /// x, y: in the whole picture, inside region().
-  Pixel& at(int x, int y) { return pixels_[index(x, y)]; }
-  const Pixel& at(int x, int y) const { return pixels_[index(x, y)]; }
+  PixelSum& sum(int x, int y) { return sums_[index(x, y)]; }
+  const PixelSum& sum(int x, int y) const { return sums_[index(x, y)]; }
 
-  /// Row by row from the region's top, each from its left.
-  std::span<const Pixel> pixels() const { return {pixels_.get(), count()}; }
+  /// The mean of the pixel's samples; black and empty if it has none.
+  Pixel pixel(int x, int y) const;
+
+  /// All of them: row by row from the region's top, each from its left.
+  std::vector<Pixel> pixels() const;
+  std::span<const PixelSum> sums() const { return {sums_.get(), count()}; }
+
+  /// The fewest samples that a pixel has.
+  std::uint32_t fewest_samples() const;
 
  private:
   struct Unmap {
     std::size_t bytes;
-    void operator()(Pixel* pixels) const;
+    void operator()(PixelSum* sums) const;
   };
 
   std::size_t count() const {
-    return static_cast<std::size_t>(region_.width()) * static_cast<std::size_t>(region_.height());
+    return static_cast<std::size_t>(region().width()) * static_cast<std::size_t>(region().height());
   }
   std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y - region_.y0) * static_cast<std::size_t>(region_.width()) +
-           static_cast<std::size_t>(x - region_.x0);
+    return static_cast<std::size_t>(y - region().y0) * static_cast<std::size_t>(region().width()) +
+           static_cast<std::size_t>(x - region().x0);
   }
 
-  int full_width_, full_height_;
-  Region region_;
+  FilmSettings settings_;
+  double unit_;  ///< of radiance
   /// Zeros from the system, page by page as they are first written: by the threads that render, not by the one that
   /// makes the film.
-  std::unique_ptr<Pixel[], Unmap> pixels_;
+  std::unique_ptr<PixelSum[], Unmap> sums_;
 };
 
 }  // namespace raytrace

@@ -7,6 +7,7 @@
 //   Rgb<float> radiance() const;
 // else:
 //   bool shadows() const;
+//   Rgb<float> largest_radiance() const;   no point gets more
 //   template <class F> LightSample<F> sample(const Vec3<F>& position) const;
 #pragma once
 

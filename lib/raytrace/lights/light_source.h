@@ -15,6 +15,7 @@ class LightSource {
   virtual ~LightSource() = default;
   virtual LightSample<FloatN> sample(const Vec3<FloatN>& position) const = 0;
   virtual bool shadows() const = 0;
+  virtual Rgb<float> largest_radiance() const = 0;
 };
 
 template <class Light>
@@ -25,6 +26,7 @@ class LightSourceOf final : public LightSource {
     return light_.template sample<FloatN>(position);
   }
   bool shadows() const override { return light_.shadows(); }
+  Rgb<float> largest_radiance() const override { return light_.largest_radiance(); }
 
  private:
   Light light_;

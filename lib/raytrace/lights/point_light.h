@@ -30,6 +30,7 @@ class PointLight {
 
   static constexpr bool ambient = false;
   bool shadows() const { return shadows_; }
+  Rgb<float> largest_radiance() const { return radiance_; }
 
   template <class F>
   LightSample<F> sample(const Vec3<F>& position) const {

@@ -33,6 +33,10 @@ class MaterialTable {
  public:
   virtual ~MaterialTable() = default;
 
+  /// The most that any of them sends anywhere under lights of together that radiance: none reflects more than straight
+  /// back along its normal.
+  virtual Rgb<float> largest_radiance(const Rgb<float>& ambient_radiance, const Rgb<float>& light_radiance) const = 0;
+
   /// The radiance that leaves along wo. `index`: each lane's material, for every lane one that exists.
   virtual Rgb<FloatN> shade(const IntN& index, const Vec3<FloatN>& wo, const Vec3<FloatN>& normal,
                             const Rgb<float>& ambient_radiance, std::span<const ArrivingLight> lights) const = 0;
@@ -51,6 +55,20 @@ class MaterialTableOf final : public MaterialTable {
       // The cosine first: where it is 0, a product beyond the range of floats would make it NaN.
       result += Material::template reflect<FloatN>(brdfs, wo, light.wi, normal) * (light.radiance * light.cosine);
     return result;
+  }
+
+  Rgb<float> largest_radiance(const Rgb<float>& ambient_radiance, const Rgb<float>& light_radiance) const override {
+    const Vec3<FloatN> normal(Vec3<float>{0, 0, 1});
+    Rgb<float> largest(0, 0, 0);
+    for (std::size_t i = 0; i < brdfs_.size(); ++i) {
+      const IntN index(static_cast<std::int32_t>(i));
+      const auto brdfs = gather_records<Material::template Brdfs, FloatN>(brdfs_.data(), index);
+      const Rgb<FloatN> radiance =
+          Material::template ambient<FloatN>(brdfs, Rgb<FloatN>(ambient_radiance)) +
+          Material::template reflect<FloatN>(brdfs, normal, normal, normal) * Rgb<FloatN>(light_radiance);
+      largest = max(largest, {radiance.red.get(0), radiance.green.get(0), radiance.blue.get(0)});
+    }
+    return largest;
   }
 
  private:

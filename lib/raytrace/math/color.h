@@ -1,6 +1,8 @@
 // Linear RGB triples: reflectances and radiances.
 #pragma once
 
+#include <algorithm>
+
 #include "raytrace/math/inline.h"
 
 namespace raytrace {
@@ -26,6 +28,11 @@ struct Rgb {
   }
   friend RAYTRACE_INLINE Rgb operator*(const Rgb& a, const T& s) { return {a.red * s, a.green * s, a.blue * s}; }
 };
+
+/// The larger of both in each channel.
+inline Rgb<float> max(const Rgb<float>& a, const Rgb<float>& b) {
+  return {std::max(a.red, b.red), std::max(a.green, b.green), std::max(a.blue, b.blue)};
+}
 
 /// Lane by lane: a where the mask is true, else b.
 template <class T, class Mask>

@@ -232,6 +232,9 @@ class Doubles {
   RAYTRACE_INLINE explicit Doubles(double value) : lower_(value), upper_(value) {}
   RAYTRACE_INLINE Doubles(const F& floats) { detail::widen(floats, lower_, upper_); }  // implicit: no value changes
 
+  RAYTRACE_INLINE const Part& lower() const { return lower_; }
+  RAYTRACE_INLINE const Part& upper() const { return upper_; }
+
   /// Rounds to float; values beyond float's range become infinite.
   RAYTRACE_INLINE F to_float() const { return detail::narrow<F>(lower_, upper_); }
 

@@ -89,12 +89,12 @@ void insert(Imf::Header& header, const ImageAttribute& attribute) {
   }
 }
 
-Imf::Header header_of(const PictureExtent& extent, const std::vector<Channel>& channels,
-                      const ImageMetadata& metadata) {
+Imf::Header header_of(const PictureExtent& extent, const std::vector<Channel>& channels, const ImageMetadata& metadata,
+                      bool compressed) {
   const Region& region = extent.region;
   Imf::Header header(Imath::Box2i({0, 0}, {extent.full_width - 1, extent.full_height - 1}),
                      Imath::Box2i({region.x0, region.y0}, {region.x1 - 1, region.y1 - 1}));
-  header.compression() = Imf::ZIP_COMPRESSION;
+  header.compression() = compressed ? Imf::ZIP_COMPRESSION : Imf::NO_COMPRESSION;
   for (const Channel& channel : channels)
     header.channels().insert(channel.name, Imf::Channel(pixel_type(channel.type)));
 
@@ -182,7 +182,7 @@ void ExrEncoder::begin(const PictureExtent& extent, const std::vector<Channel>& 
   const int threads = std::min(settings_.threads, (extent.region.height() + block_rows - 1) / block_rows);
   const int helpers = threads == 1 ? 0 : threads;  // 0: the calling thread does it
   make_thread_pool(settings_.threads);
-  const Imf::Header header = header_of(extent, channels, metadata);
+  const Imf::Header header = header_of(extent, channels, metadata, settings_.compressed);
   open_ = std::make_unique<OpenFile>(destination, channels);
   guard([&] { open_->exr.emplace(open_->destination, header, helpers); });
 }

@@ -35,7 +35,7 @@ void fill_color(ImageBand& band, const Film& film, int y0, int y1) {
   }
   for (int y = y0; y < y1; ++y) {
     for (int x = band.region.x0; x < band.region.x1; ++x) {
-      const Pixel& pixel = film.at(x, y);
+      const Pixel pixel = film.pixel(x, y);
       *next[0]++ = pixel.red;
       *next[1]++ = pixel.green;
       *next[2]++ = pixel.blue;

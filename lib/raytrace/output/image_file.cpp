@@ -16,8 +16,6 @@ FileHandle open_to_write(const AtomicFile& atomic, const std::string& file) {
   return handle;
 }
 
-PictureExtent extent_of(const Film& film) { return {film.full_width(), film.full_height(), film.region()}; }
-
 }  // namespace
 
 bool holds_float(const std::string& file) {
@@ -39,11 +37,15 @@ void check_writable(const std::string& file, const ImageFileSettings& settings) 
   const AtomicFile made_and_removed(file);
 }
 
-ImageFile::ImageFile(const std::string& file, const PictureExtent& extent, const std::vector<Channel>& channels,
-                     const ImageMetadata& metadata, const ImageFileSettings& settings)
-    : atomic_(file), temporary_(open_to_write(atomic_, file)), encoder_(make_image_encoder(file, settings)) {
+ImageFile::ImageFile(const std::string& file, std::unique_ptr<ImageEncoder> encoder, const PictureExtent& extent,
+                     const std::vector<Channel>& channels, const ImageMetadata& metadata)
+    : atomic_(file), temporary_(open_to_write(atomic_, file)), encoder_(std::move(encoder)) {
   encoder_->begin(extent, channels, metadata, temporary_.get());
 }
+
+ImageFile::ImageFile(const std::string& file, const PictureExtent& extent, const std::vector<Channel>& channels,
+                     const ImageMetadata& metadata, const ImageFileSettings& settings)
+    : ImageFile(file, make_image_encoder(file, settings), extent, channels, metadata) {}
 
 ImageFile::ImageFile(const std::string& file, const PictureExtent& extent, const ImageMetadata& metadata,
                      const ImageFileSettings& settings)
@@ -72,7 +74,7 @@ Repairs ImageFile::commit() {
 
 Repairs write_image(const std::string& file, const Film& film, const ImageMetadata& metadata,
                     const ImageFileSettings& settings) {
-  ImageFile image(file, extent_of(film), metadata, settings);
+  ImageFile image(file, film.settings().extent, metadata, settings);
   image.write(film);
   return image.commit();
 }

@@ -23,6 +23,7 @@ namespace raytrace {
 struct ImageFileSettings {
   bool full_float = false;  ///< EXR: colours in 32 bit instead of half. TIFF: linear 32 bit float instead of sRGB.
   int bit_depth = 8;        ///< 8 or 16: PNG, TIFF and others that can; no matter to formats that hold linear radiance
+  bool compressed = true;   ///< EXR: with zip
   int threads = 0;          ///< for compression; 0: all processors. Holds for the process, as OpenImageIO has it.
 };
 
@@ -79,6 +80,9 @@ class ImageFile {
   /// color_channels().
   ImageFile(const std::string& file, const PictureExtent& extent, const std::vector<Channel>& channels,
             const ImageMetadata& metadata, const ImageFileSettings& settings);
+  /// In the encoder's format, whatever the file's name.
+  ImageFile(const std::string& file, std::unique_ptr<ImageEncoder> encoder, const PictureExtent& extent,
+            const std::vector<Channel>& channels, const ImageMetadata& metadata);
   /// Of color_channels() alone.
   ImageFile(const std::string& file, const PictureExtent& extent, const ImageMetadata& metadata,
             const ImageFileSettings& settings);

@@ -8,7 +8,7 @@
 
 #include <algorithm>
 #include <mutex>
-#include <thread>
+#include <tuple>
 
 #include "raytrace/render/handover.h"
 
@@ -74,17 +74,39 @@ class Teller {
 
 }  // namespace
 
-Film render(const Scene& scene, const SceneDescription& description, const RenderSettings& settings, RayCounts& rays,
-            const ProgressFunction& progress, const std::atomic<bool>* stop) {
-  Film film(description.viewplane.hres, description.viewplane.vres, settings.region);
+void SetAsideSamples::add(const SampleId& sample) { *this += SetAsideSamples{1, {sample}}; }
+
+SetAsideSamples& SetAsideSamples::operator+=(const SetAsideSamples& other) {
+  if (other.count == 0) return *this;
+  count += other.count;
+  told.insert(told.end(), other.told.begin(), other.told.end());
+  std::sort(told.begin(), told.end(), [](const SampleId& a, const SampleId& b) {
+    return std::tie(a.y, a.x, a.sample) < std::tie(b.y, b.x, b.sample);
+  });
+  told.resize(std::min(told.size(), most_told));
+  return *this;
+}
+
+FilmSettings film_settings(const Scene& scene, const SceneDescription& description, const RenderSettings& settings) {
+  const ViewPlane& viewplane = description.viewplane;
+  const auto all = static_cast<std::uint32_t>(viewplane.samples);
+  FilmSettings film;
+  film.extent = {viewplane.hres, viewplane.vres, settings.region};
+  film.samples = settings.samples.value_or(SampleRange{0, all, all == 1});
+  film.seed = settings.seed;
+  film.unit_exponent = unit_exponent(scene.largest_radiance(), std::uint64_t{film.samples.first} + film.samples.count);
+  return film;
+}
+
+RenderReport render(const Scene& scene, Film& film, std::uint32_t samples, int threads,
+                    const ProgressFunction& progress, const std::atomic<bool>* stop) {
   // Asking for more than there can be (Embree sets that limit, too) would have oneTBB warn on the standard error
   // output.
   const auto most_threads = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-  const int threads =
-      static_cast<int>(std::min(static_cast<std::size_t>(thread_count(settings.threads)), most_threads));
-  const TileGrid grid = tiles_for(settings.region, threads);
+  const int workers = static_cast<int>(std::min(static_cast<std::size_t>(thread_count(threads)), most_threads));
+  const TileGrid grid = tiles_for(film.region(), workers);
   Teller teller(progress, grid.count());
-  tbb::enumerable_thread_specific<RayCounts> counts;
+  tbb::enumerable_thread_specific<RenderReport> reports;
   // Static: a worker must find it before it reads any argument of the loop.
   static constinit Handover to_workers, from_workers;
   // With the handover, all that threads write and others read: once a tile.
@@ -92,17 +114,25 @@ Film render(const Scene& scene, const SceneDescription& description, const Rende
   const auto render_tile = [&](int index) {
     to_workers.take();
     if (stop == nullptr || !stop->load(std::memory_order_relaxed)) {
-      counts.local() += scene.render_region(grid.tile(index), settings.seed, film, stop);
+      reports.local() += scene.render_region(grid.tile(index), samples, film, stop);
       teller.tell(done.fetch_add(1, std::memory_order_relaxed) + 1);
     }
     from_workers.give();
   };
-  tbb::task_arena arena(threads);
+  tbb::task_arena arena(workers);
   to_workers.give();
   arena.execute([&] { tbb::parallel_for(0, grid.count(), render_tile, tbb::simple_partitioner()); });
   from_workers.take();
   teller.tell(done.load(std::memory_order_relaxed));  // the last may have found another thread telling
-  rays = counts.combine([](RayCounts a, const RayCounts& b) { return a += b; });
+  RenderReport report;
+  for (const RenderReport& local : reports) report += local;
+  return report;
+}
+
+Film render(const Scene& scene, const SceneDescription& description, const RenderSettings& settings, RayCounts& rays,
+            const ProgressFunction& progress, const std::atomic<bool>* stop) {
+  Film film(film_settings(scene, description, settings));
+  rays = render(scene, film, film.settings().samples.count, settings.threads, progress, stop).rays;
   return film;
 }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -29,8 +30,9 @@ struct BuildSettings {
 
 struct RenderSettings {
   int threads = 0;  ///< 0: all processors; at most these work, and at most as many as a living scene was built with
-  std::uint64_t seed = 0;  ///< another seed gives another, equally good, pattern of samples
-  Region region;           ///< the pixels wanted; those outside are not in the film
+  std::uint64_t seed = 0;                             ///< another seed gives another, equally good, pattern of samples
+  Region region;                                      ///< the pixels wanted; those outside are not in the film
+  std::optional<SampleRange> samples = std::nullopt;  ///< none: as many as the scene says, from the first on
 };
 
 /// The rays of a render, by kind.
@@ -40,6 +42,32 @@ struct RayCounts {
   RayCounts& operator+=(const RayCounts& other) {
     camera += other.camera;
     shadow += other.shadow;
+    return *this;
+  }
+};
+
+/// A sample of a pixel, by its index in the pixel's sequence.
+struct SampleId {
+  int x = 0, y = 0;
+  std::uint32_t sample = 0;
+};
+
+/// The samples whose radiance was not finite: counted as black, and told.
+struct SetAsideSamples {
+  static constexpr std::size_t most_told = 10;
+  std::uint64_t count = 0;
+  std::vector<SampleId> told;  ///< the first most_told of them, by row, column and index
+  void add(const SampleId& sample);
+  SetAsideSamples& operator+=(const SetAsideSamples& other);
+};
+
+/// What a render did.
+struct RenderReport {
+  RayCounts rays;
+  SetAsideSamples set_aside;
+  RenderReport& operator+=(const RenderReport& other) {
+    rays += other.rays;
+    set_aside += other.set_aside;
     return *this;
   }
 };
@@ -57,11 +85,15 @@ class Scene {
  public:
   virtual ~Scene() = default;
 
-  /// Renders the pixels of `region`, which must lie inside the film's, and writes each once. Pixels do not depend on
-  /// how a picture is cut into regions. Safe to call from many threads for disjoint regions. Once `stop` is set (null:
-  /// never), no further pixel is written; it is looked at every few samples.
-  virtual RayCounts render_region(const Region& region, std::uint64_t seed, Film& film,
-                                  const std::atomic<bool>* stop) const = 0;
+  /// Continues the pixels of `region`, which must lie inside the film's, until each has `samples` of the film's sample
+  /// range. The sums do not depend on how a picture is cut into regions, or the samples into calls. Safe to call from
+  /// many threads for disjoint regions of tiles aligned to the packets' blocks. Once `stop` is set (null: never), it
+  /// returns within a few samples of a packet; the film keeps what was done.
+  virtual RenderReport render_region(const Region& region, std::uint32_t samples, Film& film,
+                                     const std::atomic<bool>* stop) const = 0;
+
+  /// No sample's radiance is larger, in any channel.
+  virtual float largest_radiance() const = 0;
 
   virtual SceneStatistics statistics() const = 0;
 };
@@ -84,8 +116,15 @@ std::unique_ptr<const Scene> build_scene(const SceneDescription& description, co
 /// What a render tells while it runs. Calls come from any thread, one at a time and not often.
 using ProgressFunction = std::function<void(double fraction)>;
 
-/// Renders `settings.region` of the scene into a new film. Returns early, with the pixels that are done, once `stop` is
-/// set.
+/// Of a film for a render of the scene with the settings.
+FilmSettings film_settings(const Scene& scene, const SceneDescription& description, const RenderSettings& settings);
+
+/// Continues the film until each pixel has `samples` (at most the film's own). Returns early once `stop` is set; the
+/// film keeps what was done, and another call goes on from there. threads: as RenderSettings::threads.
+RenderReport render(const Scene& scene, Film& film, std::uint32_t samples, int threads,
+                    const ProgressFunction& progress = {}, const std::atomic<bool>* stop = nullptr);
+
+/// The picture as a whole: makes the film and renders all its samples.
 Film render(const Scene& scene, const SceneDescription& description, const RenderSettings& settings, RayCounts& rays,
             const ProgressFunction& progress = {}, const std::atomic<bool>* stop = nullptr);
 

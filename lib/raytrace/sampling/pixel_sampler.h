@@ -8,15 +8,17 @@
 namespace raytrace {
 
 /// Points in the unit square of each lane's pixel, for the pixel's samples in order. They depend on the pixel, the seed
-/// and the sample's index alone; if there is only one sample, it is the center.
+/// and the sample's index alone.
 class PixelSampler {
  public:
   struct Point {
     FloatN x, y;  ///< in [0, 1)
   };
 
-  /// column, row: of the lanes' pixels, in the whole picture.
-  PixelSampler(const UintN& column, const UintN& row, std::uint64_t seed, int samples) : centered_(samples == 1) {
+  /// column, row: of the lanes' pixels, in the whole picture. first: the index of the first sample wanted. centered:
+  /// all samples are the pixel's center instead, as a picture of a single sample wants it.
+  PixelSampler(const UintN& column, const UintN& row, std::uint64_t seed, std::uint32_t first, bool centered)
+      : sequence_(first), centered_(centered) {
     const UintN low(static_cast<std::uint32_t>(seed)), high(static_cast<std::uint32_t>(seed >> 32));
     shift_x_ = hash(column, row, low, high);
     shift_y_ = mix_bits(shift_x_ + UintN(0x9e3779b9u));

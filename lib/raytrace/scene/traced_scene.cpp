@@ -1,5 +1,7 @@
 #include "raytrace/scene/traced_scene.h"
 
+#include <algorithm>
+
 #include "raytrace/integrators/render_pixels.h"
 
 namespace raytrace {
@@ -31,6 +33,13 @@ TracedScene::TracedScene(const SceneDescription& description, int threads, const
       brdfs.push_back(Material::brdfs(item.parameters));
     materials_[index_of<Material>(Materials{})] = std::make_unique<MaterialTableOf<Material>>(std::move(brdfs));
   });
+
+  Rgb<float> light_radiance(0, 0, 0);
+  for (const auto& light : lights_) light_radiance += light->largest_radiance();
+  Rgb<float> largest(viewplane_.background);
+  for (const auto& table : materials_)
+    largest = max(largest, table->largest_radiance(ambient_radiance_, light_radiance));
+  largest_radiance_ = std::max({largest.red, largest.green, largest.blue});
 
   object_materials_.reserve(accelerator_.primitive_count());
   for_each_type(Shapes{}, [&](auto type) {
@@ -67,9 +76,9 @@ Rgb<FloatN> TracedScene::shade(const Hits& hits, const Vec3<FloatN>& wo, const V
   return radiance;
 }
 
-RayCounts TracedScene::render_region(const Region& region, std::uint64_t seed, Film& film,
-                                     const std::atomic<bool>* stop) const {
-  return render_pixels(*this, region, seed, film, stop);
+RenderReport TracedScene::render_region(const Region& region, std::uint32_t samples, Film& film,
+                                        const std::atomic<bool>* stop) const {
+  return render_pixels(*this, region, samples, film, stop);
 }
 
 SceneStatistics TracedScene::statistics() const {

@@ -19,8 +19,9 @@ class TracedScene final : public Scene {
   /// Throws as build_scene does.
   TracedScene(const SceneDescription& description, int threads, const char* isa_name, const char* embree_isa);
 
-  RayCounts render_region(const Region& region, std::uint64_t seed, Film& film,
-                          const std::atomic<bool>* stop) const override;
+  RenderReport render_region(const Region& region, std::uint32_t samples, Film& film,
+                             const std::atomic<bool>* stop) const override;
+  float largest_radiance() const override { return largest_radiance_; }
   SceneStatistics statistics() const override;
 
   const Accelerator& accelerator() const { return accelerator_; }
@@ -49,6 +50,7 @@ class TracedScene final : public Scene {
   std::array<std::unique_ptr<MaterialTable>, Materials::size> materials_;
   std::array<std::int32_t, Shapes::size> first_object_{};  ///< of each shape's type in object_materials_
   std::vector<ObjectMaterial<std::int32_t>> object_materials_;
+  float largest_radiance_;
   const char* isa_name_;
 };
 

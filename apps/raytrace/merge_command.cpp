@@ -1,0 +1,96 @@
+#include "merge_command.h"
+
+#include <iostream>
+#include <sstream>
+#include <string_view>
+
+#include "exit_code.h"
+#include "manual.h"
+#include "messages.h"
+#include "option_parser.h"
+#include "raytrace/render/renderer.h"
+
+namespace raytrace {
+
+namespace {
+
+MergeOptions parsed(int argc, const char* const* argv) {
+  MergeOptions options;
+  CLI::App parser;
+  define_merge_options(parser, options);
+  parse(parser, argc, argv);
+  if (options.quiet && options.verbose) throw UsageError("--quiet excludes --verbose");
+  if (options.help) return options;
+  const MergeSettings& settings = options.settings;
+  if (settings.pieces.empty()) throw UsageError("no pieces given; for example: raytrace merge tile.*.exr -o whole.exr");
+  if (settings.outputs.empty())
+    throw UsageError("no output given; for example: raytrace merge tile.*.exr -o whole.exr");
+  return options;
+}
+
+void tell(const MergeReport& report) {
+  for (const std::string& file : report.outputs) {
+    tell_step("wrote " + file + ": " + counted(report.pieces, "piece") + ", " +
+              counted(static_cast<std::uint64_t>(report.samples), "sample") + " a pixel");
+  }
+  if (report.missing_parts) tell_warning("the picture is not complete: some pixels, or samples of them, are missing");
+}
+
+}  // namespace
+
+void define_merge_options(CLI::App& parser, MergeOptions& options) {
+  constexpr int largest = std::numeric_limits<int>::max();
+  constexpr int most_threads = 1024;
+  MergeSettings& settings = options.settings;
+  prepare(parser);
+  parser
+      .add_option("pieces", settings.pieces,
+                  "EXR files that raytrace wrote with --tile, --crop or --sample-offset: parts of one picture")
+      ->type_name("PIECES...")
+      ->group("Input");
+  add_switch(
+      parser, "--partial", settings.partial,
+      "Pieces may be missing or unfinished: a pixel gets the samples that there are, or else a checked background "
+      "with alpha 0")
+      ->group("Input");
+  add(parser, "-s,--spp", "N", "Refuse pieces that have other than N samples a pixel together (as many as there are)",
+      [&](const std::string& text) { settings.samples = integer(text, 1, largest); })
+      ->group("Input");
+  parser.add_option("-o,--output", settings.outputs, "Write the picture to FILE; repeatable")
+      ->type_name("FILE")
+      ->allow_extra_args(false)
+      ->group("Output");
+  add(parser, "--bit-depth", "8|16", "Bits a channel in PNG, TIFF and other sRGB-encoded files (8)",
+      [&](const std::string& text) { settings.bit_depth = bit_depth(text); })
+      ->group("Output");
+  add(parser, "-t,--threads", "N", "Use N threads (all processors)", [&](const std::string& text) {
+    settings.threads = integer(text, 1, most_threads);
+  })->group("Work");
+  add_switch(parser, "-q,--quiet", options.quiet, "Errors only")->group("Messages");
+  add_switch(parser, "-v,--verbose", options.verbose, "Tell what is done")->group("Messages");
+  add_switch(parser, "-h,--help", options.help, "Print this")->group("Messages");
+}
+
+bool is_merge_command(int argc, const char* const* argv) { return argc > 1 && std::string_view(argv[1]) == "merge"; }
+
+int merge_command(int argc, const char* const* argv) {
+  const MergeOptions options = parsed(argc - 1, argv + 1);  // "merge" is the program's name here
+  if (options.help) {
+    CLI::App parser;
+    MergeOptions unused;
+    define_merge_options(parser, unused);
+    std::cout << help_text(merge_manual, parser) << std::flush;
+    return std::cout ? exit_code::done : exit_code::failed;
+  }
+  set_verbosity(options.quiet ? Verbosity::errors : options.verbose ? Verbosity::steps : Verbosity::warnings);
+  try {
+    tell(merge_pieces(options.settings));
+  } catch (const MergeError& error) {
+    std::istringstream problems(error.what());
+    for (std::string problem; std::getline(problems, problem);) tell_error(problem);
+    return exit_code::failed;
+  }
+  return exit_code::done;
+}
+
+}  // namespace raytrace

@@ -1,0 +1,231 @@
+#include "picture_render.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "about.h"
+#include "messages.h"
+#include "outputs.h"
+#include "picture_settings.h"
+#include "raytrace/render/checkpoint.h"
+
+namespace raytrace {
+
+namespace {
+
+using Seconds = std::chrono::duration<double>;
+
+/// Rows of a band: the most whose film is not larger than a GiB, and a multiple of every packet's height.
+int rows_of_bands(const Region& region) {
+  constexpr int unit = 32;
+  constexpr std::size_t most_bytes = std::size_t{1} << 30U;
+  const std::size_t unit_bytes = unit * sizeof(PixelSum) * static_cast<std::size_t>(region.width());
+  return unit * static_cast<int>(std::max<std::size_t>(1, most_bytes / unit_bytes));
+}
+
+std::chrono::steady_clock::duration in_seconds(double seconds) {
+  return std::chrono::duration_cast<std::chrono::steady_clock::duration>(Seconds(seconds));
+}
+
+}  // namespace
+
+PictureRender::PictureRender(const Scene& scene, const SceneDescription& description, const Options& options,
+                             const Region& whole, const Region& region, const Signals& signals, Clock::time_point start,
+                             Statistics& statistics)
+    : scene_(scene),
+      description_(description),
+      options_(options),
+      signals_(signals),
+      statistics_(statistics),
+      settings_{options.threads, options.seed, region, sample_range(description.viewplane, options)},
+      start_(start),
+      next_checkpoint_(Clock::now() + in_seconds(options.checkpoint_interval)),
+      progress_(options.quiet ? ProgressStyle::none : options.progress) {
+  identity_.provenance = provenance_of(software_name(), scene, description);
+  identity_.whole = whole;
+}
+
+Ending PictureRender::run() {
+  const int rows = rows_of_bands(settings_.region);
+  // What goes on later, or may end at any sample, needs the whole film.
+  in_bands_ = options_.checkpoint.empty() && !options_.time_limit && rows < settings_.region.height();
+  const Ending ending = in_bands_ ? render_in_bands(rows) : render_at_once();
+  tell_set_aside();
+  return ending;
+}
+
+Ending PictureRender::render_at_once() {
+  PhaseTimer timer(statistics_.seconds.render);
+  Film film(film_settings(scene_, description_, settings_));
+  identity_.film = film.settings();
+  if (options_.resume && std::filesystem::exists(options_.checkpoint)) {
+    read_checkpoint(options_.checkpoint, identity_, film);
+    tell_step("resumed from " + options_.checkpoint);
+  }
+  const std::uint32_t all = film.settings().samples.count;
+  std::uint32_t done = film.fewest_samples();
+  double seconds_a_sample = 0;
+  while (done < all) {
+    const std::uint32_t target = next_target(done, seconds_a_sample);
+    if (target == done) break;  // the time is up
+    const Clock::time_point pass_start = Clock::now();
+    if (!render_pass(film, target, 1.0 * done / all, 1.0 * (target - done) / all)) break;
+    seconds_a_sample = Seconds(Clock::now() - pass_start).count() / (target - done);
+    done = target;
+  }
+  timer.stop();
+  if (signals_.stop_signal() != 0) {
+    progress_.clear();
+    if (options_.checkpoint.empty()) return Ending::stopped;
+    const bool saved = save_checkpoint(film);
+    return write_picture(film, all, true) && saved ? Ending::stopped : Ending::failed;
+  }
+  progress_.finish();
+  tell_rendered();
+  statistics_.samples = static_cast<int>(done);
+  if (done < all) tell_warning("the time limit was reached after " + counted(done, "sample") + " a pixel");
+  if (!write_picture(film, done, false)) return Ending::failed;
+  if (!options_.checkpoint.empty()) unlink(options_.checkpoint.c_str());  // there may be none yet
+  return Ending::written;
+}
+
+/// Large pictures go to their files band by band, so that no more than one of them need be in memory.
+Ending PictureRender::render_in_bands(int band_rows) {
+  const Region region = settings_.region;
+  identity_.film = film_settings(scene_, description_, settings_);
+  Outputs outputs(options_, identity_.film.extent, metadata(), options_.sample_offset.has_value());
+  for (Region band = region; band.y0 < region.y1; band.y0 = band.y1) {
+    band.y1 = std::min(band.y0 + band_rows, region.y1);
+    settings_.region = band;
+    PhaseTimer timer(statistics_.seconds.render);
+    Film film(film_settings(scene_, description_, settings_));
+    const double height = region.height();
+    if (!render_pass(film, film.settings().samples.count, (band.y0 - region.y0) / height, band.height() / height))
+      return Ending::stopped;
+    timer.stop();
+    if (band.y1 == region.y1) {
+      progress_.finish();
+      tell_rendered();
+    }
+    if (!outputs.write(film, statistics_)) return Ending::failed;
+  }
+  return outputs.commit(statistics_) ? Ending::written : Ending::failed;
+}
+
+/// Until each pixel has `target` samples; false if a signal stopped it. work_before, work: fractions of all that there
+/// is to do, what was done before and what this does.
+bool PictureRender::render_pass(Film& film, std::uint32_t target, double work_before, double work) {
+  for (;;) {
+    // First the flag, then what it stands for: a signal in between pauses once more than it need.
+    signals_.pause() = false;
+    if (signals_.stop_signal() != 0) return false;
+    attend(film);
+    const auto update = [&](double fraction) {
+      progress_.update(std::max(work_before + fraction * work, fraction_of_time()));
+      if (!options_.checkpoint.empty() && Clock::now() >= next_checkpoint_) signals_.pause() = true;
+    };
+    count(render(scene_, film, target, options_.threads, update, &signals_.pause()));
+    if (!signals_.pause()) return true;
+  }
+}
+
+/// Does what is asked for, or due, while the render pauses.
+void PictureRender::attend(const Film& film) {
+  if (signals_.take_picture_request()) {
+    progress_.clear();
+    if (in_bands_) {
+      tell_warning("a picture of this size goes to its files band by band: there is none to look at before the end");
+    } else {
+      write_picture(film, film.settings().samples.count, true);
+    }
+  }
+  if (!options_.checkpoint.empty() && Clock::now() >= next_checkpoint_) save_checkpoint(film);
+}
+
+/// The samples a pixel after the next pass: early passes are short, so that there is a whole picture soon. With a time
+/// limit, no pass is begun that would not end in time.
+std::uint32_t PictureRender::next_target(std::uint32_t done, double seconds_a_sample) const {
+  const std::uint32_t all = identity_.film.samples.count;
+  if (!options_.time_limit && options_.checkpoint.empty()) return all;
+  constexpr std::uint32_t most_samples = 32;  // of a pass
+  std::uint32_t samples = std::min({std::clamp(done, 1U, most_samples), all - done});
+  if (options_.time_limit && done > 0) {
+    const double left = *options_.time_limit - Seconds(Clock::now() - start_).count();
+    const double most = seconds_a_sample > 0 ? std::floor(left / seconds_a_sample) : left > 0 ? 1.0 : 0.0;
+    samples = static_cast<std::uint32_t>(std::clamp(most, 0.0, static_cast<double>(samples)));
+  }
+  return done + samples;
+}
+
+void PictureRender::count(const RenderReport& report) {
+  statistics_.rays += report.rays;
+  set_aside_ += report.set_aside;
+}
+
+void PictureRender::tell_rendered() const {
+  char seconds[32];
+  std::snprintf(seconds, sizeof seconds, " in %.3f s", statistics_.seconds.render);
+  tell_step("rendered " + counted(statistics_.total_rays(), "ray") + " on " +
+            counted(static_cast<std::uint64_t>(options_.threads), "thread") + seconds);
+}
+
+void PictureRender::tell_set_aside() const {
+  if (set_aside_.count == 0) return;
+  std::string text = counted(set_aside_.count, "sample") + " without a finite radiance, counted as black:";
+  for (const SampleId& id : set_aside_.told) {
+    text +=
+        " sample " + std::to_string(id.sample) + " of pixel " + std::to_string(id.x) + "," + std::to_string(id.y) + ";";
+  }
+  const SampleId& first = set_aside_.told.front();
+  tell_warning(text + " to see it again: --pixel " + std::to_string(first.x) + "," + std::to_string(first.y));
+}
+
+ImageMetadata PictureRender::metadata() const {
+  ImageMetadata metadata;
+  metadata.software = statistics_.software;
+  metadata.scene_file = statistics_.scene_file;
+  metadata.samples = static_cast<int>(identity_.film.samples.count);
+  metadata.seed = statistics_.seed;
+  metadata.threads = statistics_.threads;
+  metadata.camera = camera_matrices(description_);
+  metadata.attributes = identity_attributes(identity_);
+  return metadata;
+}
+
+/// samples: that each pixel has, or is to have if the picture is partial.
+bool PictureRender::write_picture(const Film& film, std::uint32_t samples, bool partial) {
+  PieceIdentity identity = identity_;
+  identity.partial = partial;
+  ImageMetadata its_metadata = metadata();
+  its_metadata.samples = static_cast<int>(samples);
+  if (!partial) its_metadata.render_seconds = statistics_.seconds.render;
+  its_metadata.attributes = identity_attributes(identity);
+  Outputs outputs(options_, film.settings().extent, its_metadata, partial || options_.sample_offset.has_value());
+  return outputs.write(film, statistics_) && outputs.commit(statistics_);
+}
+
+/// False if it could not be written, which is told: the render goes on, and an earlier one is as it was.
+bool PictureRender::save_checkpoint(const Film& film) {
+  const Clock::time_point begin = Clock::now();
+  bool saved = true;
+  try {
+    write_checkpoint(options_.checkpoint, film, identity_, metadata());
+  } catch (const OutputError& error) {
+    progress_.clear();
+    tell_error(error.what());
+    saved = false;
+  }
+  // However long it took, it takes no more than a hundredth of the time.
+  const Clock::time_point end = Clock::now();
+  next_checkpoint_ = end + std::max(in_seconds(options_.checkpoint_interval), 100 * (end - begin));
+  return saved;
+}
+
+double PictureRender::fraction_of_time() const {
+  return options_.time_limit ? std::min(1.0, Seconds(Clock::now() - start_).count() / *options_.time_limit) : 0.0;
+}
+
+}  // namespace raytrace

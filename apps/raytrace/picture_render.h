@@ -1,0 +1,62 @@
+// The render stage: passes over the picture, and what must happen between them. Checkpoints, the time limit, signals.
+#pragma once
+
+#include <chrono>
+#include <memory>
+
+#include "options.h"
+#include "progress.h"
+#include "raytrace/description/scene_description.h"
+#include "raytrace/render/provenance.h"
+#include "raytrace/render/renderer.h"
+#include "signals.h"
+#include "statistics.h"
+
+namespace raytrace {
+
+enum class Ending {
+  written,
+  failed,   ///< not all files could be written
+  stopped,  ///< by a signal. With --checkpoint, that and the files as far as the picture is done were written
+};
+
+class PictureRender {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// start: of the time that --time-limit limits. All must outlive it.
+  PictureRender(const Scene& scene, const SceneDescription& description, const Options& options, const Region& whole,
+                const Region& region, const Signals& signals, Clock::time_point start, Statistics& statistics);
+
+  /// Renders the picture and writes its files. Throws InputError if there is a checkpoint that does not fit.
+  Ending run();
+
+ private:
+  Ending render_at_once();
+  Ending render_in_bands(int band_rows);
+  bool render_pass(Film& film, std::uint32_t target, double work_before, double work);
+  void attend(const Film& film);
+  std::uint32_t next_target(std::uint32_t done, double seconds_a_sample) const;
+  void count(const RenderReport& report);
+  void tell_rendered() const;
+  void tell_set_aside() const;
+  ImageMetadata metadata() const;
+  bool write_picture(const Film& film, std::uint32_t samples, bool partial);
+  bool save_checkpoint(const Film& film);
+  double fraction_of_time() const;
+
+  const Scene& scene_;
+  const SceneDescription& description_;
+  const Options& options_;
+  const Signals& signals_;
+  Statistics& statistics_;
+  RenderSettings settings_;
+  PieceIdentity identity_;
+  Clock::time_point start_;
+  Clock::time_point next_checkpoint_;
+  SetAsideSamples set_aside_;
+  bool in_bands_ = false;
+  Progress progress_;
+};
+
+}  // namespace raytrace

@@ -1,0 +1,46 @@
+// Sums that do not depend on the order of their terms.
+#pragma once
+
+#include "raytrace/math/simd.h"
+
+namespace raytrace {
+
+/// Sums of floats in fixed point, lane for lane beside the floats F. Each term is rounded to a whole number of units,
+/// and whole numbers add exactly: the same terms give the same sum in whatever order and groups.
+template <class F>
+class FixedPointSums {
+ public:
+  /// The most units that a term may stand for, either sign.
+  static constexpr double largest_term = 0x1p51;
+
+  /// units: one over the unit, a power of two, in every lane.
+  RAYTRACE_INLINE void add(const F& terms, const Doubles<F>& units) {
+    // In [2^52, 2^53) a double's unit in the last place is 1, so this addition rounds the term to a whole number and
+    // leaves it in the low bits of the double, over those of the constant.
+    const Doubles<F> rounded = fma(Doubles<F>(terms), units, Doubles<F>(offset));
+    lower_ = lower_ + std::bit_cast<Counts>(rounded.lower());
+    upper_ = upper_ + std::bit_cast<Counts>(rounded.upper());
+    ++terms_;
+  }
+
+  /// The sums of all terms so far, one a lane. They wrap where they leave the range of 64 bits.
+  std::array<std::int64_t, F::size> sums() const {
+    alignas(64) std::array<std::uint64_t, F::size> totals;
+    lower_.store_aligned(totals.data());
+    upper_.store_aligned(totals.data() + Counts::size);
+    std::array<std::int64_t, F::size> sums;
+    for (std::size_t lane = 0; lane < F::size; ++lane)
+      sums[lane] = static_cast<std::int64_t>(totals[lane] - terms_ * std::bit_cast<std::uint64_t>(offset));
+    return sums;
+  }
+
+ private:
+  using Counts = xsimd::batch<std::uint64_t, typename F::arch_type>;
+  static constexpr double offset = 0x1.8p52;  // the middle of its range, for terms of both signs
+
+  Counts lower_ = Counts(std::uint64_t{0}),
+         upper_ = Counts(std::uint64_t{0});  // in braces, xsimd 8 takes it for a list
+  std::uint64_t terms_ = 0;
+};
+
+}  // namespace raytrace

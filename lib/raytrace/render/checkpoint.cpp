@@ -1,0 +1,87 @@
+#include "raytrace/render/checkpoint.h"
+
+#include <algorithm>
+
+#include "raytrace/math/content_hash.h"
+#include "raytrace/output/exr_encoder.h"
+#include "raytrace/output/film_channels.h"
+
+namespace raytrace {
+
+namespace {
+
+constexpr const char* hash_name = "raytrace:sumsHash";
+
+std::string hash_of(const Film& film) {
+  ContentHash hash;
+  hash.add(film.sums().data(), film.sums().size_bytes());
+  return hash.digits();
+}
+
+std::uint32_t most_samples(const Film& film) {
+  std::uint32_t most = 0;
+  for (const PixelSum& sum : film.sums()) most = std::max(most, sum.samples);
+  return most;
+}
+
+std::string edges_text(const Region& r) {
+  return std::to_string(r.x0) + "," + std::to_string(r.y0) + "," + std::to_string(r.x1) + "," + std::to_string(r.y1);
+}
+
+}  // namespace
+
+void write_checkpoint(const std::string& file, const Film& film, const PieceIdentity& identity,
+                      ImageMetadata metadata) {
+  PieceIdentity partial = identity;
+  partial.partial = true;
+  metadata.samples = static_cast<int>(film.settings().samples.count);
+  metadata.attributes = identity_attributes(partial);
+  metadata.attributes.push_back({hash_name, hash_of(film)});
+
+  std::vector<Channel> channels = color_channels(false);
+  for (Channel& channel : sum_channels()) channels.push_back(std::move(channel));
+  ImageFileSettings settings;
+  settings.compressed = false;
+  ImageFile image(file, std::make_unique<ExrEncoder>(file, settings), film.settings().extent, channels, metadata);
+  const Region& region = film.region();
+  for (int y = region.y0; y < region.y1;) {
+    const int end = std::min(y + band_rows(region.width(), channels.size()), region.y1);
+    ImageBand band;
+    fill_color(band, film, y, end);
+    append_sums(band, film);
+    image.write(band);
+    y = end;
+  }
+  image.commit();
+}
+
+void read_checkpoint(const std::string& file, const PieceIdentity& identity, Film& film) {
+  ExrReader reader(file);
+  const PieceIdentity got = identity_of(reader);
+  if (const auto other = difference(identity, got))
+    throw InputError("cannot resume from " + file + ": it differs in " + *other);
+  if (got.film.extent.region != film.region()) {
+    throw InputError("cannot resume from " + file + ": it holds the crop " + edges_text(got.film.extent.region) +
+                     ", not " + edges_text(film.region()));
+  }
+  if (got.film.samples.first != film.settings().samples.first) {
+    throw InputError("cannot resume from " + file + ": its samples begin at " + std::to_string(got.film.samples.first) +
+                     ", not " + std::to_string(film.settings().samples.first));
+  }
+  const std::vector<Channel> channels = sum_channels();
+  for (const Channel& channel : channels)
+    if (std::find(reader.channels().begin(), reader.channels().end(), channel) == reader.channels().end())
+      throw InputError("cannot resume from " + file + ": it is a picture without the sums of its samples");
+  const Region& region = film.region();
+  for (int y = region.y0; y < region.y1;) {
+    const int end = std::min(y + band_rows(region.width(), channels.size()), region.y1);
+    add_sums(reader.read(channels, y, end), 0, film);
+    y = end;
+  }
+  if (reader.attribute<std::string>(hash_name) != hash_of(film))
+    throw InputError("cannot resume from " + file + ": it is damaged");
+  if (most_samples(film) > film.settings().samples.count)
+    throw InputError("cannot resume from " + file + ": it has more samples a pixel than are asked for");
+}
+
+}  // namespace raytrace

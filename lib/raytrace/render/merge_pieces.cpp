@@ -1,0 +1,268 @@
+#include "raytrace/render/merge_pieces.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "raytrace/output/film_channels.h"
+#include "raytrace/render/piece_layout.h"
+#include "raytrace/render/provenance.h"
+
+namespace raytrace {
+
+namespace {
+
+struct Piece {
+  std::string file;
+  PieceIdentity identity;
+  std::vector<Channel> channels;  ///< without those of sums
+  bool has_sums = false;
+};
+
+bool is_sum(const Channel& channel) { return channel.name.starts_with("sums."); }
+
+Piece piece_of(const ExrReader& reader) {
+  Piece piece{reader.file(), identity_of(reader), {}, false};
+  for (const Channel& channel : reader.channels()) {
+    if (is_sum(channel)) {
+      piece.has_sums = true;
+    } else {
+      piece.channels.push_back(channel);
+    }
+  }
+  return piece;
+}
+
+PieceExtent extent_of(const Piece& piece) {
+  const FilmSettings& film = piece.identity.film;
+  return {piece.file, film.extent.region, film.samples.first, std::uint64_t{film.samples.first} + film.samples.count};
+}
+
+std::string names_of(const std::vector<Channel>& channels) {
+  std::string names;
+  for (const Channel& channel : channels) names += (names.empty() ? "" : " ") + channel.name;
+  return names;
+}
+
+/// What does not let a piece be put together with the first.
+std::optional<std::string> misfit(const Piece& first, const Piece& piece) {
+  if (const auto other = difference(first.identity, piece.identity)) return *other;
+  if (piece.identity.whole != first.identity.whole) return "the crop that it is a part of";
+  if (piece.channels != first.channels)
+    return "its channels (" + names_of(piece.channels) + ", not " + names_of(first.channels) + ")";
+  return std::nullopt;
+}
+
+/// Colour first, as image files want it.
+std::vector<Channel> ordered(std::vector<Channel> channels) {
+  std::stable_partition(channels.begin(), channels.end(), [](const Channel& channel) {
+    return channel.name == "R" || channel.name == "G" || channel.name == "B" || channel.name == "A";
+  });
+  const std::string order = "RGBA";
+  std::sort(channels.begin(), channels.begin() + std::min<std::ptrdiff_t>(4, std::ssize(channels)),
+            [&](const Channel& a, const Channel& b) { return order.find(a.name) < order.find(b.name); });
+  return channels;
+}
+
+[[noreturn]] void refuse(const std::vector<std::string>& problems) {
+  std::string text;
+  for (const std::string& problem : problems) text += (text.empty() ? "" : "\n") + problem;
+  throw MergeError(text);
+}
+
+class Merger {
+ public:
+  explicit Merger(const MergeSettings& settings) : settings_(settings) {}
+
+  MergeReport merge() {
+    read_headers();
+    check();
+    write();
+    return report_;
+  }
+
+ private:
+  void read_headers() {
+    std::vector<std::string> problems;
+    for (const std::string& file : settings_.pieces) {
+      try {
+        const ExrReader reader(file);
+        pieces_.push_back(piece_of(reader));
+        const auto seconds = reader.attribute<float>("raytrace:renderSeconds");
+        render_seconds_ += double{seconds.value_or(0)};
+        if (pieces_.size() == 1) metadata_ = metadata_of(reader);
+      } catch (const InputError& error) {
+        problems.emplace_back(error.what());
+      }
+    }
+    if (!problems.empty()) refuse(problems);
+  }
+
+  void check() {
+    const Piece& first = pieces_.front();
+    std::vector<std::string> problems;
+    std::vector<PieceExtent> extents;
+    for (const Piece& piece : pieces_) {
+      if (const auto other = misfit(first, piece))
+        problems.push_back(piece.file + " does not belong to " + first.file + ": it differs in " + *other);
+      if (piece.identity.partial && !settings_.partial)
+        problems.push_back(piece.file +
+                           " was stopped before its end: render it to its end with --resume, or use --partial");
+      extents.push_back(extent_of(piece));
+      samples_ = std::max(samples_, extents.back().last_sample);
+    }
+    if (!problems.empty()) refuse(problems);
+    if (settings_.samples && std::uint64_t(*settings_.samples) != samples_ && !settings_.partial) {
+      problems.push_back("the pieces hold " + std::to_string(samples_) + " samples a pixel, not " +
+                         std::to_string(*settings_.samples));
+    }
+    const std::vector<std::string> twice = overlaps(extents);
+    problems.insert(problems.end(), twice.begin(), twice.end());
+    const std::vector<std::string> missing = gaps(extents, first.identity.whole, samples_);
+    report_.missing_parts = !missing.empty();
+    for (const Piece& piece : pieces_) report_.missing_parts = report_.missing_parts || piece.identity.partial;
+    if (!settings_.partial) problems.insert(problems.end(), missing.begin(), missing.end());
+    for (const Piece& piece : pieces_)
+      if (!is_finished(piece) && !piece.has_sums)
+        problems.push_back(piece.file +
+                           " holds some of the samples only, without their sums: render it with --sample-offset");
+    if (!problems.empty()) refuse(problems);
+    report_.pieces = pieces_.size();
+    report_.samples = static_cast<int>(samples_);
+  }
+
+  /// Whether its pixels have all the samples, so that they can be taken as they are.
+  bool is_finished(const Piece& piece) const {
+    const SampleRange& samples = piece.identity.film.samples;
+    return samples.first == 0 && samples.count == samples_ && !piece.identity.partial;
+  }
+
+  ImageMetadata metadata_of(const ExrReader& reader) const {
+    ImageMetadata metadata;
+    metadata.software = pieces_.front().identity.provenance.software;
+    metadata.scene_file = reader.attribute<std::string>("raytrace:scene").value_or("");
+    metadata.seed = pieces_.front().identity.film.seed;
+    metadata.threads = reader.attribute<int>("raytrace:threads").value_or(1);
+    metadata.camera = reader.camera();
+    for (const ImageAttribute& attribute : reader.attributes())
+      if (attribute.name.starts_with("cryptomatte/")) metadata.attributes.push_back(attribute);
+    return metadata;
+  }
+
+  void write() {
+    const PieceIdentity& first = pieces_.front().identity;
+    PieceIdentity identity = first;
+    identity.film.extent.region = first.whole;
+    identity.film.samples.first = 0;
+    identity.partial = report_.missing_parts;
+    metadata_.samples = report_.samples;
+    if (render_seconds_ > 0) metadata_.render_seconds = render_seconds_;
+    for (ImageAttribute& attribute : identity_attributes(identity))
+      metadata_.attributes.push_back(std::move(attribute));
+
+    channels_ = ordered(pieces_.front().channels);
+    ImageFileSettings image_settings;
+    image_settings.full_float = channels_.front().type == ChannelType::float32;
+    image_settings.bit_depth = settings_.bit_depth;
+    image_settings.threads = settings_.threads;
+    std::vector<std::unique_ptr<ImageFile>> files;
+    for (const std::string& file : settings_.outputs)
+      files.push_back(std::make_unique<ImageFile>(file, identity.film.extent, channels_, metadata_, image_settings));
+    const Region& whole = first.whole;
+    const int rows = band_rows(whole.width(), channels_.size() + sum_channels().size());
+    for (Region band = whole; band.y0 < whole.y1; band.y0 = band.y1) {
+      band.y1 = std::min(band.y0 + rows, whole.y1);
+      const ImageBand merged = merged_band(band);
+      for (const auto& file : files) file->write(merged);
+    }
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      report_.repairs += files[i]->commit();
+      report_.outputs.push_back(settings_.outputs[i]);
+    }
+  }
+
+  ImageBand merged_band(const Region& region) {
+    ImageBand band;
+    band.region = region;
+    const auto pixels = static_cast<std::size_t>(region.width()) * static_cast<std::size_t>(region.height());
+    for (const Channel& channel : channels_) {
+      if (channel.type == ChannelType::uint32) {
+        band.planes.emplace_back(std::vector<std::uint32_t>(pixels));
+      } else {
+        band.planes.emplace_back(std::vector<float>(pixels));
+      }
+    }
+    if (report_.missing_parts) fill_background(band);
+    FilmSettings settings = pieces_.front().identity.film;
+    settings.extent.region = region;
+    Film sums(settings);
+    bool any_sums = false;
+    for (const Piece& piece : pieces_) {
+      const Region& its = piece.identity.film.extent.region;
+      const int top = std::max(its.y0, region.y0), bottom = std::min(its.y1, region.y1);
+      if (top >= bottom) continue;
+      ExrReader reader(piece.file);
+      if (is_finished(piece)) {
+        copy_rows(reader.read(channels_, top, bottom), band);
+      } else {
+        any_sums = true;
+        add_sums(reader.read(sum_channels(), top, bottom), 0, sums);
+      }
+    }
+    if (any_sums) develop(sums, band);
+    return band;
+  }
+
+  /// Checks of 8 x 8 pixels in two greys that cover nothing: nobody takes them for a part of the picture.
+  void fill_background(ImageBand& band) const {
+    std::size_t pixel = 0;
+    for (int y = band.region.y0; y < band.region.y1; ++y)
+      for (int x = band.region.x0; x < band.region.x1; ++x, ++pixel)
+        for (std::size_t i = 0; i < 3; ++i)
+          std::get<std::vector<float>>(band.planes[i])[pixel] = (x / 8 + y / 8) % 2 == 0 ? 0.1F : 0.2F;
+  }
+
+  static void copy_rows(const ImageBand& from, ImageBand& to) {
+    const auto width = static_cast<std::size_t>(from.region.width());
+    for (std::size_t plane = 0; plane < from.planes.size(); ++plane)
+      std::visit(
+          [&](const auto& source) {
+            auto& target = std::get<std::decay_t<decltype(source)>>(to.planes[plane]);
+            for (int y = from.region.y0; y < from.region.y1; ++y) {
+              const auto row = static_cast<std::size_t>(y - from.region.y0) * width;
+              const auto place =
+                  static_cast<std::size_t>(y - to.region.y0) * static_cast<std::size_t>(to.region.width()) +
+                  static_cast<std::size_t>(from.region.x0 - to.region.x0);
+              std::copy_n(source.begin() + static_cast<std::ptrdiff_t>(row), width,
+                          target.begin() + static_cast<std::ptrdiff_t>(place));
+            }
+          },
+          from.planes[plane]);
+  }
+
+  /// The means of all pixels that have sums.
+  static void develop(const Film& sums, ImageBand& band) {
+    std::size_t pixel = 0;
+    for (int y = band.region.y0; y < band.region.y1; ++y)
+      for (int x = band.region.x0; x < band.region.x1; ++x, ++pixel) {
+        if (sums.sum(x, y).samples == 0) continue;
+        const Pixel mean = sums.pixel(x, y);
+        std::size_t plane = 0;
+        for (const float value : {mean.red, mean.green, mean.blue, mean.alpha})
+          std::get<std::vector<float>>(band.planes[plane++])[pixel] = value;
+      }
+  }
+
+  const MergeSettings& settings_;
+  std::vector<Piece> pieces_;
+  std::vector<Channel> channels_;
+  ImageMetadata metadata_;
+  std::uint64_t samples_ = 0;
+  double render_seconds_ = 0;
+  MergeReport report_;
+};
+
+}  // namespace
+
+MergeReport merge_pieces(const MergeSettings& settings) { return Merger(settings).merge(); }
+
+}  // namespace raytrace

@@ -1,0 +1,108 @@
+#include "raytrace/render/provenance.h"
+
+#include <charconv>
+#include <sstream>
+
+#include "raytrace/description/scene_hash.h"
+
+namespace raytrace {
+
+namespace {
+
+constexpr const char* software_name = "Software";
+constexpr const char* embree_name = "raytrace:embree";
+constexpr const char* isa_name = "raytrace:isa";
+constexpr const char* scene_name = "raytrace:sceneHash";
+constexpr const char* seed_name = "raytrace:seed";
+constexpr const char* first_sample_name = "raytrace:firstSample";
+constexpr const char* samples_name = "raytrace:samples";
+constexpr const char* centered_name = "raytrace:centered";
+constexpr const char* unit_name = "raytrace:unitExponent";
+constexpr const char* whole_name = "raytrace:whole";
+constexpr const char* partial_name = "raytrace:partial";
+
+template <class Value>
+Value needed(const ExrReader& piece, const char* name) {
+  if (auto value = piece.attribute<Value>(name)) return *value;
+  throw InputError(piece.file() + " is not a picture of this program, or of an older version: it has no " + name);
+}
+
+template <class Number>
+Number number(const ExrReader& piece, const char* name, const std::string& text) {
+  Number value{};
+  if (std::from_chars(text.data(), text.data() + text.size(), value).ec != std::errc())
+    throw InputError(piece.file() + " is damaged: its " + name + " is no number");
+  return value;
+}
+
+std::string other(const std::string& what, const std::string& got, const std::string& wanted) {
+  return what + " (" + got + ", not " + wanted + ")";
+}
+
+std::string size_text(const PictureExtent& extent) {
+  return std::to_string(extent.full_width) + " x " + std::to_string(extent.full_height);
+}
+
+}  // namespace
+
+Provenance provenance_of(const std::string& software, const Scene& scene, const SceneDescription& description) {
+  const SceneStatistics statistics = scene.statistics();
+  return {software, statistics.embree_version, statistics.isa, scene_hash(description)};
+}
+
+std::vector<ImageAttribute> identity_attributes(const PieceIdentity& identity) {
+  const SampleRange& samples = identity.film.samples;
+  const Region& whole = identity.whole;
+  std::string edges;
+  for (const int edge : {whole.x0, whole.y0, whole.x1, whole.y1})
+    edges += (edges.empty() ? "" : ",") + std::to_string(edge);
+  std::vector<ImageAttribute> attributes = {
+      {embree_name, identity.provenance.embree_version},
+      {isa_name, identity.provenance.isa},
+      {scene_name, identity.provenance.scene},
+      {first_sample_name, std::to_string(samples.first)},  // EXR's integers have a sign
+      {centered_name, samples.centered ? 1 : 0},
+      {unit_name, identity.film.unit_exponent},
+      {whole_name, edges}};
+  if (identity.partial) attributes.push_back({partial_name, 1});
+  return attributes;
+}
+
+PieceIdentity identity_of(const ExrReader& piece) {
+  PieceIdentity identity;
+  identity.provenance = {needed<std::string>(piece, software_name), needed<std::string>(piece, embree_name),
+                         needed<std::string>(piece, isa_name), needed<std::string>(piece, scene_name)};
+  FilmSettings& film = identity.film;
+  film.extent = piece.extent();
+  film.seed = number<std::uint64_t>(piece, seed_name, needed<std::string>(piece, seed_name));
+  film.samples.first = number<std::uint32_t>(piece, first_sample_name, needed<std::string>(piece, first_sample_name));
+  film.samples.count = static_cast<std::uint32_t>(needed<int>(piece, samples_name));
+  film.samples.centered = needed<int>(piece, centered_name) != 0;
+  film.unit_exponent = needed<int>(piece, unit_name);
+  std::stringstream edges(needed<std::string>(piece, whole_name));
+  for (int* edge : {&identity.whole.x0, &identity.whole.y0, &identity.whole.x1, &identity.whole.y1}) {
+    std::string text;
+    std::getline(edges, text, ',');
+    *edge = number<int>(piece, whole_name, text);
+  }
+  identity.partial = piece.attribute<int>(partial_name).value_or(0) != 0;
+  return identity;
+}
+
+std::optional<std::string> difference(const PieceIdentity& wanted, const PieceIdentity& got) {
+  const Provenance &a = wanted.provenance, &b = got.provenance;
+  const FilmSettings &c = wanted.film, &d = got.film;
+  if (a.scene != b.scene) return "the scene";
+  if (c.extent.full_width != d.extent.full_width || c.extent.full_height != d.extent.full_height)
+    return other("the resolution", size_text(d.extent), size_text(c.extent));
+  if (c.seed != d.seed) return other("the seed", std::to_string(d.seed), std::to_string(c.seed));
+  if (a.software != b.software) return other("the version", b.software, a.software);
+  if (a.embree_version != b.embree_version) return other("Embree's version", b.embree_version, a.embree_version);
+  if (a.isa != b.isa) return other("the instruction set", b.isa, a.isa) + ": pin one with --isa";
+  if (c.samples.centered != d.samples.centered)
+    return "the place of the samples: one has a single sample in each pixel's center; render it with --sample-offset 0";
+  if (c.unit_exponent != d.unit_exponent) return "the precision of the sums: too many samples a pixel";
+  return std::nullopt;
+}
+
+}  // namespace raytrace

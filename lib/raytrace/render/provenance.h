@@ -1,0 +1,44 @@
+// What a picture's bits depend on.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "raytrace/film/film.h"
+#include "raytrace/output/exr_reader.h"
+#include "raytrace/output/image_file.h"
+#include "raytrace/render/renderer.h"
+
+namespace raytrace {
+
+/// Together with a film's settings, all that its sums depend on.
+struct Provenance {
+  std::string software;        ///< "raytrace 1.2.3"
+  std::string embree_version;  ///< "3.13.5"
+  std::string isa;
+  std::string scene;  ///< scene_hash()
+};
+
+Provenance provenance_of(const std::string& software, const Scene& scene, const SceneDescription& description);
+
+/// What an EXR file says of itself, so that it can be put together with others, or continued.
+struct PieceIdentity {
+  Provenance provenance;
+  FilmSettings film;
+  Region whole;          ///< the region of the picture that this piece is a part of
+  bool partial = false;  ///< stopped before all its samples were taken; pixels may have different numbers of them
+};
+
+/// All of it that ImageMetadata has no member for.
+std::vector<ImageAttribute> identity_attributes(const PieceIdentity& identity);
+
+/// Throws InputError if it is no picture of ours.
+PieceIdentity identity_of(const ExrReader& piece);
+
+/// What must not differ between pictures of which one continues or completes another, and does: "the scene",
+/// "the instruction set (x86-64-v3, not x86-64-v4): pin one with --isa"; none if all is the same. Regions and sample
+/// ranges may differ.
+std::optional<std::string> difference(const PieceIdentity& wanted, const PieceIdentity& got);
+
+}  // namespace raytrace
