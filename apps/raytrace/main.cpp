@@ -60,6 +60,8 @@ int main(int argc, char** argv) {
     if (is_merge_command(argc, argv)) return merge_command(argc, argv);
     const Options options = parse_options(argc, argv);
     set_verbosity(options.verbosity());
+    if (!options.log_file.empty()) log_to(options.log_file);
+    tell_program_in(options.progress);
     return run(options);
   } catch (const UsageError& error) {
     tell_error(std::string(error.what()) + "\nTry 'raytrace --help'.");

@@ -1,31 +1,127 @@
 #include "messages.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
+#include <cstring>
+#include <ctime>
+#include <mutex>
+#include <string_view>
+
+#include "raytrace/output/output_error.h"
 
 namespace raytrace {
 
 namespace {
 
 Verbosity told = Verbosity::warnings;
+ProgressStyle program_style = ProgressStyle::none;
+int log_file = -1;
+std::string log_name;
 
-void write(const char* weight, const std::string& text) {
-  std::fprintf(stderr, "raytrace: %s%s\n", weight, text.c_str());
+std::mutex mutex;  // guards what follows, and the order of what is written
+bool bar_is_shown = false;
+
+std::string utc_time() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  char text[32];
+  return {text, std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ ", &parts)};
+}
+
+/// Everything, to a person.
+void write_shown(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); }
+
+std::string wiped_bar() {
+  const bool shown = bar_is_shown;
+  bar_is_shown = false;
+  return shown ? "\r\033[K" : "";
+}
+
+/// Each line in one piece, so that several programs can share a log.
+void log(std::string_view lines) {
+  const std::string time = utc_time();
+  while (log_file >= 0 && !lines.empty()) {
+    const std::size_t length = lines.find('\n') + 1;  // all that is told ends with a line end
+    const std::string line = time + std::string(lines.substr(0, length));
+    lines.remove_prefix(length);
+    if (::write(log_file, line.data(), line.size()) == static_cast<ssize_t>(line.size())) continue;
+    write_shown("raytrace: warning: " + log_name + " takes no more: " + std::strerror(errno) + "\n");
+    close(log_file);
+    log_file = -1;
+  }
+}
+
+void write_message(const std::string& text) {
+  const std::lock_guard lock(mutex);
+  write_shown(wiped_bar() + text);
+  log(text);
+}
+
+void write_message(const char* weight, const std::string& text) {
+  write_message(std::string("raytrace: ") + weight + text + "\n");
 }
 
 }  // namespace
 
 void set_verbosity(Verbosity verbosity) { told = verbosity; }
 
+void log_to(const std::string& file) {
+  constexpr mode_t by_umask = 0666;
+  log_file = open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, by_umask);
+  if (log_file < 0) throw OutputError("cannot write the log file " + file + ": " + std::strerror(errno));
+  log_name = file;
+}
+
+void tell_program_in(ProgressStyle style) {
+  if (!is_for_programs(style)) return;
+  program_style = style;
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
 bool tells(Verbosity verbosity) { return verbosity <= told; }
 
-void tell_error(const std::string& text) { write("error: ", text); }
+void tell_error(const std::string& text) {
+  write_message("error: ", text);
+  tell_program_failure(text);
+}
 
 void tell_warning(const std::string& text) {
-  if (tells(Verbosity::warnings)) write("warning: ", text);
+  if (tells(Verbosity::warnings)) write_message("warning: ", text);
 }
 
 void tell_step(const std::string& text) {
-  if (tells(Verbosity::steps)) write("", text);
+  if (tells(Verbosity::steps)) write_message("", text);
+  tell_program(status_line(program_style, text));
+}
+
+void tell_lines(const std::string& lines) { write_message(lines); }
+
+void tell_progress(const std::string& text) {
+  const std::lock_guard lock(mutex);
+  write_shown("raytrace: " + text + "\n");
+}
+
+void tell_program(const std::string& lines) {
+  const std::lock_guard lock(mutex);
+  std::fwrite(lines.data(), 1, lines.size(), stdout);
+  std::fflush(stdout);
+}
+
+void tell_program_failure(const std::string& text) { tell_program(failure_line(program_style, text)); }
+
+void show_bar(const std::string& text) {
+  const std::lock_guard lock(mutex);
+  if (text.empty()) {
+    write_shown(wiped_bar());
+  } else {
+    write_shown("\r" + text + "\033[K");
+    bar_is_shown = true;
+  }
 }
 
 std::string counted(std::uint64_t count, const std::string& thing) {

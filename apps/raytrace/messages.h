@@ -1,8 +1,11 @@
-// What the program tells a person, on standard error: "raytrace: error: ...".
+// What the program tells while it runs: a person on standard error ("raytrace: error: ..."), the log file, and a
+// program that reads along on standard output (progress_lines.h). Any thread may tell something at any time.
 #pragma once
 
 #include <cstdint>
 #include <string>
+
+#include "progress_lines.h"
 
 namespace raytrace {
 
@@ -11,12 +14,36 @@ enum class Verbosity { errors, warnings, steps, details };
 /// What is told from here on; before the first call, warnings and errors.
 void set_verbosity(Verbosity verbosity);
 
+/// From here on messages go to this file, too: each line is added at its end after the time in UTC
+/// ("2026-01-31T23:59:59Z raytrace: warning: ..."). Throws OutputError if it cannot be opened; should it take no more
+/// later (a full disk), that is told once and the run goes on.
+void log_to(const std::string& file);
+
+/// From here on, steps and errors are told to the program that reads standard output, too, whatever the verbosity, if
+/// the style is for one. Should that program go away, the run goes on.
+void tell_program_in(ProgressStyle style);
+
 /// Whether messages of this weight are told.
 bool tells(Verbosity verbosity);
 
 void tell_error(const std::string& text);
 void tell_warning(const std::string& text);
 void tell_step(const std::string& text);
+
+/// Whole lines as they are: findings about a scene, statistics.
+void tell_lines(const std::string& lines);
+
+/// How far the render is, as a line for people. It is not logged.
+void tell_progress(const std::string& text);
+
+/// To the program that reads standard output, at once.
+void tell_program(const std::string& lines);
+
+/// Why the run fails, for the program that reads standard output. tell_error() does that by itself.
+void tell_program_failure(const std::string& text);
+
+/// Draws a terminal's last line over; empty: wipes it out. So does each message, before it.
+void show_bar(const std::string& text);
 
 /// "1 object", "2 objects"
 std::string counted(std::uint64_t count, const std::string& thing);

@@ -24,8 +24,9 @@ std::string instruction_set(const std::string& text) {
 }
 
 ProgressStyle progress_style(const std::string& text) {
-  const Names names = {"auto", "bar", "plain", "none"};
+  const Names names = {"auto", "bar", "plain", "openjd", "alf", "json", "none"};
   const ProgressStyle styles[] = {ProgressStyle::automatic, ProgressStyle::bar, ProgressStyle::plain,
+                                  ProgressStyle::openjd,    ProgressStyle::alf, ProgressStyle::json,
                                   ProgressStyle::none};
   return styles[std::find(names.begin(), names.end(), one_of(text, names)) - names.begin()];
 }
@@ -132,14 +133,22 @@ void define_options(CLI::App& parser, Options& options) {
   })->group("Safety");
   add_switch(parser, "--resume", options.resume, "Go on from the checkpoint, if there is one")->group("Safety");
 
-  add_switch(parser, "-q,--quiet", options.quiet, "Errors only: no warnings, no progress")->group("Messages");
+  add_switch(parser, "-q,--quiet", options.quiet,
+             "Errors only: no warnings, and no progress but what --progress asks for")
+      ->group("Messages");
   add_switch(parser, "-v,--verbose", options.verbose, "Tell what is done; twice: all that --stats tells, too")
       ->group("Messages");
   add(parser, "--progress", "STYLE",
-      "auto, bar, plain or none: how far the render is, on standard error (auto: a bar on a terminal, plain lines "
-      "elsewhere)",
+      "auto, bar, plain, openjd, alf, json or none: how far the render is; auto, bar and plain on standard error "
+      "(auto: "
+      "a bar on a terminal, plain lines elsewhere), lines for Open Job Description, Tractor and other programs on "
+      "standard output",
       [&](const std::string& text) { options.progress = progress_style(text); })
       ->group("Messages");
+  add(parser, "--log-file", "FILE", "Add the messages to FILE, too, each with its time", [&](const std::string& text) {
+    if (text.empty()) throw UsageError("the file name is empty");
+    options.log_file = text;
+  })->group("Messages");
   // A flag that can have a value: no word after it is taken for the value, only what follows a "=".
   parser
       .add_flag("--stats{" + std::string(statistics_as_text) + "}", options.statistics,
@@ -167,6 +176,7 @@ Options parse_options(int argc, const char* const* argv) {
   options.threads = thread_count(options.threads);
   // Not by CLI11's excludes(): from version 2.4 on, a counting flag counts as given when it is not.
   if (options.quiet && options.verbose > 0) throw UsageError("--quiet excludes --verbose");
+  if (options.quiet && options.progress == ProgressStyle::automatic) options.progress = ProgressStyle::none;
   if (!options.help && !options.version && options.list.empty()) refuse_incomplete(options);
   return options;
 }

@@ -11,7 +11,7 @@
 
 #include "messages.h"
 #include "option_values.h"
-#include "progress.h"
+#include "progress_lines.h"
 #include "raytrace/film/film.h"
 #include "raytrace/output/image_file.h"
 
@@ -44,6 +44,7 @@ struct Options {
 
   int verbose = 0;  ///< how often asked
   ProgressStyle progress = ProgressStyle::automatic;
+  std::string log_file;    ///< empty: none
   std::string statistics;  ///< empty: none; statistics_as_text; or the JSON file to write
   std::string list;        ///< empty, or the kind of thing to list
 

@@ -43,7 +43,7 @@ PictureRender::PictureRender(const Scene& scene, const SceneDescription& descrip
       settings_{options.threads, options.seed, region, sample_range(description.viewplane, options)},
       start_(start),
       next_checkpoint_(Clock::now() + in_seconds(options.checkpoint_interval)),
-      progress_(options.quiet ? ProgressStyle::none : options.progress) {
+      progress_(options.progress) {
   identity_.provenance = provenance_of(software_name(), scene, description);
   identity_.whole = whole;
 }
@@ -78,7 +78,6 @@ Ending PictureRender::render_at_once() {
   }
   timer.stop();
   if (signals_.stop_signal() != 0) {
-    progress_.clear();
     if (options_.checkpoint.empty()) return Ending::stopped;
     const bool saved = save_checkpoint(film);
     return write_picture(film, all, true) && saved ? Ending::stopped : Ending::failed;
@@ -135,7 +134,6 @@ bool PictureRender::render_pass(Film& film, std::uint32_t target, double work_be
 /// Does what is asked for, or due, while the render pauses.
 void PictureRender::attend(const Film& film) {
   if (signals_.take_picture_request()) {
-    progress_.clear();
     if (in_bands_) {
       tell_warning("a picture of this size goes to its files band by band: there is none to look at before the end");
     } else {
@@ -214,7 +212,6 @@ bool PictureRender::save_checkpoint(const Film& film) {
   try {
     write_checkpoint(options_.checkpoint, film, identity_, metadata());
   } catch (const OutputError& error) {
-    progress_.clear();
     tell_error(error.what());
     saved = false;
   }

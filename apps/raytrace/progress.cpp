@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <string_view>
+
+#include "messages.h"
 
 namespace raytrace {
 
@@ -46,6 +49,10 @@ Progress::Progress(ProgressStyle style) : style_(style), next_(start_) {
   if (style_ == ProgressStyle::plain) next_ += std::chrono::seconds(1);
 }
 
+Progress::~Progress() {
+  if (style_ == ProgressStyle::bar) show_bar({});
+}
+
 void Progress::update(double fraction) {
   if (style_ == ProgressStyle::none || Clock::now() < next_) return;
   fraction = std::clamp(fraction, 0.0, 1.0);
@@ -59,22 +66,18 @@ void Progress::update(double fraction) {
 }
 
 void Progress::finish() {
-  clear();
-  if (style_ == ProgressStyle::plain) write_line(1);
-}
-
-void Progress::clear() {
-  if (!bar_is_shown_) return;
-  std::fputs("\r\033[K", stderr);
-  std::fflush(stderr);
-  bar_is_shown_ = false;
+  if (style_ == ProgressStyle::bar) {
+    show_bar({});
+  } else if (style_ != ProgressStyle::none) {
+    write_line(1);
+  }
 }
 
 void Progress::draw_bar(double fraction) {
   const std::string text = percentage(fraction) + time_left(fraction);
   // Two for the brackets, one for a space, and one so that no terminal wraps the line.
   const int room = std::min(terminal_columns() - static_cast<int>(text.size()) - 4, 60);
-  std::string line = "\r";
+  std::string line;
   if (room >= 5) {
     const int full = static_cast<int>(fraction * room);
     line += '[';
@@ -82,22 +85,30 @@ void Progress::draw_bar(double fraction) {
     line.append(static_cast<std::size_t>(room - full), ' ');
     line += "] ";
   }
-  line += text + "\033[K";
-  std::fputs(line.c_str(), stderr);
-  std::fflush(stderr);
-  bar_is_shown_ = true;
+  show_bar(line + text);
 }
 
 void Progress::write_line(double fraction) {
-  std::fprintf(stderr, "raytrace: rendered %s%s\n", percentage(fraction).c_str(), time_left(fraction).c_str());
-  std::fflush(stderr);
+  if (is_for_programs(style_)) {
+    tell_program(progress_line(style_, 100 * fraction, seconds(), seconds_left(fraction)));
+  } else {
+    tell_progress("rendered " + percentage(fraction) + time_left(fraction));
+  }
+}
+
+double Progress::seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+std::optional<double> Progress::seconds_left(double fraction) const {
+  if (fraction >= 1) return 0;
+  const double elapsed = seconds();
+  // The first moments tell nothing about the rest.
+  if (fraction < 0.01 || elapsed < 0.2) return std::nullopt;
+  return elapsed / fraction * (1 - fraction);
 }
 
 std::string Progress::time_left(double fraction) const {
-  const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
-  // The first moments tell nothing about the rest.
-  if (fraction < 0.01 || elapsed < 0.2 || fraction >= 1) return {};
-  return ", " + duration_text(elapsed / fraction * (1 - fraction)) + " left";
+  const std::optional<double> left = fraction < 1 ? seconds_left(fraction) : std::nullopt;
+  return left ? ", " + duration_text(*left) + " left" : "";
 }
 
 }  // namespace raytrace

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
+#include <sstream>
 #include <tuple>
 
 #include "about.h"
@@ -43,6 +43,16 @@ void write_statistics(const Statistics& statistics, const std::string& file) {
   atomic.commit();
 }
 
+void tell_findings(const Diagnostics& diagnostics) {
+  std::stringstream lines;
+  diagnostics.print(lines);
+  tell_lines(lines.str());
+  std::string line;
+  while (std::getline(lines, line)) {
+    if (line.find(": error: ") != std::string::npos) return tell_program_failure(line);  // the first one
+  }
+}
+
 }  // namespace
 
 void check_outputs(const Options& options) {
@@ -69,7 +79,7 @@ std::optional<SceneDescription> load(const Options& options, Statistics& statist
     const PhaseTimer timer(statistics.seconds.load);
     description = load_scene(options.scene, diagnostics, options.threads);
   }
-  if (diagnostics.has_errors() || tells(Verbosity::warnings)) diagnostics.print(std::cerr);
+  if (diagnostics.has_errors() || tells(Verbosity::warnings)) tell_findings(diagnostics);
   if (description) {
     tell_step(shown_name(options.scene) + ": " + contents(*description) + ", read" +
               in_seconds(statistics.seconds.load));
@@ -129,7 +139,7 @@ std::string pixel_text(const Scene& scene, const SceneDescription& description, 
 void report(Statistics& statistics, const Options& options) {
   statistics.peak_memory_bytes = peak_memory_bytes();
   const bool as_text = options.statistics == statistics_as_text;
-  if (as_text || tells(Verbosity::details)) std::cerr << text(statistics);
+  if (as_text || tells(Verbosity::details)) tell_lines(text(statistics));
   if (!options.statistics.empty() && !as_text) write_statistics(statistics, options.statistics);
 }
 

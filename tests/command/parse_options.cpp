@@ -49,6 +49,7 @@ TEST_CASE("defaults") {
   CHECK(options.isa.empty());
   CHECK(options.verbosity() == Verbosity::warnings);
   CHECK(options.progress == ProgressStyle::automatic);
+  CHECK(options.log_file.empty());
   CHECK(options.statistics.empty());
   CHECK_FALSE(options.validate);
   CHECK_FALSE(options.print_scene);
@@ -85,6 +86,10 @@ TEST_CASE("every option reaches its setting, in each of its spellings") {
   CHECK(with({"--progress=bar"}).progress == ProgressStyle::bar);
   CHECK(with({"--progress", "plain"}).progress == ProgressStyle::plain);
   CHECK(with({"--progress", "none"}).progress == ProgressStyle::none);
+  CHECK(with({"--progress=openjd"}).progress == ProgressStyle::openjd);
+  CHECK(with({"--progress=alf"}).progress == ProgressStyle::alf);
+  CHECK(with({"--progress=json"}).progress == ProgressStyle::json);
+  CHECK(with({"--log-file", "run.log"}).log_file == "run.log");
   CHECK(parse({"scene.xml", "--validate"}).validate);
   CHECK(parse({"scene.xml", "--print-scene"}).print_scene);
   CHECK(parse({"--list", "shapes"}).list == "shapes");
@@ -104,6 +109,11 @@ TEST_CASE("the option --stats takes a file only after an equals sign") {
 TEST_CASE("the last of several settings counts") {
   CHECK(with({"-s", "7", "--spp=8"}).samples == 8);
   CHECK(with({"-r", "1x1", "-r", "2x2"}).resolution->width == 2);
+}
+
+TEST_CASE("quiet silences the progress that nobody asked for") {
+  CHECK(with({"-q"}).progress == ProgressStyle::none);
+  CHECK(with({"-q", "--progress=openjd"}).progress == ProgressStyle::openjd);
 }
 
 TEST_CASE("incomplete command lines are refused with what to type") {
@@ -142,6 +152,7 @@ TEST_CASE("what is no value of an option is refused with what would be one") {
   for (const char* const text : {"5,5,5,6", "5,5,6,5", "9,0,1,1"})
     CHECK_REFUSED(with({"--crop", text}), "holds no pixel");
   CHECK_REFUSED(with({"--bit-depth", "12"}), "neither 8 nor 16");
+  CHECK_REFUSED(with({"--log-file="}), "--log-file");
   CHECK_REFUSED(with({"--progress", "plan"}), "did you mean 'plain'?");
   CHECK_REFUSED(with({"--isa", (isa_names().front() + "x").c_str()}), "did you mean '" + isa_names().front() + "'?");
   CHECK_REFUSED(parse({"--list", "shape"}), "did you mean 'shapes'?");

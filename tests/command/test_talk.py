@@ -175,6 +175,124 @@ class ProgressInLog(CommandTest):
         self.assertRegex(line, r"^raytrace: rendered \d+ %(, .* left)?\n$")
 
 
+class ProgressForPrograms(CommandTest):
+    """Lines on standard output that farms and scripts read; people have standard error."""
+
+    def test_openjd(self):
+        done = self.succeed("scene.xml", "-o", "a.exr", "--progress=openjd")
+        self.assertEqual(done.stderr, "")
+        for line in done.stdout.splitlines():
+            self.assertRegex(line, r"^(openjd_progress: \d{1,3}\.\d|openjd_status: \S.*)$")
+        amounts = [float(amount) for amount in re.findall(r"^openjd_progress: (.*)$", done.stdout, re.M)]
+        self.assertEqual(amounts, sorted(amounts))
+        self.assertEqual(amounts[-1], 100)
+        self.assertGreaterEqual(amounts[0], 0)
+        self.assertIn("openjd_status: wrote a.exr\n", done.stdout)
+
+    def test_alf(self):
+        done = self.succeed("scene.xml", "-o", "a.exr", "--progress=alf")
+        self.assertEqual(done.stderr, "")
+        self.assertRegex(done.stdout, r"^(ALF_PROGRESS \d+%\n)*ALF_PROGRESS 100%\n$")
+
+    def test_json(self):
+        done = self.succeed("scene.xml", "-o", "a.exr", "--progress=json")
+        self.assertEqual(done.stderr, "")
+        events = [json.loads(line) for line in done.stdout.splitlines()]
+        progress = [event for event in events if event["event"] == "progress"]
+        for event in progress:
+            self.assertLessEqual(set(event), {"event", "percent", "seconds", "seconds_left"})
+            self.assertGreaterEqual(event["seconds"], 0)
+        self.assertEqual((progress[-1]["percent"], progress[-1]["seconds_left"]), (100, 0))
+        self.assertIn({"event": "status", "text": "wrote a.exr"}, events)
+        self.assertEqual({event["event"] for event in events}, {"progress", "status"})
+
+    def test_quiet_and_verbose_change_nothing_on_standard_output(self):
+        for verbosity in ("-q", "-vv"):
+            done = self.succeed("scene.xml", "-o", "a.exr", "--progress=openjd", "--stats", verbosity)
+            for line in done.stdout.splitlines():
+                self.assertRegex(line, r"^openjd_(progress|status): ")
+            self.assertIn("openjd_status: wrote a.exr\n", done.stdout)
+
+    def test_why_a_run_fails(self):
+        self.write("bad.xml", "<raytracer/>")
+        for scene, output, reason in [("bad.xml", "a.exr", r"bad\.xml:1:1: error: .*viewplane.*"),
+                                      ("missing.xml", "a.exr", r".*missing\.xml.*No such file.*"),
+                                      ("scene.xml", "missing/a.exr", r"cannot write missing/a\.exr.*")]:
+            done = self.run_program(scene, "-o", output, "--progress=openjd")
+            self.assertEqual(done.returncode, 1)
+            self.assertRegex(done.stdout, rf"(?m)^openjd_fail: {reason}$")
+            self.assertIn("error: ", done.stderr)
+            done = self.run_program(scene, "-o", output, "--progress=json")
+            last = json.loads(done.stdout.splitlines()[-1])
+            self.assertEqual(last["event"], "failure")
+            self.assertRegex(last["text"], rf"^{reason}$")
+            self.assertNotIn("fail", self.run_program(scene, "-o", output, "--progress=alf").stdout)
+
+    def test_a_file_name_begins_no_line(self):
+        name = "a\nopenjd_env: PATH=x.exr"
+        done = self.succeed("scene.xml", "-o", name, "--progress=openjd")
+        self.assertIn("openjd_status: wrote a openjd_env: PATH=x.exr\n", done.stdout)
+        self.assertNotRegex(done.stdout, r"(?m)^openjd_env")
+
+    def test_each_line_comes_at_once(self):
+        process = self.start_program("scene.xml", "-o", "a.exr", "--progress=openjd", *support.ENDLESS)
+        self.addCleanup(process.stdout.close)
+        self.addCleanup(process.stderr.close)
+        seen = ""
+        while "openjd_progress: " not in seen:
+            line = process.stdout.readline()
+            self.assertTrue(line, "the program ended without a line of progress")
+            seen += line
+        self.assertIsNone(process.poll())
+        process.kill()
+        process.wait()
+
+    def test_a_reader_that_goes_away_does_not_stop_the_run(self):
+        reader, writer = os.pipe()
+        os.close(reader)
+        with os.fdopen(writer, "w") as gone:
+            done = subprocess.run([support.PROGRAM, "scene.xml", "-o", "a.exr", "--progress=openjd"], cwd=self.folder,
+                                  stdout=gone, stderr=subprocess.PIPE, check=False)
+        self.assertEqual((done.returncode, done.stderr), (0, b""))
+        self.assertEqual(self.names(), ["a.exr", "scene.xml"])
+
+
+class LogFile(CommandTest):
+    TIME = r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ "
+
+    def log(self):
+        return self.read("run.log").decode()
+
+    def test_messages_with_their_times(self):
+        done = self.succeed("scene.xml", "-v", "-o", "a.exr", "--stats", "--progress=plain", "--log-file", "run.log")
+        for line in self.log().splitlines():
+            self.assertRegex(line, f"^{self.TIME}")
+        logged = re.sub(f"(?m)^{self.TIME}", "", self.log())
+        shown = re.sub(r"(?m)^raytrace: rendered \d+ %.*\n", "", done.stderr)
+        self.assertEqual(logged, shown)
+        self.assertIn("raytrace: wrote a.exr\n", logged)
+
+    def test_it_is_added_to(self):
+        self.write("run.log", "before\n")
+        self.write("bad.xml", "<raytracer/>")
+        self.fail_with(1, "bad.xml", "-o", "a.exr", "--log-file", "run.log")
+        self.fail_with(1, "missing.xml", "-o", "a.exr", "--log-file=run.log")
+        self.assertTrue(self.log().startswith("before\n"))
+        self.assertRegex(self.log(), rf"(?m)^{self.TIME}bad\.xml:1:1: error: ")
+        self.assertRegex(self.log(), rf"(?m)^{self.TIME}missing\.xml: error: ")
+
+    def test_one_that_cannot_be_written(self):
+        message = self.fail_with(1, "scene.xml", "-o", "a.exr", *support.ENDLESS, "--log-file", "missing/run.log",
+                                 timeout=60)
+        self.assertIn("cannot write the log file missing/run.log: No such file or directory", message)
+
+    def test_a_full_disk_does_not_stop_the_run(self):
+        done = self.succeed("scene.xml", "-v", "-o", "a.exr", "--progress=none", "--log-file", "/dev/full")
+        warning = "raytrace: warning: /dev/full takes no more: No space left on device\n"
+        self.assertEqual(done.stderr.count(warning), 1)
+        self.assertIn("wrote a.exr", done.stderr)
+
+
 class Signals(CommandTest):
     def catches(self, process, number):
         """Whether the process has a handler for the signal now."""
