@@ -9,7 +9,7 @@ packages="
   cmake ninja-build g++ git
   libembree-dev libopenimageio-dev openimageio-tools libopenexr-dev libtbb-dev libxsimd-dev libcli11-dev
   nlohmann-json3-dev libtinyxml2-dev libxxhash-dev pkg-config
-  catch2 libbenchmark-dev libxml2-utils python3
+  catch2 libbenchmark-dev libxml2-utils python3 python3-jsonschema
 "
 
 say() { printf '%s\n' "$*" >&2; }

@@ -75,6 +75,7 @@ std::string text(const Statistics& s) {
 
 std::string json(const Statistics& s) {
   const nlohmann::ordered_json report = {
+      {"schema_version", 1},
       {"software", s.software},
       {"scene", s.scene_file},
       {"outputs", s.outputs},

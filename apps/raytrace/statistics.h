@@ -1,4 +1,5 @@
-// What a run took and how much it did: for people as text, for programs as JSON (keys: docs/command-line.md).
+// What a run took and how much it did: for people as text, for programs as JSON, whose keys stand in
+// share/statistics.schema.json and docs/command-line.md; it says when its schema_version must grow.
 #pragma once
 
 #include <chrono>

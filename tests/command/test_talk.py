@@ -9,6 +9,8 @@ import subprocess
 import time
 import unittest
 
+import jsonschema
+
 import support
 from exr import Exr
 from support import CommandTest
@@ -77,6 +79,16 @@ class Messages(CommandTest):
         self.assertRegex(version, r"^raytrace \d+\.\d+\.\d+\nEmbree \d+\.\d+\.\d+\nOpenImageIO \d+\.\d+\.\d+\noneTBB \d+")
 
 
+def closed(schema):
+    """The schema, but with no keys allowed other than those that it has."""
+    if isinstance(schema, list):
+        return [closed(part) for part in schema]
+    if not isinstance(schema, dict):
+        return schema
+    result = {name: closed(part) for name, part in schema.items()}
+    return result | {"additionalProperties": False} if "properties" in schema else result
+
+
 class Statistics(CommandTest):
     def test_text(self):
         done = self.succeed("scene.xml", "-o", "a.exr", "--stats", "--progress=none")
@@ -107,6 +119,24 @@ class Statistics(CommandTest):
         self.assertGreaterEqual(report["instruction_set"]["lanes"], 1)
         self.assertRegex(report["embree"], r"^\d+\.\d+")
         self.assertRegex(report["software"], r"^raytrace \d")
+
+    def test_schema(self):
+        with open(os.path.join(support.REPOSITORY, "share", "statistics.schema.json"), encoding="utf-8") as file:
+            schema = json.load(file)
+        jsonschema.Draft202012Validator.check_schema(schema)
+        lenient, strict = (jsonschema.Draft202012Validator(form) for form in (schema, closed(schema)))
+        for arguments in ([], ["-t", "2", "--crop", "0,0,1,1"], ["-", "--seed", "18446744073709551615", "-o", "b.png"]):
+            scene = [] if "-" in arguments else ["scene.xml"]
+            self.succeed(*scene, "-q", "-o", "a.exr", "--stats=stats.json", *arguments, input=support.SCENE)
+            report = json.loads(self.read("stats.json"))
+            strict.validate(report)
+        # What is wrong must be found, and what a later version adds must not.
+        lenient.validate(report | {"later": 1})
+        self.assertFalse(strict.is_valid(report | {"later": 1}))
+        for wrong in ({"schema_version": 2}, {"threads": "2"}, {"rays": {}}, {"primitives": -1}):
+            self.assertFalse(lenient.is_valid(report | wrong), wrong)
+        for key in report:
+            self.assertFalse(lenient.is_valid({name: report[name] for name in report if name != key}), key)
 
     def test_every_key_is_documented(self):
         self.succeed("scene.xml", "-q", "-o", "a.exr", "--stats=stats.json")

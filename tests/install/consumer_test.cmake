@@ -20,7 +20,7 @@ list(GET places 3 data)
 list(GET places 4 man)
 foreach(file IN ITEMS ${bin}/raytrace ${lib}/libraytrace.a ${lib}/raytrace/raytrace_openimageio.so
     ${lib}/cmake/raytrace/raytraceConfig.cmake
-    ${include}/raytrace/render/renderer.h ${data}/raytrace/scenes/seed.xml ${data}/raytrace/scenes/raytracer.xsd
+    ${include}/raytrace/render/renderer.h ${data}/raytrace/scenes/seed.xml ${data}/raytrace/scenes/raytracer.xsd ${data}/raytrace/statistics.schema.json
     ${man}/man1/raytrace.1)
   if(NOT EXISTS ${prefix}/${file})
     message(FATAL_ERROR "${file} is not installed")
