@@ -32,6 +32,18 @@ find_package(PkgConfig REQUIRED)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash>=0.8.1)
 include(cmake/package_faults.cmake)
 
+# Standalone Asio: headers alone, and no CMake files in Debian's package.
+find_path(ASIO_INCLUDE_DIR asio.hpp REQUIRED)
+mark_as_advanced(ASIO_INCLUDE_DIR)
+file(STRINGS ${ASIO_INCLUDE_DIR}/asio/version.hpp asio_version REGEX "^#define ASIO_VERSION [0-9]+")
+string(REGEX MATCH "[0-9]+" asio_version "${asio_version}")
+if(asio_version LESS 102200)
+  message(FATAL_ERROR "Asio in ${ASIO_INCLUDE_DIR} is too old: at least 1.22 is needed")
+endif()
+add_library(asio INTERFACE IMPORTED)
+target_include_directories(asio INTERFACE ${ASIO_INCLUDE_DIR})
+target_compile_definitions(asio INTERFACE ASIO_STANDALONE ASIO_NO_DEPRECATED)
+
 FetchContent_Declare(tinyxml2
   GIT_REPOSITORY https://github.com/leethomason/tinyxml2.git
   GIT_TAG 9148bdf719e997d1f474be6bcc7943881046dba1 # 11.0.0

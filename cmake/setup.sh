@@ -8,7 +8,7 @@ root=$(CDPATH= cd -- "$(dirname -- "$0")/.." && pwd)
 packages="
   cmake ninja-build g++ git
   libembree-dev libopenimageio-dev openimageio-tools libopenexr-dev libtbb-dev libxsimd-dev libcli11-dev
-  nlohmann-json3-dev libtinyxml2-dev libxxhash-dev pkg-config
+  nlohmann-json3-dev libtinyxml2-dev libxxhash-dev pkg-config libasio-dev
   catch2 libbenchmark-dev libxml2-utils python3 python3-jsonschema
 "
 

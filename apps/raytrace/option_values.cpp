@@ -156,4 +156,23 @@ Region crop(const std::string& text) {
   return {edges[0], edges[1], edges[2], edges[3]};
 }
 
+DisplayAddress display_address(const std::string& text) {
+  constexpr int largest_port = 65535;
+  DisplayAddress address{text, "14158"};
+  const std::size_t colon = text.rfind(':');
+  const bool in_brackets = text.starts_with('[') && text.find(']') != std::string::npos;
+  if (colon != std::string::npos && !text.ends_with(']')) address = {text.substr(0, colon), text.substr(colon + 1)};
+  if (in_brackets && address.host.ends_with(']')) {
+    address.host = address.host.substr(1, address.host.size() - 2);
+  } else if (address.host.find_first_of(":[]") != std::string::npos) {
+    address.host.clear();
+  }
+  const std::optional<int> port = number<int>(address.port);
+  if (address.host.empty() || !port || *port < 1 || *port > largest_port) {
+    throw UsageError(in_quotes(text) +
+                     " is not a display server; use HOST:PORT, e.g. localhost:14158, or [::1]:14158 for IPv6");
+  }
+  return address;
+}
+
 }  // namespace raytrace

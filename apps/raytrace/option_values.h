@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "raytrace/display/display_server.h"
 #include "raytrace/film/film.h"
 
 namespace raytrace {
@@ -64,5 +65,8 @@ double scale(const std::string& text);
 
 /// "x0,y0,x1,y1", at least one pixel; it may reach outside of the picture.
 Region crop(const std::string& text);
+
+/// "host:port", "[::1]:port", or a host alone, for tev's own port
+DisplayAddress display_address(const std::string& text);
 
 }  // namespace raytrace

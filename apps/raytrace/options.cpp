@@ -156,6 +156,11 @@ void define_options(CLI::App& parser, Options& options) {
       ->option_text("[=FILE.json]")
       ->group("Messages");
 
+  add(parser, "--display-server", "HOST:PORT",
+      "Show the picture as it grows in the image viewer tev (port 14158); one that fails does not stop the render",
+      [&](const std::string& text) { options.display_server = display_address(text); })
+      ->group("Messages");
+
   add_switch(parser, "--validate", options.validate, "Check the scene and render nothing")->group("Look first");
   add_switch(parser, "--print-scene", options.print_scene,
              "Print the scene with every value spelled out, as it would be rendered, and render nothing")

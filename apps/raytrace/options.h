@@ -12,6 +12,7 @@
 #include "messages.h"
 #include "option_values.h"
 #include "progress_lines.h"
+#include "raytrace/display/display_server.h"
 #include "raytrace/film/film.h"
 #include "raytrace/output/image_file.h"
 
@@ -46,7 +47,8 @@ struct Options {
   ProgressStyle progress = ProgressStyle::automatic;
   std::string log_file;    ///< empty: none
   std::string statistics;  ///< empty: none; statistics_as_text; or the JSON file to write
-  std::string list;        ///< empty, or the kind of thing to list
+  std::optional<DisplayAddress> display_server;
+  std::string list;  ///< empty, or the kind of thing to list
 
   bool full_float = false;
   bool quiet = false;

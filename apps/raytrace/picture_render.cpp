@@ -46,6 +46,10 @@ PictureRender::PictureRender(const Scene& scene, const SceneDescription& descrip
       progress_(options.progress) {
   identity_.provenance = provenance_of(software_name(), scene, description);
   identity_.whole = whole;
+  if (options.display_server) {
+    const PictureExtent extent{description.viewplane.hres, description.viewplane.vres, region};
+    display_ = std::make_unique<DisplayClient>(*options.display_server, options.outputs.front(), extent, tell_warning);
+  }
 }
 
 Ending PictureRender::run() {
@@ -82,6 +86,7 @@ Ending PictureRender::render_at_once() {
     const bool saved = save_checkpoint(film);
     return write_picture(film, all, true) && saved ? Ending::stopped : Ending::failed;
   }
+  if (display_) display_->show(film, film.region());
   progress_.finish();
   tell_rendered();
   statistics_.samples = static_cast<int>(done);
@@ -105,6 +110,7 @@ Ending PictureRender::render_in_bands(int band_rows) {
     if (!render_pass(film, film.settings().samples.count, (band.y0 - region.y0) / height, band.height() / height))
       return Ending::stopped;
     timer.stop();
+    if (display_) display_->show(film, band);
     if (band.y1 == region.y1) {
       progress_.finish();
       tell_rendered();
@@ -124,7 +130,7 @@ bool PictureRender::render_pass(Film& film, std::uint32_t target, double work_be
     attend(film);
     const auto update = [&](double fraction) {
       progress_.update(std::max(work_before + fraction * work, fraction_of_time()));
-      if (!options_.checkpoint.empty() && Clock::now() >= next_checkpoint_) signals_.pause() = true;
+      if (is_due()) signals_.pause() = true;
     };
     count(render(scene_, film, target, options_.threads, update, &signals_.pause()));
     if (!signals_.pause()) return true;
@@ -141,13 +147,19 @@ void PictureRender::attend(const Film& film) {
     }
   }
   if (!options_.checkpoint.empty() && Clock::now() >= next_checkpoint_) save_checkpoint(film);
+  if (display_ && display_->is_due()) display_->show(film, film.region());
+}
+
+/// Whether something is to be done that wants the render to pause.
+bool PictureRender::is_due() const {
+  return (!options_.checkpoint.empty() && Clock::now() >= next_checkpoint_) || (display_ && display_->is_due());
 }
 
 /// The samples a pixel after the next pass: early passes are short, so that there is a whole picture soon. With a time
 /// limit, no pass is begun that would not end in time.
 std::uint32_t PictureRender::next_target(std::uint32_t done, double seconds_a_sample) const {
   const std::uint32_t all = identity_.film.samples.count;
-  if (!options_.time_limit && options_.checkpoint.empty()) return all;
+  if (!options_.time_limit && options_.checkpoint.empty() && !display_) return all;
   constexpr std::uint32_t most_samples = 32;  // of a pass
   std::uint32_t samples = std::min({std::clamp(done, 1U, most_samples), all - done});
   if (options_.time_limit && done > 0) {

@@ -7,6 +7,7 @@
 #include "options.h"
 #include "progress.h"
 #include "raytrace/description/scene_description.h"
+#include "raytrace/display/display_client.h"
 #include "raytrace/render/provenance.h"
 #include "raytrace/render/renderer.h"
 #include "signals.h"
@@ -37,6 +38,7 @@ class PictureRender {
   bool render_pass(Film& film, std::uint32_t target, double work_before, double work);
   void attend(const Film& film);
   std::uint32_t next_target(std::uint32_t done, double seconds_a_sample) const;
+  bool is_due() const;
   void count(const RenderReport& report);
   void tell_rendered() const;
   void tell_set_aside() const;
@@ -55,6 +57,7 @@ class PictureRender {
   Clock::time_point start_;
   Clock::time_point next_checkpoint_;
   SetAsideSamples set_aside_;
+  std::unique_ptr<DisplayClient> display_;  ///< none if it was not asked for
   bool in_bands_ = false;
   Progress progress_;
 };

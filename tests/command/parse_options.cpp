@@ -106,6 +106,22 @@ TEST_CASE("the option --stats takes a file only after an equals sign") {
   CHECK(options.scene == "scene.xml");
 }
 
+TEST_CASE("the option --display-server takes a host and a port") {
+  const auto parsed = [](const char* text) {
+    const auto address = with({"--display-server", text}).display_server;
+    REQUIRE(address.has_value());
+    return address->host + " " + address->port;
+  };
+  CHECK_FALSE(with({}).display_server.has_value());
+  CHECK(parsed("render-pc:4000") == "render-pc 4000");
+  CHECK(parsed("10.0.0.7") == "10.0.0.7 14158");
+  CHECK(parsed("[::1]:65535") == "::1 65535");
+  CHECK(parsed("[fe80::1]") == "fe80::1 14158");
+  for (const char* const text : {"", ":", ":14158", "host:", "host:0", "host:65536", "host:tev", "::1", "[::1",
+                                 "[::1]4", "[]:1", "a:b:1", "ho]st:1"})
+    CHECK_REFUSED(with({"--display-server", text}), "use HOST:PORT, e.g. localhost:14158");
+}
+
 TEST_CASE("the last of several settings counts") {
   CHECK(with({"-s", "7", "--spp=8"}).samples == 8);
   CHECK(with({"-r", "1x1", "-r", "2x2"}).resolution->width == 2);
