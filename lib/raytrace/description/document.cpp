@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <deque>
+#include <utility>
 #include <vector>
 
 #include "raytrace/description/xml_scanner.h"
@@ -20,7 +22,10 @@ struct Document::Implementation {
     Span source;
   };
 
-  explicit Implementation(const SceneText& scene_text) : source(scene_text) { tree.SetUserData(this); }
+  Implementation(const SceneText& scene_text, const Variables& scene_variables)
+      : source(scene_text), variables(scene_variables) {
+    tree.SetUserData(this);
+  }
 
   static Implementation& of(const tinyxml2::XMLNode& node) {
     return *static_cast<Implementation*>(node.GetDocument()->GetUserData());
@@ -30,6 +35,7 @@ struct Document::Implementation {
     text.clear();
     parts.clear();
     offsets.clear();
+    kept.clear();
   }
 
   /// Parts are told apart by their lines, so each must start a new one.
@@ -78,10 +84,12 @@ struct Document::Implementation {
   }
 
   const SceneText& source;
+  const Variables& variables;
   tinyxml2::XMLDocument tree;
   std::string text;         // that of the tree
   std::vector<Part> parts;  // of the text, in its order
   std::vector<std::size_t> offsets;
+  std::deque<std::string> kept;
 };
 
 namespace {
@@ -94,7 +102,8 @@ const tinyxml2::XMLNode* skip_comments(const tinyxml2::XMLNode* node) {
 
 }  // namespace
 
-Document::Document(const SceneText& source) : implementation_(std::make_unique<Implementation>(source)) {}
+Document::Document(const SceneText& source, const Variables& variables)
+    : implementation_(std::make_unique<Implementation>(source, variables)) {}
 
 Document::~Document() = default;
 
@@ -166,6 +175,12 @@ Element Element::child(std::string_view name) const {
 std::uint32_t Element::line() const { return Document::line(*element_); }
 std::size_t Element::offset() const { return Document::offset(*element_); }
 SourceLocation Element::location() const { return Document::location(*element_); }
+
+const Variables& Element::variables() const { return Document::Implementation::of(*element_).variables; }
+
+std::string_view Element::keep(std::string&& text) const {
+  return Document::Implementation::of(*element_).kept.emplace_back(std::move(text));
+}
 
 std::string_view trimmed(std::string_view text) {
   const auto is_space = [](char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; };

@@ -22,6 +22,7 @@ class XMLNode;
 namespace raytrace {
 
 class Element;
+class Variables;
 
 class Attribute {
  public:
@@ -67,14 +68,17 @@ class Element {
   std::size_t offset() const;       ///< of the start tag, in the scene's text
   SourceLocation location() const;  ///< of the start tag
 
+  const Variables& variables() const;               ///< that its values may have
+  std::string_view keep(std::string&& text) const;  ///< keeps a text for as long as the element lives
+
  private:
   const tinyxml2::XMLElement* element_;
 };
 
 class Document {
  public:
-  /// source: must outlive the document.
-  explicit Document(const SceneText& source);
+  /// Both must outlive the document.
+  Document(const SceneText& source, const Variables& variables);
   ~Document();
   Document(const Document&) = delete;
   Document& operator=(const Document&) = delete;

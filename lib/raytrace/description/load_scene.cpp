@@ -24,6 +24,7 @@
 #include "raytrace/description/scene_layout.h"
 #include "raytrace/description/scene_text.h"
 #include "raytrace/description/text_file.h"
+#include "raytrace/description/variables.h"
 
 namespace raytrace {
 namespace {
@@ -56,8 +57,12 @@ int arena_size(int threads) {
 
 class SceneReader {
  public:
-  SceneReader(const SceneText& text, int threads, Diagnostics& diagnostics)
-      : text_(text), diagnostics_(diagnostics), frame_(text), arena_(arena_size(threads)) {
+  SceneReader(const SceneText& text, const Variables& variables, int threads, Diagnostics& diagnostics)
+      : text_(text),
+        variables_(variables),
+        diagnostics_(diagnostics),
+        frame_(text, variables),
+        arena_(arena_size(threads)) {
     scene_.file = diagnostics.file();
   }
 
@@ -234,7 +239,7 @@ class SceneReader {
     };
     const SceneText::PieceRange pieces = text_.pieces_of(group.offset());
     reserve_more(items, pieces.items);
-    read_pieces<Harvest>(text_, pieces, arena_, diagnostics_, read, take);
+    read_pieces<Harvest>(text_, variables_, pieces, arena_, diagnostics_, read, take);
   }
 
   /// may_skip: whether the item may be left out where its type says so; otherwise that is an error.
@@ -287,7 +292,7 @@ class SceneReader {
   }
 
   void report_taken(const char* what, NameTable& names) {
-    Document first_document(text_), other_document(text_);
+    Document first_document(text_, variables_), other_document(text_, variables_);
     names.finish([&](std::string_view name, ItemPlace first_place, ItemPlace other_place) {
       if (!diagnostics_.keeps_another(Severity::error)) return diagnostics_.error({}, {});
       const Element first = item_at(first_place, first_document);
@@ -339,6 +344,7 @@ class SceneReader {
   }
 
   const SceneText& text_;
+  const Variables& variables_;
   Diagnostics& diagnostics_;
   Document frame_;
   tbb::task_arena arena_;
@@ -348,21 +354,32 @@ class SceneReader {
   std::vector<MaterialReference> materials_;  // in the order of material_names_
 };
 
+void report_unused(const Variables& variables, Diagnostics& diagnostics) {
+  for (const std::string_view name : variables.unused()) {
+    diagnostics.error({}, "no value of the scene uses $" + printable(name) + "; remove -D " + printable(name) + "=...");
+  }
+}
+
 }  // namespace
 
-std::optional<SceneDescription> parse_scene(std::string text, Diagnostics& diagnostics, int threads) {
+std::optional<SceneDescription> parse_scene(std::string text, Diagnostics& diagnostics, int threads,
+                                            const SceneSettings& settings) {
   const SceneText scene_text(std::move(text), diagnostics);
   if (!scene_text.well_formed()) return std::nullopt;
-  SceneReader reader(scene_text, threads, diagnostics);
+  const Variables variables(settings);
+  SceneReader reader(scene_text, variables, threads, diagnostics);
   reader.read();
+  // Where there are errors, not all that stands in the scene has been read.
+  if (!diagnostics.has_errors()) report_unused(variables, diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;
   return reader.take();
 }
 
-std::optional<SceneDescription> load_scene(const std::string& file, Diagnostics& diagnostics, int threads) {
+std::optional<SceneDescription> load_scene(const std::string& file, Diagnostics& diagnostics, int threads,
+                                           const SceneSettings& settings) {
   std::optional<std::string> text = read_text_file(file, diagnostics);
   if (!text) return std::nullopt;
-  std::optional<SceneDescription> scene = parse_scene(std::move(*text), diagnostics, threads);
+  std::optional<SceneDescription> scene = parse_scene(std::move(*text), diagnostics, threads, settings);
   if (scene) scene->file = file;
   return scene;
 }

@@ -9,14 +9,16 @@
 #include "raytrace/description/parse_value.h"
 #include "raytrace/description/scene_description.h"
 #include "raytrace/description/scene_layout.h"
+#include "raytrace/description/variables.h"
 
 namespace raytrace {
 namespace {
 
-/// The text with what XML would take for markup, or for white space of no meaning, written as entities.
+/// The text with what XML would take for markup written as entities, and what the reader would take for a variable as a
+/// dollar.
 std::string escaped(std::string_view text) {
   std::string result;
-  for (const char c : text) {
+  for (const char c : with_dollars_doubled(text)) {
     switch (c) {
       case '&':
         result += "&amp;";

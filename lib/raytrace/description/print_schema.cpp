@@ -10,6 +10,7 @@
 
 #include "raytrace/cameras/registry.h"
 #include "raytrace/description/parse_value.h"
+#include "raytrace/description/read_keys.h"
 #include "raytrace/description/scene_layout.h"
 #include "raytrace/description/view_plane.h"
 #include "raytrace/lights/registry.h"
@@ -35,7 +36,10 @@ const RangeLimits& limits(Range range) {
   return range == Range::not_negative ? not_negative_number : any_number;
 }
 
-std::string type_name(Range range, double) { return std::string(limits(range).prefix) + "number"; }
+/// Of a number in an attribute.
+std::string number_name(Range range) { return std::string(limits(range).prefix) + "number"; }
+
+std::string type_name(Range range, double) { return number_name(range) + "orkeys"; }
 std::string type_name(Range range, int) { return std::string(limits(range).prefix) + "integer"; }
 std::string type_name(Range, bool) { return "boolean"; }
 std::string type_name(Range, const std::string&) { return "text"; }
@@ -77,10 +81,9 @@ class SchemaPrinter {
     close("xs:choice");
     close("xs:sequence");
     close("xs:complexType");
-    line("<!-- Names are unique among all materials, and among all objects; objects use materials that there are. -->");
+    line("<!-- Names are unique among all materials, and among all objects. -->");
     print_constraint("key", R"(name="materials")", "materials/*/*", "name");
     print_constraint("unique", R"(name="objects")", "objects/*/*", "name");
-    print_constraint("keyref", R"(name="materialofobject" refer="materials")", "objects/*/*", "material");
     close("xs:element");
   }
 
@@ -157,46 +160,83 @@ class SchemaPrinter {
   }
 
   void print_value_types() {
+    line("<!-- A variable, anywhere in a value. -->");
+    print_restriction("variable", "xs:token", {{"pattern", R"(.*[$].*)"}});
+    print_restriction("interpolation", "xs:token", {{"pattern", R"(linear|smooth|.*[$].*)"}});
     for (const Range range : {Range::any, Range::not_negative, Range::positive}) {
       const RangeLimits& limit = limits(range);
-      print_restriction(type_name(range, double()), "xs:double",
-                        {{"minInclusive", number_text(limit.least_number)},
-                         {"maxInclusive", number_text(largest_number)},
-                         {"pattern", R"([+\-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+\-]?[0-9]+)?)"}});
+      print_value_or_variable(number_name(range), "xs:double",
+                              {{"minInclusive", number_text(limit.least_number)},
+                               {"maxInclusive", number_text(largest_number)},
+                               {"pattern", R"([+\-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+\-]?[0-9]+)?)"}});
       // Not of xs:int, for which xmllint forgets to take white space away.
-      print_restriction(
+      print_value_or_variable(
           type_name(range, int()), "xs:integer",
           {{"minInclusive", std::to_string(limit.least_integer)}, {"maxInclusive", std::to_string(INT_MAX)}});
-      print_components(type_name(range, Vec3d()), type_name(range, double()), {"x", "y", "z"});
-      print_components(type_name(range, Rgb<double>()), type_name(range, double()), {"red", "green", "blue"});
+      print_number_or_keys(range);
+      print_components(type_name(range, Vec3d()), number_name(range), {"x", "y", "z"});
+      print_components(type_name(range, Rgb<double>()), number_name(range), {"red", "green", "blue"});
     }
     line("<!-- A stray > before the value is a slip that is forgiven. -->");
-    print_restriction("boolean", "xs:token", {{"pattern", ">? ?(true|false|1|0)"}});
+    print_restriction("boolean", "xs:token", {{"pattern", R"(>? ?(true|false|1|0)|.*[$].*)"}});
     print_restriction("text", "xs:token", {{"minLength", "1"}});
-    line("<!-- White space, where everything stands in attributes. -->");
-    print_restriction("nothing", "xs:token", {{"length", "0"}});
   }
 
-  void print_restriction(const std::string& name, std::string_view base,
-                         const std::vector<std::pair<std::string_view, std::string>>& facets) {
+  using Facets = std::vector<std::pair<std::string_view, std::string>>;
+
+  void print_restriction(const std::string& name, std::string_view base, const Facets& facets) {
     open("xs:simpleType name=\"" + name + "\"");
+    print_facets(base, facets);
+    close("xs:simpleType");
+  }
+
+  void print_value_or_variable(const std::string& name, std::string_view base, const Facets& facets) {
+    open("xs:simpleType name=\"" + name + "\"");
+    open(R"(xs:union memberTypes="variable")");
+    open("xs:simpleType");
+    print_facets(base, facets);
+    close("xs:simpleType");
+    close("xs:union");
+    close("xs:simpleType");
+  }
+
+  void print_facets(std::string_view base, const Facets& facets) {
     open("xs:restriction base=\"" + std::string(base) + "\"");
     for (const auto& [facet, value] : facets) line("<xs:" + std::string(facet) + " value=\"" + value + "\"/>");
     close("xs:restriction");
-    close("xs:simpleType");
+  }
+
+  /// XML Schema 1.0 cannot say "a number or elements", so the text is any.
+  void print_number_or_keys(Range range) {
+    open("xs:complexType name=\"" + type_name(range, double()) + "\" mixed=\"true\"");
+    print_keys(number_name(range), {number_component});
+    close("xs:complexType");
   }
 
   void print_components(const std::string& name, const std::string& type,
                         const std::vector<std::string_view>& components) {
     open("xs:complexType name=\"" + name + "\"");
-    open("xs:simpleContent");
-    open(R"(xs:extension base="nothing")");
-    for (const std::string_view component : components) {
-      line("<xs:attribute name=\"" + std::string(component) + "\" type=\"" + type + "\" use=\"required\"/>");
-    }
-    close("xs:extension");
-    close("xs:simpleContent");
+    // Nor can it say "attributes or elements".
+    print_keys(type, components);
+    for (const std::string_view component : components) attribute(component, type, false);
     close("xs:complexType");
+  }
+
+  void print_keys(const std::string& type, const std::vector<std::string_view>& components) {
+    open("xs:sequence");
+    open(R"(xs:element name="key" minOccurs="0" maxOccurs="unbounded")");
+    open("xs:complexType");
+    attribute("frame", number_name(Range::any), true);
+    for (const std::string_view component : components) attribute(component, type, true);
+    attribute("interpolation", "interpolation", false);
+    close("xs:complexType");
+    close("xs:element");
+    close("xs:sequence");
+  }
+
+  void attribute(std::string_view name, const std::string& type, bool required) {
+    line("<xs:attribute name=\"" + std::string(name) + "\" type=\"" + type +
+         (required ? "\" use=\"required\"/>" : "\"/>"));
   }
 
   /// An element whose type has its name.

@@ -11,6 +11,7 @@
 #include "raytrace/description/document.h"
 #include "raytrace/description/in_order.h"
 #include "raytrace/description/scene_text.h"
+#include "raytrace/description/variables.h"
 
 namespace raytrace {
 
@@ -20,10 +21,10 @@ namespace raytrace {
 /// Pieces are read without a message at first. Where there is something to say, the piece is read once more when all
 /// before it have been taken: so no more messages are composed than are kept, and they do not depend on the threads.
 template <class Result, class Read, class Take>
-void read_pieces(const SceneText& text, const SceneText::PieceRange& pieces, tbb::task_arena& arena,
-                 Diagnostics& diagnostics, const Read& read, const Take& take) {
+void read_pieces(const SceneText& text, const Variables& variables, const SceneText::PieceRange& pieces,
+                 tbb::task_arena& arena, Diagnostics& diagnostics, const Read& read, const Take& take) {
   struct Workplace {
-    explicit Workplace(const SceneText& text) : document(text) {}
+    Workplace(const SceneText& text, const Variables& variables) : document(text, variables) {}
 
     Document document;
     Result result;
@@ -52,7 +53,7 @@ void read_pieces(const SceneText& text, const SceneText::PieceRange& pieces, tbb
   // Enough that no thread waits for one that has a longer piece.
   const std::size_t enough = 4 * static_cast<std::size_t>(arena.max_concurrency());
   std::deque<Workplace> workplaces;  // no vector, since they cannot be moved
-  for (std::size_t i = 0; i < std::min(pieces.count, enough); ++i) workplaces.emplace_back(text);
+  for (std::size_t i = 0; i < std::min(pieces.count, enough); ++i) workplaces.emplace_back(text, variables);
   in_order(pieces.count, workplaces, arena, read_quietly, tell_and_take);
 }
 

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
-#include <vector>
 
-#include "raytrace/description/nearest_name.h"
+#include "raytrace/description/parse_text.h"
 #include "raytrace/description/parse_value.h"
 #include "raytrace/description/quoted.h"
+#include "raytrace/description/read_attributes.h"
+#include "raytrace/description/read_keys.h"
 #include "raytrace/description/refuse_content.h"
 #include "raytrace/description/report.h"
 
@@ -20,14 +22,13 @@ constexpr std::array<std::string_view, 3> color_components = {"red", "green", "b
 
 using Components = std::array<std::string_view, 3>;
 
+std::array<AttributeField, 3> fields_of(const Components& names, const std::array<double*, 3>& values, Range range) {
+  return {{{names[0], values[0], range}, {names[1], values[1], range}, {names[2], values[2], range}}};
+}
+
 /// name="1" name="1" name="1"
 std::string example_of(const Components& components) {
-  std::string example;
-  for (const std::string_view component : components) {
-    if (!example.empty()) example += ' ';
-    example.append(component).append("=\"1\"");
-  }
-  return example;
+  return raytrace::example_of(fields_of(components, {}, Range::any));
 }
 
 /// <name x="1" y="1" z="1"/>
@@ -42,15 +43,18 @@ class ValueReader {
       : element_(element), info_(info), diagnostics_(diagnostics) {}
 
   bool operator()(double* value) const {
-    return read_text([&](std::string_view text) { return parse_number(text, info_.range, *value); });
+    const Node text_node = single_text();
+    if (!text_node && has_keys(element_))
+      return read_keys(element_, {&number_component, 1}, {&value, 1}, info_.range, diagnostics_);
+    return read_text(text_node, [&](std::string_view text) { return parse_number(text, info_.range, *value); });
   }
 
   bool operator()(int* value) const {
-    return read_text([&](std::string_view text) { return parse_integer(text, info_.range, *value); });
+    return read_text(single_text(), [&](std::string_view text) { return parse_integer(text, info_.range, *value); });
   }
 
   bool operator()(bool* value) const {
-    return read_text([&](std::string_view text) {
+    return read_text(single_text(), [&](std::string_view text) {
       // The slip of the seed's sample: <shadows>>true</shadows>.
       const bool stray = text.starts_with('>');
       const Complaint complaint = parse_boolean(stray ? text.substr(1) : text, *value);
@@ -65,7 +69,7 @@ class ValueReader {
   }
 
   bool operator()(std::string_view* value) const {
-    return read_text([&](std::string_view text) -> Complaint {
+    const bool fine = read_text<Dollars::may_fit>(single_text(), [&](std::string_view text) -> Complaint {
       *value = text;
       // Schemas take runs of white space for single spaces; to agree with them there must not be any.
       bool runs = false;
@@ -77,6 +81,9 @@ class ValueReader {
       if (!runs) return std::nullopt;
       return "has line breaks, tabs or several spaces in a row; write single spaces";
     });
+    // With a variable that is not set it is no label, and nothing more is to be said about it.
+    if (!fine && value->find('$') != std::string_view::npos) *value = {};
+    return fine;
   }
 
   bool operator()(std::string* value) const {
@@ -93,7 +100,7 @@ class ValueReader {
       return true;
     report_error(diagnostics_, element_, [&] {
       return tag(info_.name) + " is a direction, so x, y and z must not all be 0; write one such as <" +
-             printable(info_.name) + " x=\"0\" y=\"1\" z=\"0\"/>";
+             printable(info_.name) + " x=\"0\" y=\"1\" z=\"0\"/>" + at_frame();
     });
     return false;
   }
@@ -103,22 +110,23 @@ class ValueReader {
   }
 
  private:
-  /// parse: text -> Complaint
-  template <class Parse>
-  bool read_text(Parse&& parse) const {
+  /// node: single_text(). parse: text -> Complaint
+  template <Dollars dollars = Dollars::never_fit, class Parse>
+  bool read_text(Node node, const Parse& parse) const {
     const bool no_attributes = refuse_attributes(element_, {}, diagnostics_);
-    const Node node = element_.first_child();
-    const bool single_text = node && !node.element() && !node.next();
-    const std::string_view text = single_text ? node.text() : std::string_view();
+    const std::string_view text = node ? node.text() : std::string_view();
     if (text.empty()) {
-      report_no_text(node);
+      report_no_text(element_.first_child());
       return false;
     }
-    const Complaint complaint = parse(text);
-    if (complaint) {
-      report_error(diagnostics_, node, [&] { return in_quotes(text) + " in " + tag(info_.name) + " " + *complaint; });
-    }
-    return no_attributes && !complaint;
+    const auto where = [&] { return " in " + tag(info_.name) + " "; };
+    return parse_text<dollars>(text, element_, node, parse, where, diagnostics_) && no_attributes;
+  }
+
+  /// The text of an element that has nothing else; false if it has.
+  Node single_text() const {
+    const Node node = element_.first_child();
+    return node && !node.element() && !node.next() ? node : Node(nullptr);
   }
 
   /// Says why an element with these children, from `first` on, has no text for a value.
@@ -142,66 +150,16 @@ class ValueReader {
   }
 
   bool read_components(const Components& names, const std::array<double*, 3>& values) const {
-    bool fine = refuse_content(names);
-    bool shape_known = fine;  // otherwise the reports have said already how the whole is written
-    std::array<bool, 3> seen{};
-    for (Attribute attribute = element_.first_attribute(); attribute; attribute = attribute.next()) {
-      const std::size_t i =
-          static_cast<std::size_t>(std::find(names.begin(), names.end(), attribute.name()) - names.begin());
-      if (i == names.size()) {
-        fine = false;
-        const std::string_view nearest = nearest_missing(attribute.name(), names);
-        report_error(diagnostics_, attribute, [&] { return explain_unknown(attribute, names, nearest); });
-        // One slip, one message: a component that was only misspelt is not reported as missing too.
-        if (nearest.empty())
-          shape_known = false;
-        else
-          seen[static_cast<std::size_t>(std::find(names.begin(), names.end(), nearest) - names.begin())] = true;
-        continue;
-      }
-      seen[i] = true;
-      const Range range = info_.range == Range::nonzero ? Range::any : info_.range;
-      if (const Complaint complaint = parse_number(attribute.value(), range, *values[i])) {
-        fine = false;
-        report_error(diagnostics_, attribute, [&] {
-          return in_quotes(attribute.value()) + " for " + std::string(names[i]) + " in " + tag(info_.name) + " " +
-                 *complaint;
-        });
-      }
-    }
-    return (!shape_known || require_components(names, seen)) && fine;
+    if (element_.first_child() && has_keys(element_))
+      return read_keys(element_, names, values, info_.range, diagnostics_);
+    const bool fine = refuse_content(names);
+    const Range range = info_.range == Range::nonzero ? Range::any : info_.range;
+    return read_attributes(element_, fields_of(names, values, range), !fine, diagnostics_) && fine;
   }
 
-  /// The component that an unknown attribute may have been meant for: a near one that is not there under its own name.
-  std::string_view nearest_missing(std::string_view name, const Components& names) const {
-    std::vector<std::string_view> missing;
-    for (const std::string_view candidate : names) {
-      Attribute present = element_.first_attribute();
-      while (present && present.name() != candidate) present = present.next();
-      if (!present) missing.push_back(candidate);
-    }
-    return nearest_name(name, missing);
-  }
-
-  std::string explain_unknown(Attribute attribute, const Components& names, std::string_view nearest) const {
-    const std::string start = "unknown attribute " + in_quotes(attribute.name()) + " in " + tag(info_.name) + "; ";
-    if (!nearest.empty()) return start + "did you mean " + in_quotes(nearest) + "?";
-    return start + "write " + example_of(info_.name, names);
-  }
-
-  bool require_components(const Components& names, const std::array<bool, 3>& seen) const {
-    std::string missing;
-    int count = 0;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      if (seen[i]) continue;
-      missing += (count++ > 0 ? " and " : "") + in_quotes(names[i]);
-    }
-    if (count == 0) return true;
-    report_error(diagnostics_, element_, [&] {
-      return "missing " + std::string(count > 1 ? "attributes " : "attribute ") + missing + " in " + tag(info_.name) +
-             "; write " + example_of(info_.name, names);
-    });
-    return false;
+  /// For values that are wrong only at some frames.
+  std::string at_frame() const {
+    return has_keys(element_) ? "; so it is at frame " + std::to_string(element_.variables().frame()) : "";
   }
 
   /// Reports children of an element that takes attributes only.

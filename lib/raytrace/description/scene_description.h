@@ -12,6 +12,7 @@
 
 #include "raytrace/cameras/registry.h"
 #include "raytrace/description/diagnostics.h"
+#include "raytrace/description/scene_settings.h"
 #include "raytrace/description/view_plane.h"
 #include "raytrace/lights/registry.h"
 #include "raytrace/materials/registry.h"
@@ -75,13 +76,16 @@ struct SceneDescription {
 /// Reads and validates a scene file ("-": standard input). All problems go to `diagnostics`; no value if one of them
 /// is an error. Warnings alone still give a scene. A file that cannot be read is an error at line 0.
 /// threads: so many at most share the work; 0: all that the machine has. The result does not depend on it.
-std::optional<SceneDescription> load_scene(const std::string& file, Diagnostics& diagnostics, int threads = 0);
+/// settings: variables that are not used are errors, as those that are not set.
+std::optional<SceneDescription> load_scene(const std::string& file, Diagnostics& diagnostics, int threads = 0,
+                                           const SceneSettings& settings = {});
 
 /// The same for a text that is already in memory.
-std::optional<SceneDescription> parse_scene(std::string text, Diagnostics& diagnostics, int threads = 0);
+std::optional<SceneDescription> parse_scene(std::string text, Diagnostics& diagnostics, int threads = 0,
+                                            const SceneSettings& settings = {});
 
 /// Writes the description as a scene file in canonical form: every value spelled out, defaults included; reading it
-/// back gives an equal description (all doubles round-trip).
+/// back gives an equal description (all doubles round-trip). It has neither variables nor keys.
 std::string print_scene(const SceneDescription& description);
 
 }  // namespace raytrace

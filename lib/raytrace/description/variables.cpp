@@ -1,0 +1,80 @@
+#include "raytrace/description/variables.h"
+
+#include <cstddef>
+
+#include "raytrace/description/nearest_name.h"
+#include "raytrace/description/quoted.h"
+
+namespace raytrace {
+namespace {
+
+bool starts_name(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+
+/// How many characters at the start of the text are a variable's name.
+std::size_t name_length(std::string_view text) {
+  if (text.empty() || !starts_name(text.front())) return 0;
+  std::size_t length = 1;
+  while (length < text.size() && (starts_name(text[length]) || (text[length] >= '0' && text[length] <= '9'))) ++length;
+  return length;
+}
+
+}  // namespace
+
+bool is_variable_name(std::string_view text) { return !text.empty() && name_length(text) == text.size(); }
+
+std::string with_dollars_doubled(std::string_view text) {
+  std::string doubled;
+  for (const char c : text) doubled.append(c == '$' ? 2 : 1, c);
+  return doubled;
+}
+
+Variables::Variables(const SceneSettings& settings) : frame_(settings.frame) {
+  for (const auto& [name, value] : settings.variables) variables_[name].value = value;
+  Variable& frame = variables_[std::string(frame_variable)];
+  frame.value = std::to_string(settings.frame);
+  frame.used = true;
+}
+
+Complaint Variables::replace(std::string_view text, std::string& replaced) const {
+  std::string result;
+  while (true) {
+    const std::size_t dollar = text.find('$');
+    result += text.substr(0, dollar);
+    if (dollar == std::string_view::npos) break;
+    text.remove_prefix(dollar + 1);
+    if (text.starts_with('$')) {
+      result += '$';
+      text.remove_prefix(1);
+      continue;
+    }
+    const std::string_view name = text.substr(0, name_length(text));
+    if (name.empty()) return "has a '$' without a name behind it; write $$ for a dollar";
+    const auto variable = variables_.find(name);
+    if (variable == variables_.end()) return explain_unset(name);
+    // Written once only, so that the threads do not take it from each other.
+    if (!variable->second.used.load(std::memory_order_relaxed)) variable->second.used = true;
+    result += variable->second.value;
+    text.remove_prefix(name.size());
+  }
+  replaced = std::move(result);
+  return std::nullopt;
+}
+
+std::string Variables::explain_unset(std::string_view name) const {
+  std::vector<std::string_view> names;
+  for (const auto& [known, variable] : variables_) names.push_back(known);
+  const std::string_view nearest = nearest_name(name, names);
+  const std::string start = "uses $" + printable(name) + ", which is not set; ";
+  if (!nearest.empty()) return start + "did you mean $" + std::string(nearest) + "?";
+  return start + "set it: -D " + printable(name) + "=VALUE";
+}
+
+std::vector<std::string_view> Variables::unused() const {
+  std::vector<std::string_view> names;
+  for (const auto& [name, variable] : variables_) {
+    if (!variable.used) names.push_back(name);
+  }
+  return names;
+}
+
+}  // namespace raytrace

@@ -1,0 +1,52 @@
+// The variables of a scene's values: <radius>$size</radius>, with a value that is given when the scene is read.
+//
+// A name starts with a letter or _, letters, digits and _ follow. $$ is a dollar. A value is put in as it is: a dollar
+// in it starts no variable. $frame is always set.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "raytrace/description/parse_value.h"
+#include "raytrace/description/scene_settings.h"
+
+namespace raytrace {
+
+/// The variable that need not be set.
+inline constexpr std::string_view frame_variable = "frame";
+
+bool is_variable_name(std::string_view text);
+
+/// The text as it must be written for reading to give it back: with $$ for each dollar.
+std::string with_dollars_doubled(std::string_view text);
+
+/// May be used by several threads at once.
+class Variables {
+ public:
+  explicit Variables(const SceneSettings& settings);
+
+  int frame() const { return frame_; }
+
+  /// replaced: receives the text with the values in place of the variables, unless there is a complaint.
+  Complaint replace(std::string_view text, std::string& replaced) const;
+
+  /// Those that no text had so far.
+  std::vector<std::string_view> unused() const;
+
+ private:
+  struct Variable {
+    std::string value;
+    mutable std::atomic<bool> used = false;
+  };
+
+  std::string explain_unset(std::string_view name) const;
+
+  int frame_;
+  std::map<std::string, Variable, std::less<>> variables_;
+};
+
+}  // namespace raytrace

@@ -1,0 +1,137 @@
+// $name in the values of a scene.
+#include "raytrace/description/variables.h"
+
+#include <map>
+#include <sstream>
+#include <string>
+
+#include "findings.h"
+#include "support/catch.h"
+
+namespace raytrace::test {
+namespace {
+
+using Values = std::map<std::string, std::string>;
+
+std::string findings(const std::string& text, const Values& values, int threads = 0) {
+  Diagnostics diagnostics("s");
+  parse_scene(text, diagnostics, threads, {7, values});
+  std::ostringstream out;
+  diagnostics.print(out);
+  return out.str();
+}
+
+std::string printed(const std::string& text, const Values& values) {
+  Diagnostics diagnostics("s");
+  const auto scene = parse_scene(text, diagnostics, 0, {7, values});
+  return scene ? print_scene(*scene) : findings(text, values);
+}
+
+std::string replaced(std::string_view text) {
+  std::string result;
+  const Complaint complaint = Variables({7, {{"a", "1"}, {"ab", "2"}, {"_A9", "$a"}}}).replace(text, result);
+  return complaint ? *complaint : result;
+}
+
+std::string sphere(const std::string& radius) {
+  return scene_with_sphere("<center x='0' y='0' z='0'/><radius>" + radius + "</radius><material>clay</material>");
+}
+
+}  // namespace
+
+TEST_CASE("variables in a text are replaced by their values, once") {
+  CHECK(replaced("") == "");
+  CHECK(replaced("plain") == "plain");
+  CHECK(replaced("$a") == "1");
+  CHECK(replaced("x$a-$ab.$a") == "x1-2.1");
+  CHECK(replaced("$_A9") == "$a");
+  CHECK(replaced("$frame$frame") == "77");
+  CHECK(replaced("$$a$$$a$$") == "$a$1$");
+  CHECK(replaced("$abc") == "uses $abc, which is not set; did you mean $ab?");
+  CHECK(replaced("$zzzzzz") == "uses $zzzzzz, which is not set; set it: -D zzzzzz=VALUE");
+  for (const char* const text : {"$", "1$", "$ a", "$9", "$-a", "${a}", "$$$"})
+    CHECK(replaced(text) == "has a '$' without a name behind it; write $$ for a dollar");
+}
+
+TEST_CASE("names of variables") {
+  for (const char* const name : {"a", "_", "Z9", "a_b"}) CHECK(is_variable_name(name));
+  for (const char* const name : {"", "9", "a-b", "a ", "$a", "\xc3\xa4"}) CHECK_FALSE(is_variable_name(name));
+}
+
+TEST_CASE("a variable can stand in every kind of value") {
+  const std::string text = R"(<raytracer><viewplane><hres>$w</hres><vres>1$w</vres></viewplane>
+    <camera><eye x="0" y="-$y" z="9"/><lookat x="0" y="0" z="0"/><viewdistance>$frame</viewdistance></camera>
+    <lights><pointlights><pointlight><location x="0" y="1" z="$frame"/><color red="$y" green="1" blue="1"/>
+      <shadows>$lit</shadows></pointlight></pointlights></lights>
+    <materials><mattes><matte><name>my $m</name><ka>0</ka><kd>1</kd><cd red="1" green="1" blue="1"/></matte></mattes>
+    </materials><objects><spheres><sphere><name>$$5</name><center x="0" y="0" z="0"/><radius> $y </radius>
+      <material>my $m</material></sphere></spheres></objects></raytracer>)";
+  const std::string result = printed(text, {{"w", "4"}, {"y", "0.5"}, {"m", "clay & loam"}, {"lit", "false"}});
+  for (const char* const part :
+       {"<hres>4</hres>", "<vres>14</vres>", "<viewdistance>7</viewdistance>", "z=\"7\"", "red=\"0.5\"",
+        "<shadows>false</shadows>", "<name>my clay &amp; loam</name>", "<name>$$5</name>", "<radius>0.5</radius>",
+        "<material>my clay &amp; loam</material>"}) {
+    INFO(result);
+    CHECK(contains(result, part));
+  }
+}
+
+TEST_CASE("a variable that is not set is an error where it stands") {
+  CHECK(findings(sphere("$radius"), {}) ==
+        "s:2:36: error: '$radius' in <radius> uses $radius, which is not set; set it: -D radius=VALUE\n");
+  CHECK(findings(sphere("1$$"), {}) == "s:2:36: error: '1$' in <radius> is not a number; write one such as 1.5\n");
+  // What was probably meant is not reported as unused, too.
+  CHECK(findings(sphere("$radius"), {{"raduis", "2"}}) ==
+        "s:2:36: error: '$radius' in <radius> uses $radius, which is not set; did you mean $raduis?\n");
+  CHECK(contains(
+      findings(scene_with_sphere("<center x='0' y='$y' z='0'/><radius>1</radius><material>clay</material>"), {}),
+      "s:2:15: error: '$y' for y in <center> uses $y, which is not set"));
+}
+
+TEST_CASE("the value of a variable is checked as if it stood in the scene") {
+  CHECK(findings(sphere("$r"), {{"r", "-1"}}) == "s:2:36: error: '-1' in <radius> must be greater than 0\n");
+  CHECK(contains(findings(sphere("$r"), {{"r", "<"}}), "'<' in <radius> is not a number"));
+  const auto with_material = [](const std::string& name) {
+    return scene_with_sphere("<center x='0' y='0' z='0'/><radius>1</radius><material>" + name + "</material>");
+  };
+  CHECK(findings(with_material("$m"), {{"m", "clay"}}) == "");
+  CHECK(findings(with_material("$m"), {}) ==
+        "s:2:56: error: '$m' in <material> uses $m, which is not set; set it: -D m=VALUE\n");
+  CHECK(contains(findings(with_material("$m"), {{"m", "cley"}}), "unknown material 'cley'"));
+  CHECK(contains(findings(with_material("$m"), {{"m", ""}}), "'$m' in <material> is empty"));
+}
+
+TEST_CASE("a variable that nothing uses is an error") {
+  CHECK(findings(sphere("1"), {{"radius", "2"}}) ==
+        "s: error: no value of the scene uses $radius; remove -D radius=...\n");
+  CHECK(findings(sphere("1$$radius"), {{"radius", "2"}}) ==
+        "s:2:36: error: '1$radius' in <radius> is not a number; write one such as 1.5\n");
+  CHECK(findings(sphere("$radius"), {{"radius", "2"}}) == "");
+}
+
+TEST_CASE("variables in the pieces of a large scene") {
+  const auto scene_of_spheres = [](const std::string& prefix) {
+    std::string items;
+    for (int i = 0; i < 3000; ++i) {
+      const std::string number = std::to_string(i);
+      items += "<sphere><name>" + prefix + number + "</name><center x='" + number +
+               "' y='$y' z='0'/><radius>1</radius><material>$m</material></sphere>\n";
+    }
+    return scene_with("<objects><spheres>\n" + items + "</spheres></objects>");
+  };
+  // Digits belong to the name.
+  CHECK(contains(findings(scene_of_spheres("$a"), {{"a", "q"}, {"y", "3"}, {"m", "clay"}}, 4),
+                 "2900 more errors not shown"));
+  const Values values = {{"a", "q"}, {"y", "3"}, {"m", "clay"}};
+  Diagnostics diagnostics("s");
+  for (const int threads : {1, 4}) {
+    const auto scene = parse_scene(scene_of_spheres("p$a-"), diagnostics, threads, {1, values});
+    REQUIRE(scene);
+    const auto& spheres = std::get<ObjectItems<Sphere>>(scene->objects);
+    REQUIRE(spheres.size() == 3000);
+    CHECK(spheres.back().name == "pq-2999");
+    CHECK(spheres.back().parameters.center.y == 3);
+  }
+}
+
+}  // namespace raytrace::test
