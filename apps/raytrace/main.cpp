@@ -1,6 +1,6 @@
-// The command: options -> load -> build -> render -> write.
+// The command: options -> for each frame of each scene: load -> build -> render -> write.
+#include <algorithm>
 #include <iostream>
-#include <new>
 
 #include "about.h"
 #include "exit_code.h"
@@ -9,6 +9,7 @@
 #include "options.h"
 #include "picture_render.h"
 #include "picture_settings.h"
+#include "raytrace/output/complete_picture.h"
 #include "signals.h"
 #include "stages.h"
 
@@ -23,8 +24,9 @@ int print(const std::string& text) {
   return exit_code::failed;
 }
 
-int run(const Options& options) {
-  if (const auto answer = about_program(options)) return print(*answer);
+bool exist_complete(const std::vector<std::string>& files) {
+  return std::all_of(files.begin(), files.end(), is_complete_picture);
+}
 
   const auto start = PictureRender::Clock::now();
   ignore_picture_requests();

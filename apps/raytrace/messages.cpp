@@ -94,6 +94,10 @@ void tell_warning(const std::string& text) {
   if (tells(Verbosity::warnings)) write_message("warning: ", text);
 }
 
+void tell_note(const std::string& text) {
+  if (tells(Verbosity::warnings)) write("", text);
+}
+
 void tell_step(const std::string& text) {
   if (tells(Verbosity::steps)) write_message("", text);
   tell_program(status_line(program_style, text));

@@ -28,6 +28,7 @@ bool tells(Verbosity verbosity);
 
 void tell_error(const std::string& text);
 void tell_warning(const std::string& text);
+void tell_note(const std::string& text);  ///< with the weight of a warning, but it is none
 void tell_step(const std::string& text);
 
 /// Whole lines as they are: findings about a scene, statistics.

@@ -5,10 +5,13 @@
 #include <limits>
 #include <string_view>
 
+#include "frame_numbers.h"
 #include "listing.h"
 #include "option_parser.h"
 #include "option_values.h"
 #include "raytrace/description/quoted.h"
+#include "raytrace/description/utf8.h"
+#include "raytrace/description/variables.h"
 #include "raytrace/render/renderer.h"
 
 namespace raytrace {
@@ -65,16 +68,34 @@ void define_options(CLI::App& parser, Options& options) {
   constexpr int most_threads = 1024;
   prepare(parser);
 
-  parser.add_option("scene", options.scene, "Scene file; - reads it from standard input")
+  parser.add_option("scene", options.scenes, "Scene files; - reads one from standard input")
       ->type_name("SCENE.xml")
+      ->group("Input");
+  add(parser, "--frames", "FRAMES",
+      "Render these frames, e.g. 1-10:2,15; #### or %04d in the names of scenes, outputs and statistics is the number",
+      [&](const std::string& text) { options.frames = frame_numbers(text); })
+      ->group("Input");
+  parser
+      .add_option_function<std::vector<std::string>>(
+          "-D,--define",
+          [&](const std::vector<std::string>& definitions) {
+            for (const std::string& definition : definitions) define(definition, options.variables);
+          },
+          "Set the variable $NAME of the scene; repeatable")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false)
       ->group("Input");
 
   parser
       .add_option("-o,--output", options.outputs,
                   "Write the picture to FILE, in the format of its extension (.exr, .png, .tif, .jpg, .hdr...); "
-                  "repeatable, for several files from one render")
+                  "repeatable, for several files from one render. {scene} in the name is that of the scene, {tile} the "
+                  "tile's number")
       ->type_name("FILE")
       ->allow_extra_args(false)
+      ->group("Output");
+  add_switch(parser, "--skip-existing", options.skip_existing,
+             "Render no frame whose outputs all exist and are complete")
       ->group("Output");
   add_switch(parser, "--float", options.full_float, "32 bit floats in EXR (else 16 bit) and in TIFF (else sRGB)")
       ->group("Output");

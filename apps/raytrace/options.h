@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,8 +23,15 @@ namespace raytrace {
 inline constexpr std::string_view statistics_as_text = "text";
 
 struct Options {
-  std::string scene;  ///< "-": standard input
+  std::vector<std::string> scenes;  ///< "-": standard input
+  std::vector<int> frames;          ///< in increasing order; empty: not asked for
+  std::map<std::string, std::string> variables;
   std::vector<std::string> outputs;
+  bool skip_existing = false;
+
+  // Of one render; Jobs sets them, and puts its values into the names of files.
+  std::string scene;
+  int frame = 1;
 
   std::optional<Resolution> resolution;  ///< none: the scene's
   std::optional<Region> crop;            ///< none: the whole picture
@@ -57,6 +65,7 @@ struct Options {
   bool version = false;
   bool help = false;
 
+  bool renders() const { return !validate && !print_scene; }
   Verbosity verbosity() const;
   ImageFileSettings image_file_settings() const { return {full_float, bit_depth, true, threads}; }
 };

@@ -77,7 +77,7 @@ std::optional<SceneDescription> load(const Options& options, Statistics& statist
   std::optional<SceneDescription> description;
   {
     const PhaseTimer timer(statistics.seconds.load);
-    description = load_scene(options.scene, diagnostics, options.threads);
+    description = load_scene(options.scene, diagnostics, options.threads, {options.frame, options.variables});
   }
   if (diagnostics.has_errors() || tells(Verbosity::warnings)) tell_findings(diagnostics);
   if (description) {

@@ -36,7 +36,10 @@ Options with(const std::vector<const char*>& more) {
 
 TEST_CASE("defaults") {
   const Options options = parse({"scene.xml", "-o", "a.exr"});
-  CHECK(options.scene == "scene.xml");
+  CHECK(options.scenes == std::vector<std::string>{"scene.xml"});
+  CHECK(options.frames.empty());
+  CHECK(options.variables.empty());
+  CHECK_FALSE(options.skip_existing);
   CHECK(options.outputs == std::vector<std::string>{"a.exr"});
   CHECK_FALSE(options.full_float);
   CHECK(options.bit_depth == 8);
@@ -58,7 +61,13 @@ TEST_CASE("defaults") {
 TEST_CASE("every option reaches its setting, in each of its spellings") {
   CHECK(parse({"--output", "a.exr", "-ob.png", "--output=c.tif", "-"}).outputs ==
         std::vector<std::string>{"a.exr", "b.png", "c.tif"});
-  CHECK(parse({"--output", "a.exr", "-"}).scene == "-");
+  CHECK(parse({"--output", "a.exr", "-", "b.xml"}).scenes == std::vector<std::string>{"-", "b.xml"});
+  CHECK(parse({"a.xml", "-o", "a.exr", "b.xml"}).scenes == std::vector<std::string>{"a.xml", "b.xml"});
+  CHECK(with({"--frames", "-2-0:2"}).frames == std::vector<int>{-2, 0});
+  CHECK(with({"--frames=7"}).frames == std::vector<int>{7});
+  CHECK(with({"-D", "a=1", "-Db=x=y", "--define=c=", "-D", "a=[2,3]"}).variables ==
+        std::map<std::string, std::string>{{"a", "[2,3]"}, {"b", "x=y"}, {"c", ""}});
+  CHECK(with({"--skip-existing"}).skip_existing);
   CHECK(with({"--float"}).full_float);
   CHECK(with({"--bit-depth", "16"}).bit_depth == 16);
   for (const std::vector<const char*>& spelling :
@@ -103,7 +112,7 @@ TEST_CASE("the option --stats takes a file only after an equals sign") {
   CHECK(with({"--stats=file.json"}).statistics == "file.json");
   const Options options = parse({"-o", "a.exr", "--stats", "scene.xml"});
   CHECK(options.statistics == statistics_as_text);
-  CHECK(options.scene == "scene.xml");
+  CHECK(options.scenes == std::vector<std::string>{"scene.xml"});
 }
 
 TEST_CASE("the option --display-server takes a host and a port") {
@@ -137,7 +146,7 @@ TEST_CASE("incomplete command lines are refused with what to type") {
   CHECK_REFUSED(parse({"my.xml"}), "raytrace my.xml -o picture.exr");
   CHECK_REFUSED(parse({"my.xml", "-o"}), "--output needs a value: FILE");
   CHECK_REFUSED(parse({"my.xml", "-o", "a.exr", "-t"}), "--threads needs a value: N");
-  CHECK_REFUSED(parse({"my.xml", "second.xml", "-o", "a.exr"}), "'second.xml' is one scene too many");
+  CHECK_REFUSED(parse({"", "-o", "a.exr"}), "the scene's file name is empty");
   CHECK_REFUSED(with({"-o", "a.exr"}), "a.exr is given twice");
   CHECK_REFUSED(with({"-o", ""}), "the file name is empty");
 }
@@ -167,6 +176,12 @@ TEST_CASE("what is no value of an option is refused with what would be one") {
     CHECK_REFUSED(with({"--crop", text}), "use x0,y0,x1,y1");
   for (const char* const text : {"5,5,5,6", "5,5,6,5", "9,0,1,1"})
     CHECK_REFUSED(with({"--crop", text}), "holds no pixel");
+  for (const char* const text : {"radius", "=2", "1a=2", "a b=2", "$a=2", ""})
+    CHECK_REFUSED(with({"-D", text}), "use NAME=VALUE, e.g. -D radius=2");
+  CHECK_REFUSED(with({"-D", "frame=2"}), "$frame is the frame's number; use --frames");
+  CHECK_REFUSED(with({"-D", "a=\xff"}), "the value of a is no text in UTF-8");
+  CHECK_REFUSED(with({"-D", "a=\n"}), "without control characters");
+  CHECK_REFUSED(with({"--frames", "1..5"}), "--frames: '1..5' is no list of frames");
   CHECK_REFUSED(with({"--bit-depth", "12"}), "neither 8 nor 16");
   CHECK_REFUSED(with({"--log-file="}), "--log-file");
   CHECK_REFUSED(with({"--progress", "plan"}), "did you mean 'plain'?");

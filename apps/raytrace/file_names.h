@@ -1,0 +1,31 @@
+// What stands in a file's name for what differs from one render of a run to the next.
+//
+//   ####, %04d   the frame's number with at least so many digits; any number of #, %d for no zeros
+//   {scene}      the scene's file name without folder and last extension
+//   {tile}       the tile's number
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace raytrace {
+
+struct NameValues {
+  std::optional<int> frame;  ///< none: # and %d stand for themselves
+  std::optional<int> tile;   ///< none: {tile} is an error
+  std::string scene;         ///< the scene's file
+};
+
+/// The name with the values put in. Throws UsageError for {tile} without a tile.
+std::string file_name(const std::string& name, const NameValues& values);
+
+/// The same for the name of a scene, which has frames only.
+std::string scene_file_name(const std::string& name, std::optional<int> frame);
+
+/// Whether the name has a place for the frame's number.
+bool has_frame_token(const std::string& name);
+
+/// The name with places for the frame and for the scene before its extension, where it has none and they are asked for.
+std::string with_tokens(const std::string& name, bool frame, bool scene);
+
+}  // namespace raytrace

@@ -1,0 +1,114 @@
+#include "jobs.h"
+
+#include <algorithm>
+#include <new>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+#include "exit_code.h"
+#include "file_names.h"
+#include "messages.h"
+
+namespace raytrace {
+
+namespace {
+
+bool has_statistics_file(const Options& options) {
+  return !options.statistics.empty() && options.statistics != statistics_as_text;
+}
+
+}  // namespace
+
+Jobs::Jobs(Options options) : options_(std::move(options)) {
+  std::swap(scenes_, options_.scenes);
+  std::swap(frames_, options_.frames);
+  const auto from_standard_input = std::count(scenes_.begin(), scenes_.end(), "-");
+  if (from_standard_input > 1 || (from_standard_input == 1 && frame_count() > 1)) {
+    throw UsageError("standard input can be read once; give a file for " +
+                     std::string(frame_count() > 1 ? "several frames" : "the second scene"));
+  }
+  if (options_.print_scene && count() > 1) {
+    throw UsageError(
+        "--print-scene prints one scene; give one" +
+        (frame_count() > 1 ? ", and one frame, e.g. --frames " + std::to_string(frames_.front()) : std::string()));
+  }
+  if (!options_.renders()) return;
+  refuse_same_files();
+}
+
+void Jobs::refuse_same_files() const {
+  std::unordered_set<std::string> names;
+  for (std::size_t i = 0; i < count(); ++i) {
+    const Options job = (*this)[i];
+    const auto add = [&](const std::string& option, const std::string& pattern, const std::string& name) {
+      if (names.insert(name).second) return;
+      const std::string tokens = with_tokens(pattern, frame_count() > 1, scenes_.size() > 1);
+      throw UsageError(
+          option + ": more than one render would write " + name + "; " +
+          (tokens == pattern ? "give scenes and outputs names that differ" : "use a name such as " + tokens));
+    };
+    for (std::size_t k = 0; k < job.outputs.size(); ++k) add("--output", options_.outputs[k], job.outputs[k]);
+    if (has_statistics_file(job)) add("--stats", options_.statistics, job.statistics);
+  }
+}
+
+std::optional<int> Jobs::frame(std::size_t i) const {
+  if (frames_.empty()) return std::nullopt;
+  return frames_[i % frame_count()];
+}
+
+std::string Jobs::scene(std::size_t i) const { return scene_file_name(scenes_[i / frame_count()], frame(i)); }
+
+std::string Jobs::name(std::size_t i) const {
+  const std::optional<int> number = frame(i);
+  return scene(i) + (number ? ", frame " + std::to_string(*number) : "");
+}
+
+Options Jobs::operator[](std::size_t i) const {
+  Options job = options_;
+  job.scene = scene(i);
+  job.frame = frame(i).value_or(job.frame);
+  const NameValues values{frame(i), std::nullopt, job.scene};
+  for (std::string& output : job.outputs) output = file_name(output, values);
+  if (has_statistics_file(job)) job.statistics = file_name(job.statistics, values);
+  return job;
+}
+
+int run_all(const Jobs& jobs, const std::function<int(const Options&)>& run) {
+  if (jobs.count() == 1) return run(jobs[0]);
+  std::vector<std::string> failed;
+  int common_code = exit_code::done;
+  for (std::size_t i = 0; i < jobs.count(); ++i) {
+    const Options job = jobs[i];
+    tell_step(jobs.name(i) + " (" + std::to_string(i + 1) + " of " + std::to_string(jobs.count()) + ")");
+    const int code = guarded([&] { return run(job); });
+    if (code >= exit_code::stopped) return code;
+    if (code == exit_code::done) continue;
+    tell_error(jobs.name(i) + ": failed");
+    common_code = failed.empty() || code == common_code ? code : exit_code::failed;
+    failed.push_back(jobs.name(i));
+  }
+  if (failed.empty()) return exit_code::done;
+  std::string names;
+  for (const std::string& name : failed) names += "\n  " + name;
+  tell_error(std::to_string(failed.size()) + " of " + counted(jobs.count(), "render") + " failed:" + names);
+  return common_code;
+}
+
+int guarded(const std::function<int()>& action) {
+  try {
+    return action();
+  } catch (const UsageError& error) {
+    tell_error(std::string(error.what()) + "\nTry 'raytrace --help'.");
+    return exit_code::usage;
+  } catch (const std::bad_alloc&) {
+    tell_error("out of memory");
+    return exit_code::out_of_memory;
+  } catch (const std::exception& error) {
+    tell_error(error.what());
+    return exit_code::failed;
+  }
+}
+
+}  // namespace raytrace

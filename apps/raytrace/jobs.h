@@ -1,0 +1,47 @@
+// The renders of a run: each frame of each scene.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "options.h"
+
+namespace raytrace {
+
+class Jobs {
+ public:
+  /// Throws UsageError if two renders would write the same file, or if the scenes cannot be read so often.
+  explicit Jobs(Options options);
+
+  /// All frames of the first scene, then those of the next.
+  std::size_t count() const { return scenes_.size() * frame_count(); }
+
+  /// The run's options with the render's scene, frame and file names.
+  Options operator[](std::size_t i) const;
+
+  /// "scene.xml, frame 7"
+  std::string name(std::size_t i) const;
+
+ private:
+  std::size_t frame_count() const { return frames_.empty() ? 1 : frames_.size(); }
+  std::optional<int> frame(std::size_t i) const;
+  std::string scene(std::size_t i) const;
+  void refuse_same_files() const;
+
+  Options options_;  // without scenes and frames, of which there may be many: all renders' options are copies
+  std::vector<std::string> scenes_;
+  std::vector<int> frames_;
+};
+
+/// Renders all jobs by `run`, which gives an exit code or throws. One that fails does not stop the others; in the end
+/// they are named. The exit code is the one that all that failed have in common, or exit_code::failed. A signal stops
+/// them all.
+int run_all(const Jobs& jobs, const std::function<int(const Options&)>& run);
+
+/// What `action` gives; if it throws, the exit code for that, and the error is told.
+int guarded(const std::function<int()>& action);
+
+}  // namespace raytrace

@@ -1,0 +1,180 @@
+"""Variables, frames, keys, several scenes: what only a whole run shows."""
+
+import os
+import re
+import struct
+import unittest
+
+import support
+from exr import Exr
+from support import CommandTest
+
+# The sphere wanders; its radius and the frame are variables.
+MOVING = support.SCENE.replace('<center x="0" y="1" z="0"/>',
+                               '<center><key frame="1" x="-2" y="1" z="0"/><key frame="5" x="2" y="$frame" z="0"/></center>')
+VARIABLE = support.SCENE.replace("<radius>1</radius>", "<radius>$radius</radius>")
+SMALL = ["-q", "-r", "16x12", "-s", "1"]
+
+
+class Variables(CommandTest):
+    def setUp(self):
+        super().setUp()
+        self.write("scene.xml", VARIABLE)
+
+    def test_a_variable_is_its_value(self):
+        printed = self.succeed("scene.xml", "--print-scene", "-D", "radius=0.25").stdout
+        self.assertIn("<radius>0.25</radius>", printed)
+        self.assertNotIn("$", printed)
+        self.assertIn("<radius>2</radius>", self.succeed("scene.xml", "--print-scene", "-D", "radius=1",
+                                                         "-Dradius=2").stdout)
+
+    def test_unset(self):
+        message = self.fail_with(1, "scene.xml", "-o", "a.exr")
+        self.assertRegex(message, r"^scene\.xml:27:\d+: error: '\$radius' in <radius> uses \$radius, which is not set; "
+                                  r"set it: -D radius=VALUE\n$")
+        self.assertIn("did you mean $raduis?", self.fail_with(1, "scene.xml", "-o", "a.exr", "-D", "raduis=2"))
+
+    def test_unused(self):
+        message = self.fail_with(1, "scene.xml", "-o", "a.exr", "-D", "radius=1", "-D", "color=red")
+        self.assertEqual(message, "scene.xml: error: no value of the scene uses $color; remove -D color=...\n")
+        self.assertEqual(self.names(), ["scene.xml"])
+
+    def test_frame_is_always_set(self):
+        self.write("scene.xml", support.SCENE.replace("<radius>1<", "<radius>0.$frame<"))
+        self.assertIn("<radius>0.1</radius>", self.succeed("scene.xml", "--print-scene").stdout)
+        self.assertIn("<radius>0.42</radius>", self.succeed("scene.xml", "--print-scene", "--frames", "42").stdout)
+
+
+class Frames(CommandTest):
+    def setUp(self):
+        super().setUp()
+        self.write("scene.xml", MOVING)
+        self.environment = {**os.environ, "SOURCE_DATE_EPOCH": "0"}
+
+    def test_keys_are_evaluated_at_the_frame(self):
+        for frame, center in [("-7", 'x="-2" y="1"'), ("1", 'x="-2" y="1"'), ("3", 'x="0" y="2"'), ("9", 'x="2" y="9"')]:
+            printed = self.succeed("scene.xml", "--print-scene", "--frames", frame).stdout
+            self.assertIn(f'<center {center} z="0"/>', printed)
+            self.assertNotIn("key", printed)
+
+    def test_each_frame_has_its_file_and_is_the_same_alone(self):
+        self.succeed("scene.xml", *SMALL, "--frames", "5,1-3:2,4", "-o", "a.####.exr", "-o", "b%02d.png",
+                     "--stats=s.#.json", env=self.environment)
+        frames = [1, 3, 4, 5]
+        self.assertEqual(self.names(), sorted(["scene.xml"] + [f"a.{i:04}.exr" for i in frames] +
+                                              [f"b{i:02}.png" for i in frames] + [f"s.{i}.json" for i in frames]))
+        pictures = {self.read(f"a.{i:04}.exr") for i in frames}
+        self.assertEqual(len(pictures), len(frames))
+        for i in frames:
+            together = self.read(f"a.{i:04}.exr"), self.read(f"b{i:02}.png")
+            self.succeed("scene.xml", *SMALL, "--frames", str(i), "-o", f"a.{i:04}.exr", "-o", f"b{i:02}.png",
+                         env=self.environment)
+            self.assertEqual((self.read(f"a.{i:04}.exr"), self.read(f"b{i:02}.png")), together)
+
+    def test_many_frames_need_a_token(self):
+        message = self.fail_with(2, "scene.xml", "--frames", "1-3", "-o", "a.exr")
+        self.assertIn("use a name such as a.####.exr", message)
+        self.assertEqual(self.names(), ["scene.xml"])
+
+    def test_a_scene_for_each_frame(self):
+        for i in (1, 2):
+            self.write(f"shot.{i:03}.xml", support.SCENE.replace("<radius>1<", f"<radius>0.{i}<"))
+        self.succeed("shot.###.xml", *SMALL, "--frames", "1-2", "-o", "{scene}.exr")
+        self.assertEqual(self.names(), ["scene.xml", "shot.001.exr", "shot.001.xml", "shot.002.exr", "shot.002.xml"])
+
+    def test_a_broken_frame_does_not_stop_the_others(self):
+        self.write("scene.xml", support.SCENE.replace(
+            "<radius>1</radius>", '<radius><key frame="1" value="1"/></radius>').replace(
+            '<eye x="0" y="3" z="8"/>', '<eye><key frame="1" x="0" y="0.5" z="8"/>'
+                                        '<key frame="3" x="0" y="0.5" z="-8"/></eye>'))
+        done = self.run_program("scene.xml", *SMALL, "--frames", "1-4", "-o", "a.#.exr")
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(self.names(), ["a.1.exr", "a.3.exr", "a.4.exr", "scene.xml"])
+        self.assertIn("scene.xml, frame 2: failed", done.stderr)
+        self.assertTrue(done.stderr.endswith("raytrace: error: 1 of 4 renders failed:\n  scene.xml, frame 2\n"),
+                        done.stderr)
+
+    def test_a_frame_that_cannot_be_written_does_not_stop_the_others(self):
+        os.mkdir(self.path("a.2.exr"))
+        done = self.run_program("scene.xml", *SMALL, "--frames", "1-3", "-o", "a.#.exr")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("cannot write a.2.exr: ", done.stderr)
+        self.assertIn("1 of 3 renders failed:\n  scene.xml, frame 2\n", done.stderr)
+        self.assertEqual(self.names(), ["a.1.exr", "a.2.exr", "a.3.exr", "scene.xml"])
+
+    def test_a_signal_stops_all_frames(self):
+        process = self.start_program("scene.xml", *support.ENDLESS, "--frames", "1-3", "-o", "a.#.exr",
+                                     "--progress=plain")
+        self.assertTrue(process.stderr.readline())  # it renders
+        process.terminate()
+        process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 143)
+        self.assertEqual(self.names(), ["scene.xml"])
+
+
+class SkipExisting(CommandTest):
+    def render(self, frames):
+        done = self.succeed("scene.xml", "-r", "16x12", "-s", "1", "--progress=none", "--frames", frames, "-o", "a.#.exr",
+                            "-o", "b.#.png", "--skip-existing")
+        return re.findall(r"^raytrace: (.*): there already, skipped$", done.stderr, re.MULTILINE)
+
+    def test_frames_that_are_there_are_skipped_and_told(self):
+        self.assertEqual(self.render("1-2"), [])
+        before = os.stat(self.path("a.1.exr")).st_mtime_ns
+        self.assertEqual(self.render("1-3"), ["a.1.exr, b.1.png", "a.2.exr, b.2.png"])
+        self.assertEqual(os.stat(self.path("a.1.exr")).st_mtime_ns, before)
+        os.remove(self.path("b.2.png"))
+        self.assertEqual(self.render("1-3"), ["a.1.exr, b.1.png", "a.3.exr, b.3.png"])
+
+    def test_a_part_is_rendered_again(self):
+        self.render("1")
+        whole = self.read("a.1.exr")
+        # Behind the magic number and the version, an attribute: name, type, size, value. It moves the only chunk of rows,
+        # whose place stands right before it.
+        mark = b"raytrace:partial\0int\0" + struct.pack("<ii", 4, 1)
+        table = next(at for at in range(8, len(whole)) if whole[at:at + 8] == struct.pack("<Q", at + 8))
+        self.write_bytes("a.1.exr", whole[:8] + mark + whole[8:table] + struct.pack("<Q", table + 8 + len(mark)) +
+                         whole[table + 8:])
+        self.assertEqual(Exr(self.read("a.1.exr")).rows, Exr(whole).rows)
+        self.assertEqual(self.render("1"), [])
+        self.assertEqual(self.render("1"), ["a.1.exr, b.1.png"])
+
+    def test_a_torn_file_is_rendered_again(self):
+        self.render("1")
+        for length in (0, 20, len(self.read("a.1.exr")) - 10):
+            self.write_bytes("a.1.exr", self.read("a.1.exr")[:length])
+            self.assertEqual(self.render("1"), [], length)
+            self.assertEqual(self.render("1"), ["a.1.exr, b.1.png"])
+
+    def write_bytes(self, name, data):
+        with open(self.path(name), "wb") as file:
+            file.write(data)
+
+
+class Scenes(CommandTest):
+    def test_each_scene_has_its_output(self):
+        self.write("other.xml", support.SCENE.replace("<radius>1<", "<radius>0.5<"))
+        self.succeed("scene.xml", "other.xml", *SMALL, "-o", "{scene}.exr")
+        self.assertEqual(self.names(), ["other.exr", "other.xml", "scene.exr", "scene.xml"])
+        self.assertNotEqual(Exr(self.read("scene.exr")).rows, Exr(self.read("other.exr")).rows)
+        self.assertIn("use a name such as a.{scene}.exr", self.fail_with(2, "scene.xml", "other.xml", "-o", "a.exr"))
+
+    def test_a_broken_scene_does_not_stop_the_others(self):
+        self.write("bad.xml", "<raytracer/>")
+        done = self.run_program("bad.xml", "scene.xml", "missing.xml", "-", *SMALL, "-o", "{scene}.exr",
+                                input=support.SCENE)
+        self.assertEqual(done.returncode, 1)
+        self.assertTrue(done.stderr.endswith("2 of 4 renders failed:\n  bad.xml\n  missing.xml\n"), done.stderr)
+        self.assertEqual(self.names(), ["bad.xml", "scene.exr", "scene.xml", "stdin.exr"])
+        self.assertEqual(Exr(self.read("scene.exr")).rows, Exr(self.read("stdin.exr")).rows)
+
+    def test_all_are_validated(self):
+        self.write("bad.xml", "<raytracer/>")
+        done = self.run_program("scene.xml", "bad.xml", "--validate")
+        self.assertEqual(done.returncode, 1)
+        self.assertTrue(done.stdout.startswith("scene.xml: ok ("), done.stdout)
+        self.assertIn("bad.xml:1:1: error: ", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
