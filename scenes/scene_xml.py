@@ -11,8 +11,22 @@ def number(value):
     return "0" if text == "-0" else text
 
 
+class Keys:
+    """A vector that changes from frame to frame: values maps frames to vectors, joined without corners."""
+
+    def __init__(self, values):
+        self.values = values
+
+
 def vector(name, v):
-    return f'<{name} x="{number(v[0])}" y="{number(v[1])}" z="{number(v[2])}"/>'
+    if isinstance(v, Keys):
+        keys = "".join(f'<key frame="{f}" {coordinates(c)} interpolation="smooth"/>' for f, c in v.values.items())
+        return f"<{name}>{keys}</{name}>"
+    return f"<{name} {coordinates(v)}/>"
+
+
+def coordinates(v):
+    return f'x="{number(v[0])}" y="{number(v[1])}" z="{number(v[2])}"'
 
 
 def color(name, c):
