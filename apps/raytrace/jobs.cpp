@@ -83,8 +83,9 @@ int run_all(const Jobs& jobs, const std::function<int(const Options&)>& run) {
     const Options job = jobs[i];
     tell_step(jobs.name(i) + " (" + std::to_string(i + 1) + " of " + std::to_string(jobs.count()) + ")");
     const int code = guarded([&] { return run(job); });
-    if (code >= exit_code::stopped) return code;
     if (code == exit_code::done) continue;
+    // All others say that the program was stopped.
+    if (code != exit_code::failed && code != exit_code::usage && code != exit_code::out_of_memory) return code;
     tell_error(jobs.name(i) + ": failed");
     common_code = failed.empty() || code == common_code ? code : exit_code::failed;
     failed.push_back(jobs.name(i));

@@ -112,6 +112,21 @@ class Frames(CommandTest):
         self.assertEqual(self.names(), ["scene.xml"])
 
 
+class Turntable(CommandTest):
+    scene = os.path.join(support.REPOSITORY, "scenes", "gallery", "turntable.xml")
+
+    def test_it_ends_where_it_began(self):
+        first, half, last = (self.succeed(self.scene, "--print-scene", "--frames", frame).stdout
+                             for frame in ("1", "25", "49"))
+        self.assertEqual(first, last)
+        self.assertNotEqual(first, half)
+
+    def test_its_frames_render(self):
+        self.succeed(self.scene, "-q", "--scale", "0.02", "-s", "1", "--frames", "1-48:24", "-o", "t.##.exr")
+        self.assertEqual(self.names(), ["scene.xml", "t.01.exr", "t.25.exr"])
+        self.assertNotEqual(Exr(self.read("t.01.exr")).rows, Exr(self.read("t.25.exr")).rows)
+
+
 class SkipExisting(CommandTest):
     def render(self, frames):
         done = self.succeed("scene.xml", "-r", "16x12", "-s", "1", "--progress=none", "--frames", frames, "-o", "a.#.exr",
