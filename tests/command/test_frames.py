@@ -10,8 +10,9 @@ from exr import Exr
 from support import CommandTest
 
 # The sphere wanders; its radius and the frame are variables.
-MOVING = support.SCENE.replace('<center x="0" y="1" z="0"/>',
-                               '<center><key frame="1" x="-2" y="1" z="0"/><key frame="5" x="2" y="$frame" z="0"/></center>')
+MOVING = support.SCENE.replace(
+    '<center x="0" y="1" z="0"/>',
+    '<center><key frame="1" x="-2" y="1" z="0"/><key frame="5" x="2" y="$frame" z="0"/></center>')
 VARIABLE = support.SCENE.replace("<radius>1</radius>", "<radius>$radius</radius>")
 SMALL = ["-q", "-r", "16x12", "-s", "1"]
 
@@ -52,7 +53,8 @@ class Frames(CommandTest):
         self.environment = {**os.environ, "SOURCE_DATE_EPOCH": "0"}
 
     def test_keys_are_evaluated_at_the_frame(self):
-        for frame, center in [("-7", 'x="-2" y="1"'), ("1", 'x="-2" y="1"'), ("3", 'x="0" y="2"'), ("9", 'x="2" y="9"')]:
+        centers = {"-7": 'x="-2" y="1"', "1": 'x="-2" y="1"', "3": 'x="0" y="2"', "9": 'x="2" y="9"'}
+        for frame, center in centers.items():
             printed = self.succeed("scene.xml", "--print-scene", "--frames", frame).stdout
             self.assertIn(f'<center {center} z="0"/>', printed)
             self.assertNotIn("key", printed)
@@ -129,8 +131,8 @@ class Turntable(CommandTest):
 
 class SkipExisting(CommandTest):
     def render(self, frames):
-        done = self.succeed("scene.xml", "-r", "16x12", "-s", "1", "--progress=none", "--frames", frames, "-o", "a.#.exr",
-                            "-o", "b.#.png", "--skip-existing")
+        done = self.succeed("scene.xml", "-r", "16x12", "-s", "1", "--progress=none", "--frames", frames,
+                            "-o", "a.#.exr", "-o", "b.#.png", "--skip-existing")
         return re.findall(r"^raytrace: (.*): there already, skipped$", done.stderr, re.MULTILINE)
 
     def test_frames_that_are_there_are_skipped_and_told(self):
@@ -144,8 +146,8 @@ class SkipExisting(CommandTest):
     def test_a_part_is_rendered_again(self):
         self.render("1")
         whole = self.read("a.1.exr")
-        # Behind the magic number and the version, an attribute: name, type, size, value. It moves the only chunk of rows,
-        # whose place stands right before it.
+        # Behind the magic number and the version, an attribute: name, type, size, value. It moves the only chunk of
+        # rows, whose place stands right before it.
         mark = b"raytrace:partial\0int\0" + struct.pack("<ii", 4, 1)
         table = next(at for at in range(8, len(whole)) if whole[at:at + 8] == struct.pack("<Q", at + 8))
         self.write_bytes("a.1.exr", whole[:8] + mark + whole[8:table] + struct.pack("<Q", table + 8 + len(mark)) +
