@@ -50,6 +50,7 @@ void Jobs::refuse_same_files() const {
     };
     for (std::size_t k = 0; k < job.outputs.size(); ++k) add("--output", options_.outputs[k], job.outputs[k]);
     if (has_statistics_file(job)) add("--stats", options_.statistics, job.statistics);
+    if (!job.checkpoint.empty()) add("--checkpoint", options_.checkpoint, job.checkpoint);
   }
 }
 
@@ -69,9 +70,10 @@ Options Jobs::operator[](std::size_t i) const {
   Options job = options_;
   job.scene = scene(i);
   job.frame = frame(i).value_or(job.frame);
-  const NameValues values{frame(i), std::nullopt, job.scene};
+  const NameValues values{frame(i), job.tile ? std::optional(job.tile->index) : std::nullopt, job.scene};
   for (std::string& output : job.outputs) output = file_name(output, values);
   if (has_statistics_file(job)) job.statistics = file_name(job.statistics, values);
+  if (!job.checkpoint.empty()) job.checkpoint = file_name(job.checkpoint, values);
   return job;
 }
 

@@ -4,6 +4,7 @@
 
 #include "about.h"
 #include "exit_code.h"
+#include "jobs.h"
 #include "merge_command.h"
 #include "messages.h"
 #include "options.h"
@@ -28,8 +29,12 @@ bool exist_complete(const std::vector<std::string>& files) {
   return std::all_of(files.begin(), files.end(), is_complete_picture);
 }
 
+int run(const Options& options) {
+  if (options.skip_existing && options.renders() && exist_complete(options.outputs)) {
+    tell_note(joined(options.outputs, ", ") + ": there already, skipped");
+    return exit_code::done;
+  }
   const auto start = PictureRender::Clock::now();
-  ignore_picture_requests();
   check_outputs(options);
   Statistics statistics;
   std::optional<SceneDescription> description = load(options, statistics);
@@ -58,21 +63,14 @@ bool exist_complete(const std::vector<std::string>& files) {
 
 int main(int argc, char** argv) {
   using namespace raytrace;
-  try {
+  return guarded([&] {
     if (is_merge_command(argc, argv)) return merge_command(argc, argv);
     const Options options = parse_options(argc, argv);
     set_verbosity(options.verbosity());
     if (!options.log_file.empty()) log_to(options.log_file);
     tell_program_in(options.progress);
-    return run(options);
-  } catch (const UsageError& error) {
-    tell_error(std::string(error.what()) + "\nTry 'raytrace --help'.");
-    return exit_code::usage;
-  } catch (const std::bad_alloc&) {
-    tell_error("out of memory");
-    return exit_code::out_of_memory;
-  } catch (const std::exception& error) {
-    tell_error(error.what());
-    return exit_code::failed;
-  }
+    if (const auto answer = about_program(options)) return print(*answer);
+    ignore_picture_requests();
+    return run_all(Jobs(options), run);
+  });
 }

@@ -29,10 +29,11 @@ struct Manual {
 const Manual render_manual = {
     "raytrace",
     "render a scene file to image files",
-    "raytrace SCENE.xml -o FILE [options]",
+    "raytrace SCENE.xml... -o FILE [options]",
     {"Examples",
      {{"raytrace scenes/seed.xml -o seed.exr -o seed.png", "Both files from one render."},
       {"raytrace scene.xml -o draft.png --scale 0.25 -s 1 --stats", "A quick look, and what it took."},
+      {"raytrace scene.xml --frames 1-48 -D size=2 -o picture.####.exr", "An animation."},
       {"raytrace scene.xml -o final.exr --checkpoint final.state --resume",
        "Goes on where an earlier run of the same command was stopped."},
       {"raytrace scene.xml -o tile.2.exr --tile 2/8", "The third of eight parts."},

@@ -34,11 +34,30 @@ ProgressStyle progress_style(const std::string& text) {
   return styles[std::find(names.begin(), names.end(), one_of(text, names)) - names.begin()];
 }
 
+/// "name=value"
+void define(const std::string& text, std::map<std::string, std::string>& variables) {
+  const std::size_t equals = text.find('=');
+  const std::string name = text.substr(0, equals);
+  if (equals == std::string::npos || !is_variable_name(name)) {
+    throw UsageError("--define: " + in_quotes(text) +
+                     " sets no variable; use NAME=VALUE, e.g. -D radius=2 for $radius");
+  }
+  if (name == frame_variable) throw UsageError("--define: $frame is the frame's number; use --frames");
+  const std::string value = text.substr(equals + 1);
+  const bool has_control = std::any_of(value.begin(), value.end(), [](char c) { return c >= 0 && c < ' '; });
+  if (has_control || find_invalid_utf8(value) != std::string_view::npos) {
+    throw UsageError("--define: the value of " + name + " is no text in UTF-8 without control characters");
+  }
+  variables[name] = value;
+}
+
 void refuse_incomplete(const Options& options) {
-  const bool looks_only = options.validate || options.print_scene || options.pixel;
-  if (options.scene.empty()) throw UsageError("no scene given; for example: raytrace scene.xml -o picture.exr");
-  if (options.outputs.empty() && !looks_only) {
-    throw UsageError("no output given; for example: raytrace " + options.scene + " -o picture.exr");
+  if (options.scenes.empty()) throw UsageError("no scene given; for example: raytrace scene.xml -o picture.exr");
+  for (const std::string& scene : options.scenes) {
+    if (scene.empty()) throw UsageError("the scene's file name is empty");
+  }
+  if (options.outputs.empty() && options.renders()) {
+    throw UsageError("no output given; for example: raytrace " + options.scenes.front() + " -o picture.exr");
   }
   if (options.resume && options.checkpoint.empty()) {
     throw UsageError("--resume goes on from a checkpoint: say which with --checkpoint FILE");

@@ -65,7 +65,7 @@ struct Options {
   bool version = false;
   bool help = false;
 
-  bool renders() const { return !validate && !print_scene; }
+  bool renders() const { return !validate && !print_scene && !pixel; }
   Verbosity verbosity() const;
   ImageFileSettings image_file_settings() const { return {full_float, bit_depth, true, threads}; }
 };

@@ -56,7 +56,7 @@ void tell_findings(const Diagnostics& diagnostics) {
 }  // namespace
 
 void check_outputs(const Options& options) {
-  if (options.validate || options.print_scene || options.pixel) return;
+  if (!options.renders()) return;
   for (const std::string& file : options.outputs) check_writable(file, options.image_file_settings());
   if (options.full_float && std::none_of(options.outputs.begin(), options.outputs.end(), holds_float)) {
     throw UsageError("--float: none of the outputs can hold floats; .exr and .tif can");

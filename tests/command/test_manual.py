@@ -32,7 +32,7 @@ class Manual(CommandTest):
             self.assertLessEqual(len(line), 80, line)
         self.assertEqual(self.help, self.succeed("-h").stdout)
         tail = self.help[self.help.index("\nExamples:"):]
-        self.assertEqual(len(re.findall(r"^  raytrace .*-o", tail, re.M)), 5)
+        self.assertEqual(len(re.findall(r"^  raytrace .*-o", tail, re.M)), 6)
         for code in ("0 ", "1 ", "2 ", "33 ", "75 ", "130, 143"):
             self.assertIn(f"\n  {code}", tail)
 
@@ -41,7 +41,8 @@ class Manual(CommandTest):
             "-o", "--output", "--float", "--bit-depth", "-r", "--resolution", "--scale", "--crop", "-s", "--spp",
             "--seed", "-t", "--threads", "--isa", "-q", "--quiet", "-v", "--verbose", "--progress", "--stats",
             "--validate", "--print-scene", "--list", "--version", "-h", "--help", "--tile", "--sample-offset", "--pixel",
-            "--time-limit", "--checkpoint", "--checkpoint-interval", "--resume", "--log-file", "--display-server"})
+            "--time-limit", "--checkpoint", "--checkpoint-interval", "--resume", "--log-file", "--display-server",
+            "--frames", "-D", "--define", "--skip-existing"})
 
     def test_man_page_has_the_same_options(self):
         terms = re.findall(r"^\.TP\n\\fB(.*)\\fR$", self.man_page.replace(r"\-", "-"), re.M)
