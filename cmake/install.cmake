@@ -1,4 +1,5 @@
-# cmake --install: program, library, headers, scenes and their schema, the statistics' schema, man page, and the package for find_package(raytrace).
+# cmake --install: program, library, headers, scenes, schemas, what render farms run, man pages, and the package for
+# find_package(raytrace).
 include(CMakePackageConfigHelpers)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/raytrace)
@@ -20,6 +21,7 @@ install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/raytrace
   FILES_MATCHING PATTERN "*.xml" PATTERN "*.xsd")
 install(FILES ${PROJECT_BINARY_DIR}/share/man/man1/raytrace.1 ${PROJECT_BINARY_DIR}/share/man/man1/raytrace-merge.1
   DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+install(DIRECTORY share/openjd share/slurm DESTINATION ${CMAKE_INSTALL_DATADIR}/raytrace)
 install(FILES share/statistics.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/raytrace)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 

@@ -20,8 +20,9 @@ list(GET places 3 data)
 list(GET places 4 man)
 foreach(file IN ITEMS ${bin}/raytrace ${lib}/libraytrace.a ${lib}/raytrace/raytrace_openimageio.so
     ${lib}/cmake/raytrace/raytraceConfig.cmake
-    ${include}/raytrace/render/renderer.h ${data}/raytrace/scenes/seed.xml ${data}/raytrace/scenes/raytracer.xsd ${data}/raytrace/statistics.schema.json
-    ${man}/man1/raytrace.1)
+    ${include}/raytrace/render/renderer.h ${data}/raytrace/scenes/seed.xml ${data}/raytrace/scenes/raytracer.xsd
+    ${data}/raytrace/statistics.schema.json ${data}/raytrace/openjd/tiles.yaml ${data}/raytrace/slurm/tiles.sbatch
+    ${man}/man1/raytrace.1 ${man}/man1/raytrace-merge.1)
   if(NOT EXISTS ${prefix}/${file})
     message(FATAL_ERROR "${file} is not installed")
   endif()

@@ -1,0 +1,21 @@
+# Sourced by cmake/test, after cmake/setup.sh: what the tests of the farms need besides. Where something of it cannot be
+# had, its test is skipped.
+# POSIX sh.
+
+# OpenJD's program, in a folder of its own.
+requirements=$root/tests/farm/requirements.txt
+venv=$root/build/farm/venv
+if ! cmp -s "$requirements" "$venv/installed"; then
+  install_packages python3-venv && python3 -m venv "$venv" >&2 &&
+    "$venv/bin/pip" install --quiet --retries 1 --requirement "$requirements" >&2 &&
+    cp "$requirements" "$venv/installed" ||
+    say "openjd-cli cannot be installed: the test of the OpenJD templates will be skipped."
+fi
+
+# Slurm's daemons. Only for root, for others cannot run them as the test does.
+if [ "$(id -u)" != 0 ]; then
+  say "Not root: the test of the Slurm scripts will be skipped."
+else
+  install_packages slurm-wlm munge ||
+    say "Slurm cannot be installed: the test of its scripts will be skipped."
+fi
