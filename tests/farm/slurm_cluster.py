@@ -4,12 +4,11 @@ import os
 import re
 import secrets
 import shutil
-import signal
 import socket
 import subprocess
 import time
 
-PROGRAMS = ["munged", "slurmctld", "slurmd", "sbatch", "setpriv"]
+PROGRAMS = ["munged", "slurmctld", "slurmd", "sbatch", "setpriv", "unshare"]
 
 # cred_expire is also how long a requeued job waits. Memory and processors are declared, not looked up: nothing here is
 # scheduled by them.
@@ -41,7 +40,7 @@ KillWait=15
 MinJobAge=600
 CommunicationParameters=NoInAddrAny,NoCtldInAddrAny
 SchedulerParameters=batch_sched_delay=0,sched_interval=1
-NodeName=localhost NodeAddr=127.0.0.1 NodeHostname={host} CPUs=2 RealMemory=8000 State=UNKNOWN
+NodeName=localhost NodeAddr=127.0.0.1 CPUs=2 RealMemory=8000 State=UNKNOWN
 PartitionName=main Nodes=localhost Default=YES MaxTime=INFINITE State=UP
 """
 
@@ -78,7 +77,7 @@ class SlurmCluster:
             key.write(secrets.token_bytes(128))
         ports = _free_ports(2)
         self._write("slurm.conf", CONFIGURATION.format(
-            folder=self.folder, host=socket.gethostname().split(".")[0], controller_port=ports[0], node_port=ports[1]))
+            folder=self.folder, controller_port=ports[0], node_port=ports[1]))
         if _version() >= (23, 2):  # before, it did without cgroups unasked
             self._write("cgroup.conf", "CgroupPlugin=disabled\n")
 
@@ -152,18 +151,22 @@ class SlurmCluster:
             file.write(text)
 
     def _launch(self, name, *options):
-        """Starts a daemon, which ends when this process does."""
+        """Starts a daemon, which ends when this process does and for which this machine is called localhost: Slurm
+        listens on the address of that name, and not each machine's own name has one."""
         with open(self.path(f"{name}.log"), "wb") as log:
-            self.daemons.append(subprocess.Popen(
-                ["setpriv", "--pdeathsig", "TERM", name, *options], env=self.environment, cwd=self.folder,
-                stdin=subprocess.DEVNULL, stdout=log, stderr=log))
+            daemon = subprocess.Popen(
+                ["setpriv", "--pdeathsig", "TERM", "unshare", "--uts", "sh", "-c", 'hostname localhost && exec "$@"', "sh",
+                 name, *options], env=self.environment, cwd=self.folder,
+                stdin=subprocess.DEVNULL, stdout=log, stderr=log)
+        daemon.name = name
+        self.daemons.append(daemon)
 
     def _wait(self, what, condition, state=lambda: ""):
         end = time.monotonic() + self.PATIENCE
         while not condition():
             for daemon in self.daemons:
                 if daemon.poll() is not None:
-                    raise CannotRun(f"{daemon.args[3]} ended while this waited for {what}:\n{self._logs()}")
+                    raise CannotRun(f"{daemon.name} ended while this waited for {what}:\n{self._logs()}")
             if time.monotonic() > end:
                 raise AssertionError(f"waited {self.PATIENCE} s in vain for {what}: {state()}\n{self._logs()}")
             time.sleep(0.1)
