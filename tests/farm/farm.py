@@ -46,7 +46,7 @@ class FarmTest(support.CommandTest):
 
     def samples_for(self, seconds):
         """Samples a pixel for which one thread renders that long."""
-        tried = 2000
+        tried = 400
         self.succeed("scene.xml", "-q", "--isa", self.instruction_set, "-t", "1", "-s", str(tried), "--frames", "1", "-o", "tried.####.exr",
                      "--stats=tried.json")
         with open(self.path("tried.json"), encoding="utf-8") as file:

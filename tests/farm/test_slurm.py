@@ -63,7 +63,7 @@ class Scripts(FarmTest):
 
     def test_samples(self):
         job = self.submit("samples.sbatch", "--array=0-1", SAMPLES="6", OPTIONS="-r 40x30")
-        self.complete(self.submit_merge(job, 2))
+        self.complete(self.submit_merge(job, 2, TOTAL_SAMPLES="12"))
         self.assert_same(self.picture("pictures/picture.0001.exr"), self.whole_picture(1, "-r", "40x30", "-s", "12"))
 
     def test_frames(self):
