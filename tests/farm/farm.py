@@ -31,7 +31,8 @@ class FarmTest(support.CommandTest):
 
     def whole_picture(self, frame, *options):
         """The frame rendered at once."""
-        self.succeed("scene.xml", "-q", *options, "--isa", self.instruction_set, "--frames", str(frame), "-o", "whole.####.exr")
+        self.succeed("scene.xml", "-q", *options, "--isa", self.instruction_set, "--frames", str(frame),
+                     "-o", "whole.####.exr")
         return self.picture(f"whole.{frame:04}.exr")
 
     def picture(self, name):
@@ -47,7 +48,7 @@ class FarmTest(support.CommandTest):
     def samples_for(self, seconds):
         """Samples a pixel for which one thread renders that long."""
         tried = 400
-        self.succeed("scene.xml", "-q", "--isa", self.instruction_set, "-t", "1", "-s", str(tried), "--frames", "1", "-o", "tried.####.exr",
-                     "--stats=tried.json")
+        self.succeed("scene.xml", "-q", "--isa", self.instruction_set, "-t", "1", "-s", str(tried), "--frames", "1",
+                     "-o", "tried.####.exr", "--stats=tried.json")
         with open(self.path("tried.json"), encoding="utf-8") as file:
             return round(tried * seconds / json.load(file)["seconds"]["render"])

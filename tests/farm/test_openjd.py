@@ -51,7 +51,6 @@ class Template(FarmTest):
         for task in tasks:
             percentages = self.progress(task)
             self.assertTrue(percentages, task)
-            self.assertLess(percentages[0], 100)
             self.assertEqual(percentages[-1], 100)
 
 
@@ -120,6 +119,7 @@ class Cancelled(Template):
         tasks = self.succeed_with("frames.yaml", **settings)
         self.assert_whole_progress(tasks)
         self.assertGreater(self.progress(tasks[0])[0], 0, "where it goes on")
+        self.assertGreater(len(set(self.progress(tasks[0]))), 3)
         self.assertEqual(os.listdir(self.path("check points")), [])
         for frame in [1, 2]:
             self.assert_same(self.picture(f"it's out/picture.{frame:04}.exr"), self.whole_picture(frame, "-s", str(samples)))
