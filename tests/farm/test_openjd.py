@@ -19,8 +19,9 @@ def setUpModule():
 
 class Template(FarmTest):
     def start(self, *arguments):
-        return subprocess.Popen([OPENJD, *arguments], cwd=self.folder, text=True, stdin=subprocess.DEVNULL,
-                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        # Its own temporary files go where the test's are.
+        return subprocess.Popen([OPENJD, *arguments], cwd=self.folder, env={**os.environ, "TMPDIR": self.folder},
+                                text=True, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
 
     def start_template(self, template, *arguments, **parameters):
         parameters = {"Scene": "scene.xml", "OutDir": "it's out", "CheckpointDir": "check points",
@@ -122,7 +123,8 @@ class Cancelled(Template):
         self.assertGreater(len(set(self.progress(tasks[0]))), 3)
         self.assertEqual(os.listdir(self.path("check points")), [])
         for frame in [1, 2]:
-            self.assert_same(self.picture(f"it's out/picture.{frame:04}.exr"), self.whole_picture(frame, "-s", str(samples)))
+            self.assert_same(self.picture(f"it's out/picture.{frame:04}.exr"),
+                             self.whole_picture(frame, "-s", str(samples)))
 
 
 def _tasks(log):
