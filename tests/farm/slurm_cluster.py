@@ -153,7 +153,8 @@ class SlurmCluster:
     def _launch(self, name, *options):
         """Starts a daemon, which ends when this process does and for which this machine is called localhost: Slurm
         listens on the address of that name, and not each machine's own name has one."""
-        command = ["setpriv", "--pdeathsig", "TERM", "unshare", "--uts", "sh", "-c", 'hostname localhost && exec "$@"', "sh"]
+        command = ["setpriv", "--pdeathsig", "TERM",
+                   "unshare", "--uts", "sh", "-c", 'hostname localhost && exec "$@"', "sh"]
         with open(self.path(f"{name}.log"), "wb") as log:
             daemon = subprocess.Popen([*command, name, *options], env=self.environment, cwd=self.folder,
                                       stdin=subprocess.DEVNULL, stdout=log, stderr=log)
