@@ -98,7 +98,7 @@ class Templates(Template):
 
 class Cancelled(Template):
     def test_goes_on_from_its_checkpoint(self):
-        samples = self.samples_for(3)
+        samples = self.samples_for(2)  # and so each of the two frames
         settings = {"Frames": "1-2", "ChunkSize": 2, "Options": f"-s {samples} -t 1"}
 
         with self.start_template("frames.yaml", **settings) as running:
@@ -114,7 +114,7 @@ class Cancelled(Template):
         self.assertEqual(running.returncode, 1, log)
         self.assertIn("exited with code: 75 ", log)
         reached = self.progress(tasks[0])[-1]
-        self.assertLess(reached, 50, "a moment after the beginning of the first frame")
+        self.assertLess(reached, 100)
         self.assertEqual(len(os.listdir(self.path("check points"))), 1)
 
         tasks = self.succeed_with("frames.yaml", **settings)
