@@ -10,10 +10,11 @@
 
 namespace raytrace::benchmark {
 
-/// Who intersects the spheres.
-enum class SphereGeometry {
-  callback,  ///< Sphere::intersect, as the renderer does
-  embree,    ///< Embree's built-in RTC_GEOMETRY_TYPE_SPHERE_POINT; only for scenes of spheres and planes
+/// What the rays are put to.
+enum class BareLoop {
+  parts,           ///< the renderer's own parts: first the planes, then Embree's scene of all else
+  embree,          ///< one scene of Embree's, as it is mostly used: the planes in it, too
+  embree_spheres,  ///< the same with Embree's RTC_GEOMETRY_TYPE_SPHERE_POINT; only for scenes of spheres and planes
 };
 
 struct CeilingResult {
@@ -29,7 +30,6 @@ class Ceiling {
 };
 
 /// isa: one of isa_names() that isa_supported().
-std::unique_ptr<Ceiling> make_ceiling(const SceneDescription& description, const std::string& isa,
-                                      SphereGeometry spheres);
+std::unique_ptr<Ceiling> make_ceiling(const SceneDescription& description, const std::string& isa, BareLoop bare);
 
 }  // namespace raytrace::benchmark

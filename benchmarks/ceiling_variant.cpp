@@ -52,7 +52,21 @@ void store_valid(const MaskN& mask, int* valid) {
   for (int lane = 0; lane < native_lanes; ++lane) valid[lane] = (bits >> lane & 1) != 0 ? -1 : 0;
 }
 
-/// Spheres as Embree's own geometry, planes as ours.
+template <class EmbreeRays>
+Ray<FloatN> load(const EmbreeRays& rays) {
+  const auto field = [](const float* lanes) { return FloatN::load_aligned(lanes); };
+  return {{field(rays.org_x), field(rays.org_y), field(rays.org_z)},
+          {field(rays.dir_x), field(rays.dir_y), field(rays.dir_z)},
+          field(rays.tnear),
+          field(rays.tfar)};
+}
+
+/// A plane in a box as large as Embree takes.
+struct BoxedPlane : Plane {
+  static Bounds bounds(const Record<double>&) { return {{-1e18F, -1e18F, -1e18F}, {1e18F, 1e18F, 1e18F}}; }
+};
+
+/// Everything in one scene of Embree's, spheres as its own geometry.
 class EmbreeSpheres {
  public:
   explicit EmbreeSpheres(const SceneDescription& description)
@@ -67,30 +81,25 @@ class EmbreeSpheres {
     }
     rtcCommitGeometry(geometry.get());
     rtcAttachGeometry(scene_.get(), geometry.get());
-    for (const auto& item : std::get<ObjectItems<Plane>>(description.objects))
-      planes_.records.push_back(Plane::record(item.parameters));
-    const embree::Geometry planes = make_user_geometry(device_.get(), planes_);
-    rtcCommitGeometry(planes.get());
-    rtcAttachGeometry(scene_.get(), planes.get());
     rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
-    rtcCommitScene(scene_.get());
   }
   RTCScene scene() const { return scene_.get(); }
 
  private:
-  ShapeTable<Plane> planes_;
   embree::Device device_;
   embree::Scene scene_;
 };
 
 class CeilingOfVariant final : public Ceiling {
  public:
-  CeilingOfVariant(const SceneDescription& description, SphereGeometry spheres)
+  CeilingOfVariant(const SceneDescription& description, BareLoop bare)
       : scene_(description, 0, "",
                native_lanes == 16  ? "avx512"
                : native_lanes == 8 ? "avx2"
-                                   : "sse4.2") {
-    if (spheres == SphereGeometry::embree) embree_spheres_ = std::make_unique<EmbreeSpheres>(description);
+                                   : "sse4.2"),
+        bare_(bare) {
+    if (bare == BareLoop::embree_spheres) embree_spheres_ = std::make_unique<EmbreeSpheres>(description);
+    if (bare != BareLoop::parts) add_planes(description);
   }
 
   CeilingResult trace(int threads) const override {
@@ -120,13 +129,45 @@ class CeilingOfVariant final : public Ceiling {
       shadow.clear();
       for (int y = top; y < top + tile_edge; y += block_height)
         for (int x = left; x < left + tile_edge; x += block_width) make_rays(x, y, first, camera, shadow, result.rays);
-      const RTCScene scene = embree_spheres_ ? embree_spheres_->scene() : scene_.accelerator().embree_scene();
-      embree::Query query(true);
       const auto start = std::chrono::steady_clock::now();
-      for (CameraPacket& packet : camera) Packet::intersect(packet.valid, scene, query, packet.rays);
-      for (ShadowPacket& packet : shadow) Packet::occluded(packet.valid, scene, query, packet.rays);
+      for (CameraPacket& packet : camera) intersect(packet);
+      for (ShadowPacket& packet : shadow) occluded(packet);
       result.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }
+  }
+
+  void intersect(CameraPacket& packet) const {
+    if (bare_ == BareLoop::parts) {
+      const Hits hits = scene_.accelerator().intersect_unbounded(load(packet.rays.ray), MaskN(true));
+      hits.distance.store_aligned(packet.rays.ray.tfar);
+    }
+    embree::Query query(true);
+    Packet::intersect(packet.valid, embree_scene(), query, packet.rays);
+  }
+
+  void occluded(ShadowPacket& packet) const {
+    if (bare_ == BareLoop::parts) {
+      const MaskN valid = float_mask<FloatN>(IntN::load_aligned(packet.valid) != IntN(0));
+      const MaskN left = valid & !scene_.accelerator().occluded_unbounded(load(packet.rays), valid);
+      if (xsimd::none(left)) return;
+      store_valid(left, packet.valid);
+    }
+    embree::Query query(true);
+    Packet::occluded(packet.valid, embree_scene(), query, packet.rays);
+  }
+
+  RTCScene embree_scene() const {
+    return embree_spheres_ ? embree_spheres_->scene() : scene_.accelerator().embree_scene();
+  }
+
+  /// To Embree's scene, where the renderer has none.
+  void add_planes(const SceneDescription& description) {
+    for (const auto& item : std::get<ObjectItems<Plane>>(description.objects))
+      planes_.records.push_back(Plane::record(item.parameters));
+    const embree::Geometry planes = make_user_geometry(rtcGetSceneDevice(embree_scene()), planes_);
+    rtcCommitGeometry(planes.get());
+    rtcAttachGeometry(embree_scene(), planes.get());
+    rtcCommitScene(embree_scene());
   }
 
   /// The rays of up to 16 samples of a block, as the renderer makes them.
@@ -172,7 +213,9 @@ class CeilingOfVariant final : public Ceiling {
     }
   }
 
+  ShapeTable<BoxedPlane> planes_;
   TracedScene scene_;
+  BareLoop bare_;
   std::unique_ptr<EmbreeSpheres> embree_spheres_;
 };
 
@@ -186,6 +229,6 @@ class CeilingOfVariant final : public Ceiling {
 /// The caller owns the result.
 extern "C" raytrace::benchmark::Ceiling* RAYTRACE_JOIN(raytrace_ceiling_,
                                                        RAYTRACE_VARIANT)(const raytrace::SceneDescription& description,
-                                                                         raytrace::benchmark::SphereGeometry spheres) {
-  return new raytrace::benchmark::CeilingOfVariant(description, spheres);
+                                                                         raytrace::benchmark::BareLoop bare) {
+  return new raytrace::benchmark::CeilingOfVariant(description, bare);
 }

@@ -16,12 +16,15 @@ namespace {
 using namespace raytrace;
 using namespace raytrace::benchmark;
 
+/// In BareLoop's order.
+const std::vector<std::string> bare_loop_names{"parts", "embree", "embree-spheres"};
+
 struct Options {
   std::vector<std::string> scenes{"spheres:1000", "spheres:100000", "mix:5000"};
   std::vector<int> threads{1, 0};
   int resolution = 1024, samples = 16, runs = 5;
   std::string isa = best_isa();
-  std::string sphere = "callback";
+  std::string bare = "parts";
   bool json = false;
 };
 
@@ -57,17 +60,17 @@ Options parse(int argc, char** argv) {
   parser.add_option("--runs", options.runs, "Runs of which the median counts")->capture_default_str();
   parser.add_option("--isa", options.isa, "Instruction set")->check(CLI::IsMember(isa_names()))->capture_default_str();
   parser
-      .add_option("--sphere", options.sphere,
-                  "Who intersects spheres in the bare loop, where they are alone with planes: our callback, or "
-                  "Embree's built-in sphere")
-      ->check(CLI::IsMember({"callback", "embree"}))
+      .add_option("--bare", options.bare,
+                  "What the bare loop asks: the renderer's own parts, with planes beside Embree's scene; one scene of "
+                  "Embree's; or one with its built-in sphere, where spheres are alone with planes")
+      ->check(CLI::IsMember(bare_loop_names))
       ->capture_default_str();
   parser.add_flag("--json", options.json, "Print JSON instead of a table, times in seconds");
   try {
     parser.parse(argc, argv);
     for (const std::string& scene : options.scenes)
-      if (options.sphere == "embree" && !scene.starts_with("spheres:"))
-        throw CLI::ValidationError("--sphere", "Embree's built-in sphere cannot stand in for the shapes of " + scene);
+      if (options.bare == "embree-spheres" && !scene.starts_with("spheres:"))
+        throw CLI::ValidationError("--bare", "Embree's built-in sphere cannot stand in for the shapes of " + scene);
   } catch (const CLI::ParseError& error) {
     std::exit(parser.exit(error));
   }
@@ -90,8 +93,8 @@ struct Timing {
 
 Timing time_scene(const SceneDescription& description, int threads, const Options& options) {
   const auto scene = build_scene(description, {threads, options.isa});
-  const auto ceiling = make_ceiling(description, options.isa,
-                                    options.sphere == "embree" ? SphereGeometry::embree : SphereGeometry::callback);
+  const auto bare = std::find(bare_loop_names.begin(), bare_loop_names.end(), options.bare) - bare_loop_names.begin();
+  const auto ceiling = make_ceiling(description, options.isa, static_cast<BareLoop>(bare));
   std::vector<double> render_seconds, bare_seconds, ratios;
   RayCounts rays;
   for (int run = 0; run < options.runs; ++run) {
@@ -111,8 +114,8 @@ int main(int argc, char** argv) {
   const Options options = parse(argc, argv);
   nlohmann::json results = nlohmann::json::array();
   if (!options.json) {
-    std::printf("%s, %d x %d, %d samples, spheres of the bare loop by %s; medians of %d runs\n", options.isa.c_str(),
-                options.resolution, options.resolution, options.samples, options.sphere.c_str(), options.runs);
+    std::printf("%s, %d x %d, %d samples, bare loop: %s; medians of %d runs\n", options.isa.c_str(), options.resolution,
+                options.resolution, options.samples, options.bare.c_str(), options.runs);
     std::printf("%-16s %7s %10s %10s %10s %14s %14s\n", "scene", "threads", "render s", "bare s", "ratio",
                 "render Mray/s", "bare Mray/s");
   }

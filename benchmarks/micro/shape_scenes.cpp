@@ -15,7 +15,6 @@ ShapeScene scene_of(const typename Shape::Parameters& parameters) {
 
 std::vector<ShapeScene> shape_scenes() {
   return {
-      scene_of<Plane>({{0, 0, 0}, {0, 1, 0}}),
       scene_of<Sphere>({{0, 0, 0}, 1}),
       scene_of<Triangle>({{-1.2, -1, 0.2}, {1.2, -0.9, -0.3}, {0.1, 1.3, 0.1}}),
       scene_of<Cylinder>({{-0.6, -0.8, 0.3}, {0.6, 0.8, -0.3}, 0.6}),

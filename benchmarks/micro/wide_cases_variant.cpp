@@ -196,6 +196,22 @@ void add_brdf_cases(const std::string& name, MakeBrdf make_brdf, std::vector<Mic
 
 Rgb<FloatN> random_color(RandomLanes& random) { return {random.number(), random.number(), random.number()}; }
 
+/// The shape that Embree knows nothing of.
+void add_plane_case(std::vector<MicroCase>& cases) {
+  RandomLanes random;
+  std::vector<Ray<FloatN>> rays;
+  for (std::size_t i = 0; i < packet_count; ++i)
+    rays.push_back({random.direction(), random.direction(), FloatN(0), infinity<FloatN>()});
+  const auto plane = Plane::record({{0, 0, 1}, {0.3, 0.4, 1}});
+  add_packet_case(
+      "intersect/plane", 1,
+      [plane, rays](std::size_t i) {
+        const FloatN t = Plane::intersect(plane, rays[i], MaskN(true));
+        return xsimd::select(t < infinity<FloatN>(), t, FloatN(0));
+      },
+      cases);
+}
+
 void add_camera_case(std::vector<MicroCase>& cases) {
   RandomLanes random;
   std::vector<FloatN> points;
@@ -256,6 +272,7 @@ extern "C" void RAYTRACE_JOIN(raytrace_micro_,
         return GlossySpecular<FloatN>{random_color(random), FloatN(1) + random.number() * FloatN(100)};
       },
       cases);
+  add_plane_case(cases);
   add_camera_case(cases);
   add_sampler_case(cases);
 }

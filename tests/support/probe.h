@@ -42,8 +42,8 @@ class Probe {
   /// The same by packets of the variant's native width (consecutive rays share one; the last one is filled up with
   /// inactive lanes).
   std::vector<ProbeHit> intersect_packet(std::span<const ProbeRay> rays) const;
-  /// Nearest hits straight from Embree's packet query of size 4, 8 or 16 (only hit, distance, kind and index are filled
-  /// in).
+  /// Nearest hits straight from Embree's packet query of size 4, 8 or 16, after the shapes that are not in its scene
+  /// (only hit, distance, kind and index are filled in).
   std::vector<ProbeHit> intersect_embree(std::span<const ProbeRay> rays, int packet_size) const;
   /// Whether anything lies between near and far; the same three ways.
   std::vector<bool> occluded_single(std::span<const ProbeRay> rays) const;

@@ -129,28 +129,40 @@ class Backend final : public ProbeBackend {
     return result;
   }
 
-  std::vector<ProbeHit> intersect_embree(std::span<const ProbeRay> rays, int packet_size) const override {
+  std::vector<ProbeHit> intersect_embree(std::span<const ProbeRay> all, int packet_size) const override {
+    std::vector<ProbeRay> shortened(all.begin(), all.end());
+    std::vector<ProbeHit> result(all.size());
+    for_each_packet(all, [&](std::size_t first, std::size_t count, const Ray<FloatN>& rays, const MaskN& active) {
+      const Hits hits = accelerator_.intersect_unbounded(rays, active);
+      const std::uint32_t lanes = bits_of<FloatN>(hits.hit);
+      for (std::size_t i = 0; i < count; ++i)
+        if ((lanes >> i & 1) != 0) {
+          ProbeHit& hit = result[first + i];
+          hit.hit = true;
+          hit.distance = shortened[first + i].far = hits.distance.get(i);
+          hit.kind = hits.kind.get(i);
+          hit.index = static_cast<std::uint32_t>(hits.primitive.get(i));
+        }
+    });
     const RTCScene scene = accelerator_.embree_scene();
-    switch (packet_size) {
-      case 4:
-        return EmbreePackets<4>::intersect(scene, rays);
-      case 8:
-        return EmbreePackets<8>::intersect(scene, rays);
-      default:
-        return EmbreePackets<16>::intersect(scene, rays);
-    }
+    const auto nearer = packet_size == 4   ? EmbreePackets<4>::intersect(scene, shortened)
+                        : packet_size == 8 ? EmbreePackets<8>::intersect(scene, shortened)
+                                           : EmbreePackets<16>::intersect(scene, shortened);
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (nearer[i].hit) result[i] = nearer[i];
+    return result;
   }
 
-  std::vector<bool> occluded_embree(std::span<const ProbeRay> rays, int packet_size) const override {
+  std::vector<bool> occluded_embree(std::span<const ProbeRay> all, int packet_size) const override {
     const RTCScene scene = accelerator_.embree_scene();
-    switch (packet_size) {
-      case 4:
-        return EmbreePackets<4>::occluded(scene, rays);
-      case 8:
-        return EmbreePackets<8>::occluded(scene, rays);
-      default:
-        return EmbreePackets<16>::occluded(scene, rays);
-    }
+    std::vector<bool> result = packet_size == 4   ? EmbreePackets<4>::occluded(scene, all)
+                               : packet_size == 8 ? EmbreePackets<8>::occluded(scene, all)
+                                                  : EmbreePackets<16>::occluded(scene, all);
+    for_each_packet(all, [&](std::size_t first, std::size_t count, const Ray<FloatN>& rays, const MaskN& active) {
+      const std::uint32_t lanes = bits_of<FloatN>(accelerator_.occluded_unbounded(rays, active));
+      for (std::size_t i = 0; i < count; ++i) result[first + i] = result[first + i] || (lanes >> i & 1) != 0;
+    });
+    return result;
   }
 
  private:

@@ -107,6 +107,18 @@ embree::Geometry make_triangles(RTCDevice device, const ShapeTable<Shape>& table
   return geometry;
 }
 
+/// Calls f(kind, primitive, record) for each object of the shapes without end.
+template <class Tables, class Function>
+void for_each_unbounded(const Tables& tables, Function f) {
+  for_each_type(Shapes{}, [&](auto type) {
+    using Shape = typename decltype(type)::type;
+    if constexpr (UnboundedShape<Shape>) {
+      std::uint32_t primitive = 0;
+      for (const auto& record : std::get<ShapeTable<Shape>>(tables).records) f(type, primitive++, record);
+    }
+  });
+}
+
 /// The surfaces of one shape, under the wide type of its table's precision.
 template <class Shape>
 SurfacePoint<FloatN> surface_of(const ShapeTable<Shape>& table, const IntN& primitive, const Ray<FloatN>& rays,
@@ -114,7 +126,7 @@ SurfacePoint<FloatN> surface_of(const ShapeTable<Shape>& table, const IntN& prim
   constexpr bool in_float = std::is_same_v<typename ShapeTable<Shape>::Record, typename Shape::template Record<float>>;
   using Wide = std::conditional_t<in_float, FloatN, Doubles<FloatN>>;
   const auto records = gather_records<Shape::template Record, Wide>(table.records.data(), primitive);
-  if constexpr (UserGeometry<Shape>) {
+  if constexpr (UserGeometry<Shape> || UnboundedShape<Shape>) {
     return Shape::template surface<FloatN>(records, rays, hits.distance);
   } else {
     return Shape::template surface<FloatN>(records, hits.u, hits.v);
@@ -139,15 +151,17 @@ Accelerator::Accelerator(const SceneDescription& description, int threads, const
     using Shape = typename decltype(type)::type;
     auto& table = std::get<ShapeTable<Shape>>(tables_);
     fill_table(description, table);
-    if (table.records.empty()) return;
-    embree::Geometry geometry;
-    if constexpr (UserGeometry<Shape>) {
-      geometry = make_user_geometry(device_.get(), table);
-    } else {
-      geometry = make_triangles(device_.get(), table);
+    if constexpr (!UnboundedShape<Shape>) {
+      if (table.records.empty()) return;
+      embree::Geometry geometry;
+      if constexpr (UserGeometry<Shape>) {
+        geometry = make_user_geometry(device_.get(), table);
+      } else {
+        geometry = make_triangles(device_.get(), table);
+      }
+      rtcCommitGeometry(geometry.get());
+      rtcAttachGeometryByID(scene_.get(), geometry.get(), static_cast<unsigned>(index_of<Shape>(Shapes{})));
     }
-    rtcCommitGeometry(geometry.get());
-    rtcAttachGeometryByID(scene_.get(), geometry.get(), static_cast<unsigned>(index_of<Shape>(Shapes{})));
   });
   rtcCommitScene(scene_.get());
   bytes_ = static_cast<std::uint64_t>(std::max<std::int64_t>(report.bytes, 0));
@@ -156,15 +170,42 @@ Accelerator::Accelerator(const SceneDescription& description, int threads, const
   if (report.error != RTC_ERROR_NONE) throw_embree_error(report.error, report.message.c_str());
 }
 
+Hits Accelerator::intersect_unbounded(const Ray<FloatN>& rays, const MaskN& active) const {
+  Hits hits;
+  hits.kind = UintN(RTC_INVALID_GEOMETRY_ID);
+  hits.primitive = IntN(0);
+  hits.distance = rays.far;
+  for_each_unbounded(tables_, [&](auto type, std::uint32_t primitive, const auto& record) {
+    using Shape = typename decltype(type)::type;
+    const Ray<FloatN> shortened{rays.origin, rays.direction, rays.near, hits.distance};
+    const FloatN t = Shape::template intersect<FloatN>(record, shortened, active);
+    const MaskN hit = t < hits.distance;
+    hits.distance = xsimd::select(hit, t, hits.distance);
+    hits.kind = select_lanes(hit, UintN(static_cast<std::uint32_t>(index_of<Shape>(Shapes{}))), hits.kind);
+    hits.primitive = select_lanes(hit, IntN(static_cast<std::int32_t>(primitive)), hits.primitive);
+  });
+  hits.hit = float_mask<FloatN>(hits.kind != UintN(RTC_INVALID_GEOMETRY_ID));
+  return hits;
+}
+
+MaskN Accelerator::occluded_unbounded(const Ray<FloatN>& rays, const MaskN& active) const {
+  MaskN occluded(false);
+  for_each_unbounded(tables_, [&](auto type, std::uint32_t, const auto& record) {
+    using Shape = typename decltype(type)::type;
+    occluded = occluded | (Shape::template intersect<FloatN>(record, rays, active) < infinity<FloatN>());
+  });
+  return occluded;
+}
+
 Hits Accelerator::intersect(const Ray<FloatN>& rays, const MaskN& active, Coherence coherence) const {
   const MaskN valid_lanes = active & embree_takes(rays);
-  Hits hits;
-  hits.hit = MaskN(false);
+  // First the shapes without end: what lies behind their hits need not be looked for.
+  Hits hits = intersect_unbounded(rays, valid_lanes);
   if (xsimd::none(valid_lanes)) return hits;
 
   embree::Query query(coherence == Coherence::coherent);
   alignas(64) typename Packet::RayHit packet;
-  store_rays(rays, packet.ray);
+  store_rays({rays.origin, rays.direction, rays.near, hits.distance}, packet.ray);
   UintN(RTC_INVALID_GEOMETRY_ID).store_aligned(packet.hit.geomID);
   UintN(RTC_INVALID_GEOMETRY_ID).store_aligned(packet.hit.instID[0]);
   if (coherence == Coherence::coherent) {
@@ -185,9 +226,11 @@ Hits Accelerator::intersect(const Ray<FloatN>& rays, const MaskN& active, Cohere
       packet.hit.geomID[lane] = single.hit.geomID;
     }
   }
-  hits.kind = UintN::load_aligned(packet.hit.geomID);
-  hits.hit = valid_lanes & float_mask<FloatN>(std::bit_cast<IntN>(hits.kind) != IntN(-1));
-  hits.primitive = std::bit_cast<IntN>(UintN::load_aligned(packet.hit.primID));
+  const UintN kind = UintN::load_aligned(packet.hit.geomID);
+  const MaskN in_bvh = valid_lanes & float_mask<FloatN>(kind != UintN(RTC_INVALID_GEOMETRY_ID));
+  hits.hit = hits.hit | in_bvh;
+  hits.kind = select_lanes(in_bvh, kind, hits.kind);
+  hits.primitive = select_lanes(in_bvh, std::bit_cast<IntN>(UintN::load_aligned(packet.hit.primID)), hits.primitive);
   hits.distance = FloatN::load_aligned(packet.ray.tfar);
   hits.u = FloatN::load_aligned(packet.hit.u);
   hits.v = FloatN::load_aligned(packet.hit.v);
@@ -195,8 +238,10 @@ Hits Accelerator::intersect(const Ray<FloatN>& rays, const MaskN& active, Cohere
 }
 
 MaskN Accelerator::occluded(const Ray<FloatN>& rays, const MaskN& active, Coherence coherence) const {
-  const MaskN valid_lanes = active & embree_takes(rays);
-  if (xsimd::none(valid_lanes)) return MaskN(false);
+  const MaskN takeable = active & embree_takes(rays);
+  const MaskN unbounded = occluded_unbounded(rays, takeable);
+  const MaskN valid_lanes = takeable & !unbounded;
+  if (xsimd::none(valid_lanes)) return unbounded;
 
   embree::Query query(coherence == Coherence::coherent);
   alignas(64) typename Packet::Ray packet;
@@ -213,7 +258,7 @@ MaskN Accelerator::occluded(const Ray<FloatN>& rays, const MaskN& active, Cohere
       packet.tfar[lane] = single.tfar;
     }
   }
-  return valid_lanes & (FloatN::load_aligned(packet.tfar) < FloatN(0));
+  return unbounded | (valid_lanes & (FloatN::load_aligned(packet.tfar) < FloatN(0)));
 }
 
 SurfacePoint<FloatN> Accelerator::surface(const Ray<FloatN>& rays, const Hits& hits) const {

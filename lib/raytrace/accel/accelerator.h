@@ -51,7 +51,10 @@ class Accelerator {
   /// "3.13.5"
   std::string embree_version() const;
 
-  /// Embree's scene, for tests and benchmarks that put their own queries to it.
+  /// The two parts of a query, for tests and benchmarks that put their own to Embree: the shapes without end, and the
+  /// scene that holds all others. `active`: lanes that Embree can take; distance is `far` in lanes without a hit.
+  Hits intersect_unbounded(const Ray<FloatN>& rays, const MaskN& active) const;
+  MaskN occluded_unbounded(const Ray<FloatN>& rays, const MaskN& active) const;
   RTCScene embree_scene() const { return scene_.get(); }
 
  private:

@@ -15,9 +15,16 @@
 
 namespace raytrace {
 
-/// Shapes that bring their own intersection; the others are Embree's triangles.
+/// Shapes that bring their own intersection, and bounds for a BVH to keep them in.
 template <class Shape>
 concept UserGeometry = requires { &Shape::bounds; };
+
+/// Shapes without end: they bring their own intersection, which every ray goes through, and stay out of the BVH. There
+/// all boxes on the way to them would be without end.
+template <class Shape>
+concept UnboundedShape = !UserGeometry<Shape> && requires { &Shape::template intersect<FloatN>; };
+
+// All others are Embree's triangles.
 
 /// The records of all objects of one shape: what an Embree geometry points at.
 template <class Shape>

@@ -84,10 +84,15 @@ template <class F>
 Mask<F> float_mask(const typename Ints<F>::batch_bool_type& mask) {
   return std::bit_cast<Mask<F>>(mask);
 }
+template <class F>
+Mask<F> float_mask(const typename Uints<F>::batch_bool_type& mask) {
+  return std::bit_cast<Mask<F>>(mask);
+}
 
 /// Lane by lane: a where the mask of float lanes is true, else b.
-inline IntN select_lanes(const MaskN& mask, const IntN& a, const IntN& b) {
-  return std::bit_cast<IntN>(xsimd::select(mask, std::bit_cast<FloatN>(a), std::bit_cast<FloatN>(b)));
+template <class Integers>
+Integers select_lanes(const MaskN& mask, const Integers& a, const Integers& b) {
+  return std::bit_cast<Integers>(xsimd::select(mask, std::bit_cast<FloatN>(a), std::bit_cast<FloatN>(b)));
 }
 
 /// base[index], lane for lane. Through float's gather: xsimd 8 has no instruction for that of integers.

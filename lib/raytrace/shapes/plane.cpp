@@ -11,9 +11,4 @@ Plane::Record<double> Plane::record(const Parameters& parameters) {
   return {normal, dot(normal, parameters.point)};
 }
 
-Bounds Plane::bounds(const Record<double>&) {
-  const float edge = 1e18f;
-  return {{-edge, -edge, -edge}, {edge, edge, edge}};
-}
-
 }  // namespace raytrace

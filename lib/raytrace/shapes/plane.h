@@ -2,14 +2,13 @@
 //
 //   <plane> <point x="0" y="0" z="0"/> <normal x="0" y="1" z="0"/> <material>floor</material> </plane>
 //
-// Embree wants finite boxes, so the plane's is as large as Embree takes; the plane itself has no edge. Distances are
-// computed in double: far from the origin, or at the horizon, both terms of the quotient cancel.
+// It has no bounds(), and so stays out of the BVH. Distances are computed in double: far from the origin, or at the
+// horizon, both terms of the quotient cancel.
 #pragma once
 
 #include <cmath>
 
 #include "raytrace/description/fields.h"
-#include "raytrace/math/bounds.h"
 #include "raytrace/math/ray.h"
 #include "raytrace/math/simd.h"
 
@@ -31,7 +30,6 @@ class Plane {
     T offset;        ///< dot(normal, any point of the plane)
   };
   static Record<double> record(const Parameters& parameters);
-  static Bounds bounds(const Record<double>& plane);
 
   /// The distance if it is inside (ray.near, ray.far), in each lane of `active`; infinity elsewhere.
   template <class F>
