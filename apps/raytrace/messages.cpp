@@ -95,7 +95,7 @@ void tell_warning(const std::string& text) {
 }
 
 void tell_note(const std::string& text) {
-  if (tells(Verbosity::warnings)) write("", text);
+  if (tells(Verbosity::warnings)) write_message("", text);
 }
 
 void tell_step(const std::string& text) {

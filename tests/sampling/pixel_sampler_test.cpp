@@ -18,7 +18,7 @@ UintN columns_from(std::uint32_t first) {
 }
 
 PixelSampler sampler(std::uint32_t first_column, std::uint32_t row, std::uint64_t seed, int samples) {
-  return {columns_from(first_column), UintN(row), seed, 0, samples == 1};
+  return {columns_from(first_column), UintN(row), UintN(0u), 1, seed, 0, samples == 1};
 }
 
 using Place = std::pair<float, float>;

@@ -16,7 +16,7 @@ constexpr std::size_t lights_per_run = 16;
 }  // namespace
 
 SeenRadiance Raycast::radiance(const TracedScene& scene, const Ray<FloatN>& rays, const MaskN& active,
-                               RayCounts& counts) {
+                               const MaskN& counted, RayCounts& counts) {
   const Rgb<FloatN> background{Rgb<float>(scene.viewplane().background)};
   const Hits hits = scene.accelerator().intersect(rays, active, Coherence::coherent);
   if (xsimd::none(hits.hit)) return {background, hits.hit};
@@ -41,7 +41,7 @@ SeenRadiance Raycast::radiance(const TracedScene& scene, const Ray<FloatN>& rays
     const FloatN cosine = dot(point.normal, wi);
     MaskN lit = hits.hit & (cosine > FloatN(0));
     if (light->shadows() && xsimd::any(lit)) {
-      counts.shadow += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(lit)));
+      counts.shadow += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(lit & counted)));
       const Ray<FloatN> shadow_rays{origin, sample.to_light, FloatN(0), sample.end};
       const MaskN occluded = scene.accelerator().occluded(shadow_rays, lit, Coherence::coherent);
       lit = lit & !occluded;

@@ -17,9 +17,9 @@ class Raycast {
   static constexpr std::string_view name = "raycast";
 
   /// The radiance that arrives along the rays, whose directions have unit length, in the lanes of `active`; adds the
-  /// shadow rays to `counts`.
+  /// shadow rays in those of `counted` to `counts`.
   static SeenRadiance radiance(const TracedScene& scene, const Ray<FloatN>& rays, const MaskN& active,
-                               RayCounts& counts);
+                               const MaskN& counted, RayCounts& counts);
 };
 
 }  // namespace raytrace

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "raytrace/integrators/packet_block.h"
 #include "raytrace/integrators/registry.h"
 #include "raytrace/math/fixed_point_sums.h"
 #include "raytrace/sampling/pixel_sampler.h"
@@ -14,28 +15,12 @@ namespace raytrace {
 
 namespace {
 
-/// Packets cover blocks of 4 x 4, 4 x 2 or 2 x 2 pixels: as square as they can be, for rays that stay together.
-constexpr int block_width = native_lanes >= 8 ? 4 : 2;
-constexpr int block_height = native_lanes / block_width;
-
-/// The stop flag is looked at every so many samples.
-constexpr std::uint32_t samples_per_look = 16;
-
-struct LaneNumbers {
-  alignas(64) std::array<std::uint32_t, native_lanes> column{}, row{};
-};
-constexpr LaneNumbers lane_numbers = [] {
-  LaneNumbers lanes;
-  for (unsigned lane = 0; lane < native_lanes; ++lane) {
-    lanes.column[lane] = lane % block_width;
-    lanes.row[lane] = lane / block_width;
-  }
-  return lanes;
-}();
+/// The stop flag is looked at every so many packets.
+constexpr int packets_per_look = 16;
 
 FloatN to_float(const UintN& numbers) { return xsimd::to_float(std::bit_cast<IntN>(numbers)); }
 
-/// The sums of a block's samples, a pixel a lane.
+/// The sums of a block's samples, lane by lane.
 class BlockSums {
  public:
   explicit BlockSums(int unit_exponent)
@@ -43,93 +28,107 @@ class BlockSums {
         most_(static_cast<float>(std::min(std::ldexp(FixedPointSums<FloatN>::largest_term, unit_exponent),
                                           static_cast<double>(std::numeric_limits<float>::max())))) {}
 
-  /// Adds a sample of each pixel of `active`. The result: those whose radiance is not finite (or beyond what the sums
+  /// Adds a sample of each lane of `wanted`. The result: those whose radiance is not finite (or beyond what the sums
   /// can hold), which are counted as black.
-  MaskN add(const SeenRadiance& seen, const MaskN& active) {
-    Rgb<FloatN> radiance = seen.radiance;
+  MaskN add(const SeenRadiance& seen, const MaskN& wanted) {
     // Radiances are not negative: the sum is large where one of them is, and NaN compares false.
-    const MaskN bad = active & !(radiance.red + radiance.green + radiance.blue <= most_);
-    if (xsimd::any(bad)) radiance = select(bad, Rgb<FloatN>(Rgb<float>(0, 0, 0)), radiance);
+    const MaskN fine = wanted & (seen.radiance.red + seen.radiance.green + seen.radiance.blue <= most_);
+    const Rgb<FloatN> radiance = select(fine, seen.radiance, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
     red_.add(radiance.red, units_);
     green_.add(radiance.green, units_);
     blue_.add(radiance.blue, units_);
-    hits_ = hits_ + select_lanes(seen.hit, IntN(1), IntN(0));
-    ++samples_;
-    return bad;
+    hits_ = hits_ + select_lanes(seen.hit & wanted, IntN(1), IntN(0));
+    samples_ = samples_ + select_lanes(wanted, IntN(1), IntN(0));
+    return wanted & !fine;
   }
 
-  std::uint32_t samples() const { return samples_; }
-
-  /// Adds them to the pixels of the block at (left, top) that lie in the region.
-  void add_to(Film& film, int left, int top, const Region& region) const {
+  /// Adds them to the pixels of the block that lie in the region.
+  template <class Block>
+  void add_to(Film& film, const Block& block, const Region& region) const {
     const auto red = red_.sums(), green = green_.sums(), blue = blue_.sums();
-    alignas(64) std::array<std::int32_t, native_lanes> hits;
+    alignas(64) std::array<std::int32_t, native_lanes> hits, samples;
     hits_.store_aligned(hits.data());
-    for (int row = std::max(top, region.y0); row < std::min(top + block_height, region.y1); ++row)
-      for (int column = std::max(left, region.x0); column < std::min(left + block_width, region.x1); ++column) {
-        const auto lane = static_cast<std::size_t>((row - top) * block_width + column - left);
-        film.sum(column, row) += {red[lane], green[lane], blue[lane], static_cast<std::uint32_t>(hits[lane]), samples_};
-      }
+    samples_.store_aligned(samples.data());
+    block.for_each_lane(region, [&](int x, int y, std::size_t lane) {
+      film.sum(x, y) += {red[lane], green[lane], blue[lane], static_cast<std::uint32_t>(hits[lane]),
+                         static_cast<std::uint32_t>(samples[lane])};
+    });
   }
 
  private:
   Doubles<FloatN> units_;
   FloatN most_;
   FixedPointSums<FloatN> red_, green_, blue_;
-  IntN hits_ = IntN(0);
-  std::uint32_t samples_ = 0;
+  IntN hits_ = IntN(0), samples_ = IntN(0);
 };
 
-/// Block by block, the pixels of a film's region, with what all blocks share.
-template <class Integrator>
+/// The pixels of a part of a film, block by block.
+template <class Integrator, PacketShape shape>
 class BlockRenderer {
  public:
   BlockRenderer(const TracedScene& scene, const Region& region, Film& film, const std::atomic<bool>* stop)
       : scene_(scene), region_(region), film_(film), stop_(stop) {}
 
-  /// Continues the block's pixels to `samples` each; false if it was stopped before.
-  bool render(int left, int top, std::uint32_t samples) {
-    const UintN column = UintN(static_cast<std::uint32_t>(left)) + UintN::load_aligned(lane_numbers.column.data());
-    const UintN row = UintN(static_cast<std::uint32_t>(top)) + UintN::load_aligned(lane_numbers.row.data());
+  /// Continues all pixels to `samples` each; returns early if it is stopped.
+  RenderReport render(std::uint32_t samples) {
+    for (int top = region_.y0 / shape.height * shape.height; top < region_.y1; top += shape.height)
+      for (int left = region_.x0 / shape.width * shape.width; left < region_.x1; left += shape.width) {
+        render({left, top}, samples);
+        if (stopped()) return report_;
+      }
+    return report_;
+  }
+
+ private:
+  using Block = PacketBlock<shape>;
+
+  void render(const Block& block, std::uint32_t samples) {
+    const FilmSettings& settings = film_.settings();
+    // All pixels of a block have as many: they are always rendered together.
+    const std::uint32_t before = film_.sum(std::max(block.left, region_.x0), std::max(block.top, region_.y0)).samples;
+    if (before >= samples) return;
+    const std::uint32_t first = settings.samples.first + before, last = settings.samples.first + samples;
+
     const ViewPlane& viewplane = scene_.viewplane();
+    const UintN column = block.columns(), row = block.rows(), slot = Block::slots();
     const auto width = static_cast<float>(viewplane.hres), height = static_cast<float>(viewplane.vres);
     // The lower left corner of the pixel, from the picture's center; rows of the format count from the bottom.
     const FloatN x = to_float(column) - FloatN(width / 2);
     const FloatN y = FloatN(height / 2 - 1) - to_float(row);
     const MaskN active = (to_float(column) < FloatN(width)) & (to_float(row) < FloatN(height));
 
-    const FilmSettings& settings = film_.settings();
-    // All pixels of a block have as many: they are always rendered together.
-    const std::uint32_t before = film_.sum(std::max(left, region_.x0), std::max(top, region_.y0)).samples;
-    if (before >= samples) return true;
-    const std::uint32_t missing = samples - before;
-    PixelSampler sampler(column, row, settings.seed, settings.samples.first + before, settings.samples.centered);
+    // From the group that the first sample is in, with all that belong to it.
+    constexpr auto group = static_cast<std::uint32_t>(shape.samples);
+    std::uint32_t base = first / group * group;
+    PixelSampler sampler(column, row, slot, shape.samples, settings.seed, base, settings.samples.centered);
     BlockSums sums(settings.unit_exponent);
-    while (sums.samples() < missing && !stopped()) {
-      const std::uint32_t pause = sums.samples() + std::min(samples_per_look, missing - sums.samples());
-      while (sums.samples() < pause) {
-        const PixelSampler::Point point = sampler.next();
-        const Ray<FloatN> rays = scene_.camera().generate(x + point.x, y + point.y);
-        const MaskN bad = sums.add(Integrator::radiance(scene_, rays, active, report_.rays), active);
-        if (xsimd::any(bad)) set_aside(bad, left, top, settings.samples.first + before + sums.samples() - 1);
-      }
+    for (int packets = 1; base < last; base += group, ++packets) {
+      const UintN sample = UintN(base) + slot;
+      const bool all_wanted = base >= first && last - base >= group;
+      const MaskN wanted = all_wanted ? active : active & in_range(sample, first, last);
+      const PixelSampler::Point point = sampler.next();
+      const Ray<FloatN> rays = scene_.camera().generate(x + point.x, y + point.y);
+      const MaskN bad = sums.add(Integrator::radiance(scene_, rays, active, wanted, report_.rays), wanted);
+      report_.rays.camera += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(wanted)));
+      if (xsimd::any(bad)) set_aside(bad, block, base);
+      if (packets % packets_per_look == 0 && stopped()) break;
     }
-    sums.add_to(film_, left, top, region_);
-    report_.rays.camera += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(active))) * sums.samples();
-    return sums.samples() == missing;
+    sums.add_to(film_, block, region_);
   }
 
-  const RenderReport& report() const { return report_; }
+  static MaskN in_range(const UintN& number, std::uint32_t first, std::uint32_t last) {
+    return float_mask<FloatN>(std::bit_cast<IntN>(number - UintN(first)) >= IntN(0)) &
+           float_mask<FloatN>(std::bit_cast<IntN>(number - UintN(last)) < IntN(0));
+  }
 
- private:
   bool stopped() const { return stop_ != nullptr && stop_->load(std::memory_order_relaxed); }
 
-  void set_aside(const MaskN& bad, int left, int top, std::uint32_t sample) {
-    for (std::uint32_t lanes = bits_of<FloatN>(bad); lanes != 0; lanes &= lanes - 1) {
-      const int lane = std::countr_zero(lanes);
-      const int x = left + lane % block_width, y = top + lane / block_width;
-      if (x >= region_.x0 && x < region_.x1 && y >= region_.y0 && y < region_.y1) report_.set_aside.add({x, y, sample});
-    }
+  void set_aside(const MaskN& bad, const Block& block, std::uint32_t base) {
+    const std::uint32_t lanes = bits_of<FloatN>(bad);
+    block.for_each_lane(region_, [&](int x, int y, std::size_t lane) {
+      if ((lanes >> lane & 1U) != 0)
+        report_.set_aside.add({x, y, base + static_cast<std::uint32_t>(Block::slot(static_cast<int>(lane)))});
+    });
   }
 
   const TracedScene& scene_;
@@ -143,11 +142,9 @@ class BlockRenderer {
 
 RenderReport render_pixels(const TracedScene& scene, const Region& region, std::uint32_t samples, Film& film,
                            const std::atomic<bool>* stop) {
-  BlockRenderer<Raycast> renderer(scene, region, film, stop);
-  for (int top = region.y0 / block_height * block_height; top < region.y1; top += block_height)
-    for (int left = region.x0 / block_width * block_width; left < region.x1; left += block_width)
-      if (!renderer.render(left, top, samples)) return renderer.report();
-  return renderer.report();
+  if (film.settings().samples.centered)
+    return BlockRenderer<Raycast, centered_shape>(scene, region, film, stop).render(samples);
+  return BlockRenderer<Raycast, sampled_shape>(scene, region, film, stop).render(samples);
 }
 
 }  // namespace raytrace

@@ -24,9 +24,7 @@ class SobolSequence {
 
   /// Stands at the point of the given index.
   explicit SobolSequence(std::uint32_t index = 0) : index_(index) {
-    const std::uint32_t gray = index ^ (index >> 1);
-    for (int bit = 0; bit < 32; ++bit)
-      if ((gray >> bit & 1) != 0) flip(bit);
+    for (std::uint32_t bits = gray_code(index); bits != 0; bits &= bits - 1) flip(std::countr_zero(bits));
   }
 
   const Point& point() const { return point_; }
@@ -34,7 +32,29 @@ class SobolSequence {
   /// On to the next index, at most 2^32 - 1.
   void advance() { flip(std::countr_zero(++index_)); }
 
+  /// On by 2^step_bits, from an index that is a multiple of it.
+  void advance(int step_bits) {
+    const std::uint32_t before = index_;
+    index_ += std::uint32_t{1} << step_bits;
+    for (std::uint32_t bits = gray_code(before) ^ gray_code(index_); bits != 0; bits &= bits - 1)
+      flip(std::countr_zero(bits));
+  }
+
+  /// Points are linear in the bits of their index: point(a ^ b) = point(a) ^ point(b). So this, with exclusive or,
+  /// moves the points of indices that are multiples of 2^bits on by `number` < 2^bits, lane by lane.
+  template <class Uints>
+  static void move_on(const Uints& number, int bits, Uints& x, Uints& y) {
+    const Uints gray = number ^ (number >> 1);
+    for (int bit = 0; bit < bits; ++bit) {
+      const Uints has_bit = Uints(0u) - (gray >> bit & Uints(1u));
+      x = x ^ (has_bit & Uints(0x80000000u >> bit));
+      y = y ^ (has_bit & Uints(second_directions[static_cast<std::size_t>(bit)]));
+    }
+  }
+
  private:
+  static std::uint32_t gray_code(std::uint32_t index) { return index ^ (index >> 1); }
+
   void flip(int bit) {
     point_.x ^= 0x80000000u >> bit;
     point_.y ^= second_directions[static_cast<std::size_t>(bit)];

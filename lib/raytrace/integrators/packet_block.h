@@ -1,0 +1,64 @@
+// Which samples of which pixels the rays of a packet are.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "raytrace/film/film.h"
+#include "raytrace/math/simd.h"
+
+namespace raytrace {
+
+/// A block of width x height pixels, with so many samples of each: a lane each, native_lanes in all.
+struct PacketShape {
+  int width, height, samples;
+};
+
+/// As many samples of as few pixels as samples are at hand for: such rays are closer together than those of one sample
+/// of many pixels. Samples 0, 1, ... of a pixel belong to groups of `samples`, which are always traced together: a
+/// sample's bits do not depend on which others are asked for.
+inline constexpr PacketShape sampled_shape = {2, 2, native_lanes / 4};
+
+/// For pictures of a single sample a pixel: as square as can be.
+inline constexpr PacketShape centered_shape = {native_lanes >= 8 ? 4 : 2, native_lanes >= 8 ? native_lanes / 4 : 2, 1};
+
+/// The block whose left upper pixel is (left, top).
+template <PacketShape shape>
+struct PacketBlock {
+  int left = 0, top = 0;
+
+  /// Of a lane's pixel, in the picture; and the lane's sample in its group.
+  int column(int lane) const { return left + lane % shape.width; }
+  int row(int lane) const { return top + lane / shape.width % shape.height; }
+  static constexpr int slot(int lane) { return lane / (shape.width * shape.height); }
+
+  UintN columns() const { return UintN(static_cast<std::uint32_t>(left)) + UintN::load_aligned(numbers.column.data()); }
+  UintN rows() const { return UintN(static_cast<std::uint32_t>(top)) + UintN::load_aligned(numbers.row.data()); }
+  static UintN slots() { return UintN::load_aligned(numbers.slot.data()); }
+
+  /// Calls f(x, y, lane) for the lanes whose pixels lie in the region.
+  template <class Function>
+  void for_each_lane(const Region& region, const Function& f) const {
+    for (int lane = 0; lane < native_lanes; ++lane) {
+      const int x = column(lane), y = row(lane);
+      if (x >= region.x0 && x < region.x1 && y >= region.y0 && y < region.y1) f(x, y, static_cast<std::size_t>(lane));
+    }
+  }
+
+ private:
+  struct LaneNumbers {
+    alignas(64) std::array<std::uint32_t, native_lanes> column{}, row{}, slot{};
+  };
+  static constexpr LaneNumbers numbers = [] {
+    LaneNumbers lanes;
+    for (int lane = 0; lane < native_lanes; ++lane) {
+      const auto i = static_cast<std::size_t>(lane);
+      lanes.column[i] = static_cast<std::uint32_t>(lane % shape.width);
+      lanes.row[i] = static_cast<std::uint32_t>(lane / shape.width % shape.height);
+      lanes.slot[i] = static_cast<std::uint32_t>(slot(lane));
+    }
+    return lanes;
+  }();
+};
+
+}  // namespace raytrace
