@@ -127,6 +127,45 @@ TEST_CASE("the nearest of many objects of all shapes") {
   check_against_brute_force(shapes, rays);
 }
 
+TEST_CASE("no ray slips through where triangles meet") {
+  Random random(14);
+  constexpr int edge = 12;
+  std::vector<Vector> corners;  // hills, seen from above
+  for (int row = 0; row <= edge; ++row)
+    for (int column = 0; column <= edge; ++column)
+      corners.push_back(exact_vector(
+          rounded({column - edge / 2 + random.between(-0.3, 0.3), random.between(-0.5, 0.5), row - edge / 2 + 0.0})));
+  std::vector<reference::ShapePointer> triangles;
+  std::vector<ProbeRay> rays;
+  const auto aim = [&](const Vector& target) {
+    const Vector origin = target + Vector{random.between(-3, 3), random.log_between(2, 1000), random.between(-3, 3)};
+    rays.push_back({rounded(origin), rounded(target - origin)});
+  };
+  for (int row = 0; row < edge; ++row)
+    for (int column = 0; column < edge; ++column) {
+      const auto at = [&](int right, int down) {
+        return corners[static_cast<std::size_t>((row + down) * (edge + 1) + column + right)];
+      };
+      triangles.push_back(std::make_shared<reference::Triangle>(at(0, 0), at(1, 0), at(0, 1)));
+      triangles.push_back(std::make_shared<reference::Triangle>(at(1, 1), at(1, 0), at(0, 1)));
+      if (row == 0 || column == 0 || row == edge - 1 || column == edge - 1) continue;
+      for (int i = 0; i < 20; ++i) {
+        const double share = random.between(0, 1);
+        aim(share * at(1, 0) + (1 - share) * at(0, 1));
+        aim(share * at(0, 0) + (1 - share) * at(1, 0));
+        aim(at(0, 0));
+      }
+    }
+  for_each_isa_and_query(
+      parsed_scene(scene_of(triangles)), rays,
+      [&](const std::string& name, const std::vector<ProbeHit>& hits, const std::vector<bool>& occluded) {
+        INFO(name);
+        int missed = 0;
+        for (std::size_t i = 0; i < rays.size(); ++i) missed += !hits[i].hit || !occluded[i];
+        CHECK(missed == 0);
+      });
+}
+
 TEST_CASE("the nearest of 10,000 planes") {
   Random random(12);
   std::vector<reference::ShapePointer> planes;
