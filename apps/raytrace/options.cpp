@@ -161,7 +161,7 @@ void define_options(CLI::App& parser, Options& options) {
 
   add(parser, "--time-limit", "TIME",
       "Stop adding samples when TIME (90s, 10m, 1h30m) has passed since the start; the picture has as many as fit, at "
-      "least 1",
+      "least 4",
       [&](const std::string& text) { options.time_limit = duration(text); })
       ->group("Work");
 

@@ -160,12 +160,13 @@ bool PictureRender::is_due() const {
 std::uint32_t PictureRender::next_target(std::uint32_t done, double seconds_a_sample) const {
   const std::uint32_t all = identity_.film.samples.count;
   if (!options_.time_limit && options_.checkpoint.empty() && !display_) return all;
-  constexpr std::uint32_t most_samples = 32;  // of a pass
-  std::uint32_t samples = std::min({std::clamp(done, 1U, most_samples), all - done});
+  constexpr std::uint32_t group = 4;  // what a packet takes at once: fewer would cost as much
+  constexpr std::uint32_t least_samples = group, most_samples = 32;  // of a pass
+  std::uint32_t samples = std::min(std::clamp(done, least_samples, most_samples), all - done);
   if (options_.time_limit && done > 0) {
     const double left = *options_.time_limit - Seconds(Clock::now() - start_).count();
-    const double most = seconds_a_sample > 0 ? std::floor(left / seconds_a_sample) : left > 0 ? 1.0 : 0.0;
-    samples = static_cast<std::uint32_t>(std::clamp(most, 0.0, static_cast<double>(samples)));
+    const double fitting = seconds_a_sample > 0 ? std::max(0.0, left / seconds_a_sample) : left > 0 ? group : 0.0;
+    if (fitting < samples) samples = static_cast<std::uint32_t>(fitting) / group * group;
   }
   return done + samples;
 }
