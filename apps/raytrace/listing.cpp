@@ -1,5 +1,6 @@
 #include "listing.h"
 
+#include "raytrace/aovs/registry.h"
 #include "raytrace/cameras/registry.h"
 #include "raytrace/integrators/registry.h"
 #include "raytrace/lights/registry.h"
@@ -32,8 +33,8 @@ Kind kind_of(const std::string& name, List list) {
 }
 
 std::vector<Kind> kinds() {
-  return {kind_of("shapes", Shapes()), kind_of("materials", Materials()), kind_of("lights", Lights()),
-          kind_of("cameras", Cameras()), kind_of("integrators", Integrators())};
+  return {kind_of("shapes", Shapes()),   kind_of("materials", Materials()),     kind_of("lights", Lights()),
+          kind_of("cameras", Cameras()), kind_of("integrators", Integrators()), kind_of("aovs", Aovs())};
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "raytrace/aovs/aov_selection.h"
 #include "raytrace/description/nearest_name.h"
 #include "raytrace/description/quoted.h"
 
@@ -71,6 +72,16 @@ int bit_depth(const std::string& text) {
 std::string one_of(const std::string& text, const Names& names) {
   if (std::find(names.begin(), names.end(), text) != names.end()) return text;
   throw UsageError(in_quotes(text) + " is not one of " + joined(names, ", ") + suggestion(text, names));
+}
+
+AovSet aovs(const std::string& text) {
+  const Names all = aov_names();
+  Names choices = all;
+  choices.emplace_back("all");
+  Names wanted;
+  for (const std::string_view name : split(text, ',')) wanted.push_back(one_of(std::string(name), choices));
+  const bool everything = std::find(wanted.begin(), wanted.end(), "all") != wanted.end();
+  return aov_set(everything ? all : wanted);
 }
 
 Resolution resolution(const std::string& text) {

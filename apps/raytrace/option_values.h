@@ -35,6 +35,9 @@ int bit_depth(const std::string& text);
 /// The text, if it is one of the names.
 std::string one_of(const std::string& text, const Names& names);
 
+/// "depth,normal", or "all" of them.
+AovSet aovs(const std::string& text);
+
 struct Resolution {
   int width = 0, height = 0;
 };

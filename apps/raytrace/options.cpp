@@ -9,6 +9,7 @@
 #include "listing.h"
 #include "option_parser.h"
 #include "option_values.h"
+#include "raytrace/aovs/aov_selection.h"
 #include "raytrace/description/quoted.h"
 #include "raytrace/description/utf8.h"
 #include "raytrace/description/variables.h"
@@ -118,6 +119,10 @@ void define_options(CLI::App& parser, Options& options) {
       ->group("Output");
   add_switch(parser, "--float", options.full_float, "32 bit floats in EXR (else 16 bit) and in TIFF (else sRGB)")
       ->group("Output");
+  add(parser, "--aov", "LIST",
+      "What EXR files hold besides the colour, separated by commas: " + joined(aov_names(), ", ") + "; or all",
+      [&](const std::string& text) { options.aovs = aovs(text); })
+      ->group("Output");
   add(parser, "--bit-depth", "8|16", "Bits a channel in PNG, TIFF and other sRGB-encoded files (8)",
       [&](const std::string& text) { options.bit_depth = bit_depth(text); })
       ->group("Output");
@@ -205,7 +210,7 @@ void define_options(CLI::App& parser, Options& options) {
   add_switch(parser, "--print-scene", options.print_scene,
              "Print the scene with every value spelled out, as it would be rendered, and render nothing")
       ->group("Look first");
-  add(parser, "--list", "KIND", "Print the " + joined(listing_kinds(), ", ") + " that scenes can use",
+  add(parser, "--list", "KIND", "Print the " + joined(listing_kinds(), ", ") + " that there are",
       [&](const std::string& text) { options.list = one_of(text, listing_kinds()); })
       ->group("Look first");
   add_switch(parser, "--version", options.version, "Print the version, the libraries' and the instruction sets")

@@ -47,6 +47,8 @@ struct Options {
   bool resume = false;
   std::optional<double> time_limit;  ///< seconds
 
+  AovSet aovs;
+
   int threads = 0;  ///< after parse_options never 0
   int bit_depth = 8;
   std::string isa;  ///< empty: the best

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "messages.h"
+#include "raytrace/aovs/aov_selection.h"
 #include "raytrace/output/film_channels.h"
 
 namespace raytrace {
@@ -33,11 +34,12 @@ bool succeeds(const Action& action) {
 
 }  // namespace
 
-Outputs::Outputs(const Options& options, const PictureExtent& extent, ImageMetadata metadata, bool with_sums)
-    : options_(options), with_sums_(with_sums), channels_(color_channels(options.full_float)) {
-  if (with_sums_) {
-    for (Channel& channel : sum_channels()) channels_.push_back(std::move(channel));
-  }
+Outputs::Outputs(const Options& options, const PictureExtent& extent, const ImageMetadata& metadata,
+                 std::vector<Channel> sums)
+    : options_(options), sums_(std::move(sums)), channels_(color_channels(options.full_float)) {
+  const std::vector<Channel> aovs = aov_channels(options_.aovs);
+  channels_.insert(channels_.end(), aovs.begin(), aovs.end());
+  channels_.insert(channels_.end(), sums_.begin(), sums_.end());
   for (const std::string& name : options_.outputs) {
     succeeds([&] {
       files_.push_back(
@@ -49,11 +51,13 @@ Outputs::Outputs(const Options& options, const PictureExtent& extent, ImageMetad
 bool Outputs::write(const Film& film, Statistics& statistics) {
   const PhaseTimer timer(statistics.seconds.write);
   const Region& region = film.region();
+  constexpr std::size_t colors = 4;
   ImageBand band;  // a few rows at a time, so that no second copy of the picture is needed
   for (int y0 = region.y0; y0 < region.y1 && !files_.empty(); y0 = band.region.y1) {
-    band.planes.resize(std::min<std::size_t>(band.planes.size(), 4));
+    band.planes.resize(std::min(band.planes.size(), colors));
     fill_color(band, film, y0, std::min(y0 + band_rows(region.width(), channels_.size()), region.y1));
-    if (with_sums_) append_sums(band, film);
+    fill_aovs(band, colors, film);
+    if (!sums_.empty()) append_sums(band, sums_, film);
     std::erase_if(files_, [&](File& file) { return !succeeds([&] { file.image->write(band); }); });
   }
   return !files_.empty();

@@ -13,8 +13,9 @@ namespace raytrace {
 
 class Outputs {
  public:
-  /// with_sums: EXR files keep the sums of the samples, too.
-  Outputs(const Options& options, const PictureExtent& extent, ImageMetadata metadata, bool with_sums);
+  /// sums: the sum_channels() that EXR files keep, too; empty if none.
+  Outputs(const Options& options, const PictureExtent& extent, const ImageMetadata& metadata,
+          std::vector<Channel> sums);
 
   /// film: whole rows of the extent's region, the next below those written before. False if no file is left that could
   /// be written.
@@ -30,9 +31,8 @@ class Outputs {
   };
 
   const Options& options_;
-  bool with_sums_;
-  std::vector<Channel> channels_;
-  std::vector<File> files_;  ///< those without a fault
+  std::vector<Channel> sums_, channels_;  ///< channels_: all of them
+  std::vector<File> files_;               ///< those without a fault
 };
 
 }  // namespace raytrace

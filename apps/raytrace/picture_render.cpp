@@ -10,6 +10,9 @@
 #include "messages.h"
 #include "outputs.h"
 #include "picture_settings.h"
+#include "raytrace/aovs/aov_selection.h"
+#include "raytrace/film/aov_film.h"
+#include "raytrace/output/film_channels.h"
 #include "raytrace/render/checkpoint.h"
 
 namespace raytrace {
@@ -19,10 +22,10 @@ namespace {
 using Seconds = std::chrono::duration<double>;
 
 /// Rows of a band: the most whose film is not larger than a GiB, and a multiple of every packet's height.
-int rows_of_bands(const Region& region) {
+int rows_of_bands(const Region& region, std::size_t pixel_bytes) {
   constexpr int unit = 32;
   constexpr std::size_t most_bytes = std::size_t{1} << 30U;
-  const std::size_t unit_bytes = unit * sizeof(PixelSum) * static_cast<std::size_t>(region.width());
+  const std::size_t unit_bytes = unit * pixel_bytes * static_cast<std::size_t>(region.width());
   return unit * static_cast<int>(std::max<std::size_t>(1, most_bytes / unit_bytes));
 }
 
@@ -40,7 +43,7 @@ PictureRender::PictureRender(const Scene& scene, const SceneDescription& descrip
       options_(options),
       signals_(signals),
       statistics_(statistics),
-      settings_{options.threads, options.seed, region, sample_range(description.viewplane, options)},
+      settings_{options.threads, options.seed, region, sample_range(description.viewplane, options), options.aovs},
       start_(start),
       next_checkpoint_(Clock::now() + in_seconds(options.checkpoint_interval)),
       progress_(options.progress) {
@@ -53,9 +56,13 @@ PictureRender::PictureRender(const Scene& scene, const SceneDescription& descrip
 }
 
 Ending PictureRender::run() {
-  const int rows = rows_of_bands(settings_.region);
-  // What goes on later, or may end at any sample, needs the whole film.
-  in_bands_ = options_.checkpoint.empty() && !options_.time_limit && rows < settings_.region.height();
+  const AovSettings aovs = aov_settings(options_.aovs);
+  const int rows = rows_of_bands(settings_.region, sizeof(PixelSum) + AovFilm::pixel_bytes(aovs));
+  // What goes on later, or may end at any sample, needs the whole film; so does the number of channels that a piece's
+  // AOVs need.
+  const bool whole_film =
+      !options_.checkpoint.empty() || options_.time_limit || (options_.sample_offset && aovs.gather());
+  in_bands_ = !whole_film && rows < settings_.region.height();
   const Ending ending = in_bands_ ? render_in_bands(rows) : render_at_once();
   tell_set_aside();
   return ending;
@@ -100,7 +107,8 @@ Ending PictureRender::render_at_once() {
 Ending PictureRender::render_in_bands(int band_rows) {
   const Region region = settings_.region;
   identity_.film = film_settings(scene_, description_, settings_);
-  Outputs outputs(options_, identity_.film.extent, metadata(), options_.sample_offset.has_value());
+  Outputs outputs(options_, identity_.film.extent, metadata(),
+                  options_.sample_offset ? sum_channels() : std::vector<Channel>());
   for (Region band = region; band.y0 < region.y1; band.y0 = band.y1) {
     band.y1 = std::min(band.y0 + band_rows, region.y1);
     settings_.region = band;
@@ -203,6 +211,7 @@ ImageMetadata PictureRender::metadata() const {
   metadata.threads = statistics_.threads;
   metadata.camera = camera_matrices(description_);
   metadata.attributes = identity_attributes(identity_);
+  metadata.data_attributes = aov_attributes(options_.aovs, description_);
   return metadata;
 }
 
@@ -214,7 +223,8 @@ bool PictureRender::write_picture(const Film& film, std::uint32_t samples, bool 
   its_metadata.samples = static_cast<int>(samples);
   if (!partial) its_metadata.render_seconds = statistics_.seconds.render;
   its_metadata.attributes = identity_attributes(identity);
-  Outputs outputs(options_, film.settings().extent, its_metadata, partial || options_.sample_offset.has_value());
+  Outputs outputs(options_, film.settings().extent, its_metadata,
+                  partial || options_.sample_offset ? sum_channels(film) : std::vector<Channel>());
   return outputs.write(film, statistics_) && outputs.commit(statistics_);
 }
 

@@ -61,6 +61,9 @@ void check_outputs(const Options& options) {
   if (options.full_float && std::none_of(options.outputs.begin(), options.outputs.end(), holds_float)) {
     throw UsageError("--float: none of the outputs can hold floats; .exr and .tif can");
   }
+  if (!options.aovs.empty() && std::none_of(options.outputs.begin(), options.outputs.end(), holds_data)) {
+    throw UsageError("--aov: none of the outputs can hold more than colour; .exr can");
+  }
   if (!options.statistics.empty() && options.statistics != statistics_as_text) {
     const AtomicFile made_and_removed(options.statistics);
   }

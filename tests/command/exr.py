@@ -64,7 +64,7 @@ def _text(data, at):
 
 
 def _channels(data):
-    codes = {1: "e", 2: "f"}  # half and float, as struct names them
+    codes = {0: "I", 1: "e", 2: "f"}  # unsigned integer, half and float, as struct names them
     channels, at = {}, 0
     while data[at] != 0:
         name, at = _text(data, at)

@@ -9,6 +9,8 @@
 #include <new>
 #include <type_traits>
 
+#include "raytrace/film/aov_film.h"
+
 namespace raytrace {
 
 PixelSum& PixelSum::operator+=(const PixelSum& other) {
@@ -31,6 +33,10 @@ int unit_exponent(float largest_radiance, std::uint64_t samples) {
 
 void Film::Unmap::operator()(PixelSum* sums) const { munmap(sums, bytes); }
 
+Film::~Film() = default;
+Film::Film(Film&&) noexcept = default;
+Film& Film::operator=(Film&&) noexcept = default;
+
 Film::Film(const FilmSettings& settings) : settings_(settings), unit_(std::ldexp(1.0, settings.unit_exponent)) {
   static_assert(std::is_trivially_copyable_v<PixelSum>);
   const std::size_t bytes = count() * sizeof(PixelSum);
@@ -39,6 +45,7 @@ Film::Film(const FilmSettings& settings) : settings_(settings), unit_(std::ldexp
   if (memory == MAP_FAILED) throw std::bad_alloc();
   sums_ = {static_cast<PixelSum*>(memory), Unmap{bytes}};
   madvise(memory, bytes, MADV_HUGEPAGE);  // where the system has larger pages: fewer to be asked for
+  if (settings.aovs.gather()) aovs_ = std::make_unique<AovFilm>(region(), settings.aovs);
 }
 
 Pixel Film::pixel(int x, int y) const {

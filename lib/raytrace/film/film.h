@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "raytrace/film/aov_settings.h"
+
 namespace raytrace {
 
 /// Pixels [x0, x1) x [y0, y1); the origin is the picture's top left corner.
@@ -53,6 +55,7 @@ struct FilmSettings {
   SampleRange samples;
   std::uint64_t seed = 0;
   int unit_exponent = -44;  ///< the sums count radiance in units of 2^unit_exponent
+  AovSettings aovs;
   friend bool operator==(const FilmSettings&, const FilmSettings&) = default;
 };
 
@@ -61,11 +64,16 @@ struct FilmSettings {
 /// samples. It depends on nothing else, so that the parts of a picture agree on it.
 int unit_exponent(float largest_radiance, std::uint64_t samples);
 
+class AovFilm;
+
 /// Holds the sums of the pixels of a region, all zero at first. Threads may write different pixels at the same time.
 class Film {
  public:
   /// Throws std::bad_alloc.
   explicit Film(const FilmSettings& settings);
+  ~Film();
+  Film(Film&&) noexcept;
+  Film& operator=(Film&&) noexcept;
 
   const FilmSettings& settings() const { return settings_; }
   const Region& region() const { return settings_.extent.region; }
@@ -80,6 +88,10 @@ class Film {
   /// All of them: row by row from the region's top, each from its left.
   std::vector<Pixel> pixels() const;
   std::span<const PixelSum> sums() const { return {sums_.get(), count()}; }
+
+  /// What the AOVs gather; null if they need nothing beside the sums.
+  AovFilm* aovs() { return aovs_.get(); }
+  const AovFilm* aovs() const { return aovs_.get(); }
 
   /// The fewest samples that a pixel has.
   std::uint32_t fewest_samples() const;
@@ -103,6 +115,7 @@ class Film {
   /// Zeros from the system, page by page as they are first written: by the threads that render, not by the one that
   /// makes the film.
   std::unique_ptr<PixelSum[], Unmap> sums_;
+  std::unique_ptr<AovFilm> aovs_;
 };
 
 }  // namespace raytrace

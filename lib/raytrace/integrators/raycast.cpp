@@ -16,14 +16,16 @@ constexpr std::size_t lights_per_run = 16;
 }  // namespace
 
 SeenRadiance Raycast::radiance(const TracedScene& scene, const Ray<FloatN>& rays, const MaskN& active,
-                               const MaskN& counted, RayCounts& counts) {
+                               const MaskN& counted, RayCounts& counts, MetSurface* met) {
   const Rgb<FloatN> background{Rgb<float>(scene.viewplane().background)};
   const Hits hits = scene.accelerator().intersect(rays, active, Coherence::coherent);
+  if (met != nullptr) met->hits = hits;
   if (xsimd::none(hits.hit)) return {background, hits.hit};
 
   SurfacePoint<FloatN> point = scene.accelerator().surface(rays, hits);
   const Vec3<FloatN> wo = -rays.direction;
   point.normal = select(dot(point.normal, wo) < FloatN(0), -point.normal, point.normal);
+  if (met != nullptr) met->point = point;
   const Vec3<FloatN> origin = leaving_origin(point);
 
   std::array<ArrivingLight, lights_per_run> arriving;

@@ -12,14 +12,20 @@ struct SeenRadiance {
   MaskN hit;  ///< false: the background was seen
 };
 
+/// What the rays met, for AOVs.
+struct MetSurface {
+  Hits hits;
+  SurfacePoint<FloatN> point;  ///< its normal on the side that is seen
+};
+
 class Raycast {
  public:
   static constexpr std::string_view name = "raycast";
 
   /// The radiance that arrives along the rays, whose directions have unit length, in the lanes of `active`; adds the
-  /// shadow rays in those of `counted` to `counts`.
+  /// shadow rays in those of `counted` to `counts`, and tells what was met if `met` is not null.
   static SeenRadiance radiance(const TracedScene& scene, const Ray<FloatN>& rays, const MaskN& active,
-                               const MaskN& counted, RayCounts& counts);
+                               const MaskN& counted, RayCounts& counts, MetSurface* met);
 };
 
 }  // namespace raytrace

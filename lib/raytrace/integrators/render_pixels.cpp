@@ -5,7 +5,9 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <optional>
 
+#include "raytrace/integrators/block_aovs.h"
 #include "raytrace/integrators/packet_block.h"
 #include "raytrace/integrators/registry.h"
 #include "raytrace/math/fixed_point_sums.h"
@@ -102,18 +104,24 @@ class BlockRenderer {
     std::uint32_t base = first / group * group;
     PixelSampler sampler(column, row, slot, shape.samples, settings.seed, base, settings.samples.centered);
     BlockSums sums(settings.unit_exponent);
+    std::optional<BlockAovs> aovs;
+    if (film_.aovs() != nullptr) aovs.emplace(*film_.aovs(), block, region_);
+    MetSurface met;
     for (int packets = 1; base < last; base += group, ++packets) {
       const UintN sample = UintN(base) + slot;
       const bool all_wanted = base >= first && last - base >= group;
       const MaskN wanted = all_wanted ? active : active & in_range(sample, first, last);
       const PixelSampler::Point point = sampler.next();
       const Ray<FloatN> rays = scene_.camera().generate(x + point.x, y + point.y);
-      const MaskN bad = sums.add(Integrator::radiance(scene_, rays, active, wanted, report_.rays), wanted);
+      const SeenRadiance seen = Integrator::radiance(scene_, rays, active, wanted, report_.rays, aovs ? &met : nullptr);
+      const MaskN bad = sums.add(seen, wanted);
+      if (aovs) aovs->add(SeenSurface(scene_, rays, met.hits, met.point), wanted, sample);
       report_.rays.camera += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(wanted)));
       if (xsimd::any(bad)) set_aside(bad, block, base);
       if (packets % packets_per_look == 0 && stopped()) break;
     }
     sums.add_to(film_, block, region_);
+    if (aovs) aovs->finish();
   }
 
   static MaskN in_range(const UintN& number, std::uint32_t first, std::uint32_t last) {

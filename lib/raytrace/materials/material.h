@@ -4,8 +4,10 @@
 //   template <class T> struct Brdfs { ... };         its BRDFs, members of type T only
 //   static Brdfs<float> brdfs(const Parameters&);
 //   template <class T> static Rgb<T> ambient(const Brdfs<T>&, const Rgb<T>& radiance);
+//   template <class T> static Rgb<T> albedo(const Brdfs<T>&);
 //   template <class T> static Rgb<T> reflect(const Brdfs<T>&, const Vec3<T>& wo, const Vec3<T>& wi, const Vec3<T>&
 //   normal);
+// albedo is the share of light from all sides that it scatters evenly to all sides, without highlights.
 // reflect is the sum of its BRDFs' f: without the cosine, all vectors unit length and away from the surface.
 //
 // Here they become MaterialTables: all materials of one type together, shaded for a packet in one call, whichever of
@@ -36,6 +38,10 @@ class MaterialTable {
   /// The most that any of them sends anywhere under lights of together that radiance: none reflects more than straight
   /// back along its normal.
   virtual Rgb<float> largest_radiance(const Rgb<float>& ambient_radiance, const Rgb<float>& light_radiance) const = 0;
+
+  /// The albedo of each lane's material, and the most that any of them has.
+  virtual Rgb<FloatN> albedo(const IntN& index) const = 0;
+  virtual Rgb<float> largest_albedo() const = 0;
 
   /// The radiance that leaves along wo. `index`: each lane's material, for every lane one that exists.
   virtual Rgb<FloatN> shade(const IntN& index, const Vec3<FloatN>& wo, const Vec3<FloatN>& normal,
@@ -68,6 +74,16 @@ class MaterialTableOf final : public MaterialTable {
           Material::template reflect<FloatN>(brdfs, normal, normal, normal) * Rgb<FloatN>(light_radiance);
       largest = max(largest, {radiance.red.get(0), radiance.green.get(0), radiance.blue.get(0)});
     }
+    return largest;
+  }
+
+  Rgb<FloatN> albedo(const IntN& index) const override {
+    return Material::template albedo<FloatN>(gather_records<Material::template Brdfs, FloatN>(brdfs_.data(), index));
+  }
+
+  Rgb<float> largest_albedo() const override {
+    Rgb<float> largest(0, 0, 0);
+    for (const auto& brdfs : brdfs_) largest = max(largest, Material::template albedo<float>(brdfs));
     return largest;
   }
 

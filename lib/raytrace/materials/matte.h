@@ -32,6 +32,11 @@ class Matte {
   }
 
   template <class T>
+  static Rgb<T> albedo(const Brdfs<T>& brdfs) {
+    return brdfs.diffuse.rho();
+  }
+
+  template <class T>
   static Rgb<T> reflect(const Brdfs<T>& brdfs, const Vec3<T>&, const Vec3<T>&, const Vec3<T>&) {
     return brdfs.diffuse.f();
   }

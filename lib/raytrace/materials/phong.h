@@ -39,6 +39,11 @@ class Phong {
   }
 
   template <class T>
+  static Rgb<T> albedo(const Brdfs<T>& brdfs) {
+    return brdfs.diffuse.rho();
+  }
+
+  template <class T>
   static Rgb<T> reflect(const Brdfs<T>& brdfs, const Vec3<T>& wo, const Vec3<T>& wi, const Vec3<T>& normal) {
     return brdfs.diffuse.f() + brdfs.specular.f(wo, wi, normal);
   }

@@ -114,6 +114,7 @@ Imf::Header header_of(const PictureExtent& extent, const std::vector<Channel>& c
       header.insert("raytrace:renderSeconds", Imf::FloatAttribute(static_cast<float>(*metadata.render_seconds)));
   }
   for (const ImageAttribute& attribute : metadata.attributes) insert(header, attribute);
+  for (const ImageAttribute& attribute : metadata.data_attributes) insert(header, attribute);
   return header;
 }
 

@@ -16,6 +16,7 @@ class ExrEncoder final : public ImageEncoder {
   ~ExrEncoder() override;
 
   bool holds_float() const override { return settings_.full_float; }
+  bool holds_data() const override { return true; }
   void begin(const PictureExtent& extent, const std::vector<Channel>& channels, const ImageMetadata& metadata,
              std::FILE* destination) override;
   void write(const ImageBand& band) override;

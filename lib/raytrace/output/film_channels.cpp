@@ -2,6 +2,9 @@
 
 #include <array>
 
+#include "raytrace/film/aov_film.h"
+#include "raytrace/output/aov_sum_channels.h"
+
 namespace raytrace {
 
 namespace {
@@ -47,7 +50,20 @@ std::vector<Channel> sum_channels() {
   return channels;
 }
 
-void append_sums(ImageBand& band, const Film& film) {
+std::vector<Channel> sum_channels(const Film& film) {
+  std::vector<Channel> channels = sum_channels();
+  if (film.aovs() == nullptr) return channels;
+  for (Channel& channel : aov_sum_channels(*film.aovs())) channels.push_back(std::move(channel));
+  return channels;
+}
+
+std::vector<Channel> sum_channels(const std::vector<Channel>& channels) {
+  std::vector<Channel> found = sum_channels();
+  for (Channel& channel : aov_sum_channels(channels)) found.push_back(std::move(channel));
+  return found;
+}
+
+void append_sums(ImageBand& band, const std::vector<Channel>& sums, const Film& film) {
   const Region& region = band.region;
   const std::size_t first = band.planes.size();
   const auto pixels = static_cast<std::size_t>(region.width()) * static_cast<std::size_t>(region.height());
@@ -58,9 +74,10 @@ void append_sums(ImageBand& band, const Film& film) {
       const Words words = words_of(film.sum(x, y));
       for (std::size_t plane = 0; plane < planes; ++plane) words_in(band, first + plane)[pixel] = words[plane];
     }
+  if (film.aovs() != nullptr) fill_aov_sums(band, first + planes, {sums.begin() + planes, sums.end()}, *film.aovs());
 }
 
-void add_sums(const ImageBand& band, std::size_t first_plane, Film& film) {
+void add_sums(const ImageBand& band, std::size_t first_plane, const std::vector<Channel>& sums, Film& film) {
   const Region& region = band.region;
   std::size_t pixel = 0;
   for (int y = region.y0; y < region.y1; ++y)
@@ -69,6 +86,8 @@ void add_sums(const ImageBand& band, std::size_t first_plane, Film& film) {
       for (std::size_t plane = 0; plane < planes; ++plane) words[plane] = words_in(band, first_plane + plane)[pixel];
       film.sum(x, y) += sum_of(words);
     }
+  if (film.aovs() != nullptr)
+    add_aov_sums(band, first_plane + planes, {sums.begin() + planes, sums.end()}, *film.aovs());
 }
 
 }  // namespace raytrace

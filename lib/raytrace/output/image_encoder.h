@@ -23,7 +23,10 @@ class ImageEncoder {
   /// Whether it stores 32 bit floats.
   virtual bool holds_float() const = 0;
 
-  /// channels: color_channels() and any others, of which only EXR stores more than the former.
+  /// Whether it stores other channels than color_channels(), and ImageMetadata::data_attributes.
+  virtual bool holds_data() const = 0;
+
+  /// channels: color_channels() and any others, which are passed over by those that hold no data.
   /// destination: an open, empty file.
   virtual void begin(const PictureExtent& extent, const std::vector<Channel>& channels, const ImageMetadata& metadata,
                      std::FILE* destination) = 0;

@@ -24,6 +24,8 @@ bool holds_float(const std::string& file) {
   return make_image_encoder(file, settings)->holds_float();
 }
 
+bool holds_data(const std::string& file) { return make_image_encoder(file, {})->holds_data(); }
+
 void check_writable(const std::string& file, const ImageFileSettings& settings) {
   constexpr int edge = 64;  // JPEG 2000 takes none below 32
   const PictureExtent extent{edge, edge, {0, 0, edge, edge}};

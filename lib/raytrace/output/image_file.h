@@ -43,6 +43,7 @@ struct ImageMetadata {
   std::optional<double> render_seconds;  ///< absent where the file is begun before the render ends
   CameraMatrices camera;
   std::vector<ImageAttribute> attributes;
+  std::vector<ImageAttribute> data_attributes;  ///< about channels besides colour: only where those are stored
 };
 
 /// Values (not pixels) that were changed because the format, or any format, cannot hold them.
@@ -59,6 +60,9 @@ struct Repairs {
 /// Whether ImageFileSettings::full_float matters to a file of this name, or it holds floats anyway. Throws OutputError
 /// if its extension is unknown.
 bool holds_float(const std::string& file);
+
+/// Whether files of this name hold channels besides colour. Throws OutputError as holds_float() does.
+bool holds_data(const std::string& file);
 
 /// Throws OutputError if files of this name cannot be written: no known extension, no such folder, no permission, a bit
 /// depth that the format lacks. Leaves no trace. To be called before the render, so that hours of work do not end in

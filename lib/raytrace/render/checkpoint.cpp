@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "raytrace/film/aov_film.h"
 #include "raytrace/math/content_hash.h"
 #include "raytrace/output/exr_encoder.h"
 #include "raytrace/output/film_channels.h"
@@ -15,6 +16,7 @@ constexpr const char* hash_name = "raytrace:sumsHash";
 std::string hash_of(const Film& film) {
   ContentHash hash;
   hash.add(film.sums().data(), film.sums().size_bytes());
+  if (film.aovs() != nullptr) film.aovs()->add_to(hash);
   return hash.digits();
 }
 
@@ -38,8 +40,11 @@ void write_checkpoint(const std::string& file, const Film& film, const PieceIden
   metadata.attributes = identity_attributes(partial);
   metadata.attributes.push_back({hash_name, hash_of(film)});
 
+  metadata.data_attributes.clear();  // of AOVs, which come when the picture is done
+
   std::vector<Channel> channels = color_channels(false);
-  for (Channel& channel : sum_channels()) channels.push_back(std::move(channel));
+  const std::vector<Channel> sums = sum_channels(film);
+  channels.insert(channels.end(), sums.begin(), sums.end());
   ImageFileSettings settings;
   settings.compressed = false;
   ImageFile image(file, std::make_unique<ExrEncoder>(file, settings), film.settings().extent, channels, metadata);
@@ -48,7 +53,7 @@ void write_checkpoint(const std::string& file, const Film& film, const PieceIden
     const int end = std::min(y + band_rows(region.width(), channels.size()), region.y1);
     ImageBand band;
     fill_color(band, film, y, end);
-    append_sums(band, film);
+    append_sums(band, sums, film);
     image.write(band);
     y = end;
   }
@@ -68,14 +73,14 @@ void read_checkpoint(const std::string& file, const PieceIdentity& identity, Fil
     throw InputError("cannot resume from " + file + ": its samples begin at " + std::to_string(got.film.samples.first) +
                      ", not " + std::to_string(film.settings().samples.first));
   }
-  const std::vector<Channel> channels = sum_channels();
+  const std::vector<Channel> channels = sum_channels(reader.channels());
   for (const Channel& channel : channels)
     if (std::find(reader.channels().begin(), reader.channels().end(), channel) == reader.channels().end())
       throw InputError("cannot resume from " + file + ": it is a picture without the sums of its samples");
   const Region& region = film.region();
   for (int y = region.y0; y < region.y1;) {
     const int end = std::min(y + band_rows(region.width(), channels.size()), region.y1);
-    add_sums(reader.read(channels, y, end), 0, film);
+    add_sums(reader.read(channels, y, end), 0, channels, film);
     y = end;
   }
   if (reader.attribute<std::string>(hash_name) != hash_of(film))

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "raytrace/aovs/aov_selection.h"
 #include "raytrace/output/film_channels.h"
 #include "raytrace/render/piece_layout.h"
 #include "raytrace/render/provenance.h"
@@ -15,16 +16,16 @@ struct Piece {
   std::string file;
   PieceIdentity identity;
   std::vector<Channel> channels;  ///< without those of sums
-  bool has_sums = false;
+  std::vector<Channel> sums;      ///< empty if it has none
 };
 
 bool is_sum(const Channel& channel) { return channel.name.starts_with("sums."); }
 
 Piece piece_of(const ExrReader& reader) {
-  Piece piece{reader.file(), identity_of(reader), {}, false};
+  Piece piece{reader.file(), identity_of(reader), {}, {}};
   for (const Channel& channel : reader.channels()) {
     if (is_sum(channel)) {
-      piece.has_sums = true;
+      if (piece.sums.empty()) piece.sums = sum_channels(reader.channels());
     } else {
       piece.channels.push_back(channel);
     }
@@ -52,14 +53,14 @@ std::optional<std::string> misfit(const Piece& first, const Piece& piece) {
   return std::nullopt;
 }
 
-/// Colour first, as image files want it.
-std::vector<Channel> ordered(std::vector<Channel> channels) {
-  std::stable_partition(channels.begin(), channels.end(), [](const Channel& channel) {
-    return channel.name == "R" || channel.name == "G" || channel.name == "B" || channel.name == "A";
-  });
-  const std::string order = "RGBA";
-  std::sort(channels.begin(), channels.begin() + std::min<std::ptrdiff_t>(4, std::ssize(channels)),
-            [&](const Channel& a, const Channel& b) { return order.find(a.name) < order.find(b.name); });
+/// Colour first, then the AOVs, as image files want it. Throws InputError if the piece has others.
+std::vector<Channel> ordered_channels(const Piece& piece) {
+  const bool full_float = std::find(piece.channels.begin(), piece.channels.end(), Channel{"R", ChannelType::float32}) !=
+                          piece.channels.end();
+  std::vector<Channel> channels = color_channels(full_float);
+  for (Channel& channel : aov_channels(piece.identity.film.aovs.wanted)) channels.push_back(std::move(channel));
+  if (!std::is_permutation(channels.begin(), channels.end(), piece.channels.begin(), piece.channels.end()))
+    throw InputError(piece.file + " has the channels " + names_of(piece.channels) + ", not " + names_of(channels));
   return channels;
 }
 
@@ -122,7 +123,7 @@ class Merger {
     for (const Piece& piece : pieces_) report_.missing_parts = report_.missing_parts || piece.identity.partial;
     if (!settings_.partial) problems.insert(problems.end(), missing.begin(), missing.end());
     for (const Piece& piece : pieces_)
-      if (!is_finished(piece) && !piece.has_sums)
+      if (!is_finished(piece) && piece.sums.empty())
         problems.push_back(piece.file +
                            " holds some of the samples only, without their sums: render it with --sample-offset");
     if (!problems.empty()) refuse(problems);
@@ -144,7 +145,8 @@ class Merger {
     metadata.threads = reader.attribute<int>("raytrace:threads").value_or(1);
     metadata.camera = reader.camera();
     for (const ImageAttribute& attribute : reader.attributes())
-      if (attribute.name.starts_with("cryptomatte/")) metadata.attributes.push_back(attribute);
+      if (attribute.name.starts_with("cryptomatte/") || attribute.name.starts_with("raytrace:manifest/"))
+        metadata.data_attributes.push_back(attribute);
     return metadata;
   }
 
@@ -159,7 +161,7 @@ class Merger {
     for (ImageAttribute& attribute : identity_attributes(identity))
       metadata_.attributes.push_back(std::move(attribute));
 
-    channels_ = ordered(pieces_.front().channels);
+    channels_ = ordered_channels(pieces_.front());
     ImageFileSettings image_settings;
     image_settings.full_float = channels_.front().type == ChannelType::float32;
     image_settings.bit_depth = settings_.bit_depth;
@@ -168,7 +170,9 @@ class Merger {
     for (const std::string& file : settings_.outputs)
       files.push_back(std::make_unique<ImageFile>(file, identity.film.extent, channels_, metadata_, image_settings));
     const Region& whole = first.whole;
-    const int rows = band_rows(whole.width(), channels_.size() + sum_channels().size());
+    std::size_t most_sums = 0;
+    for (const Piece& piece : pieces_) most_sums = std::max(most_sums, piece.sums.size());
+    const int rows = band_rows(whole.width(), channels_.size() + most_sums);
     for (Region band = whole; band.y0 < whole.y1; band.y0 = band.y1) {
       band.y1 = std::min(band.y0 + rows, whole.y1);
       const ImageBand merged = merged_band(band);
@@ -192,24 +196,33 @@ class Merger {
       }
     }
     if (report_.missing_parts) fill_background(band);
-    FilmSettings settings = pieces_.front().identity.film;
-    settings.extent.region = region;
-    Film sums(settings);
-    bool any_sums = false;
+    add_up_sums(band);
     for (const Piece& piece : pieces_) {
-      const Region& its = piece.identity.film.extent.region;
-      const int top = std::max(its.y0, region.y0), bottom = std::min(its.y1, region.y1);
-      if (top >= bottom) continue;
-      ExrReader reader(piece.file);
-      if (is_finished(piece)) {
-        copy_rows(reader.read(channels_, top, bottom), band);
-      } else {
-        any_sums = true;
-        add_sums(reader.read(sum_channels(), top, bottom), 0, sums);
-      }
+      const auto [top, bottom] = common_rows(piece, region);
+      if (top < bottom && is_finished(piece)) copy_rows(ExrReader(piece.file).read(channels_, top, bottom), band);
     }
-    if (any_sums) develop(sums, band);
     return band;
+  }
+
+  static std::pair<int, int> common_rows(const Piece& piece, const Region& region) {
+    const Region& its = piece.identity.film.extent.region;
+    return {std::max(its.y0, region.y0), std::min(its.y1, region.y1)};
+  }
+
+  /// From the pieces that have but some of the samples.
+  void add_up_sums(ImageBand& band) const {
+    FilmSettings settings = pieces_.front().identity.film;
+    settings.extent.region = band.region;
+    Film film(settings);
+    bool any = false;
+    for (const Piece& piece : pieces_) {
+      const auto [top, bottom] = common_rows(piece, band.region);
+      if (top >= bottom || is_finished(piece)) continue;
+      add_sums(ExrReader(piece.file).read(piece.sums, top, bottom), 0, piece.sums, film);
+      any = true;
+    }
+    if (any || report_.missing_parts) fill_aovs(band, 4, film);
+    if (any) develop(film, band);
   }
 
   /// Checks of 8 x 8 pixels in two greys that cover nothing: nobody takes them for a part of the picture.

@@ -1,8 +1,10 @@
 #include "raytrace/render/provenance.h"
 
+#include <algorithm>
 #include <charconv>
 #include <sstream>
 
+#include "raytrace/aovs/aov_selection.h"
 #include "raytrace/description/scene_hash.h"
 
 namespace raytrace {
@@ -18,6 +20,8 @@ constexpr const char* first_sample_name = "raytrace:firstSample";
 constexpr const char* samples_name = "raytrace:samples";
 constexpr const char* centered_name = "raytrace:centered";
 constexpr const char* unit_name = "raytrace:unitExponent";
+constexpr const char* aovs_name = "raytrace:aovs";  // only where there are any
+constexpr const char* aov_units_name = "raytrace:aovUnits";
 constexpr const char* whole_name = "raytrace:whole";
 constexpr const char* partial_name = "raytrace:partial";
 
@@ -37,6 +41,34 @@ Number number(const ExrReader& piece, const char* name, const std::string& text)
 
 std::string other(const std::string& what, const std::string& got, const std::string& wanted) {
   return what + " (" + got + ", not " + wanted + ")";
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string all;
+  for (const std::string& name : names) all += (all.empty() ? "" : ",") + name;
+  return all;
+}
+
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> parts;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, ',');) parts.push_back(part);
+  return parts;
+}
+
+AovSettings aovs_of(const ExrReader& piece, const std::string& names) {
+  const std::vector<std::string> all = aov_names(), wanted = split(names);
+  for (const std::string& name : wanted)
+    if (std::find(all.begin(), all.end(), name) == all.end())
+      throw InputError(piece.file() + " has an AOV that this version does not know: " + name);
+  std::vector<int> units;
+  for (const std::string& unit : split(needed<std::string>(piece, aov_units_name)))
+    units.push_back(number<int>(piece, aov_units_name, unit));
+  AovSettings aovs = aov_settings(aov_set(wanted));
+  if (units.size() != aovs.mean_units.size())
+    throw InputError(piece.file() + " is damaged: its " + aov_units_name + " do not fit its AOVs");
+  aovs.mean_units = units;
+  return aovs;
 }
 
 std::string size_text(const PictureExtent& extent) {
@@ -64,6 +96,13 @@ std::vector<ImageAttribute> identity_attributes(const PieceIdentity& identity) {
       {centered_name, samples.centered ? 1 : 0},
       {unit_name, identity.film.unit_exponent},
       {whole_name, edges}};
+  const AovSettings& aovs = identity.film.aovs;
+  if (!aovs.wanted.empty()) {
+    attributes.push_back({aovs_name, joined(aov_names(aovs.wanted))});
+    std::vector<std::string> units;
+    for (const int unit : aovs.mean_units) units.push_back(std::to_string(unit));
+    attributes.push_back({aov_units_name, joined(units)});
+  }
   if (identity.partial) attributes.push_back({partial_name, 1});
   return attributes;
 }
@@ -85,6 +124,7 @@ PieceIdentity identity_of(const ExrReader& piece) {
     std::getline(edges, text, ',');
     *edge = number<int>(piece, whole_name, text);
   }
+  if (const auto names = piece.attribute<std::string>(aovs_name)) film.aovs = aovs_of(piece, *names);
   identity.partial = piece.attribute<int>(partial_name).value_or(0) != 0;
   return identity;
 }
@@ -101,7 +141,14 @@ std::optional<std::string> difference(const PieceIdentity& wanted, const PieceId
   if (a.isa != b.isa) return other("the instruction set", b.isa, a.isa) + ": pin one with --isa";
   if (c.samples.centered != d.samples.centered)
     return "the place of the samples: one has a single sample in each pixel's center; render it with --sample-offset 0";
-  if (c.unit_exponent != d.unit_exponent) return "the precision of the sums: too many samples a pixel";
+  if (c.aovs.wanted != d.aovs.wanted) {
+    const auto text = [](const AovSettings& aovs) {
+      return aovs.wanted.empty() ? "none" : joined(aov_names(aovs.wanted));
+    };
+    return other("the AOVs", text(d.aovs), text(c.aovs));
+  }
+  if (c.unit_exponent != d.unit_exponent || c.aovs != d.aovs)
+    return "the precision of the sums: too many samples a pixel";
   return std::nullopt;
 }
 

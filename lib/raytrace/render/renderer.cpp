@@ -10,6 +10,7 @@
 #include <mutex>
 #include <tuple>
 
+#include "raytrace/aovs/aov_selection.h"
 #include "raytrace/render/handover.h"
 
 namespace raytrace {
@@ -94,7 +95,9 @@ FilmSettings film_settings(const Scene& scene, const SceneDescription& descripti
   film.extent = {viewplane.hres, viewplane.vres, settings.region};
   film.samples = settings.samples.value_or(SampleRange{0, all, all == 1});
   film.seed = settings.seed;
-  film.unit_exponent = unit_exponent(scene.largest_radiance(), std::uint64_t{film.samples.first} + film.samples.count);
+  const std::uint64_t most_samples = std::uint64_t{film.samples.first} + film.samples.count;
+  film.unit_exponent = unit_exponent(scene.largest_radiance(), most_samples);
+  film.aovs = aov_settings(settings.aovs, scene, description, most_samples);
   return film;
 }
 

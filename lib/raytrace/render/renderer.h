@@ -33,6 +33,7 @@ struct RenderSettings {
   std::uint64_t seed = 0;                             ///< another seed gives another, equally good, pattern of samples
   Region region;                                      ///< the pixels wanted; those outside are not in the film
   std::optional<SampleRange> samples = std::nullopt;  ///< none: as many as the scene says, from the first on
+  AovSet aovs{};
 };
 
 /// The rays of a render, by kind.
@@ -94,6 +95,9 @@ class Scene {
 
   /// No sample's radiance is larger, in any channel.
   virtual float largest_radiance() const = 0;
+
+  /// No material's albedo is larger, in any channel.
+  virtual float largest_albedo() const = 0;
 
   virtual SceneStatistics statistics() const = 0;
 };

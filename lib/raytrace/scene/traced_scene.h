@@ -22,6 +22,7 @@ class TracedScene final : public Scene {
   RenderReport render_region(const Region& region, std::uint32_t samples, Film& film,
                              const std::atomic<bool>* stop) const override;
   float largest_radiance() const override { return largest_radiance_; }
+  float largest_albedo() const override;
   SceneStatistics statistics() const override;
 
   const Accelerator& accelerator() const { return accelerator_; }
@@ -31,8 +32,19 @@ class TracedScene final : public Scene {
   const Rgb<float>& ambient_radiance() const { return ambient_radiance_; }
   const std::vector<std::unique_ptr<LightSource>>& lights() const { return lights_; }
 
+  /// Unit length.
+  const Vec3f& viewing_direction() const { return viewing_direction_; }
+
+  // Of the things that were hit; at least one lane must have a hit, and lanes without one hold anything.
+
+  /// Each object's place, counted from 0: type by type as in the Shapes registry, each type's in their order.
+  IntN object(const Hits& hits) const;
+  /// Each material's place, likewise.
+  IntN material(const Hits& hits) const;
+  Rgb<FloatN> albedo(const Hits& hits) const;
+
   /// The radiance that leaves the points hit along wo, each by its own material: one call for each material type among
-  /// the lanes. Lanes without a hit hold anything.
+  /// the lanes.
   Rgb<FloatN> shade(const Hits& hits, const Vec3<FloatN>& wo, const Vec3<FloatN>& normal,
                     const Rgb<float>& ambient_radiance, std::span<const ArrivingLight> lights) const;
 
@@ -42,13 +54,21 @@ class TracedScene final : public Scene {
     T kind, index;
   };
 
+  ObjectMaterial<IntN> materials(const Hits& hits) const;
+
+  /// answer(table, index) of each material type among the lanes, each lane's of its own.
+  template <class Answer>
+  Rgb<FloatN> by_material(const Hits& hits, const Answer& answer) const;
+
   ViewPlane viewplane_;
   Accelerator accelerator_;
   std::unique_ptr<Camera> camera_;
+  Vec3f viewing_direction_{};
   Rgb<float> ambient_radiance_{0, 0, 0};
   std::vector<std::unique_ptr<LightSource>> lights_;
   std::array<std::unique_ptr<MaterialTable>, Materials::size> materials_;
-  std::array<std::int32_t, Shapes::size> first_object_{};  ///< of each shape's type in object_materials_
+  std::array<std::int32_t, Materials::size> first_material_{};  ///< of each type, all counted together
+  std::array<std::int32_t, Shapes::size> first_object_{};       ///< of each shape's type in object_materials_
   std::vector<ObjectMaterial<std::int32_t>> object_materials_;
   float largest_radiance_;
   const char* isa_name_;

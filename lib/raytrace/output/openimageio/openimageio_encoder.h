@@ -20,6 +20,7 @@ class OpenImageIOEncoder final : public ImageEncoder {
   ~OpenImageIOEncoder() override;
 
   bool holds_float() const override { return pixels_.type == OIIO::TypeFloat; }
+  bool holds_data() const override { return false; }
   void begin(const PictureExtent& extent, const std::vector<Channel>& channels, const ImageMetadata& metadata,
              std::FILE* destination) override;
   void write(const ImageBand& band) override;

@@ -1,0 +1,40 @@
+// AOVs by their names, and what a film and a file need for some of them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "raytrace/description/scene_description.h"
+#include "raytrace/film/aov_settings.h"
+#include "raytrace/film/film.h"
+#include "raytrace/output/image_band.h"
+#include "raytrace/output/image_file.h"
+#include "raytrace/render/renderer.h"
+
+namespace raytrace {
+
+/// All there are, in the registry's order.
+std::vector<std::string> aov_names();
+std::vector<std::string> aov_names(const AovSet& aovs);
+
+/// names: all of them in aov_names().
+AovSet aov_set(const std::vector<std::string>& names);
+
+/// But for the units of means, which are 0, and the ids, as an empty film of a file's sums needs it.
+AovSettings aov_settings(const AovSet& aovs);
+
+/// For a film that takes samples of the scene. samples: the most that a pixel will have, with those of other parts of
+/// the picture.
+AovSettings aov_settings(const AovSet& aovs, const Scene& scene, const SceneDescription& description,
+                         std::uint64_t samples);
+
+std::vector<Channel> aov_channels(const AovSet& aovs);
+
+/// Whose ids the channels have, and how Cryptomatte's are made.
+std::vector<ImageAttribute> aov_attributes(const AovSet& aovs, const SceneDescription& description);
+
+/// Sets the planes of aov_channels() from `first_plane` on to the values of the rows of band.region.
+void fill_aovs(ImageBand& band, std::size_t first_plane, const Film& film);
+
+}  // namespace raytrace

@@ -1,0 +1,25 @@
+// Cryptomatte of the materials, each by its name.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "raytrace/aovs/aov.h"
+#include "raytrace/aovs/scene_names.h"
+
+namespace raytrace {
+
+class CryptoMaterial {
+ public:
+  static constexpr std::string_view name = "crypto_material";
+  static constexpr AovRule rule = AovRule::cover;
+
+  template <class Surface>
+  static auto index(const Surface& surface) {
+    return surface.material();
+  }
+
+  static std::vector<std::string> names(const SceneDescription& description) { return material_names(description); }
+};
+
+}  // namespace raytrace

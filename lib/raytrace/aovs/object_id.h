@@ -1,0 +1,31 @@
+// id.object: the object nearest in the pixel, by its place among the scene's objects, counted from 1; 0: nothing.
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "raytrace/aovs/aov.h"
+#include "raytrace/aovs/id_manifest.h"
+#include "raytrace/output/image_band.h"
+
+namespace raytrace {
+
+class ObjectId {
+ public:
+  static constexpr std::string_view name = "object_id";
+  static constexpr AovRule rule = AovRule::nearest;
+  static constexpr ChannelType type = ChannelType::uint32;
+  static constexpr std::array<std::string_view, 1> channels{"id.object"};
+
+  template <class Surface>
+  static auto values(const Surface& surface) {
+    return std::array{surface.id(surface.object())};
+  }
+
+  static std::vector<ImageAttribute> attributes(const SceneDescription& description) {
+    return {id_manifest(channels[0], object_names(description))};
+  }
+};
+
+}  // namespace raytrace

@@ -1,0 +1,18 @@
+// What the objects and materials of a scene are called where a picture has ids of them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "raytrace/description/scene_description.h"
+
+namespace raytrace {
+
+/// In the order that objects are counted in: type by type as in the Shapes registry, each type's as the file has them.
+/// An object without a name is called by its type and its place among that type's, counted from 1: "sphere#12".
+std::vector<std::string> object_names(const SceneDescription& description);
+
+/// Type by type as in the Materials registry, each type's as the file has them.
+std::vector<std::string> material_names(const SceneDescription& description);
+
+}  // namespace raytrace

@@ -1,0 +1,44 @@
+// Which AOVs a picture has, and what a film must keep of each pixel for them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace raytrace {
+
+/// Some of the AOVs of the registry (aovs/registry.h), by their positions in it.
+class AovSet {
+ public:
+  void add(std::size_t aov) { bits_ |= std::uint32_t{1} << aov; }
+  bool has(std::size_t aov) const { return (bits_ >> aov & 1U) != 0; }
+  bool empty() const { return bits_ == 0; }
+  friend bool operator==(const AovSet&, const AovSet&) = default;
+
+ private:
+  std::uint32_t bits_ = 0;
+};
+
+/// The wanted AOVs' values follow each other in the registry's order, rule by rule. (aovs/aov.h)
+struct AovSettings {
+  AovSet wanted;
+  std::size_t nearest_values = 0;  ///< of the sample that met the nearest surface: 32 bit words
+  std::vector<int> mean_units;     ///< for each mean: its sum counts units of 2^this
+  std::size_t covers = 0;
+  /// For each cover: the ids of the things with indices 0, 1... Things of equal ids count as one. Needed only where
+  /// samples are taken.
+  using CoverIds = std::vector<std::vector<std::uint32_t>>;
+  std::shared_ptr<const CoverIds> cover_ids;
+
+  /// Whether values of the one can be added to the other's.
+  friend bool operator==(const AovSettings& a, const AovSettings& b) {
+    return a.wanted == b.wanted && a.nearest_values == b.nearest_values && a.mean_units == b.mean_units &&
+           a.covers == b.covers;
+  }
+
+  /// Whether a film must keep anything beside its own sums.
+  bool gather() const { return nearest_values > 0 || !mean_units.empty() || covers > 0; }
+};
+
+}  // namespace raytrace

@@ -1,0 +1,93 @@
+#include "raytrace/integrators/block_aovs.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace raytrace {
+
+void BlockAovs::prepare() {
+  nearest_.fill(FloatN(0));
+  const std::vector<int>& units = film_.settings().mean_units;
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    means_[i].units = Doubles<FloatN>(std::ldexp(1.0, -units[i]));
+    means_[i].largest = FloatN(static_cast<float>(std::min(std::ldexp(FixedPointSums<FloatN>::largest_term, units[i]),
+                                                           double{std::numeric_limits<float>::max()})));
+  }
+}
+
+void BlockAovs::add(const SeenSurface& seen, const MaskN& wanted, const UintN& sample) {
+  const MaskN hit = seen.hit() & wanted;
+  if (xsimd::none(hit)) return;
+  const MaskN nearer = hit & (seen.depth() < depth_);
+  depth_ = xsimd::select(nearer, seen.depth(), depth_);
+  sample_ = select_lanes(nearer, std::bit_cast<IntN>(sample), sample_);
+
+  std::size_t next_nearest = 0, next_mean = 0, next_cover = 0;
+  for_each_type(Aovs{}, [&](auto type) {
+    using Aov = typename decltype(type)::type;
+    if (!film_.settings().wanted.has(index_of<Aov>(Aovs{}))) return;
+    if constexpr (Aov::rule == AovRule::nearest) {
+      for (const FloatN& value : Aov::values(seen)) {
+        FloatN& kept = nearest_[next_nearest++];
+        kept = xsimd::select(nearer, value, kept);
+      }
+    } else if constexpr (Aov::rule == AovRule::mean) {
+      for (const FloatN& value : Aov::values(seen)) {
+        Mean& mean = means_[next_mean++];
+        const MaskN counts = hit & (xsimd::abs(value) <= mean.largest);  // false for NaN
+        mean.sum.add(xsimd::select(counts, value, FloatN(0)), mean.units);
+      }
+    } else if constexpr (Aov::rule == AovRule::cover) {
+      count(next_cover++, select_lanes(hit, Aov::index(seen), IntN(nothing)));
+    }
+  });
+}
+
+void BlockAovs::count(std::size_t cover, const IntN& things) {
+  Run& run = runs_[cover];
+  const MaskN same = float_mask<FloatN>(things == run.thing);
+  for (std::uint32_t lanes = bits_of<FloatN>(!same); lanes != 0; lanes &= lanes - 1)
+    end_run(cover, static_cast<std::size_t>(std::countr_zero(lanes)));
+  run.samples = select_lanes(same, run.samples + IntN(1), IntN(1));
+  run.thing = things;
+}
+
+void BlockAovs::end_run(std::size_t cover, std::size_t lane) {
+  const std::int32_t thing = runs_[cover].thing.get(lane);
+  if (thing == nothing || (lanes_ >> lane & 1U) == 0) return;
+  const std::vector<std::uint32_t>& ids = (*film_.settings().cover_ids)[cover];
+  const auto samples = static_cast<std::uint32_t>(runs_[cover].samples.get(lane));
+  film_.add_cover(x_[lane], y_[lane], cover, {ids[static_cast<std::size_t>(thing)], samples});
+}
+
+void BlockAovs::finish() {
+  const AovSettings& settings = film_.settings();
+  const auto for_each_lane = [](std::uint32_t lanes, const auto& f) {
+    for (; lanes != 0; lanes &= lanes - 1) f(static_cast<std::size_t>(std::countr_zero(lanes)));
+  };
+  for (std::size_t cover = 0; cover < settings.covers; ++cover)
+    for_each_lane(lanes_, [&](std::size_t lane) { end_run(cover, lane); });
+
+  for (std::size_t i = 0; i < settings.mean_units.size(); ++i) {
+    const auto sums = means_[i].sum.sums();
+    for_each_lane(lanes_, [&](std::size_t lane) { film_.add_mean(x_[lane], y_[lane], i, sums[lane]); });
+  }
+
+  if (settings.nearest_values == 0) return;
+  alignas(64) std::array<float, native_lanes> lanes;
+  std::array<std::array<std::uint32_t, all_values(AovRule::nearest, Aovs{})>, native_lanes> values{};
+  for (std::size_t i = 0; i < settings.nearest_values; ++i) {
+    nearest_[i].store_aligned(lanes.data());
+    for (std::size_t lane = 0; lane < native_lanes; ++lane) values[lane][i] = std::bit_cast<std::uint32_t>(lanes[lane]);
+  }
+  depth_.store_aligned(lanes.data());
+  const std::uint32_t met = bits_of<FloatN>(depth_ < infinity<FloatN>());
+  for_each_lane(lanes_ & met, [&](std::size_t lane) {
+    const auto sample = static_cast<std::uint32_t>(sample_.get(lane));
+    film_.add_nearest(x_[lane], y_[lane], lanes[lane], sample, values[lane].data());
+  });
+}
+
+}  // namespace raytrace
