@@ -70,6 +70,8 @@ Options Jobs::operator[](std::size_t i) const {
   Options job = options_;
   job.scene = scene(i);
   job.frame = frame(i).value_or(job.frame);
+  job.job_index = i;
+  job.job_count = count();
   const NameValues values{frame(i), job.tile ? std::optional(job.tile->index) : std::nullopt, job.scene};
   for (std::string& output : job.outputs) output = file_name(output, values);
   if (has_statistics_file(job)) job.statistics = file_name(job.statistics, values);

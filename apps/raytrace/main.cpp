@@ -29,9 +29,11 @@ bool exist_complete(const std::vector<std::string>& files) {
   return std::all_of(files.begin(), files.end(), is_complete_picture);
 }
 
-int run(const Options& options) {
+int run(const Options& options, Progress& progress) {
+  progress.begin(options.job_index, options.job_count);
   if (options.skip_existing && options.renders() && exist_complete(options.outputs)) {
     tell_note(joined(options.outputs, ", ") + ": there already, skipped");
+    progress.finish();
     return exit_code::done;
   }
   const auto start = PictureRender::Clock::now();
@@ -49,7 +51,8 @@ int run(const Options& options) {
   if (options.pixel) return print(pixel_text(*scene, *description, region, options));
   describe(*description, region, options, statistics);
   const Signals signals;
-  const Ending ending = PictureRender(*scene, *description, options, whole, region, signals, start, statistics).run();
+  const Ending ending =
+      PictureRender(*scene, *description, options, whole, region, signals, start, progress, statistics).run();
   if (ending == Ending::stopped) {
     return options.checkpoint.empty() ? exit_code::stopped + signals.stop_signal() : exit_code::resumable;
   }
@@ -71,6 +74,7 @@ int main(int argc, char** argv) {
     tell_program_in(options.progress);
     if (const auto answer = about_program(options)) return print(*answer);
     ignore_picture_requests();
-    return run_all(Jobs(options), run);
+    Progress progress(options.progress);
+    return run_all(Jobs(options), [&](const Options& job) { return run(job, progress); });
   });
 }

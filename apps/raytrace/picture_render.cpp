@@ -37,7 +37,7 @@ std::chrono::steady_clock::duration in_seconds(double seconds) {
 
 PictureRender::PictureRender(const Scene& scene, const SceneDescription& description, const Options& options,
                              const Region& whole, const Region& region, const Signals& signals, Clock::time_point start,
-                             Statistics& statistics)
+                             Progress& progress, Statistics& statistics)
     : scene_(scene),
       description_(description),
       options_(options),
@@ -46,7 +46,7 @@ PictureRender::PictureRender(const Scene& scene, const SceneDescription& descrip
       settings_{options.threads, options.seed, region, sample_range(description.viewplane, options), options.aovs},
       start_(start),
       next_checkpoint_(Clock::now() + in_seconds(options.checkpoint_interval)),
-      progress_(options.progress) {
+      progress_(progress) {
   identity_.provenance = provenance_of(software_name(), scene, description);
   identity_.whole = whole;
   if (options.display_server) {

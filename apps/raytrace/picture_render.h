@@ -27,7 +27,8 @@ class PictureRender {
 
   /// start: of the time that --time-limit limits. All must outlive it.
   PictureRender(const Scene& scene, const SceneDescription& description, const Options& options, const Region& whole,
-                const Region& region, const Signals& signals, Clock::time_point start, Statistics& statistics);
+                const Region& region, const Signals& signals, Clock::time_point start, Progress& progress,
+                Statistics& statistics);
 
   /// Renders the picture and writes its files. Throws InputError if there is a checkpoint that does not fit.
   Ending run();
@@ -59,7 +60,7 @@ class PictureRender {
   SetAsideSamples set_aside_;
   std::unique_ptr<DisplayClient> display_;  ///< none if it was not asked for
   bool in_bands_ = false;
-  Progress progress_;
+  Progress& progress_;
 };
 
 }  // namespace raytrace

@@ -53,9 +53,15 @@ Progress::~Progress() {
   if (style_ == ProgressStyle::bar) show_bar({});
 }
 
+void Progress::begin(std::size_t index, std::size_t count) {
+  index_ = index;
+  count_ = count;
+}
+
 void Progress::update(double fraction) {
+  fraction = (static_cast<double>(index_) + std::clamp(fraction, 0.0, 1.0)) / static_cast<double>(count_);
+  if (!first_fraction_) first_fraction_ = fraction;
   if (style_ == ProgressStyle::none || Clock::now() < next_) return;
-  fraction = std::clamp(fraction, 0.0, 1.0);
   if (style_ == ProgressStyle::bar) {
     draw_bar(fraction);
     next_ = Clock::now() + std::chrono::milliseconds(100);
@@ -66,6 +72,7 @@ void Progress::update(double fraction) {
 }
 
 void Progress::finish() {
+  if (index_ + 1 < count_) return update(1);
   if (style_ == ProgressStyle::bar) {
     show_bar({});
   } else if (style_ != ProgressStyle::none) {
@@ -100,10 +107,10 @@ double Progress::seconds() const { return std::chrono::duration<double>(Clock::n
 
 std::optional<double> Progress::seconds_left(double fraction) const {
   if (fraction >= 1) return 0;
-  const double elapsed = seconds();
+  const double elapsed = seconds(), done = fraction - first_fraction_.value_or(0);
   // The first moments tell nothing about the rest.
-  if (fraction < 0.01 || elapsed < 0.2) return std::nullopt;
-  return elapsed / fraction * (1 - fraction);
+  if (done < 0.01 || elapsed < 0.2) return std::nullopt;
+  return elapsed / done * (1 - fraction);
 }
 
 std::string Progress::time_left(double fraction) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -17,10 +18,13 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// fraction: of the work that is done, 0 to 1.
+  /// What follows is render `index` of `count`.
+  void begin(std::size_t index, std::size_t count);
+
+  /// fraction: of the render that is done, 0 to 1.
   void update(double fraction);
 
-  /// All is done: the last line, or no more bar.
+  /// The render is done, and after the last one all is: the last line, or no more bar.
   void finish();
 
  private:
@@ -34,6 +38,9 @@ class Progress {
 
   ProgressStyle style_;
   Clock::time_point start_ = Clock::now();
+  std::size_t index_ = 0, count_ = 1;
+  /// Where the first update found it: what an earlier run had done tells nothing about this one's speed.
+  std::optional<double> first_fraction_;
   Clock::time_point next_;  ///< nothing is shown before
 };
 
