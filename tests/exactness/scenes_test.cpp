@@ -144,7 +144,7 @@ TEST_CASE("no ray slips through where triangles meet") {
   for (int row = 0; row < edge; ++row)
     for (int column = 0; column < edge; ++column) {
       const auto at = [&](int right, int down) {
-        return corners[static_cast<std::size_t>((row + down) * (edge + 1) + column + right)];
+        return corners[static_cast<std::size_t>(row + down) * (edge + 1) + static_cast<std::size_t>(column + right)];
       };
       triangles.push_back(std::make_shared<reference::Triangle>(at(0, 0), at(1, 0), at(0, 1)));
       triangles.push_back(std::make_shared<reference::Triangle>(at(1, 1), at(1, 0), at(0, 1)));

@@ -35,7 +35,9 @@ class Aovs {
   template <class Value = float>
   Value at(const std::string& name, int x, int y) const {
     const auto plane = static_cast<std::size_t>(std::find(names_.begin(), names_.end(), name) - names_.begin());
-    return std::get<std::vector<Value>>(band_.planes.at(plane))[static_cast<std::size_t>(y * band_.region.width() + x)];
+    return std::get<std::vector<Value>>(
+        band_.planes.at(plane))[static_cast<std::size_t>(y) * static_cast<std::size_t>(band_.region.width()) +
+                                static_cast<std::size_t>(x)];
   }
   Vector vector_at(const std::string& layer, const std::string& components, int x, int y) const {
     const auto component = [&](std::size_t i) { return Real(at(layer + "." + components[i], x, y)); };

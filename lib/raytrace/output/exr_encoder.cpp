@@ -142,7 +142,7 @@ const Value* convert(const ChannelValues& plane, std::vector<Value>& converted, 
 /// A plane's values where OpenEXR finds them: row by row within the window.
 template <class Value>
 Imf::Slice slice(Imf::PixelType type, const Value* values, const Imath::Box2i& window) {
-  const auto width = static_cast<std::size_t>(window.max.x - window.min.x + 1);
+  const auto width = static_cast<std::size_t>(window.max.x - window.min.x) + 1;
   return Imf::Slice::Make(type, values, window, sizeof(Value), width * sizeof(Value));
 }
 

@@ -30,7 +30,7 @@ void check_writable(const std::string& file, const ImageFileSettings& settings) 
   constexpr int edge = 64;  // JPEG 2000 takes none below 32
   const PictureExtent extent{edge, edge, {0, 0, edge, edge}};
   const std::vector<Channel> channels = color_channels(settings.full_float);
-  const ImageBand black{extent.region, {channels.size(), std::vector<float>(edge * edge)}};
+  const ImageBand black{extent.region, {channels.size(), std::vector<float>(std::size_t{edge} * edge)}};
   const FileHandle memory = open_memory_file();
   const std::unique_ptr<ImageEncoder> encoder = make_image_encoder(file, settings);
   encoder->begin(extent, channels, {}, memory.get());
