@@ -1,5 +1,6 @@
 #include "merge_command.h"
 
+#include <fstream>
 #include <iostream>
 #include <sstream>
 #include <string_view>
@@ -14,6 +15,23 @@ namespace raytrace {
 
 namespace {
 
+/// "@FILE" stands for the names in the file, one a line: there may be more than a command line holds.
+std::vector<std::string> with_lists_read(const std::vector<std::string>& names) {
+  std::vector<std::string> all;
+  for (const std::string& name : names) {
+    if (!name.starts_with('@')) {
+      all.push_back(name);
+      continue;
+    }
+    std::ifstream list(name.substr(1));
+    if (!list) throw UsageError("there is no list of pieces " + name.substr(1) + "; a piece of that name is ./" + name);
+    for (std::string line; std::getline(list, line);) {
+      if (!line.empty()) all.push_back(line);
+    }
+  }
+  return all;
+}
+
 MergeOptions parsed(int argc, const char* const* argv) {
   MergeOptions options;
   CLI::App parser;
@@ -21,6 +39,7 @@ MergeOptions parsed(int argc, const char* const* argv) {
   parse(parser, argc, argv);
   if (options.quiet && options.verbose) throw UsageError("--quiet excludes --verbose");
   if (options.help) return options;
+  options.settings.pieces = with_lists_read(options.settings.pieces);
   const MergeSettings& settings = options.settings;
   if (settings.pieces.empty()) throw UsageError("no pieces given; for example: raytrace merge tile.*.exr -o whole.exr");
   if (settings.outputs.empty())
@@ -44,8 +63,10 @@ void define_merge_options(CLI::App& parser, MergeOptions& options) {
   MergeSettings& settings = options.settings;
   prepare(parser);
   parser
-      .add_option("pieces", settings.pieces,
-                  "EXR files that raytrace wrote with --tile, --crop or --sample-offset: parts of one picture")
+      .add_option(
+          "pieces", settings.pieces,
+          "EXR files that raytrace wrote with --tile, --crop or --sample-offset: parts of one picture; @FILE stands "
+          "for the names in FILE, one a line")
       ->type_name("PIECES...")
       ->group("Input");
   add_switch(
