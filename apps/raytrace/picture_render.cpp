@@ -88,7 +88,7 @@ Ending PictureRender::render_at_once() {
     done = target;
   }
   timer.stop();
-  if (signals_.stop_signal() != 0) {
+  if (signals_.stop_signal() != 0 && done < all) {
     if (options_.checkpoint.empty()) return Ending::stopped;
     const bool saved = save_checkpoint(film);
     return write_picture(film, all, true) && saved ? Ending::stopped : Ending::failed;
