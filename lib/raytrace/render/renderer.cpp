@@ -54,6 +54,19 @@ TileGrid tiles_for(const Region& region, int threads) {
   return {region, edge};
 }
 
+/// Whether all pixels of a tile have so many samples. Tiles are rendered row by row of blocks from the top, each from
+/// its left; so of a tile of whatever size, one that is stopped has samples in all pixels before its last ones. This
+/// looks at the last ones of all tiles of the smallest size.
+bool is_rendered(const Film& film, const Region& tile, std::uint32_t samples) {
+  const auto cell_end = [](int start, int end) {
+    return std::min((start / smallest_tile_edge + 1) * smallest_tile_edge, end);
+  };
+  for (int top = tile.y0; top < tile.y1; top = cell_end(top, tile.y1))
+    for (int left = tile.x0; left < tile.x1; left = cell_end(left, tile.x1))
+      if (film.sum(cell_end(left, tile.x1) - 1, cell_end(top, tile.y1) - 1).samples < samples) return false;
+  return true;
+}
+
 /// Tells the progress without making any thread wait for another.
 class Teller {
  public:
@@ -117,7 +130,8 @@ RenderReport render(const Scene& scene, Film& film, std::uint32_t samples, int t
   const auto render_tile = [&](int index) {
     to_workers.take();
     if (stop == nullptr || !stop->load(std::memory_order_relaxed)) {
-      reports.local() += scene.render_region(grid.tile(index), samples, film, stop);
+      const Region tile = grid.tile(index);
+      if (!is_rendered(film, tile, samples)) reports.local() += scene.render_region(tile, samples, film, stop);
       teller.tell(done.fetch_add(1, std::memory_order_relaxed) + 1);
     }
     from_workers.give();
