@@ -1,5 +1,5 @@
-"""Reads the EXR files that the program writes: one part, scanlines, zip. Written from the description of the format,
-so that what is tested is not read back by the library that wrote it."""
+"""Reads the EXR files that the program writes: one part, scanlines, zip or (checkpoints) no compression. Written from
+the description of the format, so that what is tested is not read back by the library that wrote it."""
 
 import itertools
 import struct
@@ -24,11 +24,12 @@ class Exr:
         self.data_window = struct.unpack("<4i", self.attributes["dataWindow"][1])
         self.display_window = struct.unpack("<4i", self.attributes["displayWindow"][1])
         self.channels = _channels(self.attributes["channels"][1])
-        zip_compression = 3
-        assert self.attributes["compression"][1] == bytes([zip_compression])
+        none, zips = 0, 3
+        compression, = self.attributes["compression"][1]
+        assert compression in (none, zips)
         left, top, right, bottom = self.data_window
         self.width, self.height = right - left + 1, bottom - top + 1
-        lines = 16
+        lines = 16 if compression == zips else 1
         self.rows = {}
         for chunk in range((self.height + lines - 1) // lines):
             offset, = struct.unpack_from("<Q", data, at + 8 * chunk)

@@ -54,7 +54,7 @@ void refuse_unwritable(const std::string& file, const fs::path& target) {
     fail(file, errno);
   }
   if (S_ISDIR(status.st_mode)) fail(file, "it is a folder");
-  if (!S_ISREG(status.st_mode)) fail(file, "it is not a regular file");
+  if (!S_ISREG(status.st_mode)) fail(file, "it is not a regular file, which alone appears whole or not at all; write to one, and copy it");
   if ((status.st_mode & any_write) == 0 || (access(target.c_str(), W_OK) != 0 && errno == EACCES)) {
     fail(file, "the file is read-only");
   }

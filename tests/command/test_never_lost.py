@@ -1,0 +1,303 @@
+"""A render that is killed, stopped, limited or asked for a picture: nothing is lost, and the bits are the same."""
+
+import json
+import os
+import random
+import signal
+import struct
+import subprocess
+import time
+import unittest
+
+import support
+from exr import Exr
+from support import CommandTest
+
+LONG = bool(os.environ.get("RAYTRACE_LONG_TESTS"))
+# The same command gives the same bytes, header and all.
+ENVIRONMENT = dict(os.environ, SOURCE_DATE_EPOCH="0")
+LIMIT = 300  # seconds after which whatever a test waits for does not come any more
+
+
+class SafetyTest(CommandTest):
+    def run_program(self, *arguments, **keywords):
+        return super().run_program(*arguments, env=ENVIRONMENT, **keywords)
+
+    def start(self, *arguments):
+        process = self.start_program(*arguments, env=ENVIRONMENT)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        self.addCleanup(process.stdout.close)
+        self.addCleanup(process.stderr.close)
+        return process
+
+    def wait_for(self, condition, process, what):
+        end = time.monotonic() + LIMIT
+        while not condition():
+            if process.poll() is not None:
+                self.fail(f"ended with {process.returncode} before {what}: {process.stderr.read()}")
+            if time.monotonic() > end:
+                self.fail(f"waited in vain for {what}")
+            time.sleep(0.01)
+
+    def wait_for_file(self, name, process):
+        self.wait_for(lambda: os.path.exists(self.path(name)), process, name)
+
+    def exr(self, name):
+        return Exr(self.read(name))
+
+    def assert_same(self, name, wanted):
+        self.assertTrue(self.read(name) == wanted, f"{name} has other bytes than an uninterrupted render")
+
+    def stopped_checkpoint(self, *arguments, samples="4000"):
+        """Makes checkpoint.exr of a render of `samples` that SIGTERM stopped early."""
+        process = self.start("scene.xml", "-q", "-o", "partial.exr", "-s", samples, "--checkpoint", "checkpoint.exr",
+                             "--checkpoint-interval", "0.01s", *arguments)
+        self.wait_for_file("checkpoint.exr", process)
+        process.send_signal(signal.SIGTERM)
+        self.assertEqual(process.wait(timeout=LIMIT), 75, process.stderr.read())
+
+
+class Killed(SafetyTest):
+    def test_kills_at_random_moments(self):
+        moments, samples = (200, "24000") if LONG else (15, "3000")
+        chance = random.Random(1)
+        scene = ["scene.xml", "-q", "-s", samples, "--aov", "depth,crypto_object"]
+        begin = time.monotonic()
+        self.succeed(*scene, "-o", "whole.exr")
+        seconds = time.monotonic() - begin
+        wanted = self.read("whole.exr")
+        command = [*scene, "-o", "a.exr", "--checkpoint", "checkpoint.exr", "--checkpoint-interval", "0.02s", "--resume"]
+        kills = resumed = ended = 0
+        while kills < moments:
+            resumed += os.path.exists(self.path("checkpoint.exr"))
+            process = self.start(*command, "-t", str(chance.randint(1, 4)))
+            try:
+                code = process.wait(timeout=chance.uniform(0, seconds / 2))
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.wait()
+                kills += 1
+                continue
+            self.assertEqual(code, 0, process.stderr.read())
+            ended += 1
+            self.assertEqual([name for name in self.names() if not name.startswith(".")],
+                             ["a.exr", "scene.xml", "whole.exr"])
+            self.assert_same("a.exr", wanted)
+            os.remove(self.path("a.exr"))
+        self.succeed(*command)
+        self.assert_same("a.exr", wanted)
+        self.assertGreater(resumed, 0, f"none of {kills} kills came after a checkpoint")
+        if LONG:
+            print(f"{kills} kills, {resumed} times resumed, {ended + 1} renders ended with the same bits")
+        # What stays of a process that was killed while it wrote has a name that nobody takes for a picture.
+        for name in self.names():
+            self.assertRegex(name, r"^(\.raytrace-.*|a\.exr|scene\.xml|whole\.exr)$")
+
+
+class Stopped(SafetyTest):
+    def test_stop_and_resume(self):
+        self.succeed("scene.xml", "-q", "-o", "whole.exr", "-s", "4000", "--float")
+        for number in (signal.SIGTERM, signal.SIGINT):
+            command = ["scene.xml", "-q", "-o", "a.exr", "-s", "4000", "--float", "--checkpoint", "checkpoint.exr",
+                       "--checkpoint-interval", "0.01s", "--resume"]
+            process = self.start(*command)
+            self.wait_for_file("checkpoint.exr", process)
+            process.send_signal(number)
+            self.assertEqual(process.wait(timeout=LIMIT), 75, process.stderr.read())
+            self.assertEqual(self.names(), ["a.exr", "checkpoint.exr", "scene.xml", "whole.exr"])
+            for name in ("a.exr", "checkpoint.exr"):
+                partial = self.exr(name)
+                self.assertEqual(partial.attributes["raytrace:partial"], ("int", struct.pack("<i", 1)))
+                self.assertEqual((partial.width, partial.height), (80, 60))
+            self.assertEqual(self.exr("a.exr").pixels(), self.exr("checkpoint.exr").pixels())
+            self.succeed(*command)
+            self.assertEqual(self.names(), ["a.exr", "scene.xml", "whole.exr"])
+            self.assertNotIn("raytrace:partial", self.exr("a.exr").attributes)
+            self.assert_same("a.exr", self.read("whole.exr"))
+            os.remove(self.path("a.exr"))
+
+    def test_without_a_checkpoint(self):
+        self.write("a.exr", "old")
+        for number in (signal.SIGTERM, signal.SIGINT):
+            process = self.start("scene.xml", "-o", "a.exr", *support.ENDLESS, "--progress=plain")
+            self.assertIn("rendered", process.stderr.readline())
+            process.send_signal(number)
+            self.assertEqual(process.wait(timeout=LIMIT), 128 + number)
+            self.assertEqual(self.names(), ["a.exr", "scene.xml"])
+            self.assertEqual(self.read("a.exr"), b"old")
+
+    def test_picture_on_request(self):
+        self.succeed("scene.xml", "-q", "-o", "whole.exr", "-s", "8000")
+        process = self.start("scene.xml", "-o", "a.exr", "-o", "a.png", "-s", "8000", "--progress=plain")
+        self.assertIn("rendered", process.stderr.readline())
+        process.send_signal(signal.SIGUSR1)
+        self.wait_for_file("a.exr", process)
+        self.assertIn("raytrace:partial", self.exr("a.exr").attributes)
+        self.assertEqual(process.wait(timeout=LIMIT), 0, process.stderr.read())
+        self.assert_same("a.exr", self.read("whole.exr"))
+        self.assertEqual(self.names(), ["a.exr", "a.png", "scene.xml", "whole.exr"])
+
+    def test_an_early_picture_is_whole(self):
+        """Passes go over the whole picture: of a render of hours, the first seconds show all of it."""
+        process = self.start("scene.xml", "-q", "-o", "a.exr", "-r", "400x300", "-s", "1000000", "--checkpoint",
+                             "checkpoint.exr", "--checkpoint-interval", "0.01s")
+        self.wait_for(lambda: os.path.exists(self.path("checkpoint.exr")) and
+                      fewest_samples(self.exr("checkpoint.exr")) >= 4, process, "a first pass in the checkpoint")
+        process.send_signal(signal.SIGUSR1)
+        self.wait_for_file("a.exr", process)
+        picture = self.exr("a.exr")
+        self.assertEqual((picture.width, picture.height), (400, 300))
+        self.assertGreaterEqual(fewest_samples(picture), 4)
+
+    def test_a_second_signal_ends_at_once(self):
+        # So many lights on the floor that a stop, which is looked for every few samples, takes a while.
+        light = '<pointlight><location x="4" y="6" z="4"/></pointlight>'
+        self.write("scene.xml", support.SCENE.replace("</pointlights>", 200000 * light + "</pointlights>"))
+        self.write("a.exr", "old")
+        process = self.start("scene.xml", "-q", "-o", "a.exr", "-s", "20000", "--crop", "0,50,80,60",
+                             "--checkpoint", "checkpoint.exr")
+        self.wait_for(lambda: self.catches(process), process, "its handlers")
+        time.sleep(0.1)  # handlers come before rays
+        process.send_signal(signal.SIGTERM)
+        self.wait_for(lambda: not self.catches(process), process, "the first signal's arrival")
+        process.send_signal(signal.SIGTERM)
+        self.assertEqual(process.wait(timeout=LIMIT), -signal.SIGTERM)
+        self.assertEqual(self.read("a.exr"), b"old")
+
+    def catches(self, process):
+        with open(f"/proc/{process.pid}/status", encoding="ascii") as file:
+            caught = next(line.split()[1] for line in file if line.startswith("SigCgt:"))
+        return int(caught, 16) >> (signal.SIGTERM - 1) & 1 == 1
+
+
+def fewest_samples(exr):
+    return min(min(row["sums.samples"]) for row in exr.rows.values())
+
+
+class ForeignCheckpoints(SafetyTest):
+    """A checkpoint that does not fit is refused by name, and stays as it is; so does the picture."""
+
+    RESUME = ("-q", "-o", "a.exr", "--checkpoint", "checkpoint.exr", "--resume")
+
+    def refused(self, *arguments, scene="scene.xml"):
+        checkpoint = self.read("checkpoint.exr")
+        self.write("a.exr", "old")
+        message = self.fail_with(1, scene, *self.RESUME, *arguments, timeout=LIMIT)
+        self.assertIn("checkpoint.exr", message)
+        self.assertEqual(self.read("checkpoint.exr"), checkpoint)
+        self.assertEqual(self.read("a.exr"), b"old")
+        self.assertFalse([name for name in self.names() if name.startswith(".")])
+        return message
+
+    def test_other_renders(self):
+        self.stopped_checkpoint()
+        self.write("other.xml", support.SCENE.replace("<radius>1</radius>", "<radius>1.01</radius>"))
+        self.assertIn("the scene", self.refused("-s", "4000", scene="other.xml"))
+        lower = self.succeed("--version").stdout.count("x86-64-") > 1
+        for arguments, reason in [(["--seed", "1"], "the seed (0, not 1)"),
+                                  (["-r", "40x30"], "the resolution (80 x 60, not 40 x 30)"),
+                                  (["--crop", "0,0,40,30"], "crop"),
+                                  (["--sample-offset", "8"], "its samples begin at 0, not 8"),
+                                  (["--aov", "depth"], "the AOVs (none, not depth)"),
+                                  *([(["--isa", "x86-64-v2"], "the instruction set")] if lower else [])]:
+            with self.subTest(arguments):
+                self.assertIn(reason, self.refused("-s", "4000", *arguments))
+        self.assertIn("more samples a pixel than are asked for", self.refused("-s", "3"))
+        # It is not resumed by chance, either.
+        message = self.fail_with(2, "scene.xml", "-q", "-o", "b.exr", "--checkpoint", "checkpoint.exr", timeout=LIMIT)
+        self.assertIn("--resume", message)
+
+    def test_files_that_are_no_checkpoint(self):
+        self.stopped_checkpoint("-r", "40x30")
+        whole = self.read("checkpoint.exr")
+        self.succeed("scene.xml", "-q", "-r", "40x30", "-s", "8", "-o", "picture.exr")
+        for what, data in [("empty", b""), ("one byte", whole[:1]), ("magic number", whole[:8]),
+                           ("header", whole[:600]), ("half", whole[:len(whole) // 2]), ("almost all", whole[:-1]),
+                           ("picture", self.read("picture.exr")), ("text", b"hello\n"), ("zeros", bytes(5000)),
+                           ("zeros at the end", whole[:-5000] + bytes(5000))]:
+            with self.subTest(what):
+                with open(self.path("checkpoint.exr"), "wb") as file:
+                    file.write(data)
+                self.refused("-r", "40x30", "-s", "4000")
+        os.remove(self.path("checkpoint.exr"))
+        os.mkdir(self.path("checkpoint.exr"))
+        self.assertIn("checkpoint.exr", self.fail_with(1, "scene.xml", *self.RESUME, timeout=LIMIT))
+
+    def test_flipped_bits(self):
+        """In the sums they are noticed; anywhere else they are, or do not matter: never a crash, never other bits."""
+        self.stopped_checkpoint("-r", "16x12", samples="400000")
+        whole = self.read("checkpoint.exr")
+        done = max(max(row["sums.samples"]) for row in Exr(whole).rows.values())
+        arguments = ["-r", "16x12", "-s", str(done)]
+        self.succeed("scene.xml", "-q", *arguments, "-o", "whole.exr")
+        wanted = self.read("whole.exr")
+        chance = random.Random(2)
+        places = [*chance.sample(range(2000), 12 if not LONG else 400),
+                  *chance.sample(range(2000, len(whole)), 12 if not LONG else 400)]
+        refusals = 0
+        for place in places:
+            damaged = bytearray(whole)
+            damaged[place] ^= 1 << chance.randrange(8)
+            with open(self.path("checkpoint.exr"), "wb") as file:
+                file.write(damaged)
+            code = self.run_program("scene.xml", *self.RESUME, *arguments, timeout=LIMIT).returncode
+            with self.subTest(byte=place):
+                self.assertIn(code, (0, 1))
+                if code == 0:
+                    self.assert_same("a.exr", wanted)
+                else:
+                    self.assertEqual(self.read("checkpoint.exr"), damaged)
+                    refusals += 1
+        self.assertGreater(refusals, 0)
+        # The last byte is of the last row's sums.
+        with open(self.path("checkpoint.exr"), "wb") as file:
+            file.write(whole[:-1] + bytes([whole[-1] ^ 1]))
+        self.assertIn("damaged", self.refused(*arguments))
+
+
+class TimeLimit(SafetyTest):
+    def test_whole_passes_until_the_time_is_up(self):
+        begin = time.monotonic()
+        done = self.succeed("scene.xml", "-o", "a.exr", "-s", "1000000000", "--time-limit", "1s", "--stats=stats.json",
+                            "--progress=none")
+        # No timed test: what passed is only a sign that there is a limit.
+        self.assertLess(time.monotonic() - begin, LIMIT)
+        samples = json.loads(self.read("stats.json"))["picture"]["samples"]
+        self.assertIn(f"the time limit was reached after {samples} samples a pixel", done.stderr)
+        picture = self.exr("a.exr")
+        self.assertEqual(picture.attributes["raytrace:samples"], ("int", struct.pack("<i", samples)))
+        self.assertNotIn("raytrace:partial", picture.attributes)
+        self.assertGreaterEqual(samples, 4)
+        self.succeed("scene.xml", "-q", "-o", "b.exr", "-s", str(samples), "--sample-offset", "0")
+        whole = self.exr("b.exr")
+        for y, row in picture.rows.items():
+            self.assertEqual(row, {name: whole.rows[y][name] for name in row})
+
+    def test_a_limit_that_is_over_at_once(self):
+        self.succeed("scene.xml", "-q", "-o", "a.exr", "-s", "1000", "--time-limit", "0.000001s", "--stats=stats.json")
+        self.assertEqual(json.loads(self.read("stats.json"))["picture"]["samples"], 4)
+
+    def test_a_limit_that_is_not_reached(self):
+        self.succeed("scene.xml", "-q", "-o", "a.exr", "-s", "10", "--time-limit", "1h")
+        self.succeed("scene.xml", "-q", "-o", "b.exr", "-s", "10")
+        self.assert_same("a.exr", self.read("b.exr"))
+
+
+class NotFinite(SafetyTest):
+    def test_they_are_counted_and_shown(self):
+        scene = support.SCENE.replace("<scaleradiance>2</scaleradiance>", "<scaleradiance>1e17</scaleradiance>"
+                                      '<color red="1e17" green="1" blue="1"/>')
+        self.write("scene.xml", scene.replace("<kd>0.6</kd>", "<kd>1e17</kd>"))
+        done = self.succeed("scene.xml", "-o", "a.exr", "-s", "2", "--float", "--progress=none")
+        self.assertRegex(done.stderr, r"\d+ samples without a finite radiance, counted as black: "
+                                      r"sample \d+ of pixel \d+,\d+;")
+        place = done.stderr.split("--pixel ")[1].split()[0]
+        self.assertIn("not finite", self.succeed("scene.xml", "-s", "2", "--pixel", place).stdout)
+        # In pixels whose samples are set aside and in all others.
+        for pixel in self.exr("a.exr").pixels().values():
+            self.assertTrue(all(abs(value) < float("inf") for value in pixel), pixel)
+
+
+if __name__ == "__main__":
+    unittest.main()

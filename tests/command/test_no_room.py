@@ -1,0 +1,222 @@
+"""Disks, folders, pipes and memory that fail while a render writes: a clear message, no torn file, nothing lost."""
+
+import contextlib
+import os
+import shutil
+import signal
+import subprocess
+import unittest
+
+import support
+from test_never_lost import LIMIT, SafetyTest
+
+
+class MountTest(SafetyTest):
+    """disk/ is a file system of its own, of 400 KiB: more than the small picture, less than the large one."""
+
+    def setUp(self):
+        super().setUp()
+        os.mkdir(self.path("disk"))
+        done = self.mount("-t", "tmpfs", "-o", "size=400k", "none", self.path("disk"))
+        if done.returncode != 0:
+            self.skipTest("needs the right to mount a small tmpfs: " + done.stderr.strip())
+        self.addCleanup(subprocess.run, ["umount", "--lazy", self.path("disk")], check=True)
+        self.succeed("scene.xml", "-q", "-o", "disk/a.exr")
+        self.before = self.read("disk/a.exr")
+
+    def mount(self, *arguments):
+        try:
+            return subprocess.run(["mount", *arguments], capture_output=True, text=True, check=False)
+        except FileNotFoundError as error:
+            return subprocess.CompletedProcess(arguments, 1, "", str(error))
+
+    def assert_kept(self):
+        self.assertEqual(self.read("disk/a.exr"), self.before)
+        self.assertEqual(os.listdir(self.path("disk")), ["a.exr"])
+
+
+LARGE = ["-r", "800x600"]
+LARGE_FILES = [*LARGE, "--float"]
+
+
+class FullDisk(MountTest):
+    def test_picture(self):
+        for name in ("disk/a.exr", "disk/b.exr", "disk/b.png", "disk/b.tif"):
+            with self.subTest(name):
+                arguments = LARGE_FILES if not name.endswith("png") else ["-r", "3000x2000", "--bit-depth", "16"]
+                message = self.fail_with(1, "scene.xml", "-q", *arguments, "-o", name)
+                self.assertEqual(message, f"raytrace: error: cannot write {name}: No space left on device\n")
+                self.assert_kept()
+
+    def test_the_other_outputs_are_written(self):
+        self.fail_with(1, "scene.xml", "-q", *LARGE_FILES, "-o", "disk/a.exr", "-o", "b.exr")
+        self.assert_kept()
+        self.succeed("scene.xml", "-q", *LARGE_FILES, "-o", "c.exr")
+        self.assertEqual(self.read("b.exr"), self.read("c.exr"))
+
+    def test_checkpoint(self):
+        """It is told, and the render goes on."""
+        done = self.run_program("scene.xml", "-q", *LARGE, "-s", "64", "-o", "b.exr", "--checkpoint", "disk/c.exr",
+                                "--checkpoint-interval", "0.01s")
+        self.assertIn("cannot write disk/c.exr: No space left on device", done.stderr)
+        self.assertEqual(done.returncode, 0)
+        self.succeed("scene.xml", "-q", *LARGE, "-s", "64", "-o", "whole.exr")
+        self.assert_same("b.exr", self.read("whole.exr"))
+        self.assert_kept()
+
+    def test_checkpoint_of_a_stop(self):
+        """What cannot be resumed must not say that it can: 1, not 75. The picture so far is written."""
+        process = self.start("scene.xml", *LARGE, "-s", "100000", "-o", "b.exr", "--checkpoint", "disk/c.exr",
+                             "--progress=plain")
+        self.assertIn("rendered", process.stderr.readline())
+        process.send_signal(signal.SIGTERM)
+        self.assertEqual(process.wait(timeout=LIMIT), 1)
+        self.assertIn("cannot write disk/c.exr: No space left on device", process.stderr.read())
+        self.assertIn("raytrace:partial", self.exr("b.exr").attributes)
+        self.assert_kept()
+
+    def test_picture_on_request(self):
+        """One that finds no room is told, and the render goes on."""
+        process = self.start("scene.xml", *LARGE_FILES, "-s", "100000", "-o", "disk/a.exr", "--progress=plain")
+        self.assertIn("rendered", process.stderr.readline())
+        process.send_signal(signal.SIGUSR1)
+        for line in process.stderr:
+            if "error" in line:
+                break
+        self.assertEqual(line, "raytrace: error: cannot write disk/a.exr: No space left on device\n")
+        self.assertIn("rendered", process.stderr.readline())
+        self.assert_kept()
+
+
+class ReadOnlyFileSystem(MountTest):
+    def test_from_the_start(self):
+        self.assertEqual(self.mount("-o", "remount,ro", self.path("disk")).returncode, 0)
+        for name in ("disk/a.exr", "disk/b.png"):
+            message = self.fail_with(1, "scene.xml", *support.ENDLESS, "-q", "-o", name, timeout=LIMIT)
+            self.assertEqual(message, f"raytrace: error: cannot write {name}: Read-only file system\n")
+        self.assert_kept()
+
+    def test_during_the_render(self):
+        process = self.start("scene.xml", "-s", "40000", "-o", "disk/a.exr", "-o", "b.exr", "--progress=plain",
+                             "--checkpoint", "disk/c.exr")
+        self.assertIn("rendered", process.stderr.readline())
+        self.assertEqual(self.mount("-o", "remount,ro", self.path("disk")).returncode, 0)
+        self.assertEqual(process.wait(timeout=LIMIT), 1)
+        self.assertIn("error: cannot write disk/a.exr: Read-only file system\n", process.stderr.read())
+        self.assertIn("b.exr", self.names())
+        self.assert_kept()
+
+
+class LostFolders(SafetyTest):
+    def lose(self, action):
+        """What a render tells whose folder is lost by the action."""
+        os.mkdir(self.path("folder"))
+        process = self.start("scene.xml", "-s", "8000", "-o", "folder/a.exr", "-o", "b.exr", "--progress=plain",
+                             "--checkpoint", "folder/c.exr", "--checkpoint-interval", "0.2s")
+        self.assertIn("rendered", process.stderr.readline())
+        action(self.path("folder"))
+        self.assertEqual(process.wait(timeout=LIMIT), 1)
+        self.succeed("scene.xml", "-q", "-s", "8000", "-o", "whole.exr")
+        self.assert_same("b.exr", self.read("whole.exr"))
+        return process.stderr.read()
+
+    def test_permission(self):
+        # The program refuses a folder without write permission even to root, as it does such files.
+        message = self.lose(lambda folder: os.chmod(folder, 0o555))
+        self.assertIn("error: cannot write folder/a.exr: the folder folder is read-only\n", message)
+        self.assertNotIn("a.exr", os.listdir(self.path("folder")))
+
+    def test_folder_removed(self):
+        message = self.lose(shutil.rmtree)
+        self.assertIn("error: cannot write folder/a.exr: there is no folder folder\n", message)
+
+
+class Pipes(SafetyTest):
+    """A picture appears whole or not at all, which no pipe can promise."""
+
+    def test_they_are_refused_before_the_render(self):
+        os.mkfifo(self.path("fifo.exr"))
+        os.symlink("/dev/stdout", self.path("stdout.exr"))
+        os.symlink("/dev/null", self.path("null.exr"))
+        for name in ("fifo.exr", "stdout.exr", "null.exr"):
+            message = self.fail_with(1, "scene.xml", *support.ENDLESS, "-q", "-o", name, timeout=LIMIT)
+            self.assertIn(f"cannot write {name}: it is not a regular file, which alone appears whole or not at all; "
+                          "write to one, and copy it", message)
+        self.assertIn("/dev/stdout", self.fail_with(1, "scene.xml", "-q", "-o", "/dev/stdout"))
+
+    def test_messages_into_a_slow_pipe(self):
+        """Nobody reads what the program tells until it has filled the pipe: it waits, and loses nothing."""
+        scenes = 400 * ["missing.xml"]
+        for _ in range(400):
+            scenes.append("missing-" + 100 * "x" + ".xml")
+        process = self.start(*scenes, "scene.xml", "-o", "{scene}.exr")
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            process.wait(timeout=1)
+        _, told = process.communicate(timeout=LIMIT)
+        self.assertEqual(process.returncode, 1)
+        self.assertIn("scene.exr", self.names())
+        self.assertIn("missing.xml", told)
+
+
+def limited(kibibytes):
+    """A shell with `ulimit -v` that becomes the program."""
+    return ["sh", "-c", f'ulimit -v {kibibytes} && exec "$0" "$@"', support.PROGRAM]
+
+
+@unittest.skipIf(support.SANITIZERS, "a sanitizer needs more address space than any limit leaves")
+class LittleMemory(SafetyTest):
+    def test_ulimit(self):
+        self.write("a.exr", "old")
+        for arguments in (["-r", "16384x16384"], ["-r", "12000x12000", "--checkpoint", "c.exr"],
+                          ["-r", "8192x8192", "--aov", "all"]):
+            with self.subTest(arguments):
+                done = subprocess.run([*limited(1 << 20), "scene.xml", "-q", "-o", "a.exr", "-t", "2", *arguments],
+                                      cwd=self.folder, capture_output=True, text=True, check=False, timeout=LIMIT)
+                self.assertEqual((done.returncode, done.stderr), (33, "raytrace: error: out of memory\n"))
+                self.assertEqual(self.names(), ["a.exr", "scene.xml"])
+                self.assertEqual(self.read("a.exr"), b"old")
+
+    def test_any_ulimit(self):
+        """From too little to begin to enough: done, out of memory, or not even started; never a crash."""
+        codes = []
+        for mebibytes in range(100, 1200, 50):
+            done = subprocess.run([*limited(mebibytes << 10), "scene.xml", "-q", "-o", "a.exr", "-t", "2", "-r",
+                                   "1500x1500", "-s", "1"], cwd=self.folder, capture_output=True, text=True, check=False,
+                                  timeout=LIMIT)
+            self.assertEqual([name for name in self.names() if name not in ("a.exr", "scene.xml")], [])
+            codes.append(done.returncode)
+            with self.subTest(mebibytes):
+                if done.returncode == 33:
+                    self.assertEqual(done.stderr, "raytrace: error: out of memory\n")
+                elif done.returncode == 127:
+                    self.assertIn("shared librar", done.stderr)
+                else:
+                    self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn(0, codes)
+        self.assertIn(33, codes)
+
+
+class MemoryController(SafetyTest):
+    """The kernel kills what a cgroup has no room for: no message and no exit code of ours, but nothing is lost."""
+
+    def test_killed_for_its_memory(self):
+        parent = os.environ.get("RAYTRACE_TEST_CGROUP")
+        if not parent:
+            self.skipTest("RAYTRACE_TEST_CGROUP names no cgroup with a memory controller that tests may use")
+        group = os.path.join(parent, f"raytrace-test-{os.getpid()}")
+        os.mkdir(group)
+        self.addCleanup(os.rmdir, group)
+        version_1 = os.path.exists(os.path.join(group, "memory.limit_in_bytes"))
+        with open(os.path.join(group, "memory.limit_in_bytes" if version_1 else "memory.max"), "w",
+                  encoding="ascii") as file:
+            file.write(str(200 << 20))
+        self.write("a.exr", "old")
+        join = f'echo $$ > "{group}/cgroup.procs" && exec "$0" "$@"'
+        done = subprocess.run(["sh", "-c", join, support.PROGRAM, "scene.xml", "-q", "-o", "a.exr", "-r", "8192x8192",
+                               "-s", "1"], cwd=self.folder, capture_output=True, text=True, check=False, timeout=LIMIT)
+        self.assertEqual(done.returncode, -signal.SIGKILL, done.stderr)
+        self.assertEqual(self.read("a.exr"), b"old")
+
+
+if __name__ == "__main__":
+    unittest.main()
