@@ -79,7 +79,7 @@ class Killed(SafetyTest):
                 process.wait()
                 kills += 1
                 continue
-            self.assertEqual(code, 0, process.stderr.read())
+            self.assertEqual(code, 0, f"after {kills} kills: {process.stderr.read()}")
             ended += 1
             self.assertEqual([name for name in self.names() if not name.startswith(".")],
                              ["a.exr", "scene.xml", "whole.exr"])
@@ -97,9 +97,9 @@ class Killed(SafetyTest):
 
 class Stopped(SafetyTest):
     def test_stop_and_resume(self):
-        self.succeed("scene.xml", "-q", "-o", "whole.exr", "-s", "4000", "--float")
+        self.succeed("scene.xml", "-q", "-o", "whole.exr", "-s", "4000")
         for number in (signal.SIGTERM, signal.SIGINT):
-            command = ["scene.xml", "-q", "-o", "a.exr", "-s", "4000", "--float", "--checkpoint", "checkpoint.exr",
+            command = ["scene.xml", "-q", "-o", "a.exr", "-s", "4000", "--checkpoint", "checkpoint.exr",
                        "--checkpoint-interval", "0.01s", "--resume"]
             process = self.start(*command)
             self.wait_for_file("checkpoint.exr", process)
@@ -110,7 +110,7 @@ class Stopped(SafetyTest):
                 partial = self.exr(name)
                 self.assertEqual(partial.attributes["raytrace:partial"], ("int", struct.pack("<i", 1)))
                 self.assertEqual((partial.width, partial.height), (80, 60))
-            self.assertEqual(self.exr("a.exr").pixels(), self.exr("checkpoint.exr").pixels())
+            self.assertTrue(self.exr("a.exr").pixels() == self.exr("checkpoint.exr").pixels())
             self.succeed(*command)
             self.assertEqual(self.names(), ["a.exr", "scene.xml", "whole.exr"])
             self.assertNotIn("raytrace:partial", self.exr("a.exr").attributes)
@@ -194,13 +194,13 @@ class ForeignCheckpoints(SafetyTest):
         self.stopped_checkpoint()
         self.write("other.xml", support.SCENE.replace("<radius>1</radius>", "<radius>1.01</radius>"))
         self.assertIn("the scene", self.refused("-s", "4000", scene="other.xml"))
-        lower = self.succeed("--version").stdout.count("x86-64-") > 1
+        sets = [name for name in ("x86-64-v2", "x86-64-v3") if name in self.succeed("--version").stdout]
         for arguments, reason in [(["--seed", "1"], "the seed (0, not 1)"),
-                                  (["-r", "40x30"], "the resolution (80 x 60, not 40 x 30)"),
+                                  (["-r", "40x30"], "the scene"),
                                   (["--crop", "0,0,40,30"], "crop"),
                                   (["--sample-offset", "8"], "its samples begin at 0, not 8"),
                                   (["--aov", "depth"], "the AOVs (none, not depth)"),
-                                  *([(["--isa", "x86-64-v2"], "the instruction set")] if lower else [])]:
+                                  *([(["--isa", sets[0]], "the instruction set")] if sets else [])]:
             with self.subTest(arguments):
                 self.assertIn(reason, self.refused("-s", "4000", *arguments))
         self.assertIn("more samples a pixel than are asked for", self.refused("-s", "3"))

@@ -35,6 +35,7 @@ class MountTest(SafetyTest):
         self.assertEqual(os.listdir(self.path("disk")), ["a.exr"])
 
 
+# Floats that no compression makes small enough for the disk.
 LARGE = ["-r", "800x600"]
 LARGE_FILES = [*LARGE, "--float"]
 
@@ -77,12 +78,13 @@ class FullDisk(MountTest):
 
     def test_picture_on_request(self):
         """One that finds no room is told, and the render goes on."""
-        process = self.start("scene.xml", *LARGE_FILES, "-s", "100000", "-o", "disk/a.exr", "--progress=plain")
+        process = self.start("scene.xml", *LARGE_FILES, "-s", "100000", "-o", "disk/a.exr", "--progress=plain",
+                             "--checkpoint", "c.exr")
         self.assertIn("rendered", process.stderr.readline())
-        process.send_signal(signal.SIGUSR1)
         for line in process.stderr:
             if "error" in line:
                 break
+            process.send_signal(signal.SIGUSR1)  # the first picture may be so black that it fits
         self.assertEqual(line, "raytrace: error: cannot write disk/a.exr: No space left on device\n")
         self.assertIn("rendered", process.stderr.readline())
         self.assert_kept()
@@ -97,7 +99,7 @@ class ReadOnlyFileSystem(MountTest):
         self.assert_kept()
 
     def test_during_the_render(self):
-        process = self.start("scene.xml", "-s", "40000", "-o", "disk/a.exr", "-o", "b.exr", "--progress=plain",
+        process = self.start("scene.xml", "-s", "8000", "-o", "disk/a.exr", "-o", "b.exr", "--progress=plain",
                              "--checkpoint", "disk/c.exr")
         self.assertIn("rendered", process.stderr.readline())
         self.assertEqual(self.mount("-o", "remount,ro", self.path("disk")).returncode, 0)
@@ -137,25 +139,23 @@ class Pipes(SafetyTest):
     def test_they_are_refused_before_the_render(self):
         os.mkfifo(self.path("fifo.exr"))
         os.symlink("/dev/stdout", self.path("stdout.exr"))
-        os.symlink("/dev/null", self.path("null.exr"))
-        for name in ("fifo.exr", "stdout.exr", "null.exr"):
+        for name in ("fifo.exr", "stdout.exr"):
             message = self.fail_with(1, "scene.xml", *support.ENDLESS, "-q", "-o", name, timeout=LIMIT)
             self.assertIn(f"cannot write {name}: it is not a regular file, which alone appears whole or not at all; "
                           "write to one, and copy it", message)
-        self.assertIn("/dev/stdout", self.fail_with(1, "scene.xml", "-q", "-o", "/dev/stdout"))
+        self.assertIn("cannot write /dev/stdout: ", self.fail_with(1, "scene.xml", "-q", "-o", "/dev/stdout"))
 
     def test_messages_into_a_slow_pipe(self):
         """Nobody reads what the program tells until it has filled the pipe: it waits, and loses nothing."""
-        scenes = 400 * ["missing.xml"]
-        for _ in range(400):
-            scenes.append("missing-" + 100 * "x" + ".xml")
+        scenes = [f"missing-{number}-{100 * 'x'}.xml" for number in range(800)]
         process = self.start(*scenes, "scene.xml", "-o", "{scene}.exr")
         with contextlib.suppress(subprocess.TimeoutExpired):
             process.wait(timeout=1)
         _, told = process.communicate(timeout=LIMIT)
         self.assertEqual(process.returncode, 1)
         self.assertIn("scene.exr", self.names())
-        self.assertIn("missing.xml", told)
+        for scene in scenes:
+            self.assertIn(f"{scene}: error: ", told)
 
 
 def limited(kibibytes):

@@ -42,6 +42,10 @@ void refuse_unwritable(const std::string& file, const fs::path& target) {
   constexpr mode_t any_write = S_IWUSR | S_IWGRP | S_IWOTH;
   const fs::path folder = folder_of(target);
   struct stat status{};
+  // First, for the link of a pipe (/dev/stdout) leads to no path.
+  if (stat(file.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) {
+    fail(file, "it is not a regular file, which alone appears whole or not at all; write to one, and copy it");
+  }
   if (stat(folder.c_str(), &status) != 0) {
     if (errno == ENOENT) fail(file, "there is no folder " + folder.string());
     fail(file, errno);
@@ -54,7 +58,6 @@ void refuse_unwritable(const std::string& file, const fs::path& target) {
     fail(file, errno);
   }
   if (S_ISDIR(status.st_mode)) fail(file, "it is a folder");
-  if (!S_ISREG(status.st_mode)) fail(file, "it is not a regular file, which alone appears whole or not at all; write to one, and copy it");
   if ((status.st_mode & any_write) == 0 || (access(target.c_str(), W_OK) != 0 && errno == EACCES)) {
     fail(file, "the file is read-only");
   }
