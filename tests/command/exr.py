@@ -7,7 +7,8 @@ import zlib
 
 
 class Exr:
-    """attributes: name -> (type, bytes); channels: names; rows: y -> channel -> tuple of values."""
+    """attributes: name -> (type, bytes); channels: names; rows: y -> channel -> tuple of values; row_bytes: the same, as
+    they stand in the file."""
 
     def __init__(self, data):
         magic, version = struct.unpack_from("<iI", data, 0)
@@ -30,7 +31,7 @@ class Exr:
         left, top, right, bottom = self.data_window
         self.width, self.height = right - left + 1, bottom - top + 1
         lines = 16 if compression == zips else 1
-        self.rows = {}
+        self.rows, self.row_bytes = {}, {}
         for chunk in range((self.height + lines - 1) // lines):
             offset, = struct.unpack_from("<Q", data, at + 8 * chunk)
             y, size = struct.unpack_from("<ii", data, offset)
@@ -41,10 +42,17 @@ class Exr:
         plain = packed if len(packed) == size else _unpack(packed)
         at = 0
         for y in range(first, first + lines):
-            row = self.rows[y] = {}
+            row, row_bytes = self.rows[y], self.row_bytes[y] = {}, {}
             for name, code in self.channels.items():
                 row[name] = struct.unpack_from(f"<{self.width}{code}", plain, at)
-                at += self.width * struct.calcsize(code)
+                row_bytes[name] = plain[at:at + self.width * struct.calcsize(code)]
+                at += len(row_bytes[name])
+
+    def bytes_of(self, left, top, right, bottom):
+        """The pixels [left, right) x [top, bottom) as (y, channel) -> bytes: equal only where all bits are."""
+        first, end = left - self.data_window[0], right - self.data_window[0]
+        return {(y, name): self.row_bytes[y][name][struct.calcsize(code) * first:struct.calcsize(code) * end]
+                for y in range(top, bottom) for name, code in self.channels.items()}
 
     def pixel(self, x, y):
         return tuple(self.rows[y][name][x - self.data_window[0]] for name in "RGBA")
