@@ -132,9 +132,10 @@ PieceIdentity identity_of(const ExrReader& piece) {
 std::optional<std::string> difference(const PieceIdentity& wanted, const PieceIdentity& got) {
   const Provenance &a = wanted.provenance, &b = got.provenance;
   const FilmSettings &c = wanted.film, &d = got.film;
-  if (a.scene != b.scene) return "the scene";
+  // Before the scene, whose hash holds it, too.
   if (c.extent.full_width != d.extent.full_width || c.extent.full_height != d.extent.full_height)
     return other("the resolution", size_text(d.extent), size_text(c.extent));
+  if (a.scene != b.scene) return "the scene";
   if (c.seed != d.seed) return other("the seed", std::to_string(d.seed), std::to_string(c.seed));
   if (a.software != b.software) return other("the version", b.software, a.software);
   if (a.embree_version != b.embree_version) return other("Embree's version", b.embree_version, a.embree_version);
