@@ -67,7 +67,8 @@ class Killed(SafetyTest):
         self.succeed(*scene, "-o", "whole.exr")
         seconds = time.monotonic() - begin
         wanted = self.read("whole.exr")
-        command = [*scene, "-o", "a.exr", "--checkpoint", "checkpoint.exr", "--checkpoint-interval", "0.02s", "--resume"]
+        command = [*scene, "-o", "a.exr", "--resume", "--checkpoint", "checkpoint.exr", "--checkpoint-interval",
+                   "0.02s"]
         kills = resumed = ended = 0
         while kills < moments:
             resumed += os.path.exists(self.path("checkpoint.exr"))

@@ -181,8 +181,8 @@ class LittleMemory(SafetyTest):
         codes = []
         for mebibytes in range(100, 1200, 50):
             done = subprocess.run([*limited(mebibytes << 10), "scene.xml", "-q", "-o", "a.exr", "-t", "2", "-r",
-                                   "1500x1500", "-s", "1"], cwd=self.folder, capture_output=True, text=True, check=False,
-                                  timeout=LIMIT)
+                                   "1500x1500", "-s", "1"], cwd=self.folder, capture_output=True, text=True,
+                                  check=False, timeout=LIMIT)
             self.assertEqual([name for name in self.names() if name not in ("a.exr", "scene.xml")], [])
             codes.append(done.returncode)
             with self.subTest(mebibytes):
