@@ -197,7 +197,7 @@ class ForeignCheckpoints(SafetyTest):
         self.assertIn("the scene", self.refused("-s", "4000", scene="other.xml"))
         sets = [name for name in ("x86-64-v2", "x86-64-v3") if name in self.succeed("--version").stdout]
         for arguments, reason in [(["--seed", "1"], "the seed (0, not 1)"),
-                                  (["-r", "40x30"], "the scene"),
+                                  (["-r", "40x30"], "the resolution (80 x 60, not 40 x 30)"),
                                   (["--crop", "0,0,40,30"], "crop"),
                                   (["--sample-offset", "8"], "its samples begin at 0, not 8"),
                                   (["--aov", "depth"], "the AOVs (none, not depth)"),

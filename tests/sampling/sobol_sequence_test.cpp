@@ -82,4 +82,33 @@ TEST_CASE("a sequence begun at an index stands where one that was advanced to it
   CHECK(SobolSequence(0xffffffffu).point().y == late.point().y);
 }
 
+TEST_CASE("a sequence advances by powers of 2 as it does by ones") {
+  for (int bits = 0; bits <= 12; ++bits) {
+    const std::uint32_t step = 1u << bits;
+    for (const std::uint32_t first : {0u, 1u, 2u, 7u, 255u, 1000u}) {
+      SobolSequence sequence(first * step);
+      for (std::uint32_t i = first; i < first + 20; ++i, sequence.advance(bits)) {
+        const SobolSequence::Point wanted = SobolSequence(i * step).point();
+        if (sequence.point().x != wanted.x || sequence.point().y != wanted.y) FAIL("index " << i << " x 2^" << bits);
+      }
+    }
+  }
+  SUCCEED();
+}
+
+TEST_CASE("move_on moves the first point of an aligned group to any other of it") {
+  for (int bits = 0; bits <= 6; ++bits) {
+    const std::uint32_t size = 1u << bits;
+    for (const std::uint32_t group : {0u, 1u, 2u, 3u, 10u, 12345u, 0xffffffffu >> bits})
+      for (std::uint32_t number = 0; number < size; ++number) {
+        const SobolSequence::Point first = SobolSequence(group * size).point(),
+                                   wanted = SobolSequence(group * size + number).point();
+        std::uint32_t x = first.x, y = first.y;
+        SobolSequence::move_on(number, bits, x, y);
+        if (x != wanted.x || y != wanted.y) FAIL("number " << number << " of group " << group << " of 2^" << bits);
+      }
+  }
+  SUCCEED();
+}
+
 }  // namespace raytrace::test

@@ -1,3 +1,6 @@
+#include <algorithm>
+
+#include "raytrace/math/fixed_point_sums.h"
 #include "raytrace/math/simd.h"
 #include "support/wide_arithmetic.h"
 
@@ -44,6 +47,29 @@ WideLanes below(int lanes, const WideLanes& a, const WideLanes& b, const WideLan
   });
 }
 
+template <int lanes>
+WideSums sums_in_registers(std::span<const WideLanes> terms, double units) {
+  using F = FloatLanes<lanes>;
+  WideSums result;
+  for (std::size_t first = 0; first < result.size(); first += F::size) {
+    FixedPointSums<F> sums;
+    for (const WideLanes& values : terms) sums.add(F::load_unaligned(values.data() + first), Doubles<F>(units));
+    std::ranges::copy(sums.sums(), result.begin() + static_cast<std::ptrdiff_t>(first));
+  }
+  return result;
+}
+
+WideSums fixed_point_sums(int lanes, std::span<const WideLanes> terms, double units) {
+  switch (lanes) {
+    case 4:
+      return sums_in_registers<4>(terms, units);
+    case 8:
+      return sums_in_registers<8>(terms, units);
+    default:
+      return sums_in_registers<16>(terms, units);
+  }
+}
+
 }  // namespace
 
 }  // namespace raytrace::test
@@ -53,6 +79,6 @@ WideLanes below(int lanes, const WideLanes& a, const WideLanes& b, const WideLan
 
 extern "C" const raytrace::test::WideArithmetic* RAYTRACE_JOIN(raytrace_arithmetic_, RAYTRACE_VARIANT)() {
   static constexpr raytrace::test::WideArithmetic arithmetic{&raytrace::test::fused, &raytrace::test::double_sum,
-                                                             &raytrace::test::below};
+                                                             &raytrace::test::below, &raytrace::test::fixed_point_sums};
   return &arithmetic;
 }
