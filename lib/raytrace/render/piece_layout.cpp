@@ -61,12 +61,17 @@ std::vector<std::string> overlaps(const std::vector<PieceExtent>& pieces) {
       return std::tie(a->first_sample, a->region.x0) < std::tie(b->first_sample, b->region.x0);
     });
     for (std::size_t i = 0; i < present.size() && problems.size() < most_problems; ++i)
-      for (std::size_t k = i + 1; k < present.size() && problems.size() < most_problems; ++k) {
-        if (present[k]->first_sample >= present[i]->last_sample) break;
-        if (present[k]->first_sample == present[i]->first_sample && present[k]->region.x0 >= present[i]->region.x1)
-          break;
-        if (overlap(*present[i], *present[k]) && told.insert(std::minmax(present[i], present[k])).second)
-          problems.push_back(present[k]->file + " holds what " + present[i]->file + " holds, too");
+      for (auto k = present.begin() + static_cast<std::ptrdiff_t>(i) + 1;
+           k != present.end() && (*k)->first_sample < present[i]->last_sample && problems.size() < most_problems;) {
+        if ((*k)->region.x0 >= present[i]->region.x1) {
+          // So are all others that begin with this sample.
+          k = std::upper_bound(k, present.end(), (*k)->first_sample,
+                               [](std::uint64_t sample, const auto* piece) { return sample < piece->first_sample; });
+          continue;
+        }
+        if (overlap(*present[i], **k) && told.insert(std::minmax(present[i], *k)).second)
+          problems.push_back((*k)->file + " holds what " + present[i]->file + " holds, too");
+        ++k;
       }
   });
   return problems;
