@@ -1,0 +1,124 @@
+// The hash tells every two scenes apart that look different, and no others.
+#include "raytrace/description/scene_hash.h"
+
+#include <set>
+#include <string>
+#include <type_traits>
+
+#include "findings.h"
+#include "random_description.h"
+#include "support/catch.h"
+
+namespace raytrace::test {
+
+namespace {
+
+void change(double& value) { value += value == 0 ? 1 : value; }
+void change(int& value) { ++value; }
+void change(bool& value) { value = !value; }
+void change(std::string& value) { value += "x"; }
+
+/// Calls tell() after each change of a number, alone; it is undone then.
+template <class Value, class Tell>
+void change_each(Value& value, const Tell& tell) {
+  if constexpr (std::is_same_v<Value, Vec3d>) {
+    for (double* part : {&value.x, &value.y, &value.z}) change_each(*part, tell);
+  } else if constexpr (std::is_same_v<Value, Rgb<double>>) {
+    for (double* part : {&value.red, &value.green, &value.blue}) change_each(*part, tell);
+  } else {
+    const Value before = value;
+    change(value);
+    tell();
+    value = before;
+  }
+}
+
+template <class T, class Tell>
+void change_fields(typename T::Parameters& parameters, const Tell& tell) {
+  for (const auto& field : T::fields()) {
+    if (std::is_same_v<T, ViewPlane> && field.name == "samples") continue;
+    INFO("field " << field.name);
+    std::visit([&](auto member) { change_each(parameters.*member, tell); }, field.member);
+  }
+}
+
+/// Calls tell() after each change that makes another scene.
+template <class Tell>
+void change_everything(SceneDescription& scene, const Tell& tell) {
+  change_fields<ViewPlane>(scene.viewplane, tell);
+  for_each_type(Cameras{}, [&]<class T>(std::type_identity<T>) {
+    if (auto* parameters = std::get_if<typename T::Parameters>(&scene.camera)) change_fields<T>(*parameters, tell);
+  });
+  for_each_type(Lights{}, [&]<class T>(std::type_identity<T>) {
+    for (auto& light : std::get<LightItems<T>>(scene.lights)) change_fields<T>(light.parameters, tell);
+  });
+  for_each_type(Materials{}, [&]<class T>(std::type_identity<T>) {
+    for (auto& material : std::get<MaterialItems<T>>(scene.materials)) {
+      change_fields<T>(material.parameters, tell);
+      change_each(material.name, tell);
+    }
+  });
+  for_each_type(Shapes{}, [&]<class T>(std::type_identity<T>) {
+    auto& objects = std::get<ObjectItems<T>>(scene.objects);
+    for (auto& object : objects) {
+      change_fields<T>(object.parameters, tell);
+      change_each(object.name, tell);
+      for (std::uint32_t* part : {&object.material.kind, &object.material.index}) {
+        ++*part;
+        tell();
+        --*part;
+      }
+    }
+    if (objects.empty()) return;
+    objects.push_back(objects.back());
+    tell();
+    objects.pop_back();
+  });
+}
+
+}  // namespace
+
+TEST_CASE("every value and name of a scene changes its hash, each in its own way") {
+  std::mt19937_64 random(3);
+  for (int i = 0; i < 10; ++i) {
+    SceneDescription scene = random_description(random);
+    std::set<std::string> hashes{scene_hash(scene)};
+    std::size_t scenes = 1;
+    change_everything(scene, [&] {
+      ++scenes;
+      REQUIRE(hashes.insert(scene_hash(scene)).second);
+    });
+    CHECK(scenes > 50);
+    CHECK(hashes.size() == scenes);
+  }
+}
+
+TEST_CASE("what does not change the picture does not change the hash") {
+  std::mt19937_64 random(4);
+  for (int i = 0; i < 20; ++i) {
+    const SceneDescription scene = random_description(random);
+    const std::string hash = scene_hash(scene);
+    CHECK(hash.size() == 32);
+    SceneDescription other = scene;
+    other.viewplane.samples += 7;
+    other.file = "elsewhere.xml";
+    CHECK(scene_hash(other) == hash);
+    CHECK(scene_hash(accepted(print_scene(scene))) == hash);
+  }
+}
+
+TEST_CASE("layout, comments and the spelling of numbers do not change the hash") {
+  const std::string hash = scene_hash(accepted(scene_with("")));
+  CHECK(scene_hash(accepted(scene_with("<!-- a comment -->\n\n\t"))) == hash);
+  CHECK(scene_hash(accepted(scene_with("<objects></objects>"))) == hash);
+  const auto sphere = [](std::string_view children) { return scene_hash(accepted(scene_with_sphere(children))); };
+  const std::string one = sphere("<center x='1' y='-2' z='0.5'/><radius>2</radius><material>clay</material>");
+  CHECK(one != hash);
+  CHECK(sphere("<material> clay </material>\n<radius><!-- -->2.0</radius> <center z='5e-1' y='-2.00' x='1'/>") == one);
+  CHECK(sphere("<center x='1' y='-2' z='0.5'/><radius>2.0000001</radius><material>clay</material>") != one);
+  CHECK(sphere("<center x='1' y='-2' z='0.5'/><radius>2</radius><material>steel</material>") != one);
+  CHECK(sphere("<center x='0' y='0' z='0'/><radius>2</radius><material>clay</material>") ==
+        sphere("<center x='-0' y='0' z='-0.0'/><radius>2</radius><material>clay</material>"));
+}
+
+}  // namespace raytrace::test
