@@ -1,7 +1,5 @@
 #include "picture_render.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -99,8 +97,15 @@ Ending PictureRender::render_at_once() {
   statistics_.samples = static_cast<int>(done);
   if (done < all) tell_warning("the time limit was reached after " + counted(done, "sample") + " a pixel");
   if (!write_picture(film, done, false)) return Ending::failed;
-  if (!options_.checkpoint.empty()) unlink(options_.checkpoint.c_str());  // there may be none yet
+  remove_checkpoint();
   return Ending::written;
+}
+
+/// If there is one. Of a symbolic link, the link stays, as it does when a file is written.
+void PictureRender::remove_checkpoint() const {
+  std::error_code there_is_none;
+  const std::filesystem::path target = std::filesystem::canonical(options_.checkpoint, there_is_none);
+  if (!options_.checkpoint.empty() && !there_is_none) std::filesystem::remove(target, there_is_none);
 }
 
 /// Large pictures go to their files band by band, so that no more than one of them need be in memory.

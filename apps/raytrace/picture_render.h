@@ -46,6 +46,7 @@ class PictureRender {
   ImageMetadata metadata() const;
   bool write_picture(const Film& film, std::uint32_t samples, bool partial);
   bool save_checkpoint(const Film& film);
+  void remove_checkpoint() const;
   double fraction_of_time() const;
 
   const Scene& scene_;
