@@ -197,7 +197,7 @@ TEST_CASE("exactness of cylinders") { check_shape("cylinder", {}, {}); }
 TEST_CASE("exactness of toruses") { check_shape("torus", {}, {}); }
 TEST_CASE("exactness of toruses that meet themselves") { check_shape("spindle", {}, {}); }
 
-// Triangles are solved in float.
+// Embree solves triangles in float.
 TEST_CASE("exactness of triangles") {
   Exactness exactness;
   exactness.float_errors = 4;

@@ -89,8 +89,22 @@ bool on_memory(void* user, ssize_t bytes, bool) {
 template <class Shape>
 void fill_table(const SceneDescription& description, ShapeTable<Shape>& table) {
   const auto& items = std::get<ObjectItems<Shape>>(description.objects);
-  table.records.reserve(items.size());
+  table.records.reserve(items.size() + 1);  // Embree reads whole 16 byte words of the last vertex
   for (const auto& item : items) table.records.push_back(Shape::record(item.parameters));
+}
+
+/// Embree's triangles, straight from the table.
+template <class Shape>
+embree::Geometry make_triangles(RTCDevice device, const ShapeTable<Shape>& table) {
+  const auto count = static_cast<unsigned>(table.records.size());
+  embree::Geometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
+  rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, table.records.data(), 0,
+                             sizeof(Vec3f), 3 * static_cast<std::size_t>(count));
+  auto* index = static_cast<unsigned*>(
+      rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), count));
+  if (index == nullptr) throw std::bad_alloc();
+  for (unsigned i = 0; i < 3 * count; ++i) index[i] = i;
+  return geometry;
 }
 
 /// Calls f(kind, primitive, record) for each object of the shapes without end.
@@ -98,7 +112,7 @@ template <class Tables, class Function>
 void for_each_unbounded(const Tables& tables, Function f) {
   for_each_type(Shapes{}, [&](auto type) {
     using Shape = typename decltype(type)::type;
-    if constexpr (!BoundedShape<Shape>) {
+    if constexpr (UnboundedShape<Shape>) {
       std::uint32_t primitive = 0;
       for (const auto& record : std::get<ShapeTable<Shape>>(tables).records) f(type, primitive++, record);
     }
@@ -112,7 +126,11 @@ SurfacePoint<FloatN> surface_of(const ShapeTable<Shape>& table, const IntN& prim
   constexpr bool in_float = std::is_same_v<typename ShapeTable<Shape>::Record, typename Shape::template Record<float>>;
   using Wide = std::conditional_t<in_float, FloatN, Doubles<FloatN>>;
   const auto records = gather_records<Shape::template Record, Wide>(table.records.data(), primitive);
-  return Shape::template surface<FloatN>(records, rays, hits.distance);
+  if constexpr (UserGeometry<Shape> || UnboundedShape<Shape>) {
+    return Shape::template surface<FloatN>(records, rays, hits.distance);
+  } else {
+    return Shape::template surface<FloatN>(records, hits.u, hits.v);
+  }
 }
 
 }  // namespace
@@ -133,9 +151,14 @@ Accelerator::Accelerator(const SceneDescription& description, int threads, const
     using Shape = typename decltype(type)::type;
     auto& table = std::get<ShapeTable<Shape>>(tables_);
     fill_table(description, table);
-    if constexpr (BoundedShape<Shape>) {
+    if constexpr (!UnboundedShape<Shape>) {
       if (table.records.empty()) return;
-      const embree::Geometry geometry = make_user_geometry(device_.get(), table);
+      embree::Geometry geometry;
+      if constexpr (UserGeometry<Shape>) {
+        geometry = make_user_geometry(device_.get(), table);
+      } else {
+        geometry = make_triangles(device_.get(), table);
+      }
       rtcCommitGeometry(geometry.get());
       rtcAttachGeometryByID(scene_.get(), geometry.get(), static_cast<unsigned>(index_of<Shape>(Shapes{})));
     }
@@ -197,6 +220,8 @@ Hits Accelerator::intersect(const Ray<FloatN>& rays, const MaskN& active, Cohere
       single.hit.geomID = single.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
       embree::intersect1(scene_.get(), query, single);
       packet.ray.tfar[lane] = single.ray.tfar;
+      packet.hit.u[lane] = single.hit.u;
+      packet.hit.v[lane] = single.hit.v;
       packet.hit.primID[lane] = single.hit.primID;
       packet.hit.geomID[lane] = single.hit.geomID;
     }
@@ -207,6 +232,8 @@ Hits Accelerator::intersect(const Ray<FloatN>& rays, const MaskN& active, Cohere
   hits.kind = select_lanes(in_bvh, kind, hits.kind);
   hits.primitive = select_lanes(in_bvh, std::bit_cast<IntN>(UintN::load_aligned(packet.hit.primID)), hits.primitive);
   hits.distance = FloatN::load_aligned(packet.ray.tfar);
+  hits.u = FloatN::load_aligned(packet.hit.u);
+  hits.v = FloatN::load_aligned(packet.hit.v);
   return hits;
 }
 

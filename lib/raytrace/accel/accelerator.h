@@ -25,6 +25,7 @@ struct Hits {
   UintN kind;      ///< position of the shape's type in the Shapes registry
   IntN primitive;  ///< index among the objects of that type
   FloatN distance;
+  FloatN u, v;  ///< barycentric coordinates on triangles
 };
 
 /// Owns Embree's device and scene, and the tables of all shapes.

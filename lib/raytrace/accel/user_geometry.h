@@ -1,4 +1,4 @@
-// Embree's callbacks for the shapes, all of which we intersect ourselves: one template for every shape and packet size.
+// Embree's callbacks for the shapes that we intersect ourselves: one template for every shape and packet size.
 //
 // A shape supplies bounds() and intersect() for F lanes and knows nothing of Embree. intersect and occluded go through
 // the same root finder. https://github.com/RenderKit/embree, doc/src/api/rtcSetGeometryIntersectFunction.md
@@ -15,10 +15,16 @@
 
 namespace raytrace {
 
-/// Shapes with bounds for a BVH to keep them in. The others have no end: every ray is tested against them. In a BVH all
-/// boxes on the way to them would be without end.
+/// Shapes that bring their own intersection, and bounds for a BVH to keep them in.
 template <class Shape>
-concept BoundedShape = requires { &Shape::bounds; };
+concept UserGeometry = requires { &Shape::bounds; };
+
+/// Shapes without end: they bring their own intersection, which every ray goes through, and stay out of the BVH. There
+/// all boxes on the way to them would be without end.
+template <class Shape>
+concept UnboundedShape = !UserGeometry<Shape> && requires { &Shape::template intersect<FloatN>; };
+
+// All others are Embree's triangles.
 
 /// The records of all objects of one shape: what an Embree geometry points at.
 template <class Shape>
@@ -160,7 +166,7 @@ void occluded_callback(const RTCOccludedFunctionNArguments* arguments) {
 }  // namespace detail
 
 /// An Embree user geometry of the table's objects; the table must outlive it.
-template <BoundedShape Shape>
+template <UserGeometry Shape>
 embree::Geometry make_user_geometry(RTCDevice device, ShapeTable<Shape>& table) {
   embree::Geometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER));
   rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(table.records.size()));

@@ -1,7 +1,5 @@
 #include "raytrace/shapes/triangle.h"
 
-#include <algorithm>
-
 namespace raytrace {
 
 Fields<Triangle::Parameters> Triangle::fields() {
@@ -19,20 +17,7 @@ std::optional<Problem> Triangle::check(const Parameters& parameters) {
 }
 
 Triangle::Record<float> Triangle::record(const Parameters& parameters) {
-  const Vec3f a(parameters.vertex1), b(parameters.vertex2), c(parameters.vertex3);
-  return {a, b, c, Vec3f(normalize(cross(Vec3d(b) - Vec3d(a), Vec3d(c) - Vec3d(a))))};
-}
-
-Bounds Triangle::bounds(const Record<float>& triangle) {
-  const Vec3d a(triangle.vertex1), b(triangle.vertex2), c(triangle.vertex3);
-  const Vec3d lower{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})};
-  const Vec3d upper{std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})};
-  const Vec3d center = (lower + upper) * 0.5, extent = (upper - lower) * 0.5;
-  // A ray through an edge runs along the border of the box. Embree's test of the box is off by some roundings of the
-  // coordinates of the box and of the ray's origin: 2^-10 of the size allows for origins 10,000 sizes away.
-  const double margin = 0x1p-10 * std::max({extent.x, extent.y, extent.z}) +
-                        0x1p-21 * std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z)});
-  return bounds_around(center, extent + Vec3d{margin, margin, margin});
+  return {Vec3f(parameters.vertex1), Vec3f(parameters.vertex2), Vec3f(parameters.vertex3)};
 }
 
 }  // namespace raytrace
