@@ -46,7 +46,7 @@ std::string names_of(const std::vector<Channel>& channels) {
 
 /// What does not let a piece be put together with the first.
 std::optional<std::string> misfit(const Piece& first, const Piece& piece) {
-  if (const auto other = difference(first.identity, piece.identity)) return *other;
+  if (auto other = difference(first.identity, piece.identity)) return other;
   if (piece.identity.whole != first.identity.whole) return "the crop that it is a part of";
   if (piece.channels != first.channels)
     return "its channels (" + names_of(piece.channels) + ", not " + names_of(first.channels) + ")";
