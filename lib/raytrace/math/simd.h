@@ -95,11 +95,12 @@ Integers select_lanes(const MaskN& mask, const Integers& a, const Integers& b) {
   return std::bit_cast<Integers>(xsimd::select(mask, std::bit_cast<FloatN>(a), std::bit_cast<FloatN>(b)));
 }
 
-/// base[index], lane for lane. Through float's gather: xsimd 8 has no instruction for that of integers.
+/// base[index], lane for lane. Flattened: that of xsimd 8 is a function a lane, none of which may stay one.
+[[gnu::flatten]] inline FloatN gather(const float* base, const IntN& index) { return FloatN::gather(base, index); }
+/// Through float's: xsimd 8 has no instruction for that of integers.
 inline IntN gather(const std::int32_t* base, const IntN& index) {
-  return std::bit_cast<IntN>(FloatN::gather(reinterpret_cast<const float*>(base), index));
+  return std::bit_cast<IntN>(gather(reinterpret_cast<const float*>(base), index));
 }
-inline FloatN gather(const float* base, const IntN& index) { return FloatN::gather(base, index); }
 
 /// The mask that is true in lanes [0, count).
 template <class F>
