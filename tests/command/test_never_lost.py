@@ -58,6 +58,7 @@ class SafetyTest(CommandTest):
         self.assertEqual(process.wait(timeout=LIMIT), 75, process.stderr.read())
 
 
+@unittest.skipIf(support.SANITIZERS, "a sanitizer makes each of the many runs take seconds")
 class Killed(SafetyTest):
     def test_kills_at_random_moments(self):
         moments, samples = (200, "24000") if LONG else (15, "3000")
