@@ -64,3 +64,14 @@ build() {
   fi
   ninja -C "$root/build/$preset" $quiet "$@" >&2
 }
+
+# python_environment NAME REQUIREMENTS: Python packages in build/NAME/venv, which has a copy of the file REQUIREMENTS as
+# "installed" once all of them are there.
+python_environment() {
+  environment=$root/build/$1/venv
+  if ! cmp -s "$2" "$environment/installed"; then
+    install_packages python3-venv && python3 -m venv "$environment" >&2 &&
+      "$environment/bin/pip" install --quiet --retries 1 --requirement "$2" >&2 &&
+      cp "$2" "$environment/installed"
+  fi
+}

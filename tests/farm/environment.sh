@@ -2,15 +2,9 @@
 # had, its test is skipped.
 # POSIX sh.
 
-# OpenJD's program, in a folder of its own.
-requirements=$root/tests/farm/requirements.txt
-venv=$root/build/farm/venv
-if ! cmp -s "$requirements" "$venv/installed"; then
-  install_packages python3-venv && python3 -m venv "$venv" >&2 &&
-    "$venv/bin/pip" install --quiet --retries 1 --requirement "$requirements" >&2 &&
-    cp "$requirements" "$venv/installed" ||
-    say "openjd-cli cannot be installed: the test of the OpenJD templates will be skipped."
-fi
+# OpenJD's program.
+python_environment farm "$root/tests/farm/requirements.txt" ||
+  say "openjd-cli cannot be installed: the test of the OpenJD templates will be skipped."
 
 # Slurm's daemons. Only for root, for others cannot run them as the test does.
 if [ "$(id -u)" != 0 ]; then

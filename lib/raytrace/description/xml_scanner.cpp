@@ -15,8 +15,6 @@ namespace {
 
 constexpr std::size_t most_open = 64;
 constexpr std::size_t most_attributes = 64;
-/// Of a piece, in bytes. Its tree is some 8 times as large and should stay in the processor's second cache.
-constexpr std::size_t usual_piece = std::size_t(1) << 16;
 constexpr std::size_t group_depth = 3;
 
 enum CharacterClass : std::uint8_t { space = 1, name_start = 2, name_part = 4, text_end = 8, value_end = 16 };
@@ -48,11 +46,7 @@ class Scanner {
   /// nodes: receives what find_nodes returns.
   void collect_nodes(std::vector<std::size_t>& nodes) { nodes_ = &nodes; }
 
-  /// pieces: receives those of find_xml_problem.
-  void collect_pieces(std::span<const std::string_view> groups, std::vector<Piece>& pieces) {
-    groups_ = groups;
-    pieces_ = &pieces;
-  }
+  void cut_pieces(PieceCutter& cutter) { cutter_ = &cutter; }
 
   void scan() {
     if (starts_with(byte_order_mark)) here_ += byte_order_mark.size();
@@ -127,27 +121,6 @@ class Scanner {
 
   void note_node(const char* at) {
     if (nodes_) nodes_->push_back(offset(at));
-  }
-
-  /// For the start tag of an element right inside of what may be a group.
-  void note_item(const char* at) {
-    const OpenElement& parent = open_.back();
-    const bool first = parent.begin != last_parent_;
-    if (first) {
-      last_parent_ = parent.begin;
-      in_group_ = std::find(groups_.begin(), groups_.end(), parent.name) != groups_.end();
-    }
-    if (!in_group_) return;
-    if (first || offset(at) - pieces_->back().begin >= usual_piece) {
-      if (!first) pieces_->back().end = offset(at);
-      pieces_->push_back({offset(parent.begin), offset(at), offset(at)});
-    }
-    ++pieces_->back().items;
-  }
-
-  /// For the end tag of what may be a group.
-  void note_group_end(const char* at) {
-    if (in_group_ && open_.back().begin == last_parent_) pieces_->back().end = offset(at);
   }
 
   /// What comes after the next `end`; fails at `start` if there is none.
@@ -261,7 +234,8 @@ class Scanner {
     if (open_.size() == most_open) fail(start, "elements are nested more than 64 deep here; is a closing tag missing?");
     root_seen_ = true;
     note_node(start);
-    if (pieces_ && open_.size() == group_depth) note_item(start);
+    if (cutter_ && open_.size() == group_depth)
+      cutter_->item(offset(open_.back().begin), open_.back().name, offset(start));
     attributes_.clear();
     while (true) {
       const char* const before = here_;
@@ -329,7 +303,7 @@ class Scanner {
     skip_space();
     if (*here_ != '>') fail(start, "the tag </" + printable(found) + " never ends; add '>'");
     ++here_;
-    if (pieces_ && open_.size() == group_depth) note_group_end(start);
+    if (cutter_ && open_.size() == group_depth) cutter_->end(offset(last.begin), offset(start));
     open_.pop_back();
   }
 
@@ -381,10 +355,7 @@ class Scanner {
   const char* end_;
   const char* here_;
   std::vector<std::size_t>* nodes_ = nullptr;
-  std::span<const std::string_view> groups_;
-  std::vector<Piece>* pieces_ = nullptr;
-  const char* last_parent_ = nullptr;  // of the last element that note_item saw
-  bool in_group_ = false;              // whether that is a group
+  PieceCutter* cutter_ = nullptr;
   std::vector<OpenElement> open_;
   std::vector<std::string_view> attributes_;  // of the tag at hand
   bool root_seen_ = false;
@@ -413,7 +384,8 @@ std::optional<XmlProblem> find_xml_problem(const std::string& text, std::span<co
   if (auto problem = find_encoding_problem(text)) return problem;
   try {
     Scanner scanner(text);
-    scanner.collect_pieces(groups, pieces);
+    PieceCutter cutter(groups, pieces);
+    scanner.cut_pieces(cutter);
     scanner.scan();
   } catch (XmlProblem& problem) {
     return std::move(problem);

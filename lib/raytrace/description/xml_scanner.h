@@ -12,20 +12,14 @@
 #include <string_view>
 #include <vector>
 
+#include "raytrace/description/piece_cutter.h"
+
 namespace raytrace {
 
 /// What is wrong with the text, and at which of its bytes.
 struct XmlProblem {
   std::size_t offset;
   std::string message;
-};
-
-/// A part of a group's content that may be read apart from the rest: whole items, the first of which starts it, and
-/// what stands behind them. A group's pieces follow each other, from its first item to its end tag.
-struct Piece {
-  std::size_t group;  ///< where the group's start tag begins
-  std::size_t begin, end;
-  std::size_t items = 0;  ///< how many elements
 };
 
 /// The first place where `text` is not well-formed XML 1.0 in UTF-8, with or without byte order mark. Document type

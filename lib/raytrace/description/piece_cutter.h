@@ -1,0 +1,39 @@
+// Where the groups of a large scene are cut, so that several threads can read them.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace raytrace {
+
+/// A part of a group's content that may be read apart from the rest: whole items, the first of which starts it, and
+/// what stands behind them. A group's pieces follow each other, from its first item to its end tag.
+struct Piece {
+  std::size_t group;  ///< where the group's start tag begins
+  std::size_t begin, end;
+  std::size_t items = 0;  ///< how many elements
+};
+
+/// Is told of the elements right inside of what may be a group, in the order of the text. An element is known by where
+/// its start tag begins.
+class PieceCutter {
+ public:
+  /// groups: the names of those that are cut. pieces: receives theirs. Both must outlive it.
+  PieceCutter(std::span<const std::string_view> groups, std::vector<Piece>& pieces)
+      : groups_(groups), pieces_(pieces) {}
+
+  void item(std::size_t parent, std::string_view parent_name, std::size_t begin);
+  void end(std::size_t parent, std::size_t end_tag);
+
+ private:
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+  std::span<const std::string_view> groups_;
+  std::vector<Piece>& pieces_;
+  std::size_t last_parent_ = none;
+  bool in_group_ = false;  ///< whether that is a group
+};
+
+}  // namespace raytrace
