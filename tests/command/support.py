@@ -43,7 +43,12 @@ SCENE = """<raytracer>
 """
 
 # So many rays that nobody waits for the end, and yet a tile is done in a moment.
-ENDLESS = ["-r", "2000x2000", "-s", "20000"]
+ENDLESS = ["-r", "400x400" if SANITIZERS else "2000x2000", "-s", "20000"]
+
+
+def samples(count):
+    """For -s of a render that must only take a while; fewer with a sanitizer, which makes each take as much longer."""
+    return str(max(count // 40, 8) if SANITIZERS else count)
 
 
 class CommandTest(unittest.TestCase):

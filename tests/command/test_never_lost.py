@@ -17,6 +17,7 @@ LONG = bool(os.environ.get("RAYTRACE_LONG_TESTS"))
 # The same command gives the same bytes, header and all.
 ENVIRONMENT = dict(os.environ, SOURCE_DATE_EPOCH="0")
 LIMIT = 300  # seconds after which whatever a test waits for does not come any more
+MANY = support.samples(4000)
 
 
 class SafetyTest(CommandTest):
@@ -49,7 +50,7 @@ class SafetyTest(CommandTest):
     def assert_same(self, name, wanted):
         self.assertTrue(self.read(name) == wanted, f"{name} has other bytes than an uninterrupted render")
 
-    def stopped_checkpoint(self, *arguments, samples="4000"):
+    def stopped_checkpoint(self, *arguments, samples=MANY):
         """Makes checkpoint.exr of a render of `samples` that SIGTERM stopped early."""
         process = self.start("scene.xml", "-q", "-o", "partial.exr", "-s", samples, "--checkpoint", "checkpoint.exr",
                              "--checkpoint-interval", "0.01s", *arguments)
@@ -60,9 +61,7 @@ class SafetyTest(CommandTest):
 
 class Killed(SafetyTest):
     def test_kills_at_random_moments(self):
-        moments, samples = (200, "24000") if LONG else (15, "3000")
-        if support.SANITIZERS:  # with which a render of 3000 samples takes a minute
-            moments, samples = 5, "100"
+        moments, samples = (200, support.samples(24000)) if LONG else (15, support.samples(3000))
         chance = random.Random(1)
         scene = ["scene.xml", "-q", "-s", samples, "--aov", "depth,crypto_object"]
         begin = time.monotonic()
@@ -100,9 +99,9 @@ class Killed(SafetyTest):
 
 class Stopped(SafetyTest):
     def test_stop_and_resume(self):
-        self.succeed("scene.xml", "-q", "-o", "whole.exr", "-s", "4000")
+        self.succeed("scene.xml", "-q", "-o", "whole.exr", "-s", MANY)
         for number in (signal.SIGTERM, signal.SIGINT):
-            command = ["scene.xml", "-q", "-o", "a.exr", "-s", "4000", "--checkpoint", "checkpoint.exr",
+            command = ["scene.xml", "-q", "-o", "a.exr", "-s", MANY, "--checkpoint", "checkpoint.exr",
                        "--checkpoint-interval", "0.01s", "--resume"]
             process = self.start(*command)
             self.wait_for_file("checkpoint.exr", process)
@@ -131,8 +130,8 @@ class Stopped(SafetyTest):
             self.assertEqual(self.read("a.exr"), b"old")
 
     def test_picture_on_request(self):
-        self.succeed("scene.xml", "-q", "-o", "whole.exr", "-s", "8000")
-        process = self.start("scene.xml", "-o", "a.exr", "-o", "a.png", "-s", "8000", "--progress=plain")
+        self.succeed("scene.xml", "-q", "-o", "whole.exr", "-s", support.samples(8000))
+        process = self.start("scene.xml", "-o", "a.exr", "-o", "a.png", "-s", support.samples(8000), "--progress=plain")
         self.assertIn("rendered", process.stderr.readline())
         process.send_signal(signal.SIGUSR1)
         self.wait_for_file("a.exr", process)
@@ -200,7 +199,7 @@ class ForeignCheckpoints(SafetyTest):
     def test_other_renders(self):
         self.stopped_checkpoint()
         self.write("other.xml", support.SCENE.replace("<radius>1</radius>", "<radius>1.01</radius>"))
-        self.assertIn("the scene", self.refused("-s", "4000", scene="other.xml"))
+        self.assertIn("the scene", self.refused("-s", MANY, scene="other.xml"))
         version = self.succeed("--version").stdout
         sets = [name for name in ("x86-64-v2", "x86-64-v3")
                 if name in version and f"best here: {name}" not in version]
@@ -211,7 +210,7 @@ class ForeignCheckpoints(SafetyTest):
                                   (["--aov", "depth"], "the AOVs (none, not depth)"),
                                   *([(["--isa", sets[0]], "the instruction set")] if sets else [])]:
             with self.subTest(arguments):
-                self.assertIn(reason, self.refused("-s", "4000", *arguments))
+                self.assertIn(reason, self.refused("-s", MANY, *arguments))
         self.assertIn("more samples a pixel than are asked for", self.refused("-s", "3"))
         # It is not resumed by chance, either.
         message = self.fail_with(2, "scene.xml", "-q", "-o", "b.exr", "--checkpoint", "checkpoint.exr", timeout=LIMIT)
@@ -228,7 +227,7 @@ class ForeignCheckpoints(SafetyTest):
             with self.subTest(what):
                 with open(self.path("checkpoint.exr"), "wb") as file:
                     file.write(data)
-                self.refused("-r", "40x30", "-s", "4000")
+                self.refused("-r", "40x30", "-s", MANY)
         os.remove(self.path("checkpoint.exr"))
         os.mkdir(self.path("checkpoint.exr"))
         self.assertIn("checkpoint.exr", self.fail_with(1, "scene.xml", *self.RESUME, timeout=LIMIT))

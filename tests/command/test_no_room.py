@@ -38,6 +38,8 @@ class MountTest(SafetyTest):
 # Floats that no compression makes small enough for the disk.
 LARGE = ["-r", "800x600"]
 LARGE_FILES = [*LARGE, "--float"]
+# A render that is not over when it has been seen to run.
+LONG = ["scene.xml", "-s", support.samples(8000)]
 
 
 class FullDisk(MountTest):
@@ -57,11 +59,11 @@ class FullDisk(MountTest):
 
     def test_checkpoint(self):
         """It is told, and the render goes on."""
-        done = self.run_program("scene.xml", "-q", *LARGE, "-s", "64", "-o", "b.exr", "--checkpoint", "disk/c.exr",
-                                "--checkpoint-interval", "0.01s")
+        done = self.run_program("scene.xml", "-q", *LARGE, "-s", support.samples(64), "-o", "b.exr", "--checkpoint",
+                                "disk/c.exr", "--checkpoint-interval", "0.01s")
         self.assertIn("cannot write disk/c.exr: No space left on device", done.stderr)
         self.assertEqual(done.returncode, 0)
-        self.succeed("scene.xml", "-q", *LARGE, "-s", "64", "-o", "whole.exr")
+        self.succeed("scene.xml", "-q", *LARGE, "-s", support.samples(64), "-o", "whole.exr")
         self.assert_same("b.exr", self.read("whole.exr"))
         self.assert_kept()
 
@@ -99,7 +101,7 @@ class ReadOnlyFileSystem(MountTest):
         self.assert_kept()
 
     def test_during_the_render(self):
-        process = self.start("scene.xml", "-s", "8000", "-o", "disk/a.exr", "-o", "b.exr", "--progress=plain",
+        process = self.start(*LONG, "-o", "disk/a.exr", "-o", "b.exr", "--progress=plain",
                              "--checkpoint", "disk/c.exr")
         self.assertIn("rendered", process.stderr.readline())
         self.assertEqual(self.mount("-o", "remount,ro", self.path("disk")).returncode, 0)
@@ -113,12 +115,12 @@ class LostFolders(SafetyTest):
     def lose(self, action):
         """What a render tells whose folder is lost by the action."""
         os.mkdir(self.path("folder"))
-        process = self.start("scene.xml", "-s", "8000", "-o", "folder/a.exr", "-o", "b.exr", "--progress=plain",
+        process = self.start(*LONG, "-o", "folder/a.exr", "-o", "b.exr", "--progress=plain",
                              "--checkpoint", "folder/c.exr", "--checkpoint-interval", "0.2s")
         self.assertIn("rendered", process.stderr.readline())
         action(self.path("folder"))
         self.assertEqual(process.wait(timeout=LIMIT), 1)
-        self.succeed("scene.xml", "-q", "-s", "8000", "-o", "whole.exr")
+        self.succeed(*LONG, "-q", "-o", "whole.exr")
         self.assert_same("b.exr", self.read("whole.exr"))
         return process.stderr.read()
 

@@ -8,6 +8,7 @@ import subprocess
 import time
 import unittest
 
+import support
 from exr import Exr
 from support import CommandTest, REPOSITORY
 
@@ -106,7 +107,7 @@ class Pieces(CommandTest):
         stopped = {signal.SIGTERM: 0, signal.SIGKILL: 0}
         for scene in SCENES:
             chance = random.Random(os.path.basename(scene))
-            options = [scene, "-q", "--float", "-r", f"{WIDTH}x{HEIGHT}", "-s", "601"]
+            options = [scene, "-q", "--float", "-r", f"{WIDTH}x{HEIGHT}", "-s", support.samples(601)]
             began = time.monotonic()
             self.succeed(*options, "-o", "reference.exr")
             seconds = time.monotonic() - began
