@@ -5,6 +5,7 @@ import signal
 import struct
 import subprocess
 import unittest
+from itertools import compress
 
 import support
 from exr import Exr
@@ -110,9 +111,10 @@ class Merge(CommandTest):
         self.assertEqual(stopped.attributes["raytrace:partial"], ("int", struct.pack("<i", 1)))
         picture = self.merge("tile1.exr", options=["--partial"])
         self.assertEqual(picture.attributes["raytrace:partial"], ("int", struct.pack("<i", 1)))
-        for y, row in picture.row_bytes.items():
+        for y, row in picture.rows.items():
+            done = [count > 0 for count in stopped.rows[y]["sums.samples"]]
             for name, values in row.items():
-                self.assertEqual(values, stopped.row_bytes[y][name], (name, y))
+                self.assertEqual(list(compress(values, done)), list(compress(stopped.rows[y][name], done)), (name, y))
 
     def test_partial_fills_what_is_missing_with_checks(self):
         whole = self.render("all.exr")
