@@ -46,7 +46,7 @@ class FullDisk(MountTest):
     def test_picture(self):
         for name in ("disk/a.exr", "disk/b.exr", "disk/b.png", "disk/b.tif"):
             with self.subTest(name):
-                arguments = LARGE_FILES if not name.endswith("png") else ["-r", "3000x2000", "--bit-depth", "16"]
+                arguments = ["-r", "3000x2000", "-s", "1", "--bit-depth", "16"] if name.endswith("png") else LARGE_FILES
                 message = self.fail_with(1, "scene.xml", "-q", *arguments, "-o", name)
                 self.assertEqual(message, f"raytrace: error: cannot write {name}: No space left on device\n")
                 self.assert_kept()
