@@ -4,6 +4,7 @@ OUTPUT is an EXR to write; or "steady", to print the median of the seconds of re
 colours, coverage and positions seen through the pixels' centres.
 """
 
+import os
 import statistics
 import sys
 import time
@@ -45,10 +46,18 @@ def save_centres(scene, file):
     numpy.savez(file, color=array(color), alpha=numpy.array(hit).reshape(height, width), position=array(position))
 
 
+def use_threads(count):
+    """Dr.Jit counts the main thread, and alone it waits for ever for somebody to write the picture: so one thread is two
+    that share one processor."""
+    if count == 1:
+        os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
+    drjit.set_thread_count(max(count, 2))
+
+
 def main():
     scene_file, output, threads = sys.argv[1:]
     mitsuba.set_variant("llvm_ad_rgb")
-    drjit.set_thread_count(int(threads))
+    use_threads(int(threads))
     mitsuba.set_log_level(mitsuba.LogLevel.Error)
     scene = mitsuba.load_file(scene_file)
     if output == "steady":
