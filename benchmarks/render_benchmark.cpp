@@ -1,6 +1,6 @@
-// Whole renders of random scenes, each against the bare loop of Embree packet queries for the same rays.
+// Whole renders of random scenes, each against bare loops of Embree packet queries for the same rays.
 //
-// Render and bare loop take turns, so that a machine whose speed drifts does not favour one; medians are printed.
+// Render and bare loops take turns, so that a machine whose speed drifts does not favour one; medians are printed.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
@@ -24,7 +24,7 @@ struct Options {
   std::vector<int> threads{1, 0};
   int resolution = 1024, samples = 16, runs = 5;
   std::string isa = best_isa();
-  std::string bare = "parts";
+  std::vector<std::string> bare{"embree", "parts"};
   bool json = false;
 };
 
@@ -61,15 +61,15 @@ Options parse(int argc, char** argv) {
   parser.add_option("--isa", options.isa, "Instruction set")->check(CLI::IsMember(isa_names()))->capture_default_str();
   parser
       .add_option("--bare", options.bare,
-                  "What the bare loop asks: the renderer's own parts, with planes beside Embree's scene; one scene of "
-                  "Embree's; or one with its built-in sphere, where spheres are alone with planes")
+                  "What bare loops ask: one scene of Embree's; the renderer's own parts, with planes beside Embree's "
+                  "scene; or one scene with Embree's built-in sphere, where spheres are alone with planes")
       ->check(CLI::IsMember(bare_loop_names))
       ->capture_default_str();
   parser.add_flag("--json", options.json, "Print JSON instead of a table, times in seconds");
   try {
     parser.parse(argc, argv);
     for (const std::string& scene : options.scenes)
-      if (options.bare == "embree-spheres" && !scene.starts_with("spheres:"))
+      if (std::ranges::count(options.bare, "embree-spheres") != 0 && !scene.starts_with("spheres:"))
         throw CLI::ValidationError("--bare", "Embree's built-in sphere cannot stand in for the shapes of " + scene);
   } catch (const CLI::ParseError& error) {
     std::exit(parser.exit(error));
@@ -85,27 +85,64 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
+/// Medians over the runs.
+struct BareTiming {
+  double seconds;
+  double ratio;  ///< the render's time over this one, of the same run
+};
+
 struct Timing {
-  double render_seconds, bare_seconds;
-  double ratio;  ///< the median of the runs' own ratios
+  double render_seconds;
+  std::vector<BareTiming> bare;  ///< in the order of Options::bare
   double million_rays;
 };
 
 Timing time_scene(const SceneDescription& description, int threads, const Options& options) {
   const auto scene = build_scene(description, {threads, options.isa});
-  const auto bare = std::find(bare_loop_names.begin(), bare_loop_names.end(), options.bare) - bare_loop_names.begin();
-  const auto ceiling = make_ceiling(description, options.isa, static_cast<BareLoop>(bare));
-  std::vector<double> render_seconds, bare_seconds, ratios;
+  std::vector<std::unique_ptr<Ceiling>> ceilings;
+  for (const std::string& name : options.bare) {
+    const auto bare = std::ranges::find(bare_loop_names, name) - bare_loop_names.begin();
+    ceilings.push_back(make_ceiling(description, options.isa, static_cast<BareLoop>(bare)));
+  }
+  std::vector<double> render_seconds;
+  std::vector<std::vector<double>> bare_seconds(ceilings.size()), ratios(ceilings.size());
   RayCounts rays;
   for (int run = 0; run < options.runs; ++run) {
     const auto start = std::chrono::steady_clock::now();
     render(*scene, description, {threads, 0, {0, 0, options.resolution, options.resolution}}, rays);
     render_seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-    bare_seconds.push_back(ceiling->trace(threads).seconds / threads);
-    ratios.push_back(render_seconds.back() / bare_seconds.back());
+    for (std::size_t i = 0; i < ceilings.size(); ++i) {
+      bare_seconds[i].push_back(ceilings[i]->trace(threads).seconds / threads);
+      ratios[i].push_back(render_seconds.back() / bare_seconds[i].back());
+    }
   }
-  return {median(render_seconds), median(bare_seconds), median(ratios),
-          static_cast<double>(rays.camera + rays.shadow) * 1e-6};
+  Timing timing{median(render_seconds), {}, static_cast<double>(rays.camera + rays.shadow) * 1e-6};
+  for (std::size_t i = 0; i < ceilings.size(); ++i) timing.bare.push_back({median(bare_seconds[i]), median(ratios[i])});
+  return timing;
+}
+
+void print_heads(const Options& options) {
+  std::printf("%s, %d x %d, %d samples; medians of %d runs\n", options.isa.c_str(), options.resolution,
+              options.resolution, options.samples, options.runs);
+  std::printf("%-16s %7s %10s", "scene", "threads", "render s");
+  for (const std::string& name : options.bare) std::printf(" %16s %7s", (name + " s").c_str(), "ratio");
+  std::printf(" %8s\n", "Mray/s");
+}
+
+void print_row(const std::string& scene, int threads, const Timing& timing) {
+  std::printf("%-16s %7d %10.4f", scene.c_str(), threads, timing.render_seconds);
+  for (const BareTiming& bare : timing.bare) std::printf(" %16.4f %7.3f", bare.seconds, bare.ratio);
+  std::printf(" %8.1f\n", timing.million_rays / timing.render_seconds);
+  std::fflush(stdout);
+}
+
+nlohmann::json to_json(const std::string& scene, int threads, const Timing& timing, const Options& options) {
+  nlohmann::json result = {{"scene", scene}, {"threads", threads}, {"render", timing.render_seconds}};
+  for (std::size_t i = 0; i < timing.bare.size(); ++i) {
+    result[options.bare[i]] = timing.bare[i].seconds;
+    result[options.bare[i] + " ratio"] = timing.bare[i].ratio;
+  }
+  return result;
 }
 
 }  // namespace
@@ -113,28 +150,15 @@ Timing time_scene(const SceneDescription& description, int threads, const Option
 int main(int argc, char** argv) {
   const Options options = parse(argc, argv);
   nlohmann::json results = nlohmann::json::array();
-  if (!options.json) {
-    std::printf("%s, %d x %d, %d samples, bare loop: %s; medians of %d runs\n", options.isa.c_str(), options.resolution,
-                options.resolution, options.samples, options.bare.c_str(), options.runs);
-    std::printf("%-16s %7s %10s %10s %10s %14s %14s\n", "scene", "threads", "render s", "bare s", "ratio",
-                "render Mray/s", "bare Mray/s");
-  }
+  if (!options.json) print_heads(options);
   for (const std::string& name : options.scenes) {
     const SceneDescription description = make_scene(name, options);
     for (const int threads : options.threads) {
       const Timing timing = time_scene(description, threads, options);
-      if (options.json) {
-        results.push_back({{"scene", name},
-                           {"threads", threads},
-                           {"render", timing.render_seconds},
-                           {"bare", timing.bare_seconds},
-                           {"ratio", timing.ratio}});
-        continue;
-      }
-      std::printf("%-16s %7d %10.4f %10.4f %10.3f %14.1f %14.1f\n", name.c_str(), threads, timing.render_seconds,
-                  timing.bare_seconds, timing.ratio, timing.million_rays / timing.render_seconds,
-                  timing.million_rays / timing.bare_seconds);
-      std::fflush(stdout);
+      if (options.json)
+        results.push_back(to_json(name, threads, timing, options));
+      else
+        print_row(name, threads, timing);
     }
   }
   if (options.json) std::printf("%s\n", results.dump(2).c_str());

@@ -21,7 +21,7 @@ PROGRAM = """\
 #!/bin/sh
 case $1 in
   --help) echo --json ;;
-  *) echo '[{{"scene": "mix:5000", "threads": 1, "render": {render}, "bare": {bare}}}]' ;;
+  *) echo '[{{"scene": "mix:5000", "threads": 1, "render": {render}, "embree": {bare}}}]' ;;
 esac
 """
 
@@ -91,9 +91,9 @@ class CompareCommits(unittest.TestCase):
         result = self.compare("--rounds", "2")
         self.assertEqual(result.returncode, 0, result.stderr)
         slower = ["render/mix:5000/threads:1", "500", "ms", "600", "ms", "1.200", "1.200", "1.200", "slower"]
-        faster = ["bare/mix:5000/threads:1", "400", "ms", "300", "ms", "0.750", "0.750", "0.750", "faster"]
+        faster = ["embree/mix:5000/threads:1", "400", "ms", "300", "ms", "0.750", "0.750", "0.750", "faster"]
         self.assertEqual(self.line_of(result, "render"), slower)
-        self.assertEqual(self.line_of(result, "bare"), faster)
+        self.assertEqual(self.line_of(result, "embree"), faster)
 
     def test_follows_new_commits(self):
         self.commit_program(render=0.5, bare=0.4)
@@ -102,7 +102,7 @@ class CompareCommits(unittest.TestCase):
         self.commit_program(render=1, bare=0.404)
         result = self.compare("--rounds", "1")
         self.assertEqual(self.line_of(result, "render")[-1], "slower", result.stderr)
-        self.assertEqual(self.line_of(result, "bare")[5:], ["1.010", "1.010", "1.010"])
+        self.assertEqual(self.line_of(result, "embree")[5:], ["1.010", "1.010", "1.010"])
 
     def test_tells_where_a_benchmark_is_missing(self):
         self.commit(**{"CMakeLists.txt": "cmake_minimum_required(VERSION 3.24)\nproject(none LANGUAGES NONE)\n"})
