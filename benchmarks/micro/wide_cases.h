@@ -1,4 +1,4 @@
-// What is timed once for each instruction set: intersections, BRDFs, camera, sampler.
+// What is timed once for each instruction set: intersections, BRDFs, camera, sampler, sums.
 #pragma once
 
 #include <span>
