@@ -6,8 +6,8 @@
 #include "raytrace/brdfs/lambertian.h"
 #include "raytrace/cameras/camera.h"
 #include "raytrace/film/film.h"
+#include "raytrace/integrators/block_sums.h"
 #include "raytrace/integrators/packet_block.h"
-#include "raytrace/math/fixed_point_sums.h"
 #include "raytrace/sampling/pixel_sampler.h"
 #include "wide_cases.h"
 
@@ -247,7 +247,7 @@ void add_sampler_case(std::vector<MicroCase>& cases) {
       cases);
 }
 
-// ---- Sums: from the radiances of a block's packets to the film, exactly as the renderer does it and in floats.
+// ---- Sums: from the radiances of a block's packets to the film, exactly as the renderer does it, and in floats.
 
 /// A block of pixels with 16 samples each, and so many packets.
 using SampledBlock = PacketBlock<sampled_shape>;
@@ -255,70 +255,82 @@ constexpr std::size_t packets_a_block = 16 / sampled_shape.samples;
 /// The pixels of packet_count blocks, side by side.
 constexpr Region sums_region = {0, 0, static_cast<int>(packet_count) * sampled_shape.width, sampled_shape.height};
 
-struct ExactSums {
-  FixedPointSums<FloatN> red, green, blue;
-  Film film = [] {
-    FilmSettings settings;
-    settings.extent = {sums_region.width(), sums_region.height(), sums_region};
-    return Film(settings);
-  }();
+class ExactFilm {
+ public:
+  using Sums = BlockSums;
 
-  void add(const Rgb<FloatN>& radiance) {
-    const Doubles<FloatN> units(0x1p44);
-    red.add(radiance.red, units);
-    green.add(radiance.green, units);
-    blue.add(radiance.blue, units);
-  }
-  void add_to_film(const SampledBlock& block) {
-    const auto reds = red.sums(), greens = green.sums(), blues = blue.sums();
-    block.for_each_lane(sums_region, [&](int x, int y, std::size_t lane) {
-      film.sum(x, y) += {reds[lane], greens[lane], blues[lane], 1, 1};
-    });
-    red = green = blue = {};
-  }
-  float seen(int x) const { return static_cast<float>(film.sum(x, 0).red); }
+  static Sums no_sums() { return BlockSums(unit_exponent); }
+  void add(const Sums& sums, const SampledBlock& block) { sums.add_to(film_, block, sums_region); }
+  float red(int x) const { return static_cast<float>(film_.sum(x, 0).red); }
+
+ private:
+  static constexpr int unit_exponent = -44;
+  Film film_{FilmSettings{{sums_region.x1, sums_region.y1, sums_region}, {}, 0, unit_exponent, {}}};
 };
 
-struct FloatSums {
+/// Like BlockSums, but for the sums.
+struct FloatBlockSums {
+  Rgb<FloatN> radiance{FloatN(0), FloatN(0), FloatN(0)};
+  IntN hits = IntN(0), samples = IntN(0);
+
+  MaskN add(const SeenRadiance& seen, const MaskN& wanted) {
+    const MaskN fine = wanted & (seen.radiance.red + seen.radiance.green + seen.radiance.blue <= FloatN(1e30F));
+    radiance = radiance + select(fine, seen.radiance, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
+    hits = hits + select_lanes(seen.hit & wanted, IntN(1), IntN(0));
+    samples = samples + select_lanes(wanted, IntN(1), IntN(0));
+    return wanted & !fine;
+  }
+};
+
+class FloatFilm {
+ public:
+  using Sums = FloatBlockSums;
+
+  static Sums no_sums() { return {}; }
+  void add(const Sums& sums, const SampledBlock& block) {
+    const auto by_pixel = []<class Batch>(const Batch& batch) {
+      alignas(64) std::array<typename Batch::value_type, native_lanes> lanes;
+      batch.store_aligned(lanes.data());
+      return SampledBlock::sum_by_pixel(lanes);
+    };
+    const auto red = by_pixel(sums.radiance.red), green = by_pixel(sums.radiance.green),
+               blue = by_pixel(sums.radiance.blue);
+    const auto hits = by_pixel(sums.hits), samples = by_pixel(sums.samples);
+    block.for_each_pixel(sums_region, [&](int x, int y, std::size_t pixel) {
+      PixelSum& sum = film_[static_cast<std::size_t>(y * sums_region.x1 + x)];
+      sum.red += red[pixel];
+      sum.green += green[pixel];
+      sum.blue += blue[pixel];
+      sum.hits += hits[pixel];
+      sum.samples += samples[pixel];
+    });
+  }
+  float red(int x) const { return film_[static_cast<std::size_t>(x)].red; }
+
+ private:
   struct PixelSum {
     float red, green, blue;
-    std::uint32_t hits, samples;
+    std::int32_t hits, samples;
   };
-  static Rgb<FloatN> none() { return Rgb<FloatN>(Rgb<float>(0, 0, 0)); }
-  Rgb<FloatN> sums = none();
-  std::vector<PixelSum> film = std::vector<PixelSum>(static_cast<std::size_t>(sums_region.x1 * sums_region.y1));
-
-  void add(const Rgb<FloatN>& radiance) { sums = sums + radiance; }
-  void add_to_film(const SampledBlock& block) {
-    alignas(64) std::array<float, native_lanes> reds, greens, blues;
-    sums.red.store_aligned(reds.data());
-    sums.green.store_aligned(greens.data());
-    sums.blue.store_aligned(blues.data());
-    block.for_each_lane(sums_region, [&](int x, int y, std::size_t lane) {
-      PixelSum& pixel = film[static_cast<std::size_t>(y * sums_region.x1 + x)];
-      pixel.red += reds[lane];
-      pixel.green += greens[lane];
-      pixel.blue += blues[lane];
-      ++pixel.hits;
-      ++pixel.samples;
-    });
-    sums = none();
-  }
-  float seen(int x) const { return film[static_cast<std::size_t>(x)].red; }
+  std::vector<PixelSum> film_ = std::vector<PixelSum>(static_cast<std::size_t>(sums_region.x1 * sums_region.y1));
 };
 
-template <class Sums>
+template <class AnyFilm>
 void add_sums_case(const std::string& name, std::vector<MicroCase>& cases) {
   RandomLanes random;
-  std::vector<Rgb<FloatN>> radiances;
-  for (std::size_t i = 0; i < packet_count + packets_a_block; ++i) radiances.push_back(random_color(random));
+  std::vector<SeenRadiance> seen;
+  for (std::size_t i = 0; i < packet_count + packets_a_block; ++i)
+    seen.push_back({random_color(random), random.number() < FloatN(0.9F)});
   add_packet_case(
       "sums/" + name, static_cast<int>(packets_a_block),
-      [sums = std::make_shared<Sums>(), radiances](std::size_t i) {
-        for (std::size_t packet = 0; packet < packets_a_block; ++packet) sums->add(radiances[i + packet]);
+      [film = std::make_shared<AnyFilm>(), seen](std::size_t i) {
+        auto sums = AnyFilm::no_sums();
+        MaskN bad(false);
+        for (std::size_t packet = 0; packet < packets_a_block; ++packet)
+          bad = bad | sums.add(seen[i + packet], MaskN(true));
         const int left = static_cast<int>(i) * sampled_shape.width;
-        sums->add_to_film({left, 0});
-        return FloatN(sums->seen(left));
+        film->add(sums, {left, 0});
+        return FloatN(film->red(left)) + xsimd::select(bad, FloatN(1), FloatN(0));
       },
       cases);
 }
@@ -354,6 +366,6 @@ extern "C" void RAYTRACE_JOIN(raytrace_micro_,
   add_plane_case(cases);
   add_camera_case(cases);
   add_sampler_case(cases);
-  add_sums_case<ExactSums>("exact", cases);
-  add_sums_case<FloatSums>("float", cases);
+  add_sums_case<ExactFilm>("exact", cases);
+  add_sums_case<FloatFilm>("float", cases);
 }

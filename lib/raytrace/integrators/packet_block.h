@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "raytrace/film/film.h"
@@ -25,16 +26,35 @@ inline constexpr PacketShape centered_shape = {native_lanes >= 8 ? 4 : 2, native
 /// The block whose left upper pixel is (left, top).
 template <PacketShape shape>
 struct PacketBlock {
+  static constexpr int pixels = shape.width * shape.height;
+
   int left = 0, top = 0;
 
   /// Of a lane's pixel, in the picture; and the lane's sample in its group.
   int column(int lane) const { return left + lane % shape.width; }
   int row(int lane) const { return top + lane / shape.width % shape.height; }
-  static constexpr int slot(int lane) { return lane / (shape.width * shape.height); }
+  static constexpr int slot(int lane) { return lane / pixels; }
 
   UintN columns() const { return UintN(static_cast<std::uint32_t>(left)) + UintN::load_aligned(numbers.column.data()); }
   UintN rows() const { return UintN(static_cast<std::uint32_t>(top)) + UintN::load_aligned(numbers.row.data()); }
   static UintN slots() { return UintN::load_aligned(numbers.slot.data()); }
+
+  /// Of a number in each lane, the sums of each pixel's lanes.
+  template <class Number>
+  static std::array<Number, pixels> sum_by_pixel(const std::array<Number, native_lanes>& numbers) {
+    std::array<Number, pixels> sums{};
+    for (std::size_t lane = 0; lane < numbers.size(); ++lane) sums[lane % pixels] += numbers[lane];
+    return sums;
+  }
+
+  /// Calls f(x, y, pixel), pixel counting as in sum_by_pixel(), for the pixels that lie in the region.
+  template <class Function>
+  void for_each_pixel(const Region& region, const Function& f) const {
+    for (int pixel = 0; pixel < pixels; ++pixel) {
+      const int x = column(pixel), y = row(pixel);
+      if (region.x0 <= x && x < region.x1 && region.y0 <= y && y < region.y1) f(x, y, static_cast<std::size_t>(pixel));
+    }
+  }
 
   /// Calls f(x, y, lane) for the lanes whose pixels lie in the region.
   template <class Function>

@@ -1,16 +1,13 @@
 #include "raytrace/integrators/render_pixels.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <cmath>
-#include <limits>
 #include <optional>
 
 #include "raytrace/integrators/block_aovs.h"
+#include "raytrace/integrators/block_sums.h"
 #include "raytrace/integrators/packet_block.h"
 #include "raytrace/integrators/registry.h"
-#include "raytrace/math/fixed_point_sums.h"
 #include "raytrace/sampling/pixel_sampler.h"
 
 namespace raytrace {
@@ -21,48 +18,6 @@ namespace {
 constexpr int packets_per_look = 16;
 
 FloatN to_float(const UintN& numbers) { return xsimd::to_float(std::bit_cast<IntN>(numbers)); }
-
-/// The sums of a block's samples, lane by lane.
-class BlockSums {
- public:
-  explicit BlockSums(int unit_exponent)
-      : units_(std::ldexp(1.0, -unit_exponent)),
-        most_(static_cast<float>(std::min(std::ldexp(FixedPointSums<FloatN>::largest_term, unit_exponent),
-                                          static_cast<double>(std::numeric_limits<float>::max())))) {}
-
-  /// Adds a sample of each lane of `wanted`. The result: those whose radiance is not finite (or beyond what the sums
-  /// can hold), which are counted as black.
-  MaskN add(const SeenRadiance& seen, const MaskN& wanted) {
-    // Radiances are not negative: the sum is large where one of them is, and NaN compares false.
-    const MaskN fine = wanted & (seen.radiance.red + seen.radiance.green + seen.radiance.blue <= most_);
-    const Rgb<FloatN> radiance = select(fine, seen.radiance, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
-    red_.add(radiance.red, units_);
-    green_.add(radiance.green, units_);
-    blue_.add(radiance.blue, units_);
-    hits_ = hits_ + select_lanes(seen.hit & wanted, IntN(1), IntN(0));
-    samples_ = samples_ + select_lanes(wanted, IntN(1), IntN(0));
-    return wanted & !fine;
-  }
-
-  /// Adds them to the pixels of the block that lie in the region.
-  template <class Block>
-  void add_to(Film& film, const Block& block, const Region& region) const {
-    const auto red = red_.sums(), green = green_.sums(), blue = blue_.sums();
-    alignas(64) std::array<std::int32_t, native_lanes> hits, samples;
-    hits_.store_aligned(hits.data());
-    samples_.store_aligned(samples.data());
-    block.for_each_lane(region, [&](int x, int y, std::size_t lane) {
-      film.sum(x, y) += {red[lane], green[lane], blue[lane], static_cast<std::uint32_t>(hits[lane]),
-                         static_cast<std::uint32_t>(samples[lane])};
-    });
-  }
-
- private:
-  Doubles<FloatN> units_;
-  FloatN most_;
-  FixedPointSums<FloatN> red_, green_, blue_;
-  IntN hits_ = IntN(0), samples_ = IntN(0);
-};
 
 /// The pixels of a part of a film, block by block.
 template <class Integrator, PacketShape shape>

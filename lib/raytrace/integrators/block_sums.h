@@ -1,0 +1,61 @@
+// The sums of a block's samples, on their way from the integrator to the film.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "raytrace/film/film.h"
+#include "raytrace/integrators/raycast.h"
+#include "raytrace/math/fixed_point_sums.h"
+
+namespace raytrace {
+
+/// Of the lanes of a PacketBlock, exact.
+class BlockSums {
+ public:
+  /// unit_exponent: the film's.
+  explicit BlockSums(int unit_exponent)
+      : units_(std::ldexp(1.0, -unit_exponent)),
+        most_(static_cast<float>(std::min(std::ldexp(FixedPointSums<FloatN>::largest_term, unit_exponent),
+                                          static_cast<double>(std::numeric_limits<float>::max())))) {}
+
+  /// Adds a sample of each lane of `wanted`. The result: those whose radiance is not finite (or beyond what the sums
+  /// can hold), which are counted as black.
+  MaskN add(const SeenRadiance& seen, const MaskN& wanted) {
+    // Radiances are not negative: the sum is large where one of them is, and NaN compares false.
+    const MaskN fine = wanted & (seen.radiance.red + seen.radiance.green + seen.radiance.blue <= most_);
+    const Rgb<FloatN> radiance = select(fine, seen.radiance, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
+    red_.add(radiance.red, units_);
+    green_.add(radiance.green, units_);
+    blue_.add(radiance.blue, units_);
+    hits_ = hits_ + select_lanes(seen.hit & wanted, IntN(1), IntN(0));
+    samples_ = samples_ + select_lanes(wanted, IntN(1), IntN(0));
+    return wanted & !fine;
+  }
+
+  /// Adds them to the pixels of the block that lie in the region.
+  template <class Block>
+  void add_to(Film& film, const Block& block, const Region& region) const {
+    alignas(64) std::array<std::int32_t, native_lanes> hit_lanes, sample_lanes;
+    hits_.store_aligned(hit_lanes.data());
+    samples_.store_aligned(sample_lanes.data());
+    const auto red = Block::sum_by_pixel(red_.sums()), green = Block::sum_by_pixel(green_.sums()),
+               blue = Block::sum_by_pixel(blue_.sums());
+    const auto hits = Block::sum_by_pixel(hit_lanes), samples = Block::sum_by_pixel(sample_lanes);
+    block.for_each_pixel(region, [&](int x, int y, std::size_t pixel) {
+      film.sum(x, y) += {red[pixel], green[pixel], blue[pixel], static_cast<std::uint32_t>(hits[pixel]),
+                         static_cast<std::uint32_t>(samples[pixel])};
+    });
+  }
+
+ private:
+  Doubles<FloatN> units_;
+  FloatN most_;
+  FixedPointSums<FloatN> red_, green_, blue_;
+  IntN hits_ = IntN(0), samples_ = IntN(0);
+};
+
+}  // namespace raytrace
