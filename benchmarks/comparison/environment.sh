@@ -1,4 +1,4 @@
-# Sourced by benchmarks/compare and benchmarks/scaling, after cmake/setup.sh: the Python that they run with.
+# Sourced by benchmarks/compare, scaling and instruction_sets, after cmake/setup.sh: the Python that they run with.
 # POSIX sh.
 
 # Python's packages, in a folder of their own; one that cannot be installed does not keep out the others.

@@ -15,7 +15,8 @@ MARKS = ("<!-- benchmarks/compare writes from here -->", "<!-- to here -->")
 COLORS = ("#3b6fb5", "#d1662f", "#4f9a57", "#8a5fb0")
 
 
-def machine(participants, chosen):
+def host():
+    """What is measured, and where."""
     with open("/proc/cpuinfo", encoding="utf-8") as file:
         model = re.search(r"model name\s*: (.*)", file.read())
     system = platform.freedesktop_os_release().get("PRETTY_NAME", platform.system())
@@ -27,6 +28,11 @@ def machine(participants, chosen):
         "system": system,
         "commit": commit.stdout.strip(),
         "load_at_start": round(os.getloadavg()[0], 2),
+    }
+
+
+def machine(participants, chosen):
+    return host() | {
         "limit": chosen.limit,
         "repeats": chosen.repeats,
         "versions": {name: renderer.version() for name, renderer in participants.items()},
