@@ -24,8 +24,12 @@ struct Frame {
 double random_angle(Random& random) { return random.between(0, 6.283185307179586); }
 
 ShapeCase plane_case(Random& random, const Vector& place, double size) {
-  const Vector normal =
-      in_float(random.chance(0.2) ? Vector{0, 1, 0} : random.log_between(0.01, 100) * random.direction());
+  Vector direction = random.direction();
+  if (random.chance(0.3)) {  // along an axis
+    const int number = static_cast<int>(random.below(3));
+    direction = random.sign() * Vector{Real(number == 0), Real(number == 1), Real(number == 2)};
+  }
+  const Vector normal = in_float(random.log_between(0.01, 100) * direction);
   const Vector axis = reference::unit(normal);
   const Frame frame(axis);
   return {std::make_shared<reference::Plane>(place, normal),

@@ -43,6 +43,12 @@ RAYTRACE_INLINE Vec3<T> cross(const Vec3<T>& a, const Vec3<T>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+/// By number: x, y and z are 0, 1 and 2.
+template <class T>
+RAYTRACE_INLINE const T& component(const Vec3<T>& a, int number) {
+  return number == 0 ? a.x : number == 1 ? a.y : a.z;
+}
+
 /// Length. Components beyond 1e18 (float) overflow: the scene format refuses them.
 template <class T>
 RAYTRACE_INLINE T length(const Vec3<T>& a) {

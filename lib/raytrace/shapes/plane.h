@@ -3,7 +3,8 @@
 //   <plane> <point x="0" y="0" z="0"/> <normal x="0" y="1" z="0"/> <material>floor</material> </plane>
 //
 // It has no bounds(), and so stays out of the BVH. Distances are computed in double: far from the origin, or at the
-// horizon, both terms of the quotient cancel.
+// horizon, both terms of the quotient cancel. Not so where the plane faces along an axis, as floors and walls do: there
+// is one difference of two floats to take.
 #pragma once
 
 #include <cmath>
@@ -38,15 +39,36 @@ class Plane {
   /// The surface at a distance that intersect() gave.
   template <class F>
   static SurfacePoint<F> surface(const Record<Doubles<F>>& plane, const Ray<F>& ray, const F& distance);
+  /// The same where all lanes hit one plane.
+  template <class F>
+  static SurfacePoint<F> surface(const Record<double>& plane, const Ray<F>& ray, const F& distance);
+
+ private:
+  /// Of the axis that the normal lies along: 0, 1 or 2; 3 if it lies along none.
+  static int axis(const Record<double>& plane) {
+    const Vec3<double>& normal = plane.normal;
+    if (normal.y == 0 && normal.z == 0) return 0;
+    if (normal.x == 0 && normal.z == 0) return 1;
+    if (normal.x == 0 && normal.y == 0) return 2;
+    return 3;
+  }
 };
 
 template <class F>
 RAYTRACE_INLINE F Plane::intersect(const Record<double>& plane, const Ray<F>& ray, const Mask<F>& active) {
-  using D = Doubles<F>;
-  const Vec3<D> normal(plane.normal);
-  const D height = D(plane.offset) - dot(normal, Vec3<D>(ray.origin));
-  const D speed = dot(normal, Vec3<D>(ray.direction));
-  const F t = height.to_float() / speed.to_float();  // a ray in the plane gives infinity or NaN: no hit
+  F height, speed;
+  if (const int along = axis(plane); along < 3) {
+    const double place = plane.offset * component(plane.normal, along);
+    const auto rounded = static_cast<float>(place), rest = static_cast<float>(place - rounded);
+    height = (F(rounded) - component(ray.origin, along)) + F(rest);
+    speed = component(ray.direction, along);
+  } else {
+    using D = Doubles<F>;
+    const Vec3<D> normal(plane.normal);
+    height = (D(plane.offset) - dot(normal, Vec3<D>(ray.origin))).to_float();
+    speed = dot(normal, Vec3<D>(ray.direction)).to_float();
+  }
+  const F t = height / speed;  // a ray in the plane gives infinity or NaN: no hit
   return xsimd::select(active & (t > ray.near) & (t < ray.far), t, infinity<F>());
 }
 
@@ -57,6 +79,19 @@ SurfacePoint<F> Plane::surface(const Record<Doubles<F>>& plane, const Ray<F>& ra
   const Vec3<D> on_plane = on_ray + plane.normal * (plane.offset - dot(plane.normal, on_ray));
   const Vec3<F> position = to_float(on_plane);
   return {position, to_float(plane.normal), rounding_error(position, F(0))};
+}
+
+template <class F>
+SurfacePoint<F> Plane::surface(const Record<double>& plane, const Ray<F>& ray, const F& distance) {
+  const int along = axis(plane);
+  if (along == 3) {
+    using D = Doubles<F>;
+    return surface(Record<D>{Vec3<D>(plane.normal), D(plane.offset)}, ray, distance);
+  }
+  const F place(static_cast<float>(plane.offset * component(plane.normal, along)));
+  const Vec3<F> on_ray = ray.at(distance);
+  const Vec3<F> position{along == 0 ? place : on_ray.x, along == 1 ? place : on_ray.y, along == 2 ? place : on_ray.z};
+  return {position, Vec3<F>(Vec3f(plane.normal)), rounding_error(position, F(0))};
 }
 
 }  // namespace raytrace
