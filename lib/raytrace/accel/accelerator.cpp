@@ -119,10 +119,23 @@ void for_each_unbounded(const Tables& tables, Function f) {
   });
 }
 
+void find_first(Hits& hits) {
+  const std::uint32_t lanes = bits_of<FloatN>(hits.hit);
+  if (lanes == 0) return;
+  const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+  hits.first_kind = hits.kind.get(lane);
+  hits.first_primitive = hits.primitive.get(lane);
+  hits.one_kind = xsimd::none(hits.hit & float_mask<FloatN>(hits.kind != UintN(hits.first_kind)));
+  hits.one_object =
+      hits.one_kind && xsimd::none(hits.hit & float_mask<FloatN>(hits.primitive != IntN(hits.first_primitive)));
+}
+
 /// The surfaces of one shape, under the wide type of its table's precision.
 template <class Shape>
-SurfacePoint<FloatN> surface_of(const ShapeTable<Shape>& table, const IntN& primitive, const Ray<FloatN>& rays,
+SurfacePoint<FloatN> surface_of(const ShapeTable<Shape>& table, const LanePlaces& primitive, const Ray<FloatN>& rays,
                                 const Hits& hits) {
+  if constexpr (requires { Shape::surface(table.records[0], rays, hits.distance); })
+    if (primitive.all_same()) return Shape::surface(table.records[primitive.first()], rays, hits.distance);
   constexpr bool in_float = std::is_same_v<typename ShapeTable<Shape>::Record, typename Shape::template Record<float>>;
   using Wide = std::conditional_t<in_float, FloatN, Doubles<FloatN>>;
   const auto records = gather_records<Shape::template Record, Wide>(table.records.data(), primitive);
@@ -234,6 +247,7 @@ Hits Accelerator::intersect(const Ray<FloatN>& rays, const MaskN& active, Cohere
   hits.distance = FloatN::load_aligned(packet.ray.tfar);
   hits.u = FloatN::load_aligned(packet.hit.u);
   hits.v = FloatN::load_aligned(packet.hit.v);
+  find_first(hits);
   return hits;
 }
 
@@ -263,6 +277,14 @@ MaskN Accelerator::occluded(const Ray<FloatN>& rays, const MaskN& active, Cohere
 
 SurfacePoint<FloatN> Accelerator::surface(const Ray<FloatN>& rays, const Hits& hits) const {
   SurfacePoint<FloatN> result;
+  if (hits.one_object) {
+    for_each_type(Shapes{}, [&](auto type) {
+      using Shape = typename decltype(type)::type;
+      if (hits.first_kind == index_of<Shape>(Shapes{}))
+        result = surface_of<Shape>(std::get<ShapeTable<Shape>>(tables_), LanePlaces(hits.first_primitive), rays, hits);
+    });
+    return result;
+  }
   std::uint32_t lanes_left = bits_of<FloatN>(hits.hit);
   alignas(64) std::uint32_t kinds[native_lanes];
   hits.kind.store_aligned(kinds);

@@ -26,6 +26,12 @@ struct Hits {
   IntN primitive;  ///< index among the objects of that type
   FloatN distance;
   FloatN u, v;  ///< barycentric coordinates on triangles
+
+  // Of the first lane with a hit, and whether all others with one have the same kind, and hit the same object, as
+  // neighbours mostly do.
+  std::uint32_t first_kind = 0;
+  std::int32_t first_primitive = 0;
+  bool one_kind = false, one_object = false;
 };
 
 /// Owns Embree's device and scene, and the tables of all shapes.

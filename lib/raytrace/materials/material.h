@@ -40,11 +40,11 @@ class MaterialTable {
   virtual Rgb<float> largest_radiance(const Rgb<float>& ambient_radiance, const Rgb<float>& light_radiance) const = 0;
 
   /// The albedo of each lane's material, and the most that any of them has.
-  virtual Rgb<FloatN> albedo(const IntN& index) const = 0;
+  virtual Rgb<FloatN> albedo(const LanePlaces& places) const = 0;
   virtual Rgb<float> largest_albedo() const = 0;
 
-  /// The radiance that leaves along wo. `index`: each lane's material, for every lane one that exists.
-  virtual Rgb<FloatN> shade(const IntN& index, const Vec3<FloatN>& wo, const Vec3<FloatN>& normal,
+  /// The radiance that leaves along wo. `places`: each lane's material, for every lane one that exists.
+  virtual Rgb<FloatN> shade(const LanePlaces& places, const Vec3<FloatN>& wo, const Vec3<FloatN>& normal,
                             const Rgb<float>& ambient_radiance, std::span<const ArrivingLight> lights) const = 0;
 };
 
@@ -53,9 +53,9 @@ class MaterialTableOf final : public MaterialTable {
  public:
   explicit MaterialTableOf(std::vector<typename Material::template Brdfs<float>> brdfs) : brdfs_(std::move(brdfs)) {}
 
-  Rgb<FloatN> shade(const IntN& index, const Vec3<FloatN>& wo, const Vec3<FloatN>& normal,
+  Rgb<FloatN> shade(const LanePlaces& places, const Vec3<FloatN>& wo, const Vec3<FloatN>& normal,
                     const Rgb<float>& ambient_radiance, std::span<const ArrivingLight> lights) const override {
-    const auto brdfs = gather_records<Material::template Brdfs, FloatN>(brdfs_.data(), index);
+    const auto brdfs = gather_records<Material::template Brdfs, FloatN>(brdfs_.data(), places);
     Rgb<FloatN> result = Material::template ambient<FloatN>(brdfs, Rgb<FloatN>(ambient_radiance));
     for (const ArrivingLight& light : lights)
       // The cosine first: where it is 0, a product beyond the range of floats would make it NaN.
@@ -67,8 +67,8 @@ class MaterialTableOf final : public MaterialTable {
     const Vec3<FloatN> normal(Vec3<float>{0, 0, 1});
     Rgb<float> largest(0, 0, 0);
     for (std::size_t i = 0; i < brdfs_.size(); ++i) {
-      const IntN index(static_cast<std::int32_t>(i));
-      const auto brdfs = gather_records<Material::template Brdfs, FloatN>(brdfs_.data(), index);
+      const LanePlaces place(static_cast<std::int32_t>(i));
+      const auto brdfs = gather_records<Material::template Brdfs, FloatN>(brdfs_.data(), place);
       const Rgb<FloatN> radiance =
           Material::template ambient<FloatN>(brdfs, Rgb<FloatN>(ambient_radiance)) +
           Material::template reflect<FloatN>(brdfs, normal, normal, normal) * Rgb<FloatN>(light_radiance);
@@ -77,8 +77,8 @@ class MaterialTableOf final : public MaterialTable {
     return largest;
   }
 
-  Rgb<FloatN> albedo(const IntN& index) const override {
-    return Material::template albedo<FloatN>(gather_records<Material::template Brdfs, FloatN>(brdfs_.data(), index));
+  Rgb<FloatN> albedo(const LanePlaces& places) const override {
+    return Material::template albedo<FloatN>(gather_records<Material::template Brdfs, FloatN>(brdfs_.data(), places));
   }
 
   Rgb<float> largest_albedo() const override {

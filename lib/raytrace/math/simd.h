@@ -335,21 +335,93 @@ inline Doubles<FloatN> gather(const double* base, const IntN& index) {
   return Doubles<FloatN>::load_aligned(values.data());
 }
 
+namespace detail {
+
+/// result[i] = base[i + offset of that lane], of four floats beside each other: loaded as they lie, and transposed, in
+/// a fraction of the time of four gathers.
+RAYTRACE_INLINE void gather_four(const float* base, const std::int32_t* offsets, FloatN* result) {
+#if defined(__SSE__)
+  const auto row = [&](int lane) { return _mm_loadu_ps(base + offsets[lane]); };
+#endif
+#if defined(__AVX512F__)
+  const auto rows = [&](int lane) {
+    const __m512 half = _mm512_insertf32x4(_mm512_castps128_ps512(row(lane)), row(lane + 4), 1);
+    return _mm512_insertf32x4(_mm512_insertf32x4(half, row(lane + 8), 2), row(lane + 12), 3);
+  };
+  const __m512 a = rows(0), b = rows(1), c = rows(2), d = rows(3);
+  const __m512 low_ab = _mm512_unpacklo_ps(a, b), high_ab = _mm512_unpackhi_ps(a, b);
+  const __m512 low_cd = _mm512_unpacklo_ps(c, d), high_cd = _mm512_unpackhi_ps(c, d);
+  result[0] = _mm512_shuffle_ps(low_ab, low_cd, 0x44);
+  result[1] = _mm512_shuffle_ps(low_ab, low_cd, 0xee);
+  result[2] = _mm512_shuffle_ps(high_ab, high_cd, 0x44);
+  result[3] = _mm512_shuffle_ps(high_ab, high_cd, 0xee);
+#elif defined(__AVX__)
+  const auto rows = [&](int lane) { return _mm256_insertf128_ps(_mm256_castps128_ps256(row(lane)), row(lane + 4), 1); };
+  const __m256 a = rows(0), b = rows(1), c = rows(2), d = rows(3);
+  const __m256 low_ab = _mm256_unpacklo_ps(a, b), high_ab = _mm256_unpackhi_ps(a, b);
+  const __m256 low_cd = _mm256_unpacklo_ps(c, d), high_cd = _mm256_unpackhi_ps(c, d);
+  result[0] = _mm256_shuffle_ps(low_ab, low_cd, 0x44);
+  result[1] = _mm256_shuffle_ps(low_ab, low_cd, 0xee);
+  result[2] = _mm256_shuffle_ps(high_ab, high_cd, 0x44);
+  result[3] = _mm256_shuffle_ps(high_ab, high_cd, 0xee);
+#elif defined(__SSE__)
+  const __m128 a = row(0), b = row(1), c = row(2), d = row(3);
+  const __m128 low_ab = _mm_unpacklo_ps(a, b), high_ab = _mm_unpackhi_ps(a, b);
+  const __m128 low_cd = _mm_unpacklo_ps(c, d), high_cd = _mm_unpackhi_ps(c, d);
+  result[0] = _mm_shuffle_ps(low_ab, low_cd, 0x44);
+  result[1] = _mm_shuffle_ps(low_ab, low_cd, 0xee);
+  result[2] = _mm_shuffle_ps(high_ab, high_cd, 0x44);
+  result[3] = _mm_shuffle_ps(high_ab, high_cd, 0xee);
+#else
+  alignas(64) std::array<float, native_lanes> lanes;
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t lane = 0; lane < native_lanes; ++lane) lanes[lane] = base[offsets[lane] + static_cast<int>(i)];
+    result[i] = FloatN::load_aligned(lanes.data());
+  }
+#endif
+}
+
+}  // namespace detail
+
+/// A place in a table for each lane. It knows where all are the same: neighbours mostly hit the same thing.
+class LanePlaces {
+ public:
+  LanePlaces(const IntN& lanes)  // implicit: it is the same
+      : lanes_(lanes), first_(lanes.get(0)), all_same_(xsimd::all(lanes == IntN(first_))) {}
+  explicit LanePlaces(std::int32_t all) : lanes_(all), first_(all), all_same_(true) {}
+
+  const IntN& lanes() const { return lanes_; }
+  bool all_same() const { return all_same_; }
+  std::size_t first() const { return static_cast<std::size_t>(first_); }
+
+ private:
+  IntN lanes_;
+  std::int32_t first_;
+  bool all_same_;
+};
+
 /// The lanes' records, gathered from a table: Record<T> is a struct template of T members only, and the result holds in
-/// each lane the fields of table[index of that lane]. Wide is FloatN-like for float tables, Doubles for double ones.
+/// each lane the fields of table[place of that lane]. Wide is FloatN-like for float tables, Doubles for double ones.
 template <template <class> class Record, class Wide, class Scalar>
-Record<Wide> gather_records(const Record<Scalar>* table, const IntN& index) {
+Record<Wide> gather_records(const Record<Scalar>* table, const LanePlaces& places) {
   constexpr std::size_t fields = sizeof(Record<Scalar>) / sizeof(Scalar);
   static_assert(sizeof(Record<Scalar>) == fields * sizeof(Scalar) && sizeof(Record<Wide>) == fields * sizeof(Wide),
                 "a record has members of its template argument's type only");
   const Scalar* base = reinterpret_cast<const Scalar*>(table);
-  const IntN first_field = index * IntN(static_cast<std::int32_t>(fields));
   std::array<Wide, fields> gathered;
-  const auto first = static_cast<std::size_t>(first_field.get(0));
-  if (xsimd::all(first_field == IntN(first_field.get(0)))) {  // neighbours mostly hit the same thing
-    for (std::size_t field = 0; field < fields; ++field) gathered[field] = Wide(base[first + field]);
+  if (places.all_same()) {
+    for (std::size_t field = 0; field < fields; ++field) gathered[field] = Wide(base[places.first() * fields + field]);
   } else {
-    for (std::size_t field = 0; field < fields; ++field) gathered[field] = gather(base + field, first_field);
+    const IntN first_field = places.lanes() * IntN(static_cast<std::int32_t>(fields));
+    if constexpr (fields >= 4 && std::is_same_v<Wide, FloatN>) {
+      alignas(64) std::array<std::int32_t, native_lanes> offsets;
+      first_field.store_aligned(offsets.data());
+      // The last four overlap with those before where their number is not a multiple of four.
+      for (std::size_t field = 0; field + 4 < fields; field += 4)
+        detail::gather_four(base + field, offsets.data(), gathered.data() + field);
+      detail::gather_four(base + fields - 4, offsets.data(), gathered.data() + fields - 4);
+    } else
+      for (std::size_t field = 0; field < fields; ++field) gathered[field] = gather(base + field, first_field);
   }
   Record<Wide> result;
   std::memcpy(static_cast<void*>(&result), gathered.data(), sizeof result);

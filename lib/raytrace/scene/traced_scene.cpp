@@ -30,15 +30,14 @@ TracedScene::TracedScene(const SceneDescription& description, int threads, const
     }
   });
 
-  std::int32_t material_count = 0;
   for_each_type(Materials{}, [&](auto type) {
     using Material = typename decltype(type)::type;
-    first_material_[index_of<Material>(Materials{})] = material_count;
+    constexpr std::size_t kind = index_of<Material>(Materials{});
     std::vector<typename Material::template Brdfs<float>> brdfs;
     for (const auto& item : std::get<MaterialItems<Material>>(description.materials))
       brdfs.push_back(Material::brdfs(item.parameters));
-    material_count += static_cast<std::int32_t>(brdfs.size());
-    materials_[index_of<Material>(Materials{})] = std::make_unique<MaterialTableOf<Material>>(std::move(brdfs));
+    first_material_[kind + 1] = first_material_[kind] + static_cast<std::int32_t>(brdfs.size());
+    materials_[kind] = std::make_unique<MaterialTableOf<Material>>(std::move(brdfs));
   });
 
   Rgb<float> light_radiance(0, 0, 0);
@@ -53,8 +52,7 @@ TracedScene::TracedScene(const SceneDescription& description, int threads, const
     using Shape = typename decltype(type)::type;
     first_object_[index_of<Shape>(Shapes{})] = static_cast<std::int32_t>(object_materials_.size());
     for (const auto& item : std::get<ObjectItems<Shape>>(description.objects))
-      object_materials_.push_back(
-          {static_cast<std::int32_t>(item.material.kind), static_cast<std::int32_t>(item.material.index)});
+      object_materials_.push_back(first_material_[item.material.kind] + static_cast<std::int32_t>(item.material.index));
   });
 }
 
@@ -65,46 +63,48 @@ float TracedScene::largest_albedo() const {
 }
 
 IntN TracedScene::object(const Hits& hits) const {
-  const auto first_lane = static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(hits.hit)));
   // Lanes that hit nothing follow the first that did.
-  const IntN shape = select_lanes(hits.hit, std::bit_cast<IntN>(hits.kind),
-                                  IntN(static_cast<std::int32_t>(hits.kind.get(first_lane))));
-  return gather(first_object_.data(), shape) +
-         select_lanes(hits.hit, hits.primitive, IntN(hits.primitive.get(first_lane)));
+  const IntN primitive = select_lanes(hits.hit, hits.primitive, IntN(hits.first_primitive));
+  if (hits.one_kind) return primitive + IntN(first_object_[hits.first_kind]);
+  const IntN kind =
+      select_lanes(hits.hit, std::bit_cast<IntN>(hits.kind), IntN(static_cast<std::int32_t>(hits.first_kind)));
+  return primitive + gather(first_object_.data(), kind);
 }
 
-TracedScene::ObjectMaterial<IntN> TracedScene::materials(const Hits& hits) const {
-  return gather_records<ObjectMaterial, IntN>(object_materials_.data(), object(hits));
-}
-
-IntN TracedScene::material(const Hits& hits) const {
-  const ObjectMaterial<IntN> material = materials(hits);
-  return gather(first_material_.data(), material.kind) + material.index;
-}
+IntN TracedScene::material(const Hits& hits) const { return gather(object_materials_.data(), object(hits)); }
 
 template <class Answer>
 Rgb<FloatN> TracedScene::by_material(const Hits& hits, const Answer& answer) const {
-  const ObjectMaterial<IntN> material = materials(hits);
+  if (hits.one_object) {
+    const std::int32_t object = first_object_[hits.first_kind] + hits.first_primitive;
+    const std::int32_t number = object_materials_[static_cast<std::size_t>(object)];
+    const auto kind = std::upper_bound(first_material_.begin(), first_material_.end() - 1, number) - 1;
+    return answer(*materials_[static_cast<std::size_t>(kind - first_material_.begin())], LanePlaces(number - *kind));
+  }
+  const IntN number = material(hits);
   Rgb<FloatN> result(FloatN(0), FloatN(0), FloatN(0));
-  for (std::uint32_t lanes_left = bits_of<FloatN>(hits.hit); lanes_left != 0;) {
-    const auto lane = static_cast<std::size_t>(std::countr_zero(lanes_left));
-    const std::int32_t kind = material.kind.get(lane);
-    const MaskN here = float_mask<FloatN>(material.kind == IntN(kind));
-    const IntN index = select_lanes(here, material.index, IntN(material.index.get(lane)));
-    result = select(here, answer(*materials_[static_cast<std::size_t>(kind)], index), result);
-    lanes_left &= ~bits_of<FloatN>(here);
+  for (std::size_t kind = 0; kind < materials_.size(); ++kind) {
+    const IntN first(first_material_[kind]), end(first_material_[kind + 1]);
+    const MaskN here = float_mask<FloatN>(number >= first) & float_mask<FloatN>(number < end);
+    const std::uint32_t lanes = bits_of<FloatN>(here);
+    if (lanes == 0) continue;
+    const IntN place = number - first;
+    // The other lanes follow the first of these, so that they read a material that exists.
+    const LanePlaces places =
+        select_lanes(here, place, IntN(place.get(static_cast<std::size_t>(std::countr_zero(lanes)))));
+    result = select(here, answer(*materials_[kind], places), result);
   }
   return result;
 }
 
 Rgb<FloatN> TracedScene::albedo(const Hits& hits) const {
-  return by_material(hits, [](const MaterialTable& table, const IntN& index) { return table.albedo(index); });
+  return by_material(hits, [](const MaterialTable& table, const LanePlaces& places) { return table.albedo(places); });
 }
 
 Rgb<FloatN> TracedScene::shade(const Hits& hits, const Vec3<FloatN>& wo, const Vec3<FloatN>& normal,
                                const Rgb<float>& ambient_radiance, std::span<const ArrivingLight> lights) const {
-  return by_material(hits, [&](const MaterialTable& table, const IntN& index) {
-    return table.shade(index, wo, normal, ambient_radiance, lights);
+  return by_material(hits, [&](const MaterialTable& table, const LanePlaces& places) {
+    return table.shade(places, wo, normal, ambient_radiance, lights);
   });
 }
 

@@ -49,14 +49,7 @@ class TracedScene final : public Scene {
                     const Rgb<float>& ambient_radiance, std::span<const ArrivingLight> lights) const;
 
  private:
-  template <class T>
-  struct ObjectMaterial {
-    T kind, index;
-  };
-
-  ObjectMaterial<IntN> materials(const Hits& hits) const;
-
-  /// answer(table, index) of each material type among the lanes, each lane's of its own.
+  /// answer(table, places) of each material type among the lanes, each lane's of its own.
   template <class Answer>
   Rgb<FloatN> by_material(const Hits& hits, const Answer& answer) const;
 
@@ -67,9 +60,10 @@ class TracedScene final : public Scene {
   Rgb<float> ambient_radiance_{0, 0, 0};
   std::vector<std::unique_ptr<LightSource>> lights_;
   std::array<std::unique_ptr<MaterialTable>, Materials::size> materials_;
-  std::array<std::int32_t, Materials::size> first_material_{};  ///< of each type, all counted together
-  std::array<std::int32_t, Shapes::size> first_object_{};       ///< of each shape's type in object_materials_
-  std::vector<ObjectMaterial<std::int32_t>> object_materials_;
+  std::array<std::int32_t, Materials::size + 1>
+      first_material_{};                                   ///< of each type, all counted together; their number
+  std::array<std::int32_t, Shapes::size> first_object_{};  ///< of each shape's type in object_materials_
+  std::vector<std::int32_t> object_materials_;
   float largest_radiance_;
   const char* isa_name_;
 };
