@@ -59,6 +59,8 @@ function(raytrace_add_variants target)
     target_compile_definitions(${objects} PRIVATE RAYTRACE_VARIANT=${variant} RAYTRACE_ISA="${isa}")
     target_compile_options(${objects} PRIVATE
       $<$<NOT:$<STREQUAL:${isa},generic>>:-march=${isa}>
+      # Without it, the compiler's choices are those for all processors: toruses take 4 % longer.
+      $<$<STREQUAL:${isa},x86-64-v3>:-mtune=haswell>
       # A unique symbol cannot be made local.
       $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>
       # GCC 12 takes the undefined operands in its own AVX-512 header for a mistake (GCC bug 105593, mended in 13).

@@ -17,7 +17,7 @@ LONG = bool(os.environ.get("RAYTRACE_LONG_TESTS"))
 # The same command gives the same bytes, header and all.
 ENVIRONMENT = dict(os.environ, SOURCE_DATE_EPOCH="0")
 LIMIT = 300  # seconds after which whatever a test waits for does not come any more
-MANY = support.samples(4000)
+MANY = support.samples(16000)  # enough for a signal to come in time on a busy machine
 
 
 class SafetyTest(CommandTest):
@@ -130,8 +130,8 @@ class Stopped(SafetyTest):
             self.assertEqual(self.read("a.exr"), b"old")
 
     def test_picture_on_request(self):
-        self.succeed("scene.xml", "-q", "-o", "whole.exr", "-s", support.samples(8000))
-        process = self.start("scene.xml", "-o", "a.exr", "-o", "a.png", "-s", support.samples(8000), "--progress=plain")
+        self.succeed("scene.xml", "-q", "-o", "whole.exr", "-s", MANY)
+        process = self.start("scene.xml", "-o", "a.exr", "-o", "a.png", "-s", MANY, "--progress=plain")
         self.assertIn("rendered", process.stderr.readline())
         process.send_signal(signal.SIGUSR1)
         self.wait_for_file("a.exr", process)
