@@ -5,10 +5,10 @@
 //     <sweptradius>2</sweptradius> <tuberadius>0.5</tuberadius> <material>red</material>
 //   </torus>
 //
-// Solved in double. The quartic's stationary points (a cubic, by Newton's method and deflation) cut the ray into pieces
-// with at most one root each, so that no root is missed or invented at the silhouette; the root itself is found in a
-// form that keeps its digits when the tube is thin. Nothing depends on the distance from the world's origin or on the
-// ray's length: the quartic is set up about the ray's point closest to the center.
+// Solved in double. The quartic's stationary points (a cubic, in float, by Newton's method and deflation) cut the ray
+// into pieces with at most one root each, so that no root is missed or invented at the silhouette; the root itself is
+// found in a form that keeps its digits when the tube is thin. Nothing depends on the distance from the world's origin
+// or on the ray's length: the quartic is set up about the ray's point closest to the center.
 #pragma once
 
 #include <cmath>
@@ -88,30 +88,35 @@ struct TorusProfile {
   }
 };
 
-/// The real roots of s^3 + p s + q in ascending order; where there is only one, it stands in all three places.
-template <class D>
-void depressed_cubic_roots(const D& p, const D& q, D (&root)[3]) {
-  // The root on the far side of q's sign always exists and is simple. From beyond it, Newton's method comes down to
-  // it monotonically; Fujiwara's bound is at most twice too far.
-  const D zero(0.0);
-  const D abs_q = abs(q);
-  D s = D(2.0) * max(sqrt(abs(p)), cbrt(abs_q));
+/// The real roots of s^3 + p s + q in ascending order; where there is only one, it stands in all three places. To a few
+/// units of float's last place of the largest of them.
+template <class F>
+void depressed_cubic_roots(const F& p, const F& q, F (&root)[3]) {
+  // The root on the far side of q's sign always exists and is simple. From beyond it, Newton's method comes down to it
+  // monotonically. It is at most u + d where s^3 + p s >= d^3 and >= 2 u^2 d, u^2 = -p, and, where p is positive, at
+  // most the lesser of cbrt(|q|) and |q| / p.
+  const F zero(0.0F);
+  const F abs_q = xsimd::abs(q);
+  const F u2 = xsimd::max(-p, zero);
+  const F quotient = abs_q / xsimd::max(xsimd::select(p < zero, u2 + u2, p), F(1e-30F));
+  F s = (xsimd::sqrt(u2) + xsimd::min(xsimd::cbrt(abs_q), quotient)) * F(1 + 0x1p-20F);
   for (int i = 0; i < 40; ++i) {
-    const D slope = fma(D(3.0) * s, s, p);
-    const D step = fma(fma(s, s, p), s, -abs_q) / max(slope, D(1e-300));
+    const F slope = multiply_add(F(3.0F) * s, s, p);
+    const F step = multiply_add(multiply_add(s, s, p), s, -abs_q) / xsimd::max(slope, F(1e-30F));
     s = s - step;
-    if (!any(step > s * D(1e-13))) break;
+    if (!xsimd::any(step > s * F(1e-4F))) break;  // it converges quadratically
   }
-  const D first = select(q < zero, s, -s);
+  const F first = xsimd::select(q < zero, s, -s);
   // The other two are the roots of the quotient s^2 + first s + (first^2 + p).
-  const D discriminant = -fma(D(3.0) * first, first, D(4.0) * p);
-  const D half_width = D(0.5) * sqrt(max(discriminant, zero));
-  const D middle = D(-0.5) * first;
+  const F discriminant = -multiply_add(F(3.0F) * first, first, F(4.0F) * p);
+  const F half_width = F(0.5F) * xsimd::sqrt(xsimd::max(discriminant, zero));
+  const F middle = F(-0.5F) * first;
   const auto single = discriminant < zero;
-  const D low = select(single, first, middle - half_width), high = select(single, first, middle + half_width);
-  root[0] = min(first, low);
-  root[2] = max(first, high);
-  root[1] = select(single, first, max(min(first, high), min(max(first, low), high)));
+  const F low = xsimd::select(single, first, middle - half_width),
+          high = xsimd::select(single, first, middle + half_width);
+  root[0] = xsimd::min(first, low);
+  root[2] = xsimd::max(first, high);
+  root[1] = xsimd::select(single, first, xsimd::max(xsimd::min(first, high), xsimd::min(xsimd::max(first, low), high)));
 }
 
 /// The root of the distance form between left and right, where it has different signs and one root: Newton's method
@@ -169,19 +174,22 @@ F Torus::intersect(const Record<double>& torus, const Ray<F>& ray, const Mask<F>
   if (xsimd::none(active & D::float_mask(possible))) return infinity<F>();
 
   // Between the quartic's stationary points there is at most one root, and there is one where the sign changes. The
-  // points need no precision for that; the signs do, and do not come from the quartic.
+  // points need no precision for that: beside one, the distance form changes with the square of the way. The signs do,
+  // and do not come from the quartic.
   const D &py = profile.position.y, &dy = profile.direction.y;
   const D swept2(4 * torus.swept * torus.swept);
   const D k = distance2 + D(torus.swept * torus.swept - torus.tube * torus.tube);
   const D quadratic = D(2.0) * k - swept2 * (D(1.0) - dy * dy);
   const D linear = D(2.0) * swept2 * py * dy;
-  D stationary[3];
-  detail::depressed_cubic_roots(D(0.5) * quadratic, D(0.25) * linear, stationary);
+  const double inverse = 1 / outer;  // in units of the torus' size, for float's range
+  F stationary[3];
+  detail::depressed_cubic_roots<F>((quadratic * D(0.5 * inverse * inverse)).to_float(),
+                                   (linear * D(0.25 * inverse * inverse * inverse)).to_float(), stationary);
   D left = low, right = high, left_sign(0.0), right_sign(0.0);
   D end = high, end_sign = profile.sign(high);
   auto found = possible & (low > high);  // nowhere yet
   for (int i = 2; i >= -1; --i) {
-    const D start = i < 0 ? low : min(max(stationary[i], low), high);
+    const D start = i < 0 ? low : min(max(D(stationary[i]) * D(outer), low), high);
     const D start_sign = profile.sign(start);
     const auto change = possible & (start_sign * end_sign < D(0.0));
     left = select(change, start, left);
