@@ -65,15 +65,17 @@ struct TorusProfile {
   /// keeps the digits that the quartic loses when the tube is thin. `side` is 1, or -1 for the inner sheet
   /// (the "lemon") of a torus whose tube is wider than its hole.
   struct Value {
-    D value, slope;
+    D value, newton_step;  ///< the step: value over slope
   };
   Value distance_form(const D& s, const D& side) const {
     const D x = fma(direction.x, s, position.x), y = fma(direction.y, s, position.y),
             z = fma(direction.z, s, position.z);
     const D rho = sqrt(x * x + z * z);
-    const D rho_slope = (x * direction.x + z * direction.z) / max(rho, D(1e-300));
     const D from_circle = rho - side * swept;
-    return {from_circle * from_circle + (y - tube) * (y + tube), D(2.0) * (from_circle * rho_slope + y * direction.y)};
+    const D value = fma(from_circle, from_circle, (y - tube) * (y + tube));
+    // The slope is 2 (from_circle * (x dx + z dz) / rho + y dy): one division does for both.
+    const D slope_rho = D(2.0) * fma(from_circle, x * direction.x + z * direction.z, y * direction.y * rho);
+    return {value, value * rho / slope_rho};
   }
 
   /// Of the quartic's sign: its two factors are the distance forms of both sheets.
@@ -129,7 +131,7 @@ D root_in_bracket(const TorusProfile<F>& profile, const D& side, D s, D left, D 
     const auto still_left = at.value * left_sign > D(0.0);
     left = select(still_left, s, left);
     right = select(still_left, right, s);
-    const D newton = s - at.value / at.slope;
+    const D newton = s - at.newton_step;
     const auto inside = (newton >= left - tolerance) & (newton <= right + tolerance);
     const D next = select(inside, min(max(newton, left), right), D(0.5) * (left + right));
     const auto moved = abs(next - s) > tolerance;
@@ -151,7 +153,8 @@ F Torus::intersect(const Record<double>& torus, const Ray<F>& ray, const Mask<F>
   const Vec3<D> scaled_direction = rotate(Vec3<D>(ray.direction));
   const D scale = sqrt(dot(scaled_direction, scaled_direction));
   detail::TorusProfile<F> profile;
-  profile.direction = scaled_direction * (D(1.0) / scale);
+  const D inverse_scale = D(1.0) / scale;
+  profile.direction = scaled_direction * inverse_scale;
   const D to_closest = -dot(origin, profile.direction);
   profile.position = origin + profile.direction * to_closest;
   profile.swept = D(torus.swept);
@@ -220,7 +223,7 @@ F Torus::intersect(const Record<double>& torus, const Ray<F>& ray, const Mask<F>
   // Lanes without a root have nothing to look for, and must not hold up the others.
   const D s = detail::root_in_bracket(profile, side, select(found, guess, left), left, select(found, right, left),
                                       left_sign, D(torus.tube * 1e-9));
-  const F t = ((s + to_closest) / scale).to_float();
+  const F t = ((s + to_closest) * inverse_scale).to_float();
   return xsimd::select(hit & (t > ray.near) & (t < ray.far), t, infinity<F>());
 }
 
