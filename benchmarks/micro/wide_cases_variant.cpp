@@ -297,7 +297,8 @@ class FloatFilm {
                blue = by_pixel(sums.radiance.blue);
     const auto hits = by_pixel(sums.hits), samples = by_pixel(sums.samples);
     block.for_each_pixel(sums_region, [&](int x, int y, std::size_t pixel) {
-      PixelSum& sum = film_[static_cast<std::size_t>(y * sums_region.x1 + x)];
+      constexpr auto width = static_cast<std::size_t>(sums_region.x1);
+      PixelSum& sum = film_[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)];
       sum.red += red[pixel];
       sum.green += green[pixel];
       sum.blue += blue[pixel];

@@ -41,9 +41,9 @@ struct PacketBlock {
 
   /// Of a number in each lane, the sums of each pixel's lanes.
   template <class Number>
-  static std::array<Number, pixels> sum_by_pixel(const std::array<Number, native_lanes>& numbers) {
+  static std::array<Number, pixels> sum_by_pixel(const std::array<Number, native_lanes>& lanes) {
     std::array<Number, pixels> sums{};
-    for (std::size_t lane = 0; lane < numbers.size(); ++lane) sums[lane % pixels] += numbers[lane];
+    for (std::size_t lane = 0; lane < lanes.size(); ++lane) sums[lane % pixels] += lanes[lane];
     return sums;
   }
 
