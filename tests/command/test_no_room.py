@@ -35,11 +35,19 @@ class MountTest(SafetyTest):
         self.assertEqual(os.listdir(self.path("disk")), ["a.exr"])
 
 
+@contextlib.contextmanager
+def halted(process):
+    """It does not get on with its work meanwhile."""
+    process.send_signal(signal.SIGSTOP)
+    yield
+    process.send_signal(signal.SIGCONT)
+
+
 # Floats that no compression makes small enough for the disk.
 LARGE = ["-r", "800x600"]
 LARGE_FILES = [*LARGE, "--float"]
 # A render that is not over when it has been seen to run.
-LONG = ["scene.xml", "-s", support.samples(8000)]
+LONG = ["scene.xml", "-s", support.samples(40000)]
 
 
 class FullDisk(MountTest):
@@ -104,7 +112,8 @@ class ReadOnlyFileSystem(MountTest):
         process = self.start(*LONG, "-o", "disk/a.exr", "-o", "b.exr", "--progress=plain",
                              "--checkpoint", "disk/c.exr")
         self.assertIn("rendered", process.stderr.readline())
-        self.assertEqual(self.mount("-o", "remount,ro", self.path("disk")).returncode, 0)
+        with halted(process):
+            self.assertEqual(self.mount("-o", "remount,ro", self.path("disk")).returncode, 0)
         self.assertEqual(process.wait(timeout=LIMIT), 1)
         self.assertIn("error: cannot write disk/a.exr: Read-only file system\n", process.stderr.read())
         self.assertIn("b.exr", self.names())
@@ -118,7 +127,8 @@ class LostFolders(SafetyTest):
         process = self.start(*LONG, "-o", "folder/a.exr", "-o", "b.exr", "--progress=plain",
                              "--checkpoint", "folder/c.exr", "--checkpoint-interval", "0.2s")
         self.assertIn("rendered", process.stderr.readline())
-        action(self.path("folder"))
+        with halted(process):
+            action(self.path("folder"))
         self.assertEqual(process.wait(timeout=LIMIT), 1)
         self.succeed(*LONG, "-q", "-o", "whole.exr")
         self.assert_same("b.exr", self.read("whole.exr"))
