@@ -27,8 +27,8 @@ NOTE = (
     " The floor is a rectangle of 40,000 x 40,000, as far as single precision allows."
     " Triangles are in meshes, one for each material, and rays may slip through their edges: it does not ask Embree for"
     " its robust mode, as raytrace does, which without takes 0.81 of its time there."
-    " Spheres are its `sphere`, a shape for each; its `ellipsoids`, many in one shape, render 1,000 in 0.75 of the time and 100,000 in 0.05, but holes appear in small ones, and the"
-    " pictures do not agree. It has no torus."
+    " Spheres are its `sphere`, a shape for each; its `ellipsoids`, many in one shape, render 1,000 in 0.75 of the time"
+    " and 100,000 in 0.05, but holes appear in small ones, and the pictures do not agree. It has no torus."
 )
 FLOOR_SIZE = 2e4
 LIBRARIES = ("/usr/lib/llvm-{0}/lib/libLLVM*.so*", "/usr/lib/*/libLLVM-{0}.so*", "/usr/lib*/libLLVM-{0}.so*")
