@@ -4,7 +4,7 @@
 #include <new>
 #include <string>
 
-#include "raytrace/render/handover.h"
+#include "raytrace/parallel/handover.h"
 #include "raytrace/render/renderer.h"
 
 namespace raytrace {

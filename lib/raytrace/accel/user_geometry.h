@@ -12,6 +12,7 @@
 #include "raytrace/math/bounds.h"
 #include "raytrace/math/ray.h"
 #include "raytrace/math/simd.h"
+#include "raytrace/parallel/handover.h"
 
 namespace raytrace {
 
@@ -34,6 +35,9 @@ struct ShapeTable {
 };
 
 namespace detail {
+
+/// From who filled a table to Embree's builder threads. Static: they must find it before they read anything.
+inline constinit Handover table_filled;
 
 // Embree's packets are arrays of `size` floats for each field. F covers lanes [first, first + lane_count<F>) of them,
 // or, where the packet is narrower than F, all of them: `count` says how many there are.
@@ -126,6 +130,7 @@ void occluded_packet(const RTCOccludedFunctionNArguments* arguments) {
 
 template <class Shape>
 void bounds_callback(const RTCBoundsFunctionArguments* arguments) {
+  table_filled.take();
   const auto& table = *static_cast<const ShapeTable<Shape>*>(arguments->geometryUserPtr);
   const Bounds bounds = Shape::bounds(table.records[arguments->primID]);
   RTCBounds& box = *arguments->bounds_o;
@@ -165,7 +170,7 @@ void occluded_callback(const RTCOccludedFunctionNArguments* arguments) {
 
 }  // namespace detail
 
-/// An Embree user geometry of the table's objects; the table must outlive it.
+/// An Embree user geometry of the table's objects; the table must outlive it and have all its records.
 template <UserGeometry Shape>
 embree::Geometry make_user_geometry(RTCDevice device, ShapeTable<Shape>& table) {
   embree::Geometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER));
@@ -174,6 +179,7 @@ embree::Geometry make_user_geometry(RTCDevice device, ShapeTable<Shape>& table) 
   rtcSetGeometryBoundsFunction(geometry.get(), &detail::bounds_callback<Shape>, nullptr);
   rtcSetGeometryIntersectFunction(geometry.get(), &detail::intersect_callback<Shape>);
   rtcSetGeometryOccludedFunction(geometry.get(), &detail::occluded_callback<Shape>);
+  detail::table_filled.give();
   return geometry;
 }
 

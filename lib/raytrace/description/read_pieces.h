@@ -9,9 +9,9 @@
 
 #include "raytrace/description/diagnostics.h"
 #include "raytrace/description/document.h"
-#include "raytrace/description/in_order.h"
 #include "raytrace/description/scene_text.h"
 #include "raytrace/description/variables.h"
+#include "raytrace/parallel/in_order.h"
 
 namespace raytrace {
 

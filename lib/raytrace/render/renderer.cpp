@@ -11,7 +11,7 @@
 #include <tuple>
 
 #include "raytrace/aovs/aov_selection.h"
-#include "raytrace/render/handover.h"
+#include "raytrace/parallel/handover.h"
 
 namespace raytrace {
 

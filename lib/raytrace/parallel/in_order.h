@@ -6,7 +6,7 @@
 
 #include <cstddef>
 
-#include "raytrace/render/handover.h"
+#include "raytrace/parallel/handover.h"
 
 namespace raytrace {
 
