@@ -4,6 +4,7 @@
 #include <numeric>
 #include <vector>
 
+#include "raytrace/math/gather.h"
 #include "raytrace/math/simd.h"
 #include "support/catch.h"
 

@@ -4,6 +4,7 @@
 #include <new>
 #include <string>
 
+#include "raytrace/math/gather.h"
 #include "raytrace/parallel/handover.h"
 #include "raytrace/render/renderer.h"
 
@@ -176,7 +177,7 @@ Accelerator::Accelerator(const SceneDescription& description, int threads, const
       rtcAttachGeometryByID(scene_.get(), geometry.get(), static_cast<unsigned>(index_of<Shape>(Shapes{})));
     }
   });
-  rtcCommitScene(scene_.get());
+  commit_scene(scene_.get());
   bytes_ = static_cast<std::uint64_t>(std::max<std::int64_t>(report.bytes, 0));
   rtcSetDeviceMemoryMonitorFunction(device_.get(), nullptr, nullptr);
   rtcSetDeviceErrorFunction(device_.get(), nullptr, nullptr);

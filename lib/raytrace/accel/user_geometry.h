@@ -36,8 +36,9 @@ struct ShapeTable {
 
 namespace detail {
 
-/// From who filled a table to Embree's builder threads. Static: they must find it before they read anything.
-inline constinit Handover table_filled;
+/// From the thread that fills the tables to Embree's builder threads, and back once they are done. Static: they must
+/// find it before they read anything.
+inline constinit Handover tables_filled, tables_read;
 
 // Embree's packets are arrays of `size` floats for each field. F covers lanes [first, first + lane_count<F>) of them,
 // or, where the packet is narrower than F, all of them: `count` says how many there are.
@@ -130,7 +131,7 @@ void occluded_packet(const RTCOccludedFunctionNArguments* arguments) {
 
 template <class Shape>
 void bounds_callback(const RTCBoundsFunctionArguments* arguments) {
-  table_filled.take();
+  tables_filled.take();
   const auto& table = *static_cast<const ShapeTable<Shape>*>(arguments->geometryUserPtr);
   const Bounds bounds = Shape::bounds(table.records[arguments->primID]);
   RTCBounds& box = *arguments->bounds_o;
@@ -140,6 +141,7 @@ void bounds_callback(const RTCBoundsFunctionArguments* arguments) {
   box.upper_x = bounds.upper.x;
   box.upper_y = bounds.upper.y;
   box.upper_z = bounds.upper.z;
+  if constexpr (thread_sanitized) tables_read.give();  // all threads, an object each time, at one place in memory
 }
 
 // Each packet size by as many lanes as it has; single rays by the fewest there are.
@@ -170,7 +172,7 @@ void occluded_callback(const RTCOccludedFunctionNArguments* arguments) {
 
 }  // namespace detail
 
-/// An Embree user geometry of the table's objects; the table must outlive it and have all its records.
+/// An Embree user geometry of the table's objects; the table must outlive it.
 template <UserGeometry Shape>
 embree::Geometry make_user_geometry(RTCDevice device, ShapeTable<Shape>& table) {
   embree::Geometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER));
@@ -179,8 +181,14 @@ embree::Geometry make_user_geometry(RTCDevice device, ShapeTable<Shape>& table) 
   rtcSetGeometryBoundsFunction(geometry.get(), &detail::bounds_callback<Shape>, nullptr);
   rtcSetGeometryIntersectFunction(geometry.get(), &detail::intersect_callback<Shape>);
   rtcSetGeometryOccludedFunction(geometry.get(), &detail::occluded_callback<Shape>);
-  detail::table_filled.give();
   return geometry;
+}
+
+/// Builds a scene of such geometries, whose tables are full by now.
+inline void commit_scene(RTCScene scene) {
+  detail::tables_filled.give();
+  rtcCommitScene(scene);
+  detail::tables_read.take();
 }
 
 }  // namespace raytrace

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "raytrace/math/color.h"
+#include "raytrace/math/gather.h"
 #include "raytrace/math/simd.h"
 #include "raytrace/math/vec3.h"
 

@@ -95,13 +95,6 @@ Integers select_lanes(const MaskN& mask, const Integers& a, const Integers& b) {
   return std::bit_cast<Integers>(xsimd::select(mask, std::bit_cast<FloatN>(a), std::bit_cast<FloatN>(b)));
 }
 
-/// base[index], lane for lane. Flattened: that of xsimd 8 is a function a lane, none of which may stay one.
-[[gnu::flatten]] inline FloatN gather(const float* base, const IntN& index) { return FloatN::gather(base, index); }
-/// Through float's: xsimd 8 has no instruction for that of integers.
-inline IntN gather(const std::int32_t* base, const IntN& index) {
-  return std::bit_cast<IntN>(gather(reinterpret_cast<const float*>(base), index));
-}
-
 /// The mask that is true in lanes [0, count).
 template <class F>
 Mask<F> first_lanes(int count) {
@@ -120,6 +113,18 @@ template <class T, std::size_t lanes>
 struct CompilerVector {
   typedef T type __attribute__((vector_size(lanes * sizeof(T))));
 };
+
+/// Two registers beside each other in one of twice the width.
+#if defined(__AVX512F__)
+RAYTRACE_INLINE __m512 join(const __m256& lower, const __m256& upper) {
+  return _mm512_insertf32x8(_mm512_castps256_ps512(lower), upper, 1);
+}
+#endif
+#if defined(__AVX__)
+RAYTRACE_INLINE __m256 join(const __m128& lower, const __m128& upper) {
+  return _mm256_insertf128_ps(_mm256_castps128_ps256(lower), upper, 1);
+}
+#endif
 
 /// The lower and upper half of the floats as doubles, and back: in registers where the instruction set is known,
 /// since memory that is written in halves and read whole stalls.
@@ -159,12 +164,10 @@ RAYTRACE_INLINE void widen(const F& floats, D& lower, D& upper) {
 template <class F, class D>
 RAYTRACE_INLINE F narrow(const D& lower, const D& upper) {
 #if defined(__AVX512F__)
-  if constexpr (F::size == 16)
-    return _mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(lower)), _mm512_cvtpd_ps(upper), 1);
+  if constexpr (F::size == 16) return join(_mm512_cvtpd_ps(lower), _mm512_cvtpd_ps(upper));
 #endif
 #if defined(__AVX__)
-  if constexpr (F::size == 8)
-    return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps(lower)), _mm256_cvtpd_ps(upper), 1);
+  if constexpr (F::size == 8) return join(_mm256_cvtpd_ps(lower), _mm256_cvtpd_ps(upper));
 #endif
 #if defined(__SSE2__)
   if constexpr (F::size == 4) return _mm_movelh_ps(_mm_cvtpd_ps(lower), _mm_cvtpd_ps(upper));
@@ -325,107 +328,6 @@ RAYTRACE_INLINE F exact_fma(const F& a, const F& b, const F& c) {
 #else
   return (Doubles<F>(a) * Doubles<F>(b) + Doubles<F>(c)).to_float();
 #endif
-}
-
-inline Doubles<FloatN> gather(const double* base, const IntN& index) {
-  alignas(64) std::array<std::int32_t, native_lanes> indices;
-  index.store_aligned(indices.data());
-  alignas(64) std::array<double, native_lanes> values;
-  for (std::size_t lane = 0; lane < native_lanes; ++lane) values[lane] = base[indices[lane]];
-  return Doubles<FloatN>::load_aligned(values.data());
-}
-
-namespace detail {
-
-/// result[i] = base[i + offset of that lane], of four floats beside each other: loaded as they lie, and transposed, in
-/// a fraction of the time of four gathers.
-RAYTRACE_INLINE void gather_four(const float* base, const std::int32_t* offsets, FloatN* result) {
-#if defined(__SSE__)
-  const auto row = [&](int lane) { return _mm_loadu_ps(base + offsets[lane]); };
-#endif
-#if defined(__AVX512F__)
-  const auto rows = [&](int lane) {
-    const __m512 half = _mm512_insertf32x4(_mm512_castps128_ps512(row(lane)), row(lane + 4), 1);
-    return _mm512_insertf32x4(_mm512_insertf32x4(half, row(lane + 8), 2), row(lane + 12), 3);
-  };
-  const __m512 a = rows(0), b = rows(1), c = rows(2), d = rows(3);
-  const __m512 low_ab = _mm512_unpacklo_ps(a, b), high_ab = _mm512_unpackhi_ps(a, b);
-  const __m512 low_cd = _mm512_unpacklo_ps(c, d), high_cd = _mm512_unpackhi_ps(c, d);
-  result[0] = _mm512_shuffle_ps(low_ab, low_cd, 0x44);
-  result[1] = _mm512_shuffle_ps(low_ab, low_cd, 0xee);
-  result[2] = _mm512_shuffle_ps(high_ab, high_cd, 0x44);
-  result[3] = _mm512_shuffle_ps(high_ab, high_cd, 0xee);
-#elif defined(__AVX__)
-  const auto rows = [&](int lane) { return _mm256_insertf128_ps(_mm256_castps128_ps256(row(lane)), row(lane + 4), 1); };
-  const __m256 a = rows(0), b = rows(1), c = rows(2), d = rows(3);
-  const __m256 low_ab = _mm256_unpacklo_ps(a, b), high_ab = _mm256_unpackhi_ps(a, b);
-  const __m256 low_cd = _mm256_unpacklo_ps(c, d), high_cd = _mm256_unpackhi_ps(c, d);
-  result[0] = _mm256_shuffle_ps(low_ab, low_cd, 0x44);
-  result[1] = _mm256_shuffle_ps(low_ab, low_cd, 0xee);
-  result[2] = _mm256_shuffle_ps(high_ab, high_cd, 0x44);
-  result[3] = _mm256_shuffle_ps(high_ab, high_cd, 0xee);
-#elif defined(__SSE__)
-  const __m128 a = row(0), b = row(1), c = row(2), d = row(3);
-  const __m128 low_ab = _mm_unpacklo_ps(a, b), high_ab = _mm_unpackhi_ps(a, b);
-  const __m128 low_cd = _mm_unpacklo_ps(c, d), high_cd = _mm_unpackhi_ps(c, d);
-  result[0] = _mm_shuffle_ps(low_ab, low_cd, 0x44);
-  result[1] = _mm_shuffle_ps(low_ab, low_cd, 0xee);
-  result[2] = _mm_shuffle_ps(high_ab, high_cd, 0x44);
-  result[3] = _mm_shuffle_ps(high_ab, high_cd, 0xee);
-#else
-  alignas(64) std::array<float, native_lanes> lanes;
-  for (std::size_t i = 0; i < 4; ++i) {
-    for (std::size_t lane = 0; lane < native_lanes; ++lane) lanes[lane] = base[offsets[lane] + static_cast<int>(i)];
-    result[i] = FloatN::load_aligned(lanes.data());
-  }
-#endif
-}
-
-}  // namespace detail
-
-/// A place in a table for each lane. It knows where all are the same: neighbours mostly hit the same thing.
-class LanePlaces {
- public:
-  LanePlaces(const IntN& lanes)  // implicit: it is the same
-      : lanes_(lanes), first_(lanes.get(0)), all_same_(xsimd::all(lanes == IntN(first_))) {}
-  explicit LanePlaces(std::int32_t all) : lanes_(all), first_(all), all_same_(true) {}
-
-  const IntN& lanes() const { return lanes_; }
-  bool all_same() const { return all_same_; }
-  std::size_t first() const { return static_cast<std::size_t>(first_); }
-
- private:
-  IntN lanes_;
-  std::int32_t first_;
-  bool all_same_;
-};
-
-/// The lanes' records, gathered from a table: Record<T> is a struct template of T members only, and the result holds in
-/// each lane the fields of table[place of that lane]. Wide is FloatN-like for float tables, Doubles for double ones.
-template <template <class> class Record, class Wide, class Scalar>
-Record<Wide> gather_records(const Record<Scalar>* table, const LanePlaces& places) {
-  constexpr std::size_t fields = sizeof(Record<Scalar>) / sizeof(Scalar);
-  static_assert(sizeof(Record<Scalar>) == fields * sizeof(Scalar) && sizeof(Record<Wide>) == fields * sizeof(Wide),
-                "a record has members of its template argument's type only");
-  const Scalar* base = reinterpret_cast<const Scalar*>(table);
-  std::array<Wide, fields> gathered;
-  if (places.all_same()) {
-    for (std::size_t field = 0; field < fields; ++field) gathered[field] = Wide(base[places.first() * fields + field]);
-  } else {
-    const IntN first_field = places.lanes() * IntN(static_cast<std::int32_t>(fields));
-    if constexpr (fields >= 4 && std::is_same_v<Wide, FloatN>) {
-      alignas(64) std::array<std::int32_t, native_lanes> offsets;
-      first_field.store_aligned(offsets.data());
-      // The last four overlap with those before where their number is not a multiple of four.
-      for (std::size_t field = 0; field + 4 < fields; field += 4)
-        detail::gather_four(base + field, offsets.data(), gathered.data() + field);
-      detail::gather_four(base + fields - 4, offsets.data(), gathered.data() + fields - 4);
-    } else
-      for (std::size_t field = 0; field < fields; ++field) gathered[field] = gather(base + field, first_field);
-  }
-  Record<Wide> result;
-  std::memcpy(static_cast<void*>(&result), gathered.data(), sizeof result);
-  return result;
 }
 
 }  // namespace raytrace

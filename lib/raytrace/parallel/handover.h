@@ -9,6 +9,15 @@
 
 namespace raytrace {
 
+/// For handovers that would cost too much elsewhere.
+#if defined(__SANITIZE_THREAD__)
+inline constexpr bool thread_sanitized = true;
+#elif defined(__has_feature)
+inline constexpr bool thread_sanitized = __has_feature(thread_sanitizer);
+#else
+inline constexpr bool thread_sanitized = false;
+#endif
+
 /// What any thread wrote before give() is seen by every thread after a take() that follows it.
 class Handover {
  public:

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "raytrace/integrators/render_pixels.h"
+#include "raytrace/math/gather.h"
 
 namespace raytrace {
 
