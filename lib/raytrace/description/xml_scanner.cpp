@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "raytrace/description/encoding_problem.h"
 #include "raytrace/description/line_index.h"
 #include "raytrace/description/nearest_name.h"
 #include "raytrace/description/quoted.h"
@@ -361,21 +362,6 @@ class Scanner {
   bool root_seen_ = false;
   bool doctype_seen_ = false;
 };
-
-std::optional<XmlProblem> find_encoding_problem(std::string_view text) {
-  const auto starts_with = [&](std::string_view prefix) { return text.substr(0, prefix.size()) == prefix; };
-  using namespace std::string_view_literals;
-  if (starts_with("\xff\xfe"sv) || starts_with("\xfe\xff"sv) || starts_with("<\0"sv) || starts_with("\0<"sv)) {
-    return XmlProblem{0, "the file is encoded as UTF-16 or UTF-32; save it as UTF-8"};
-  }
-  const std::size_t invalid = find_invalid_utf8(text);
-  if (invalid == std::string_view::npos) return std::nullopt;
-  const bool control = static_cast<unsigned char>(text[invalid]) < 0x20;
-  return XmlProblem{invalid,
-                    "the byte " + in_quotes(text.substr(invalid, 1)) +
-                        (control ? " is no text: is this a scene file?"
-                                 : " is no UTF-8 text; save the file as UTF-8 (is it one of another program?)")};
-}
 
 }  // namespace
 

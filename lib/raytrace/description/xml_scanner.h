@@ -13,14 +13,9 @@
 #include <vector>
 
 #include "raytrace/description/piece_cutter.h"
+#include "raytrace/description/xml_problem.h"
 
 namespace raytrace {
-
-/// What is wrong with the text, and at which of its bytes.
-struct XmlProblem {
-  std::size_t offset;
-  std::string message;
-};
 
 /// The first place where `text` is not well-formed XML 1.0 in UTF-8, with or without byte order mark. Document type
 /// declarations with declarations of their own, processing instructions, elements nested more than 64 deep and tags of

@@ -1,0 +1,14 @@
+// Refuses files whose bytes are no text in UTF-8, and says what they seem to be instead.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "raytrace/description/xml_problem.h"
+
+namespace raytrace {
+
+/// The first byte of `text` that XML in UTF-8 cannot have there, or its first byte if all of it is UTF-16 or UTF-32.
+std::optional<XmlProblem> find_encoding_problem(std::string_view text);
+
+}  // namespace raytrace
