@@ -1,24 +1,14 @@
 // Each file of bad/ has one fault; the file of the same name that ends in .expected has what must be said about it.
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 #include <vector>
 
 #include "raytrace/description/scene_description.h"
 #include "support/catch.h"
+#include "support/temporary_folder.h"
 
 namespace raytrace::test {
-namespace {
-
-std::string contents(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  REQUIRE(stream);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-}  // namespace
 
 TEST_CASE("each bad scene is refused with exactly its message") {
   std::vector<std::filesystem::path> scenes;
@@ -29,12 +19,12 @@ TEST_CASE("each bad scene is refused with exactly its message") {
   REQUIRE(scenes.size() > 100);
   for (const std::filesystem::path& scene : scenes) {
     Diagnostics diagnostics(scene.filename().string());
-    CHECK_FALSE(parse_scene(contents(scene), diagnostics));
+    CHECK_FALSE(parse_scene(bytes_of(scene), diagnostics));
     CHECK(diagnostics.has_errors());
     std::ostringstream found;
     diagnostics.print(found);
     std::filesystem::path expected = scene;
-    CHECK(found.str() == contents(expected.replace_extension(".expected")));
+    CHECK(found.str() == bytes_of(expected.replace_extension(".expected")));
   }
 }
 

@@ -21,6 +21,4 @@ std::string scene_with(std::string_view more);
 /// The same with one sphere; its children stand in the second line.
 std::string scene_with_sphere(std::string_view children);
 
-inline bool contains(std::string_view text, std::string_view part) { return text.find(part) != std::string_view::npos; }
-
 }  // namespace raytrace::test

@@ -6,6 +6,7 @@
 #include "raytrace/description/quoted.h"
 #include "raytrace/description/scene_layout.h"
 #include "support/catch.h"
+#include "support/contains.h"
 
 namespace raytrace::test {
 namespace {

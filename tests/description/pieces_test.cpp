@@ -8,6 +8,7 @@
 #include "raytrace/description/line_index.h"
 #include "raytrace/description/xml_scanner.h"
 #include "support/catch.h"
+#include "support/contains.h"
 
 namespace raytrace::test {
 namespace {

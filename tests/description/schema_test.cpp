@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <memory>
 #include <random>
 #include <set>
@@ -17,6 +16,8 @@
 #include "raytrace/description/print_schema.h"
 #include "raytrace/description/scene_layout.h"
 #include "support/catch.h"
+#include "support/contains.h"
+#include "support/temporary_folder.h"
 
 namespace raytrace::test {
 namespace {
@@ -24,11 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path schema = RAYTRACE_SOURCE_DIR "/scenes/raytracer.xsd";
-
-std::string contents(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 /// The scene files below a folder.
 std::vector<fs::path> scenes_in(const fs::path& folder) {
@@ -64,23 +60,6 @@ std::set<fs::path> valid_by_schema(const std::vector<fs::path>& files) {
   }
   return valid;
 }
-
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string pattern = (fs::temp_directory_path() / "raytrace-schema-XXXXXX").string();
-    REQUIRE(mkdtemp(pattern.data()));
-    path = pattern;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  fs::path path;
-};
 
 /// Damages a scene a little, in ways that keep it well-formed more often than not.
 std::string mutated(const std::string& text, std::mt19937_64& random) {
@@ -152,11 +131,11 @@ std::string mutated(const std::string& text, std::mt19937_64& random) {
 TEST_CASE("the schema file is the one that the registries make", "[schema]") {
   if (std::getenv("RAYTRACE_UPDATE_SCHEMA")) std::ofstream(schema, std::ios::binary) << print_schema();
   INFO("After a change of the registries: RAYTRACE_UPDATE_SCHEMA=1 description_tests '[schema]' writes it anew.");
-  CHECK(contents(schema) == print_schema());
+  CHECK(bytes_of(schema) == print_schema());
 }
 
 TEST_CASE("the schema has an element for each field and each part of the frame", "[schema]") {
-  const std::string text = contents(schema);
+  const std::string text = bytes_of(schema);
   const auto has = [&](std::string_view element) {
     return contains(text, "<xs:element name=\"" + std::string(element) + "\" type=");
   };
@@ -223,19 +202,19 @@ TEST_CASE("the schema refuses most of the bad scenes, the program all", "[schema
 TEST_CASE("what the schema refuses the program refuses, over many damaged scenes", "[schema]") {
   const TemporaryFolder folder;
   std::mt19937_64 random(19450508);
-  std::vector<std::string> sound = {contents(RAYTRACE_SOURCE_DIR "/scenes/seed.xml")};
+  std::vector<std::string> sound = {bytes_of(RAYTRACE_SOURCE_DIR "/scenes/seed.xml")};
   for (int i = 0; i < 4; ++i) sound.push_back(print_scene(random_description(random)));
   std::vector<fs::path> files;
   for (int i = 0; i < 800; ++i) {
-    files.push_back(folder.path / ("scene" + std::to_string(i) + ".xml"));
-    std::ofstream(files.back(), std::ios::binary) << mutated(sound[static_cast<std::size_t>(i) % sound.size()], random);
+    files.push_back(folder.path() / ("scene" + std::to_string(i) + ".xml"));
+    write_text(files.back(), mutated(sound[static_cast<std::size_t>(i) % sound.size()], random));
   }
   const std::set<fs::path> valid = valid_by_schema(files);
   std::size_t accepted_count = 0;
   for (const fs::path& file : files) {
     const bool accepted = program_accepts(file);
     accepted_count += accepted;
-    if (accepted && !valid.count(file)) FAIL_CHECK("accepted, but invalid by the schema:\n" << contents(file));
+    if (accepted && !valid.count(file)) FAIL_CHECK("accepted, but invalid by the schema:\n" << bytes_of(file));
   }
   // Both kinds must be there for the test to say anything.
   CHECK(accepted_count > 50);

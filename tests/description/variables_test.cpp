@@ -7,6 +7,7 @@
 
 #include "findings.h"
 #include "support/catch.h"
+#include "support/contains.h"
 
 namespace raytrace::test {
 namespace {

@@ -5,6 +5,7 @@
 #include "raytrace/description/document.h"
 #include "raytrace/description/line_index.h"
 #include "support/catch.h"
+#include "support/contains.h"
 
 namespace raytrace::test {
 namespace {

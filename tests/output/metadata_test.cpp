@@ -1,7 +1,8 @@
 #include "pictures.h"
 #include "source_date_epoch.h"
 #include "support/catch.h"
-#include "temporary_folder.h"
+#include "support/contains.h"
+#include "support/temporary_folder.h"
 
 namespace raytrace::test {
 

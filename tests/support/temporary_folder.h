@@ -1,4 +1,4 @@
-// A folder of a test's own, gone when the test ends.
+// A folder of a test's own, gone when the test ends, and its files' bytes.
 #pragma once
 
 #include <cstdlib>
@@ -40,13 +40,14 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-inline std::string bytes_of(const std::string& file) {
+inline std::string bytes_of(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw std::runtime_error("cannot read " + file.string());
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
-inline void write_text(const std::string& file, const std::string& text) { std::ofstream(file) << text; }
+inline void write_text(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream(file, std::ios::binary) << text;
+}
 
 }  // namespace raytrace::test
