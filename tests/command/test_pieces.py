@@ -88,6 +88,8 @@ class Pieces(CommandTest):
         kinds = (["threads"] * 3 + ["threads of a crop"] * 4 + ["passes", "passes of a crop"] + ["tiles"] * 2
                  + ["tiles of a crop"] + ["samples"] * 3 + ["samples of a crop"] + ["mixed"] * 4 + ["mixed of a crop"])
         self.assertGreaterEqual(len(kinds), 20)
+        if support.SANITIZERS:  # they look at the code, of which a second crop shows them nothing more
+            kinds = sorted(set(kinds))
         self.assertGreaterEqual(len(SCENES), 7)
         for scene in SCENES:
             chance = random.Random(os.path.basename(scene))
