@@ -1,5 +1,6 @@
 // The command: options -> for each frame of each scene: load -> build -> render -> write.
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 
 #include "about.h"
@@ -25,13 +26,15 @@ int print(const std::string& text) {
   return exit_code::failed;
 }
 
-bool exist_complete(const std::vector<std::string>& files) {
-  return std::all_of(files.begin(), files.end(), is_complete_picture);
+/// A checkpoint that is still there tells that they are not, whatever their formats can.
+bool outputs_are_complete(const Options& options) {
+  return (options.checkpoint.empty() || !std::filesystem::exists(options.checkpoint)) &&
+         std::all_of(options.outputs.begin(), options.outputs.end(), is_complete_picture);
 }
 
 int run(const Options& options, Progress& progress) {
   progress.begin(options.job_index, options.job_count);
-  if (options.skip_existing && options.renders() && exist_complete(options.outputs)) {
+  if (options.skip_existing && options.renders() && outputs_are_complete(options)) {
     tell_note(joined(options.outputs, ", ") + ": there already, skipped");
     progress.finish();
     return exit_code::done;

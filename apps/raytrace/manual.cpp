@@ -45,7 +45,9 @@ const Manual render_manual = {
       {std::to_string(exit_code::out_of_memory), "Out of memory."},
       {std::to_string(exit_code::resumable),
        "Stopped by SIGINT or SIGTERM with the checkpoint and the picture so far written: --resume goes on."},
-      {"130, 143", "Stopped by SIGINT or SIGTERM without a checkpoint. Earlier pictures are as they were."}}}};
+      {"130, 143",
+       "Stopped by SIGINT or SIGTERM without a checkpoint; the picture so far is written, but not over a complete "
+       "one."}}}};
 
 const Manual merge_manual = {
     "raytrace merge",

@@ -34,13 +34,16 @@ bool succeeds(const Action& action) {
 
 }  // namespace
 
-Outputs::Outputs(const Options& options, const PictureExtent& extent, const ImageMetadata& metadata,
-                 std::vector<Channel> sums)
-    : options_(options), sums_(std::move(sums)), channels_(color_channels(options.full_float)) {
+Outputs::Outputs(const Options& options, const std::vector<std::string>& files, const PictureExtent& extent,
+                 const ImageMetadata& metadata, std::vector<Channel> sums)
+    : options_(options),
+      wanted_files_(files.size()),
+      sums_(std::move(sums)),
+      channels_(color_channels(options.full_float)) {
   const std::vector<Channel> aovs = aov_channels(options_.aovs);
   channels_.insert(channels_.end(), aovs.begin(), aovs.end());
   channels_.insert(channels_.end(), sums_.begin(), sums_.end());
-  for (const std::string& name : options_.outputs) {
+  for (const std::string& name : files) {
     succeeds([&] {
       files_.push_back(
           {name, std::make_unique<ImageFile>(name, extent, channels_, metadata, options_.image_file_settings())});
@@ -74,7 +77,7 @@ bool Outputs::commit(Statistics& statistics) {
       tell_step("wrote " + file.name);
     });
   }
-  return statistics.outputs.size() == options_.outputs.size();
+  return statistics.outputs.size() == wanted_files_;
 }
 
 }  // namespace raytrace

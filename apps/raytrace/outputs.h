@@ -13,9 +13,9 @@ namespace raytrace {
 
 class Outputs {
  public:
-  /// sums: the sum_channels() that EXR files keep, too; empty if none.
-  Outputs(const Options& options, const PictureExtent& extent, const ImageMetadata& metadata,
-          std::vector<Channel> sums);
+  /// files: those of options.outputs to write. sums: the sum_channels() that EXR files keep, too; empty if none.
+  Outputs(const Options& options, const std::vector<std::string>& files, const PictureExtent& extent,
+          const ImageMetadata& metadata, std::vector<Channel> sums);
 
   /// film: whole rows of the extent's region, the next below those written before. False if no file is left that could
   /// be written.
@@ -31,6 +31,7 @@ class Outputs {
   };
 
   const Options& options_;
+  std::size_t wanted_files_;
   std::vector<Channel> sums_, channels_;  ///< channels_: all of them
   std::vector<File> files_;               ///< those without a fault
 };

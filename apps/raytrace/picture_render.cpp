@@ -10,6 +10,7 @@
 #include "picture_settings.h"
 #include "raytrace/aovs/aov_selection.h"
 #include "raytrace/film/aov_film.h"
+#include "raytrace/output/complete_picture.h"
 #include "raytrace/output/film_channels.h"
 #include "raytrace/render/checkpoint.h"
 
@@ -86,19 +87,32 @@ Ending PictureRender::render_at_once() {
     done = target;
   }
   timer.stop();
-  if (signals_.stop_signal() != 0 && done < all) {
-    if (options_.checkpoint.empty()) return Ending::stopped;
-    const bool saved = save_checkpoint(film);
-    return write_picture(film, all, true) && saved ? Ending::stopped : Ending::failed;
-  }
+  if (signals_.stop_signal() != 0 && done < all) return leave_what_there_is(film);
   if (display_) display_->show(film, film.region());
   progress_.finish();
   tell_rendered();
   statistics_.samples = static_cast<int>(done);
   if (done < all) tell_warning("the time limit was reached after " + counted(done, "sample") + " a pixel");
-  if (!write_picture(film, done, false)) return Ending::failed;
+  if (!write_picture(film, options_.outputs, done, false)) return Ending::failed;
   remove_checkpoint();
   return Ending::written;
+}
+
+/// After a signal to stop.
+Ending PictureRender::leave_what_there_is(const Film& film) {
+  std::vector<std::string> files = options_.outputs;
+  bool saved = true;
+  if (!options_.checkpoint.empty()) {
+    saved = save_checkpoint(film);
+  } else {
+    // Nothing goes on from here: an earlier picture that is complete is worth more. And where no mark says that this
+    // one is not, the next run would skip it.
+    std::erase_if(files, [&](const std::string& file) {
+      return is_complete_picture(file) || (options_.skip_existing && !holds_data(file));
+    });
+  }
+  const bool written = files.empty() || write_picture(film, files, identity_.film.samples.count, true);
+  return written && saved ? Ending::stopped : Ending::failed;
 }
 
 /// If there is one. Of a symbolic link, the link stays, as it does when a file is written.
@@ -112,7 +126,7 @@ void PictureRender::remove_checkpoint() const {
 Ending PictureRender::render_in_bands(int band_rows) {
   const Region region = settings_.region;
   identity_.film = film_settings(scene_, description_, settings_);
-  Outputs outputs(options_, identity_.film.extent, metadata(),
+  Outputs outputs(options_, options_.outputs, identity_.film.extent, metadata(),
                   options_.sample_offset ? sum_channels() : std::vector<Channel>());
   for (Region band = region; band.y0 < region.y1; band.y0 = band.y1) {
     band.y1 = std::min(band.y0 + band_rows, region.y1);
@@ -120,8 +134,10 @@ Ending PictureRender::render_in_bands(int band_rows) {
     PhaseTimer timer(statistics_.seconds.render);
     Film film(film_settings(scene_, description_, settings_));
     const double height = region.height();
-    if (!render_pass(film, film.settings().samples.count, (band.y0 - region.y0) / height, band.height() / height))
+    if (!render_pass(film, film.settings().samples.count, (band.y0 - region.y0) / height, band.height() / height)) {
+      tell_warning("stopped: of a picture of this size, only --checkpoint keeps what is done");
       return Ending::stopped;
+    }
     timer.stop();
     if (display_) display_->show(film, band);
     if (band.y1 == region.y1) {
@@ -156,7 +172,7 @@ void PictureRender::attend(const Film& film) {
     if (in_bands_) {
       tell_warning("a picture of this size goes to its files band by band: there is none to look at before the end");
     } else {
-      write_picture(film, film.settings().samples.count, true);
+      write_picture(film, options_.outputs, film.settings().samples.count, true);
     }
   }
   if (!options_.checkpoint.empty() && Clock::now() >= next_checkpoint_) save_checkpoint(film);
@@ -221,14 +237,15 @@ ImageMetadata PictureRender::metadata() const {
 }
 
 /// samples: that each pixel has, or is to have if the picture is partial.
-bool PictureRender::write_picture(const Film& film, std::uint32_t samples, bool partial) {
+bool PictureRender::write_picture(const Film& film, const std::vector<std::string>& files, std::uint32_t samples,
+                                  bool partial) {
   PieceIdentity identity = identity_;
   identity.partial = partial;
   ImageMetadata its_metadata = metadata();
   its_metadata.samples = static_cast<int>(samples);
   if (!partial) its_metadata.render_seconds = statistics_.seconds.render;
   its_metadata.attributes = identity_attributes(identity);
-  Outputs outputs(options_, film.settings().extent, its_metadata,
+  Outputs outputs(options_, files, film.settings().extent, its_metadata,
                   partial || options_.sample_offset ? sum_channels(film) : std::vector<Channel>());
   return outputs.write(film, statistics_) && outputs.commit(statistics_);
 }

@@ -18,7 +18,8 @@ namespace raytrace {
 enum class Ending {
   written,
   failed,   ///< not all files could be written
-  stopped,  ///< by a signal. With --checkpoint, that and the files as far as the picture is done were written
+  stopped,  ///< by a signal. The checkpoint, if there is to be one, and the files as far as the picture is done were
+            ///< written
 };
 
 class PictureRender {
@@ -36,6 +37,7 @@ class PictureRender {
  private:
   Ending render_at_once();
   Ending render_in_bands(int band_rows);
+  Ending leave_what_there_is(const Film& film);
   bool render_pass(Film& film, std::uint32_t target, double work_before, double work);
   void attend(const Film& film);
   std::uint32_t next_target(std::uint32_t done, double seconds_a_sample) const;
@@ -44,7 +46,7 @@ class PictureRender {
   void tell_rendered() const;
   void tell_set_aside() const;
   ImageMetadata metadata() const;
-  bool write_picture(const Film& film, std::uint32_t samples, bool partial);
+  bool write_picture(const Film& film, const std::vector<std::string>& files, std::uint32_t samples, bool partial);
   bool save_checkpoint(const Film& film);
   void remove_checkpoint() const;
   double fraction_of_time() const;

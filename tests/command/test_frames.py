@@ -111,7 +111,8 @@ class Frames(CommandTest):
         process.terminate()
         process.communicate(timeout=60)
         self.assertEqual(process.returncode, 143)
-        self.assertEqual(self.names(), ["scene.xml"])
+        self.assertEqual(self.names(), ["a.1.exr", "scene.xml"])
+        self.assertIn("raytrace:partial", Exr(self.read("a.1.exr")).attributes)
 
 
 class Turntable(CommandTest):

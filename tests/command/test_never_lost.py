@@ -119,15 +119,36 @@ class Stopped(SafetyTest):
             self.assert_same("a.exr", self.read("whole.exr"))
             os.remove(self.path("a.exr"))
 
+    def stop(self, number, *arguments):
+        process = self.start("scene.xml", *support.ENDLESS, "--progress=plain", *arguments)
+        self.assertIn("rendered", process.stderr.readline())
+        process.send_signal(number)
+        return process.wait(timeout=LIMIT)
+
     def test_without_a_checkpoint(self):
-        self.write("a.exr", "old")
+        """The picture so far, but never over a complete one."""
+        self.succeed("scene.xml", "-q", "-o", "complete.exr", "-s", "1")
+        complete = self.read("complete.exr")
         for number in (signal.SIGTERM, signal.SIGINT):
-            process = self.start("scene.xml", "-o", "a.exr", *support.ENDLESS, "--progress=plain")
-            self.assertIn("rendered", process.stderr.readline())
-            process.send_signal(number)
-            self.assertEqual(process.wait(timeout=LIMIT), 128 + number)
-            self.assertEqual(self.names(), ["a.exr", "scene.xml"])
-            self.assertEqual(self.read("a.exr"), b"old")
+            self.assertEqual(self.stop(number, "-o", "a.exr", "-o", "a.png", "-o", "complete.exr"), 128 + number)
+            self.assertEqual(self.names(), ["a.exr", "a.png", "complete.exr", "scene.xml"])
+            self.assertIn("raytrace:partial", self.exr("a.exr").attributes)
+            self.assertEqual(self.read("complete.exr"), complete)
+            partial = self.read("a.exr")
+            self.assertEqual(self.stop(number, "-o", "complete.exr"), 128 + number)
+            self.assertEqual(self.read("complete.exr"), complete)
+            self.assertEqual(self.stop(number, "-o", "a.exr"), 128 + number)
+            self.assertNotEqual(self.read("a.exr"), partial, "it is no newer one")
+            os.remove(self.path("a.png"))
+
+    def test_what_would_be_skipped(self):
+        """No PNG tells that it is not complete: with --skip-existing there is none, or a checkpoint beside it."""
+        self.assertEqual(self.stop(signal.SIGTERM, "-o", "a.exr", "-o", "a.png", "--skip-existing"), 143)
+        self.assertEqual(self.names(), ["a.exr", "scene.xml"])
+        command = ["-o", "b.png", "--checkpoint", "c.exr", "--resume", "--skip-existing"]
+        for _ in range(2):
+            self.assertEqual(self.stop(signal.SIGTERM, *command), 75)
+            self.assertEqual(self.names(), ["a.exr", "b.png", "c.exr", "scene.xml"])
 
     def test_picture_on_request(self):
         self.succeed("scene.xml", "-q", "-o", "whole.exr", "-s", MANY)

@@ -348,12 +348,10 @@ class Signals(CommandTest):
 
     def test_first_signal_stops(self):
         for number in (signal.SIGINT, signal.SIGTERM):
-            self.write("a.exr", "old")
             process = self.rendering(*support.ENDLESS)
             process.send_signal(number)
             self.assertEqual(process.wait(timeout=300), 128 + number)
             self.assertEqual(self.names(), ["a.exr", "scene.xml"])
-            self.assertEqual(self.read("a.exr"), b"old")
 
     def test_second_signal_ends_at_once(self):
         # So many lights on the floor that a stop, which is looked for every few samples, takes a while.
