@@ -8,6 +8,7 @@
 
 #include "exit_code.h"
 #include "file_names.h"
+#include "memory_limit.h"
 #include "messages.h"
 
 namespace raytrace {
@@ -108,7 +109,7 @@ int guarded(const std::function<int()>& action) {
     tell_error(std::string(error.what()) + "\nTry 'raytrace --help'.");
     return exit_code::usage;
   } catch (const std::bad_alloc&) {
-    tell_error("out of memory");
+    tell_error("out of memory" + memory_limit_text());
     return exit_code::out_of_memory;
   } catch (const std::exception& error) {
     tell_error(error.what());

@@ -1,0 +1,153 @@
+#include "memory_limit.h"
+
+#include <pthread.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <sstream>
+
+namespace raytrace {
+
+namespace {
+
+/// A file's text; empty if there is none.
+std::string text_of(const std::string& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+/// Whether `name` is one of the words between commas.
+bool lists(const std::string& words, const std::string& name) {
+  return ("," + words + ",").find("," + name + ",") != std::string::npos;
+}
+
+/// The path of this process in the hierarchy that controls memory: that of version 1, or of version 2 if there is none.
+/// Lines of /proc/self/cgroup: number, controllers, path; version 2 has no controllers.
+struct GroupPath {
+  bool version_1 = false;
+  std::string path;
+};
+
+std::optional<GroupPath> group_path(const std::string& cgroups) {
+  std::optional<GroupPath> result;
+  std::istringstream lines(cgroups);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t first = line.find(':');
+    const std::size_t second = line.find(':', first + 1);
+    if (first == std::string::npos || second == std::string::npos) continue;
+    const std::string controllers = line.substr(first + 1, second - first - 1);
+    const bool version_1 = lists(controllers, "memory");
+    if (version_1 || (controllers.empty() && !result)) result = {version_1, line.substr(second + 1)};
+  }
+  return result;
+}
+
+/// Where that hierarchy is mounted, and the group that is its root there.
+/// Lines of /proc/self/mountinfo: number, parent, device, root, mount point, options, ..., "-", type, source, options.
+struct GroupMount {
+  std::string root, folder;
+};
+
+std::optional<GroupMount> group_mount(const std::string& mountinfo, bool version_1) {
+  std::istringstream lines(mountinfo);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t separator = line.find(" - ");
+    if (separator == std::string::npos) continue;
+    std::istringstream start(line), end(line.substr(separator + 3));
+    std::string skipped, type, options;
+    GroupMount mount;
+    start >> skipped >> skipped >> skipped >> mount.root >> mount.folder;
+    end >> type >> skipped >> options;
+    if (version_1 ? type == "cgroup" && lists(options, "memory") : type == "cgroup2") return mount;
+  }
+  return std::nullopt;
+}
+
+/// That of one group; "max" and the largest number that there is mean none.
+std::optional<std::uint64_t> limit_in(const std::string& folder) {
+  constexpr std::uint64_t none = std::uint64_t{1} << 60U;
+  for (const char* const name : {"/memory.max", "/memory.limit_in_bytes"}) {
+    std::uint64_t limit = 0;
+    if (std::istringstream(text_of(folder + name)) >> limit && limit < none) return limit;
+  }
+  return std::nullopt;
+}
+
+/// In bytes, of what RLIMIT_DATA counts; of a line "VmData:    1234 kB".
+std::uint64_t reserved_memory() {
+  std::istringstream lines(text_of("/proc/self/status"));
+  for (std::string line; std::getline(lines, line);) {
+    std::uint64_t kibibytes = 0;
+    if (line.starts_with("VmData:") && std::istringstream(line.substr(7)) >> kibibytes) return kibibytes << 10U;
+  }
+  return 0;
+}
+
+/// The least that a group of this process allows, in bytes.
+std::optional<std::uint64_t> group_memory_limit() {
+  std::optional<std::uint64_t> least;
+  for (const std::string& folder :
+       memory_group_folders(text_of("/proc/self/cgroup"), text_of("/proc/self/mountinfo"))) {
+    const std::optional<std::uint64_t> limit = limit_in(folder);
+    if (limit) least = std::min(*limit, least.value_or(*limit));
+  }
+  return least;
+}
+
+/// Those that libraries start reserve 8 MiB each by default, and use a few KiB.
+void reserve_small_stacks() {
+#if defined(__GLIBC__)
+  pthread_attr_t attributes;
+  if (pthread_getattr_default_np(&attributes) != 0) return;
+  pthread_attr_setstacksize(&attributes, std::size_t{1} << 20U);
+  pthread_setattr_default_np(&attributes);
+  pthread_attr_destroy(&attributes);
+#endif
+}
+
+std::uint64_t obeyed_limit = 0;
+
+}  // namespace
+
+std::vector<std::string> memory_group_folders(const std::string& cgroups, const std::string& mountinfo) {
+  const std::optional<GroupPath> group = group_path(cgroups);
+  if (!group) return {};
+  const std::optional<GroupMount> mount = group_mount(mountinfo, group->version_1);
+  if (!mount) return {};
+  // In a container the path may be one that only the machine around it sees: there what is mounted is the own group.
+  std::filesystem::path inside = group->path;
+  if (mount->root != "/") inside = inside.lexically_relative(mount->root);
+  inside = inside.relative_path();
+  if (inside.empty() || inside == "." || *inside.begin() == "..") inside.clear();
+  std::vector<std::string> folders;
+  for (; !inside.empty(); inside = inside.parent_path()) folders.push_back(mount->folder + "/" + inside.string());
+  folders.push_back(mount->folder);
+  return folders;
+}
+
+void obey_group_memory_limit(int threads) {
+  const std::optional<std::uint64_t> allowed = group_memory_limit();
+  if (!allowed) return;
+  // What is not data: the kernel's tables, the group's other processes, files on their way to the disk.
+  const std::uint64_t others = *allowed / 16;
+  constexpr std::uint64_t stack = std::uint64_t{4} << 20U;  // oneTBB's
+  const std::uint64_t limit = *allowed - others + static_cast<std::uint64_t>(threads) * stack;
+  rlimit data{};
+  if (getrlimit(RLIMIT_DATA, &data) != 0 || data.rlim_cur <= limit || reserved_memory() > limit) return;
+  data.rlim_cur = limit;
+  if (setrlimit(RLIMIT_DATA, &data) != 0) return;
+  reserve_small_stacks();
+  obeyed_limit = *allowed;
+}
+
+std::string memory_limit_text() {
+  if (obeyed_limit == 0) return "";
+  return ": the control group of this process allows " + std::to_string(obeyed_limit >> 20U) + " MiB";
+}
+
+}  // namespace raytrace
