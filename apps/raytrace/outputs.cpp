@@ -52,7 +52,7 @@ Outputs::Outputs(const Options& options, const std::vector<std::string>& files, 
 }
 
 bool Outputs::write(const Film& film, Statistics& statistics) {
-  const PhaseTimer timer(statistics.seconds.write);
+  const PhaseTimer timer(statistics.phases.write);
   const Region& region = film.region();
   constexpr std::size_t colors = 4;
   ImageBand band;  // a few rows at a time, so that no second copy of the picture is needed
@@ -67,7 +67,7 @@ bool Outputs::write(const Film& film, Statistics& statistics) {
 }
 
 bool Outputs::commit(Statistics& statistics) {
-  const PhaseTimer timer(statistics.seconds.write);
+  const PhaseTimer timer(statistics.phases.write);
   statistics.outputs.clear();
   for (File& file : files_) {
     succeeds([&] {

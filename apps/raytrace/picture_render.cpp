@@ -68,7 +68,7 @@ Ending PictureRender::run() {
 }
 
 Ending PictureRender::render_at_once() {
-  PhaseTimer timer(statistics_.seconds.render);
+  PhaseTimer timer(statistics_.phases.render);
   Film film(film_settings(scene_, description_, settings_));
   identity_.film = film.settings();
   if (options_.resume && std::filesystem::exists(options_.checkpoint)) {
@@ -131,7 +131,7 @@ Ending PictureRender::render_in_bands(int band_rows) {
   for (Region band = region; band.y0 < region.y1; band.y0 = band.y1) {
     band.y1 = std::min(band.y0 + band_rows, region.y1);
     settings_.region = band;
-    PhaseTimer timer(statistics_.seconds.render);
+    PhaseTimer timer(statistics_.phases.render);
     Film film(film_settings(scene_, description_, settings_));
     const double height = region.height();
     if (!render_pass(film, film.settings().samples.count, (band.y0 - region.y0) / height, band.height() / height)) {
@@ -207,7 +207,7 @@ void PictureRender::count(const RenderReport& report) {
 
 void PictureRender::tell_rendered() const {
   char seconds[32];
-  std::snprintf(seconds, sizeof seconds, " in %.3f s", statistics_.seconds.render);
+  std::snprintf(seconds, sizeof seconds, " in %.3f s", statistics_.phases.render.seconds);
   tell_step("rendered " + counted(statistics_.total_rays(), "ray") + " on " +
             counted(static_cast<std::uint64_t>(options_.threads), "thread") + seconds);
 }
@@ -243,7 +243,7 @@ bool PictureRender::write_picture(const Film& film, const std::vector<std::strin
   identity.partial = partial;
   ImageMetadata its_metadata = metadata();
   its_metadata.samples = static_cast<int>(samples);
-  if (!partial) its_metadata.render_seconds = statistics_.seconds.render;
+  if (!partial) its_metadata.render_seconds = statistics_.phases.render.seconds;
   its_metadata.attributes = identity_attributes(identity);
   Outputs outputs(options_, files, film.settings().extent, its_metadata,
                   partial || options_.sample_offset ? sum_channels(film) : std::vector<Channel>());

@@ -79,13 +79,13 @@ std::optional<SceneDescription> load(const Options& options, Statistics& statist
   Diagnostics diagnostics(shown_name(options.scene));
   std::optional<SceneDescription> description;
   {
-    const PhaseTimer timer(statistics.seconds.load);
+    const PhaseTimer timer(statistics.phases.load);
     description = load_scene(options.scene, diagnostics, options.threads, {options.frame, options.variables});
   }
   if (diagnostics.has_errors() || tells(Verbosity::warnings)) tell_findings(diagnostics);
   if (description) {
     tell_step(shown_name(options.scene) + ": " + contents(*description) + ", read" +
-              in_seconds(statistics.seconds.load));
+              in_seconds(statistics.phases.load.seconds));
   }
   return description;
 }
@@ -94,12 +94,12 @@ std::unique_ptr<const Scene> build(const SceneDescription& description, const Op
                                    Statistics& statistics) {
   std::unique_ptr<const Scene> scene;
   {
-    const PhaseTimer timer(statistics.seconds.build);
+    const PhaseTimer timer(statistics.phases.build);
     scene = build_scene(description, {options.threads, options.isa});
   }
   statistics.scene = scene->statistics();
   tell_step("built for " + statistics.scene.isa + " with Embree " + statistics.scene.embree_version +
-            in_seconds(statistics.seconds.build));
+            in_seconds(statistics.phases.build.seconds));
   return scene;
 }
 

@@ -44,7 +44,7 @@ std::string amount_text(std::uint64_t amount, const char* unit) {
 }  // namespace
 
 double Statistics::rays_per_second() const {
-  return seconds.render > 0 ? static_cast<double>(total_rays()) / seconds.render : 0;
+  return phases.render.seconds > 0 ? static_cast<double>(total_rays()) / phases.render.seconds : 0;
 }
 
 std::uint64_t peak_memory_bytes() {
@@ -62,13 +62,21 @@ std::string text(const Statistics& s) {
   const std::string crop = r == whole ? ""
                                       : ", crop " + std::to_string(r.x0) + "," + std::to_string(r.y0) + "," +
                                             std::to_string(r.x1) + "," + std::to_string(r.y1);
-  return line("scene", s.scene_file) + line("picture", picture + crop) + line("load", seconds_text(s.seconds.load)) +
-         line("build", seconds_text(s.seconds.build)) + line("render", seconds_text(s.seconds.render)) +
-         line("write", seconds_text(s.seconds.write)) + line("total", seconds_text(s.seconds.total())) +
-         line("camera rays", amount_text(s.rays.camera, "")) + line("shadow rays", amount_text(s.rays.shadow, "")) +
+  const auto peak = [](const char* phase, const Phase& its) {
+    const std::string amount = amount_text(its.peak_memory_bytes, "B");
+    return std::string(phase) + " " + amount.substr(amount.find_first_not_of(' '));
+  };
+  const std::string by_phase = " (" + peak("load", s.phases.load) + ", " + peak("build", s.phases.build) + ", " +
+                               peak("render", s.phases.render) + ", " + peak("write", s.phases.write) + ")";
+  return line("scene", s.scene_file) + line("picture", picture + crop) +
+         line("load", seconds_text(s.phases.load.seconds)) + line("build", seconds_text(s.phases.build.seconds)) +
+         line("render", seconds_text(s.phases.render.seconds)) + line("write", seconds_text(s.phases.write.seconds)) +
+         line("total", seconds_text(s.phases.seconds())) + line("camera rays", amount_text(s.rays.camera, "")) +
+         line("shadow rays", amount_text(s.rays.shadow, "")) +
          line("rays a second", amount_text(s.rays_per_second(), "")) +
          line("primitives", amount_text(s.scene.primitives, "")) + line("BVH", amount_text(s.scene.bvh_bytes, "B")) +
-         line("peak memory", amount_text(s.peak_memory_bytes, "B")) + line("threads", std::to_string(s.threads)) +
+         line("peak memory", amount_text(s.peak_memory_bytes, "B") + by_phase) +
+         line("threads", std::to_string(s.threads)) +
          line("instructions", s.scene.isa + ", " + std::to_string(s.scene.lanes) + " lanes") +
          line("Embree", s.scene.embree_version);
 }
@@ -86,18 +94,25 @@ std::string json(const Statistics& s) {
         {"samples", s.samples},
         {"seed", s.seed}}},
       {"seconds",
-       {{"load", s.seconds.load},
-        {"build", s.seconds.build},
-        {"render", s.seconds.render},
-        {"write", s.seconds.write},
-        {"total", s.seconds.total()}}},
+       {{"load", s.phases.load.seconds},
+        {"build", s.phases.build.seconds},
+        {"render", s.phases.render.seconds},
+        {"write", s.phases.write.seconds},
+        {"total", s.phases.seconds()}}},
       {"rays",
        {{"camera", s.rays.camera},
         {"shadow", s.rays.shadow},
         {"total", s.total_rays()},
         {"per_second", s.rays_per_second()}}},
       {"primitives", s.scene.primitives},
-      {"memory", {{"bvh_bytes", s.scene.bvh_bytes}, {"peak_bytes", s.peak_memory_bytes}}},
+      {"memory",
+       {{"bvh_bytes", s.scene.bvh_bytes},
+        {"peak_bytes", s.peak_memory_bytes},
+        {"peak_bytes_by_phase",
+         {{"load", s.phases.load.peak_memory_bytes},
+          {"build", s.phases.build.peak_memory_bytes},
+          {"render", s.phases.render.peak_memory_bytes},
+          {"write", s.phases.write.peak_memory_bytes}}}}},
       {"threads", s.threads},
       {"instruction_set", {{"name", s.scene.isa}, {"lanes", s.scene.lanes}}},
       {"embree", s.scene.embree_version},

@@ -12,12 +12,17 @@
 
 namespace raytrace {
 
-struct PhaseSeconds {
-  double load = 0;    ///< scene file -> description
-  double build = 0;   ///< description -> scene with its BVH
-  double render = 0;  ///< scene -> film
-  double write = 0;   ///< film -> image files
-  double total() const { return load + build + render + write; }
+struct Phase {
+  double seconds = 0;
+  std::uint64_t peak_memory_bytes = 0;  ///< the most that the process had held by its end
+};
+
+struct Phases {
+  Phase load;    ///< scene file -> description
+  Phase build;   ///< description -> scene with its BVH
+  Phase render;  ///< scene -> film
+  Phase write;   ///< film -> image files
+  double seconds() const { return load.seconds + build.seconds + render.seconds + write.seconds; }
 };
 
 struct Statistics {
@@ -29,7 +34,7 @@ struct Statistics {
   int samples = 0;            ///< a pixel
   std::uint64_t seed = 0;
   int threads = 0;
-  PhaseSeconds seconds;
+  Phases phases;
   RayCounts rays;
   SceneStatistics scene;
   std::uint64_t peak_memory_bytes = 0;
@@ -46,23 +51,25 @@ std::string text(const Statistics& statistics);
 
 std::string json(const Statistics& statistics);
 
-/// Adds the time from its making to its end, or to stop(), to a phase.
+/// Adds the time from its making to its end, or to stop(), to a phase, and notes the memory then.
 class PhaseTimer {
  public:
-  explicit PhaseTimer(double& seconds) : seconds_(seconds) {}
+  explicit PhaseTimer(Phase& phase) : phase_(phase) {}
   ~PhaseTimer() { stop(); }
   PhaseTimer(const PhaseTimer&) = delete;
   PhaseTimer& operator=(const PhaseTimer&) = delete;
 
   /// Ends it before its scope does.
   void stop() {
-    if (running_) seconds_ += std::chrono::duration<double>(Clock::now() - start_).count();
+    if (!running_) return;
+    phase_.seconds += std::chrono::duration<double>(Clock::now() - start_).count();
+    phase_.peak_memory_bytes = peak_memory_bytes();
     running_ = false;
   }
 
  private:
   using Clock = std::chrono::steady_clock;
-  double& seconds_;
+  Phase& phase_;
   Clock::time_point start_ = Clock::now();
   bool running_ = true;
 };

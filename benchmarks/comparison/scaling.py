@@ -11,7 +11,8 @@ from .paths import PROGRAM, REPOSITORY, WORK
 from .process import run
 from .renderers import raytrace
 
-COLUMNS = ["spheres", "load", "build", "render", "ns a ray", "BVH bytes a sphere", "peak memory", "peak bytes a sphere"]
+COLUMNS = ["spheres", "load", "build", "render", "ns a ray", "BVH bytes a sphere", "peak: load", "build", "render", "write",
+           "peak bytes a sphere"]
 
 
 def measured(count, threads, repeats):
@@ -38,6 +39,8 @@ def measured(count, threads, repeats):
         "ray": median(lambda one: one["seconds"]["render"] / one["rays"]["total"]),
         "bvh": median(lambda one: one["memory"]["bvh_bytes"]),
         "peak": median(lambda one: one["memory"]["peak_bytes"]),
+        "peaks": [median(lambda one: one["memory"]["peak_bytes_by_phase"][phase])
+                  for phase in ("load", "build", "render", "write")],
     }
 
 
@@ -46,7 +49,8 @@ def table(results):
     for one in results:
         count = one["count"]
         cells = [f"{count:,}", *(f"{one[phase]:.3f} s" for phase in ("load", "build", "render"))]
-        cells += [f"{one['ray'] * 1e9:.1f}", f"{one['bvh'] / count:,.0f}", f"{one['peak'] / 1e6:,.0f} MB"]
+        cells += [f"{one['ray'] * 1e9:.1f}", f"{one['bvh'] / count:,.0f}"]
+        cells += [f"{peak / 1e6:,.0f} MB" for peak in one["peaks"]]
         cells.append(f"{one['peak'] / count:,.0f}" if count >= 100_000 else "")
         lines.append(f"| {' | '.join(cells)} |")
     return "\n".join(lines) + "\n"
@@ -92,8 +96,8 @@ def main():
             " samples, one shadowing point light.\n\n"
             f"{raytrace.version()}; threads: {chosen.threads}; medians of {chosen.repeats}.\n\n"
             f"{table(results)}\n![Time a ray and bytes a sphere over the number of spheres](scaling.svg)\n\n"
-            "Peak memory is the process', and the reader's or the renderer's, whichever is more; with few spheres it is that"
-            " of the program, its libraries and the picture. `benchmarks/scaling` measures it on your machine.\n"
+            "Peaks: the most memory that the process had held by the end of the phase. With few spheres it is that of the"
+            " program, its libraries and the picture. `benchmarks/scaling` measures it on your machine.\n"
         )
     plot(results, os.path.join(chosen.output, "scaling.svg"))
 

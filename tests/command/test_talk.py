@@ -114,6 +114,10 @@ class Statistics(CommandTest):
         self.assertAlmostEqual(report["seconds"]["total"],
                                sum(report["seconds"][phase] for phase in ("load", "build", "render", "write")))
         self.assertGreater(report["memory"]["peak_bytes"], 1 << 20)
+        peaks = [report["memory"]["peak_bytes_by_phase"][phase] for phase in ("load", "build", "render", "write")]
+        self.assertGreater(peaks[0], 1 << 20)
+        self.assertEqual(peaks, sorted(peaks))
+        self.assertLessEqual(peaks[-1], report["memory"]["peak_bytes"])
         self.assertGreater(report["memory"]["bvh_bytes"], 0)
         self.assertIn(report["instruction_set"]["name"], self.succeed("--version").stdout)
         self.assertGreaterEqual(report["instruction_set"]["lanes"], 1)
