@@ -6,7 +6,6 @@
 #include "about.h"
 #include "exit_code.h"
 #include "jobs.h"
-#include "memory_limit.h"
 #include "merge_command.h"
 #include "messages.h"
 #include "options.h"
@@ -78,7 +77,6 @@ int main(int argc, char** argv) {
     tell_program_in(options.progress);
     if (const auto answer = about_program(options)) return print(*answer);
     ignore_picture_requests();
-    obey_group_memory_limit(options.threads);
     Progress progress(options.progress);
     return run_all(Jobs(options), [&](const Options& job) { return run(job, progress); });
   });

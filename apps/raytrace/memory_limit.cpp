@@ -78,14 +78,22 @@ std::optional<std::uint64_t> limit_in(const std::string& folder) {
   return std::nullopt;
 }
 
-/// In bytes, of what RLIMIT_DATA counts; of a line "VmData:    1234 kB".
-std::uint64_t reserved_memory() {
+/// A field of /proc/self/status, in bytes: of a line "VmData:    1234 kB".
+std::uint64_t status_bytes(const std::string& field) {
   std::istringstream lines(text_of("/proc/self/status"));
   for (std::string line; std::getline(lines, line);) {
     std::uint64_t kibibytes = 0;
-    if (line.starts_with("VmData:") && std::istringstream(line.substr(7)) >> kibibytes) return kibibytes << 10U;
+    if (line.starts_with(field + ":") && std::istringstream(line.substr(field.size() + 1)) >> kibibytes)
+      return kibibytes << 10U;
   }
   return 0;
+}
+
+/// What is reserved, and counts for RLIMIT_DATA, but was never touched, and does not count for the group: large parts
+/// of stacks, and 128 MiB of a device of Embree 3.
+std::uint64_t untouched_memory() {
+  const std::uint64_t reserved = status_bytes("VmData"), touched = status_bytes("RssAnon");
+  return reserved - std::min(touched, reserved);
 }
 
 /// The least that a group of this process allows, in bytes.
@@ -130,16 +138,14 @@ std::vector<std::string> memory_group_folders(const std::string& cgroups, const 
   return folders;
 }
 
-void obey_group_memory_limit(int threads) {
+void obey_group_memory_limit(std::uint64_t untouched_to_come) {
   const std::optional<std::uint64_t> allowed = group_memory_limit();
-  if (!allowed) return;
+  rlimit data{};
+  if (!allowed || getrlimit(RLIMIT_DATA, &data) != 0) return;
+  static const rlim_t asked = data.rlim_cur;  // by `ulimit -d`
   // What is not data: the kernel's tables, the group's other processes, files on their way to the disk.
   const std::uint64_t others = *allowed / 16;
-  constexpr std::uint64_t stack = std::uint64_t{4} << 20U;  // oneTBB's
-  const std::uint64_t limit = *allowed - others + static_cast<std::uint64_t>(threads) * stack;
-  rlimit data{};
-  if (getrlimit(RLIMIT_DATA, &data) != 0 || data.rlim_cur <= limit || reserved_memory() > limit) return;
-  data.rlim_cur = limit;
+  data.rlim_cur = std::min<rlim_t>(asked, *allowed - others + untouched_memory() + untouched_to_come);
   if (setrlimit(RLIMIT_DATA, &data) != 0) return;
   reserve_small_stacks();
   obeyed_limit = *allowed;

@@ -1,6 +1,7 @@
 // Makes what a control group (cgroup) of Linux allows a limit that the program sees.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -12,10 +13,13 @@ namespace raytrace {
 std::vector<std::string> memory_group_folders(const std::string& cgroups, const std::string& mountinfo);
 
 /// The kernel kills what grows beyond its group's memory limit, without a word. So that the program can tell it
-/// instead, and end as it does where the machine itself has no more, it takes no more data (RLIMIT_DATA) than the group
-/// allows. threads: that it is going to have; most of their stacks is never touched, and does not count. Does nothing
-/// without a limit, and where more is reserved already, as the sanitizers do.
-void obey_group_memory_limit(int threads);
+/// instead, and end as it does where the machine itself has no more, it may from now on take no more data (RLIMIT_DATA)
+/// than the group allows. What is reserved and never touched does not count: what there is of it now, and
+/// untouched_to_come, in bytes. Does nothing without a limit.
+void obey_group_memory_limit(std::uint64_t untouched_to_come);
+
+/// That of stacks.
+constexpr std::uint64_t stacks_of(int threads) { return static_cast<std::uint64_t>(threads) << 23U; }
 
 /// ": the control group of this process allows 200 MiB" if that is what is obeyed, else nothing.
 std::string memory_limit_text();

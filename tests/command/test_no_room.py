@@ -262,7 +262,7 @@ class MemoryGroup(SafetyTest):
         sphere = '<sphere><center x="{}" y="0" z="0"/><radius>1</radius><material>shiny</material></sphere>\n'
         many = "".join(sphere.format(number) for number in range(1000000))
         self.write("large.xml", support.SCENE.replace("</spheres>", many + "</spheres>"))
-        done = self.run_in_group("large.xml", "-o", "a.exr")
+        done = self.run_in_group("large.xml", "-o", "a.exr", "-t", "1")
         self.assertEqual(done.returncode, 33, done.stderr)
         self.assertEqual(self.names(), ["large.xml", "scene.xml"])
 
