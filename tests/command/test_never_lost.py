@@ -279,6 +279,10 @@ class ForeignCheckpoints(SafetyTest):
                     self.assertEqual(self.read("checkpoint.exr"), damaged)
                     refusals += 1
         self.assertGreater(refusals, 0)
+        # What stands in a message is text whatever the file holds.
+        with open(self.path("checkpoint.exr"), "wb") as file:
+            file.write(whole.replace(b"raytrace 0", b"raytr\x1bce\xad0", 1))
+        self.assertIn("it differs in the version (raytr\\x1bce\\xad0", self.refused(*arguments))
         # The last byte is of the last row's sums.
         with open(self.path("checkpoint.exr"), "wb") as file:
             file.write(whole[:-1] + bytes([whole[-1] ^ 1]))

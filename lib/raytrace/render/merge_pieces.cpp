@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "raytrace/aovs/aov_selection.h"
+#include "raytrace/description/quoted.h"
 #include "raytrace/output/film_channels.h"
 #include "raytrace/render/piece_layout.h"
 #include "raytrace/render/provenance.h"
@@ -40,7 +41,7 @@ PieceExtent extent_of(const Piece& piece) {
 
 std::string names_of(const std::vector<Channel>& channels) {
   std::string names;
-  for (const Channel& channel : channels) names += (names.empty() ? "" : " ") + channel.name;
+  for (const Channel& channel : channels) names += (names.empty() ? "" : " ") + printable(channel.name);
   return names;
 }
 

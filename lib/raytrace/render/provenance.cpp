@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "raytrace/aovs/aov_selection.h"
+#include "raytrace/description/quoted.h"
 #include "raytrace/description/scene_hash.h"
 
 namespace raytrace {
@@ -60,7 +61,7 @@ AovSettings aovs_of(const ExrReader& piece, const std::string& names) {
   const std::vector<std::string> all = aov_names(), wanted = split(names);
   for (const std::string& name : wanted)
     if (std::find(all.begin(), all.end(), name) == all.end())
-      throw InputError(piece.file() + " has an AOV that this version does not know: " + name);
+      throw InputError(piece.file() + " has an AOV that this version does not know: " + printable(name));
   std::vector<int> units;
   for (const std::string& unit : split(needed<std::string>(piece, aov_units_name)))
     units.push_back(number<int>(piece, aov_units_name, unit));
@@ -137,9 +138,10 @@ std::optional<std::string> difference(const PieceIdentity& wanted, const PieceId
     return other("the resolution", size_text(d.extent), size_text(c.extent));
   if (a.scene != b.scene) return "the scene";
   if (c.seed != d.seed) return other("the seed", std::to_string(d.seed), std::to_string(c.seed));
-  if (a.software != b.software) return other("the version", b.software, a.software);
-  if (a.embree_version != b.embree_version) return other("Embree's version", b.embree_version, a.embree_version);
-  if (a.isa != b.isa) return other("the instruction set", b.isa, a.isa) + ": pin one with --isa";
+  if (a.software != b.software) return other("the version", printable(b.software), printable(a.software));
+  if (a.embree_version != b.embree_version)
+    return other("Embree's version", printable(b.embree_version), printable(a.embree_version));
+  if (a.isa != b.isa) return other("the instruction set", printable(b.isa), printable(a.isa)) + ": pin one with --isa";
   if (c.samples.centered != d.samples.centered)
     return "the place of the samples: one has a single sample in each pixel's center; render it with --sample-offset 0";
   if (c.aovs.wanted != d.aovs.wanted) {
