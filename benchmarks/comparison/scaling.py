@@ -11,8 +11,8 @@ from .paths import PROGRAM, REPOSITORY, WORK
 from .process import run
 from .renderers import raytrace
 
-COLUMNS = ["spheres", "load", "build", "render", "ns a ray", "BVH bytes a sphere", "peak: load", "build", "render", "write",
-           "peak bytes a sphere"]
+COLUMNS = ["spheres", "load", "build", "render", "ns a ray", "BVH bytes a sphere", "peak: load", "peak: build",
+           "peak: render", "peak: write", "peak bytes a sphere"]
 
 
 def measured(count, threads, repeats):
