@@ -18,7 +18,7 @@ std::vector<std::string> memory_group_folders(const std::string& cgroups, const 
 /// untouched_to_come, in bytes. Does nothing without a limit.
 void obey_group_memory_limit(std::uint64_t untouched_to_come);
 
-/// That of stacks.
+/// What so many threads reserve for their stacks, in bytes: 8 MiB each.
 constexpr std::uint64_t stacks_of(int threads) { return static_cast<std::uint64_t>(threads) << 23U; }
 
 /// ": the control group of this process allows 200 MiB" if that is what is obeyed, else nothing.

@@ -6,11 +6,9 @@
 namespace raytrace {
 
 std::optional<XmlProblem> find_encoding_problem(std::string_view text) {
-  const auto starts_with = [&](std::string_view prefix) { return text.substr(0, prefix.size()) == prefix; };
   using namespace std::string_view_literals;
-  if (starts_with("\xff\xfe"sv) || starts_with("\xfe\xff"sv) || starts_with("<\0"sv) || starts_with("\0<"sv)) {
-    return XmlProblem{0, "the file is encoded as UTF-16 or UTF-32; save it as UTF-8"};
-  }
+  for (const std::string_view start : {"\xff\xfe"sv, "\xfe\xff"sv, "<\0"sv, "\0<"sv})
+    if (text.starts_with(start)) return XmlProblem{0, "the file is encoded as UTF-16 or UTF-32; save it as UTF-8"};
   const std::size_t invalid = find_invalid_utf8(text);
   if (invalid == std::string_view::npos) return std::nullopt;
   const bool control = static_cast<unsigned char>(text[invalid]) < 0x20;
