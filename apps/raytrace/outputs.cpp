@@ -58,7 +58,7 @@ bool Outputs::write(const Film& film, Statistics& statistics) {
   ImageBand band;  // a few rows at a time, so that no second copy of the picture is needed
   for (int y0 = region.y0; y0 < region.y1 && !files_.empty(); y0 = band.region.y1) {
     band.planes.resize(std::min(band.planes.size(), colors));
-    fill_color(band, film, y0, std::min(y0 + band_rows(region.width(), channels_.size()), region.y1));
+    fill_color(band, film, y0, std::min(y0 + band_rows(region.width(), channels_.size()), region.y1), options_.threads);
     fill_aovs(band, colors, film);
     if (!sums_.empty()) append_sums(band, sums_, film);
     std::erase_if(files_, [&](File& file) { return !succeeds([&] { file.image->write(band); }); });

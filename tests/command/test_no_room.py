@@ -114,8 +114,9 @@ class ReadOnlyFileSystem(MountTest):
         self.assertIn("rendered", process.stderr.readline())
         with halted(process):
             self.assertEqual(self.mount("-o", "remount,ro", self.path("disk")).returncode, 0)
-        self.assertEqual(process.wait(timeout=LIMIT), 1)
-        self.assertIn("error: cannot write disk/a.exr: Read-only file system\n", process.stderr.read())
+        code, told = process.wait(timeout=LIMIT), process.stderr.read()
+        self.assertEqual(code, 1, told)
+        self.assertIn("error: cannot write disk/a.exr: Read-only file system\n", told)
         self.assertIn("b.exr", self.names())
         self.assert_kept()
 
@@ -129,10 +130,11 @@ class LostFolders(SafetyTest):
         self.assertIn("rendered", process.stderr.readline())
         with halted(process):
             action(self.path("folder"))
-        self.assertEqual(process.wait(timeout=LIMIT), 1)
+        code, told = process.wait(timeout=LIMIT), process.stderr.read()
+        self.assertEqual(code, 1, told)
         self.succeed(*LONG, "-q", "-o", "whole.exr")
         self.assert_same("b.exr", self.read("whole.exr"))
-        return process.stderr.read()
+        return told
 
     def test_permission(self):
         # The program refuses a folder without write permission even to root, as it does such files.

@@ -1,4 +1,3 @@
-#include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -25,6 +24,7 @@
 #include "raytrace/description/scene_text.h"
 #include "raytrace/description/text_file.h"
 #include "raytrace/description/variables.h"
+#include "raytrace/parallel/worker_count.h"
 
 namespace raytrace {
 namespace {
@@ -49,12 +49,6 @@ struct Harvested {
 /// Where the text of a label stands.
 Node label_text(Element item, std::string_view label) { return item.child(label).first_child(); }
 
-int arena_size(int threads) {
-  // Asking for more than there can be would have oneTBB warn on the standard error output.
-  const auto most = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-  return static_cast<int>(threads > 0 ? std::min(static_cast<std::size_t>(threads), most) : most);
-}
-
 class SceneReader {
  public:
   SceneReader(const SceneText& text, const Variables& variables, int threads, Diagnostics& diagnostics)
@@ -62,7 +56,7 @@ class SceneReader {
         variables_(variables),
         diagnostics_(diagnostics),
         frame_(text, variables),
-        arena_(arena_size(threads)) {
+        arena_(worker_count(threads)) {
     scene_.file = diagnostics.file();
   }
 

@@ -25,6 +25,7 @@
 #include <system_error>
 
 #include "raytrace/output/picture_date.h"
+#include "raytrace/parallel/for_each_index.h"
 
 namespace raytrace {
 
@@ -130,13 +131,12 @@ Value storable(float value, Repairs& repairs) {
   return Value(std::isnan(value) ? 0.0F : std::copysign(largest<Value>, value));
 }
 
+/// A row of a plane's values, of so many.
 template <class Value>
-const Value* convert(const ChannelValues& plane, std::vector<Value>& converted, Repairs& repairs) {
+void convert_row(const ChannelValues& plane, std::size_t row, std::size_t width, std::vector<Value>& converted,
+                 Repairs& repairs) {
   const auto& values = std::get<std::vector<float>>(plane);
-  converted.resize(values.size());
-  std::transform(values.begin(), values.end(), converted.begin(),
-                 [&](float value) { return storable<Value>(value, repairs); });
-  return converted.data();
+  for (std::size_t i = row * width; i < (row + 1) * width; ++i) converted[i] = storable<Value>(values[i], repairs);
 }
 
 /// A plane's values where OpenEXR finds them: row by row within the window.
@@ -191,6 +191,7 @@ void ExrEncoder::begin(const PictureExtent& extent, const std::vector<Channel>& 
 void ExrEncoder::write(const ImageBand& band) {
   const Region& region = band.region;
   const Imath::Box2i window({region.x0, region.y0}, {region.x1 - 1, region.y1 - 1});
+  convert_values(band);
   Imf::FrameBuffer frame;
   for (std::size_t i = 0; i < open_->channels.size(); ++i) {
     const Channel& channel = open_->channels[i];
@@ -198,10 +199,10 @@ void ExrEncoder::write(const ImageBand& band) {
     const Imf::PixelType type = pixel_type(channel.type);
     switch (channel.type) {
       case ChannelType::half:
-        frame.insert(channel.name, slice(type, convert(plane, open_->halves[i], repairs_), window));
+        frame.insert(channel.name, slice(type, open_->halves[i].data(), window));
         break;
       case ChannelType::float32:
-        frame.insert(channel.name, slice(type, convert(plane, open_->floats[i], repairs_), window));
+        frame.insert(channel.name, slice(type, open_->floats[i].data(), window));
         break;
       case ChannelType::uint32:
         frame.insert(channel.name, slice(type, std::get<std::vector<std::uint32_t>>(plane).data(), window));
@@ -212,6 +213,26 @@ void ExrEncoder::write(const ImageBand& band) {
     open_->exr->setFrameBuffer(frame);
     open_->exr->writePixels(region.height());
   });
+}
+
+/// To what the file stores.
+void ExrEncoder::convert_values(const ImageBand& band) {
+  const auto width = static_cast<std::size_t>(band.region.width());
+  const auto rows = static_cast<std::size_t>(band.region.height());
+  for (std::size_t i = 0; i < open_->channels.size(); ++i) {
+    if (open_->channels[i].type == ChannelType::half) open_->halves[i].resize(width * rows);
+    if (open_->channels[i].type == ChannelType::float32) open_->floats[i].resize(width * rows);
+  }
+  std::vector<Repairs> repairs(rows);
+  for_each_index(band.region.height(), settings_.threads, [&](int index) {
+    const auto row = static_cast<std::size_t>(index);
+    for (std::size_t i = 0; i < open_->channels.size(); ++i) {
+      const ChannelType type = open_->channels[i].type;
+      if (type == ChannelType::half) convert_row(band.planes[i], row, width, open_->halves[i], repairs[row]);
+      if (type == ChannelType::float32) convert_row(band.planes[i], row, width, open_->floats[i], repairs[row]);
+    }
+  });
+  for (const Repairs& of_row : repairs) repairs_ += of_row;
 }
 
 Repairs ExrEncoder::finish() {

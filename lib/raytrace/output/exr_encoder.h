@@ -24,6 +24,7 @@ class ExrEncoder final : public ImageEncoder {
 
  private:
   struct OpenFile;
+  void convert_values(const ImageBand& band);
   /// Runs it, and throws an OutputError with the true reason for whatever it throws.
   template <class Action>
   void guard(const Action& action) const;

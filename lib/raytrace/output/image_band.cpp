@@ -1,6 +1,9 @@
 #include "raytrace/output/image_band.h"
 
 #include <algorithm>
+#include <array>
+
+#include "raytrace/parallel/for_each_index.h"
 
 namespace raytrace {
 
@@ -17,31 +20,32 @@ std::vector<Channel> color_channels(bool full_float) {
 
 int band_rows(int width, std::size_t channels) {
   constexpr std::size_t most_values = 4U << 20U;
-  constexpr std::size_t block_rows = 16;
+  constexpr std::size_t block_rows = 16, most_blocks = 16;
   const std::size_t block_values = channels * static_cast<std::size_t>(width) * block_rows;
-  return static_cast<int>(std::max<std::size_t>(1, most_values / block_values) * block_rows);
+  return static_cast<int>(std::clamp<std::size_t>(most_values / block_values, 1, most_blocks) * block_rows);
 }
 
-void fill_color(ImageBand& band, const Film& film, int y0, int y1) {
+void fill_color(ImageBand& band, const Film& film, int y0, int y1, int threads) {
   band.region = {film.region().x0, y0, film.region().x1, y1};
   band.planes.resize(std::max(band.planes.size(), colors));
-  const auto values = static_cast<std::size_t>(band.region.width()) * static_cast<std::size_t>(band.region.height());
-  float* next[colors];
+  const auto width = static_cast<std::size_t>(band.region.width());
+  std::array<float*, colors> planes;
   for (std::size_t i = 0; i < colors; ++i) {
     if (!std::holds_alternative<std::vector<float>>(band.planes[i])) band.planes[i] = std::vector<float>();
     auto& plane = std::get<std::vector<float>>(band.planes[i]);
-    plane.resize(values);
-    next[i] = plane.data();
+    plane.resize(width * static_cast<std::size_t>(band.region.height()));
+    planes[i] = plane.data();
   }
-  for (int y = y0; y < y1; ++y) {
-    for (int x = band.region.x0; x < band.region.x1; ++x) {
-      const Pixel pixel = film.pixel(x, y);
-      *next[0]++ = pixel.red;
-      *next[1]++ = pixel.green;
-      *next[2]++ = pixel.blue;
-      *next[3]++ = pixel.alpha;
+  for_each_index(band.region.height(), threads, [&](int row) {
+    std::size_t at = static_cast<std::size_t>(row) * width;
+    for (int x = band.region.x0; x < band.region.x1; ++x, ++at) {
+      const Pixel pixel = film.pixel(x, y0 + row);
+      planes[0][at] = pixel.red;
+      planes[1][at] = pixel.green;
+      planes[2][at] = pixel.blue;
+      planes[3][at] = pixel.alpha;
     }
-  }
+  });
 }
 
 }  // namespace raytrace

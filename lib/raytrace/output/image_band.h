@@ -33,11 +33,12 @@ struct ImageBand {
 std::vector<Channel> color_channels(bool full_float);
 
 /// Rows of a band of the picture whose planes together take a few megabytes: a multiple of 16, since EXR compresses
-/// that many rows together.
+/// that many rows together, and 16 times 16 at most, which is enough for the threads that compress them. Larger bands
+/// would only take memory, which costs time where it comes fresh from the system.
 int band_rows(int width, std::size_t channels);
 
 /// The film's rows [y0, y1) as the first four planes of `band`, those of color_channels(); further ones stay. Planes
-/// that are there are filled again, so that bands of one size take memory once.
-void fill_color(ImageBand& band, const Film& film, int y0, int y1);
+/// that are there are filled again, so that bands of one size take memory once. threads: as RenderSettings::threads.
+void fill_color(ImageBand& band, const Film& film, int y0, int y1, int threads = 1);
 
 }  // namespace raytrace

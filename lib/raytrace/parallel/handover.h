@@ -6,6 +6,7 @@
 #pragma once
 
 #include <atomic>
+#include <future>
 
 namespace raytrace {
 
@@ -27,5 +28,17 @@ class Handover {
  private:
   std::atomic<int> count_{0};
 };
+
+/// Calls run(), in which this thread starts a loop of oneTBB and waits for its end; throws what that throws. oneTBB's
+/// workers count what is left to do on the stack of the thread that waits. As the sanitizer does not see the wait, what
+/// that thread keeps there next would be a race to it: it gets a stack on which nothing comes next.
+template <class Run>
+void run_loop(const Run& run) {
+  if constexpr (thread_sanitized) {
+    std::async(std::launch::async, run).get();
+  } else {
+    run();
+  }
+}
 
 }  // namespace raytrace

@@ -48,7 +48,7 @@ void in_order(std::size_t count, Workplaces& workplaces, tbb::task_arena& arena,
     handover.give();
   });
   handover.give();
-  arena.execute([&] { tbb::parallel_pipeline(workplaces.size(), number & parallel & ordered); });
+  run_loop([&] { arena.execute([&] { tbb::parallel_pipeline(workplaces.size(), number & parallel & ordered); }); });
   handover.take();
 }
 

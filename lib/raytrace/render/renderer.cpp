@@ -1,17 +1,15 @@
 #include "raytrace/render/renderer.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <mutex>
 #include <tuple>
+#include <vector>
 
 #include "raytrace/aovs/aov_selection.h"
-#include "raytrace/parallel/handover.h"
+#include "raytrace/parallel/for_each_index.h"
+#include "raytrace/parallel/worker_count.h"
 
 namespace raytrace {
 
@@ -116,33 +114,22 @@ FilmSettings film_settings(const Scene& scene, const SceneDescription& descripti
 
 RenderReport render(const Scene& scene, Film& film, std::uint32_t samples, int threads,
                     const ProgressFunction& progress, const std::atomic<bool>* stop) {
-  // Asking for more than there can be (Embree sets that limit, too) would have oneTBB warn on the standard error
-  // output.
-  const auto most_threads = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-  const int workers = static_cast<int>(std::min(static_cast<std::size_t>(thread_count(threads)), most_threads));
+  const int workers = worker_count(thread_count(threads));
   const TileGrid grid = tiles_for(film.region(), workers);
   Teller teller(progress, grid.count());
-  tbb::enumerable_thread_specific<RenderReport> reports;
-  // Static: a worker must find it before it reads any argument of the loop.
-  static constinit Handover to_workers, from_workers;
-  // With the handover, all that threads write and others read: once a tile.
+  std::vector<RenderReport> reports(static_cast<std::size_t>(grid.count()));  // of each tile
+  // With the loop's own, all that threads write and others read: once a tile.
   std::atomic<int> done{0};
-  const auto render_tile = [&](int index) {
-    to_workers.take();
-    if (stop == nullptr || !stop->load(std::memory_order_relaxed)) {
-      const Region tile = grid.tile(index);
-      if (!is_rendered(film, tile, samples)) reports.local() += scene.render_region(tile, samples, film, stop);
-      teller.tell(done.fetch_add(1, std::memory_order_relaxed) + 1);
-    }
-    from_workers.give();
-  };
-  tbb::task_arena arena(workers);
-  to_workers.give();
-  arena.execute([&] { tbb::parallel_for(0, grid.count(), render_tile, tbb::simple_partitioner()); });
-  from_workers.take();
+  for_each_index(grid.count(), workers, [&](int index) {
+    if (stop != nullptr && stop->load(std::memory_order_relaxed)) return;
+    const Region tile = grid.tile(index);
+    if (!is_rendered(film, tile, samples))
+      reports[static_cast<std::size_t>(index)] = scene.render_region(tile, samples, film, stop);
+    teller.tell(done.fetch_add(1, std::memory_order_relaxed) + 1);
+  });
   teller.tell(done.load(std::memory_order_relaxed));  // the last may have found another thread telling
   RenderReport report;
-  for (const RenderReport& local : reports) report += local;
+  for (const RenderReport& of_tile : reports) report += of_tile;
   return report;
 }
 
