@@ -20,12 +20,17 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-/// Rows of a band: the most whose film is not larger than a GiB, and a multiple of every packet's height.
-int rows_of_bands(const Region& region, std::size_t pixel_bytes) {
+/// Films up to this size are held as a whole: of 67 million pixels, twice those of 8K, if nothing but colour is asked
+/// for.
+constexpr std::size_t largest_film = std::size_t{2} << 30U;
+constexpr std::size_t largest_band = std::size_t{1} << 30U;
+
+/// All of the region's, or of a band: the most whose film is not too large, and a multiple of every packet's height.
+int rows_at_once(const Region& region, std::size_t pixel_bytes) {
   constexpr int unit = 32;
-  constexpr std::size_t most_bytes = std::size_t{1} << 30U;
-  const std::size_t unit_bytes = unit * pixel_bytes * static_cast<std::size_t>(region.width());
-  return unit * static_cast<int>(std::max<std::size_t>(1, most_bytes / unit_bytes));
+  const std::size_t row_bytes = pixel_bytes * static_cast<std::size_t>(region.width());
+  if (row_bytes * static_cast<std::size_t>(region.height()) <= largest_film) return region.height();
+  return unit * static_cast<int>(std::max<std::size_t>(1, largest_band / (unit * row_bytes)));
 }
 
 std::chrono::steady_clock::duration in_seconds(double seconds) {
@@ -56,7 +61,7 @@ PictureRender::PictureRender(const Scene& scene, const SceneDescription& descrip
 
 Ending PictureRender::run() {
   const AovSettings aovs = aov_settings(options_.aovs);
-  const int rows = rows_of_bands(settings_.region, sizeof(PixelSum) + AovFilm::pixel_bytes(aovs));
+  const int rows = rows_at_once(settings_.region, sizeof(PixelSum) + AovFilm::pixel_bytes(aovs));
   // What goes on later, or may end at any sample, needs the whole film; so does the number of channels that a piece's
   // AOVs need.
   const bool whole_film =

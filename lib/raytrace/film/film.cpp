@@ -13,15 +13,6 @@
 
 namespace raytrace {
 
-PixelSum& PixelSum::operator+=(const PixelSum& other) {
-  red += other.red;
-  green += other.green;
-  blue += other.blue;
-  hits += other.hits;
-  samples += other.samples;
-  return *this;
-}
-
 int unit_exponent(float largest_radiance, std::uint64_t samples) {
   constexpr int sample_bits = 44;  // of a sample of the largest radiance
   constexpr int count_bits = 63 - sample_bits;

@@ -37,7 +37,14 @@ struct PixelSum {
   std::int64_t red = 0, green = 0, blue = 0;
   std::uint32_t hits = 0;     ///< samples that hit an object
   std::uint32_t samples = 0;  ///< all
-  PixelSum& operator+=(const PixelSum& other);
+  PixelSum& operator+=(const PixelSum& other) {
+    red += other.red;
+    green += other.green;
+    blue += other.blue;
+    hits += other.hits;
+    samples += other.samples;
+    return *this;
+  }
   friend bool operator==(const PixelSum&, const PixelSum&) = default;
 };
 

@@ -42,8 +42,9 @@ class BlockSums {
     alignas(64) std::array<std::int32_t, native_lanes> hit_lanes, sample_lanes;
     hits_.store_aligned(hit_lanes.data());
     samples_.store_aligned(sample_lanes.data());
-    const auto red = Block::sum_by_pixel(red_.sums()), green = Block::sum_by_pixel(green_.sums()),
-               blue = Block::sum_by_pixel(blue_.sums());
+    const auto red = red_.template sums_of_every<Block::pixels>(),
+               green = green_.template sums_of_every<Block::pixels>(),
+               blue = blue_.template sums_of_every<Block::pixels>();
     const auto hits = Block::sum_by_pixel(hit_lanes), samples = Block::sum_by_pixel(sample_lanes);
     block.for_each_pixel(region, [&](int x, int y, std::size_t pixel) {
       film.sum(x, y) += {red[pixel], green[pixel], blue[pixel], static_cast<std::uint32_t>(hits[pixel]),

@@ -18,7 +18,7 @@ constexpr std::size_t lights_per_run = 16;
 SeenRadiance Raycast::radiance(const TracedScene& scene, const Ray<FloatN>& rays, const MaskN& active,
                                const MaskN& counted, RayCounts& counts, MetSurface* met) {
   const Rgb<FloatN> background{Rgb<float>(scene.viewplane().background)};
-  const Hits hits = scene.accelerator().intersect(rays, active, Coherence::coherent);
+  const Hits hits = scene.accelerator().intersect(rays, active, Coherence::coherent, scene.seen_from_camera());
   if (met != nullptr) met->hits = hits;
   if (xsimd::none(hits.hit)) return {background, hits.hit};
 
@@ -37,7 +37,8 @@ SeenRadiance Raycast::radiance(const TracedScene& scene, const Ray<FloatN>& rays
     ambient = Rgb<float>(0, 0, 0);
     count = 0;
   };
-  for (const auto& light : scene.lights()) {
+  for (std::size_t number = 0; number < scene.lights().size(); ++number) {
+    const auto& light = scene.lights()[number];
     const LightSample<FloatN> sample = light->sample(origin);
     const Vec3<FloatN> wi = normalize(sample.to_light);
     const FloatN cosine = dot(point.normal, wi);
@@ -45,7 +46,8 @@ SeenRadiance Raycast::radiance(const TracedScene& scene, const Ray<FloatN>& rays
     if (light->shadows() && xsimd::any(lit)) {
       counts.shadow += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(lit & counted)));
       const Ray<FloatN> shadow_rays{origin, sample.to_light, FloatN(0), sample.end};
-      const MaskN occluded = scene.accelerator().occluded(shadow_rays, lit, Coherence::coherent);
+      const MaskN occluded =
+          scene.accelerator().occluded(shadow_rays, lit, Coherence::coherent, scene.seen_from_light(number));
       lit = lit & !occluded;
     }
     if (xsimd::none(lit)) continue;

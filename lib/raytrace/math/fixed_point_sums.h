@@ -24,13 +24,26 @@ class FixedPointSums {
   }
 
   /// The sums of all terms so far, one a lane. They wrap where they leave the range of 64 bits.
-  std::array<std::int64_t, F::size> sums() const {
-    alignas(64) std::array<std::uint64_t, F::size> totals;
-    lower_.store_aligned(totals.data());
-    upper_.store_aligned(totals.data() + Counts::size);
-    std::array<std::int64_t, F::size> sums;
-    for (std::size_t lane = 0; lane < F::size; ++lane)
-      sums[lane] = static_cast<std::int64_t>(totals[lane] - terms_ * std::bit_cast<std::uint64_t>(offset));
+  std::array<std::int64_t, F::size> sums() const { return sums_of_every<F::size>(); }
+
+  /// The same of lanes i, i + step, i + 2 step, ... together, for each i below step, a power of two.
+  template <std::size_t step>
+  RAYTRACE_INLINE std::array<std::int64_t, step> sums_of_every() const {
+    constexpr bool joined = step <= Counts::size;
+    constexpr std::size_t left = joined ? Counts::size : F::size;
+    alignas(64) std::array<std::uint64_t, left> totals;
+    if constexpr (joined) {
+      (lower_ + upper_).store_aligned(totals.data());
+    } else {
+      lower_.store_aligned(totals.data());
+      upper_.store_aligned(totals.data() + Counts::size);
+    }
+    std::array<std::int64_t, step> sums;
+    for (std::size_t i = 0; i < step; ++i) {
+      std::uint64_t total = 0;
+      for (std::size_t lane = i; lane < left; lane += step) total += totals[lane];
+      sums[i] = static_cast<std::int64_t>(total - (F::size / step) * terms_ * std::bit_cast<std::uint64_t>(offset));
+    }
     return sums;
   }
 
