@@ -49,4 +49,14 @@ std::vector<bool> Probe::occluded_embree(std::span<const ProbeRay> rays, int pac
   return implementation_->backend->occluded_embree(rays, packet_size);
 }
 
+std::optional<std::vector<ProbeHit>> Probe::intersect_seen_from(const Vec3f& point,
+                                                                std::span<const ProbeRay> rays) const {
+  return implementation_->backend->intersect_seen_from(point, rays);
+}
+
+std::optional<std::vector<bool>> Probe::occluded_seen_from(const Vec3f& place, bool infinitely_far,
+                                                           std::span<const ProbeRay> rays) const {
+  return implementation_->backend->occluded_seen_from(place, infinitely_far, rays);
+}
+
 }  // namespace raytrace::test

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -45,10 +46,17 @@ class Probe {
   /// Nearest hits straight from Embree's packet query of size 4, 8 or 16, after the shapes that are not in its scene
   /// (only hit, distance, kind and index are filled in).
   std::vector<ProbeHit> intersect_embree(std::span<const ProbeRay> rays, int packet_size) const;
+  /// Nearest hits of rays from `point`, with directions of unit length, by packets that know what is seen from there;
+  /// none if the accelerator sees nothing to gain.
+  std::optional<std::vector<ProbeHit>> intersect_seen_from(const Vec3f& point, std::span<const ProbeRay> rays) const;
   /// Whether anything lies between near and far; the same three ways.
   std::vector<bool> occluded_single(std::span<const ProbeRay> rays) const;
   std::vector<bool> occluded_packet(std::span<const ProbeRay> rays) const;
   std::vector<bool> occluded_embree(std::span<const ProbeRay> rays, int packet_size) const;
+  /// Of rays that go to `place`: a point, to which their direction leads, or infinitely far, with `place` for
+  /// direction.
+  std::optional<std::vector<bool>> occluded_seen_from(const Vec3f& place, bool infinitely_far,
+                                                      std::span<const ProbeRay> rays) const;
 
  private:
   struct Implementation;

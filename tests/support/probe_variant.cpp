@@ -99,34 +99,25 @@ class Backend final : public ProbeBackend {
                                          : "sse4.2") {}
 
   std::vector<ProbeHit> intersect(std::span<const ProbeRay> all, bool coherent) const override {
-    std::vector<ProbeHit> result(all.size());
-    for_each_packet(all, [&](std::size_t first, std::size_t count, const Ray<FloatN>& rays, const MaskN& active) {
-      const Hits hits = accelerator_.intersect(rays, active, coherence(coherent));
-      const std::uint32_t lanes = bits_of<FloatN>(hits.hit);
-      if (lanes == 0) return;
-      SurfacePoint<FloatN> point = accelerator_.surface(rays, hits);
-      point.normal = select(dot(point.normal, rays.direction) > FloatN(0), -point.normal, point.normal);
-      const Vec3<FloatN> leaving = leaving_origin(point);
-      for (std::size_t i = 0; i < count; ++i)
-        if ((lanes >> i & 1) != 0)
-          result[first + i] = {true,
-                               hits.distance.get(i),
-                               hits.kind.get(i),
-                               static_cast<std::uint32_t>(hits.primitive.get(i)),
-                               lane_of(point.position, i),
-                               lane_of(point.normal, i),
-                               lane_of(leaving, i)};
-    });
-    return result;
+    return intersect(all, coherence(coherent), nullptr);
   }
 
   std::vector<bool> occluded(std::span<const ProbeRay> all, bool coherent) const override {
-    std::vector<bool> result(all.size());
-    for_each_packet(all, [&](std::size_t first, std::size_t count, const Ray<FloatN>& rays, const MaskN& active) {
-      const std::uint32_t lanes = bits_of<FloatN>(accelerator_.occluded(rays, active, coherence(coherent)));
-      for (std::size_t i = 0; i < count; ++i) result[first + i] = (lanes >> i & 1) != 0;
-    });
-    return result;
+    return occluded(all, coherence(coherent), nullptr);
+  }
+
+  std::optional<std::vector<ProbeHit>> intersect_seen_from(const Vec3f& point,
+                                                           std::span<const ProbeRay> all) const override {
+    const auto seen = seen_from({point});
+    if (!seen) return std::nullopt;
+    return intersect(all, Coherence::coherent, &*seen);
+  }
+
+  std::optional<std::vector<bool>> occluded_seen_from(const Vec3f& place, bool infinitely_far,
+                                                      std::span<const ProbeRay> all) const override {
+    const auto seen = seen_from({place, infinitely_far});
+    if (!seen) return std::nullopt;
+    return occluded(all, Coherence::coherent, &*seen);
   }
 
   std::vector<ProbeHit> intersect_embree(std::span<const ProbeRay> all, int packet_size) const override {
@@ -167,6 +158,42 @@ class Backend final : public ProbeBackend {
 
  private:
   static Coherence coherence(bool coherent) { return coherent ? Coherence::coherent : Coherence::incoherent; }
+
+  std::vector<ProbeHit> intersect(std::span<const ProbeRay> all, Coherence coherence,
+                                  const DirectionBuffer* seen) const {
+    std::vector<ProbeHit> result(all.size());
+    for_each_packet(all, [&](std::size_t first, std::size_t count, const Ray<FloatN>& rays, const MaskN& active) {
+      const Hits hits = accelerator_.intersect(rays, active, coherence, seen);
+      const std::uint32_t lanes = bits_of<FloatN>(hits.hit);
+      if (lanes == 0) return;
+      SurfacePoint<FloatN> point = accelerator_.surface(rays, hits);
+      point.normal = select(dot(point.normal, rays.direction) > FloatN(0), -point.normal, point.normal);
+      const Vec3<FloatN> leaving = leaving_origin(point);
+      for (std::size_t i = 0; i < count; ++i)
+        if ((lanes >> i & 1) != 0)
+          result[first + i] = {true,
+                               hits.distance.get(i),
+                               hits.kind.get(i),
+                               static_cast<std::uint32_t>(hits.primitive.get(i)),
+                               lane_of(point.position, i),
+                               lane_of(point.normal, i),
+                               lane_of(leaving, i)};
+    });
+    return result;
+  }
+
+  std::vector<bool> occluded(std::span<const ProbeRay> all, Coherence coherence, const DirectionBuffer* seen) const {
+    std::vector<bool> result(all.size());
+    for_each_packet(all, [&](std::size_t first, std::size_t count, const Ray<FloatN>& rays, const MaskN& active) {
+      const std::uint32_t lanes = bits_of<FloatN>(accelerator_.occluded(rays, active, coherence, seen));
+      for (std::size_t i = 0; i < count; ++i) result[first + i] = (lanes >> i & 1) != 0;
+    });
+    return result;
+  }
+
+  std::optional<DirectionBuffer> seen_from(const Vantage& vantage) const {
+    return std::move(accelerator_.seen_from(std::array<std::optional<Vantage>, 1>{vantage}, 1).front());
+  }
 
   Accelerator accelerator_;
 };

@@ -4,7 +4,9 @@
 #include <new>
 #include <string>
 
+#include "raytrace/accel/for_each_candidate.h"
 #include "raytrace/math/gather.h"
+#include "raytrace/parallel/for_each_index.h"
 #include "raytrace/parallel/handover.h"
 #include "raytrace/render/renderer.h"
 
@@ -131,6 +133,32 @@ void find_first(Hits& hits) {
       hits.one_kind && xsimd::none(hits.hit & float_mask<FloatN>(hits.primitive != IntN(hits.first_primitive)));
 }
 
+template <class Shape>
+PlacedObject placed_object(const typename ShapeTable<Shape>::Record& record, std::uint32_t primitive) {
+  const Bounds bounds = Shape::bounds(record);
+  double radius = length(Vec3d(bounds.upper) - Vec3d(bounds.lower)) / 2;
+  if constexpr (requires { Shape::bounding_radius(record); }) radius = std::min(radius, Shape::bounding_radius(record));
+  return {static_cast<std::uint32_t>(index_of<Shape>(Shapes{})), primitive, bounds, radius};
+}
+
+/// Where rays meet an object: at infinity in lanes that do not. u, v: set on triangles.
+template <class Tables>
+RAYTRACE_INLINE FloatN meet(const Tables& tables, const DirectionBuffer::Object& object, const Ray<FloatN>& rays,
+                            const MaskN& active, FloatN& u, FloatN& v) {
+  FloatN distance = infinity<FloatN>();
+  for_each_type(Shapes{}, [&](auto type) {
+    using Shape = typename decltype(type)::type;
+    if (object.kind != index_of<Shape>(Shapes{})) return;
+    const auto& record = std::get<ShapeTable<Shape>>(tables).records[object.primitive];
+    if constexpr (EmbreeTriangle<Shape>) {
+      distance = Shape::template intersect<FloatN>(record, rays, active, u, v);
+    } else if constexpr (UserGeometry<Shape>) {
+      distance = Shape::template intersect<FloatN>(record, rays, active);
+    }
+  });
+  return distance;
+}
+
 /// The surfaces of one shape, under the wide type of its table's precision.
 template <class Shape>
 SurfacePoint<FloatN> surface_of(const ShapeTable<Shape>& table, const LanePlaces& primitive, const Ray<FloatN>& rays,
@@ -140,10 +168,10 @@ SurfacePoint<FloatN> surface_of(const ShapeTable<Shape>& table, const LanePlaces
   constexpr bool in_float = std::is_same_v<typename ShapeTable<Shape>::Record, typename Shape::template Record<float>>;
   using Wide = std::conditional_t<in_float, FloatN, Doubles<FloatN>>;
   const auto records = gather_records<Shape::template Record, Wide>(table.records.data(), primitive);
-  if constexpr (UserGeometry<Shape> || UnboundedShape<Shape>) {
-    return Shape::template surface<FloatN>(records, rays, hits.distance);
-  } else {
+  if constexpr (EmbreeTriangle<Shape>) {
     return Shape::template surface<FloatN>(records, hits.u, hits.v);
+  } else {
+    return Shape::template surface<FloatN>(records, rays, hits.distance);
   }
 }
 
@@ -189,6 +217,7 @@ Hits Accelerator::intersect_unbounded(const Ray<FloatN>& rays, const MaskN& acti
   hits.kind = UintN(RTC_INVALID_GEOMETRY_ID);
   hits.primitive = IntN(0);
   hits.distance = rays.far;
+  hits.u = hits.v = FloatN(0);
   for_each_unbounded(tables_, [&](auto type, std::uint32_t primitive, const auto& record) {
     using Shape = typename decltype(type)::type;
     const Ray<FloatN> shortened{rays.origin, rays.direction, rays.near, hits.distance};
@@ -211,10 +240,74 @@ MaskN Accelerator::occluded_unbounded(const Ray<FloatN>& rays, const MaskN& acti
   return occluded;
 }
 
-Hits Accelerator::intersect(const Ray<FloatN>& rays, const MaskN& active, Coherence coherence) const {
-  const MaskN valid_lanes = active & embree_takes(rays);
+std::vector<std::optional<DirectionBuffer>> Accelerator::seen_from(std::span<const std::optional<Vantage>> vantages,
+                                                                   int threads) const {
+  std::vector<PlacedObject> objects;
+  objects.reserve(primitive_count());
+  for_each_type(Shapes{}, [&](auto type) {
+    using Shape = typename decltype(type)::type;
+    if constexpr (!UnboundedShape<Shape>) {
+      std::uint32_t primitive = 0;
+      for (const auto& record : std::get<ShapeTable<Shape>>(tables_).records)
+        objects.push_back(placed_object<Shape>(record, primitive++));
+    }
+  });
+  std::vector<std::optional<DirectionBuffer>> buffers(vantages.size());
+  for_each_index(static_cast<int>(vantages.size()), threads, [&](int index) {
+    const auto i = static_cast<std::size_t>(index);
+    if (vantages[i]) buffers[i] = DirectionBuffer::make(*vantages[i], objects);
+  });
+  return buffers;
+}
+
+MaskN Accelerator::intersect_candidates(const DirectionBuffer& seen, const Ray<FloatN>& rays, const MaskN& active,
+                                        Hits& hits) const {
+  const auto reaches = [&](const MaskN& lanes, const DirectionBuffer::Object& object) {
+    return xsimd::any(lanes & (hits.distance * hits.distance >= FloatN(object.nearest)));
+  };
+  Ray<FloatN> shortened = rays;
+  const auto test = [&](const DirectionBuffer::Object& object) {
+    shortened.far = hits.distance;
+    FloatN u = hits.u, v = hits.v;
+    const FloatN distance = meet(tables_, object, shortened, active, u, v);
+    const MaskN hit = distance < infinity<FloatN>();  // in float it may be the same as the one before
+    if (xsimd::none(hit)) return;
+    hits.hit = hits.hit | hit;
+    hits.distance = xsimd::select(hit, distance, hits.distance);
+    hits.u = xsimd::select(hit, u, hits.u);
+    hits.v = xsimd::select(hit, v, hits.v);
+    hits.kind = select_lanes(hit, UintN(object.kind), hits.kind);
+    hits.primitive = select_lanes(hit, IntN(static_cast<std::int32_t>(object.primitive)), hits.primitive);
+  };
+  return for_each_candidate(seen, rays.direction, active, reaches, test);
+}
+
+MaskN Accelerator::occluded_by_candidates(const DirectionBuffer& seen, const Ray<FloatN>& rays, const MaskN& active,
+                                          MaskN& occluded) const {
+  const auto sight = seen.sight(rays.origin, rays.direction);
+  const MaskN in_reach = seen.in_reach(rays.origin, rays.direction);
+  MaskN open = active;
+  const auto reaches = [&](const MaskN& lanes, const DirectionBuffer::Object& object) {
+    return xsimd::any(lanes & open & (sight.depth >= FloatN(object.nearest)));
+  };
+  const auto test = [&](const DirectionBuffer::Object& object) {
+    FloatN u, v;
+    open = open & !(meet(tables_, object, rays, open, u, v) < infinity<FloatN>());
+  };
+  const MaskN left = for_each_candidate(seen, sight.direction, active & in_reach, reaches, test);
+  occluded = occluded | (active & !open);
+  return open & (left | !in_reach);
+}
+
+Hits Accelerator::intersect(const Ray<FloatN>& rays, const MaskN& active, Coherence coherence,
+                            const DirectionBuffer* seen_from_origin) const {
+  MaskN valid_lanes = active & embree_takes(rays);
   // First the shapes without end: what lies behind their hits need not be looked for.
   Hits hits = intersect_unbounded(rays, valid_lanes);
+  if (seen_from_origin != nullptr) {
+    valid_lanes = intersect_candidates(*seen_from_origin, rays, valid_lanes, hits);
+    find_first(hits);
+  }
   if (xsimd::none(valid_lanes)) return hits;
 
   embree::Query query(coherence == Coherence::coherent);
@@ -246,17 +339,19 @@ Hits Accelerator::intersect(const Ray<FloatN>& rays, const MaskN& active, Cohere
   hits.kind = select_lanes(in_bvh, kind, hits.kind);
   hits.primitive = select_lanes(in_bvh, std::bit_cast<IntN>(UintN::load_aligned(packet.hit.primID)), hits.primitive);
   hits.distance = FloatN::load_aligned(packet.ray.tfar);
-  hits.u = FloatN::load_aligned(packet.hit.u);
-  hits.v = FloatN::load_aligned(packet.hit.v);
+  hits.u = xsimd::select(in_bvh, FloatN::load_aligned(packet.hit.u), hits.u);
+  hits.v = xsimd::select(in_bvh, FloatN::load_aligned(packet.hit.v), hits.v);
   find_first(hits);
   return hits;
 }
 
-MaskN Accelerator::occluded(const Ray<FloatN>& rays, const MaskN& active, Coherence coherence) const {
+MaskN Accelerator::occluded(const Ray<FloatN>& rays, const MaskN& active, Coherence coherence,
+                            const DirectionBuffer* seen_from_end) const {
   const MaskN takeable = active & embree_takes(rays);
-  const MaskN unbounded = occluded_unbounded(rays, takeable);
-  const MaskN valid_lanes = takeable & !unbounded;
-  if (xsimd::none(valid_lanes)) return unbounded;
+  MaskN found = occluded_unbounded(rays, takeable);
+  MaskN valid_lanes = takeable & !found;
+  if (seen_from_end != nullptr) valid_lanes = occluded_by_candidates(*seen_from_end, rays, valid_lanes, found);
+  if (xsimd::none(valid_lanes)) return found;
 
   embree::Query query(coherence == Coherence::coherent);
   alignas(64) typename Packet::Ray packet;
@@ -273,7 +368,7 @@ MaskN Accelerator::occluded(const Ray<FloatN>& rays, const MaskN& active, Cohere
       packet.tfar[lane] = single.tfar;
     }
   }
-  return unbounded | (valid_lanes & (FloatN::load_aligned(packet.tfar) < FloatN(0)));
+  return found | (valid_lanes & (FloatN::load_aligned(packet.tfar) < FloatN(0)));
 }
 
 SurfacePoint<FloatN> Accelerator::surface(const Ray<FloatN>& rays, const Hits& hits) const {

@@ -3,10 +3,13 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
 
+#include "raytrace/accel/direction_buffer.h"
 #include "raytrace/accel/embree.h"
 #include "raytrace/accel/user_geometry.h"
 #include "raytrace/description/scene_description.h"
@@ -41,12 +44,21 @@ class Accelerator {
   /// Throws RenderError with Embree's message, std::bad_alloc where memory runs out.
   Accelerator(const SceneDescription& description, int threads, const char* isa);
 
-  /// Nearest hits in the lanes of `active`. Rays that Embree cannot take (a component that is NaN, infinite or beyond
-  /// 1.8e18, or a direction of length 0) hit nothing.
-  Hits intersect(const Ray<FloatN>& rays, const MaskN& active, Coherence coherence) const;
+  /// The objects as seen from each of the vantages, where there is one and it would pay. With `threads` threads.
+  std::vector<std::optional<DirectionBuffer>> seen_from(std::span<const std::optional<Vantage>> vantages,
+                                                        int threads) const;
 
-  /// The lanes of `active` in which anything lies between near and far.
-  MaskN occluded(const Ray<FloatN>& rays, const MaskN& active, Coherence coherence) const;
+  /// Nearest hits in the lanes of `active`. Rays that Embree cannot take (a component that is NaN, infinite or beyond
+  /// 1.8e18, or a direction of length 0) hit nothing. seen_from_origin: from the point that all rays start at, their
+  /// directions being of unit length; null if there is none. The same answer, sooner.
+  Hits intersect(const Ray<FloatN>& rays, const MaskN& active, Coherence coherence,
+                 const DirectionBuffer* seen_from_origin = nullptr) const;
+
+  /// The lanes of `active` in which anything lies between near and far. seen_from_end: from where all rays go, which is
+  /// the point origin + direction, where they end, the same for all but for the rounding of their directions; or
+  /// infinitely far, with the same direction for all. Null if there is no such place. The same answer, sooner.
+  MaskN occluded(const Ray<FloatN>& rays, const MaskN& active, Coherence coherence,
+                 const DirectionBuffer* seen_from_end = nullptr) const;
 
   /// The surfaces that were hit; lanes without a hit hold anything.
   SurfacePoint<FloatN> surface(const Ray<FloatN>& rays, const Hits& hits) const;
@@ -64,6 +76,12 @@ class Accelerator {
   RTCScene embree_scene() const { return scene_.get(); }
 
  private:
+  // Both return the lanes that are left to Embree.
+  MaskN intersect_candidates(const DirectionBuffer& seen, const Ray<FloatN>& rays, const MaskN& active,
+                             Hits& hits) const;
+  MaskN occluded_by_candidates(const DirectionBuffer& seen, const Ray<FloatN>& rays, const MaskN& active,
+                               MaskN& occluded) const;
+
   std::uint64_t bytes_ = 0;  ///< counted by Embree's memory monitor: before device_, which still reports while it ends
   TupleOf<Shapes, ShapeTable>::type tables_;
   embree::Device device_;

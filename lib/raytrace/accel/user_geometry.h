@@ -16,16 +16,18 @@
 
 namespace raytrace {
 
-/// Shapes that bring their own intersection, and bounds for a BVH to keep them in.
+/// Shapes whose records are Embree's triangles.
 template <class Shape>
-concept UserGeometry = requires { &Shape::bounds; };
+concept EmbreeTriangle = requires { &Shape::template Record<float>::vertex1; };
 
-/// Shapes without end: they bring their own intersection, which every ray goes through, and stay out of the BVH. There
-/// all boxes on the way to them would be without end.
+/// Shapes without end: every ray is tested against them, and they stay out of the BVH. There all boxes on the way to
+/// them would be without end.
 template <class Shape>
-concept UnboundedShape = !UserGeometry<Shape> && requires { &Shape::template intersect<FloatN>; };
+concept UnboundedShape = !requires { &Shape::bounds; };
 
-// All others are Embree's triangles.
+/// All others: they bring their own intersection, and bounds for a BVH to keep them in.
+template <class Shape>
+concept UserGeometry = !EmbreeTriangle<Shape> && !UnboundedShape<Shape>;
 
 /// The records of all objects of one shape: what an Embree geometry points at.
 template <class Shape>

@@ -4,6 +4,7 @@
 //   Camera(const Parameters&, double pixelsize);
 //   template <class F> Ray<F> generate(const F& x, const F& y) const;
 //   static CameraMatrices matrices(const Parameters&, const ViewPlane&);
+//   Vec3f origin() const;            if all rays start there
 #pragma once
 
 #include "raytrace/math/ray.h"

@@ -28,6 +28,8 @@ class PinholeCamera {
   /// pixelsize: edge of a pixel on the view plane, in world units.
   PinholeCamera(const Parameters& parameters, double pixelsize);
 
+  Vec3f origin() const { return eye_; }
+
   /// Rays through points of the view plane: x to the right and y upwards from its center, in pixels. Unit directions.
   template <class F>
   Ray<F> generate(const F& x, const F& y) const {

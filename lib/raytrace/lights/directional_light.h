@@ -32,6 +32,7 @@ class DirectionalLight {
 
   static constexpr bool ambient = false;
   bool shadows() const { return shadows_; }
+  Vec3f direction() const { return direction_; }
   Rgb<float> largest_radiance() const { return radiance_; }
 
   template <class F>

@@ -9,6 +9,9 @@
 //   bool shadows() const;
 //   Rgb<float> largest_radiance() const;   no point gets more
 //   template <class F> LightSample<F> sample(const Vec3<F>& position) const;
+// and, so that shadows are found sooner, one of these, where it holds:
+//   Vec3f location() const;    to_light is location() - position, and end is 1
+//   Vec3f direction() const;   to_light is direction(), of unit length, and end is infinity
 #pragma once
 
 #include "raytrace/math/color.h"

@@ -30,6 +30,7 @@ class PointLight {
 
   static constexpr bool ambient = false;
   bool shadows() const { return shadows_; }
+  Vec3f location() const { return location_; }
   Rgb<float> largest_radiance() const { return radiance_; }
 
   template <class F>

@@ -9,10 +9,13 @@ namespace raytrace {
 
 TracedScene::TracedScene(const SceneDescription& description, int threads, const char* isa_name, const char* embree_isa)
     : viewplane_(description.viewplane), accelerator_(description, threads, embree_isa), isa_name_(isa_name) {
+  std::vector<std::optional<Vantage>> vantages(1);
   for_each_type(Cameras{}, [&](auto type) {
     using Type = typename decltype(type)::type;
     if (const auto* parameters = std::get_if<typename Type::Parameters>(&description.camera)) {
-      camera_ = std::make_unique<CameraOf<Type>>(Type(*parameters, viewplane_.pixelsize));
+      const Type camera(*parameters, viewplane_.pixelsize);
+      camera_ = std::make_unique<CameraOf<Type>>(camera);
+      if constexpr (requires { camera.origin(); }) vantages[0] = Vantage{camera.origin()};
       const CameraMatrices matrices = Type::matrices(*parameters, viewplane_);
       const float* const m = matrices.world_to_camera;  // its third column turns points into -z, behind the camera
       viewing_direction_ = Vec3f(-m[2], -m[6], -m[10]);
@@ -27,9 +30,15 @@ TracedScene::TracedScene(const SceneDescription& description, int threads, const
         ambient_radiance_ += light.radiance();
       } else {
         lights_.push_back(std::make_unique<LightSourceOf<Light>>(light));
+        vantages.emplace_back();
+        if (!light.shadows()) continue;
+        if constexpr (requires { light.location(); }) vantages.back() = Vantage{light.location()};
+        if constexpr (requires { light.direction(); }) vantages.back() = Vantage{light.direction(), true};
       }
     }
   });
+
+  look_from(std::move(vantages), threads);
 
   for_each_type(Materials{}, [&](auto type) {
     using Material = typename decltype(type)::type;
@@ -55,6 +64,21 @@ TracedScene::TracedScene(const SceneDescription& description, int threads, const
     for (const auto& item : std::get<ObjectItems<Shape>>(description.objects))
       object_materials_.push_back(first_material_[item.material.kind] + static_cast<std::int32_t>(item.material.index));
   });
+}
+
+void TracedScene::look_from(std::vector<std::optional<Vantage>> vantages, int threads) {
+  // It takes about as long for an object as the rays of some pixels do: beyond that it would not pay, however much
+  // faster they became. It takes memory, too. Both by what all pieces of a picture have in common.
+  constexpr std::uint64_t pixels_an_object = 4, most_objects = 1U << 18U;
+  const auto pixels = static_cast<std::uint64_t>(viewplane_.hres) * static_cast<std::uint64_t>(viewplane_.vres);
+  const std::uint64_t affordable = std::min(pixels / pixels_an_object, most_objects);
+  std::uint64_t objects = 0;
+  for (auto& vantage : vantages) {
+    if (!vantage) continue;
+    objects += accelerator_.primitive_count();
+    if (objects > affordable) vantage.reset();
+  }
+  seen_from_ = accelerator_.seen_from(vantages, threads);
 }
 
 float TracedScene::largest_albedo() const {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "raytrace/accel/accelerator.h"
@@ -32,6 +33,14 @@ class TracedScene final : public Scene {
   const Rgb<float>& ambient_radiance() const { return ambient_radiance_; }
   const std::vector<std::unique_ptr<LightSource>>& lights() const { return lights_; }
 
+  /// What is to be seen from where all camera rays start, and from where all shadow rays to light `number` go. Null if
+  /// there is no such place, or it would not pay.
+  const DirectionBuffer* seen_from_camera() const { return seen_from_[0] ? &*seen_from_[0] : nullptr; }
+  const DirectionBuffer* seen_from_light(std::size_t number) const {
+    const auto& seen = seen_from_[number + 1];
+    return seen ? &*seen : nullptr;
+  }
+
   /// Unit length.
   const Vec3f& viewing_direction() const { return viewing_direction_; }
 
@@ -49,6 +58,9 @@ class TracedScene final : public Scene {
                     const Rgb<float>& ambient_radiance, std::span<const ArrivingLight> lights) const;
 
  private:
+  /// vantages: the camera's, then each light's, where it has one.
+  void look_from(std::vector<std::optional<Vantage>> vantages, int threads);
+
   /// answer(table, places) of each material type among the lanes, each lane's of its own.
   template <class Answer>
   Rgb<FloatN> by_material(const Hits& hits, const Answer& answer) const;
@@ -56,6 +68,7 @@ class TracedScene final : public Scene {
   ViewPlane viewplane_;
   Accelerator accelerator_;
   std::unique_ptr<Camera> camera_;
+  std::vector<std::optional<DirectionBuffer>> seen_from_;  ///< the camera, then each light
   Vec3f viewing_direction_{};
   Rgb<float> ambient_radiance_{0, 0, 0};
   std::vector<std::unique_ptr<LightSource>> lights_;

@@ -27,4 +27,8 @@ Bounds Cylinder::bounds(const Record<double>& cylinder) {
   return bounds_around(cylinder.bottom + axis * half_height, {reach(axis.x), reach(axis.y), reach(axis.z)});
 }
 
+double Cylinder::bounding_radius(const Record<double>& cylinder) {
+  return std::hypot(cylinder.height / 2, cylinder.radius);
+}
+
 }  // namespace raytrace

@@ -36,6 +36,7 @@ class Cylinder {
   };
   static Record<double> record(const Parameters& parameters);
   static Bounds bounds(const Record<double>& cylinder);
+  static double bounding_radius(const Record<double>& cylinder);
 
   /// The nearest distance inside (ray.near, ray.far) in each lane of `active`; infinity elsewhere.
   template <class F>

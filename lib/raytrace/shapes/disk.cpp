@@ -17,4 +17,6 @@ Bounds Disk::bounds(const Record<double>& disk) {
   return bounds_around(disk.center, {reach(disk.normal.x), reach(disk.normal.y), reach(disk.normal.z)});
 }
 
+double Disk::bounding_radius(const Record<double>& disk) { return disk.radius; }
+
 }  // namespace raytrace

@@ -34,6 +34,7 @@ class Disk {
   };
   static Record<double> record(const Parameters& parameters);
   static Bounds bounds(const Record<double>& disk);
+  static double bounding_radius(const Record<double>& disk);
 
   /// The distance if it is inside (ray.near, ray.far), in each lane of `active`; infinity elsewhere.
   template <class F>

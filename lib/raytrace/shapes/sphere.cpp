@@ -15,4 +15,6 @@ Bounds Sphere::bounds(const Record<float>& sphere) {
   return bounds_around(Vec3d(sphere.center), {r, r, r});
 }
 
+double Sphere::bounding_radius(const Record<float>& sphere) { return sphere.radius; }
+
 }  // namespace raytrace

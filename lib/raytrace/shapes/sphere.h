@@ -34,6 +34,7 @@ class Sphere {
   };
   static Record<float> record(const Parameters& parameters);
   static Bounds bounds(const Record<float>& sphere);
+  static double bounding_radius(const Record<float>& sphere);
 
   /// The nearest distance inside (ray.near, ray.far) in each lane of `active`; infinity elsewhere.
   template <class F>

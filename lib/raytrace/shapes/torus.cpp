@@ -25,4 +25,6 @@ Bounds Torus::bounds(const Record<double>& torus) {
   return bounds_around(torus.center, {reach(torus.axis.x), reach(torus.axis.y), reach(torus.axis.z)});
 }
 
+double Torus::bounding_radius(const Record<double>& torus) { return torus.swept + torus.tube; }
+
 }  // namespace raytrace

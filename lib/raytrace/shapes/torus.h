@@ -40,6 +40,7 @@ class Torus {
   };
   static Record<double> record(const Parameters& parameters);
   static Bounds bounds(const Record<double>& torus);
+  static double bounding_radius(const Record<double>& torus);
 
   /// The nearest distance inside (ray.near, ray.far) in each lane of `active`; infinity elsewhere.
   template <class F>

@@ -1,5 +1,7 @@
 #include "raytrace/shapes/triangle.h"
 
+#include <algorithm>
+
 namespace raytrace {
 
 Fields<Triangle::Parameters> Triangle::fields() {
@@ -18,6 +20,12 @@ std::optional<Problem> Triangle::check(const Parameters& parameters) {
 
 Triangle::Record<float> Triangle::record(const Parameters& parameters) {
   return {Vec3f(parameters.vertex1), Vec3f(parameters.vertex2), Vec3f(parameters.vertex3)};
+}
+
+Bounds Triangle::bounds(const Record<float>& triangle) {
+  const auto& [a, b, c] = triangle;
+  return {{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})},
+          {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})}};
 }
 
 }  // namespace raytrace

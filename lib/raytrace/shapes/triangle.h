@@ -34,11 +34,61 @@ class Triangle {
     Vec3<T> vertex1, vertex2, vertex3;
   };
   static Record<float> record(const Parameters& parameters);
+  static Bounds bounds(const Record<float>& triangle);
 
-  /// The surface at the barycentric coordinates that Embree gave: u of vertex 2, v of vertex 3.
+  /// The distance inside (ray.near, ray.far) in each lane of `active`, infinity elsewhere, and the barycentric
+  /// coordinates u of vertex 2, v of vertex 3. Rays do not pass between triangles that share an edge: both find the
+  /// same on which side of it the ray is, and what is within rounding belongs to both. Plücker coordinates: Davidovič
+  /// et al., "3D Rasterization: A Bridge between Rasterization and Ray Casting", Graphics Interface 2012.
+  template <class F>
+  static F intersect(const Record<float>& triangle, const Ray<F>& ray, const Mask<F>& active, F& u, F& v);
+
+  /// The surface at barycentric coordinates: u of vertex 2, v of vertex 3.
   template <class F>
   static SurfacePoint<F> surface(const Record<F>& triangle, const F& u, const F& v);
 };
+
+namespace detail {
+
+/// With as few roundings as the instruction set allows.
+template <class F>
+RAYTRACE_INLINE F fused_dot(const Vec3<F>& a, const Vec3<F>& b) {
+  return multiply_add(a.x, b.x, multiply_add(a.y, b.y, a.z * b.z));
+}
+template <class F>
+RAYTRACE_INLINE Vec3<F> fused_cross(const Vec3<F>& a, const Vec3<F>& b) {
+  return {multiply_add(a.y, b.z, -(a.z * b.y)), multiply_add(a.z, b.x, -(a.x * b.z)),
+          multiply_add(a.x, b.y, -(a.y * b.x))};
+}
+
+}  // namespace detail
+
+template <class F>
+RAYTRACE_INLINE F Triangle::intersect(const Record<float>& triangle, const Ray<F>& ray, const Mask<F>& active, F& u,
+                                      F& v) {
+  const Vec3<F> vertex1 = Vec3<F>(triangle.vertex1) - ray.origin;
+  const Vec3<F> vertex2 = Vec3<F>(triangle.vertex2) - ray.origin;
+  const Vec3<F> vertex3 = Vec3<F>(triangle.vertex3) - ray.origin;
+  // Each edge and the ray as lines: their product, of which side of the edge the ray passes. An edge walked the other
+  // way gives exactly the negative. The operations and their order are those of Embree's robust mode, so that a ray
+  // meets the same triangles by either.
+  const Vec3<F> edge31 = vertex3 - vertex1, edge12 = vertex1 - vertex2, edge23 = vertex2 - vertex3;
+  const F opposite2 = detail::fused_dot(detail::fused_cross(edge31, vertex3 + vertex1), ray.direction);
+  const F opposite3 = detail::fused_dot(detail::fused_cross(edge12, vertex1 + vertex2), ray.direction);
+  const F opposite1 = detail::fused_dot(detail::fused_cross(edge23, vertex2 + vertex3), ray.direction);
+  const F sum = opposite2 + opposite3 + opposite1;
+  const F rounding = xsimd::abs(sum) * F(0x1p-23f);
+  const F least = xsimd::min(xsimd::min(opposite1, opposite2), opposite3);
+  const F most = xsimd::max(xsimd::max(opposite1, opposite2), opposite3);
+  const Mask<F> inside = active & ((least >= -rounding) | (most <= rounding));
+  if (xsimd::none(inside)) return infinity<F>();
+  const Vec3<F> perpendicular = detail::fused_cross(edge31, edge12);
+  const F t = detail::fused_dot(vertex1, perpendicular) / detail::fused_dot(perpendicular, ray.direction);
+  const F inverse_sum = F(1) / sum;
+  u = xsimd::min(xsimd::max(opposite2 * inverse_sum, F(0)), F(1));
+  v = xsimd::min(xsimd::max(opposite3 * inverse_sum, F(0)), F(1));
+  return xsimd::select(inside & (t > ray.near) & (t < ray.far), t, infinity<F>());
+}
 
 template <class F>
 SurfacePoint<F> Triangle::surface(const Record<F>& triangle, const F& u, const F& v) {

@@ -1,0 +1,109 @@
+// Which objects are to be met in which directions from a point: for camera rays, which all start at one, and shadow
+// rays, which end at one or, with light from infinitely far, are parallel. Where few objects are, testing them all is
+// faster than a tree.
+//
+// Haines and Greenberg, "The Light Buffer: A Shadow-Testing Accelerator", IEEE Computer Graphics and Applications
+// 6(9), 1986. For the eye, POV-Ray's vista buffer is the same idea.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "raytrace/math/bounds.h"
+#include "raytrace/math/vec3.h"
+
+namespace raytrace {
+
+/// Where an object is: all that a direction buffer wants to know.
+struct PlacedObject {
+  std::uint32_t kind, primitive;  ///< as in Hits
+  Bounds bounds;
+  double radius;  ///< of a sphere around it, whose center is that of the bounds
+};
+
+/// Where it is all seen from.
+struct Vantage {
+  Vec3f place;                  ///< a point, or
+  bool infinitely_far = false;  ///< the unit direction towards one that is infinitely far
+};
+
+/// The directions from a point are those through the six faces of a cube around it. On each face, a grid covers what
+/// the objects cover, and each of its cells lists all objects that directions through it may meet.
+///
+/// From infinitely far, all directions are the same, and the grid lies across them instead. To have but one way from
+/// there on, positions on it become directions: those from (0, 0, 0) to a picture of it on a face of the cube.
+class DirectionBuffer {
+ public:
+  struct Object {
+    std::uint32_t kind, primitive;
+    float nearest;  ///< no part of it has a smaller Sight::depth
+  };
+
+  /// The grid on a face. Of a direction, `across` is the component along the axis after the normal's (x, y, z, x, ...)
+  /// and `up` that along the one after it, divided by the size of the component along the normal.
+  struct Grid {
+    int columns = 0, rows = 0;  ///< 0: nothing is to be met through this face
+    float left = 0, bottom = 0;
+    float columns_per_unit = 0, rows_per_unit = 0;
+    std::uint32_t first_cell = 0;
+  };
+
+  /// None where it would not pay: an object is around the point or next to it, or objects are so close together that
+  /// cells list too many.
+  static std::optional<DirectionBuffer> make(const Vantage& vantage, const std::vector<PlacedObject>& objects);
+
+  /// A place as seen from the vantage.
+  template <class F>
+  struct Sight {
+    Vec3<F> direction;  ///< of any length but 0
+    F depth;  ///< larger for what is behind it: the squared distance from the point, the distance from a plane
+  };
+
+  /// Of the origins of rays that go to the vantage: each ray is seen as a point, up to rounding. to_vantage: their
+  /// directions, which lead right to the point if there is one.
+  template <class F>
+  Sight<F> sight(const Vec3<F>& origin, const Vec3<F>& to_vantage) const {
+    if (!infinitely_far_) return {-to_vantage, dot(to_vantage, to_vantage)};
+    return {{dot(Vec3<F>(across_), origin) - F(start_.x), dot(Vec3<F>(up_), origin) - F(start_.y), F(1)},
+            F(start_.z) - dot(to_vantage, origin)};
+  }
+
+  /// Whether its rounding is small enough that cells list all that such a ray may meet.
+  template <class F>
+  auto in_reach(const Vec3<F>& origin, const Vec3<F>& to_vantage) const {
+    const Vec3<F>& way = infinitely_far_ ? origin : to_vantage;
+    return dot(way, way) <= F(reach_ * reach_);
+  }
+
+  /// face: twice the axis of its normal, and one more on the negative side.
+  const Grid& grid(int face) const { return grids_[face]; }
+
+  /// Whether so much is to be met through the cell that a tree is faster.
+  bool is_crowded(std::size_t cell) const { return cells_[cell].count == crowded; }
+
+  /// All that is to be met through a cell that is not crowded: numbers of objects in ascending order, the nearest
+  /// first.
+  std::span<const std::uint32_t> candidates(std::size_t cell) const {
+    return {candidates_.data() + cells_[cell].first, cells_[cell].count};
+  }
+  const Object& object(std::uint32_t number) const { return objects_[number]; }
+
+ private:
+  struct Cell {
+    std::uint32_t first = 0, count = 0;
+  };
+  static constexpr std::uint32_t crowded = ~std::uint32_t{0};
+
+  Grid grids_[6];
+  std::vector<Cell> cells_;
+  std::vector<std::uint32_t> candidates_;
+  std::vector<Object> objects_;
+  float reach_ = 0;  ///< of the rays to a point, their length; of parallel ones, how far from (0, 0, 0) they start
+  bool infinitely_far_ = false;
+  Vec3f across_{}, up_{}, start_{};  ///< of the grid that lies across; start_.z: where depths begin
+};
+
+}  // namespace raytrace
