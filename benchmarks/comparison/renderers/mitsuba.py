@@ -26,7 +26,7 @@ NOTE = (
     " Its lights fall off with the square of the distance."
     " The floor is a rectangle of 40,000 x 40,000, as far as single precision allows."
     " Triangles are in meshes, one for each material, and rays may slip through their edges: it does not ask Embree for"
-    " its robust mode, as raytrace does, which without takes 0.81 of its time there."
+    " its robust mode, as raytrace does."
     " Spheres are its `sphere`, a shape for each; its `ellipsoids`, many in one shape, render 1,000 in 0.75 of the time"
     " and 100,000 in 0.05, but holes appear in small ones, and the pictures do not agree. It has no torus."
 )
