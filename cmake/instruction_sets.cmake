@@ -19,8 +19,7 @@ set(RAYTRACE_ISAS "${raytrace_default_isas}" CACHE STRING
 find_program(RAYTRACE_LD NAMES ${CMAKE_LIBRARY_ARCHITECTURE}-ld.bfd ld.bfd REQUIRED
   DOC "GNU ld: the one that can allocate section groups in a relocatable link")
 find_program(RAYTRACE_OBJCOPY NAMES ${CMAKE_LIBRARY_ARCHITECTURE}-objcopy objcopy REQUIRED DOC "GNU objcopy")
-option(RAYTRACE_UNITY "Compile the wide code of an instruction set as one translation unit (OFF: for tools that read single files)" ON)
-mark_as_advanced(RAYTRACE_UNITY RAYTRACE_LD RAYTRACE_OBJCOPY)
+mark_as_advanced(RAYTRACE_LD RAYTRACE_OBJCOPY)
 
 # x86-64-v4 -> v4, as file and symbol names want it.
 function(raytrace_variant_of isa out)
@@ -55,7 +54,9 @@ function(raytrace_add_variants target)
     target_link_libraries(${objects} PRIVATE raytrace_options ${arg_LIBRARIES})
     # As one translation unit, so that the compiler sees through the calls between accelerator, scene and integrator; and the
     # headers, which are most of it, are read once.
-    set_target_properties(${objects} PROPERTIES UNITY_BUILD ${RAYTRACE_UNITY} UNITY_BUILD_BATCH_SIZE 0)
+    set_target_properties(${objects} PROPERTIES RAYTRACE_WIDE ON UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
+    # Where the library's files are joined, too, those that its module takes bring the wide code with them.
+    set_target_properties(${objects} PROPERTIES POSITION_INDEPENDENT_CODE "${CMAKE_UNITY_BUILD}")
     target_compile_definitions(${objects} PRIVATE RAYTRACE_VARIANT=${variant} RAYTRACE_ISA="${isa}")
     target_compile_options(${objects} PRIVATE
       $<$<NOT:$<STREQUAL:${isa},generic>>:-march=${isa}>

@@ -2,6 +2,8 @@
 
 #include <tbb/version.h>
 
+#include <CLI/CLI.hpp>
+
 #include "listing.h"
 #include "manual.h"
 #include "raytrace/render/renderer.h"

@@ -1,6 +1,7 @@
 // Prints a man page; run by the build.
 //   raytrace_man_page         raytrace(1)
 //   raytrace_man_page merge   raytrace-merge(1)
+#include <CLI/CLI.hpp>
 #include <iostream>
 
 #include "about.h"

@@ -1,8 +1,11 @@
 // The manual of the command, made of the parser's own options: --help and the man page cannot differ.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
+
+namespace CLI {
+class App;
+}
 
 namespace raytrace {
 

@@ -1,11 +1,14 @@
 // raytrace merge PIECES... -o FILE
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
 #include "raytrace/render/merge_pieces.h"
+
+namespace CLI {
+class App;
+}
 
 namespace raytrace {
 

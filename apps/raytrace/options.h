@@ -2,7 +2,6 @@
 // --help and the man page are all made of them.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -16,6 +15,10 @@
 #include "raytrace/display/display_server.h"
 #include "raytrace/film/film.h"
 #include "raytrace/output/image_file.h"
+
+namespace CLI {
+class App;
+}
 
 namespace raytrace {
 

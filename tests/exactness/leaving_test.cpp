@@ -12,9 +12,6 @@ namespace {
 using reference::Real;
 using reference::Vector;
 
-constexpr int rays_a_scene = 2000;
-constexpr int rays_a_shape = 1'000'000;
-
 /// In a direction on the normal's side; every other one grazes the surface, by down to 1e-4.
 Vector leaving_direction(const Vector& normal, Random& random) {
   const Vector any = random.direction();

@@ -13,6 +13,10 @@
 
 namespace raytrace::test {
 
+/// How often what is random is drawn.
+inline constexpr int rays_a_scene = 2000;
+inline constexpr int rays_a_shape = 1'000'000;
+
 struct ShapeCase {
   reference::ShapePointer shape;
   reference::Vector center;  ///< somewhere in it

@@ -16,8 +16,6 @@ namespace {
 using reference::Real;
 using reference::Vector;
 
-constexpr int rays_a_scene = 2000;
-constexpr int rays_a_shape = 1'000'000;
 /// The best instruction set's own queries get all rays; Embree's packets and the other instruction sets those of one
 /// scene in so many.
 constexpr int others_share = 5;

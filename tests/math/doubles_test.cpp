@@ -27,7 +27,7 @@ D load(const Lanes& values) {
 Lanes lanes_of(const D& doubles) { return std::bit_cast<Lanes>(doubles); }
 
 /// Numbers of both signs over many magnitudes, now and then equal or zero.
-class Random {
+class RandomDoubles {
  public:
   double number() {
     const auto kind = bits_() % 16;
@@ -51,7 +51,7 @@ bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)
 
 void check_binary(const std::function<D(const D&, const D&)>& wide,
                   const std::function<double(double, double)>& scalar) {
-  Random random;
+  RandomDoubles random;
   for (int i = 0; i < 2000; ++i) {
     const Lanes a = random.numbers(), b = random.numbers();
     const Lanes got = lanes_of(wide(load(a), load(b)));
@@ -65,7 +65,7 @@ void check_binary(const std::function<D(const D&, const D&)>& wide,
 
 void check_comparison(const std::function<D::MaskType(const D&, const D&)>& wide,
                       const std::function<bool(double, double)>& scalar) {
-  Random random;
+  RandomDoubles random;
   for (int i = 0; i < 2000; ++i) {
     const Lanes a = random.numbers(), b = random.numbers();
     const D::MaskType mask = wide(load(a), load(b));
@@ -119,7 +119,7 @@ TEST_CASE("arithmetic of Doubles is double's") {
 }
 
 TEST_CASE("fma and cbrt of Doubles are double's but for the last bits") {
-  Random random;
+  RandomDoubles random;
   for (int i = 0; i < 2000; ++i) {
     const Lanes a = random.numbers(), b = random.numbers(), c = random.numbers();
     const Lanes sums = lanes_of(fma(load(a), load(b), load(c))), roots = lanes_of(cbrt(load(a)));

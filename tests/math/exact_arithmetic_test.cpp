@@ -12,7 +12,7 @@ namespace raytrace::test {
 
 namespace {
 
-class Random {
+class RandomFloats {
  public:
   /// Of 24 random digits and either sign, times 2^e with |e| <= exponents.
   float number(int exponents) {
@@ -34,7 +34,7 @@ FloatN batch(const Values& values) {
 }  // namespace
 
 TEST_CASE("exact_fma is the fused operation where the sum cancels") {
-  Random random;
+  RandomFloats random;
   for (int i = 0; i < 20000; ++i) {
     Values a, b, c;
     for (std::size_t lane = 0; lane < lanes; ++lane) {
@@ -53,7 +53,7 @@ TEST_CASE("exact_fma is the fused operation where the sum cancels") {
 }
 
 TEST_CASE("exact_fma is within the last bit of the fused operation for any numbers, and nearly always that") {
-  Random random;
+  RandomFloats random;
   int differing = 0;
   constexpr int count = 20000;
   for (int i = 0; i < count; ++i) {
@@ -81,7 +81,7 @@ TEST_CASE("exact_fma neither overflows in the product nor underflows where the f
 }
 
 TEST_CASE("exact_difference splits a difference into its rounded value and the rest, without loss") {
-  Random random;
+  RandomFloats random;
   for (int i = 0; i < 50000; ++i) {
     Values a, b;
     for (std::size_t lane = 0; lane < lanes; ++lane) {

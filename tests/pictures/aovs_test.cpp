@@ -82,7 +82,7 @@ bool agrees(const Aovs& got, const reference::Scene& scene, const SceneDescripti
   return length(got.vector_at("albedo", "RGB", x, y) - material.kd * material.cd) < 1e-6L;
 }
 
-void check_scenes(unsigned first, unsigned last) {
+void check_aovs(unsigned first, unsigned last) {
   for (unsigned seed = first; seed < last; ++seed) {
     const reference::Scene scene = reference::random_scene(seed);
     const SceneDescription description = parsed_scene(reference::scene_text(scene));
@@ -105,7 +105,7 @@ void check_scenes(unsigned first, unsigned last) {
 
 }  // namespace
 
-TEST_CASE("AOVs of random scenes 0 to 5 equal the reference's") { check_scenes(0, 6); }
-TEST_CASE("AOVs of random scenes 6 to 11 equal the reference's") { check_scenes(6, 12); }
+TEST_CASE("AOVs of random scenes 0 to 5 equal the reference's") { check_aovs(0, 6); }
+TEST_CASE("AOVs of random scenes 6 to 11 equal the reference's") { check_aovs(6, 12); }
 
 }  // namespace raytrace::test

@@ -1,22 +1,11 @@
 // The reference against closed forms, and against dense sampling of each shape's implicit function.
-#include <random>
-
+#include "random.h"
 #include "renderer.h"
 #include "support/catch.h"
 
 using namespace reference;
 
 namespace {
-
-class Random {
- public:
-  explicit Random(unsigned seed) : bits_(seed) {}
-  Real between(Real low, Real high) { return low + (high - low) * (static_cast<Real>(bits_()) / 4294967296.0L); }
-  Vector in_cube(Real half) { return {between(-half, half), between(-half, half), between(-half, half)}; }
-
- private:
-  std::mt19937 bits_;
-};
 
 double at(const Crossings& crossings, unsigned i) { return static_cast<double>(crossings.distances[i]); }
 

@@ -13,7 +13,7 @@ namespace raytrace::test {
 
 namespace {
 
-constexpr int edge = 6;
+constexpr int side = 6;
 constexpr int samples = 4;
 
 class Layouts {
@@ -40,9 +40,9 @@ class Layouts {
   }
 
   PieceExtent random_piece() {
-    const int x = below(edge), y = below(edge), first = below(samples);
+    const int x = below(side), y = below(side), first = below(samples);
     return {"",
-            {x, y, x + 1 + below(edge - x), y + 1 + below(edge - y)},
+            {x, y, x + 1 + below(side - x), y + 1 + below(side - y)},
             static_cast<std::uint64_t>(first),
             static_cast<std::uint64_t>(first + 1 + below(samples - first))};
   }
@@ -59,8 +59,8 @@ bool covers(const PieceExtent& piece, int x, int y, std::uint64_t sample) {
 /// How many pieces hold each sample: the least and the most.
 std::pair<int, int> least_and_most(const std::vector<PieceExtent>& pieces) {
   int least = 1 << 20, most = 0;
-  for (int y = 0; y < edge; ++y)
-    for (int x = 0; x < edge; ++x)
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x)
       for (std::uint64_t sample = 0; sample < samples; ++sample) {
         int times = 0;
         for (const PieceExtent& piece : pieces) times += covers(piece, x, y, sample);
@@ -84,7 +84,7 @@ TEST_CASE("overlaps and gaps are found in random layouts, and nowhere else") {
     if (i % 4 == 3) {
       for (int n = random.below(6); n >= 0; --n) pieces.push_back(random.random_piece());
     } else {
-      random.cut({"", {0, 0, edge, edge}, 0, samples}, pieces);
+      random.cut({"", {0, 0, side, side}, 0, samples}, pieces);
       if (i % 4 == 1) pieces.erase(pieces.begin() + random.below(static_cast<int>(pieces.size())));
       if (i % 4 == 2) pieces.push_back(random.random_piece());
     }
@@ -93,7 +93,7 @@ TEST_CASE("overlaps and gaps are found in random layouts, and nowhere else") {
     const auto [least, most] = least_and_most(pieces);
     INFO("layout " << i);
     REQUIRE(overlaps(pieces).empty() == (most < 2));
-    REQUIRE(gaps(pieces, {0, 0, edge, edge}, samples).empty() == (least > 0));
+    REQUIRE(gaps(pieces, {0, 0, side, side}, samples).empty() == (least > 0));
     overlapping += most > 1;
     gaping += least == 0;
     exact += least == 1 && most == 1;

@@ -11,12 +11,12 @@ namespace raytrace::test {
 
 namespace {
 
-constexpr std::uint32_t edge = 256;  // pixels
+constexpr std::uint32_t side = 256;  // pixels
 
 template <class Function>
 void for_each_pixel(Function f) {
-  for (std::uint32_t row = 0; row < edge; ++row)
-    for (std::uint32_t column = 0; column < edge; ++column) f(column, row);
+  for (std::uint32_t row = 0; row < side; ++row)
+    for (std::uint32_t column = 0; column < side; ++column) f(column, row);
 }
 
 }  // namespace

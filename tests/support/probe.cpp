@@ -8,6 +8,7 @@
 #define RAYTRACE_DECLARE(name, isa) \
   extern "C" raytrace::test::ProbeBackend* raytrace_probe_##name(const raytrace::SceneDescription& description);
 RAYTRACE_VARIANTS(RAYTRACE_DECLARE)
+#undef RAYTRACE_DECLARE
 
 namespace raytrace::test {
 
@@ -20,6 +21,7 @@ Probe::Probe(const SceneDescription& description, const std::string& isa)
 #define RAYTRACE_CHOOSE(name, text) \
   if (isa == text) implementation_->backend.reset(raytrace_probe_##name(description));
   RAYTRACE_VARIANTS(RAYTRACE_CHOOSE)
+#undef RAYTRACE_CHOOSE
   if (!implementation_->backend) throw std::invalid_argument("no probe for " + isa);
 }
 

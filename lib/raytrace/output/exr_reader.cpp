@@ -19,13 +19,13 @@ namespace raytrace {
 
 namespace {
 
-[[noreturn]] void fail(const std::string& file, const std::string& reason) {
+[[noreturn]] void refuse(const std::string& file, const std::string& reason) {
   throw InputError("cannot read " + file + ": " + reason);
 }
 
 /// Before OpenEXR does, whose message would not be the system's.
 void refuse_unreadable(const std::string& file) {
-  if (access(file.c_str(), R_OK) != 0) fail(file, std::generic_category().message(errno));
+  if (access(file.c_str(), R_OK) != 0) refuse(file, std::generic_category().message(errno));
 }
 
 Imf::PixelType imf_type(ChannelType type) {
@@ -78,13 +78,13 @@ ExrReader::ExrReader(const std::string& file) : file_(file) {
   refuse_unreadable(file);
   try {
     open_ = std::make_unique<OpenFile>(file);
-    if (!open_->exr.isComplete()) fail(file, "it is not whole");
+    if (!open_->exr.isComplete()) refuse(file, "it is not whole");
   } catch (const InputError&) {
     throw;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception&) {
-    fail(file, "it is not an EXR file, or not whole");
+    refuse(file, "it is not an EXR file, or not whole");
   }
   const Imf::Header& header = open_->exr.header();
   extent_ = extent_of(header);
@@ -123,7 +123,7 @@ ImageBand ExrReader::read(const std::vector<Channel>& channels, int y0, int y1) 
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception&) {
-    fail(file_, "its pixels are damaged");
+    refuse(file_, "its pixels are damaged");
   }
   return band;
 }
