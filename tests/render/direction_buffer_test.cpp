@@ -120,6 +120,20 @@ void check_blocked(const SceneDescription& scene, const Vantage& vantage, const 
   }
 }
 
+/// Calls check(seen, wanted) for each instruction set: hits of rays from a point, found as seen from there and by
+/// Embree.
+template <class Check>
+void compare_hits(const SceneDescription& scene, const Vec3f& point, const std::vector<ProbeRay>& rays,
+                  const Check& check) {
+  for (const std::string& isa : usable_isas()) {
+    const Probe probe(scene, isa);
+    const auto seen = probe.intersect_seen_from(point, rays);
+    INFO(isa);
+    REQUIRE(seen.has_value());
+    check(*seen, probe.intersect_packet(rays));
+  }
+}
+
 }  // namespace
 
 TEST_CASE("rays from a point meet what they meet in Embree") {
@@ -131,16 +145,12 @@ TEST_CASE("rays from a point meet what they meet in Embree") {
     std::vector<ProbeRay> rays;
     for (const Vec3d& direction : directions(draw, situation.center - situation.point, 2000))
       rays.push_back({point, Vec3f(direction)});
-    for (const std::string& isa : usable_isas()) {
-      const Probe probe(scene, isa);
-      const auto seen = probe.intersect_seen_from(point, rays);
-      INFO("situation " << seed - 2 << ", " << isa);
-      REQUIRE(seen.has_value());
-      const std::vector<ProbeHit> wanted = probe.intersect_packet(rays);
+    INFO("situation " << seed - 2);
+    compare_hits(scene, point, rays, [&](const auto& seen, const auto& wanted) {
       int hits = 0, wrong = 0;
       double worst = 0;
       for (std::size_t i = 0; i < rays.size(); ++i) {
-        const ProbeHit &a = (*seen)[i], &b = wanted[i];
+        const ProbeHit &a = seen[i], &b = wanted[i];
         hits += b.hit;
         wrong += a.hit != b.hit || (b.hit && (a.kind != b.kind || a.index != b.index));
         if (a.hit && b.hit)
@@ -150,7 +160,7 @@ TEST_CASE("rays from a point meet what they meet in Embree") {
       CHECK(hits > 100);
       CHECK(wrong == 0);
       CHECK(worst < 1e-6);
-    }
+    });
   }
 }
 
@@ -168,20 +178,15 @@ TEST_CASE("what touches the floor is met where it is in Embree, be it by less th
     const Vec3d touching = Vec3d{0.7, 0, 1.2} + Vec3d{1, 0, -2} * draw.between(0, 1);
     rays.push_back({eye, Vec3f(normalize(touching + draw.in_box(1e-5) - Vec3d(eye)))});
   }
-  for (const std::string& isa : usable_isas()) {
-    const Probe probe(scene, isa);
-    const auto seen = probe.intersect_seen_from(eye, rays);
-    INFO(isa);
-    REQUIRE(seen.has_value());
-    const std::vector<ProbeHit> wanted = probe.intersect_packet(rays);
+  compare_hits(scene, eye, rays, [&](const auto& seen, const auto& wanted) {
     int wrong = 0, same_distance = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
-      wrong += (*seen)[i].kind != wanted[i].kind;
-      same_distance += (*seen)[i].distance == wanted[i].distance;
+      wrong += seen[i].kind != wanted[i].kind;
+      same_distance += seen[i].distance == wanted[i].distance;
     }
     CHECK(wrong == 0);
     CHECK(same_distance == static_cast<int>(rays.size()));
-  }
+  });
 }
 
 TEST_CASE("rays to a point are blocked where they are in Embree, from however far they come") {
@@ -260,20 +265,15 @@ TEST_CASE("no ray that Embree stops passes between the triangles of a surface, s
           const Vec3d target = vertex(x, y) + (end - vertex(x, y)) * part;
           rays.push_back({point, Vec3f(normalize(target - Vec3d(point)))});
         }
-  for (const std::string& isa : usable_isas()) {
-    const Probe probe(scene, isa);
-    const auto seen = probe.intersect_seen_from(point, rays);
-    INFO(isa);
-    REQUIRE(seen.has_value());
-    const std::vector<ProbeHit> in_embree = probe.intersect_packet(rays);
+  compare_hits(scene, point, rays, [&](const auto& seen, const auto& in_embree) {
     int passed = 0, passed_in_embree = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
-      passed += !(*seen)[i].hit;
+      passed += !seen[i].hit;
       passed_in_embree += !in_embree[i].hit;
     }
     CHECK(passed <= passed_in_embree);
     CHECK(passed < static_cast<int>(rays.size()) / 1000);
-  }
+  });
 }
 
 TEST_CASE("where nothing is to be gained, rays go to Embree") {
