@@ -54,12 +54,11 @@ Outputs::Outputs(const Options& options, const std::vector<std::string>& files, 
 bool Outputs::write(const Film& film, Statistics& statistics) {
   const PhaseTimer timer(statistics.phases.write);
   const Region& region = film.region();
-  constexpr std::size_t colors = 4;
   ImageBand band;  // a few rows at a time, so that no second copy of the picture is needed
   for (int y0 = region.y0; y0 < region.y1 && !files_.empty(); y0 = band.region.y1) {
-    band.planes.resize(std::min(band.planes.size(), colors));
+    band.planes.resize(std::min(band.planes.size(), ImageBand::colors));
     fill_color(band, film, y0, std::min(y0 + band_rows(region.width(), channels_.size()), region.y1), options_.threads);
-    fill_aovs(band, colors, film);
+    fill_aovs(band, ImageBand::colors, film);
     if (!sums_.empty()) append_sums(band, sums_, film);
     std::erase_if(files_, [&](File& file) { return !succeeds([&] { file.image->write(band); }); });
   }

@@ -66,22 +66,35 @@ Ending PictureRender::run() {
   // AOVs need.
   const bool whole_film =
       !options_.checkpoint.empty() || options_.time_limit || (options_.sample_offset && aovs.gather());
+  film_content_ = film_content();
   in_bands_ = !whole_film && rows < settings_.region.height();
   const Ending ending = in_bands_ ? render_in_bands(rows) : render_at_once();
   tell_set_aside();
   return ending;
 }
 
+/// Means where nobody asks for more: neither for samples to come after a while, nor for pieces to be put together.
+FilmContent PictureRender::film_content() const {
+  if (!options_.checkpoint.empty() || options_.time_limit || options_.sample_offset || display_ ||
+      !options_.aovs.empty() || settings_.region != identity_.whole)
+    return FilmContent::sums;
+  const bool halves = std::all_of(options_.outputs.begin(), options_.outputs.end(), [&](const std::string& file) {
+    return holds_halves(file, options_.image_file_settings());
+  });
+  return halves ? FilmContent::half_means : FilmContent::means;
+}
+
 Ending PictureRender::render_at_once() {
   PhaseTimer timer(statistics_.phases.render);
-  Film film(film_settings(scene_, description_, settings_));
+  Film film(film_settings(scene_, description_, settings_), film_content_);
   identity_.film = film.settings();
+  std::uint32_t done = 0;
   if (options_.resume && std::filesystem::exists(options_.checkpoint)) {
     read_checkpoint(options_.checkpoint, identity_, film);
+    done = film.fewest_samples();
     tell_step("resumed from " + options_.checkpoint);
   }
   const std::uint32_t all = film.settings().samples.count;
-  std::uint32_t done = film.fewest_samples();
   double seconds_a_sample = 0;
   while (done < all) {
     const std::uint32_t target = next_target(done, seconds_a_sample);
@@ -137,7 +150,7 @@ Ending PictureRender::render_in_bands(int band_rows) {
     band.y1 = std::min(band.y0 + band_rows, region.y1);
     settings_.region = band;
     PhaseTimer timer(statistics_.phases.render);
-    Film film(film_settings(scene_, description_, settings_));
+    Film film(film_settings(scene_, description_, settings_), film_content_);
     const double height = region.height();
     if (!render_pass(film, film.settings().samples.count, (band.y0 - region.y0) / height, band.height() / height)) {
       tell_warning("stopped: of a picture of this size, only --checkpoint keeps what is done");
@@ -250,8 +263,9 @@ bool PictureRender::write_picture(const Film& film, const std::vector<std::strin
   its_metadata.samples = static_cast<int>(samples);
   if (!partial) its_metadata.render_seconds = statistics_.phases.render.seconds;
   its_metadata.attributes = identity_attributes(identity);
+  const bool keeps_sums = film.content() == FilmContent::sums && (partial || options_.sample_offset);
   Outputs outputs(options_, files, film.settings().extent, its_metadata,
-                  partial || options_.sample_offset ? sum_channels(film) : std::vector<Channel>());
+                  keeps_sums ? sum_channels(film) : std::vector<Channel>());
   return outputs.write(film, statistics_) && outputs.commit(statistics_);
 }
 

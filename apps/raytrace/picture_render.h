@@ -35,6 +35,7 @@ class PictureRender {
   Ending run();
 
  private:
+  FilmContent film_content() const;
   Ending render_at_once();
   Ending render_in_bands(int band_rows);
   Ending leave_what_there_is(const Film& film);
@@ -57,6 +58,7 @@ class PictureRender {
   const Signals& signals_;
   Statistics& statistics_;
   RenderSettings settings_;
+  FilmContent film_content_ = FilmContent::sums;
   PieceIdentity identity_;
   Clock::time_point start_;
   Clock::time_point next_checkpoint_;

@@ -1,13 +1,11 @@
 #include "raytrace/film/film.h"
 
-#include <sys/mman.h>
+#include <half.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <new>
-#include <type_traits>
 
 #include "raytrace/film/aov_film.h"
 
@@ -22,31 +20,58 @@ int unit_exponent(float largest_radiance, std::uint64_t samples) {
   return exponent - sample_bits + std::max(0, needed_bits - count_bits);
 }
 
-void Film::Unmap::operator()(PixelSum* sums) const { munmap(sums, bytes); }
-
 Film::~Film() = default;
 Film::Film(Film&&) noexcept = default;
 Film& Film::operator=(Film&&) noexcept = default;
 
-Film::Film(const FilmSettings& settings) : settings_(settings), unit_(std::ldexp(1.0, settings.unit_exponent)) {
-  static_assert(std::is_trivially_copyable_v<PixelSum>);
-  const std::size_t bytes = count() * sizeof(PixelSum);
-  if (bytes == 0) return;
-  void* const memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (memory == MAP_FAILED) throw std::bad_alloc();
-  sums_ = {static_cast<PixelSum*>(memory), Unmap{bytes}};
-  madvise(memory, bytes, MADV_HUGEPAGE);  // where the system has larger pages: fewer to be asked for
-  if (settings.aovs.gather()) aovs_ = std::make_unique<AovFilm>(region(), settings.aovs);
+Film::Film(const FilmSettings& settings, FilmContent content)
+    : settings_(settings), content_(content), unit_(std::ldexp(1.0, settings.unit_exponent)) {
+  switch (content_) {
+    case FilmContent::sums:
+      sums_ = ZeroedArray<PixelSum>(count());
+      if (settings.aovs.gather()) aovs_ = std::make_unique<AovFilm>(region(), settings.aovs);
+      break;
+    case FilmContent::means:
+      means_ = ZeroedArray<Pixel>(count());
+      break;
+    case FilmContent::half_means:
+      half_means_ = ZeroedArray<std::array<std::uint16_t, 4>>(count());
+      break;
+  }
+}
+
+Pixel Film::mean(const PixelSum& sum) const {
+  if (sum.samples == 0) return {};
+  const double samples = sum.samples;
+  const auto of = [&](std::int64_t total) { return static_cast<float>(static_cast<double>(total) / samples * unit_); };
+  return {of(sum.red), of(sum.green), of(sum.blue), static_cast<float>(sum.hits / samples)};
 }
 
 Pixel Film::pixel(int x, int y) const {
-  const PixelSum& pixel = sum(x, y);
-  if (pixel.samples == 0) return {};
-  const double samples = pixel.samples;
-  const auto mean = [&](std::int64_t total) {
-    return static_cast<float>(static_cast<double>(total) / samples * unit_);
-  };
-  return {mean(pixel.red), mean(pixel.green), mean(pixel.blue), static_cast<float>(pixel.hits / samples)};
+  switch (content_) {
+    case FilmContent::sums:
+      return mean(sums_[index(x, y)]);
+    case FilmContent::means:
+      return means_[index(x, y)];
+    case FilmContent::half_means:
+      break;
+  }
+  const auto& [red, green, blue, alpha] = half_means_[index(x, y)];
+  return {imath_half_to_float(red), imath_half_to_float(green), imath_half_to_float(blue), imath_half_to_float(alpha)};
+}
+
+void Film::set_means(const Film& sums) {
+  const Region& part = sums.region();
+  for (int y = part.y0; y < part.y1; ++y)
+    for (int x = part.x0; x < part.x1; ++x) {
+      const Pixel mean = sums.pixel(x, y);
+      if (content_ == FilmContent::means) {
+        means_[index(x, y)] = mean;
+      } else {
+        half_means_[index(x, y)] = {imath_float_to_half(mean.red), imath_float_to_half(mean.green),
+                                    imath_float_to_half(mean.blue), imath_float_to_half(mean.alpha)};
+      }
+    }
 }
 
 std::vector<Pixel> Film::pixels() const {

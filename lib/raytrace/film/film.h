@@ -1,6 +1,7 @@
-// The picture in memory while it is rendered: sums of samples, from which the means of pixels are made.
+// The picture in memory while it is rendered: sums of samples, from which the means of pixels are made, or these alone.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "raytrace/film/aov_settings.h"
+#include "raytrace/film/zeroed_array.h"
 
 namespace raytrace {
 
@@ -73,28 +75,38 @@ int unit_exponent(float largest_radiance, std::uint64_t samples);
 
 class AovFilm;
 
-/// Holds the sums of the pixels of a region, all zero at first. Threads may write different pixels at the same time.
+/// What a film holds of each pixel. Memory that is fresh from the system takes time, so a picture that is rendered in
+/// one go, tile by tile, keeps no more than its files want.
+enum class FilmContent {
+  sums,        ///< PixelSum, 32 bytes: samples can be added at any time, and in any order
+  means,       ///< Pixel, 16 bytes
+  half_means,  ///< the same in numbers of 16 bits (IEEE 754 binary16; infinity beyond their range), 8 bytes
+};
+
+/// Holds the pixels of a region, all zero at first. Threads may write different pixels at the same time.
 class Film {
  public:
-  /// Throws std::bad_alloc.
-  explicit Film(const FilmSettings& settings);
+  /// Throws std::bad_alloc. With means, no AOVs are gathered.
+  explicit Film(const FilmSettings& settings, FilmContent content = FilmContent::sums);
   ~Film();
   Film(Film&&) noexcept;
   Film& operator=(Film&&) noexcept;
 
   const FilmSettings& settings() const { return settings_; }
   const Region& region() const { return settings_.extent.region; }
+  FilmContent content() const { return content_; }
 
-  /// x, y: in the whole picture, inside region().
-  PixelSum& sum(int x, int y) { return sums_[index(x, y)]; }
-  const PixelSum& sum(int x, int y) const { return sums_[index(x, y)]; }
-
-  /// The mean of the pixel's samples; black and empty if it has none.
+  /// The mean of the pixel's samples; black and empty if it has none. x, y: in the whole picture, inside region().
   Pixel pixel(int x, int y) const;
 
   /// All of them: row by row from the region's top, each from its left.
   std::vector<Pixel> pixels() const;
-  std::span<const PixelSum> sums() const { return {sums_.get(), count()}; }
+
+  // Of films of sums.
+
+  PixelSum& sum(int x, int y) { return sums_[index(x, y)]; }
+  const PixelSum& sum(int x, int y) const { return sums_[index(x, y)]; }
+  std::span<const PixelSum> sums() const { return {sums_.data(), content_ == FilmContent::sums ? count() : 0}; }
 
   /// What the AOVs gather; null if they need nothing beside the sums.
   AovFilm* aovs() { return aovs_.get(); }
@@ -103,12 +115,23 @@ class Film {
   /// The fewest samples that a pixel has.
   std::uint32_t fewest_samples() const;
 
- private:
-  struct Unmap {
-    std::size_t bytes;
-    void operator()(PixelSum* sums) const;
-  };
+  // Of films of means.
 
+  /// Takes the means of a film of sums, whose region lies in this one's.
+  void set_means(const Film& sums);
+
+  /// Of half_means: red, green, blue and alpha of the pixels from (x, y) on, row by row.
+  const std::uint16_t* half_means(int x, int y) const { return &half_means_[index(x, y)][0]; }
+
+  /// A tile that render() is at.
+  struct Tile {
+    bool finished = false;
+    std::unique_ptr<Film> sums;  ///< of one that was begun and not finished
+  };
+  /// render()'s own: as many as it cuts the film into, in its order.
+  std::vector<Tile>& tiles() { return tiles_; }
+
+ private:
   std::size_t count() const {
     return static_cast<std::size_t>(region().width()) * static_cast<std::size_t>(region().height());
   }
@@ -116,12 +139,16 @@ class Film {
     return static_cast<std::size_t>(y - region().y0) * static_cast<std::size_t>(region().width()) +
            static_cast<std::size_t>(x - region().x0);
   }
+  Pixel mean(const PixelSum& sum) const;
 
   FilmSettings settings_;
+  FilmContent content_;
   double unit_;  ///< of radiance
-  /// Zeros from the system, page by page as they are first written: by the threads that render, not by the one that
-  /// makes the film.
-  std::unique_ptr<PixelSum[], Unmap> sums_;
+  // One of them holds the pixels.
+  ZeroedArray<PixelSum> sums_;
+  ZeroedArray<Pixel> means_;
+  ZeroedArray<std::array<std::uint16_t, 4>> half_means_;
+  std::vector<Tile> tiles_;
   std::unique_ptr<AovFilm> aovs_;
 };
 

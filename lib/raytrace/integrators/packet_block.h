@@ -18,7 +18,7 @@ struct PacketShape {
 /// As many samples of as few pixels as samples are at hand for: such rays are closer together than those of one sample
 /// of many pixels. Samples 0, 1, ... of a pixel belong to groups of `samples`, which are always traced together: a
 /// sample's bits do not depend on which others are asked for.
-inline constexpr PacketShape sampled_shape = {2, 2, native_lanes / 4};
+inline constexpr PacketShape sampled_shape = {native_lanes >= 8 ? 2 : 1, native_lanes >= 16 ? 2 : 1, 4};
 
 /// For pictures of a single sample a pixel: as square as can be.
 inline constexpr PacketShape centered_shape = {native_lanes >= 8 ? 4 : 2, native_lanes >= 8 ? native_lanes / 4 : 2, 1};

@@ -139,11 +139,11 @@ void convert_row(const ChannelValues& plane, std::size_t row, std::size_t width,
   for (std::size_t i = row * width; i < (row + 1) * width; ++i) converted[i] = storable<Value>(values[i], repairs);
 }
 
-/// A plane's values where OpenEXR finds them: row by row within the window.
+/// A plane's values where OpenEXR finds them: row by row within the window, with so many from one to the next.
 template <class Value>
-Imf::Slice slice(Imf::PixelType type, const Value* values, const Imath::Box2i& window) {
+Imf::Slice slice(Imf::PixelType type, const Value* values, const Imath::Box2i& window, std::size_t step = 1) {
   const auto width = static_cast<std::size_t>(window.max.x - window.min.x) + 1;
-  return Imf::Slice::Make(type, values, window, sizeof(Value), width * sizeof(Value));
+  return Imf::Slice::Make(type, values, window, step * sizeof(Value), width * step * sizeof(Value));
 }
 
 /// OpenEXR's pool is one for the whole process, and must not change while a file is written: the first to ask decides.
@@ -167,6 +167,7 @@ struct ExrEncoder::OpenFile {
   /// What is written of each channel; kept from band to band.
   std::vector<std::vector<Imath::half>> halves;
   std::vector<std::vector<float>> floats;
+  std::vector<Imath::half> half_colors;
 };
 
 ExrEncoder::ExrEncoder(std::string file, const ImageFileSettings& settings)
@@ -191,9 +192,16 @@ void ExrEncoder::begin(const PictureExtent& extent, const std::vector<Channel>& 
 void ExrEncoder::write(const ImageBand& band) {
   const Region& region = band.region;
   const Imath::Box2i window({region.x0, region.y0}, {region.x1 - 1, region.y1 - 1});
-  convert_values(band);
   Imf::FrameBuffer frame;
-  for (std::size_t i = 0; i < open_->channels.size(); ++i) {
+  std::size_t first_plane = 0;
+  if (band.half_colors != nullptr) {
+    const Imath::half* const colors = storable_colors(band);
+    for (; first_plane < ImageBand::colors; ++first_plane)
+      frame.insert(open_->channels[first_plane].name,
+                   slice(Imf::HALF, colors + first_plane, window, ImageBand::colors));
+  }
+  convert_values(band, first_plane);
+  for (std::size_t i = first_plane; i < open_->channels.size(); ++i) {
     const Channel& channel = open_->channels[i];
     const ChannelValues& plane = band.planes[i];
     const Imf::PixelType type = pixel_type(channel.type);
@@ -215,18 +223,41 @@ void ExrEncoder::write(const ImageBand& band) {
   });
 }
 
-/// To what the file stores.
-void ExrEncoder::convert_values(const ImageBand& band) {
+/// Of a band's half_colors: themselves, but for infinities.
+const Imath::half* ExrEncoder::storable_colors(const ImageBand& band) {
+  const auto* const colors = reinterpret_cast<const Imath::half*>(band.half_colors);
+  const std::size_t row_values = ImageBand::colors * static_cast<std::size_t>(band.region.width());
+  const auto rows = static_cast<std::size_t>(band.region.height());
+  std::vector<std::size_t> infinite(rows);
+  for_each_index(band.region.height(), settings_.threads, [&](int index) {
+    const auto row = static_cast<std::size_t>(index);
+    // By their bits, which the compiler makes a loop of wide instructions.
+    const std::uint16_t* const bits = band.half_colors + row * row_values;
+    std::uint32_t count = 0;
+    for (std::size_t i = 0; i < row_values; ++i) count += (bits[i] & 0x7fffU) >= 0x7c00U ? 1U : 0U;
+    infinite[row] = count;
+  });
+  if (std::all_of(infinite.begin(), infinite.end(), [](std::size_t count) { return count == 0; })) return colors;
+  std::vector<Imath::half>& stored = open_->half_colors;
+  stored.assign(colors, colors + rows * row_values);
+  for (Imath::half& value : stored)
+    if (!value.isFinite()) value = storable<Imath::half>(std::copysign(2 * largest<Imath::half>, value), repairs_);
+  return stored.data();
+}
+
+/// Of the planes from first_plane on, to what the file stores.
+void ExrEncoder::convert_values(const ImageBand& band, std::size_t first_plane) {
+  if (first_plane == open_->channels.size()) return;
   const auto width = static_cast<std::size_t>(band.region.width());
   const auto rows = static_cast<std::size_t>(band.region.height());
-  for (std::size_t i = 0; i < open_->channels.size(); ++i) {
+  for (std::size_t i = first_plane; i < open_->channels.size(); ++i) {
     if (open_->channels[i].type == ChannelType::half) open_->halves[i].resize(width * rows);
     if (open_->channels[i].type == ChannelType::float32) open_->floats[i].resize(width * rows);
   }
   std::vector<Repairs> repairs(rows);
   for_each_index(band.region.height(), settings_.threads, [&](int index) {
     const auto row = static_cast<std::size_t>(index);
-    for (std::size_t i = 0; i < open_->channels.size(); ++i) {
+    for (std::size_t i = first_plane; i < open_->channels.size(); ++i) {
       const ChannelType type = open_->channels[i].type;
       if (type == ChannelType::half) convert_row(band.planes[i], row, width, open_->halves[i], repairs[row]);
       if (type == ChannelType::float32) convert_row(band.planes[i], row, width, open_->floats[i], repairs[row]);

@@ -1,6 +1,9 @@
 // OpenEXR files: scanlines of any channels, each of its own type, compressed in zip blocks.
 #pragma once
 
+#include <half.h>
+
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,7 +27,8 @@ class ExrEncoder final : public ImageEncoder {
 
  private:
   struct OpenFile;
-  void convert_values(const ImageBand& band);
+  void convert_values(const ImageBand& band, std::size_t first_plane);
+  const Imath::half* storable_colors(const ImageBand& band);
   /// Runs it, and throws an OutputError with the true reason for whatever it throws.
   template <class Action>
   void guard(const Action& action) const;

@@ -7,12 +7,6 @@
 
 namespace raytrace {
 
-namespace {
-
-constexpr std::size_t colors = 4;
-
-}  // namespace
-
 std::vector<Channel> color_channels(bool full_float) {
   const ChannelType type = full_float ? ChannelType::float32 : ChannelType::half;
   return {{"R", type}, {"G", type}, {"B", type}, {"A", type}};
@@ -27,10 +21,12 @@ int band_rows(int width, std::size_t channels) {
 
 void fill_color(ImageBand& band, const Film& film, int y0, int y1, int threads) {
   band.region = {film.region().x0, y0, film.region().x1, y1};
-  band.planes.resize(std::max(band.planes.size(), colors));
+  band.planes.resize(std::max(band.planes.size(), ImageBand::colors));
+  band.half_colors = film.content() == FilmContent::half_means ? film.half_means(band.region.x0, y0) : nullptr;
+  if (band.half_colors != nullptr) return;
   const auto width = static_cast<std::size_t>(band.region.width());
-  std::array<float*, colors> planes;
-  for (std::size_t i = 0; i < colors; ++i) {
+  std::array<float*, ImageBand::colors> planes;
+  for (std::size_t i = 0; i < ImageBand::colors; ++i) {
     if (!std::holds_alternative<std::vector<float>>(band.planes[i])) band.planes[i] = std::vector<float>();
     auto& plane = std::get<std::vector<float>>(band.planes[i]);
     plane.resize(width * static_cast<std::size_t>(band.region.height()));

@@ -24,9 +24,14 @@ struct Channel {
 using ChannelValues = std::variant<std::vector<float>, std::vector<std::uint32_t>>;
 
 struct ImageBand {
+  /// The first channels of every picture: red, green, blue and alpha.
+  static constexpr std::size_t colors = 4;
+
   Region region;  ///< whole rows of a picture's region
   std::vector<ChannelValues>
       planes;  ///< one for each channel of the picture, in its order, each with a value for each pixel
+  /// Where it is not null, the first four planes are empty, and their values stand here: Film::half_means().
+  const std::uint16_t* half_colors = nullptr;
 };
 
 /// R, G, B and A: 16 bits each, or 32.
@@ -38,7 +43,8 @@ std::vector<Channel> color_channels(bool full_float);
 int band_rows(int width, std::size_t channels);
 
 /// The film's rows [y0, y1) as the first four planes of `band`, those of color_channels(); further ones stay. Planes
-/// that are there are filled again, so that bands of one size take memory once. threads: as RenderSettings::threads.
+/// that are there are filled again, so that bands of one size take memory once. From a film of half_means, nothing is
+/// copied: it must outlive the band. threads: as RenderSettings::threads.
 void fill_color(ImageBand& band, const Film& film, int y0, int y1, int threads = 1);
 
 }  // namespace raytrace

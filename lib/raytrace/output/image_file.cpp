@@ -24,6 +24,11 @@ bool holds_float(const std::string& file) {
   return make_image_encoder(file, settings)->holds_float();
 }
 
+bool holds_halves(const std::string& file, const ImageFileSettings& settings) {
+  const auto encoder = make_image_encoder(file, settings);
+  return encoder->holds_data() && !encoder->holds_float();
+}
+
 bool holds_data(const std::string& file) { return make_image_encoder(file, {})->holds_data(); }
 
 void check_writable(const std::string& file, const ImageFileSettings& settings) {

@@ -1,0 +1,37 @@
+// Large arrays of zeros, whose memory is taken where it is first written to.
+#pragma once
+
+#include <cstddef>
+#include <cstdlib>
+#include <memory>
+#include <type_traits>
+
+namespace raytrace {
+
+/// Zeros, in large pages where the system has such and the array is large: a fraction of the requests. To be freed by
+/// std::free. Throws std::bad_alloc.
+void* zeroed_memory(std::size_t bytes);
+
+/// A large one comes from the system page by page, when it is first written to: by the threads that render, not by the
+/// one that makes it.
+template <class T>
+class ZeroedArray {
+ public:
+  static_assert(std::is_trivially_copyable_v<T>);
+
+  ZeroedArray() = default;
+  explicit ZeroedArray(std::size_t count) : values_(static_cast<T*>(zeroed_memory(count * sizeof(T)))) {}
+
+  T* data() { return values_.get(); }
+  const T* data() const { return values_.get(); }
+  T& operator[](std::size_t i) { return values_[i]; }
+  const T& operator[](std::size_t i) const { return values_[i]; }
+
+ private:
+  struct Free {
+    void operator()(T* values) const { std::free(values); }
+  };
+  std::unique_ptr<T[], Free> values_;
+};
+
+}  // namespace raytrace
