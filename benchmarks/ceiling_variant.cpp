@@ -15,19 +15,19 @@ namespace raytrace::benchmark {
 
 namespace {
 
-using Packet = embree::Packet<native_lanes>;
+using Packet = embree::Packet<packet_lanes>;
 
-constexpr int block_width = native_lanes >= 8 ? 4 : 2;
-constexpr int block_height = native_lanes / block_width;
+constexpr int block_width = packet_lanes >= 8 ? 4 : 2;
+constexpr int block_height = packet_lanes / block_width;
 constexpr int tile_edge = 16;  ///< small enough that a tile's rays stay in the second level cache
 
 struct CameraPacket {
   alignas(64) typename Packet::RayHit rays;
-  alignas(64) int valid[native_lanes];
+  alignas(64) int valid[packet_lanes];
 };
 struct ShadowPacket {
   alignas(64) typename Packet::Ray rays;
-  alignas(64) int valid[native_lanes];
+  alignas(64) int valid[packet_lanes];
 };
 
 template <class EmbreeRays>
@@ -40,7 +40,7 @@ void store(const Ray<FloatN>& rays, EmbreeRays& out) {
   rays.direction.z.store_aligned(out.dir_z);
   rays.near.store_aligned(out.tnear);
   rays.far.store_aligned(out.tfar);
-  for (int lane = 0; lane < native_lanes; ++lane) {
+  for (int lane = 0; lane < packet_lanes; ++lane) {
     out.time[lane] = 0;
     out.mask[lane] = 0xffffffffu;
     out.id[lane] = out.flags[lane] = 0;
@@ -49,7 +49,7 @@ void store(const Ray<FloatN>& rays, EmbreeRays& out) {
 
 void store_valid(const MaskN& mask, int* valid) {
   const std::uint32_t bits = bits_of<FloatN>(mask);
-  for (int lane = 0; lane < native_lanes; ++lane) valid[lane] = (bits >> lane & 1) != 0 ? -1 : 0;
+  for (int lane = 0; lane < packet_lanes; ++lane) valid[lane] = (bits >> lane & 1) != 0 ? -1 : 0;
 }
 
 template <class EmbreeRays>
@@ -94,8 +94,8 @@ class CeilingOfVariant final : public Ceiling {
  public:
   CeilingOfVariant(const SceneDescription& description, BareLoop bare)
       : scene_(description, 0, "",
-               native_lanes == 16  ? "avx512"
-               : native_lanes == 8 ? "avx2"
+               register_lanes == 16  ? "avx512"
+               : register_lanes == 8 ? "avx2"
                                    : "sse4.2"),
         bare_(bare) {
     if (bare == BareLoop::embree_spheres) embree_spheres_ = std::make_unique<EmbreeSpheres>(description);
@@ -149,7 +149,7 @@ class CeilingOfVariant final : public Ceiling {
     if (bare_ == BareLoop::parts) {
       const MaskN valid = float_mask<FloatN>(IntN::load_aligned(packet.valid) != IntN(0));
       const MaskN left = valid & !scene_.accelerator().occluded_unbounded(load(packet.rays), valid);
-      if (xsimd::none(left)) return;
+      if (none(left)) return;
       store_valid(left, packet.valid);
     }
     embree::Query query(true);
@@ -174,9 +174,9 @@ class CeilingOfVariant final : public Ceiling {
   void make_rays(int left, int top, int first_sample, std::vector<CameraPacket>& camera,
                  std::vector<ShadowPacket>& shadow, RayCounts& counts) const {
     const ViewPlane& viewplane = scene_.viewplane();
-    alignas(64) std::uint32_t columns[native_lanes], rows[native_lanes];
-    alignas(64) float xs[native_lanes], ys[native_lanes];
-    for (int lane = 0; lane < native_lanes; ++lane) {
+    alignas(64) std::uint32_t columns[packet_lanes], rows[packet_lanes];
+    alignas(64) float xs[packet_lanes], ys[packet_lanes];
+    for (int lane = 0; lane < packet_lanes; ++lane) {
       const int column = left + lane % block_width, row = top + lane / block_width;
       columns[lane] = static_cast<std::uint32_t>(column);
       rows[lane] = static_cast<std::uint32_t>(row);
@@ -194,17 +194,17 @@ class CeilingOfVariant final : public Ceiling {
       CameraPacket& packet = camera.emplace_back();
       store(rays, packet.rays.ray);
       store_valid(all, packet.valid);
-      for (int lane = 0; lane < native_lanes; ++lane) packet.rays.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
-      counts.camera += native_lanes;
+      for (int lane = 0; lane < packet_lanes; ++lane) packet.rays.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
+      counts.camera += packet_lanes;
 
       const Hits hits = scene_.accelerator().intersect(rays, all, Coherence::coherent);
-      if (xsimd::none(hits.hit)) continue;
+      if (none(hits.hit)) continue;
       SurfacePoint<FloatN> surface = scene_.accelerator().surface(rays, hits);
       surface.normal = select(dot(surface.normal, rays.direction) > FloatN(0), -surface.normal, surface.normal);
       const Vec3<FloatN> origin = leaving_origin(surface);
       for (const auto& light : scene_.lights()) {
         const MaskN lit = hits.hit & (dot(surface.normal, light->sample(surface.position).to_light) > FloatN(0));
-        if (xsimd::none(lit)) continue;
+        if (none(lit)) continue;
         const LightSample<FloatN> to_light = light->sample(origin);
         ShadowPacket& shadow_packet = shadow.emplace_back();
         store(Ray<FloatN>{origin, to_light.to_light, FloatN(0), to_light.end}, shadow_packet.rays);

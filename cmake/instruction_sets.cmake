@@ -62,6 +62,9 @@ function(raytrace_add_variants target)
       $<$<NOT:$<STREQUAL:${isa},generic>>:-march=${isa}>
       # Without it, the compiler's choices are those for all processors: toruses take 4 % longer.
       $<$<STREQUAL:${isa},x86-64-v3>:-mtune=haswell>
+      # Without these, GCC 12 copies structs 16 bytes at a time, and whoever then reads a register's width waits for the stores.
+      $<$<AND:$<CXX_COMPILER_ID:GNU>,$<STREQUAL:${isa},x86-64-v3>>:-mmove-max=256>
+      $<$<AND:$<CXX_COMPILER_ID:GNU>,$<STREQUAL:${isa},x86-64-v3>>:-mstore-max=256>
       # A unique symbol cannot be made local.
       $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>
       # GCC 12 takes the undefined operands in its own AVX-512 header for a mistake (GCC bug 105593, mended in 13).

@@ -132,7 +132,7 @@ constexpr std::size_t packet_count = 64;
 template <class PacketWork>
 void add_packet_case(const std::string& name, int items_a_lane, const PacketWork& packet_work,
                      std::vector<MicroCase>& cases) {
-  cases.push_back({name + "/" RAYTRACE_ISA, static_cast<std::int64_t>(packet_count) * native_lanes * items_a_lane, 0,
+  cases.push_back({name + "/" RAYTRACE_ISA, static_cast<std::int64_t>(packet_count) * packet_lanes * items_a_lane, 0,
                    [packet_work] {
                      FloatN sum(0);
                      for (std::size_t i = 0; i < packet_count; ++i) sum = sum + packet_work(i);
@@ -147,7 +147,7 @@ class RandomLanes {
  public:
   /// In [0, 1).
   FloatN number() {
-    alignas(64) float lanes[native_lanes];
+    alignas(64) float lanes[packet_lanes];
     for (float& lane : lanes) lane = static_cast<float>(generator_() >> 8) * 0x1p-24F;
     return FloatN::load_aligned(lanes);
   }
@@ -210,7 +210,7 @@ void add_plane_case(std::vector<MicroCase>& cases) {
       "intersect/plane", 1,
       [plane, rays](std::size_t i) {
         const FloatN t = Plane::intersect(plane, rays[i], MaskN(true));
-        return xsimd::select(t < infinity<FloatN>(), t, FloatN(0));
+        return select(t < infinity<FloatN>(), t, FloatN(0));
       },
       cases);
 }
@@ -289,7 +289,7 @@ class FloatFilm {
   static Sums no_sums() { return {}; }
   void add(const Sums& sums, const SampledBlock& block) {
     const auto by_pixel = []<class Batch>(const Batch& batch) {
-      alignas(64) std::array<typename Batch::value_type, native_lanes> lanes;
+      alignas(64) std::array<typename Batch::value_type, packet_lanes> lanes;
       batch.store_aligned(lanes.data());
       return SampledBlock::sum_by_pixel(lanes);
     };
@@ -331,7 +331,7 @@ void add_sums_case(const std::string& name, std::vector<MicroCase>& cases) {
           bad = bad | sums.add(seen[i + packet], MaskN(true));
         const int left = static_cast<int>(i) * sampled_shape.width;
         film->add(sums, {left, 0});
-        return FloatN(film->red(left)) + xsimd::select(bad, FloatN(1), FloatN(0));
+        return FloatN(film->red(left)) + select(bad, FloatN(1), FloatN(0));
       },
       cases);
 }
@@ -348,7 +348,7 @@ extern "C" void RAYTRACE_JOIN(raytrace_micro_,
                                                 std::vector<raytrace::benchmark::MicroCase>& cases) {
   using namespace raytrace;
   using namespace raytrace::benchmark;
-  constexpr const char* embree_isa = native_lanes == 16 ? "avx512" : native_lanes == 8 ? "avx2" : "sse4.2";
+  constexpr const char* embree_isa = register_lanes == 16 ? "avx512" : register_lanes == 8 ? "avx2" : "sse4.2";
   for (const ShapeScene& scene : shapes) {
     const auto accelerator = std::make_shared<const Accelerator>(scene.description, 1, embree_isa);
     add_shape_cases<1>(scene.shape, accelerator, cases);

@@ -86,7 +86,7 @@ Outcome judge(const Brdf& brdf, const Vec3d& wo, const Vec3d& normal, const Cell
   }
   std::vector<double> observed(Cells::count);
   Random random(12345);
-  for (int i = 0; i < samples; i += native_lanes) {
+  for (int i = 0; i < samples; i += packet_lanes) {
     const FloatN u1 = batch_of<FloatN>([&](std::size_t) { return random.unit(); });
     const FloatN u2 = batch_of<FloatN>([&](std::size_t) { return random.unit(); });
     const Vec3<FloatN> wi = brdf.sample(wide_wo, wide_normal, u1, u2);
@@ -145,7 +145,7 @@ TEST_CASE("a lobe narrower than float can cancel still has the spread of its exp
     const GlossySpecular<FloatN> brdf{Rgb<FloatN>(Rgb<float>(1, 1, 1)), FloatN(static_cast<float>(exponent))};
     Random random(99);
     double sum = 0;
-    for (int i = 0; i < samples; i += native_lanes) {
+    for (int i = 0; i < samples; i += packet_lanes) {
       const FloatN u1 = batch_of<FloatN>([&](std::size_t) { return random.unit(); });
       const Vec3<FloatN> wi = brdf.sample(straight, straight, u1, FloatN(0.3f));
       for (std::size_t lane = 0; lane < lanes; ++lane) {

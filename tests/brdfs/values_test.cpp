@@ -57,7 +57,7 @@ double reflected_share(double exponent, double angle) {
         return frame.direction(cosine, 2 * std::numbers::pi * (static_cast<double>(first + lane) + 0.5) / sectors);
       };
       const Vec3<FloatN> wide_wi = vectors_of(wi);
-      const FloatN value = glossy(exponent).f(wide_wo, wide_wi, wide_normal).red * xsimd::max(wide_wi.z, FloatN(0));
+      const FloatN value = glossy(exponent).f(wide_wo, wide_wi, wide_normal).red * max(wide_wi.z, FloatN(0));
       for (std::size_t lane = 0; lane < lanes; ++lane) sum += static_cast<double>(value.get(lane)) * solid_angle;
     }
   }
@@ -83,7 +83,7 @@ TEST_CASE("GlossySpecular: f is reflectance * max(0, r.wo)^exponent") {
     const double tolerance = 1e-5 + exponent * 0x1p-22;
     double worst = 0;
     int lit = 0;
-    for (int i = 0; i < 20000; i += native_lanes) {
+    for (int i = 0; i < 20000; i += packet_lanes) {
       const Directions d = random_directions(random);
       const Rgb<FloatN> f = glossy(exponent).f(d.wo, d.wi, d.normal);
       for (std::size_t lane = 0; lane < lanes; ++lane) {
@@ -106,7 +106,7 @@ TEST_CASE("GlossySpecular: f is reciprocal") {
   Random random(2);
   for (const double exponent : {1.0, 20.0, 1000.0}) {
     double worst = 0;
-    for (int i = 0; i < 20000; i += native_lanes) {
+    for (int i = 0; i < 20000; i += packet_lanes) {
       const Directions d = random_directions(random);
       const FloatN forth = glossy(exponent).f(d.wo, d.wi, d.normal).blue,
                    back = glossy(exponent).f(d.wi, d.wo, d.normal).blue;
@@ -158,13 +158,13 @@ TEST_CASE(
       constexpr int count = 512;  // an edge of the grid of samples
       double sum = 0;
       for (int i = 0; i < count; ++i)
-        for (int j = 0; j < count; j += native_lanes) {
+        for (int j = 0; j < count; j += packet_lanes) {
           const FloatN u1((static_cast<float>(i) + 0.5f) / count);
           const FloatN u2 =
               batch_of<FloatN>([&](std::size_t lane) { return (j + static_cast<int>(lane) + 0.5) / count; });
           const Vec3<FloatN> wi = brdf.sample(wide_wo, wide_normal, u1, u2);
           const FloatN value =
-              brdf.f(wide_wo, wi, wide_normal).red * xsimd::max(wi.z, FloatN(0)) / brdf.pdf(wide_wo, wi, wide_normal);
+              brdf.f(wide_wo, wi, wide_normal).red * max(wi.z, FloatN(0)) / brdf.pdf(wide_wo, wi, wide_normal);
           for (std::size_t lane = 0; lane < lanes; ++lane) sum += static_cast<double>(value.get(lane));
         }
       INFO("exponent " << exponent << ", wo at " << angle << " degrees");

@@ -49,8 +49,8 @@ TEST_CASE("rays start at the eye, have unit length and no end") {
   const PinholeCamera camera(parameters({25, 200, 100}, {-0.5, 0, 0}, {0, 1, 0}, 8000), 1);
   const FloatN x = batch_of<FloatN>([](std::size_t i) { return 40.0 * static_cast<double>(i) - 100; });
   const Ray<FloatN> rays = camera.generate<FloatN>(x, FloatN(33));
-  CHECK(xsimd::all(rays.near == FloatN(0)));
-  CHECK(xsimd::all(rays.far == infinity<FloatN>()));
+  CHECK(all(rays.near == FloatN(0)));
+  CHECK(all(rays.far == infinity<FloatN>()));
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     check_same(lane_of(rays.origin, lane), {25, 200, 100});
     CHECK(length(lane_of(rays.direction, lane)) == Approx(1).epsilon(1e-6));

@@ -20,7 +20,7 @@ const Vec3<FloatN> positions = vectors_of([](std::size_t i) {
 TEST_CASE("a point light is reached from each point along the difference, and ends there") {
   const LightSourceOf<PointLight> light(PointLight({{2, 30, -4}, 3, {1, 0.5, 0.25}, true}));
   const LightSample<FloatN> sample = light.sample(positions);
-  CHECK(xsimd::all(sample.end == FloatN(1)));
+  CHECK(all(sample.end == FloatN(1)));
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const Vec3d reached = lane_of(positions, lane) + lane_of(sample.to_light, lane);
     CHECK(length(reached - Vec3d{2, 30, -4}) < 1e-5);
@@ -31,7 +31,7 @@ TEST_CASE("a directional light lies in the same direction from everywhere, infin
   for (const double scale : {1e-9, 1.0, 1e9}) {
     const LightSourceOf<DirectionalLight> light(DirectionalLight({Vec3d{3, -4, 12} * scale, 1, {1, 1, 1}, true}));
     const LightSample<FloatN> sample = light.sample(positions);
-    CHECK(xsimd::all(sample.end == FloatN(std::numeric_limits<float>::infinity())));
+    CHECK(all(sample.end == FloatN(std::numeric_limits<float>::infinity())));
     for (std::size_t lane = 0; lane < lanes; ++lane)
       CHECK(length(normalize(lane_of(sample.to_light, lane)) - Vec3d{3.0 / 13, -4.0 / 13, 12.0 / 13}) < 1e-6);
   }

@@ -137,8 +137,8 @@ TEST_CASE("without lights, materials reflect the ambient light alone") {
   const MaterialTableOf<Phong> table({Phong::brdfs({0.5, 1, 1, {0.2, 0.4, 0.6}, {1, 1, 1}, 20})});
   const Vec3<FloatN> up = spread({0, 0, 1});
   const Rgb<FloatN> shaded = table.shade(IntN(0), up, up, {1, 1, 2}, {});
-  CHECK(xsimd::all(shaded.red == FloatN(0.1f)));
-  CHECK(xsimd::all(shaded.green == FloatN(0.2f)));
+  CHECK(all(shaded.red == FloatN(0.1f)));
+  CHECK(all(shaded.green == FloatN(0.2f)));
   CHECK(static_cast<double>(shaded.blue.get(0)) == Approx(0.6).epsilon(1e-6));
 }
 

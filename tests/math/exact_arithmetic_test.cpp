@@ -71,7 +71,7 @@ TEST_CASE("exact_fma is within the last bit of the fused operation for any numbe
         FAIL("fma(" << a[lane] << ", " << b[lane] << ", " << c[lane] << ")");
     }
   }
-  CHECK(differing < count * native_lanes / 10000);
+  CHECK(differing < count * packet_lanes / 10000);
 }
 
 TEST_CASE("exact_fma neither overflows in the product nor underflows where the fused operation does not") {

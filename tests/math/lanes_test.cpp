@@ -44,7 +44,7 @@ TEST_CASE("a mask's bits are its lanes, lane 0 lowest") {
     const MaskN mask = batch_of<FloatN>([&](std::size_t i) { return bits >> i & 1; }) > FloatN(0);
     if (bits_of<FloatN>(mask) != bits) FAIL("bits " << bits);
   }
-  for (int count = 0; count <= native_lanes; ++count)
+  for (int count = 0; count <= packet_lanes; ++count)
     CHECK(bits_of<FloatN>(first_lanes<FloatN>(count)) == (1u << count) - 1);
   CHECK(bits_of<FloatN>(numbers == FloatN(2)) == 4);
 }

@@ -37,8 +37,8 @@ std::vector<Place> places(PixelSampler pixels, std::size_t lane, int count) {
 TEST_CASE("a single sample is the pixel's center, whatever pixel and seed") {
   for (const std::uint64_t seed : {0ull, 7ull, ~0ull}) {
     const PixelSampler::Point point = sampler(1000, 17, seed, 1).next();
-    CHECK(xsimd::all(point.x == FloatN(0.5f)));
-    CHECK(xsimd::all(point.y == FloatN(0.5f)));
+    CHECK(all(point.x == FloatN(0.5f)));
+    CHECK(all(point.y == FloatN(0.5f)));
   }
 }
 
@@ -52,8 +52,8 @@ TEST_CASE("samples lie from 0 up to 1") {
     const PixelSampler::Point again = some.next();
     same = same & (point.x == again.x) & (point.y == again.y);
   }
-  CHECK(xsimd::all(inside));
-  CHECK(xsimd::all(same));
+  CHECK(all(inside));
+  CHECK(all(same));
 }
 
 TEST_CASE("a pixel's samples do not depend on the lane or the packet that it is in") {

@@ -9,7 +9,7 @@
 
 namespace raytrace::test {
 
-inline constexpr std::size_t lanes = static_cast<std::size_t>(native_lanes);
+inline constexpr std::size_t lanes = static_cast<std::size_t>(packet_lanes);
 
 /// The batch whose lane i holds f(i).
 template <class Batch, class Function>

@@ -9,14 +9,14 @@ namespace raytrace::test {
 
 namespace {
 
-using Lanes = std::array<float, native_lanes>;
+using Lanes = std::array<float, packet_lanes>;
 
 Vec3f lane_of(const Vec3<FloatN>& v, std::size_t lane) { return {v.x.get(lane), v.y.get(lane), v.z.get(lane)}; }
 
 /// Calls f(first, count, rays, active) for each packet of the rays.
 template <class Function>
 void for_each_packet(std::span<const ProbeRay> all, Function f) {
-  constexpr std::size_t size = native_lanes;
+  constexpr std::size_t size = packet_lanes;
   for (std::size_t first = 0; first < all.size(); first += size) {
     const std::size_t count = std::min(size, all.size() - first);
     alignas(64) std::array<Lanes, 8> lanes{};
@@ -94,8 +94,8 @@ class Backend final : public ProbeBackend {
  public:
   explicit Backend(const SceneDescription& description)
       : accelerator_(description, 1,
-                     native_lanes == 16  ? "avx512"
-                     : native_lanes == 8 ? "avx2"
+                     register_lanes == 16  ? "avx512"
+                     : register_lanes == 8 ? "avx2"
                                          : "sse4.2") {}
 
   std::vector<ProbeHit> intersect(std::span<const ProbeRay> all, bool coherent) const override {

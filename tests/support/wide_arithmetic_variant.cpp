@@ -43,7 +43,7 @@ WideLanes double_sum(int lanes, const WideLanes& a, const WideLanes& b, const Wi
 
 WideLanes below(int lanes, const WideLanes& a, const WideLanes& b, const WideLanes& c) {
   return apply(lanes, a, b, c, []<class F>(const F& x, const F& y, const F& z) {
-    return xsimd::select(Doubles<F>::float_mask(Doubles<F>(x) * Doubles<F>(y) < Doubles<F>(z)), F(1), F(0));
+    return select(Doubles<F>::float_mask(Doubles<F>(x) * Doubles<F>(y) < Doubles<F>(z)), F(1), F(0));
   });
 }
 

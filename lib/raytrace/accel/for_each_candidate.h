@@ -18,13 +18,13 @@ namespace detail {
 template <class Function>
 RAYTRACE_INLINE void for_each_cell(const DirectionBuffer& buffer, const Vec3<FloatN>& direction, const MaskN& active,
                                    const Function& f) {
-  const FloatN x_size = xsimd::abs(direction.x), y_size = xsimd::abs(direction.y), z_size = xsimd::abs(direction.z);
+  const FloatN x_size = abs(direction.x), y_size = abs(direction.y), z_size = abs(direction.z);
   const MaskN along_x = (x_size >= y_size) & (x_size >= z_size);
   const MaskN along_y = !along_x & (y_size >= z_size);
   const MaskN along_z = !along_x & !along_y;
   MaskN left = active;
   // Neighbours mostly lead through one face, and one cell of it.
-  while (xsimd::any(left)) {
+  while (any(left)) {
     const std::uint32_t first = std::uint32_t{1} << std::countr_zero(bits_of<FloatN>(left));
     const auto through = [&](int axis, const FloatN& normal, const FloatN& size, const FloatN& across, const FloatN& up,
                              const MaskN& along) {
@@ -39,8 +39,8 @@ RAYTRACE_INLINE void for_each_cell(const DirectionBuffer& buffer, const Vec3<Flo
       const FloatN row = (up * inverse_size - FloatN(grid.bottom)) * FloatN(grid.rows_per_unit);
       MaskN inside = here & (column >= FloatN(0)) & (column < FloatN(static_cast<float>(grid.columns))) &
                      (row >= FloatN(0)) & (row < FloatN(static_cast<float>(grid.rows)));
-      const IntN cell = xsimd::to_int(row) * IntN(grid.columns) + xsimd::to_int(column);
-      while (xsimd::any(inside)) {
+      const IntN cell = to_int(row) * IntN(grid.columns) + to_int(column);
+      while (any(inside)) {
         const std::int32_t number = cell.get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(inside))));
         const MaskN same = inside & float_mask<FloatN>(cell == IntN(number));
         inside = inside & !same;

@@ -67,7 +67,7 @@ RAYTRACE_INLINE void store_lanes(typename Value::value_type* lanes, int count, c
                                  const Value& value) {
   if (count >= lane_count<F>) {
     const F old = std::bit_cast<F>(Value::load_unaligned(lanes));
-    std::bit_cast<Value>(xsimd::select(mask, std::bit_cast<F>(value), old)).store_unaligned(lanes);
+    std::bit_cast<Value>(select(mask, std::bit_cast<F>(value), old)).store_unaligned(lanes);
     return;
   }
   alignas(64) typename Value::value_type copy[lane_count<F>];
@@ -108,7 +108,7 @@ void intersect_packet(const RTCIntersectFunctionNArguments* arguments) {
     const Mask<F> active = load_mask<F>(arguments->valid + first, count);
     const F t = Shape::template intersect<F>(record, load_rays<F>(rays, size, first, count), active);
     const Mask<F> hit = t < infinity<F>();
-    if (xsimd::any(hit)) {
+    if (any(hit)) {
       store_lanes<F>(&RTCRayN_tfar(rays, size, first), count, hit, t);
       store_lanes<F>(&RTCHitN_primID(hits, size, first), count, hit, Uints<F>(arguments->primID));
       store_lanes<F>(&RTCHitN_geomID(hits, size, first), count, hit, Uints<F>(arguments->geomID));
@@ -126,7 +126,7 @@ void occluded_packet(const RTCOccludedFunctionNArguments* arguments) {
     const Mask<F> active = load_mask<F>(arguments->valid + first, count);
     const F t = Shape::template intersect<F>(record, load_rays<F>(arguments->ray, size, first, count), active);
     const Mask<F> hit = t < infinity<F>();
-    if (xsimd::any(hit)) store_lanes<F>(&RTCRayN_tfar(arguments->ray, size, first), count, hit, -infinity<F>());
+    if (any(hit)) store_lanes<F>(&RTCRayN_tfar(arguments->ray, size, first), count, hit, -infinity<F>());
     report_hits<F>(arguments->valid + first, count, hit);
   }
 }

@@ -19,10 +19,10 @@ void BlockAovs::prepare() {
 
 void BlockAovs::add(const SeenSurface& seen, const MaskN& wanted, const UintN& sample) {
   const MaskN hit = seen.hit() & wanted;
-  if (xsimd::none(hit)) return;
+  if (none(hit)) return;
   const MaskN nearer = hit & (seen.depth() < depth_);
-  depth_ = xsimd::select(nearer, seen.depth(), depth_);
-  sample_ = select_lanes(nearer, std::bit_cast<IntN>(sample), sample_);
+  depth_ = select(nearer, seen.depth(), depth_);
+  sample_ = select_lanes(nearer, same_bits<IntN>(sample), sample_);
 
   std::size_t next_nearest = 0, next_mean = 0, next_cover = 0;
   for_each_type(Aovs{}, [&](auto type) {
@@ -31,13 +31,13 @@ void BlockAovs::add(const SeenSurface& seen, const MaskN& wanted, const UintN& s
     if constexpr (Aov::rule == AovRule::nearest) {
       for (const FloatN& value : Aov::values(seen)) {
         FloatN& kept = nearest_[next_nearest++];
-        kept = xsimd::select(nearer, value, kept);
+        kept = select(nearer, value, kept);
       }
     } else if constexpr (Aov::rule == AovRule::mean) {
       for (const FloatN& value : Aov::values(seen)) {
         Mean& mean = means_[next_mean++];
-        const MaskN counts = hit & (xsimd::abs(value) <= mean.largest);  // false for NaN
-        mean.sum.add(xsimd::select(counts, value, FloatN(0)), mean.units);
+        const MaskN counts = hit & (abs(value) <= mean.largest);  // false for NaN
+        mean.sum.add(select(counts, value, FloatN(0)), mean.units);
       }
     } else if constexpr (Aov::rule == AovRule::cover) {
       count(next_cover++, select_lanes(hit, Aov::index(seen), IntN(nothing)));
@@ -76,11 +76,11 @@ void BlockAovs::finish() {
   }
 
   if (settings.nearest_values == 0) return;
-  alignas(64) std::array<float, native_lanes> lanes;
-  std::array<std::array<std::uint32_t, all_values(AovRule::nearest, Aovs{})>, native_lanes> values{};
+  alignas(64) std::array<float, packet_lanes> lanes;
+  std::array<std::array<std::uint32_t, all_values(AovRule::nearest, Aovs{})>, packet_lanes> values{};
   for (std::size_t i = 0; i < settings.nearest_values; ++i) {
     nearest_[i].store_aligned(lanes.data());
-    for (std::size_t lane = 0; lane < native_lanes; ++lane) values[lane][i] = std::bit_cast<std::uint32_t>(lanes[lane]);
+    for (std::size_t lane = 0; lane < packet_lanes; ++lane) values[lane][i] = std::bit_cast<std::uint32_t>(lanes[lane]);
   }
   depth_.store_aligned(lanes.data());
   const std::uint32_t met = bits_of<FloatN>(depth_ < infinity<FloatN>());

@@ -62,7 +62,7 @@ class BlockAovs {
   void end_run(std::size_t cover, std::size_t lane);
 
   AovFilm& film_;
-  std::array<int, native_lanes> x_{}, y_{};  ///< each lane's pixel
+  std::array<int, packet_lanes> x_{}, y_{};  ///< each lane's pixel
   std::uint32_t lanes_ = 0;                  ///< those whose pixels are wanted, as bits
   FloatN depth_ = infinity<FloatN>();
   IntN sample_ = IntN(0);  ///< of the nearest surface

@@ -24,7 +24,7 @@ class BlockSums {
 
   /// Adds a sample of each lane of `wanted`. The result: those whose radiance is not finite (or beyond what the sums
   /// can hold), which are counted as black.
-  MaskN add(const SeenRadiance& seen, const MaskN& wanted) {
+  RAYTRACE_INLINE MaskN add(const SeenRadiance& seen, const MaskN& wanted) {
     // Radiances are not negative: the sum is large where one of them is, and NaN compares false.
     const MaskN fine = wanted & (seen.radiance.red + seen.radiance.green + seen.radiance.blue <= most_);
     const Rgb<FloatN> radiance = select(fine, seen.radiance, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
@@ -39,7 +39,7 @@ class BlockSums {
   /// Adds them to the pixels of the block that lie in the region.
   template <class Block>
   void add_to(Film& film, const Block& block, const Region& region) const {
-    alignas(64) std::array<std::int32_t, native_lanes> hit_lanes, sample_lanes;
+    alignas(64) std::array<std::int32_t, packet_lanes> hit_lanes, sample_lanes;
     hits_.store_aligned(hit_lanes.data());
     samples_.store_aligned(sample_lanes.data());
     const auto red = red_.template sums_of_every<Block::pixels>(),

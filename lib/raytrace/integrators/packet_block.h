@@ -10,7 +10,7 @@
 
 namespace raytrace {
 
-/// A block of width x height pixels, with so many samples of each: a lane each, native_lanes in all.
+/// A block of width x height pixels, with so many samples of each: a lane each, packet_lanes in all.
 struct PacketShape {
   int width, height, samples;
 };
@@ -18,10 +18,10 @@ struct PacketShape {
 /// As many samples of as few pixels as samples are at hand for: such rays are closer together than those of one sample
 /// of many pixels. Samples 0, 1, ... of a pixel belong to groups of `samples`, which are always traced together: a
 /// sample's bits do not depend on which others are asked for.
-inline constexpr PacketShape sampled_shape = {native_lanes >= 8 ? 2 : 1, native_lanes >= 16 ? 2 : 1, 4};
+inline constexpr PacketShape sampled_shape = {2, packet_lanes / 8, 4};
 
 /// For pictures of a single sample a pixel: as square as can be.
-inline constexpr PacketShape centered_shape = {native_lanes >= 8 ? 4 : 2, native_lanes >= 8 ? native_lanes / 4 : 2, 1};
+inline constexpr PacketShape centered_shape = {4, packet_lanes / 4, 1};
 
 /// The block whose left upper pixel is (left, top).
 template <PacketShape shape>
@@ -41,7 +41,7 @@ struct PacketBlock {
 
   /// Of a number in each lane, the sums of each pixel's lanes.
   template <class Number>
-  static std::array<Number, pixels> sum_by_pixel(const std::array<Number, native_lanes>& lanes) {
+  static std::array<Number, pixels> sum_by_pixel(const std::array<Number, packet_lanes>& lanes) {
     std::array<Number, pixels> sums{};
     for (std::size_t lane = 0; lane < lanes.size(); ++lane) sums[lane % pixels] += lanes[lane];
     return sums;
@@ -59,7 +59,7 @@ struct PacketBlock {
   /// Calls f(x, y, lane) for the lanes whose pixels lie in the region.
   template <class Function>
   void for_each_lane(const Region& region, const Function& f) const {
-    for (int lane = 0; lane < native_lanes; ++lane) {
+    for (int lane = 0; lane < packet_lanes; ++lane) {
       const int x = column(lane), y = row(lane);
       if (x >= region.x0 && x < region.x1 && y >= region.y0 && y < region.y1) f(x, y, static_cast<std::size_t>(lane));
     }
@@ -67,11 +67,11 @@ struct PacketBlock {
 
  private:
   struct LaneNumbers {
-    alignas(64) std::array<std::uint32_t, native_lanes> column{}, row{}, slot{};
+    alignas(64) std::array<std::uint32_t, packet_lanes> column{}, row{}, slot{};
   };
   static constexpr LaneNumbers numbers = [] {
     LaneNumbers lanes;
-    for (int lane = 0; lane < native_lanes; ++lane) {
+    for (int lane = 0; lane < packet_lanes; ++lane) {
       const auto i = static_cast<std::size_t>(lane);
       lanes.column[i] = static_cast<std::uint32_t>(lane % shape.width);
       lanes.row[i] = static_cast<std::uint32_t>(lane / shape.width % shape.height);

@@ -20,7 +20,7 @@ SeenRadiance Raycast::radiance(const TracedScene& scene, const Ray<FloatN>& rays
   const Rgb<FloatN> background{Rgb<float>(scene.viewplane().background)};
   const Hits hits = scene.accelerator().intersect(rays, active, Coherence::coherent, scene.seen_from_camera());
   if (met != nullptr) met->hits = hits;
-  if (xsimd::none(hits.hit)) return {background, hits.hit};
+  if (none(hits.hit)) return {background, hits.hit};
 
   SurfacePoint<FloatN> point = scene.accelerator().surface(rays, hits);
   const Vec3<FloatN> wo = -rays.direction;
@@ -43,15 +43,15 @@ SeenRadiance Raycast::radiance(const TracedScene& scene, const Ray<FloatN>& rays
     const Vec3<FloatN> wi = normalize(sample.to_light);
     const FloatN cosine = dot(point.normal, wi);
     MaskN lit = hits.hit & (cosine > FloatN(0));
-    if (light->shadows() && xsimd::any(lit)) {
+    if (light->shadows() && any(lit)) {
       counts.shadow += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(lit & counted)));
       const Ray<FloatN> shadow_rays{origin, sample.to_light, FloatN(0), sample.end};
       const MaskN occluded =
           scene.accelerator().occluded(shadow_rays, lit, Coherence::coherent, scene.seen_from_light(number));
       lit = lit & !occluded;
     }
-    if (xsimd::none(lit)) continue;
-    arriving[count++] = {wi, xsimd::select(lit, cosine, FloatN(0)), sample.radiance};
+    if (none(lit)) continue;
+    arriving[count++] = {wi, select(lit, cosine, FloatN(0)), sample.radiance};
     if (count == lights_per_run) shade_run();
   }
   shade_run();

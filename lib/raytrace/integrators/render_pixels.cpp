@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <optional>
 
 #include "raytrace/integrators/block_aovs.h"
 #include "raytrace/integrators/block_sums.h"
@@ -17,7 +16,7 @@ namespace {
 /// The stop flag is looked at every so many packets.
 constexpr int packets_per_look = 16;
 
-FloatN to_float(const UintN& numbers) { return xsimd::to_float(std::bit_cast<IntN>(numbers)); }
+FloatN to_float(const UintN& numbers) { return to_float(same_bits<IntN>(numbers)); }
 
 /// The pixels of a part of a film, block by block.
 template <class Integrator, PacketShape shape>
@@ -45,7 +44,15 @@ class BlockRenderer {
     const std::uint32_t before = film_.sum(std::max(block.left, region_.x0), std::max(block.top, region_.y0)).samples;
     if (before >= samples) return;
     const std::uint32_t first = settings.samples.first + before, last = settings.samples.first + samples;
+    if (film_.aovs() == nullptr) return render(block, first, last, nullptr);
+    BlockAovs aovs(*film_.aovs(), block, region_);
+    render(block, first, last, &aovs);
+    aovs.finish();
+  }
 
+  /// Samples [first, last) of the pixels' sequences.
+  void render(const Block& block, std::uint32_t first, std::uint32_t last, BlockAovs* aovs) {
+    const FilmSettings& settings = film_.settings();
     const ViewPlane& viewplane = scene_.viewplane();
     const UintN column = block.columns(), row = block.rows(), slot = Block::slots();
     const auto width = static_cast<float>(viewplane.hres), height = static_cast<float>(viewplane.vres);
@@ -59,8 +66,6 @@ class BlockRenderer {
     std::uint32_t base = first / group * group;
     PixelSampler sampler(column, row, slot, shape.samples, settings.seed, base, settings.samples.centered);
     BlockSums sums(settings.unit_exponent);
-    std::optional<BlockAovs> aovs;
-    if (film_.aovs() != nullptr) aovs.emplace(*film_.aovs(), block, region_);
     MetSurface met;
     for (int packets = 1; base < last; base += group, ++packets) {
       const UintN sample = UintN(base) + slot;
@@ -68,20 +73,19 @@ class BlockRenderer {
       const MaskN wanted = all_wanted ? active : active & in_range(sample, first, last);
       const PixelSampler::Point point = sampler.next();
       const Ray<FloatN> rays = scene_.camera().generate(x + point.x, y + point.y);
-      const SeenRadiance seen = Integrator::radiance(scene_, rays, active, wanted, report_.rays, aovs ? &met : nullptr);
+      const SeenRadiance seen = Integrator::radiance(scene_, rays, active, wanted, report_.rays, aovs != nullptr ? &met : nullptr);
       const MaskN bad = sums.add(seen, wanted);
-      if (aovs) aovs->add(SeenSurface(scene_, rays, met.hits, met.point), wanted, sample);
+      if (aovs != nullptr) aovs->add(SeenSurface(scene_, rays, met.hits, met.point), wanted, sample);
       report_.rays.camera += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(wanted)));
-      if (xsimd::any(bad)) set_aside(bad, block, base);
+      if (any(bad)) set_aside(bad, block, base);
       if (packets % packets_per_look == 0 && stopped()) break;
     }
     sums.add_to(film_, block, region_);
-    if (aovs) aovs->finish();
   }
 
   static MaskN in_range(const UintN& number, std::uint32_t first, std::uint32_t last) {
-    return float_mask<FloatN>(std::bit_cast<IntN>(number - UintN(first)) >= IntN(0)) &
-           float_mask<FloatN>(std::bit_cast<IntN>(number - UintN(last)) < IntN(0));
+    return float_mask<FloatN>(same_bits<IntN>(number - UintN(first)) >= IntN(0)) &
+           float_mask<FloatN>(same_bits<IntN>(number - UintN(last)) < IntN(0));
   }
 
   bool stopped() const { return stop_ != nullptr && stop_->load(std::memory_order_relaxed); }

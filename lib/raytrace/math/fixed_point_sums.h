@@ -56,4 +56,40 @@ class FixedPointSums {
   std::uint64_t terms_ = 0;
 };
 
+/// Of two registers of floats.
+template <class Arch>
+class FixedPointSums<TwinBatch<float, Arch>> {
+ public:
+  using Floats = TwinBatch<float, Arch>;
+  using Part = FixedPointSums<typename Floats::Part>;
+  static constexpr double largest_term = Part::largest_term;
+
+  RAYTRACE_INLINE void add(const Floats& terms, const Doubles<Floats>& units) {
+    lower_.add(terms.lower(), units.lower());
+    upper_.add(terms.upper(), units.upper());
+  }
+
+  std::array<std::int64_t, Floats::size> sums() const { return sums_of_every<Floats::size>(); }
+
+  template <std::size_t step>
+  RAYTRACE_INLINE std::array<std::int64_t, step> sums_of_every() const {
+    constexpr std::size_t part_size = Floats::Part::size;
+    constexpr std::size_t part_step = std::min(step, part_size);
+    const auto lower = lower_.template sums_of_every<part_step>(), upper = upper_.template sums_of_every<part_step>();
+    std::array<std::int64_t, step> sums;
+    for (std::size_t i = 0; i < part_step; ++i) {
+      if constexpr (step > part_size) {
+        sums[i] = lower[i];
+        sums[part_size + i] = upper[i];
+      } else {  // unsigned: they wrap
+        sums[i] = static_cast<std::int64_t>(static_cast<std::uint64_t>(lower[i]) + static_cast<std::uint64_t>(upper[i]));
+      }
+    }
+    return sums;
+  }
+
+ private:
+  Part lower_, upper_;
+};
+
 }  // namespace raytrace

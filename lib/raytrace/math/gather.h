@@ -1,6 +1,7 @@
 // A table's records for each lane, by the lane's own place in it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -15,17 +16,23 @@
 namespace raytrace {
 
 /// base[index], lane for lane. Flattened: that of xsimd 8 is a function a lane, none of which may stay one.
-[[gnu::flatten]] inline FloatN gather(const float* base, const IntN& index) { return FloatN::gather(base, index); }
+[[gnu::flatten]] inline RegisterFloats gather(const float* base, const Ints<RegisterFloats>& index) {
+  return RegisterFloats::gather(base, index);
+}
+template <class Arch>
+RAYTRACE_INLINE TwinBatch<float, Arch> gather(const float* base, const TwinBatch<std::int32_t, Arch>& index) {
+  return {gather(base, index.lower()), gather(base, index.upper())};
+}
 /// Through float's: xsimd 8 has no instruction for that of integers.
 inline IntN gather(const std::int32_t* base, const IntN& index) {
-  return std::bit_cast<IntN>(gather(reinterpret_cast<const float*>(base), index));
+  return same_bits<IntN>(gather(reinterpret_cast<const float*>(base), index));
 }
 
 inline Doubles<FloatN> gather(const double* base, const IntN& index) {
-  alignas(64) std::array<std::int32_t, native_lanes> indices;
+  alignas(64) std::array<std::int32_t, packet_lanes> indices;
   index.store_aligned(indices.data());
-  alignas(64) std::array<double, native_lanes> values;
-  for (std::size_t lane = 0; lane < native_lanes; ++lane) values[lane] = base[indices[lane]];
+  alignas(64) std::array<double, packet_lanes> values;
+  for (std::size_t lane = 0; lane < packet_lanes; ++lane) values[lane] = base[indices[lane]];
   return Doubles<FloatN>::load_aligned(values.data());
 }
 
@@ -57,16 +64,26 @@ RAYTRACE_INLINE Vector shuffle_fours(const Vector& a, const Vector& b, std::inde
 
 /// result[i] = base[i + offset of that lane], of four floats beside each other: loaded as they lie, and transposed, in
 /// a fraction of the time of four gathers.
-RAYTRACE_INLINE void gather_four(const float* base, const std::int32_t* offsets, FloatN* result) {
-  constexpr auto lanes = std::make_index_sequence<native_lanes>();
-  const auto row = [&](int i) { return load_rows<native_lanes>(base, offsets + i); };
+RAYTRACE_INLINE std::array<RegisterFloats, 4> gather_four(const float* base, const std::int32_t* offsets) {
+  constexpr auto lanes = std::make_index_sequence<register_lanes>();
+  const auto row = [&](int i) { return load_rows<register_lanes>(base, offsets + i); };
   const auto a = row(0), b = row(1), c = row(2), d = row(3);
   const auto low_ab = shuffle_fours<0, 4, 1, 5>(a, b, lanes), high_ab = shuffle_fours<2, 6, 3, 7>(a, b, lanes);
   const auto low_cd = shuffle_fours<0, 4, 1, 5>(c, d, lanes), high_cd = shuffle_fours<2, 6, 3, 7>(c, d, lanes);
-  result[0] = std::bit_cast<FloatN>(shuffle_fours<0, 1, 4, 5>(low_ab, low_cd, lanes));
-  result[1] = std::bit_cast<FloatN>(shuffle_fours<2, 3, 6, 7>(low_ab, low_cd, lanes));
-  result[2] = std::bit_cast<FloatN>(shuffle_fours<0, 1, 4, 5>(high_ab, high_cd, lanes));
-  result[3] = std::bit_cast<FloatN>(shuffle_fours<2, 3, 6, 7>(high_ab, high_cd, lanes));
+  return {std::bit_cast<RegisterFloats>(shuffle_fours<0, 1, 4, 5>(low_ab, low_cd, lanes)),
+          std::bit_cast<RegisterFloats>(shuffle_fours<2, 3, 6, 7>(low_ab, low_cd, lanes)),
+          std::bit_cast<RegisterFloats>(shuffle_fours<0, 1, 4, 5>(high_ab, high_cd, lanes)),
+          std::bit_cast<RegisterFloats>(shuffle_fours<2, 3, 6, 7>(high_ab, high_cd, lanes))};
+}
+
+RAYTRACE_INLINE void gather_four(const float* base, const std::int32_t* offsets, RegisterFloats* result) {
+  const auto four = gather_four(base, offsets);
+  for (std::size_t i = 0; i < 4; ++i) result[i] = four[i];
+}
+template <class Arch>
+RAYTRACE_INLINE void gather_four(const float* base, const std::int32_t* offsets, TwinBatch<float, Arch>* result) {
+  const auto lower = gather_four(base, offsets), upper = gather_four(base, offsets + register_lanes);
+  for (std::size_t i = 0; i < 4; ++i) result[i] = {lower[i], upper[i]};
 }
 
 }  // namespace detail
@@ -75,7 +92,7 @@ RAYTRACE_INLINE void gather_four(const float* base, const std::int32_t* offsets,
 class LanePlaces {
  public:
   LanePlaces(const IntN& lanes)  // implicit: it is the same
-      : lanes_(lanes), first_(lanes.get(0)), all_same_(xsimd::all(lanes == IntN(first_))) {}
+      : lanes_(lanes), first_(lanes.get(0)), all_same_(all(lanes == IntN(first_))) {}
   explicit LanePlaces(std::int32_t all) : lanes_(all), first_(all), all_same_(true) {}
 
   const IntN& lanes() const { return lanes_; }
@@ -96,23 +113,22 @@ Record<Wide> gather_records(const Record<Scalar>* table, const LanePlaces& place
   static_assert(sizeof(Record<Scalar>) == fields * sizeof(Scalar) && sizeof(Record<Wide>) == fields * sizeof(Wide),
                 "a record has members of its template argument's type only");
   const Scalar* base = reinterpret_cast<const Scalar*>(table);
-  std::array<Wide, fields> gathered;
+  Record<Wide> result;
+  Wide* const gathered = reinterpret_cast<Wide*>(&result);
   if (places.all_same()) {
     for (std::size_t field = 0; field < fields; ++field) gathered[field] = Wide(base[places.first() * fields + field]);
   } else {
     const IntN first_field = places.lanes() * IntN(static_cast<std::int32_t>(fields));
     if constexpr (fields >= 4 && std::is_same_v<Wide, FloatN>) {
-      alignas(64) std::array<std::int32_t, native_lanes> offsets;
+      alignas(64) std::array<std::int32_t, packet_lanes> offsets;
       first_field.store_aligned(offsets.data());
       // The last four overlap with those before where their number is not a multiple of four.
       for (std::size_t field = 0; field + 4 < fields; field += 4)
-        detail::gather_four(base + field, offsets.data(), gathered.data() + field);
-      detail::gather_four(base + fields - 4, offsets.data(), gathered.data() + fields - 4);
+        detail::gather_four(base + field, offsets.data(), gathered + field);
+      detail::gather_four(base + fields - 4, offsets.data(), gathered + fields - 4);
     } else
       for (std::size_t field = 0; field < fields; ++field) gathered[field] = gather(base + field, first_field);
   }
-  Record<Wide> result;
-  std::memcpy(static_cast<void*>(&result), gathered.data(), sizeof result);
   return result;
 }
 

@@ -2,4 +2,7 @@
 // once the function that uses them is large.
 #pragma once
 
-#define RAYTRACE_INLINE inline __attribute__((always_inline))
+#define RAYTRACE_INLINE inline RAYTRACE_INLINE_LAMBDA
+
+/// Behind a lambda's parameters.
+#define RAYTRACE_INLINE_LAMBDA __attribute__((always_inline))

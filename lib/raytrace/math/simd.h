@@ -16,20 +16,36 @@
 #include <xsimd/xsimd.hpp>
 
 #include "raytrace/math/inline.h"
+#include "raytrace/math/twin_batch.h"
 #include "raytrace/math/vec3.h"
 
 namespace raytrace {
 
-/// Floats of the native width: 4 lanes with x86-64-v2 and NEON, 8 with v3, 16 with v4.
-using FloatN = xsimd::batch<float>;
-inline constexpr int native_lanes = static_cast<int>(FloatN::size);
+/// Floats of a register: 4 lanes with x86-64-v2 and NEON, 8 with v3, 16 with v4.
+using RegisterFloats = xsimd::batch<float>;
+inline constexpr int register_lanes = static_cast<int>(RegisterFloats::size);
+
+/// Floats of a packet: 16 lanes, or as many as two registers have.
+using FloatN = std::conditional_t<register_lanes < 16, TwinBatch<float, RegisterFloats::arch_type>, RegisterFloats>;
+inline constexpr int packet_lanes = static_cast<int>(FloatN::size);
+
+namespace detail {
+template <class F, class T>
+struct LikeOf {
+  using type = xsimd::batch<T, typename F::arch_type>;
+};
+template <class Arch, class T>
+struct LikeOf<TwinBatch<float, Arch>, T> {
+  using type = TwinBatch<T, Arch>;
+};
+}  // namespace detail
 
 template <class F>
 using Mask = typename F::batch_bool_type;
 template <class F>
-using Ints = xsimd::batch<std::int32_t, typename F::arch_type>;
+using Ints = typename detail::LikeOf<F, std::int32_t>::type;
 template <class F>
-using Uints = xsimd::batch<std::uint32_t, typename F::arch_type>;
+using Uints = typename detail::LikeOf<F, std::uint32_t>::type;
 
 using MaskN = Mask<FloatN>;
 using IntN = Ints<FloatN>;
@@ -42,22 +58,25 @@ namespace detail {
 template <int lanes>
 struct FloatLanesOf {
   using type = std::conditional_t<std::is_void_v<xsimd::make_sized_batch_t<float, static_cast<std::size_t>(lanes)>>,
-                                  FloatN, xsimd::make_sized_batch_t<float, static_cast<std::size_t>(lanes)>>;
+                                  RegisterFloats, xsimd::make_sized_batch_t<float, static_cast<std::size_t>(lanes)>>;
 };
 }  // namespace detail
 
-/// Floats of the given number of lanes where the instruction set has such registers, else of the native width.
+/// Floats of the given number of lanes where the instruction set has such registers, else a register's.
 template <int lanes>
 using FloatLanes = typename detail::FloatLanesOf<lanes>::type;
 
 template <class F>
-F infinity() {
+RAYTRACE_INLINE F infinity() {
   return F(std::numeric_limits<float>::infinity());
 }
 
-/// The mask's lanes as bits, lane 0 lowest.
 template <class F>
-std::uint32_t bits_of(const Mask<F>& mask) {
+inline constexpr bool is_twin = requires(F floats) { floats.lower(); };
+
+namespace detail {
+template <class F>
+RAYTRACE_INLINE std::uint32_t register_bits(const Mask<F>& mask) {
   using Register = typename Mask<F>::register_type;
   const Register value = mask;
   if constexpr (sizeof(Register) <= 2) {
@@ -78,21 +97,43 @@ std::uint32_t bits_of(const Mask<F>& mask) {
     return bits;
   }
 }
+}  // namespace detail
+
+/// The mask's lanes as bits, lane 0 lowest.
+template <class F>
+RAYTRACE_INLINE std::uint32_t bits_of(const Mask<F>& mask) {
+  if constexpr (is_twin<F>) {
+    using Part = typename F::Part;
+    return detail::register_bits<Part>(mask.lower()) | detail::register_bits<Part>(mask.upper()) << Part::size;
+  } else {
+    return detail::register_bits<F>(mask);
+  }
+}
+
+/// std::bit_cast between batches, or masks, of one size: register by register, so that they need not go through memory.
+template <class To, class From>
+RAYTRACE_INLINE To same_bits(const From& from) {
+  if constexpr (is_twin<From>) {
+    return {std::bit_cast<typename To::Part>(from.lower()), std::bit_cast<typename To::Part>(from.upper())};
+  } else {
+    return std::bit_cast<To>(from);
+  }
+}
 
 /// A mask of float lanes from a comparison of integers of the same lane count.
 template <class F>
-Mask<F> float_mask(const typename Ints<F>::batch_bool_type& mask) {
-  return std::bit_cast<Mask<F>>(mask);
+RAYTRACE_INLINE Mask<F> float_mask(const typename Ints<F>::batch_bool_type& mask) {
+  return same_bits<Mask<F>>(mask);
 }
 template <class F>
-Mask<F> float_mask(const typename Uints<F>::batch_bool_type& mask) {
-  return std::bit_cast<Mask<F>>(mask);
+RAYTRACE_INLINE Mask<F> float_mask(const typename Uints<F>::batch_bool_type& mask) {
+  return same_bits<Mask<F>>(mask);
 }
 
 /// Lane by lane: a where the mask of float lanes is true, else b.
 template <class Integers>
-Integers select_lanes(const MaskN& mask, const Integers& a, const Integers& b) {
-  return std::bit_cast<Integers>(xsimd::select(mask, std::bit_cast<FloatN>(a), std::bit_cast<FloatN>(b)));
+RAYTRACE_INLINE Integers select_lanes(const MaskN& mask, const Integers& a, const Integers& b) {
+  return same_bits<Integers>(select(mask, same_bits<FloatN>(a), same_bits<FloatN>(b)));
 }
 
 /// The mask that is true in lanes [0, count).
@@ -217,6 +258,12 @@ RAYTRACE_INLINE Batch multiply_add(const Batch& a, const Batch& b, const Batch& 
   return xsimd::fma(a, b, c);
 }
 
+template <class T, class Arch>
+RAYTRACE_INLINE TwinBatch<T, Arch> multiply_add(const TwinBatch<T, Arch>& a, const TwinBatch<T, Arch>& b,
+                                                const TwinBatch<T, Arch>& c) {
+  return {multiply_add(a.lower(), b.lower(), c.lower()), multiply_add(a.upper(), b.upper(), c.upper())};
+}
+
 /// Double precision, lane for lane beside the floats F: for what cancels in float. Two registers of half the lanes.
 template <class F>
 class Doubles {
@@ -312,6 +359,89 @@ class Doubles {
     return result;
   }
 
+  Part lower_, upper_;
+};
+
+/// Of two registers of floats.
+template <class Arch>
+class Doubles<TwinBatch<float, Arch>> {
+ public:
+  using Floats = TwinBatch<float, Arch>;
+  using Part = Doubles<typename Floats::Part>;
+
+  struct MaskType {
+    typename Part::MaskType lower, upper;
+    friend RAYTRACE_INLINE MaskType operator&(const MaskType& a, const MaskType& b) {
+      return {a.lower & b.lower, a.upper & b.upper};
+    }
+    friend RAYTRACE_INLINE MaskType operator|(const MaskType& a, const MaskType& b) {
+      return {a.lower | b.lower, a.upper | b.upper};
+    }
+    friend RAYTRACE_INLINE bool any(const MaskType& a) { return any(a.lower | a.upper); }
+  };
+
+  Doubles() = default;
+  RAYTRACE_INLINE Doubles(const Part& lower, const Part& upper) : lower_(lower), upper_(upper) {}
+  RAYTRACE_INLINE explicit Doubles(double value) : lower_(value), upper_(value) {}
+  RAYTRACE_INLINE Doubles(const Floats& floats) : lower_(floats.lower()), upper_(floats.upper()) {}
+
+  RAYTRACE_INLINE const Part& lower() const { return lower_; }
+  RAYTRACE_INLINE const Part& upper() const { return upper_; }
+
+  RAYTRACE_INLINE Floats to_float() const { return {lower_.to_float(), upper_.to_float()}; }
+
+  static RAYTRACE_INLINE Doubles load_aligned(const double* lanes) {
+    return {Part::load_aligned(lanes), Part::load_aligned(lanes + Floats::Part::size)};
+  }
+
+  friend RAYTRACE_INLINE Doubles operator+(const Doubles& a, const Doubles& b) {
+    return {a.lower_ + b.lower_, a.upper_ + b.upper_};
+  }
+  friend RAYTRACE_INLINE Doubles operator-(const Doubles& a, const Doubles& b) {
+    return {a.lower_ - b.lower_, a.upper_ - b.upper_};
+  }
+  friend RAYTRACE_INLINE Doubles operator*(const Doubles& a, const Doubles& b) {
+    return {a.lower_ * b.lower_, a.upper_ * b.upper_};
+  }
+  friend RAYTRACE_INLINE Doubles operator/(const Doubles& a, const Doubles& b) {
+    return {a.lower_ / b.lower_, a.upper_ / b.upper_};
+  }
+  friend RAYTRACE_INLINE Doubles operator-(const Doubles& a) { return {-a.lower_, -a.upper_}; }
+  RAYTRACE_INLINE Doubles& operator+=(const Doubles& b) { return *this = *this + b; }
+  friend RAYTRACE_INLINE Doubles sqrt(const Doubles& a) { return {sqrt(a.lower_), sqrt(a.upper_)}; }
+  friend RAYTRACE_INLINE Doubles cbrt(const Doubles& a) { return {cbrt(a.lower_), cbrt(a.upper_)}; }
+  friend RAYTRACE_INLINE Doubles abs(const Doubles& a) { return {abs(a.lower_), abs(a.upper_)}; }
+  friend RAYTRACE_INLINE Doubles min(const Doubles& a, const Doubles& b) {
+    return {min(a.lower_, b.lower_), min(a.upper_, b.upper_)};
+  }
+  friend RAYTRACE_INLINE Doubles max(const Doubles& a, const Doubles& b) {
+    return {max(a.lower_, b.lower_), max(a.upper_, b.upper_)};
+  }
+  friend RAYTRACE_INLINE Doubles fma(const Doubles& a, const Doubles& b, const Doubles& c) {
+    return {fma(a.lower_, b.lower_, c.lower_), fma(a.upper_, b.upper_, c.upper_)};
+  }
+  friend RAYTRACE_INLINE MaskType operator<(const Doubles& a, const Doubles& b) {
+    return {a.lower_ < b.lower_, a.upper_ < b.upper_};
+  }
+  friend RAYTRACE_INLINE MaskType operator>(const Doubles& a, const Doubles& b) {
+    return {a.lower_ > b.lower_, a.upper_ > b.upper_};
+  }
+  friend RAYTRACE_INLINE MaskType operator<=(const Doubles& a, const Doubles& b) {
+    return {a.lower_ <= b.lower_, a.upper_ <= b.upper_};
+  }
+  friend RAYTRACE_INLINE MaskType operator>=(const Doubles& a, const Doubles& b) {
+    return {a.lower_ >= b.lower_, a.upper_ >= b.upper_};
+  }
+
+  friend RAYTRACE_INLINE Doubles select(const MaskType& mask, const Doubles& a, const Doubles& b) {
+    return {select(mask.lower, a.lower_, b.lower_), select(mask.upper, a.upper_, b.upper_)};
+  }
+
+  static RAYTRACE_INLINE Mask<Floats> float_mask(const MaskType& doubles) {
+    return {Part::float_mask(doubles.lower), Part::float_mask(doubles.upper)};
+  }
+
+ private:
   Part lower_, upper_;
 };
 

@@ -27,6 +27,14 @@ void for_each_type(TypeList<Types...>, Function&& f) {
   (f(std::type_identity<Types>{}), ...);
 }
 
+/// f(std::type_identity<T>{}) of the T at a position that the list has.
+template <class First, class... Others, class Function>
+auto with_type(TypeList<First, Others...>, std::size_t position, const Function& f) {
+  if constexpr (sizeof...(Others) > 0)
+    if (position > 0) return with_type(TypeList<Others...>{}, position - 1, f);
+  return f(std::type_identity<First>{});
+}
+
 /// The position of T in the list.
 template <class T, class... Types>
 constexpr std::size_t index_of(TypeList<Types...>) {

@@ -9,7 +9,7 @@ namespace raytrace {
 
 namespace {
 
-constexpr const char* widest_embree_isa = native_lanes == 16 ? "avx512" : native_lanes == 8 ? "avx2" : "sse4.2";
+constexpr const char* widest_embree_isa = register_lanes == 16 ? "avx512" : register_lanes == 8 ? "avx2" : "sse4.2";
 
 std::unique_ptr<const Scene> build(const SceneDescription& description, int threads) {
   return std::make_unique<TracedScene>(description, threads, RAYTRACE_ISA, widest_embree_isa);

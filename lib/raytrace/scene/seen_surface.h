@@ -27,7 +27,7 @@ class SeenSurface {
   IntN material() const { return scene_.material(hits_); }
 
   /// A place as an id, counted from 1, the bits of which stand in floats.
-  static FloatN id(const IntN& place) { return std::bit_cast<FloatN>(place + IntN(1)); }
+  static FloatN id(const IntN& place) { return same_bits<FloatN>(place + IntN(1)); }
 
  private:
   const TracedScene& scene_;

@@ -92,7 +92,7 @@ IntN TracedScene::object(const Hits& hits) const {
   const IntN primitive = select_lanes(hits.hit, hits.primitive, IntN(hits.first_primitive));
   if (hits.one_kind) return primitive + IntN(first_object_[hits.first_kind]);
   const IntN kind =
-      select_lanes(hits.hit, std::bit_cast<IntN>(hits.kind), IntN(static_cast<std::int32_t>(hits.first_kind)));
+      select_lanes(hits.hit, same_bits<IntN>(hits.kind), IntN(static_cast<std::int32_t>(hits.first_kind)));
   return primitive + gather(first_object_.data(), kind);
 }
 
@@ -143,7 +143,7 @@ SceneStatistics TracedScene::statistics() const {
   statistics.primitives = accelerator_.primitive_count();
   statistics.bvh_bytes = accelerator_.bvh_bytes();
   statistics.isa = isa_name_;
-  statistics.lanes = native_lanes;
+  statistics.lanes = packet_lanes;
   statistics.embree_version = accelerator_.embree_version();
   return statistics;
 }

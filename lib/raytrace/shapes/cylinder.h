@@ -65,7 +65,7 @@ RAYTRACE_INLINE F Cylinder::intersect(const Record<double>& cylinder, const Ray<
   const D radius(cylinder.radius);
   const D discriminant = radius * radius - dot(closest, closest);
   typename D::MaskType possible = discriminant >= D(0.0);
-  if (xsimd::none(active & D::float_mask(possible))) return infinity<F>();
+  if (none(active & D::float_mask(possible))) return infinity<F>();
 
   const D half_chord = sqrt(max(discriminant, D(0.0)) * inverse_a);
   const D entry = to_closest - half_chord, exit = to_closest + half_chord;
@@ -78,7 +78,7 @@ RAYTRACE_INLINE F Cylinder::intersect(const Record<double>& cylinder, const Ray<
   const auto hit_exit = possible & inside(exit);
   const D miss(std::numeric_limits<double>::infinity());
   const F t = select(hit_entry, entry, select(hit_exit, exit, miss)).to_float();
-  return xsimd::select(active, t, infinity<F>());
+  return select(active, t, infinity<F>());
 }
 
 template <class F>

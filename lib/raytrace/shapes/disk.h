@@ -54,7 +54,7 @@ RAYTRACE_INLINE F Disk::intersect(const Record<double>& disk, const Ray<F>& ray,
   const Vec3<D> from_center = d * t - to_center;
   const D radius(disk.radius);
   const auto hit = (dot(from_center, from_center) <= radius * radius) & (t > D(ray.near)) & (t < D(ray.far));
-  return xsimd::select(active & D::float_mask(hit), t.to_float(), infinity<F>());
+  return select(active & D::float_mask(hit), t.to_float(), infinity<F>());
 }
 
 template <class F>

@@ -69,7 +69,7 @@ RAYTRACE_INLINE F Plane::intersect(const Record<double>& plane, const Ray<F>& ra
     speed = dot(normal, Vec3<D>(ray.direction)).to_float();
   }
   const F t = height / speed;  // a ray in the plane gives infinity or NaN: no hit
-  return xsimd::select(active & (t > ray.near) & (t < ray.far), t, infinity<F>());
+  return select(active & (t > ray.near) & (t < ray.far), t, infinity<F>());
 }
 
 template <class F>

@@ -79,21 +79,21 @@ RAYTRACE_INLINE F Sphere::intersect(const Record<float>& sphere, const Ray<F>& r
   const Vec3<F> closest = near_closest + d * correction;
   const F discriminant = radius * radius - dot(closest, closest);
   const Mask<F> possible = active & (discriminant >= F(0));
-  if (xsimd::none(possible)) return infinity<F>();
+  if (none(possible)) return infinity<F>();
 
-  const F half_chord = xsimd::sqrt(xsimd::max(discriminant, F(0)) * inverse_dd);
+  const F half_chord = sqrt(max(discriminant, F(0)) * inverse_dd);
   const F entry = to_closest + (correction - half_chord);
   const F exit = to_closest + (correction + half_chord);
-  F t = xsimd::select(entry > ray.near, entry, exit);
+  F t = select(entry > ray.near, entry, exit);
   // Again, in double, where a hit is much closer than the terms it is the difference of (an origin near the surface of
   // a large sphere), or where the chord is so short that its own rounding, about radius^2 / half_chord ulps, shows.
   // Rays that leave the sphere itself stay out of it: they start further away than the rounding.
-  const F terms = xsimd::abs(to_closest) + half_chord;
+  const F terms = abs(to_closest) + half_chord;
   const F rounding = terms * F(0x1p-22f);
   const Mask<F> imprecise = possible & (t > ray.near - rounding) & (t < ray.far + rounding) &
                             ((t * F(64) < terms) | (t * half_chord * F(64) < radius * radius * inverse_dd));
-  if (xsimd::any(imprecise)) t = xsimd::select(imprecise, intersect_in_double(sphere, ray), t);
-  return xsimd::select(possible & (t > ray.near) & (t < ray.far), t, infinity<F>());
+  if (any(imprecise)) t = select(imprecise, intersect_in_double(sphere, ray), t);
+  return select(possible & (t > ray.near) & (t < ray.far), t, infinity<F>());
 }
 
 template <class F>
@@ -129,9 +129,9 @@ SurfacePoint<F> Sphere::surface(const Record<F>& sphere, const Ray<F>& ray, cons
   const F climb = dot(rounded, d);
   const F radius2 = sphere.radius * sphere.radius;
   const F most = distance * F(0x1p-22f);
-  const F step = xsimd::min(xsimd::max((radius2 - dot(rounded, rounded)) / (F(2) * climb), -most), most);
-  const Mask<F> worth_it = xsimd::abs(climb) * distance > radius2;
-  const Vec3<F> normal = normalize(rounded + d * xsimd::select(worth_it, step, F(0)));
+  const F step = min(max((radius2 - dot(rounded, rounded)) / (F(2) * climb), -most), most);
+  const Mask<F> worth_it = abs(climb) * distance > radius2;
+  const Vec3<F> normal = normalize(rounded + d * select(worth_it, step, F(0)));
   const Vec3<F> position = sphere.center + normal * sphere.radius;
   return {position, normal, rounding_error(position, sphere.radius)};
 }

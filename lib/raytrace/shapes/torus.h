@@ -99,27 +99,27 @@ void depressed_cubic_roots(const F& p, const F& q, F (&root)[3]) {
   // monotonically. It is at most u + d where s^3 + p s >= d^3 and >= 2 u^2 d, u^2 = -p, and, where p is positive, at
   // most the lesser of cbrt(|q|) and |q| / p.
   const F zero(0.0F);
-  const F abs_q = xsimd::abs(q);
-  const F u2 = xsimd::max(-p, zero);
-  const F quotient = abs_q / xsimd::max(xsimd::select(p < zero, u2 + u2, p), F(1e-30F));
-  F s = (xsimd::sqrt(u2) + xsimd::min(xsimd::cbrt(abs_q), quotient)) * F(1 + 0x1p-20F);
+  const F abs_q = abs(q);
+  const F u2 = max(-p, zero);
+  const F quotient = abs_q / max(select(p < zero, u2 + u2, p), F(1e-30F));
+  F s = (sqrt(u2) + min(cbrt(abs_q), quotient)) * F(1 + 0x1p-20F);
   for (int i = 0; i < 40; ++i) {
     const F slope = multiply_add(F(3.0F) * s, s, p);
-    const F step = multiply_add(multiply_add(s, s, p), s, -abs_q) / xsimd::max(slope, F(1e-30F));
+    const F step = multiply_add(multiply_add(s, s, p), s, -abs_q) / max(slope, F(1e-30F));
     s = s - step;
-    if (!xsimd::any(step > s * F(1e-4F))) break;  // it converges quadratically
+    if (!any(step > s * F(1e-4F))) break;  // it converges quadratically
   }
-  const F first = xsimd::select(q < zero, s, -s);
+  const F first = select(q < zero, s, -s);
   // The other two are the roots of the quotient s^2 + first s + (first^2 + p).
   const F discriminant = -multiply_add(F(3.0F) * first, first, F(4.0F) * p);
-  const F half_width = F(0.5F) * xsimd::sqrt(xsimd::max(discriminant, zero));
+  const F half_width = F(0.5F) * sqrt(max(discriminant, zero));
   const F middle = F(-0.5F) * first;
   const auto single = discriminant < zero;
-  const F low = xsimd::select(single, first, middle - half_width),
-          high = xsimd::select(single, first, middle + half_width);
-  root[0] = xsimd::min(first, low);
-  root[2] = xsimd::max(first, high);
-  root[1] = xsimd::select(single, first, xsimd::max(xsimd::min(first, high), xsimd::min(xsimd::max(first, low), high)));
+  const F low = select(single, first, middle - half_width),
+          high = select(single, first, middle + half_width);
+  root[0] = min(first, low);
+  root[2] = max(first, high);
+  root[1] = select(single, first, max(min(first, high), min(max(first, low), high)));
 }
 
 /// The root of the distance form between left and right, where it has different signs and one root: Newton's method
@@ -175,7 +175,7 @@ F Torus::intersect(const Record<double>& torus, const Ray<F>& ray, const Mask<F>
   const D low = max(max(-half_chord, min(slab1, slab2)), near);
   const D high = min(min(half_chord, max(slab1, slab2)), far);
   const auto possible = (half_chord2 > D(0.0)) & (low < high);
-  if (xsimd::none(active & D::float_mask(possible))) return infinity<F>();
+  if (none(active & D::float_mask(possible))) return infinity<F>();
 
   // Between the quartic's stationary points there is at most one root, and there is one where the sign changes. The
   // points need no precision for that: beside one, the distance form changes with the square of the way. The signs do,
@@ -205,7 +205,7 @@ F Torus::intersect(const Record<double>& torus, const Ray<F>& ray, const Mask<F>
     end_sign = start_sign;
   }
   const Mask<F> hit = active & D::float_mask(found);
-  if (xsimd::none(hit)) return infinity<F>();
+  if (none(hit)) return infinity<F>();
 
   D side(1.0);
   if (torus.tube > torus.swept) {
@@ -218,14 +218,14 @@ F Torus::intersect(const Record<double>& torus, const Ray<F>& ray, const Mask<F>
   // Along the ray the distance form is much like a parabola whose vertex is the end that lies in the tube. Where that
   // end is hardly inside, so that Newton's method would creep, it is most like one.
   const F left_value = left_sign.to_float(), right_value = right_sign.to_float();
-  const F inside = xsimd::min(left_value, right_value), outside = xsimd::max(left_value, right_value);
-  const D way(xsimd::sqrt(inside / xsimd::min(inside - outside, F(-1e-30f))));
+  const F inside = min(left_value, right_value), outside = max(left_value, right_value);
+  const D way(sqrt(inside / min(inside - outside, F(-1e-30f))));
   const D guess = select(left_sign < D(0.0), left + (right - left) * way, right - (right - left) * way);
   // Lanes without a root have nothing to look for, and must not hold up the others.
   const D s = detail::root_in_bracket(profile, side, select(found, guess, left), left, select(found, right, left),
                                       left_sign, D(torus.tube * 1e-9));
   const F t = ((s + to_closest) * inverse_scale).to_float();
-  return xsimd::select(hit & (t > ray.near) & (t < ray.far), t, infinity<F>());
+  return select(hit & (t > ray.near) & (t < ray.far), t, infinity<F>());
 }
 
 template <class F>

@@ -77,17 +77,17 @@ RAYTRACE_INLINE F Triangle::intersect(const Record<float>& triangle, const Ray<F
   const F opposite3 = detail::fused_dot(detail::fused_cross(edge12, vertex1 + vertex2), ray.direction);
   const F opposite1 = detail::fused_dot(detail::fused_cross(edge23, vertex2 + vertex3), ray.direction);
   const F sum = opposite2 + opposite3 + opposite1;
-  const F rounding = xsimd::abs(sum) * F(0x1p-23f);
-  const F least = xsimd::min(xsimd::min(opposite1, opposite2), opposite3);
-  const F most = xsimd::max(xsimd::max(opposite1, opposite2), opposite3);
+  const F rounding = abs(sum) * F(0x1p-23f);
+  const F least = min(min(opposite1, opposite2), opposite3);
+  const F most = max(max(opposite1, opposite2), opposite3);
   const Mask<F> inside = active & ((least >= -rounding) | (most <= rounding));
-  if (xsimd::none(inside)) return infinity<F>();
+  if (none(inside)) return infinity<F>();
   const Vec3<F> perpendicular = detail::fused_cross(edge31, edge12);
   const F t = detail::fused_dot(vertex1, perpendicular) / detail::fused_dot(perpendicular, ray.direction);
   const F inverse_sum = F(1) / sum;
-  u = xsimd::min(xsimd::max(opposite2 * inverse_sum, F(0)), F(1));
-  v = xsimd::min(xsimd::max(opposite3 * inverse_sum, F(0)), F(1));
-  return xsimd::select(inside & (t > ray.near) & (t < ray.far), t, infinity<F>());
+  u = min(max(opposite2 * inverse_sum, F(0)), F(1));
+  v = min(max(opposite3 * inverse_sum, F(0)), F(1));
+  return select(inside & (t > ray.near) & (t < ray.far), t, infinity<F>());
 }
 
 template <class F>
@@ -95,12 +95,12 @@ SurfacePoint<F> Triangle::surface(const Record<F>& triangle, const F& u, const F
   const Vec3<F> edge1 = triangle.vertex2 - triangle.vertex1;
   const Vec3<F> edge2 = triangle.vertex3 - triangle.vertex1;
   const Vec3<F> position = triangle.vertex1 + edge1 * u + edge2 * v;
-  const F size = xsimd::max(xsimd::max(xsimd::max(xsimd::abs(edge1.x), xsimd::abs(edge1.y)), xsimd::abs(edge1.z)),
-                            xsimd::max(xsimd::max(xsimd::abs(edge2.x), xsimd::abs(edge2.y)), xsimd::abs(edge2.z)));
+  const F size = max(max(max(abs(edge1.x), abs(edge1.y)), abs(edge1.z)),
+                            max(max(abs(edge2.x), abs(edge2.y)), abs(edge2.z)));
   // Embree's distance is off in proportion to the triangle's length over its altitude, as far as that exceeds 1.
   const Vec3<F> perpendicular = cross(edge1, edge2);
   const F inverse_area = F(1) / length(perpendicular);
-  const F sliver = xsimd::max(F(1), xsimd::max(dot(edge1, edge1), dot(edge2, edge2)) * inverse_area);
+  const F sliver = max(F(1), max(dot(edge1, edge1), dot(edge2, edge2)) * inverse_area);
   return {position, perpendicular * inverse_area, rounding_error(position, size) * sliver};
 }
 
