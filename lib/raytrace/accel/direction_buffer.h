@@ -65,7 +65,7 @@ class DirectionBuffer {
   /// Of the origins of rays that go to the vantage: each ray is seen as a point, up to rounding. to_vantage: their
   /// directions, which lead right to the point if there is one.
   template <class F>
-  Sight<F> sight(const Vec3<F>& origin, const Vec3<F>& to_vantage) const {
+  RAYTRACE_INLINE Sight<F> sight(const Vec3<F>& origin, const Vec3<F>& to_vantage) const {
     if (!infinitely_far_) return {-to_vantage, dot(to_vantage, to_vantage)};
     return {{dot(Vec3<F>(across_), origin) - F(start_.x), dot(Vec3<F>(up_), origin) - F(start_.y), F(1)},
             F(start_.z) - dot(to_vantage, origin)};
@@ -73,7 +73,7 @@ class DirectionBuffer {
 
   /// Whether its rounding is small enough that cells list all that such a ray may meet.
   template <class F>
-  auto in_reach(const Vec3<F>& origin, const Vec3<F>& to_vantage) const {
+  RAYTRACE_INLINE auto in_reach(const Vec3<F>& origin, const Vec3<F>& to_vantage) const {
     const Vec3<F>& way = infinitely_far_ ? origin : to_vantage;
     return dot(way, way) <= F(reach_ * reach_);
   }

@@ -62,14 +62,15 @@ Pixel Film::pixel(int x, int y) const {
 
 void Film::set_means(const Film& sums) {
   const Region& part = sums.region();
+  const PixelSum* sum = sums.sums().data();
   for (int y = part.y0; y < part.y1; ++y)
-    for (int x = part.x0; x < part.x1; ++x) {
-      const Pixel mean = sums.pixel(x, y);
+    for (std::size_t i = index(part.x0, y), end = index(part.x1, y); i < end; ++i, ++sum) {
+      const Pixel pixel = mean(*sum);
       if (content_ == FilmContent::means) {
-        means_[index(x, y)] = mean;
+        means_[i] = pixel;
       } else {
-        half_means_[index(x, y)] = {imath_float_to_half(mean.red), imath_float_to_half(mean.green),
-                                    imath_float_to_half(mean.blue), imath_float_to_half(mean.alpha)};
+        half_means_[i] = {imath_float_to_half(pixel.red), imath_float_to_half(pixel.green),
+                          imath_float_to_half(pixel.blue), imath_float_to_half(pixel.alpha)};
       }
     }
 }

@@ -40,9 +40,8 @@ SeenRadiance Raycast::radiance(const TracedScene& scene, const Ray<FloatN>& rays
   for (std::size_t number = 0; number < scene.lights().size(); ++number) {
     const auto& light = scene.lights()[number];
     const LightSample<FloatN> sample = light->sample(origin);
-    const Vec3<FloatN> wi = normalize(sample.to_light);
-    const FloatN cosine = dot(point.normal, wi);
-    MaskN lit = hits.hit & (cosine > FloatN(0));
+    // Of any length: the shadow rays need not wait for a square root and a quotient.
+    MaskN lit = hits.hit & (dot(point.normal, sample.to_light) > FloatN(0));
     if (light->shadows() && any(lit)) {
       counts.shadow += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(lit & counted)));
       const Ray<FloatN> shadow_rays{origin, sample.to_light, FloatN(0), sample.end};
@@ -51,7 +50,8 @@ SeenRadiance Raycast::radiance(const TracedScene& scene, const Ray<FloatN>& rays
       lit = lit & !occluded;
     }
     if (none(lit)) continue;
-    arriving[count++] = {wi, select(lit, cosine, FloatN(0)), sample.radiance};
+    const Vec3<FloatN> wi = normalize(sample.to_light);
+    arriving[count++] = {wi, select(lit, max(dot(point.normal, wi), FloatN(0)), FloatN(0)), sample.radiance};
     if (count == lights_per_run) shade_run();
   }
   shade_run();

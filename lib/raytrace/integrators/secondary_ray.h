@@ -10,7 +10,7 @@ namespace raytrace {
 /// largest coordinate. Wächter and Binder, "A Fast and Robust Method for Avoiding Self-Intersection", Ray Tracing Gems
 /// chapter 6, argue why the distance must scale so.
 template <class F>
-Vec3<F> leaving_origin(const SurfacePoint<F>& point) {
+RAYTRACE_INLINE Vec3<F> leaving_origin(const SurfacePoint<F>& point) {
   return point.position + point.normal * (point.error * F(4));
 }
 

@@ -14,7 +14,7 @@ struct Ray {
   F near;
   F far;
 
-  Vec3<F> at(const F& t) const { return origin + direction * t; }
+  RAYTRACE_INLINE Vec3<F> at(const F& t) const { return origin + direction * t; }
 };
 
 /// The point of a surface that a ray hit.

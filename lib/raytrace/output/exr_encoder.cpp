@@ -90,12 +90,16 @@ void insert(Imf::Header& header, const ImageAttribute& attribute) {
   }
 }
 
+/// Of zlib's 1 to 9. Half as long as OpenEXR's 4, for files a tenth larger.
+constexpr int zip_level = 2;
+
 Imf::Header header_of(const PictureExtent& extent, const std::vector<Channel>& channels, const ImageMetadata& metadata,
                       bool compressed) {
   const Region& region = extent.region;
   Imf::Header header(Imath::Box2i({0, 0}, {extent.full_width - 1, extent.full_height - 1}),
                      Imath::Box2i({region.x0, region.y0}, {region.x1 - 1, region.y1 - 1}));
   header.compression() = compressed ? Imf::ZIP_COMPRESSION : Imf::NO_COMPRESSION;
+  header.zipCompressionLevel() = zip_level;
   for (const Channel& channel : channels)
     header.channels().insert(channel.name, Imf::Channel(pixel_type(channel.type)));
 
