@@ -96,7 +96,7 @@ class CeilingOfVariant final : public Ceiling {
       : scene_(description, 0, "",
                register_lanes == 16  ? "avx512"
                : register_lanes == 8 ? "avx2"
-                                   : "sse4.2"),
+                                     : "sse4.2"),
         bare_(bare) {
     if (bare == BareLoop::embree_spheres) embree_spheres_ = std::make_unique<EmbreeSpheres>(description);
     if (bare != BareLoop::parts) add_planes(description);

@@ -259,12 +259,13 @@ class ExactFilm {
  public:
   using Sums = BlockSums;
 
-  static Sums no_sums() { return BlockSums(unit_exponent); }
+  Sums no_sums() const { return BlockSums(scale_); }
   void add(const Sums& sums, const SampledBlock& block) { sums.add_to(film_, block, sums_region); }
   float red(int x) const { return static_cast<float>(film_.sum(x, 0).red); }
 
  private:
   static constexpr int unit_exponent = -44;
+  BlockSums::Scale scale_{unit_exponent};
   Film film_{FilmSettings{{sums_region.x1, sums_region.y1, sums_region}, {}, 0, unit_exponent, {}}};
 };
 
@@ -286,7 +287,7 @@ class FloatFilm {
  public:
   using Sums = FloatBlockSums;
 
-  static Sums no_sums() { return {}; }
+  Sums no_sums() const { return {}; }
   void add(const Sums& sums, const SampledBlock& block) {
     const auto by_pixel = []<class Batch>(const Batch& batch) {
       alignas(64) std::array<typename Batch::value_type, packet_lanes> lanes;

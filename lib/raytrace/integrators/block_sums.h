@@ -16,21 +16,30 @@ namespace raytrace {
 /// Of the lanes of a PacketBlock, exact.
 class BlockSums {
  public:
-  /// unit_exponent: the film's.
-  explicit BlockSums(int unit_exponent)
-      : units_(std::ldexp(1.0, -unit_exponent)),
-        most_(static_cast<float>(std::min(std::ldexp(FixedPointSums<FloatN>::largest_term, unit_exponent),
-                                          static_cast<double>(std::numeric_limits<float>::max())))) {}
+  /// What all sums of a film have in common.
+  struct Scale {
+    Doubles<FloatN> units;  ///< one over the unit
+    FloatN most;            ///< the largest radiance that can be added
+
+    /// unit_exponent: the film's.
+    explicit Scale(int unit_exponent)
+        : units(std::ldexp(1.0, -unit_exponent)),
+          most(static_cast<float>(std::min(std::ldexp(FixedPointSums<FloatN>::largest_term, unit_exponent),
+                                           static_cast<double>(std::numeric_limits<float>::max())))) {}
+  };
+
+  /// scale: must outlive it.
+  explicit BlockSums(const Scale& scale) : scale_(scale) {}
 
   /// Adds a sample of each lane of `wanted`. The result: those whose radiance is not finite (or beyond what the sums
   /// can hold), which are counted as black.
   RAYTRACE_INLINE MaskN add(const SeenRadiance& seen, const MaskN& wanted) {
     // Radiances are not negative: the sum is large where one of them is, and NaN compares false.
-    const MaskN fine = wanted & (seen.radiance.red + seen.radiance.green + seen.radiance.blue <= most_);
+    const MaskN fine = wanted & (seen.radiance.red + seen.radiance.green + seen.radiance.blue <= scale_.most);
     const Rgb<FloatN> radiance = select(fine, seen.radiance, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
-    red_.add(radiance.red, units_);
-    green_.add(radiance.green, units_);
-    blue_.add(radiance.blue, units_);
+    red_.add(radiance.red, scale_.units);
+    green_.add(radiance.green, scale_.units);
+    blue_.add(radiance.blue, scale_.units);
     hits_ = hits_ + select_lanes(seen.hit & wanted, IntN(1), IntN(0));
     samples_ = samples_ + select_lanes(wanted, IntN(1), IntN(0));
     return wanted & !fine;
@@ -53,8 +62,7 @@ class BlockSums {
   }
 
  private:
-  Doubles<FloatN> units_;
-  FloatN most_;
+  const Scale& scale_;
   FixedPointSums<FloatN> red_, green_, blue_;
   IntN hits_ = IntN(0), samples_ = IntN(0);
 };

@@ -23,7 +23,7 @@ template <class Integrator, PacketShape shape>
 class BlockRenderer {
  public:
   BlockRenderer(const TracedScene& scene, const Region& region, Film& film, const std::atomic<bool>* stop)
-      : scene_(scene), region_(region), film_(film), stop_(stop) {}
+      : scene_(scene), region_(region), film_(film), stop_(stop), scale_(film.settings().unit_exponent) {}
 
   /// Continues all pixels to `samples` each; returns early if it is stopped.
   RenderReport render(std::uint32_t samples) {
@@ -65,7 +65,7 @@ class BlockRenderer {
     constexpr auto group = static_cast<std::uint32_t>(shape.samples);
     std::uint32_t base = first / group * group;
     PixelSampler sampler(column, row, slot, shape.samples, settings.seed, base, settings.samples.centered);
-    BlockSums sums(settings.unit_exponent);
+    BlockSums sums(scale_);
     MetSurface met;
     for (int packets = 1; base < last; base += group, ++packets) {
       const UintN sample = UintN(base) + slot;
@@ -73,7 +73,8 @@ class BlockRenderer {
       const MaskN wanted = all_wanted ? active : active & in_range(sample, first, last);
       const PixelSampler::Point point = sampler.next();
       const Ray<FloatN> rays = scene_.camera().generate(x + point.x, y + point.y);
-      const SeenRadiance seen = Integrator::radiance(scene_, rays, active, wanted, report_.rays, aovs != nullptr ? &met : nullptr);
+      const SeenRadiance seen =
+          Integrator::radiance(scene_, rays, active, wanted, report_.rays, aovs != nullptr ? &met : nullptr);
       const MaskN bad = sums.add(seen, wanted);
       if (aovs != nullptr) aovs->add(SeenSurface(scene_, rays, met.hits, met.point), wanted, sample);
       report_.rays.camera += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(wanted)));
@@ -102,6 +103,7 @@ class BlockRenderer {
   const Region& region_;
   Film& film_;
   const std::atomic<bool>* stop_;
+  BlockSums::Scale scale_;
   RenderReport report_;
 };
 

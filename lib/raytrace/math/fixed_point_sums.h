@@ -82,7 +82,8 @@ class FixedPointSums<TwinBatch<float, Arch>> {
         sums[i] = lower[i];
         sums[part_size + i] = upper[i];
       } else {  // unsigned: they wrap
-        sums[i] = static_cast<std::int64_t>(static_cast<std::uint64_t>(lower[i]) + static_cast<std::uint64_t>(upper[i]));
+        sums[i] =
+            static_cast<std::int64_t>(static_cast<std::uint64_t>(lower[i]) + static_cast<std::uint64_t>(upper[i]));
       }
     }
     return sums;

@@ -26,7 +26,7 @@ using RegisterFloats = xsimd::batch<float>;
 inline constexpr int register_lanes = static_cast<int>(RegisterFloats::size);
 
 /// Floats of a packet: 16 lanes, or as many as two registers have.
-using FloatN = std::conditional_t<register_lanes < 16, TwinBatch<float, RegisterFloats::arch_type>, RegisterFloats>;
+using FloatN = std::conditional_t < register_lanes<16, TwinBatch<float, RegisterFloats::arch_type>, RegisterFloats>;
 inline constexpr int packet_lanes = static_cast<int>(FloatN::size);
 
 namespace detail {

@@ -61,8 +61,8 @@ struct Repairs {
 /// if its extension is unknown.
 bool holds_float(const std::string& file);
 
-/// Whether files of this name, with these settings, store colours as halves: whether FilmContent::half_means is all that
-/// they want. Throws OutputError as holds_float() does.
+/// Whether files of this name, with these settings, store colours as halves: whether FilmContent::half_means is all
+/// that they want. Throws OutputError as holds_float() does.
 bool holds_halves(const std::string& file, const ImageFileSettings& settings);
 
 /// Whether files of this name hold channels besides colour. Throws OutputError as holds_float() does.

@@ -124,8 +124,8 @@ using ProgressFunction = std::function<void(double fraction)>;
 FilmSettings film_settings(const Scene& scene, const SceneDescription& description, const RenderSettings& settings);
 
 /// Continues the film until each pixel has `samples` (at most the film's own). Returns early once `stop` is set; the
-/// film keeps what was done, and another call goes on from there. threads: as RenderSettings::threads. To a film of means,
-/// all calls are with its own number of samples, and with the same number of threads.
+/// film keeps what was done, and another call goes on from there. threads: as RenderSettings::threads. To a film of
+/// means, all calls are with its own number of samples, and with the same number of threads.
 RenderReport render(const Scene& scene, Film& film, std::uint32_t samples, int threads,
                     const ProgressFunction& progress = {}, const std::atomic<bool>* stop = nullptr);
 

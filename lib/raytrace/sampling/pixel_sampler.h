@@ -39,9 +39,7 @@ class PixelSampler {
 
  private:
   /// The 24 leading bits as a fraction: every float of the result is exact and below 1.
-  static FloatN to_unit(const UintN& bits) {
-    return to_float(same_bits<IntN>(bits >> 8)) * FloatN(0x1p-24f);
-  }
+  static FloatN to_unit(const UintN& bits) { return to_float(same_bits<IntN>(bits >> 8)) * FloatN(0x1p-24f); }
 
   SobolSequence sequence_;
   int group_bits_;

@@ -115,8 +115,7 @@ void depressed_cubic_roots(const F& p, const F& q, F (&root)[3]) {
   const F half_width = F(0.5F) * sqrt(max(discriminant, zero));
   const F middle = F(-0.5F) * first;
   const auto single = discriminant < zero;
-  const F low = select(single, first, middle - half_width),
-          high = select(single, first, middle + half_width);
+  const F low = select(single, first, middle - half_width), high = select(single, first, middle + half_width);
   root[0] = min(first, low);
   root[2] = max(first, high);
   root[1] = select(single, first, max(min(first, high), min(max(first, low), high)));

@@ -95,8 +95,8 @@ SurfacePoint<F> Triangle::surface(const Record<F>& triangle, const F& u, const F
   const Vec3<F> edge1 = triangle.vertex2 - triangle.vertex1;
   const Vec3<F> edge2 = triangle.vertex3 - triangle.vertex1;
   const Vec3<F> position = triangle.vertex1 + edge1 * u + edge2 * v;
-  const F size = max(max(max(abs(edge1.x), abs(edge1.y)), abs(edge1.z)),
-                            max(max(abs(edge2.x), abs(edge2.y)), abs(edge2.z)));
+  const F size =
+      max(max(max(abs(edge1.x), abs(edge1.y)), abs(edge1.z)), max(max(abs(edge2.x), abs(edge2.y)), abs(edge2.z)));
   // Embree's distance is off in proportion to the triangle's length over its altitude, as far as that exceeds 1.
   const Vec3<F> perpendicular = cross(edge1, edge2);
   const F inverse_area = F(1) / length(perpendicular);
