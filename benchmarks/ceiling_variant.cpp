@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "ceiling.h"
+#include "raytrace/accel/embree_packets.h"
 #include "raytrace/integrators/secondary_ray.h"
 #include "raytrace/sampling/pixel_sampler.h"
 #include "raytrace/scene/traced_scene.h"
@@ -15,51 +16,26 @@ namespace raytrace::benchmark {
 
 namespace {
 
-using Packet = embree::Packet<packet_lanes>;
-
-constexpr int block_width = packet_lanes >= 8 ? 4 : 2;
+constexpr int block_width = 4;
 constexpr int block_height = packet_lanes / block_width;
 constexpr int tile_edge = 16;  ///< small enough that a tile's rays stay in the second level cache
 
 struct CameraPacket {
-  alignas(64) typename Packet::RayHit rays;
-  alignas(64) int valid[packet_lanes];
+  alignas(64) embree::RegisterPacket::RayHit rays[embree::packets];
+  MaskN valid;
+
+  auto ray() {
+    return [this](int i) -> auto& { return rays[i].ray; };
+  }
 };
 struct ShadowPacket {
-  alignas(64) typename Packet::Ray rays;
-  alignas(64) int valid[packet_lanes];
-};
+  alignas(64) embree::RegisterPacket::Ray rays[embree::packets];
+  MaskN valid;
 
-template <class EmbreeRays>
-void store(const Ray<FloatN>& rays, EmbreeRays& out) {
-  rays.origin.x.store_aligned(out.org_x);
-  rays.origin.y.store_aligned(out.org_y);
-  rays.origin.z.store_aligned(out.org_z);
-  rays.direction.x.store_aligned(out.dir_x);
-  rays.direction.y.store_aligned(out.dir_y);
-  rays.direction.z.store_aligned(out.dir_z);
-  rays.near.store_aligned(out.tnear);
-  rays.far.store_aligned(out.tfar);
-  for (int lane = 0; lane < packet_lanes; ++lane) {
-    out.time[lane] = 0;
-    out.mask[lane] = 0xffffffffu;
-    out.id[lane] = out.flags[lane] = 0;
+  auto ray() {
+    return [this](int i) -> auto& { return rays[i]; };
   }
-}
-
-void store_valid(const MaskN& mask, int* valid) {
-  const std::uint32_t bits = bits_of<FloatN>(mask);
-  for (int lane = 0; lane < packet_lanes; ++lane) valid[lane] = (bits >> lane & 1) != 0 ? -1 : 0;
-}
-
-template <class EmbreeRays>
-Ray<FloatN> load(const EmbreeRays& rays) {
-  const auto field = [](const float* lanes) { return FloatN::load_aligned(lanes); };
-  return {{field(rays.org_x), field(rays.org_y), field(rays.org_z)},
-          {field(rays.dir_x), field(rays.dir_y), field(rays.dir_z)},
-          field(rays.tnear),
-          field(rays.tfar)};
-}
+};
 
 /// A plane in a box as large as Embree takes.
 struct BoxedPlane : Plane {
@@ -138,22 +114,24 @@ class CeilingOfVariant final : public Ceiling {
 
   void intersect(CameraPacket& packet) const {
     if (bare_ == BareLoop::parts) {
-      const Hits hits = scene_.accelerator().intersect_unbounded(load(packet.rays.ray), MaskN(true));
-      hits.distance.store_aligned(packet.rays.ray.tfar);
+      const Hits hits = scene_.accelerator().intersect_unbounded(embree::load_rays(packet.ray()), MaskN(true));
+      embree::store(hits.distance, [&](int i) { return packet.rays[i].ray.tfar; });
     }
     embree::Query query(true);
-    Packet::intersect(packet.valid, embree_scene(), query, packet.rays);
+    const embree::ValidLanes valid(packet.valid);
+    embree::for_each_packet(packet.valid, [&](int i) {
+      embree::RegisterPacket::intersect(valid.lanes[i], embree_scene(), query, packet.rays[i]);
+    });
   }
 
   void occluded(ShadowPacket& packet) const {
-    if (bare_ == BareLoop::parts) {
-      const MaskN valid = float_mask<FloatN>(IntN::load_aligned(packet.valid) != IntN(0));
-      const MaskN left = valid & !scene_.accelerator().occluded_unbounded(load(packet.rays), valid);
-      if (none(left)) return;
-      store_valid(left, packet.valid);
-    }
+    MaskN left = packet.valid;
+    if (bare_ == BareLoop::parts)
+      left = left & !scene_.accelerator().occluded_unbounded(embree::load_rays(packet.ray()), left);
     embree::Query query(true);
-    Packet::occluded(packet.valid, embree_scene(), query, packet.rays);
+    const embree::ValidLanes valid(left);
+    embree::for_each_packet(
+        left, [&](int i) { embree::RegisterPacket::occluded(valid.lanes[i], embree_scene(), query, packet.rays[i]); });
   }
 
   RTCScene embree_scene() const {
@@ -192,9 +170,9 @@ class CeilingOfVariant final : public Ceiling {
       const Ray<FloatN> rays =
           scene_.camera().generate(FloatN::load_aligned(xs) + point.x, FloatN::load_aligned(ys) + point.y);
       CameraPacket& packet = camera.emplace_back();
-      store(rays, packet.rays.ray);
-      store_valid(all, packet.valid);
-      for (int lane = 0; lane < packet_lanes; ++lane) packet.rays.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
+      embree::store_rays(rays, packet.ray());
+      embree::store(UintN(RTC_INVALID_GEOMETRY_ID), [&](int i) { return packet.rays[i].hit.geomID; });
+      packet.valid = all;
       counts.camera += packet_lanes;
 
       const Hits hits = scene_.accelerator().intersect(rays, all, Coherence::coherent);
@@ -207,8 +185,8 @@ class CeilingOfVariant final : public Ceiling {
         if (none(lit)) continue;
         const LightSample<FloatN> to_light = light->sample(origin);
         ShadowPacket& shadow_packet = shadow.emplace_back();
-        store(Ray<FloatN>{origin, to_light.to_light, FloatN(0), to_light.end}, shadow_packet.rays);
-        store_valid(lit, shadow_packet.valid);
+        embree::store_rays(Ray<FloatN>{origin, to_light.to_light, FloatN(0), to_light.end}, shadow_packet.ray());
+        shadow_packet.valid = lit;
         counts.shadow += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(lit)));
       }
     }

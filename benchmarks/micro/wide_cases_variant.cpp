@@ -326,7 +326,7 @@ void add_sums_case(const std::string& name, std::vector<MicroCase>& cases) {
   add_packet_case(
       "sums/" + name, static_cast<int>(packets_a_block),
       [film = std::make_shared<AnyFilm>(), seen](std::size_t i) {
-        auto sums = AnyFilm::no_sums();
+        auto sums = film->no_sums();
         MaskN bad(false);
         for (std::size_t packet = 0; packet < packets_a_block; ++packet)
           bad = bad | sums.add(seen[i + packet], MaskN(true));

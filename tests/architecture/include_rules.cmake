@@ -28,7 +28,7 @@ endfunction()
 only("lib/raytrace/accel/" "embree[0-9]*/")
 only("lib/raytrace/description/" "tinyxml2")
 only("lib/raytrace/display/display_server[.]cpp$" "asio[./]")
-only("lib/raytrace/math/simd[.]h$" "([a-z0-9]*intrin[.]h|arm_(neon|sve)[.]h|xsimd/)")
+only("lib/raytrace/math/(simd|twin_batch)[.]h$" "([a-z0-9]*intrin[.]h|arm_(neon|sve)[.]h|xsimd/)")
 
 if(offenders)
   message(FATAL_ERROR "includes in the wrong place:\n${offenders}")

@@ -2,16 +2,13 @@
 #include <bit>
 
 #include "raytrace/accel/accelerator.h"
+#include "raytrace/accel/embree_packets.h"
 #include "raytrace/accel/for_each_candidate.h"
 #include "raytrace/math/gather.h"
 
 namespace raytrace {
 
 namespace {
-
-/// Embree's packets are a register wide.
-using Packet = embree::Packet<register_lanes>;
-constexpr int registers = packet_lanes / register_lanes;
 
 /// Embree asserts |component| < 1.844e18 for every ray and aborts otherwise, where it is built with assertions as
 /// Debian's is. NaN fails every comparison.
@@ -24,71 +21,7 @@ RAYTRACE_INLINE MaskN embree_takes(const Ray<FloatN>& rays) {
          (rays.far > rays.near);
 }
 
-// A packet of ours in as many of Embree's, whose arrays of a field are field(0), field(1).
-
-template <class Batch, class Field>
-RAYTRACE_INLINE void store(const Batch& values, const Field& field) {
-  if constexpr (is_twin<Batch>) {
-    values.lower().store_aligned(field(0));
-    values.upper().store_aligned(field(1));
-  } else {
-    values.store_aligned(field(0));
-  }
-}
-
-template <class Batch, class Field>
-RAYTRACE_INLINE Batch load(const Field& field) {
-  if constexpr (is_twin<Batch>) {
-    return {Batch::Part::load_aligned(field(0)), Batch::Part::load_aligned(field(1))};
-  } else {
-    return Batch::load_aligned(field(0));
-  }
-}
-
-struct ValidLanes {
-  alignas(64) int lanes[registers][register_lanes];
-
-  explicit ValidLanes(const MaskN& active) {
-    store(same_bits<IntN>(select(active, same_bits<FloatN>(IntN(-1)), FloatN(0))), [&](int i) { return lanes[i]; });
-  }
-};
-
-/// ray(i): Embree's packet number i.
-template <class EmbreeRay>
-void store_rays(const Ray<FloatN>& rays, const EmbreeRay& ray) {
-  store(rays.origin.x, [&](int i) { return ray(i).org_x; });
-  store(rays.origin.y, [&](int i) { return ray(i).org_y; });
-  store(rays.origin.z, [&](int i) { return ray(i).org_z; });
-  store(rays.near, [&](int i) { return ray(i).tnear; });
-  store(rays.direction.x, [&](int i) { return ray(i).dir_x; });
-  store(rays.direction.y, [&](int i) { return ray(i).dir_y; });
-  store(rays.direction.z, [&](int i) { return ray(i).dir_z; });
-  store(FloatN(0), [&](int i) { return ray(i).time; });
-  store(rays.far, [&](int i) { return ray(i).tfar; });
-  store(UintN(0xffffffffu), [&](int i) { return ray(i).mask; });
-  store(UintN(0), [&](int i) { return ray(i).id; });
-  store(UintN(0), [&](int i) { return ray(i).flags; });
-}
-
-/// Calls f(packet, lane) for each of the packet's lanes that are set, Embree's packet and the lane in it.
-template <class Function>
-void for_each_lane(const MaskN& mask, const Function& f) {
-  for (std::uint32_t lanes = bits_of<FloatN>(mask); lanes != 0; lanes &= lanes - 1) {
-    const int lane = std::countr_zero(lanes);
-    f(lane / register_lanes, lane % register_lanes);
-  }
-}
-
-/// Calls f(packet) for each of Embree's packets that has a lane in the mask.
-template <class Function>
-void for_each_packet(const MaskN& mask, const Function& f) {
-  constexpr std::uint32_t all = (std::uint64_t{1} << register_lanes) - 1;
-  const std::uint32_t lanes = bits_of<FloatN>(mask);
-  for (int i = 0; i < registers; ++i)
-    if ((lanes >> (i * register_lanes) & all) != 0) f(i);
-}
-
-RTCRay single_ray(const typename Packet::Ray& rays, int lane) {
+RTCRay single_ray(const embree::RegisterPacket::Ray& rays, int lane) {
   RTCRay ray{};
   ray.org_x = rays.org_x[lane];
   ray.org_y = rays.org_y[lane];
@@ -234,15 +167,18 @@ Hits Accelerator::intersect(const Ray<FloatN>& rays, const MaskN& active, Cohere
   if (none(valid_lanes)) return hits;
 
   embree::Query query(coherence == Coherence::coherent);
-  alignas(64) typename Packet::RayHit packets[registers];
-  store_rays({rays.origin, rays.direction, rays.near, hits.distance}, [&](int i) -> auto& { return packets[i].ray; });
-  store(UintN(RTC_INVALID_GEOMETRY_ID), [&](int i) { return packets[i].hit.geomID; });
-  store(UintN(RTC_INVALID_GEOMETRY_ID), [&](int i) { return packets[i].hit.instID[0]; });
+  alignas(64) embree::RegisterPacket::RayHit packets[embree::packets];
+  embree::store_rays({rays.origin, rays.direction, rays.near, hits.distance},
+                     [&](int i) -> auto& { return packets[i].ray; });
+  embree::store(UintN(RTC_INVALID_GEOMETRY_ID), [&](int i) { return packets[i].hit.geomID; });
+  embree::store(UintN(RTC_INVALID_GEOMETRY_ID), [&](int i) { return packets[i].hit.instID[0]; });
   if (coherence == Coherence::coherent) {
-    const ValidLanes valid(valid_lanes);
-    for_each_packet(valid_lanes, [&](int i) { Packet::intersect(valid.lanes[i], scene_.get(), query, packets[i]); });
+    const embree::ValidLanes valid(valid_lanes);
+    embree::for_each_packet(valid_lanes, [&](int i) {
+      embree::RegisterPacket::intersect(valid.lanes[i], scene_.get(), query, packets[i]);
+    });
   } else {
-    for_each_lane(valid_lanes, [&](int i, int lane) {
+    embree::for_each_lane(valid_lanes, [&](int i, int lane) {
       auto& packet = packets[i];
       RTCRayHit single{};
       single.ray = single_ray(packet.ray, lane);
@@ -255,15 +191,15 @@ Hits Accelerator::intersect(const Ray<FloatN>& rays, const MaskN& active, Cohere
       packet.hit.geomID[lane] = single.hit.geomID;
     });
   }
-  const UintN kind = load<UintN>([&](int i) { return packets[i].hit.geomID; });
+  const UintN kind = embree::load<UintN>([&](int i) { return packets[i].hit.geomID; });
   const MaskN in_bvh = valid_lanes & float_mask<FloatN>(kind != UintN(RTC_INVALID_GEOMETRY_ID));
   hits.hit = hits.hit | in_bvh;
   hits.kind = select_lanes(in_bvh, kind, hits.kind);
-  const UintN primitive = load<UintN>([&](int i) { return packets[i].hit.primID; });
+  const UintN primitive = embree::load<UintN>([&](int i) { return packets[i].hit.primID; });
   hits.primitive = select_lanes(in_bvh, same_bits<IntN>(primitive), hits.primitive);
-  hits.distance = load<FloatN>([&](int i) { return packets[i].ray.tfar; });
-  hits.u = select(in_bvh, load<FloatN>([&](int i) { return packets[i].hit.u; }), hits.u);
-  hits.v = select(in_bvh, load<FloatN>([&](int i) { return packets[i].hit.v; }), hits.v);
+  hits.distance = embree::load<FloatN>([&](int i) { return packets[i].ray.tfar; });
+  hits.u = select(in_bvh, embree::load<FloatN>([&](int i) { return packets[i].hit.u; }), hits.u);
+  hits.v = select(in_bvh, embree::load<FloatN>([&](int i) { return packets[i].hit.v; }), hits.v);
   find_first(hits);
   return hits;
 }
@@ -277,19 +213,20 @@ MaskN Accelerator::occluded(const Ray<FloatN>& rays, const MaskN& active, Cohere
   if (none(valid_lanes)) return found;
 
   embree::Query query(coherence == Coherence::coherent);
-  alignas(64) typename Packet::Ray packets[registers];
-  store_rays(rays, [&](int i) -> auto& { return packets[i]; });
+  alignas(64) embree::RegisterPacket::Ray packets[embree::packets];
+  embree::store_rays(rays, [&](int i) -> auto& { return packets[i]; });
   if (coherence == Coherence::coherent) {
-    const ValidLanes valid(valid_lanes);
-    for_each_packet(valid_lanes, [&](int i) { Packet::occluded(valid.lanes[i], scene_.get(), query, packets[i]); });
+    const embree::ValidLanes valid(valid_lanes);
+    embree::for_each_packet(
+        valid_lanes, [&](int i) { embree::RegisterPacket::occluded(valid.lanes[i], scene_.get(), query, packets[i]); });
   } else {
-    for_each_lane(valid_lanes, [&](int i, int lane) {
+    embree::for_each_lane(valid_lanes, [&](int i, int lane) {
       RTCRay single = single_ray(packets[i], lane);
       embree::occluded1(scene_.get(), query, single);
       packets[i].tfar[lane] = single.tfar;
     });
   }
-  return found | (valid_lanes & (load<FloatN>([&](int i) { return packets[i].tfar; }) < FloatN(0)));
+  return found | (valid_lanes & (embree::load<FloatN>([&](int i) { return packets[i].tfar; }) < FloatN(0)));
 }
 
 SurfacePoint<FloatN> Accelerator::surface(const Ray<FloatN>& rays, const Hits& hits) const {
