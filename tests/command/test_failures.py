@@ -69,7 +69,8 @@ class Failures(CommandTest):
         def little_memory():
             resource.setrlimit(resource.RLIMIT_AS, (1 << 30, resource.RLIM_INFINITY))
 
-        message = self.fail_with(33, "scene.xml", "-q", "-r", "16384x16384", "-o", "a.exr", preexec_fn=little_memory)
+        message = self.fail_with(33, "scene.xml", "-q", "-r", "16384x16384", "--sample-offset", "0", "-o", "a.exr",
+                                 preexec_fn=little_memory)
         self.assertEqual(message, "raytrace: error: out of memory\n")
         self.assertEqual(self.names(), ["scene.xml"])
 

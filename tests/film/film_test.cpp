@@ -50,6 +50,36 @@ TEST_CASE("a pixel is the mean of its samples in the film's units, and black and
   CHECK(film.fewest_samples() == 4);
 }
 
+TEST_CASE("a film of means takes those of its parts, as floats or as halves") {
+  const Region region{10, 20, 17, 26}, part{12, 21, 16, 25};
+  Film sums(settings_of(part, -10));
+  std::int64_t next = 1;
+  for (int y = part.y0; y < part.y1; ++y)
+    for (int x = part.x0; x < part.x1; ++x, next *= 3) sums.sum(x, y) += {next, -next, next * next, 2, 3};
+  for (const FilmContent content : {FilmContent::means, FilmContent::half_means}) {
+    Film means(settings_of(region, -10), content);
+    CHECK(means.sums().empty());
+    means.set_means(sums);
+    for (int y = region.y0; y < region.y1; ++y)
+      for (int x = region.x0; x < region.x1; ++x) {
+        INFO(x << ", " << y);
+        const bool inside = part.x0 <= x && x < part.x1 && part.y0 <= y && y < part.y1;
+        const Pixel wanted = inside ? sums.pixel(x, y) : Pixel(), got = means.pixel(x, y);
+        const auto same = [&](float Pixel::* channel) {
+          if (content == FilmContent::means || wanted.*channel == 0) return got.*channel == wanted.*channel;
+          constexpr float largest = 65504, steps = 0x1p-11F;  // of half
+          return std::abs(wanted.*channel) > largest
+                     ? std::isinf(got.*channel) && std::signbit(got.*channel) == std::signbit(wanted.*channel)
+                     : std::abs(got.*channel / (wanted.*channel) - 1) <= steps;
+        };
+        CHECK(same(&Pixel::red));
+        CHECK(same(&Pixel::green));
+        CHECK(same(&Pixel::blue));
+        CHECK(same(&Pixel::alpha));
+      }
+  }
+}
+
 TEST_CASE("a film's unit leaves room for the sums, and is the same for all parts of a picture") {
   for (const float largest : {1e-20f, 0.7f, 1.0f, 1.5f, 1e17f, std::numeric_limits<float>::max()})
     for (const double samples : {1.0, 16.0, 524288.0, 524289.0, 1e7, 4294967295.0}) {

@@ -46,13 +46,19 @@ TEST_CASE("a mask's bits are its lanes, lane 0 lowest") {
   }
   for (int count = 0; count <= packet_lanes; ++count)
     CHECK(bits_of<FloatN>(first_lanes<FloatN>(count)) == (1u << count) - 1);
+  constexpr std::uint32_t all = (1U << lanes) - 1;
   CHECK(bits_of<FloatN>(numbers == FloatN(2)) == 4);
+  CHECK(bits_of<FloatN>(numbers != FloatN(2)) == (all ^ 4U));
+  CHECK(bits_of<FloatN>(!(numbers == FloatN(2))) == (all ^ 4U));
+  CHECK(bits_of<FloatN>(!MaskN(false)) == all);
+  CHECK(bits_of<FloatN>(!MaskN(true)) == 0);
 }
 
 TEST_CASE("a comparison of integers is a mask of floats, and selects integers") {
   const IntN numbers = batch_of<IntN>([](std::size_t i) { return static_cast<int>(i) - 1; });
   const MaskN mask = float_mask<FloatN>(numbers == IntN(1));
   CHECK(bits_of<FloatN>(mask) == 4);
+  CHECK(bits_of<FloatN>(float_mask<FloatN>(numbers != IntN(1))) == (((1U << lanes) - 1) ^ 4U));
   // Numbers whose bits are NaNs and denormals of float must come through as they are.
   const IntN chosen = select_lanes(mask, IntN(-1), IntN(1));
   for (std::size_t lane = 0; lane < lanes; ++lane) CHECK(chosen.get(lane) == (lane == 2 ? -1 : 1));

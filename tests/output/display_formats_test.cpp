@@ -145,4 +145,14 @@ TEST_CASE("which files can hold floats") {
   CHECK_THROWS_AS(holds_float("a.unknown"), OutputError);
 }
 
+TEST_CASE("which files want no more than halves") {
+  ImageFileSettings floats;
+  floats.full_float = true;
+  CHECK(holds_halves("a.exr", {}));
+  CHECK_FALSE(holds_halves("a.exr", floats));
+  CHECK_FALSE(holds_halves("a.png", {}));
+  CHECK_FALSE(holds_halves("a.hdr", {}));
+  CHECK_THROWS_AS(holds_halves("a.unknown", {}), OutputError);
+}
+
 }  // namespace raytrace::test

@@ -114,6 +114,34 @@ TEST_CASE("a picture written in bands has the bytes of the same picture written 
   CHECK(bytes_of(file) == at_once);
 }
 
+TEST_CASE("a film of half means makes the same EXR as the sums that they are of") {
+  const SourceDateEpoch epoch("86399");
+  const TemporaryFolder folder;
+  const std::string file = folder.file("a.exr");
+  FilmSettings settings;
+  settings.extent = {40, 60, {3, 5, 37, 59}};
+  settings.unit_exponent = -20;
+  const bool too_bright = GENERATE(false, true);
+  Film sums(settings);
+  std::int64_t next = 1;
+  for (int y = 5; y < 59; ++y)
+    for (int x = 3; x < 37; ++x) {
+      next = (next * 69069 + 1) % (std::int64_t{1} << 34);  // means up to 5461, in units of 2^-20
+      sums.sum(x, y) = {next, next / 7, next / 1000, 1, 3};
+    }
+  if (too_bright) sums.sum(20, 30) = {std::int64_t{1} << 50, 0, -(std::int64_t{1} << 50), 1, 1};
+  Film means(settings, FilmContent::half_means);
+  means.set_means(sums);
+
+  const Repairs of_sums = write_image(file, sums, {}, {});
+  const std::string wanted = bytes_of(file);
+  const Repairs of_means = write_image(file, means, {}, {});
+  CHECK(bytes_of(file) == wanted);
+  CHECK(of_sums.clamped == (too_bright ? 2 : 0));
+  CHECK(of_means.clamped == of_sums.clamped);
+  CHECK(of_means.not_finite == of_sums.not_finite);
+}
+
 TEST_CASE("an EXR holds any channels, each of its type") {
   const TemporaryFolder folder;
   const std::string file = folder.file("a.exr");

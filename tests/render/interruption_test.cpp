@@ -105,6 +105,49 @@ TEST_CASE("a render that is paused again and again ends in the same sums") {
   }
 }
 
+TEST_CASE("a film of means has those of the sums, however often its render is paused") {
+  const SceneDescription description = parsed_scene(busy_scene(61, 47, 40));
+  for (const int threads : {1, 3}) {
+    const auto scene = build_scene(description, {threads, {}});
+    const FilmSettings settings = film_settings(*scene, description, {threads, 5, whole(description), {}});
+    Film sums(settings);
+    const RenderReport all = render(*scene, sums, 40, threads);
+    Film means(settings, FilmContent::means);
+    RenderReport report;
+    int pauses = 0;
+    for (bool done = false; !done; ++pauses) {
+      std::atomic<bool> stop{false};
+      int calls = 0;
+      // Further on each time, since tiles that are done count again; the other threads are in the middle of theirs.
+      report += render(*scene, means, 40, threads, [&](double) { stop = calls++ >= pauses; }, &stop);
+      done = !stop;
+    }
+    CHECK(pauses > 10);
+    CHECK(report.rays.camera == all.rays.camera);
+    CHECK(report.rays.shadow == all.rays.shadow);
+    const std::vector<Pixel> wanted = sums.pixels(), got = means.pixels();
+    int wrong = 0;
+    for (std::size_t i = 0; i < wanted.size(); ++i) wrong += !identical(wanted[i], got[i]);
+    CHECK(wrong == 0);
+  }
+}
+
+TEST_CASE("a film of means shows what there is of a tile that was stopped") {
+  const SceneDescription description = parsed_scene(busy_scene(8, 8, 2'000'000'000));
+  const auto scene = build_scene(description, {1, {}});
+  std::atomic<bool> stop{false};
+  Film film(film_settings(*scene, description, {1, 0, whole(description), {}}), FilmContent::means);
+  std::thread stopper([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    stop = true;
+  });
+  render(*scene, film, 2'000'000'000, 1, {}, &stop);
+  stopper.join();
+  const std::vector<Pixel> pixels = film.pixels();
+  CHECK(!identical(pixels.front(), untouched));
+  CHECK(identical(pixels.back(), untouched));
+}
+
 TEST_CASE("sums of parts of the samples add up to those of all") {
   const SceneDescription description = parsed_scene(busy_scene(50, 30, 21));
   const auto scene = build_scene(description, {1, {}});
