@@ -73,10 +73,12 @@ Ending PictureRender::run() {
   return ending;
 }
 
-/// Means where nobody asks for more: neither for samples to come after a while, nor for pieces to be put together.
+/// Means where nobody asks for more: neither for samples to come after a while, nor for pieces to be put together, be
+/// they stopped or not.
 FilmContent PictureRender::film_content() const {
+  const Region picture{0, 0, description_.viewplane.hres, description_.viewplane.vres};
   if (!options_.checkpoint.empty() || options_.time_limit || options_.sample_offset || display_ ||
-      !options_.aovs.empty() || settings_.region != identity_.whole)
+      !options_.aovs.empty() || settings_.region != picture)
     return FilmContent::sums;
   const bool halves = std::all_of(options_.outputs.begin(), options_.outputs.end(), [&](const std::string& file) {
     return holds_halves(file, options_.image_file_settings());

@@ -141,6 +141,16 @@ class Stopped(SafetyTest):
             self.assertNotEqual(self.read("a.exr"), partial, "it is no newer one")
             os.remove(self.path("a.png"))
 
+    def test_sums_in_what_is_left(self):
+        """A piece that was stopped has them, so that it can be merged; a whole picture just shows how far it came."""
+        for part, has_sums in (([], False), (["--tile", "0/2"], True), (["--crop", "0,0,400,400"], True)):
+            self.assertEqual(self.stop(signal.SIGTERM, "-o", "a.exr", *part), 143)
+            self.assertEqual("sums.samples" in self.exr("a.exr").channels, has_sums, part)
+            if not has_sums:
+                self.assertIn("a.exr holds some of the samples only, without their sums",
+                              self.fail_with(1, "merge", "a.exr", "--partial", "-o", "b.exr"))
+            os.remove(self.path("a.exr"))
+
     def test_what_would_be_skipped(self):
         """No PNG tells that it is not complete: with --skip-existing there is none, or a checkpoint beside it."""
         self.assertEqual(self.stop(signal.SIGTERM, "-o", "a.exr", "-o", "a.png", "--skip-existing"), 143)
