@@ -87,9 +87,6 @@ class CommandTest(unittest.TestCase):
 
     def succeed(self, *arguments, **keywords):
         done = self.run_program(*arguments, **keywords)
-        if SANITIZERS and "LeakSanitizer has encountered a fatal error" in done.stderr:
-            # At the end of the program it looks into its threads, and now and then trips over one that is just ending.
-            done = self.run_program(*arguments, **keywords)
         self.assertEqual(done.returncode, 0, done.stderr)
         return done
 

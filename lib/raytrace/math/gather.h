@@ -1,7 +1,6 @@
 // A table's records for each lane, by the lane's own place in it.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
