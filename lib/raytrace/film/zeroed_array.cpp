@@ -3,7 +3,6 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include <cstdint>
 #include <new>
 
 namespace raytrace {
@@ -13,10 +12,11 @@ void* zeroed_memory(std::size_t bytes) {
   if (memory == nullptr && bytes > 0) throw std::bad_alloc();
   constexpr std::size_t large = std::size_t{4} << 20U;
   if (bytes >= large) {
-    const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
-    const auto begin = reinterpret_cast<std::uintptr_t>(memory), end = begin + bytes;
-    const std::uintptr_t first_page = (begin + page - 1) / page * page;
-    madvise(reinterpret_cast<void*>(first_page), end - first_page, MADV_HUGEPAGE);
+    void* first_page = memory;
+    std::size_t rest = bytes;
+    if (std::align(static_cast<std::size_t>(sysconf(_SC_PAGESIZE)), 1, first_page, rest) != nullptr) {
+      madvise(first_page, rest, MADV_HUGEPAGE);
+    }
   }
   return memory;
 }
