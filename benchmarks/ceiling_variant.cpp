@@ -161,7 +161,7 @@ class CeilingOfVariant final : public Ceiling {
       xs[lane] = static_cast<float>(column) - static_cast<float>(viewplane.hres) / 2;
       ys[lane] = static_cast<float>(viewplane.vres) / 2 - 1 - static_cast<float>(row);
     }
-    PixelSampler sampler(UintN::load_aligned(columns), UintN::load_aligned(rows), UintN(0u), 1, 0, 0,
+    PixelSampler sampler(UintN::load_aligned(columns), UintN::load_aligned(rows), SampleGroup(UintN(0u), 1), 0, 0,
                          viewplane.samples == 1);
     for (int sample = 0; sample < std::min(first_sample + 16, viewplane.samples); ++sample) {
       const PixelSampler::Point point = sampler.next();

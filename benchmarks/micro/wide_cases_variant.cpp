@@ -236,7 +236,7 @@ void add_sampler_case(std::vector<MicroCase>& cases) {
       "sampler/pixel", samples,
       [](std::size_t i) {
         const UintN column(static_cast<std::uint32_t>(i)), row(7);
-        PixelSampler sampler(column, row, UintN(0u), 1, 1, 0, false);
+        PixelSampler sampler(column, row, SampleGroup(UintN(0u), 1), 1, 0, false);
         FloatN sum(0);
         for (int sample = 0; sample < samples; ++sample) {
           const PixelSampler::Point point = sampler.next();
@@ -250,6 +250,7 @@ void add_sampler_case(std::vector<MicroCase>& cases) {
 // ---- Sums: from the radiances of a block's packets to the film, exactly as the renderer does it, and in floats.
 
 /// A block of pixels with 16 samples each, and so many packets.
+constexpr PacketShape sampled_shape = shape_of_samples(packet_lanes);
 using SampledBlock = PacketBlock<sampled_shape>;
 constexpr std::size_t packets_a_block = 16 / sampled_shape.samples;
 /// The pixels of packet_count blocks, side by side.

@@ -1,5 +1,5 @@
 // What the film keeps, and what it makes of it.
-#include "raytrace/film/film.h"
+#include "raytrace/film/film_means.h"
 
 #include <cmath>
 #include <limits>
@@ -59,7 +59,7 @@ TEST_CASE("a film of means takes those of its parts, as floats or as halves") {
   for (const FilmContent content : {FilmContent::means, FilmContent::half_means}) {
     Film means(settings_of(region, -10), content);
     CHECK(means.sums().empty());
-    means.set_means(sums);
+    set_means(means, sums);
     for (int y = region.y0; y < region.y1; ++y)
       for (int x = region.x0; x < region.x1; ++x) {
         INFO(x << ", " << y);

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "pictures.h"
+#include "raytrace/film/film_means.h"
 #include "source_date_epoch.h"
 #include "support/catch.h"
 #include "support/temporary_folder.h"
@@ -131,7 +132,7 @@ TEST_CASE("a film of half means makes the same EXR as the sums that they are of"
     }
   if (too_bright) sums.sum(20, 30) = {std::int64_t{1} << 50, 0, -(std::int64_t{1} << 50), 1, 1};
   Film means(settings, FilmContent::half_means);
-  means.set_means(sums);
+  set_means(means, sums);
 
   const Repairs of_sums = write_image(file, sums, {}, {});
   const std::string wanted = bytes_of(file);

@@ -72,19 +72,37 @@ RAYTRACE_INLINE FloatN meet(const Tables& tables, const DirectionBuffer::Object&
   });
 }
 
+/// Shapes whose objects are few and large: their surface() takes one, so that it can be of the plain numbers.
+template <class Shape>
+concept SurfaceOfOne = requires(typename ShapeTable<Shape>::Record record, Ray<FloatN> rays, FloatN distance) {
+  Shape::surface(record, rays, distance);
+};
+
 /// The surfaces of one shape, under the wide type of its table's precision.
 template <class Shape>
 SurfacePoint<FloatN> surface_of(const ShapeTable<Shape>& table, const LanePlaces& primitive, const Ray<FloatN>& rays,
                                 const Hits& hits) {
-  if constexpr (requires { Shape::surface(table.records[0], rays, hits.distance); })
-    if (primitive.all_same()) return Shape::surface(table.records[primitive.first()], rays, hits.distance);
-  constexpr bool in_float = std::is_same_v<typename ShapeTable<Shape>::Record, typename Shape::template Record<float>>;
-  using Wide = std::conditional_t<in_float, FloatN, Doubles<FloatN>>;
-  const auto records = gather_records<Shape::template Record, Wide>(table.records.data(), primitive);
-  if constexpr (EmbreeTriangle<Shape>) {
-    return Shape::template surface<FloatN>(records, hits.u, hits.v);
+  if constexpr (SurfaceOfOne<Shape>) {
+    SurfacePoint<FloatN> points = Shape::surface(table.records[primitive.first()], rays, hits.distance);
+    MaskN left = float_mask<FloatN>(primitive.lanes() != IntN(static_cast<std::int32_t>(primitive.first())));
+    while (any(left)) {
+      const std::int32_t next =
+          primitive.lanes().get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(left))));
+      const MaskN here = left & float_mask<FloatN>(primitive.lanes() == IntN(next));
+      points = select(here, Shape::surface(table.records[static_cast<std::size_t>(next)], rays, hits.distance), points);
+      left = left & !here;
+    }
+    return points;
   } else {
-    return Shape::template surface<FloatN>(records, rays, hits.distance);
+    constexpr bool in_float =
+        std::is_same_v<typename ShapeTable<Shape>::Record, typename Shape::template Record<float>>;
+    using Wide = std::conditional_t<in_float, FloatN, Doubles<FloatN>>;
+    const auto records = gather_records<Shape::template Record, Wide>(table.records.data(), primitive);
+    if constexpr (EmbreeTriangle<Shape>) {
+      return Shape::template surface<FloatN>(records, hits.u, hits.v);
+    } else {
+      return Shape::template surface<FloatN>(records, rays, hits.distance);
+    }
   }
 }
 

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "raytrace/film/aov_film.h"
+#include "raytrace/film/film_means.h"
 
 namespace raytrace {
 
@@ -35,22 +36,15 @@ Film::Film(const FilmSettings& settings, FilmContent content)
       means_ = ZeroedArray<Pixel>(count());
       break;
     case FilmContent::half_means:
-      half_means_ = ZeroedArray<std::array<std::uint16_t, 4>>(count());
+      half_means_ = ZeroedArray<HalfPixel>(count());
       break;
   }
-}
-
-Pixel Film::mean(const PixelSum& sum) const {
-  if (sum.samples == 0) return {};
-  const double samples = sum.samples;
-  const auto of = [&](std::int64_t total) { return static_cast<float>(static_cast<double>(total) / samples * unit_); };
-  return {of(sum.red), of(sum.green), of(sum.blue), static_cast<float>(sum.hits / samples)};
 }
 
 Pixel Film::pixel(int x, int y) const {
   switch (content_) {
     case FilmContent::sums:
-      return mean(sums_[index(x, y)]);
+      return mean(sums_[index(x, y)], unit_);
     case FilmContent::means:
       return means_[index(x, y)];
     case FilmContent::half_means:
@@ -58,21 +52,6 @@ Pixel Film::pixel(int x, int y) const {
   }
   const auto& [red, green, blue, alpha] = half_means_[index(x, y)];
   return {imath_half_to_float(red), imath_half_to_float(green), imath_half_to_float(blue), imath_half_to_float(alpha)};
-}
-
-void Film::set_means(const Film& sums) {
-  const Region& part = sums.region();
-  const PixelSum* sum = sums.sums().data();
-  for (int y = part.y0; y < part.y1; ++y)
-    for (std::size_t i = index(part.x0, y), end = index(part.x1, y); i < end; ++i, ++sum) {
-      const Pixel pixel = mean(*sum);
-      if (content_ == FilmContent::means) {
-        means_[i] = pixel;
-      } else {
-        half_means_[i] = {imath_float_to_half(pixel.red), imath_float_to_half(pixel.green),
-                          imath_float_to_half(pixel.blue), imath_float_to_half(pixel.alpha)};
-      }
-    }
 }
 
 std::vector<Pixel> Film::pixels() const {

@@ -75,12 +75,15 @@ int unit_exponent(float largest_radiance, std::uint64_t samples);
 
 class AovFilm;
 
+/// A Pixel's four numbers as IEEE 754 binary16.
+using HalfPixel = std::array<std::uint16_t, 4>;
+
 /// What a film holds of each pixel. Memory that is fresh from the system takes time, so a picture that is rendered in
 /// one go, tile by tile, keeps no more than its files want.
 enum class FilmContent {
   sums,        ///< PixelSum, 32 bytes: samples can be added at any time, and in any order
   means,       ///< Pixel, 16 bytes
-  half_means,  ///< the same in numbers of 16 bits (IEEE 754 binary16; infinity beyond their range), 8 bytes
+  half_means,  ///< HalfPixel, 8 bytes; infinity beyond its range
 };
 
 /// Holds the pixels of a region, all zero at first. Threads may write different pixels at the same time.
@@ -104,6 +107,9 @@ class Film {
 
   // Of films of sums.
 
+  /// One of radiance, in those of the sums.
+  double unit() const { return unit_; }
+
   PixelSum& sum(int x, int y) { return sums_[index(x, y)]; }
   const PixelSum& sum(int x, int y) const { return sums_[index(x, y)]; }
   std::span<const PixelSum> sums() const { return {sums_.data(), content_ == FilmContent::sums ? count() : 0}; }
@@ -115,13 +121,14 @@ class Film {
   /// The fewest samples that a pixel has.
   std::uint32_t fewest_samples() const;
 
-  // Of films of means.
+  // Of films of means. Each gives the first of the pixels from (x, y) on, row by row; film_means.h sets them.
 
-  /// Takes the means of a film of sums, whose region lies in this one's.
-  void set_means(const Film& sums);
+  Pixel* means(int x, int y) { return &means_[index(x, y)]; }
+  const Pixel* means(int x, int y) const { return &means_[index(x, y)]; }
 
-  /// Of half_means: red, green, blue and alpha of the pixels from (x, y) on, row by row.
-  const std::uint16_t* half_means(int x, int y) const { return &half_means_[index(x, y)][0]; }
+  /// Red, green, blue and alpha.
+  HalfPixel* half_means(int x, int y) { return &half_means_[index(x, y)]; }
+  const HalfPixel* half_means(int x, int y) const { return &half_means_[index(x, y)]; }
 
   /// A tile that render() is at.
   struct Tile {
@@ -139,15 +146,13 @@ class Film {
     return static_cast<std::size_t>(y - region().y0) * static_cast<std::size_t>(region().width()) +
            static_cast<std::size_t>(x - region().x0);
   }
-  Pixel mean(const PixelSum& sum) const;
-
   FilmSettings settings_;
   FilmContent content_;
   double unit_;  ///< of radiance
   // One of them holds the pixels.
   ZeroedArray<PixelSum> sums_;
   ZeroedArray<Pixel> means_;
-  ZeroedArray<std::array<std::uint16_t, 4>> half_means_;
+  ZeroedArray<HalfPixel> half_means_;
   std::vector<Tile> tiles_;
   std::unique_ptr<AovFilm> aovs_;
 };

@@ -15,13 +15,11 @@ struct PacketShape {
   int width, height, samples;
 };
 
-/// As many samples of as few pixels as samples are at hand for: such rays are closer together than those of one sample
-/// of many pixels. Samples 0, 1, ... of a pixel belong to groups of `samples`, which are always traced together: a
-/// sample's bits do not depend on which others are asked for.
-inline constexpr PacketShape sampled_shape = {2, packet_lanes / 8, 4};
-
-/// For pictures of a single sample a pixel: as square as can be.
-inline constexpr PacketShape centered_shape = {4, packet_lanes / 4, 1};
+/// With `samples` of each pixel (a power of two, at most packet_lanes), as square as can be.
+constexpr PacketShape shape_of_samples(int samples) {
+  const int pixels = packet_lanes / samples, width = pixels >= 8 ? 4 : pixels >= 2 ? 2 : 1;
+  return {width, pixels / width, samples};
+}
 
 /// The block whose left upper pixel is (left, top).
 template <PacketShape shape>
@@ -30,13 +28,25 @@ struct PacketBlock {
 
   int left = 0, top = 0;
 
+  /// Of each lane's pixel, as UintN: or, where there is but one, std::uint32_t.
+  auto columns() const {
+    if constexpr (pixels == 1)
+      return static_cast<std::uint32_t>(left);
+    else
+      return UintN(static_cast<std::uint32_t>(left)) + UintN::load_aligned(numbers.column.data());
+  }
+  auto rows() const {
+    if constexpr (pixels == 1)
+      return static_cast<std::uint32_t>(top);
+    else
+      return UintN(static_cast<std::uint32_t>(top)) + UintN::load_aligned(numbers.row.data());
+  }
+
   /// Of a lane's pixel, in the picture; and the lane's sample in its group.
   int column(int lane) const { return left + lane % shape.width; }
   int row(int lane) const { return top + lane / shape.width % shape.height; }
   static constexpr int slot(int lane) { return lane / pixels; }
 
-  UintN columns() const { return UintN(static_cast<std::uint32_t>(left)) + UintN::load_aligned(numbers.column.data()); }
-  UintN rows() const { return UintN(static_cast<std::uint32_t>(top)) + UintN::load_aligned(numbers.row.data()); }
   static UintN slots() { return UintN::load_aligned(numbers.slot.data()); }
 
   /// Of a number in each lane, the sums of each pixel's lanes.

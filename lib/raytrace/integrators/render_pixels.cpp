@@ -17,13 +17,19 @@ namespace {
 constexpr int packets_per_look = 16;
 
 FloatN to_float(const UintN& numbers) { return to_float(same_bits<IntN>(numbers)); }
+FloatN to_float(std::uint32_t number) { return FloatN(static_cast<float>(number)); }
 
 /// The pixels of a part of a film, block by block.
 template <class Integrator, PacketShape shape>
 class BlockRenderer {
  public:
   BlockRenderer(const TracedScene& scene, const Region& region, Film& film, const std::atomic<bool>* stop)
-      : scene_(scene), region_(region), film_(film), stop_(stop), scale_(film.settings().unit_exponent) {}
+      : scene_(scene),
+        region_(region),
+        film_(film),
+        stop_(stop),
+        scale_(film.settings().unit_exponent),
+        group_(Block::slots(), shape.samples) {}
 
   /// Continues all pixels to `samples` each; returns early if it is stopped.
   RenderReport render(std::uint32_t samples) {
@@ -39,22 +45,46 @@ class BlockRenderer {
   using Block = PacketBlock<shape>;
 
   void render(const Block& block, std::uint32_t samples) {
-    const FilmSettings& settings = film_.settings();
-    // All pixels of a block have as many: they are always rendered together.
-    const std::uint32_t before = film_.sum(std::max(block.left, region_.x0), std::max(block.top, region_.y0)).samples;
-    if (before >= samples) return;
-    const std::uint32_t first = settings.samples.first + before, last = settings.samples.first + samples;
-    if (film_.aovs() == nullptr) return render(block, first, last, nullptr);
+    const SamplesLeft left(film_, block, region_, samples);
+    if (left.first >= left.last) return;
+    if (film_.aovs() == nullptr) return render(block, left, nullptr);
     BlockAovs aovs(*film_.aovs(), block, region_);
-    render(block, first, last, &aovs);
+    render(block, left, &aovs);
     aovs.finish();
   }
 
   /// Samples [first, last) of the pixels' sequences.
-  void render(const Block& block, std::uint32_t first, std::uint32_t last, BlockAovs* aovs) {
+  struct SamplesLeft {
+    std::uint32_t first, last;
+    std::uint32_t all_from;  ///< where some pixels have more than others, those
+    UintN lane_first;        ///< each lane's own
+
+    SamplesLeft(const Film& film, const Block& block, const Region& region, std::uint32_t samples) {
+      const std::uint32_t begin = film.settings().samples.first;
+      std::uint32_t least = samples, most = 0;
+      block.for_each_pixel(region, [&](int x, int y, std::size_t) {
+        const std::uint32_t before = film.sum(x, y).samples;
+        least = std::min(least, before);
+        most = std::max(most, before);
+      });
+      first = begin + least;
+      all_from = begin + most;
+      last = begin + samples;
+      lane_first = UintN(first);
+      if (least == most) return;
+      // A render of packets of another shape was stopped here.
+      alignas(64) std::array<std::uint32_t, packet_lanes> firsts{};
+      block.for_each_lane(region,
+                          [&](int x, int y, std::size_t lane) { firsts[lane] = begin + film.sum(x, y).samples; });
+      lane_first = UintN::load_aligned(firsts.data());
+    }
+  };
+
+  void render(const Block& block, const SamplesLeft& left, BlockAovs* aovs) {
     const FilmSettings& settings = film_.settings();
     const ViewPlane& viewplane = scene_.viewplane();
-    const UintN column = block.columns(), row = block.rows(), slot = Block::slots();
+    const auto column = block.columns(), row = block.rows();
+    const UintN slot = Block::slots();
     const auto width = static_cast<float>(viewplane.hres), height = static_cast<float>(viewplane.vres);
     // The lower left corner of the pixel, from the picture's center; rows of the format count from the bottom.
     const FloatN x = to_float(column) - FloatN(width / 2);
@@ -63,14 +93,14 @@ class BlockRenderer {
 
     // From the group that the first sample is in, with all that belong to it.
     constexpr auto group = static_cast<std::uint32_t>(shape.samples);
-    std::uint32_t base = first / group * group;
-    PixelSampler sampler(column, row, slot, shape.samples, settings.seed, base, settings.samples.centered);
+    std::uint32_t base = left.first / group * group;
+    PixelSampler sampler(column, row, group_, settings.seed, base, settings.samples.centered);
     BlockSums sums(scale_);
     MetSurface met;
-    for (int packets = 1; base < last; base += group, ++packets) {
+    for (int packets = 1; base < left.last; base += group, ++packets) {
       const UintN sample = UintN(base) + slot;
-      const bool all_wanted = base >= first && last - base >= group;
-      const MaskN wanted = all_wanted ? active : active & in_range(sample, first, last);
+      const bool all_wanted = base >= left.all_from && left.last - base >= group;
+      const MaskN wanted = all_wanted ? active : active & in_range(sample, left.lane_first, UintN(left.last));
       const PixelSampler::Point point = sampler.next();
       const Ray<FloatN> rays = scene_.camera().generate(x + point.x, y + point.y);
       const SeenRadiance seen =
@@ -84,9 +114,9 @@ class BlockRenderer {
     sums.add_to(film_, block, region_);
   }
 
-  static MaskN in_range(const UintN& number, std::uint32_t first, std::uint32_t last) {
-    return float_mask<FloatN>(same_bits<IntN>(number - UintN(first)) >= IntN(0)) &
-           float_mask<FloatN>(same_bits<IntN>(number - UintN(last)) < IntN(0));
+  static MaskN in_range(const UintN& number, const UintN& first, const UintN& last) {
+    return float_mask<FloatN>(same_bits<IntN>(number - first) >= IntN(0)) &
+           float_mask<FloatN>(same_bits<IntN>(number - last) < IntN(0));
   }
 
   bool stopped() const { return stop_ != nullptr && stop_->load(std::memory_order_relaxed); }
@@ -104,6 +134,7 @@ class BlockRenderer {
   Film& film_;
   const std::atomic<bool>* stop_;
   BlockSums::Scale scale_;
+  SampleGroup group_;
   RenderReport report_;
 };
 
@@ -111,9 +142,24 @@ class BlockRenderer {
 
 RenderReport render_pixels(const TracedScene& scene, const Region& region, std::uint32_t samples, Film& film,
                            const std::atomic<bool>* stop) {
-  if (film.settings().samples.centered)
-    return BlockRenderer<Raycast, centered_shape>(scene, region, film, stop).render(samples);
-  return BlockRenderer<Raycast, sampled_shape>(scene, region, film, stop).render(samples);
+  const auto in_groups_of = [&]<int group>(std::integral_constant<int, group>) {
+    return BlockRenderer<Raycast, shape_of_samples(group)>(scene, region, film, stop).render(samples);
+  };
+  // As many samples of as few pixels as there are samples at hand: such rays are closer together than those of one
+  // sample of many pixels. Samples 0, 1, ... of a pixel belong to groups, and lanes may be left without work in the
+  // first and the last of them.
+  const std::uint32_t begin = film.settings().samples.first, last = begin + samples,
+                      first = begin + film.sum(region.x1 - 1, region.y1 - 1).samples;  // none has fewer
+  const auto few_are_idle = [&](std::uint32_t group) {
+    const std::uint64_t lanes = (std::uint64_t{last} + group - 1) / group * group - first / group * group;
+    return lanes - (last - first) <= (last - first) / 8;
+  };
+  if (first < last) {
+    if (few_are_idle(packet_lanes)) return in_groups_of(std::integral_constant<int, packet_lanes>());
+    if (few_are_idle(packet_lanes / 2)) return in_groups_of(std::integral_constant<int, packet_lanes / 2>());
+    if (few_are_idle(4)) return in_groups_of(std::integral_constant<int, 4>());
+  }
+  return in_groups_of(std::integral_constant<int, 1>());
 }
 
 }  // namespace raytrace

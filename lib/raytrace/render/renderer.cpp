@@ -83,7 +83,7 @@ RenderReport render_means(const Scene& scene, Film& film, const Region& tile, Fi
   }
   const std::uint32_t samples = film.settings().samples.count;
   const RenderReport report = scene.render_region(tile, samples, *state.sums, stop);
-  film.set_means(*state.sums);
+  scene.set_film_means(film, *state.sums);
   state.finished = is_rendered(*state.sums, tile, samples);
   if (state.finished) state.sums.reset();
   return report;

@@ -93,6 +93,9 @@ class Scene {
   virtual RenderReport render_region(const Region& region, std::uint32_t samples, Film& film,
                                      const std::atomic<bool>* stop) const = 0;
 
+  /// As set_means() of film/film_means.h, with the instruction set's own conversions.
+  virtual void set_film_means(Film& means, const Film& sums) const = 0;
+
   /// No sample's radiance is larger, in any channel.
   virtual float largest_radiance() const = 0;
 

@@ -9,6 +9,20 @@
 
 namespace raytrace {
 
+/// Which samples the lanes of a packet are: of each group of `size` samples of a pixel, a power of two, a lane has
+/// number `slot`, below that.
+class SampleGroup {
+ public:
+  SampleGroup(const UintN& slot, int size) : size_bits_(std::countr_zero(static_cast<unsigned>(size))) {
+    SobolSequence::move_on(slot, size_bits_, x_, y_);
+  }
+
+ private:
+  friend class PixelSampler;
+  int size_bits_;
+  UintN x_ = UintN(0u), y_ = UintN(0u);  ///< digits of a lane's points in which they differ from their group's first
+};
+
 /// Points in the unit square of each lane's pixel, for the pixel's samples in order. They depend on the pixel, the seed
 /// and the sample's index alone.
 class PixelSampler {
@@ -17,16 +31,19 @@ class PixelSampler {
     FloatN x, y;  ///< in [0, 1)
   };
 
-  /// column, row: of the lanes' pixels, in the whole picture. Of each group of `group` samples (a power of two) a lane
-  /// has number `slot`, below that. first: the index of the first group's first sample, a multiple of `group`.
-  /// centered: all samples are the pixel's center instead, as a picture of a single sample wants it.
-  PixelSampler(const UintN& column, const UintN& row, const UintN& slot, int group, std::uint64_t seed,
-               std::uint32_t first, bool centered)
-      : sequence_(first), group_bits_(std::countr_zero(static_cast<unsigned>(group))), centered_(centered) {
-    const UintN low(static_cast<std::uint32_t>(seed)), high(static_cast<std::uint32_t>(seed >> 32));
-    shift_x_ = hash(column, row, low, high);
-    shift_y_ = mix_bits(shift_x_ + UintN(0x9e3779b9u));
-    SobolSequence::move_on(slot, group_bits_, shift_x_, shift_y_);
+  /// column, row: of the lanes' pixels, in the whole picture: each lane's in UintN, or std::uint32_t where all lanes
+  /// have the same. first: the index of the first group's first sample, a multiple of the group's size. centered: all
+  /// samples are the pixel's center instead, as a picture of a single sample wants it.
+  template <class Uints>
+  PixelSampler(const Uints& column, const Uints& row, const SampleGroup& group, std::uint64_t seed, std::uint32_t first,
+               bool centered)
+      : sequence_(first), group_bits_(group.size_bits_), centered_(centered) {
+    if (centered) return;
+    const Uints x =
+        hash(column, row, Uints(static_cast<std::uint32_t>(seed)), Uints(static_cast<std::uint32_t>(seed >> 32)));
+    const Uints y = mix_bits(x + Uints(0x9e3779b9u));
+    shift_x_ = UintN(x) ^ group.x_;
+    shift_y_ = UintN(y) ^ group.y_;
   }
 
   /// The next group's.
@@ -43,7 +60,7 @@ class PixelSampler {
 
   SobolSequence sequence_;
   int group_bits_;
-  UintN shift_x_, shift_y_;
+  UintN shift_x_ = UintN(0u), shift_y_ = UintN(0u);
   bool centered_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "raytrace/film/film_means.h"
 #include "raytrace/integrators/render_pixels.h"
 #include "raytrace/math/gather.h"
 
@@ -137,6 +138,8 @@ RenderReport TracedScene::render_region(const Region& region, std::uint32_t samp
                                         const std::atomic<bool>* stop) const {
   return render_pixels(*this, region, samples, film, stop);
 }
+
+void TracedScene::set_film_means(Film& means, const Film& sums) const { set_means(means, sums); }
 
 SceneStatistics TracedScene::statistics() const {
   SceneStatistics statistics;

@@ -38,9 +38,6 @@ class Plane {
 
   /// The surface at a distance that intersect() gave.
   template <class F>
-  static SurfacePoint<F> surface(const Record<Doubles<F>>& plane, const Ray<F>& ray, const F& distance);
-  /// The same where all lanes hit one plane.
-  template <class F>
   static SurfacePoint<F> surface(const Record<double>& plane, const Ray<F>& ray, const F& distance);
 
  private:
@@ -73,20 +70,14 @@ RAYTRACE_INLINE F Plane::intersect(const Record<double>& plane, const Ray<F>& ra
 }
 
 template <class F>
-SurfacePoint<F> Plane::surface(const Record<Doubles<F>>& plane, const Ray<F>& ray, const F& distance) {
-  using D = Doubles<F>;
-  const Vec3<D> on_ray = Vec3<D>(ray.origin) + Vec3<D>(ray.direction) * D(distance);
-  const Vec3<D> on_plane = on_ray + plane.normal * (plane.offset - dot(plane.normal, on_ray));
-  const Vec3<F> position = to_float(on_plane);
-  return {position, to_float(plane.normal), rounding_error(position, F(0))};
-}
-
-template <class F>
 SurfacePoint<F> Plane::surface(const Record<double>& plane, const Ray<F>& ray, const F& distance) {
   const int along = axis(plane);
   if (along == 3) {
     using D = Doubles<F>;
-    return surface(Record<D>{Vec3<D>(plane.normal), D(plane.offset)}, ray, distance);
+    const Vec3<D> normal(plane.normal);
+    const Vec3<D> on_ray = Vec3<D>(ray.origin) + Vec3<D>(ray.direction) * D(distance);
+    const Vec3<F> position = to_float(on_ray + normal * (D(plane.offset) - dot(normal, on_ray)));
+    return {position, Vec3<F>(Vec3f(plane.normal)), rounding_error(position, F(0))};
   }
   const F place(static_cast<float>(plane.offset * component(plane.normal, along)));
   const Vec3<F> on_ray = ray.at(distance);
