@@ -39,7 +39,7 @@ struct ShadowPacket {
 
 /// A plane in a box as large as Embree takes.
 struct BoxedPlane : Plane {
-  static Bounds bounds(const Record<double>&) { return {{-1e18F, -1e18F, -1e18F}, {1e18F, 1e18F, 1e18F}}; }
+  static Bounds bounds(const Record&) { return {{-1e18F, -1e18F, -1e18F}, {1e18F, 1e18F, 1e18F}}; }
 };
 
 /// Everything in one scene of Embree's, spheres as its own geometry.
@@ -161,8 +161,8 @@ class CeilingOfVariant final : public Ceiling {
       xs[lane] = static_cast<float>(column) - static_cast<float>(viewplane.hres) / 2;
       ys[lane] = static_cast<float>(viewplane.vres) / 2 - 1 - static_cast<float>(row);
     }
-    PixelSampler sampler(UintN::load_aligned(columns), UintN::load_aligned(rows), SampleGroup(UintN(0u), 1), 0, 0,
-                         viewplane.samples == 1);
+    PixelSampler sampler(PixelShift(UintN::load_aligned(columns), UintN::load_aligned(rows), 0),
+                         SampleGroup(UintN(0u), 1), 0, viewplane.samples == 1);
     for (int sample = 0; sample < std::min(first_sample + 16, viewplane.samples); ++sample) {
       const PixelSampler::Point point = sampler.next();
       if (sample < first_sample) continue;

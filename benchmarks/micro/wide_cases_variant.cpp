@@ -236,7 +236,7 @@ void add_sampler_case(std::vector<MicroCase>& cases) {
       "sampler/pixel", samples,
       [](std::size_t i) {
         const UintN column(static_cast<std::uint32_t>(i)), row(7);
-        PixelSampler sampler(column, row, SampleGroup(UintN(0u), 1), 1, 0, false);
+        PixelSampler sampler(PixelShift(column, row, 1), SampleGroup(UintN(0u), 1), 0, false);
         FloatN sum(0);
         for (int sample = 0; sample < samples; ++sample) {
           const PixelSampler::Point point = sampler.next();

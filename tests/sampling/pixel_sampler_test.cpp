@@ -18,7 +18,7 @@ UintN columns_from(std::uint32_t first) {
 }
 
 PixelSampler sampler(std::uint32_t first_column, std::uint32_t row, std::uint64_t seed, int samples) {
-  return {columns_from(first_column), UintN(row), SampleGroup(UintN(0u), 1), seed, 0, samples == 1};
+  return {PixelShift<UintN>(columns_from(first_column), UintN(row), seed), SampleGroup(UintN(0u), 1), 0, samples == 1};
 }
 
 using Place = std::pair<float, float>;
@@ -118,12 +118,13 @@ TEST_CASE("over the pixels of a picture, each sample is uniform over the unit sq
 TEST_CASE("lanes that share a pixel's samples have together those of one that has them all") {
   constexpr int count = 64;
   for (const std::uint32_t first : {0u, 8u, 1000u}) {
-    const auto wanted = places({UintN(77u), UintN(31u), SampleGroup(UintN(0u), 1), 5, first, false}, 0, count);
+    const auto wanted =
+        places({PixelShift(UintN(77u), UintN(31u), 5), SampleGroup(UintN(0u), 1), first, false}, 0, count);
     for (const int group : {1, 2, 4, 8}) {
       const UintN slot = batch_of<UintN>([&](std::size_t i) { return i % static_cast<std::size_t>(group); });
       // Told once, or lane by lane.
-      const PixelSampler shared(77u, 31u, SampleGroup(slot, group), 5, first, false),
-          same(UintN(77u), UintN(31u), SampleGroup(slot, group), 5, first, false);
+      const PixelSampler shared(PixelShifts(5).at(77, 31), SampleGroup(slot, group), first, false),
+          same(PixelShift(UintN(77u), UintN(31u), 5), SampleGroup(slot, group), first, false);
       for (std::size_t lane = 0; lane < lanes; ++lane) {
         const auto got = places(shared, lane, count / group);
         CHECK(got == places(same, lane, count / group));

@@ -80,7 +80,7 @@ class Accelerator {
   MaskN intersect_candidates(const DirectionBuffer& seen, const Ray<FloatN>& rays, const MaskN& active,
                              Hits& hits) const;
   MaskN occluded_by_candidates(const DirectionBuffer& seen, const Ray<FloatN>& rays, const MaskN& active,
-                               MaskN& occluded) const;
+                               const MaskN& in_reach, MaskN& occluded) const;
 
   std::uint64_t bytes_ = 0;  ///< counted by Embree's memory monitor: before device_, which still reports while it ends
   TupleOf<Shapes, ShapeTable>::type tables_;

@@ -84,6 +84,7 @@ SurfacePoint<FloatN> surface_of(const ShapeTable<Shape>& table, const LanePlaces
                                 const Hits& hits) {
   if constexpr (SurfaceOfOne<Shape>) {
     SurfacePoint<FloatN> points = Shape::surface(table.records[primitive.first()], rays, hits.distance);
+    if (primitive.all_same()) return points;
     MaskN left = float_mask<FloatN>(primitive.lanes() != IntN(static_cast<std::int32_t>(primitive.first())));
     while (any(left)) {
       const std::int32_t next =
@@ -157,9 +158,8 @@ MaskN Accelerator::intersect_candidates(const DirectionBuffer& seen, const Ray<F
 }
 
 MaskN Accelerator::occluded_by_candidates(const DirectionBuffer& seen, const Ray<FloatN>& rays, const MaskN& active,
-                                          MaskN& occluded) const {
+                                          const MaskN& in_reach, MaskN& occluded) const {
   const auto sight = seen.sight(rays.origin, rays.direction);
-  const MaskN in_reach = seen.in_reach(rays.origin, rays.direction);
   MaskN open = active;
   const auto reaches = [&](const MaskN& lanes, const DirectionBuffer::Object& object) {
     return any(lanes & open & (sight.depth >= FloatN(object.nearest)));
@@ -175,7 +175,8 @@ MaskN Accelerator::occluded_by_candidates(const DirectionBuffer& seen, const Ray
 
 Hits Accelerator::intersect(const Ray<FloatN>& rays, const MaskN& active, Coherence coherence,
                             const DirectionBuffer* seen_from_origin) const {
-  MaskN valid_lanes = active & embree_takes(rays);
+  // All rays that start where the vantage is can be taken.
+  MaskN valid_lanes = seen_from_origin != nullptr ? active : active & embree_takes(rays);
   // First the shapes without end: what lies behind their hits need not be looked for.
   Hits hits = intersect_unbounded(rays, valid_lanes);
   if (seen_from_origin != nullptr) {
@@ -224,10 +225,13 @@ Hits Accelerator::intersect(const Ray<FloatN>& rays, const MaskN& active, Cohere
 
 MaskN Accelerator::occluded(const Ray<FloatN>& rays, const MaskN& active, Coherence coherence,
                             const DirectionBuffer* seen_from_end) const {
-  const MaskN takeable = active & embree_takes(rays);
+  MaskN in_reach(false), takeable = active;  // those in reach can be taken
+  if (seen_from_end != nullptr) in_reach = seen_from_end->in_reach(rays.origin, rays.direction);
+  if (any(active & !in_reach)) takeable = active & (in_reach | embree_takes(rays));
   MaskN found = occluded_unbounded(rays, takeable);
   MaskN valid_lanes = takeable & !found;
-  if (seen_from_end != nullptr) valid_lanes = occluded_by_candidates(*seen_from_end, rays, valid_lanes, found);
+  if (seen_from_end != nullptr)
+    valid_lanes = occluded_by_candidates(*seen_from_end, rays, valid_lanes, in_reach, found);
   if (none(valid_lanes)) return found;
 
   embree::Query query(coherence == Coherence::coherent);

@@ -20,6 +20,9 @@ constexpr double most_cells_an_edge = 512;
 /// worth it.
 constexpr double most_covered_cells = 128;
 
+/// Rays from and to further away are Embree's, which cannot take all of them: those here need not be looked at again.
+constexpr double most_distance = 1e16;
+
 /// By what part of its length rounding may turn the way from a place to the vantage aside, and more.
 constexpr double way_rounding = 0x1p-20;
 
@@ -214,6 +217,7 @@ std::optional<DirectionBuffer> DirectionBuffer::make(const Vantage& vantage, con
   double farthest = 0;
   for (const PlacedObject& object : objects)
     farthest = std::max(farthest, length(center_of(object) - from) + object.radius);
+  if (!(length(from) + farthest < most_distance)) return std::nullopt;
   // As far again as the objects reach, and more: floors are wider than what stands on them.
   buffer.reach_ = static_cast<float>(8 * farthest);
   const double slack = way_rounding * buffer.reach_;

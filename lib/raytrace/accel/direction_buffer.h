@@ -71,11 +71,13 @@ class DirectionBuffer {
             F(start_.z) - dot(to_vantage, origin)};
   }
 
-  /// Whether its rounding is small enough that cells list all that such a ray may meet.
+  /// Whether its rounding is small enough that cells list all that such a ray may meet. Not if it starts at the
+  /// vantage, nor if a component is not finite.
   template <class F>
   RAYTRACE_INLINE auto in_reach(const Vec3<F>& origin, const Vec3<F>& to_vantage) const {
-    const Vec3<F>& way = infinitely_far_ ? origin : to_vantage;
-    return dot(way, way) <= F(reach_ * reach_);
+    if (infinitely_far_) return dot(origin, origin) <= F(reach_ * reach_);
+    const F squared_length = dot(to_vantage, to_vantage);
+    return (squared_length <= F(reach_ * reach_)) & (squared_length > F(0));
   }
 
   /// face: twice the axis of its normal, and one more on the negative side.

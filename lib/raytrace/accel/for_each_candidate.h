@@ -18,41 +18,33 @@ namespace detail {
 template <class Function>
 RAYTRACE_INLINE void for_each_cell(const DirectionBuffer& buffer, const Vec3<FloatN>& direction, const MaskN& active,
                                    const Function& f) {
-  const FloatN x_size = abs(direction.x), y_size = abs(direction.y), z_size = abs(direction.z);
-  const MaskN along_x = (x_size >= y_size) & (x_size >= z_size);
-  const MaskN along_y = !along_x & (y_size >= z_size);
-  const MaskN along_z = !along_x & !along_y;
+  const Vec3<FloatN> sizes{abs(direction.x), abs(direction.y), abs(direction.z)};
+  const MaskN along_x = (sizes.x >= sizes.y) & (sizes.x >= sizes.z), along_x_or_y = along_x | (sizes.y >= sizes.z);
   MaskN left = active;
   // Neighbours mostly lead through one face, and one cell of it.
   while (any(left)) {
     const std::uint32_t first = std::uint32_t{1} << std::countr_zero(bits_of<FloatN>(left));
-    const auto through = [&](int axis, const FloatN& normal, const FloatN& size, const FloatN& across, const FloatN& up,
-                             const MaskN& along) {
-      const MaskN negative = normal < FloatN(0);
-      const bool first_is_negative = (bits_of<FloatN>(negative) & first) != 0;
-      const MaskN here = left & along & (first_is_negative ? negative : !negative);
-      left = left & !here;
-      const DirectionBuffer::Grid& grid = buffer.grid(2 * axis + (first_is_negative ? 1 : 0));
-      if (grid.columns == 0) return;
-      const FloatN inverse_size = FloatN(1) / size;
-      const FloatN column = (across * inverse_size - FloatN(grid.left)) * FloatN(grid.columns_per_unit);
-      const FloatN row = (up * inverse_size - FloatN(grid.bottom)) * FloatN(grid.rows_per_unit);
-      MaskN inside = here & (column >= FloatN(0)) & (column < FloatN(static_cast<float>(grid.columns))) &
-                     (row >= FloatN(0)) & (row < FloatN(static_cast<float>(grid.rows)));
-      const IntN cell = to_int(row) * IntN(grid.columns) + to_int(column);
-      while (any(inside)) {
-        const std::int32_t number = cell.get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(inside))));
-        const MaskN same = inside & float_mask<FloatN>(cell == IntN(number));
-        inside = inside & !same;
-        f(grid.first_cell + static_cast<std::size_t>(number), same);
-      }
-    };
-    if ((bits_of<FloatN>(along_x) & first) != 0) {
-      through(0, direction.x, x_size, direction.y, direction.z, along_x);
-    } else if ((bits_of<FloatN>(along_y) & first) != 0) {
-      through(1, direction.y, y_size, direction.z, direction.x, along_y);
-    } else {
-      through(2, direction.z, z_size, direction.x, direction.y, along_z);
+    const int axis = (bits_of<FloatN>(along_x) & first) != 0 ? 0 : (bits_of<FloatN>(along_x_or_y) & first) != 0 ? 1 : 2;
+    const FloatN& normal = component(direction, axis);
+    const MaskN negative = normal < FloatN(0);
+    const bool first_is_negative = (bits_of<FloatN>(negative) & first) != 0;
+    const MaskN along = axis == 0 ? along_x : axis == 1 ? !along_x & along_x_or_y : !along_x_or_y;
+    const MaskN here = left & along & (first_is_negative ? negative : !negative);
+    left = left & !here;
+    const DirectionBuffer::Grid& grid = buffer.grid(2 * axis + (first_is_negative ? 1 : 0));
+    if (grid.columns == 0) continue;
+    const FloatN inverse_size = FloatN(1) / component(sizes, axis);
+    const FloatN across = component(direction, (axis + 1) % 3), up = component(direction, (axis + 2) % 3);
+    const FloatN column = (across * inverse_size - FloatN(grid.left)) * FloatN(grid.columns_per_unit);
+    const FloatN row = (up * inverse_size - FloatN(grid.bottom)) * FloatN(grid.rows_per_unit);
+    MaskN inside = here & (column >= FloatN(0)) & (column < FloatN(static_cast<float>(grid.columns))) &
+                   (row >= FloatN(0)) & (row < FloatN(static_cast<float>(grid.rows)));
+    const IntN cell = to_int(row) * IntN(grid.columns) + to_int(column);
+    while (any(inside)) {
+      const std::int32_t number = cell.get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(inside))));
+      const MaskN same = inside & float_mask<FloatN>(cell == IntN(number));
+      inside = inside & !same;
+      f(grid.first_cell + static_cast<std::size_t>(number), same);
     }
   }
 }

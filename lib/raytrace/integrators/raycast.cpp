@@ -26,7 +26,6 @@ SeenRadiance Raycast::radiance(const TracedScene& scene, const Ray<FloatN>& rays
   const Vec3<FloatN> wo = -rays.direction;
   point.normal = select(dot(point.normal, wo) < FloatN(0), -point.normal, point.normal);
   if (met != nullptr) met->point = point;
-  const Vec3<FloatN> origin = leaving_origin(point);
 
   std::array<ArrivingLight, lights_per_run> arriving;
   std::size_t count = 0;
@@ -37,21 +36,27 @@ SeenRadiance Raycast::radiance(const TracedScene& scene, const Ray<FloatN>& rays
     ambient = Rgb<float>(0, 0, 0);
     count = 0;
   };
+  Ray<FloatN> shadow_rays;
+  shadow_rays.origin = leaving_origin(point);
+  shadow_rays.near = FloatN(0);
   for (std::size_t number = 0; number < scene.lights().size(); ++number) {
     const auto& light = scene.lights()[number];
-    const LightSample<FloatN> sample = light->sample(origin);
+    const LightSample<FloatN> sample = light->sample(shadow_rays.origin);
     // Of any length: the shadow rays need not wait for a square root and a quotient.
     MaskN lit = hits.hit & (dot(point.normal, sample.to_light) > FloatN(0));
     if (light->shadows() && any(lit)) {
       counts.shadow += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(lit & counted)));
-      const Ray<FloatN> shadow_rays{origin, sample.to_light, FloatN(0), sample.end};
+      shadow_rays.direction = sample.to_light;
+      shadow_rays.far = sample.end;
       const MaskN occluded =
           scene.accelerator().occluded(shadow_rays, lit, Coherence::coherent, scene.seen_from_light(number));
       lit = lit & !occluded;
     }
     if (none(lit)) continue;
-    const Vec3<FloatN> wi = normalize(sample.to_light);
-    arriving[count++] = {wi, select(lit, max(dot(point.normal, wi), FloatN(0)), FloatN(0)), sample.radiance};
+    ArrivingLight& light_here = arriving[count++];  // in its place at once: it is large
+    light_here.wi = normalize(sample.to_light);
+    light_here.cosine = select(lit, max(dot(point.normal, light_here.wi), FloatN(0)), FloatN(0));
+    light_here.radiance = sample.radiance;
     if (count == lights_per_run) shade_run();
   }
   shade_run();

@@ -29,7 +29,8 @@ class BlockRenderer {
         film_(film),
         stop_(stop),
         scale_(film.settings().unit_exponent),
-        group_(Block::slots(), shape.samples) {}
+        group_(Block::slots(), shape.samples),
+        shifts_(film.settings().seed) {}
 
   /// Continues all pixels to `samples` each; returns early if it is stopped.
   RenderReport render(std::uint32_t samples) {
@@ -94,7 +95,7 @@ class BlockRenderer {
     // From the group that the first sample is in, with all that belong to it.
     constexpr auto group = static_cast<std::uint32_t>(shape.samples);
     std::uint32_t base = left.first / group * group;
-    PixelSampler sampler(column, row, group_, settings.seed, base, settings.samples.centered);
+    PixelSampler sampler(shift_of(column, row), group_, base, settings.samples.centered);
     BlockSums sums(scale_);
     MetSurface met;
     for (int packets = 1; base < left.last; base += group, ++packets) {
@@ -112,6 +113,11 @@ class BlockRenderer {
       if (packets % packets_per_look == 0 && stopped()) break;
     }
     sums.add_to(film_, block, region_);
+  }
+
+  PixelShift<std::uint32_t> shift_of(std::uint32_t column, std::uint32_t row) { return shifts_.at(column, row); }
+  PixelShift<UintN> shift_of(const UintN& column, const UintN& row) const {
+    return {column, row, film_.settings().seed};
   }
 
   static MaskN in_range(const UintN& number, const UintN& first, const UintN& last) {
@@ -135,6 +141,7 @@ class BlockRenderer {
   const std::atomic<bool>* stop_;
   BlockSums::Scale scale_;
   SampleGroup group_;
+  PixelShifts shifts_;
   RenderReport report_;
 };
 

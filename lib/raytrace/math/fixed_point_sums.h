@@ -1,6 +1,11 @@
 // Sums that do not depend on the order of their terms.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+
 #include "raytrace/math/simd.h"
 
 namespace raytrace {
@@ -47,6 +52,15 @@ class FixedPointSums {
     return sums;
   }
 
+  /// Lane by lane.
+  friend RAYTRACE_INLINE FixedPointSums operator+(const FixedPointSums& a, const FixedPointSums& b) {
+    FixedPointSums both;
+    both.lower_ = a.lower_ + b.lower_;
+    both.upper_ = a.upper_ + b.upper_;
+    both.terms_ = a.terms_ + b.terms_;
+    return both;
+  }
+
  private:
   using Counts = xsimd::batch<std::uint64_t, typename F::arch_type>;
   static constexpr double offset = 0x1.8p52;  // the middle of its range, for terms of both signs
@@ -74,19 +88,15 @@ class FixedPointSums<TwinBatch<float, Arch>> {
   template <std::size_t step>
   RAYTRACE_INLINE std::array<std::int64_t, step> sums_of_every() const {
     constexpr std::size_t part_size = Floats::Part::size;
-    constexpr std::size_t part_step = std::min(step, part_size);
-    const auto lower = lower_.template sums_of_every<part_step>(), upper = upper_.template sums_of_every<part_step>();
-    std::array<std::int64_t, step> sums;
-    for (std::size_t i = 0; i < part_step; ++i) {
-      if constexpr (step > part_size) {
-        sums[i] = lower[i];
-        sums[part_size + i] = upper[i];
-      } else {  // unsigned: they wrap
-        sums[i] =
-            static_cast<std::int64_t>(static_cast<std::uint64_t>(lower[i]) + static_cast<std::uint64_t>(upper[i]));
-      }
+    if constexpr (step <= part_size) {
+      return (lower_ + upper_).template sums_of_every<step>();
+    } else {
+      const auto lower = lower_.sums(), upper = upper_.sums();
+      std::array<std::int64_t, step> sums;
+      std::copy(lower.begin(), lower.end(), sums.begin());
+      std::copy(upper.begin(), upper.end(), sums.begin() + part_size);
+      return sums;
     }
-    return sums;
   }
 
  private:

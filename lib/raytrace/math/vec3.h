@@ -48,6 +48,10 @@ template <class T>
 RAYTRACE_INLINE const T& component(const Vec3<T>& a, int number) {
   return number == 0 ? a.x : number == 1 ? a.y : a.z;
 }
+template <class T>
+RAYTRACE_INLINE T& component(Vec3<T>& a, int number) {
+  return number == 0 ? a.x : number == 1 ? a.y : a.z;
+}
 
 /// Length. Components beyond 1e18 (float) overflow: the scene format refuses them.
 template <class T>

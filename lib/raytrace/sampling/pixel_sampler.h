@@ -1,13 +1,57 @@
 // The samples of the rays of a packet.
 #pragma once
 
+#include <array>
 #include <bit>
+#include <cstdint>
 
 #include "raytrace/math/simd.h"
 #include "raytrace/sampling/hash.h"
 #include "raytrace/sampling/sobol_sequence.h"
 
 namespace raytrace {
+
+/// Random digits of pixels, with which each shifts the sequence. Uints: std::uint32_t or a batch of them.
+template <class Uints>
+struct PixelShift {
+  Uints x, y;
+
+  PixelShift(const Uints& shift_x, const Uints& shift_y) : x(shift_x), y(shift_y) {}
+  /// column, row: of the pixel, in the whole picture.
+  PixelShift(const Uints& column, const Uints& row, std::uint64_t seed)
+      : x(hash(column, row, Uints(static_cast<std::uint32_t>(seed)), Uints(static_cast<std::uint32_t>(seed >> 32)))),
+        y(mix_bits(x + Uints(0x9e3779b9u))) {}
+};
+
+/// Those of one pixel after the other, made for a packet of neighbours at once.
+class PixelShifts {
+ public:
+  explicit PixelShifts(std::uint64_t seed) : seed_(seed) {}
+
+  PixelShift<std::uint32_t> at(std::uint32_t column, std::uint32_t row) {
+    const std::uint32_t place = column % packet_lanes, first = column - place;
+    if (first != first_ || row != row_) make(first, row);
+    return {x_[place], y_[place]};
+  }
+
+ private:
+  void make(std::uint32_t first, std::uint32_t row) {
+    alignas(64) static constexpr auto numbers = [] {
+      std::array<std::uint32_t, packet_lanes> result{};
+      for (std::uint32_t i = 0; i < packet_lanes; ++i) result[i] = i;
+      return result;
+    }();
+    const PixelShift<UintN> shifts(UintN(first) + UintN::load_aligned(numbers.data()), UintN(row), seed_);
+    shifts.x.store_aligned(x_.data());
+    shifts.y.store_aligned(y_.data());
+    first_ = first;
+    row_ = row;
+  }
+
+  std::uint64_t seed_;
+  std::uint32_t first_ = ~0U, row_ = ~0U;  ///< where those that it has begin
+  alignas(64) std::array<std::uint32_t, packet_lanes> x_, y_;
+};
 
 /// Which samples the lanes of a packet are: of each group of `size` samples of a pixel, a power of two, a lane has
 /// number `slot`, below that.
@@ -31,26 +75,23 @@ class PixelSampler {
     FloatN x, y;  ///< in [0, 1)
   };
 
-  /// column, row: of the lanes' pixels, in the whole picture: each lane's in UintN, or std::uint32_t where all lanes
-  /// have the same. first: the index of the first group's first sample, a multiple of the group's size. centered: all
-  /// samples are the pixel's center instead, as a picture of a single sample wants it.
+  /// shift: of the lanes' pixels, each lane's in UintN, or std::uint32_t where all lanes have the same. first: the
+  /// index of the first group's first sample, a multiple of the group's size. centered: all samples are the pixel's
+  /// center instead, as a picture of a single sample wants it.
   template <class Uints>
-  PixelSampler(const Uints& column, const Uints& row, const SampleGroup& group, std::uint64_t seed, std::uint32_t first,
-               bool centered)
-      : sequence_(first), group_bits_(group.size_bits_), centered_(centered) {
-    if (centered) return;
-    const Uints x =
-        hash(column, row, Uints(static_cast<std::uint32_t>(seed)), Uints(static_cast<std::uint32_t>(seed >> 32)));
-    const Uints y = mix_bits(x + Uints(0x9e3779b9u));
-    shift_x_ = UintN(x) ^ group.x_;
-    shift_y_ = UintN(y) ^ group.y_;
-  }
+  PixelSampler(const PixelShift<Uints>& shift, const SampleGroup& group, std::uint32_t first, bool centered)
+      : sequence_(first),
+        group_bits_(group.size_bits_),
+        shift_x_(UintN(shift.x) ^ group.x_),
+        shift_y_(UintN(shift.y) ^ group.y_),
+        centered_(centered) {}
 
   /// The next group's.
   Point next() {
     if (centered_) return {FloatN(0.5f), FloatN(0.5f)};
+    if (begun_) sequence_.advance(group_bits_);
+    begun_ = true;
     const SobolSequence::Point point = sequence_.point();
-    sequence_.advance(group_bits_);
     return {to_unit(UintN(point.x) ^ shift_x_), to_unit(UintN(point.y) ^ shift_y_)};
   }
 
@@ -60,8 +101,8 @@ class PixelSampler {
 
   SobolSequence sequence_;
   int group_bits_;
-  UintN shift_x_ = UintN(0u), shift_y_ = UintN(0u);
-  bool centered_;
+  UintN shift_x_, shift_y_;
+  bool centered_, begun_ = false;
 };
 
 }  // namespace raytrace

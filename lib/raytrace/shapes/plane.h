@@ -25,40 +25,30 @@ class Plane {
   static constexpr std::string_view element = "plane";
   static Fields<Parameters> fields();
 
-  template <class T>
   struct Record {
-    Vec3<T> normal;  ///< unit length
-    T offset;        ///< dot(normal, any point of the plane)
+    Vec3d normal;   ///< unit length
+    double offset;  ///< dot(normal, any point of the plane)
+    int axis;       ///< that the normal lies along: 0, 1 or 2; 3 if it lies along none
+    float place;    ///< on that axis, rounded,
+    float rest;     ///< and what is missing
   };
-  static Record<double> record(const Parameters& parameters);
+  static Record record(const Parameters& parameters);
 
   /// The distance if it is inside (ray.near, ray.far), in each lane of `active`; infinity elsewhere.
   template <class F>
-  static F intersect(const Record<double>& plane, const Ray<F>& ray, const Mask<F>& active);
+  static F intersect(const Record& plane, const Ray<F>& ray, const Mask<F>& active);
 
   /// The surface at a distance that intersect() gave.
   template <class F>
-  static SurfacePoint<F> surface(const Record<double>& plane, const Ray<F>& ray, const F& distance);
-
- private:
-  /// Of the axis that the normal lies along: 0, 1 or 2; 3 if it lies along none.
-  static int axis(const Record<double>& plane) {
-    const Vec3<double>& normal = plane.normal;
-    if (normal.y == 0 && normal.z == 0) return 0;
-    if (normal.x == 0 && normal.z == 0) return 1;
-    if (normal.x == 0 && normal.y == 0) return 2;
-    return 3;
-  }
+  static SurfacePoint<F> surface(const Record& plane, const Ray<F>& ray, const F& distance);
 };
 
 template <class F>
-RAYTRACE_INLINE F Plane::intersect(const Record<double>& plane, const Ray<F>& ray, const Mask<F>& active) {
+RAYTRACE_INLINE F Plane::intersect(const Record& plane, const Ray<F>& ray, const Mask<F>& active) {
   F height, speed;
-  if (const int along = axis(plane); along < 3) {
-    const double place = plane.offset * component(plane.normal, along);
-    const auto rounded = static_cast<float>(place), rest = static_cast<float>(place - rounded);
-    height = (F(rounded) - component(ray.origin, along)) + F(rest);
-    speed = component(ray.direction, along);
+  if (plane.axis < 3) {
+    height = (F(plane.place) - component(ray.origin, plane.axis)) + F(plane.rest);
+    speed = component(ray.direction, plane.axis);
   } else {
     using D = Doubles<F>;
     const Vec3<D> normal(plane.normal);
@@ -70,18 +60,16 @@ RAYTRACE_INLINE F Plane::intersect(const Record<double>& plane, const Ray<F>& ra
 }
 
 template <class F>
-SurfacePoint<F> Plane::surface(const Record<double>& plane, const Ray<F>& ray, const F& distance) {
-  const int along = axis(plane);
-  if (along == 3) {
+SurfacePoint<F> Plane::surface(const Record& plane, const Ray<F>& ray, const F& distance) {
+  if (plane.axis == 3) {
     using D = Doubles<F>;
     const Vec3<D> normal(plane.normal);
     const Vec3<D> on_ray = Vec3<D>(ray.origin) + Vec3<D>(ray.direction) * D(distance);
     const Vec3<F> position = to_float(on_ray + normal * (D(plane.offset) - dot(normal, on_ray)));
     return {position, Vec3<F>(Vec3f(plane.normal)), rounding_error(position, F(0))};
   }
-  const F place(static_cast<float>(plane.offset * component(plane.normal, along)));
-  const Vec3<F> on_ray = ray.at(distance);
-  const Vec3<F> position{along == 0 ? place : on_ray.x, along == 1 ? place : on_ray.y, along == 2 ? place : on_ray.z};
+  Vec3<F> position = ray.at(distance);
+  component(position, plane.axis) = F(plane.place);
   return {position, Vec3<F>(Vec3f(plane.normal)), rounding_error(position, F(0))};
 }
 
