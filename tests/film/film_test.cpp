@@ -1,9 +1,8 @@
 // What the film keeps, and what it makes of it.
-#include "raytrace/film/film_means.h"
-
 #include <cmath>
 #include <limits>
 
+#include "raytrace/film/film_means.h"
 #include "support/catch.h"
 
 namespace raytrace::test {
@@ -50,16 +49,18 @@ TEST_CASE("a pixel is the mean of its samples in the film's units, and black and
   CHECK(film.fewest_samples() == 4);
 }
 
-TEST_CASE("a film of means takes those of its parts, as floats or as halves") {
+TEST_CASE("a film of means takes those of sums, as floats or as halves") {
+  const std::uint32_t samples = GENERATE(1U, 3U, 4U);
   const Region region{10, 20, 17, 26}, part{12, 21, 16, 25};
   Film sums(settings_of(part, -10));
   std::int64_t next = 1;
   for (int y = part.y0; y < part.y1; ++y)
-    for (int x = part.x0; x < part.x1; ++x, next *= 3) sums.sum(x, y) += {next, -next, next * next, 2, 3};
+    for (int x = part.x0; x < part.x1; ++x, next *= 3) sums.sum(x, y) += {next, -next, next * next, 2, samples};
   for (const FilmContent content : {FilmContent::means, FilmContent::half_means}) {
     Film means(settings_of(region, -10), content);
     CHECK(means.sums().empty());
-    set_means(means, sums);
+    for (int y = part.y0; y < part.y1; ++y)
+      for (int x = part.x0; x < part.x1; ++x) set_mean(means, x, y, sums.sum(x, y));
     for (int y = region.y0; y < region.y1; ++y)
       for (int x = region.x0; x < region.x1; ++x) {
         INFO(x << ", " << y);

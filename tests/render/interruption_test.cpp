@@ -105,31 +105,46 @@ TEST_CASE("a render that is paused again and again ends in the same sums") {
   }
 }
 
-TEST_CASE("a film of means has those of the sums, however often its render is paused") {
-  const SceneDescription description = parsed_scene(busy_scene(61, 47, 40));
-  for (const int threads : {1, 3}) {
-    const auto scene = build_scene(description, {threads, {}});
-    const FilmSettings settings = film_settings(*scene, description, {threads, 5, whole(description), {}});
-    Film sums(settings);
-    const RenderReport all = render(*scene, sums, 40, threads);
-    Film means(settings, FilmContent::means);
-    RenderReport report;
-    int pauses = 0;
-    for (bool done = false; !done; ++pauses) {
-      std::atomic<bool> stop{false};
-      int calls = 0;
-      // Further on each time, since tiles that are done count again; the other threads are in the middle of theirs.
-      report += render(*scene, means, 40, threads, [&](double) { stop = calls++ >= pauses; }, &stop);
-      done = !stop;
+TEST_CASE("a film of means has those of the sums") {
+  for (const int samples : {1, 2, 5, 8, 16, 40}) {
+    const SceneDescription description = parsed_scene(busy_scene(61, 47, samples));
+    for (const int threads : {1, 3}) {
+      const auto scene = build_scene(description, {threads, {}});
+      const FilmSettings settings = film_settings(*scene, description, {threads, 5, whole(description), {}});
+      const auto count = static_cast<std::uint32_t>(samples);
+      Film sums(settings), means(settings, FilmContent::means);
+      const RenderReport of_sums = render(*scene, sums, count, threads),
+                         of_means = render(*scene, means, count, threads);
+      CHECK(of_means.rays.camera == of_sums.rays.camera);
+      CHECK(of_means.rays.shadow == of_sums.rays.shadow);
+      const std::vector<Pixel> wanted = sums.pixels(), got = means.pixels();
+      int wrong = 0;
+      for (std::size_t i = 0; i < wanted.size(); ++i) wrong += !identical(wanted[i], got[i]);
+      CHECK(wrong == 0);
     }
-    CHECK(pauses > 10);
-    CHECK(report.rays.camera == all.rays.camera);
-    CHECK(report.rays.shadow == all.rays.shadow);
-    const std::vector<Pixel> wanted = sums.pixels(), got = means.pixels();
-    int wrong = 0;
-    for (std::size_t i = 0; i < wanted.size(); ++i) wrong += !identical(wanted[i], got[i]);
-    CHECK(wrong == 0);
   }
+}
+
+TEST_CASE("a render that was stopped goes on with packets of any shape") {
+  const SceneDescription description = parsed_scene(busy_scene(61, 47, 64));
+  const auto scene = build_scene(description, {1, {}});
+  Film once(film_settings(*scene, description, {1, 5, whole(description), {}}));
+  render(*scene, once, 64, 1);
+  // Groups of 16, 8, 4 and 1 of a pixel's samples, each stopped in the middle of a tile.
+  Film often(once.settings());
+  const Region region = often.region();
+  std::uint32_t target = 0;
+  int uneven = 0;
+  for (const std::uint32_t step : {16U, 8U, 4U, 1U, 16U, 1U, 8U, 2U, 8U}) {
+    target += step;
+    std::atomic<bool> stop{true};  // after a block
+    for (int i = 0; i < 5; ++i) scene->render_region(region, target, often, &stop);
+    uneven += often.sum(region.x0, region.y0).samples != often.sum(region.x1 - 1, region.y1 - 1).samples;
+  }
+  CHECK(target == 64);
+  CHECK(uneven == 9);
+  render(*scene, often, 64, 1);
+  CHECK(std::equal(once.sums().begin(), once.sums().end(), often.sums().begin(), often.sums().end()));
 }
 
 TEST_CASE("a film of means shows what there is of a tile that was stopped") {

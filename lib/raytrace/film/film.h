@@ -79,7 +79,7 @@ class AovFilm;
 using HalfPixel = std::array<std::uint16_t, 4>;
 
 /// What a film holds of each pixel. Memory that is fresh from the system takes time, so a picture that is rendered in
-/// one go, tile by tile, keeps no more than its files want.
+/// one go, keeps no more than its files want.
 enum class FilmContent {
   sums,        ///< PixelSum, 32 bytes: samples can be added at any time, and in any order
   means,       ///< Pixel, 16 bytes
@@ -121,22 +121,13 @@ class Film {
   /// The fewest samples that a pixel has.
   std::uint32_t fewest_samples() const;
 
-  // Of films of means. Each gives the first of the pixels from (x, y) on, row by row; film_means.h sets them.
+  // Of films of means, which film_means.h sets.
 
-  Pixel* means(int x, int y) { return &means_[index(x, y)]; }
-  const Pixel* means(int x, int y) const { return &means_[index(x, y)]; }
+  Pixel& float_mean(int x, int y) { return means_[index(x, y)]; }
 
-  /// Red, green, blue and alpha.
-  HalfPixel* half_means(int x, int y) { return &half_means_[index(x, y)]; }
-  const HalfPixel* half_means(int x, int y) const { return &half_means_[index(x, y)]; }
-
-  /// A tile that render() is at.
-  struct Tile {
-    bool finished = false;
-    std::unique_ptr<Film> sums;  ///< of one that was begun and not finished
-  };
-  /// render()'s own: as many as it cuts the film into, in its order.
-  std::vector<Tile>& tiles() { return tiles_; }
+  /// The pixels that follow are beside it, row by row.
+  HalfPixel& half_mean(int x, int y) { return half_means_[index(x, y)]; }
+  const HalfPixel& half_mean(int x, int y) const { return half_means_[index(x, y)]; }
 
  private:
   std::size_t count() const {
@@ -153,7 +144,6 @@ class Film {
   ZeroedArray<PixelSum> sums_;
   ZeroedArray<Pixel> means_;
   ZeroedArray<HalfPixel> half_means_;
-  std::vector<Tile> tiles_;
   std::unique_ptr<AovFilm> aovs_;
 };
 

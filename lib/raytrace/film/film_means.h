@@ -4,46 +4,39 @@
 
 #include <half.h>
 
+#include <array>
 #include <bit>
 
 #include "raytrace/film/film.h"
+#include "raytrace/math/simd.h"
 
 namespace raytrace {
 
 /// Of the pixel's samples; black and empty if it has none. unit: Film::unit().
 inline Pixel mean(const PixelSum& sum, double unit) {
   if (sum.samples == 0) return {};
-  const double samples = sum.samples;
-  if (std::has_single_bit(sum.samples)) {  // the same numbers, since the inverse is exact, and much sooner
-    const double inverse = 1 / samples, scale = unit * inverse;
-    const auto of = [&](std::int64_t total) { return static_cast<float>(static_cast<double>(total) * scale); };
-    return {of(sum.red), of(sum.green), of(sum.blue), static_cast<float>(sum.hits * inverse)};
-  }
-  const auto of = [&](std::int64_t total) { return static_cast<float>(static_cast<double>(total) / samples * unit); };
-  return {of(sum.red), of(sum.green), of(sum.blue), static_cast<float>(sum.hits / samples)};
+  const CompilerVector<double, 4> totals{static_cast<double>(sum.red), static_cast<double>(sum.green),
+                                         static_cast<double>(sum.blue), static_cast<double>(sum.hits)},
+      units{unit, unit, unit, 1}, means = totals / static_cast<double>(sum.samples) * units;
+  return std::bit_cast<Pixel>(__builtin_convertvector(means, CompilerVector<float, 4>));
 }
 
-/// Gives `means`, a film of either kind of them, those of a film of sums, whose region lies in its own.
-inline void set_means(Film& means, const Film& sums) {
-  const Region& part = sums.region();
-  const double unit = sums.unit();
-  const auto for_each_row = [&](const auto& f) {
-    for (int y = part.y0; y < part.y1; ++y) f(y, &sums.sum(part.x0, y));
-  };
+inline HalfPixel in_halves(const Pixel& pixel) {
+#if defined(RAYTRACE_CONVERTS_HALVES)
+  return to_halves(std::bit_cast<std::array<float, 4>>(pixel));
+#else
+  return {imath_float_to_half(pixel.red), imath_float_to_half(pixel.green), imath_float_to_half(pixel.blue),
+          imath_float_to_half(pixel.alpha)};
+#endif
+}
+
+/// Gives a pixel of a film of either kind of means that of its samples.
+inline void set_mean(Film& means, int x, int y, const PixelSum& sum) {
+  const Pixel pixel = mean(sum, means.unit());
   if (means.content() == FilmContent::means) {
-    for_each_row([&](int y, const PixelSum* sum) {
-      Pixel* pixel = means.means(part.x0, y);
-      for (int x = part.x0; x < part.x1; ++x) *pixel++ = mean(*sum++, unit);
-    });
+    means.float_mean(x, y) = pixel;
   } else {
-    for_each_row([&](int y, const PixelSum* sum) {
-      HalfPixel* pixel = means.half_means(part.x0, y);
-      for (int x = part.x0; x < part.x1; ++x) {
-        const auto [red, green, blue, alpha] = mean(*sum++, unit);
-        *pixel++ = {imath_float_to_half(red), imath_float_to_half(green), imath_float_to_half(blue),
-                    imath_float_to_half(alpha)};
-      }
-    });
+    means.half_mean(x, y) = in_halves(pixel);
   }
 }
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "raytrace/film/film.h"
+#include "raytrace/film/film_means.h"
 #include "raytrace/integrators/raycast.h"
 #include "raytrace/math/fixed_point_sums.h"
 
@@ -45,7 +45,7 @@ class BlockSums {
     return wanted & !fine;
   }
 
-  /// Adds them to the pixels of the block that lie in the region.
+  /// Adds them to the pixels of the block that lie in the region; to a film of means, they are all there is to come.
   template <class Block>
   void add_to(Film& film, const Block& block, const Region& region) const {
     alignas(64) std::array<std::int32_t, packet_lanes> hit_lanes, sample_lanes;
@@ -56,8 +56,13 @@ class BlockSums {
                blue = blue_.template sums_of_every<Block::pixels>();
     const auto hits = Block::sum_by_pixel(hit_lanes), samples = Block::sum_by_pixel(sample_lanes);
     block.for_each_pixel(region, [&](int x, int y, std::size_t pixel) {
-      film.sum(x, y) += {red[pixel], green[pixel], blue[pixel], static_cast<std::uint32_t>(hits[pixel]),
+      const PixelSum sum{red[pixel], green[pixel], blue[pixel], static_cast<std::uint32_t>(hits[pixel]),
                          static_cast<std::uint32_t>(samples[pixel])};
+      if (film.content() == FilmContent::sums) {
+        film.sum(x, y) += sum;
+      } else {
+        set_mean(film, x, y, sum);
+      }
     });
   }
 

@@ -60,9 +60,12 @@ struct PacketBlock {
   /// Calls f(x, y, pixel), pixel counting as in sum_by_pixel(), for the pixels that lie in the region.
   template <class Function>
   void for_each_pixel(const Region& region, const Function& f) const {
+    const bool all =
+        region.x0 <= left && left + shape.width <= region.x1 && region.y0 <= top && top + shape.height <= region.y1;
     for (int pixel = 0; pixel < pixels; ++pixel) {
       const int x = column(pixel), y = row(pixel);
-      if (region.x0 <= x && x < region.x1 && region.y0 <= y && y < region.y1) f(x, y, static_cast<std::size_t>(pixel));
+      if (all || (region.x0 <= x && x < region.x1 && region.y0 <= y && y < region.y1))
+        f(x, y, static_cast<std::size_t>(pixel));
     }
   }
 

@@ -62,12 +62,15 @@ class BlockRenderer {
 
     SamplesLeft(const Film& film, const Block& block, const Region& region, std::uint32_t samples) {
       const std::uint32_t begin = film.settings().samples.first;
-      std::uint32_t least = samples, most = 0;
-      block.for_each_pixel(region, [&](int x, int y, std::size_t) {
-        const std::uint32_t before = film.sum(x, y).samples;
-        least = std::min(least, before);
-        most = std::max(most, before);
-      });
+      std::uint32_t least = 0, most = 0;
+      if (film.content() == FilmContent::sums) {
+        least = samples;
+        block.for_each_pixel(region, [&](int x, int y, std::size_t) {
+          const std::uint32_t before = film.sum(x, y).samples;
+          least = std::min(least, before);
+          most = std::max(most, before);
+        });
+      }
       first = begin + least;
       all_from = begin + most;
       last = begin + samples;
@@ -155,8 +158,9 @@ RenderReport render_pixels(const TracedScene& scene, const Region& region, std::
   // As many samples of as few pixels as there are samples at hand: such rays are closer together than those of one
   // sample of many pixels. Samples 0, 1, ... of a pixel belong to groups, and lanes may be left without work in the
   // first and the last of them.
-  const std::uint32_t begin = film.settings().samples.first, last = begin + samples,
-                      first = begin + film.sum(region.x1 - 1, region.y1 - 1).samples;  // none has fewer
+  const std::uint32_t begin = film.settings().samples.first, last = begin + samples;
+  std::uint32_t first = begin;
+  if (film.content() == FilmContent::sums) first += film.sum(region.x1 - 1, region.y1 - 1).samples;  // none has fewer
   const auto few_are_idle = [&](std::uint32_t group) {
     const std::uint64_t lanes = (std::uint64_t{last} + group - 1) / group * group - first / group * group;
     return lanes - (last - first) <= (last - first) / 8;

@@ -38,7 +38,7 @@ inline Doubles<FloatN> gather(const double* base, const IntN& index) {
 namespace detail {
 
 template <std::size_t lanes>
-using CompilerFloats = typename CompilerVector<float, lanes>::type;
+using CompilerFloats = CompilerVector<float, lanes>;
 
 /// Four floats beside each other from each of base + offsets[0], base + offsets[4], base + offsets[8]...
 template <std::size_t lanes>

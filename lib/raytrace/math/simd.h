@@ -55,6 +55,17 @@ template <class F>
 inline constexpr int lane_count = static_cast<int>(F::size);
 
 namespace detail {
+template <class T, std::size_t lanes>
+struct CompilerVectorOf {
+  typedef T type __attribute__((vector_size(lanes * sizeof(T))));
+};
+}  // namespace detail
+
+/// Vector types of the compiler: it converts them where there is no instruction that xsimd knows of.
+template <class T, std::size_t lanes>
+using CompilerVector = typename detail::CompilerVectorOf<T, lanes>::type;
+
+namespace detail {
 template <int lanes>
 struct FloatLanesOf {
   using type = std::conditional_t<std::is_void_v<xsimd::make_sized_batch_t<float, static_cast<std::size_t>(lanes)>>,
@@ -120,6 +131,16 @@ RAYTRACE_INLINE To same_bits(const From& from) {
   }
 }
 
+#if defined(__F16C__)
+/// Four floats as IEEE 754 binary16, rounded to the nearest, infinite beyond its range: there where the instruction set
+/// has this.
+#define RAYTRACE_CONVERTS_HALVES
+RAYTRACE_INLINE std::array<std::uint16_t, 4> to_halves(const std::array<float, 4>& floats) {
+  return std::bit_cast<std::array<std::uint16_t, 4>>(
+      _mm_cvtsi128_si64(_mm_cvtps_ph(_mm_loadu_ps(floats.data()), _MM_FROUND_TO_NEAREST_INT)));
+}
+#endif
+
 /// A mask of float lanes from a comparison of integers of the same lane count.
 template <class F>
 RAYTRACE_INLINE Mask<F> float_mask(const typename Ints<F>::batch_bool_type& mask) {
@@ -148,12 +169,6 @@ Mask<F> first_lanes(int count) {
 }
 
 namespace detail {
-
-/// Vector types of the compiler, which it converts where there is no instruction that xsimd knows of.
-template <class T, std::size_t lanes>
-struct CompilerVector {
-  typedef T type __attribute__((vector_size(lanes * sizeof(T))));
-};
 
 /// Two registers beside each other in one of twice the width.
 #if defined(__AVX512F__)
@@ -194,8 +209,8 @@ RAYTRACE_INLINE void widen(const F& floats, D& lower, D& upper) {
 #endif
   alignas(64) std::array<float, F::size> lanes;
   floats.store_aligned(lanes.data());
-  typename CompilerVector<float, D::size>::type half;
-  using Doubled = typename CompilerVector<double, D::size>::type;
+  CompilerVector<float, D::size> half;
+  using Doubled = CompilerVector<double, D::size>;
   std::memcpy(&half, lanes.data(), sizeof half);
   lower = std::bit_cast<D>(__builtin_convertvector(half, Doubled));
   std::memcpy(&half, lanes.data() + D::size, sizeof half);
@@ -214,8 +229,8 @@ RAYTRACE_INLINE F narrow(const D& lower, const D& upper) {
   if constexpr (F::size == 4) return _mm_movelh_ps(_mm_cvtpd_ps(lower), _mm_cvtpd_ps(upper));
 #endif
   alignas(64) std::array<float, F::size> lanes;
-  using Doubled = typename CompilerVector<double, D::size>::type;
-  using Half = typename CompilerVector<float, D::size>::type;
+  using Doubled = CompilerVector<double, D::size>;
+  using Half = CompilerVector<float, D::size>;
   Half half = __builtin_convertvector(std::bit_cast<Doubled>(lower), Half);
   std::memcpy(lanes.data(), &half, sizeof half);
   half = __builtin_convertvector(std::bit_cast<Doubled>(upper), Half);

@@ -22,7 +22,7 @@ int band_rows(int width, std::size_t channels) {
 void fill_color(ImageBand& band, const Film& film, int y0, int y1, int threads) {
   band.region = {film.region().x0, y0, film.region().x1, y1};
   band.planes.resize(std::max(band.planes.size(), ImageBand::colors));
-  band.half_colors = film.content() == FilmContent::half_means ? film.half_means(band.region.x0, y0)->data() : nullptr;
+  band.half_colors = film.content() == FilmContent::half_means ? film.half_mean(band.region.x0, y0).data() : nullptr;
   if (band.half_colors != nullptr) return;
   const auto width = static_cast<std::size_t>(band.region.width());
   std::array<float*, ImageBand::colors> planes;

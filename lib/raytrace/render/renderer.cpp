@@ -65,30 +65,6 @@ bool is_rendered(const Film& film, const Region& tile, std::uint32_t samples) {
   return true;
 }
 
-/// A tile of a film of sums.
-RenderReport render_sums(const Scene& scene, Film& film, const Region& tile, std::uint32_t samples,
-                         const std::atomic<bool>* stop) {
-  if (is_rendered(film, tile, samples)) return {};
-  return scene.render_region(tile, samples, film, stop);
-}
-
-/// A tile of a film of means, whose sums are gone once all its samples are in them.
-RenderReport render_means(const Scene& scene, Film& film, const Region& tile, Film::Tile& state,
-                          const std::atomic<bool>* stop) {
-  if (state.finished) return {};
-  if (!state.sums) {
-    FilmSettings settings = film.settings();
-    settings.extent.region = tile;
-    state.sums = std::make_unique<Film>(settings);
-  }
-  const std::uint32_t samples = film.settings().samples.count;
-  const RenderReport report = scene.render_region(tile, samples, *state.sums, stop);
-  scene.set_film_means(film, *state.sums);
-  state.finished = is_rendered(*state.sums, tile, samples);
-  if (state.finished) state.sums.reset();
-  return report;
-}
-
 /// Tells the progress without making any thread wait for another.
 class Teller {
  public:
@@ -140,7 +116,6 @@ RenderReport render(const Scene& scene, Film& film, std::uint32_t samples, int t
                     const ProgressFunction& progress, const std::atomic<bool>* stop) {
   const int workers = worker_count(thread_count(threads));
   const TileGrid grid = tiles_for(film.region(), workers);
-  if (film.content() != FilmContent::sums) film.tiles().resize(static_cast<std::size_t>(grid.count()));
   Teller teller(progress, grid.count());
   std::vector<RenderReport> reports(static_cast<std::size_t>(grid.count()));  // of each tile
   // With the loop's own, all that threads write and others read: once a tile.
@@ -148,9 +123,8 @@ RenderReport render(const Scene& scene, Film& film, std::uint32_t samples, int t
   for_each_index(grid.count(), workers, [&](int index) {
     if (stop != nullptr && stop->load(std::memory_order_relaxed)) return;
     const Region tile = grid.tile(index);
-    const auto i = static_cast<std::size_t>(index);
-    reports[i] = film.content() == FilmContent::sums ? render_sums(scene, film, tile, samples, stop)
-                                                     : render_means(scene, film, tile, film.tiles()[i], stop);
+    if (film.content() != FilmContent::sums || !is_rendered(film, tile, samples))
+      reports[static_cast<std::size_t>(index)] = scene.render_region(tile, samples, film, stop);
     teller.tell(done.fetch_add(1, std::memory_order_relaxed) + 1);
   });
   teller.tell(done.load(std::memory_order_relaxed));  // the last may have found another thread telling

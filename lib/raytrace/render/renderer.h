@@ -89,12 +89,10 @@ class Scene {
   /// Continues the pixels of `region`, which must lie inside the film's, until each has `samples` of the film's sample
   /// range. The sums do not depend on how a picture is cut into regions, or the samples into calls. Safe to call from
   /// many threads for disjoint regions of tiles aligned to the packets' blocks. Once `stop` is set (null: never), it
-  /// returns within a few samples of a packet; the film keeps what was done.
+  /// returns within a few samples of a packet; the film keeps what was done. Pixels of a film of means get theirs at
+  /// once, of all samples.
   virtual RenderReport render_region(const Region& region, std::uint32_t samples, Film& film,
                                      const std::atomic<bool>* stop) const = 0;
-
-  /// As set_means() of film/film_means.h, with the instruction set's own conversions.
-  virtual void set_film_means(Film& means, const Film& sums) const = 0;
 
   /// No sample's radiance is larger, in any channel.
   virtual float largest_radiance() const = 0;
@@ -127,8 +125,8 @@ using ProgressFunction = std::function<void(double fraction)>;
 FilmSettings film_settings(const Scene& scene, const SceneDescription& description, const RenderSettings& settings);
 
 /// Continues the film until each pixel has `samples` (at most the film's own). Returns early once `stop` is set; the
-/// film keeps what was done, and another call goes on from there. threads: as RenderSettings::threads. To a film of
-/// means, all calls are with its own number of samples, and with the same number of threads.
+/// film keeps what was done, and another call goes on from there: of sums, that is. A film of means is rendered by one
+/// call, with all its samples. threads: as RenderSettings::threads.
 RenderReport render(const Scene& scene, Film& film, std::uint32_t samples, int threads,
                     const ProgressFunction& progress = {}, const std::atomic<bool>* stop = nullptr);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "raytrace/film/film_means.h"
 #include "raytrace/integrators/render_pixels.h"
 #include "raytrace/math/gather.h"
 
@@ -138,8 +137,6 @@ RenderReport TracedScene::render_region(const Region& region, std::uint32_t samp
                                         const std::atomic<bool>* stop) const {
   return render_pixels(*this, region, samples, film, stop);
 }
-
-void TracedScene::set_film_means(Film& means, const Film& sums) const { set_means(means, sums); }
 
 SceneStatistics TracedScene::statistics() const {
   SceneStatistics statistics;

@@ -22,7 +22,6 @@ class TracedScene final : public Scene {
 
   RenderReport render_region(const Region& region, std::uint32_t samples, Film& film,
                              const std::atomic<bool>* stop) const override;
-  void set_film_means(Film& means, const Film& sums) const override;
   float largest_radiance() const override { return largest_radiance_; }
   float largest_albedo() const override;
   SceneStatistics statistics() const override;
