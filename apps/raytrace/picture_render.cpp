@@ -209,7 +209,7 @@ bool PictureRender::is_due() const {
 std::uint32_t PictureRender::next_target(std::uint32_t done, double seconds_a_sample) const {
   const std::uint32_t all = identity_.film.samples.count;
   if (!options_.time_limit && options_.checkpoint.empty() && !display_) return all;
-  constexpr std::uint32_t group = 4;  // what a packet takes at once: fewer would cost as much
+  constexpr std::uint32_t group = 4;  // of samples that are traced together: of fewer, each would cost more
   constexpr std::uint32_t least_samples = group, most_samples = 32;  // of a pass
   std::uint32_t samples = std::min(std::clamp(done, least_samples, most_samples), all - done);
   if (options_.time_limit && done > 0) {
