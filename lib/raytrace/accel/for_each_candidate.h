@@ -58,12 +58,11 @@ RAYTRACE_INLINE void for_each_cell(const DirectionBuffer& buffer, const Vec3<Flo
 template <class Reaches, class Test>
 RAYTRACE_INLINE MaskN for_each_candidate(const DirectionBuffer& buffer, const Vec3<FloatN>& direction,
                                          const MaskN& active, const Reaches& reaches, const Test& test) {
-  constexpr std::size_t most_cells = 8;                         // a packet of more is not one of neighbours
-  std::array<std::span<const std::uint32_t>, most_cells> done;  // of each cell, the candidates that were tested
+  std::array<std::span<const std::uint32_t>, packet_lanes> done;  // of each cell, the candidates that were tested
   std::size_t cells = 0;
   MaskN left(false);
   detail::for_each_cell(buffer, direction, active, [&](std::size_t cell, const MaskN& lanes) {
-    if (buffer.is_crowded(cell) || cells == most_cells) {
+    if (buffer.is_crowded(cell)) {
       left = left | lanes;
       return;
     }

@@ -10,7 +10,8 @@ namespace raytrace {
 namespace {
 
 /// Lights are gathered in runs of this many before the materials see them, so that each material reads its parameters
-/// once a run.
+/// once a run. Runs are counted with the lights that no lane sees: how a lane's radiance is summed must not depend on
+/// the others.
 constexpr std::size_t lights_per_run = 16;
 
 }  // namespace
@@ -40,6 +41,7 @@ SeenRadiance Raycast::radiance(const TracedScene& scene, const Ray<FloatN>& rays
   shadow_rays.origin = leaving_origin(point);
   shadow_rays.near = FloatN(0);
   for (std::size_t number = 0; number < scene.lights().size(); ++number) {
+    if (number > 0 && number % lights_per_run == 0 && (count > 0 || number == lights_per_run)) shade_run();
     const auto& light = scene.lights()[number];
     const LightSample<FloatN> sample = light->sample(shadow_rays.origin);
     // Of any length: the shadow rays need not wait for a square root and a quotient.
@@ -57,9 +59,8 @@ SeenRadiance Raycast::radiance(const TracedScene& scene, const Ray<FloatN>& rays
     light_here.wi = normalize(sample.to_light);
     light_here.cosine = select(lit, max(dot(point.normal, light_here.wi), FloatN(0)), FloatN(0));
     light_here.radiance = sample.radiance;
-    if (count == lights_per_run) shade_run();
   }
-  shade_run();
+  if (count > 0 || scene.lights().size() <= lights_per_run) shade_run();
   return {select(hits.hit, radiance, background), hits.hit};
 }
 

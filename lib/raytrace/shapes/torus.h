@@ -103,11 +103,13 @@ void depressed_cubic_roots(const F& p, const F& q, F (&root)[3]) {
   const F u2 = max(-p, zero);
   const F quotient = abs_q / max(select(p < zero, u2 + u2, p), F(1e-30F));
   F s = (sqrt(u2) + min(cbrt(abs_q), quotient)) * F(1 + 0x1p-20F);
+  Mask<F> moving(true);  // lanes that have arrived stay, whatever the others do
   for (int i = 0; i < 40; ++i) {
     const F slope = multiply_add(F(3.0F) * s, s, p);
     const F step = multiply_add(multiply_add(s, s, p), s, -abs_q) / max(slope, F(1e-30F));
-    s = s - step;
-    if (!any(step > s * F(1e-4F))) break;  // it converges quadratically
+    s = select(moving, s - step, s);
+    moving = moving & (step > s * F(1e-4F));  // it converges quadratically
+    if (none(moving)) break;
   }
   const F first = select(q < zero, s, -s);
   // The other two are the roots of the quotient s^2 + first s + (first^2 + p).
@@ -126,6 +128,7 @@ void depressed_cubic_roots(const F& p, const F& q, F (&root)[3]) {
 template <class F, class D>
 D root_in_bracket(const TorusProfile<F>& profile, const D& side, D s, D left, D right, const D& left_sign,
                   const D& tolerance) {
+  auto moving = left <= left;
   for (int i = 0; i < 60; ++i) {
     const auto at = profile.distance_form(s, side);
     const auto still_left = at.value * left_sign > D(0.0);
@@ -135,8 +138,9 @@ D root_in_bracket(const TorusProfile<F>& profile, const D& side, D s, D left, D 
     const auto inside = (newton >= left - tolerance) & (newton <= right + tolerance);
     const D next = select(inside, min(max(newton, left), right), D(0.5) * (left + right));
     const auto moved = abs(next - s) > tolerance;
-    s = next;
-    if (!any(moved)) break;
+    s = select(moving, next, s);  // lanes that have arrived stay, whatever the others do
+    moving = moving & moved;
+    if (!any(moving)) break;
   }
   return s;
 }
