@@ -166,8 +166,10 @@ RenderReport render_pixels(const TracedScene& scene, const Region& region, std::
     return lanes - (last - first) <= (last - first) / 8;
   };
   if (first < last) {
-    if (few_are_idle(packet_lanes)) return in_groups_of(std::integral_constant<int, packet_lanes>());
-    if (few_are_idle(packet_lanes / 2)) return in_groups_of(std::integral_constant<int, packet_lanes / 2>());
+    if (film.aovs() == nullptr) {  // they take too much for each block: one should have several packets
+      if (few_are_idle(packet_lanes)) return in_groups_of(std::integral_constant<int, packet_lanes>());
+      if (few_are_idle(packet_lanes / 2)) return in_groups_of(std::integral_constant<int, packet_lanes / 2>());
+    }
     if (few_are_idle(4)) return in_groups_of(std::integral_constant<int, 4>());
   }
   return in_groups_of(std::integral_constant<int, 1>());
