@@ -161,9 +161,9 @@ RenderReport render_pixels(const TracedScene& scene, const Region& region, std::
   const std::uint32_t begin = film.settings().samples.first, last = begin + samples;
   std::uint32_t first = begin;
   if (film.content() == FilmContent::sums) first += film.sum(region.x1 - 1, region.y1 - 1).samples;  // none has fewer
-  const auto few_are_idle = [&](std::uint32_t group) {
-    const std::uint64_t lanes = (std::uint64_t{last} + group - 1) / group * group - first / group * group;
-    return lanes - (last - first) <= (last - first) / 8;
+  const auto few_are_idle = [&](std::uint64_t group) {
+    const std::uint64_t wanted = last - first, lanes = (last + group - 1) / group * group - first / group * group;
+    return lanes - wanted <= wanted / 8;
   };
   if (first < last) {
     if (film.aovs() == nullptr) {  // they take too much for each block: one should have several packets
