@@ -2,7 +2,7 @@
 #   only lib/raytrace/accel/ includes Embree,
 #   only lib/raytrace/description/ includes tinyxml2,
 #   only lib/raytrace/display/display_server.cpp includes Asio,
-#   only lib/raytrace/math/simd.h includes intrinsics or the SIMD library.
+#   only lib/raytrace/math/simd.h and twin_batch.h include intrinsics or the SIMD library.
 
 file(GLOB_RECURSE files RELATIVE ${ROOT}
   ${ROOT}/lib/*.h ${ROOT}/lib/*.cpp ${ROOT}/apps/*.h ${ROOT}/apps/*.cpp

@@ -1,4 +1,6 @@
 // Doubles<F> against scalar double arithmetic, lane by lane.
+#include "raytrace/math/doubles.h"
+
 #include <bit>
 #include <cmath>
 #include <functional>
@@ -6,7 +8,6 @@
 #include <random>
 #include <vector>
 
-#include "raytrace/math/simd.h"
 #include "support/catch.h"
 #include "support/lanes.h"
 

@@ -3,7 +3,7 @@
 #include <limits>
 #include <random>
 
-#include "raytrace/math/simd.h"
+#include "raytrace/math/doubles.h"
 #include "raytrace/shapes/sphere.h"
 #include "support/catch.h"
 #include "support/lanes.h"

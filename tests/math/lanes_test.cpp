@@ -4,8 +4,8 @@
 #include <numeric>
 #include <vector>
 
+#include "raytrace/math/doubles.h"
 #include "raytrace/math/gather.h"
-#include "raytrace/math/simd.h"
 #include "support/catch.h"
 
 namespace raytrace::test {

@@ -1,7 +1,7 @@
 #include <algorithm>
 
+#include "raytrace/math/doubles.h"
 #include "raytrace/math/fixed_point_sums.h"
-#include "raytrace/math/simd.h"
 #include "support/wide_arithmetic.h"
 
 namespace raytrace::test {

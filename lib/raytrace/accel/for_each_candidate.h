@@ -58,7 +58,11 @@ RAYTRACE_INLINE void for_each_cell(const DirectionBuffer& buffer, const Vec3<Flo
 template <class Reaches, class Test>
 RAYTRACE_INLINE MaskN for_each_candidate(const DirectionBuffer& buffer, const Vec3<FloatN>& direction,
                                          const MaskN& active, const Reaches& reaches, const Test& test) {
-  std::array<std::span<const std::uint32_t>, packet_lanes> done;  // of each cell, the candidates that were tested
+  // Of each cell, the candidates that were tested. Not set before: most packets have one cell.
+  struct Tested {
+    const std::uint32_t *begin, *end;
+  };
+  std::array<Tested, packet_lanes> done;
   std::size_t cells = 0;
   MaskN left(false);
   detail::for_each_cell(buffer, direction, active, [&](std::size_t cell, const MaskN& lanes) {
@@ -71,12 +75,12 @@ RAYTRACE_INLINE MaskN for_each_candidate(const DirectionBuffer& buffer, const Ve
     for (; next < candidates.size(); ++next) {
       const DirectionBuffer::Object& object = buffer.object(candidates[next]);
       if (!reaches(lanes, object)) break;
-      const bool is_done = std::any_of(done.begin(), done.begin() + cells, [&](const auto& numbers) {
-        return std::binary_search(numbers.begin(), numbers.end(), candidates[next]);
+      const bool is_done = std::any_of(done.begin(), done.begin() + cells, [&](const Tested& tested) {
+        return std::binary_search(tested.begin, tested.end, candidates[next]);
       });
       if (!is_done) test(object);
     }
-    done[cells++] = candidates.first(next);
+    done[cells++] = {candidates.data(), candidates.data() + next};
   });
   return left;
 }

@@ -98,6 +98,8 @@ class Film {
   const FilmSettings& settings() const { return settings_; }
   const Region& region() const { return settings_.extent.region; }
   FilmContent content() const { return content_; }
+  /// The radiance that is 1 in sums: 2^unit_exponent.
+  double unit() const { return unit_; }
 
   /// The mean of the pixel's samples; black and empty if it has none. x, y: in the whole picture, inside region().
   Pixel pixel(int x, int y) const;
@@ -106,9 +108,6 @@ class Film {
   std::vector<Pixel> pixels() const;
 
   // Of films of sums.
-
-  /// One of radiance, in those of the sums.
-  double unit() const { return unit_; }
 
   PixelSum& sum(int x, int y) { return sums_[index(x, y)]; }
   const PixelSum& sum(int x, int y) const { return sums_[index(x, y)]; }

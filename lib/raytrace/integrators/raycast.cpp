@@ -41,6 +41,7 @@ SeenRadiance Raycast::radiance(const TracedScene& scene, const Ray<FloatN>& rays
   shadow_rays.origin = leaving_origin(point);
   shadow_rays.near = FloatN(0);
   for (std::size_t number = 0; number < scene.lights().size(); ++number) {
+    // The first run has the ambient light, whoever sees the others.
     if (number > 0 && number % lights_per_run == 0 && (count > 0 || number == lights_per_run)) shade_run();
     const auto& light = scene.lights()[number];
     const LightSample<FloatN> sample = light->sample(shadow_rays.origin);

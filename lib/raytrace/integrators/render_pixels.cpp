@@ -54,11 +54,12 @@ class BlockRenderer {
     aovs.finish();
   }
 
-  /// Samples [first, last) of the pixels' sequences.
+  /// What a block's pixels want of their sequences: [first, last) of those that have the fewest samples. A render of
+  /// packets of another shape that was stopped here leaves some with more.
   struct SamplesLeft {
     std::uint32_t first, last;
-    std::uint32_t all_from;  ///< where some pixels have more than others, those
-    UintN lane_first;        ///< each lane's own
+    std::uint32_t all_from;  ///< from here on, all pixels want all
+    UintN lane_first;        ///< each lane's own first
 
     SamplesLeft(const Film& film, const Block& block, const Region& region, std::uint32_t samples) {
       const std::uint32_t begin = film.settings().samples.first;
@@ -76,7 +77,6 @@ class BlockRenderer {
       last = begin + samples;
       lane_first = UintN(first);
       if (least == most) return;
-      // A render of packets of another shape was stopped here.
       alignas(64) std::array<std::uint32_t, packet_lanes> firsts{};
       block.for_each_lane(region,
                           [&](int x, int y, std::size_t lane) { firsts[lane] = begin + film.sum(x, y).samples; });

@@ -6,7 +6,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "raytrace/math/simd.h"
+#include "raytrace/math/doubles.h"
 
 namespace raytrace {
 

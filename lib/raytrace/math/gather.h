@@ -9,8 +9,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "raytrace/math/doubles.h"
 #include "raytrace/math/inline.h"
-#include "raytrace/math/simd.h"
 
 namespace raytrace {
 

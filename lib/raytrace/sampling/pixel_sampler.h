@@ -36,12 +36,7 @@ class PixelShifts {
 
  private:
   void make(std::uint32_t first, std::uint32_t row) {
-    alignas(64) static constexpr auto numbers = [] {
-      std::array<std::uint32_t, packet_lanes> result{};
-      for (std::uint32_t i = 0; i < packet_lanes; ++i) result[i] = i;
-      return result;
-    }();
-    const PixelShift<UintN> shifts(UintN(first) + UintN::load_aligned(numbers.data()), UintN(row), seed_);
+    const PixelShift<UintN> shifts(UintN(first) + lane_numbers<UintN>(), UintN(row), seed_);
     shifts.x.store_aligned(x_.data());
     shifts.y.store_aligned(y_.data());
     first_ = first;

@@ -10,8 +10,8 @@
 
 #include "raytrace/description/fields.h"
 #include "raytrace/math/bounds.h"
+#include "raytrace/math/doubles.h"
 #include "raytrace/math/ray.h"
-#include "raytrace/math/simd.h"
 
 namespace raytrace {
 

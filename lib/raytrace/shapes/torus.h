@@ -15,8 +15,8 @@
 
 #include "raytrace/description/fields.h"
 #include "raytrace/math/bounds.h"
+#include "raytrace/math/doubles.h"
 #include "raytrace/math/ray.h"
-#include "raytrace/math/simd.h"
 
 namespace raytrace {
 
@@ -128,7 +128,7 @@ void depressed_cubic_roots(const F& p, const F& q, F (&root)[3]) {
 template <class F, class D>
 D root_in_bracket(const TorusProfile<F>& profile, const D& side, D s, D left, D right, const D& left_sign,
                   const D& tolerance) {
-  auto moving = left <= left;
+  auto moving = left <= right;  // all that have a bracket; lanes that have arrived stay, whatever the others do
   for (int i = 0; i < 60; ++i) {
     const auto at = profile.distance_form(s, side);
     const auto still_left = at.value * left_sign > D(0.0);
@@ -138,7 +138,7 @@ D root_in_bracket(const TorusProfile<F>& profile, const D& side, D s, D left, D 
     const auto inside = (newton >= left - tolerance) & (newton <= right + tolerance);
     const D next = select(inside, min(max(newton, left), right), D(0.5) * (left + right));
     const auto moved = abs(next - s) > tolerance;
-    s = select(moving, next, s);  // lanes that have arrived stay, whatever the others do
+    s = select(moving, next, s);
     moving = moving & moved;
     if (!any(moving)) break;
   }
