@@ -53,6 +53,17 @@ class Scenes(unittest.TestCase):
         tori = scenes.make("tori-1k")
         self.assertEqual([key for key, renderer in renderers.ALL.items() if renderer.can(tori)], ["raytrace", "povray"])
 
+    def test_pov_ray_takes_as_many_samples(self):
+        for name in ("spheres-10", "4k", "samples-256"):
+            scene = scenes.make(name)
+            renderers.ALL["povray"].write(scene, self.folder)
+            with open(os.path.join(self.folder, "scene.ini"), encoding="utf-8") as file:
+                settings = dict(line.strip().split("=") for line in file)
+            pixels = int(settings["Width"]) * int(settings["Height"])
+            edge = int(settings.get("Antialias_Depth", 1))
+            self.assertLessEqual(edge, 9, "it leaves out what is more")
+            self.assertEqual(pixels * edge * edge, scene.width * scene.height * scene.samples)
+
     def test_the_same_every_time(self):
         self.assertEqual(scenes.make("mix-5k"), scenes.make("mix-5k"))
 

@@ -192,7 +192,7 @@ class Backend final : public ProbeBackend {
   }
 
   std::optional<DirectionBuffer> seen_from(const Vantage& vantage) const {
-    return std::move(accelerator_.seen_from(std::array<std::optional<Vantage>, 1>{vantage}, 1).front());
+    return std::move(accelerator_.seen_from(std::array<std::optional<Vantage>, 1>{vantage}, 2).front());
   }
 
   Accelerator accelerator_;

@@ -11,10 +11,12 @@ from ..scenes import BACKGROUND, EYE, FLOOR, LOOKAT, VIEW_HEIGHT, Cylinder, Sphe
 
 NAME = "POV-Ray"
 COMMAND = "povray scene.ini +WTTHREADS"
+MOST_SAMPLES_AN_EDGE = 9  # of a pixel; more are left out without a word
 NOTE = (
     "Render only: the `Trace Time` that it prints, which is up to 0.1 s too long."
     " Its antialiasing is adaptive; threshold 0 makes it take all N x N samples of every pixel, and one more that its"
-    " method needs, 17 for 16. Triangles are in meshes, one for each material."
+    " method needs, 17 for 16. It takes 9 x 9 of a pixel at most: 256 are 8 x 8 in each of four pixels, of a picture"
+    " twice as wide and high. Triangles are in meshes, one for each material."
 )
 
 
@@ -86,20 +88,29 @@ def _write_meshes(scene, say):
         say(f"texture {{ M{material} }} }}\n")
 
 
+def _sampling(scene):
+    """How many pixels for each of the picture's edge, and how many samples for each of theirs."""
+    pixels, samples = 1, math.isqrt(scene.samples)
+    while samples > MOST_SAMPLES_AN_EDGE:
+        pixels, samples = 2 * pixels, samples // 2
+    return pixels, samples
+
+
 def _write_settings(scene, folder):
+    pixels, samples = _sampling(scene)
     settings = {
         "Input_File_Name": "scene.pov",
         "Output_File_Name": "picture.png",
         "Output_File_Type": "N",
         "Bits_Per_Color": 8,
-        "Width": scene.width,
-        "Height": scene.height,
+        "Width": scene.width * pixels,
+        "Height": scene.height * pixels,
         "Display": "off",
         "Antialias": "off",
     }
     if scene.samples > 1:
         settings |= {"Antialias": "on", "Sampling_Method": 1, "Antialias_Threshold": "0.0", "Jitter": "off"}
-        settings |= {"Antialias_Depth": math.isqrt(scene.samples)}
+        settings |= {"Antialias_Depth": samples}
     with open(os.path.join(folder, "scene.ini"), "w", encoding="utf-8") as file:
         file.writelines(f"{key}={value}\n" for key, value in settings.items())
 
@@ -112,5 +123,6 @@ def render(folder, threads, limit):
 def picture(scene, folder, limit):
     from ..pictures import read_exr
 
-    run(["povray", "scene.ini", "+Ocheck.exr", "+FE", "-A"], folder, limit)
+    size = [f"+W{scene.width}", f"+H{scene.height}"]
+    run(["povray", "scene.ini", *size, "+Ocheck.exr", "+FE", "-A"], folder, limit)
     return read_exr(os.path.join(folder, "check.exr"))

@@ -5,6 +5,8 @@
 #include <new>
 #include <string>
 
+#include "raytrace/memory/large_pages.h"
+#include "raytrace/memory/zeroed_array.h"
 #include "raytrace/parallel/for_each_index.h"
 #include "raytrace/parallel/handover.h"
 #include "raytrace/render/renderer.h"
@@ -44,7 +46,7 @@ bool on_memory(void* user, ssize_t bytes, bool) {
 template <class Shape>
 void fill_table(const SceneDescription& description, ShapeTable<Shape>& table) {
   const auto& items = std::get<ObjectItems<Shape>>(description.objects);
-  table.records.reserve(items.size() + 1);  // Embree reads whole 16 byte words of the last vertex
+  reserve_large(table.records, items.size() + 1);  // Embree reads whole 16 byte words of the last vertex
   for (const auto& item : items) table.records.push_back(Shape::record(item.parameters));
 }
 
@@ -109,21 +111,27 @@ Accelerator::Accelerator(const SceneDescription& description, int threads, const
 
 std::vector<std::optional<DirectionBuffer>> Accelerator::seen_from(std::span<const std::optional<Vantage>> vantages,
                                                                    int threads) const {
-  std::vector<PlacedObject> objects;
-  objects.reserve(primitive_count());
+  std::vector<std::optional<DirectionBuffer>> buffers(vantages.size());
+  if (std::none_of(vantages.begin(), vantages.end(), [](const auto& vantage) { return vantage.has_value(); }))
+    return buffers;
+  ZeroedArray<PlacedObject> objects(primitive_count());
+  std::size_t count = 0;
   for_each_type(Shapes{}, [&](auto type) {
     using Shape = typename decltype(type)::type;
     if constexpr (!UnboundedShape<Shape>) {
-      std::uint32_t primitive = 0;
-      for (const auto& record : std::get<ShapeTable<Shape>>(tables_).records)
-        objects.push_back(placed_object<Shape>(record, primitive++));
+      constexpr std::size_t objects_a_chunk = 1U << 14U;
+      const auto& records = std::get<ShapeTable<Shape>>(tables_).records;
+      const auto chunks = static_cast<int>((records.size() + objects_a_chunk - 1) / objects_a_chunk);
+      for_each_index(chunks, threads, [&](int chunk) {
+        const std::size_t first = static_cast<std::size_t>(chunk) * objects_a_chunk;
+        for (std::size_t i = first; i < std::min(first + objects_a_chunk, records.size()); ++i)
+          objects[count + i] = placed_object<Shape>(records[i], static_cast<std::uint32_t>(i));
+      });
+      count += records.size();
     }
   });
-  std::vector<std::optional<DirectionBuffer>> buffers(vantages.size());
-  for_each_index(static_cast<int>(vantages.size()), threads, [&](int index) {
-    const auto i = static_cast<std::size_t>(index);
-    if (vantages[i]) buffers[i] = DirectionBuffer::make(*vantages[i], objects);
-  });
+  for (std::size_t i = 0; i < vantages.size(); ++i)
+    if (vantages[i]) buffers[i] = DirectionBuffer::make(*vantages[i], {objects.data(), count}, threads);
   return buffers;
 }
 

@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "raytrace/parallel/for_each_index.h"
+#include "raytrace/parallel/sort.h"
 
 namespace raytrace {
 
@@ -14,155 +18,67 @@ constexpr std::uint32_t most_candidates = 64;
 
 /// Cells, on the average, that a grid has for each object on it, and the most along an edge.
 constexpr double cells_an_object = 16;
-constexpr double most_cells_an_edge = 512;
+constexpr double most_cells_an_edge = 2048;
+
+/// Of a cell's edge to that of the objects' average rectangle: where objects overlap, smaller ones list the same
+/// objects, many times.
+constexpr double least_edge = 0.25;
 
 /// The work for an object is in proportion to the cells of the rectangle that it covers: how many, on the average, are
 /// worth it.
-constexpr double most_covered_cells = 128;
+constexpr double most_covered_cells = 64;
 
-/// Rays from and to further away are Embree's, which cannot take all of them: those here need not be looked at again.
-constexpr double most_distance = 1e16;
+/// What a thread takes at a time.
+constexpr std::size_t objects_a_chunk = 1U << 14U;
+constexpr int rows_a_band = 32;
 
-/// By what part of its length rounding may turn the way from a place to the vantage aside, and more.
-constexpr double way_rounding = 0x1p-20;
+/// Nearest first, they lie all over memory: by how many it is asked for earlier.
+constexpr std::size_t objects_ahead = 16;
 
-/// More than the rounding of a quotient of floats up to 1.
-constexpr double quotient_rounding = 1e-6;
+constexpr int faces = 6;
 
-/// What is seen from infinitely far is shown as a picture in the middle of the face z = 1, which is 2 wide and high.
+/// The face of the picture that is seen from infinitely far.
 constexpr int face_of_picture = 4;
-constexpr double picture_size = 1;
 
-struct Interval {
-  double low, high;
-};
-
-/// An object as seen from the vantage.
-struct View {
-  const PlacedObject* object;
-  std::array<Interval, 3> along;  ///< its box
-  Vec3d center;                   ///< of a sphere around it
-  double distance, angle;         ///< of that center; of the cone that the sphere is in, to its axis
-  double nearest;                 ///< distance from the point, or Sight::depth
-};
-
-/// A rectangle of a face that an object is in, as seen from the point.
-struct Rectangle {
-  std::uint32_t number;  ///< of its view
-  Interval across, up;
-};
-
-Vec3d center_of(const PlacedObject& object) { return (Vec3d(object.bounds.lower) + Vec3d(object.bounds.upper)) * 0.5; }
-
-/// From a point: none from inside the sphere around it, or from so close that a cone says little. All sizes are `slack`
-/// larger.
-std::optional<View> view_of(const PlacedObject& object, const Vec3d& point, double slack) {
-  const Vec3d lower(object.bounds.lower), upper(object.bounds.upper);
-  View view;
-  view.object = &object;
-  for (int axis = 0; axis < 3; ++axis) {
-    view.along[static_cast<std::size_t>(axis)] = {component(lower, axis) - component(point, axis) - slack,
-                                                  component(upper, axis) - component(point, axis) + slack};
-  }
-  view.center = center_of(object) - point;
-  view.distance = length(view.center);
-  const double radius = object.radius + slack;
-  if (radius > 0.9 * view.distance) return std::nullopt;
-  view.angle = std::asin(radius / view.distance);
-  const auto gap = [](const Interval& i) { return std::max({i.low, -i.high, 0.0}); };
-  const Vec3d to_box{gap(view.along[0]), gap(view.along[1]), gap(view.along[2])};
-  view.nearest = std::max(length(to_box), view.distance - radius);
-  return view;
+/// Calls f(face, rectangle) for each face that the object is behind.
+template <class Function>
+void for_each_rectangle(const Perspective& perspective, const View& view, const Function& f) {
+  const int first = perspective.infinitely_far() ? face_of_picture : 0;
+  const int end = perspective.infinitely_far() ? face_of_picture + 1 : faces;
+  for (int face = first; face < end; ++face)
+    if (const auto rectangle = rectangle_on(face, view)) f(face, *rectangle);
 }
 
-/// A picture of all objects, across parallel rays: a point's place on it is (across . point, up . point) - start.
-struct Picture {
-  Vec3d across, up, towards;  ///< towards: the vantage, of unit length
-  Vec3d start{};              ///< start.z: of depths, start.z - towards . point
-
-  Picture(const Vec3d& towards_vantage, const std::vector<PlacedObject>& objects, double slack)
-      : towards(normalize(towards_vantage)) {
-    const Vec3d aside = std::abs(towards.x) < 0.6 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
-    across = normalize(cross(aside, towards));
-    up = cross(towards, across);
-    std::array<Interval, 3> all{Interval{1e30, -1e30}, Interval{1e30, -1e30}, Interval{1e30, -1e30}};
-    for (const PlacedObject& object : objects)
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const Interval i = extent(object, axis == 0 ? across : axis == 1 ? up : towards, slack);
-        all[axis] = {std::min(all[axis].low, i.low), std::max(all[axis].high, i.high)};
-      }
-    const double scale = picture_size / std::max(all[0].high - all[0].low, all[1].high - all[1].low);
-    across = Vec3d(Vec3f(across * scale));
-    up = Vec3d(Vec3f(up * scale));
-    const auto middle = [scale](const Interval& i) {
-      return static_cast<double>(static_cast<float>((i.low + i.high) / 2 * scale));
-    };
-    start = {middle(all[0]), middle(all[1]), static_cast<double>(static_cast<float>(all[2].high + slack))};
-  }
-
-  /// In the direction of an axis.
-  static Interval extent(const PlacedObject& object, const Vec3d& axis, double slack) {
-    const Vec3d half = (Vec3d(object.bounds.upper) - Vec3d(object.bounds.lower)) * 0.5;
-    const double box = std::abs(axis.x) * half.x + std::abs(axis.y) * half.y + std::abs(axis.z) * half.z;
-    const double reach = std::min(box, object.radius * length(axis)) + slack * length(axis);
-    const double middle = dot(axis, center_of(object));
-    return {middle - reach, middle + reach};
-  }
-
-  View view(const PlacedObject& object, double slack) const {
-    const Interval x = extent(object, across, slack), y = extent(object, up, slack);
-    View view;
-    view.object = &object;
-    view.along = {Interval{x.low - start.x, x.high - start.x}, Interval{y.low - start.y, y.high - start.y},
-                  Interval{1, 1}};
-    view.center = {0, 0, 1};
-    view.distance = 1;
-    view.angle = std::numbers::pi;  // the box says it all
-    view.nearest = std::max(0.0, start.z - extent(object, towards, slack).high);
-    return view;
-  }
-};
-
-/// Of a face, across or up.
-constexpr Interval whole_face = {-1 - quotient_rounding, 1 + quotient_rounding};
-
-/// Of all b / w for b in `b` and w in `w`, which is positive: what lies on the face.
-Interval on_face(const Interval& b, const Interval& w) {
-  return {std::max(b.low / (b.low < 0 ? w.low : w.high) - quotient_rounding, whole_face.low),
-          std::min(b.high / (b.high > 0 ? w.low : w.high) + quotient_rounding, whole_face.high)};
-}
-
-std::optional<Rectangle> rectangle_on(int face, const View& view, std::uint32_t number) {
-  constexpr double corner_angle = 0.9554;  // of the face to its normal: acos(1 / sqrt(3)), and more
-  const int axis = face / 2;
-  const bool negative = face % 2 != 0;
-  const double along_normal = (negative ? -1 : 1) * component(view.center, axis);
-  if (std::acos(std::clamp(along_normal / view.distance, -1.0, 1.0)) > view.angle + corner_angle) return std::nullopt;
-  const auto along = [&](int which) { return view.along[static_cast<std::size_t>(which % 3)]; };
-  const Interval depth = negative ? Interval{-along(axis).high, -along(axis).low} : along(axis);
-  if (depth.low <= 0) return Rectangle{number, whole_face, whole_face};
-  const Rectangle rectangle{number, on_face(along(axis + 1), depth), on_face(along(axis + 2), depth)};
-  if (rectangle.across.low > rectangle.across.high || rectangle.up.low > rectangle.up.high) return std::nullopt;
-  return rectangle;
-}
-
-/// Of the rectangles, and with cells that are about square.
-DirectionBuffer::Grid grid_around(const std::vector<Rectangle>& rectangles) {
+/// What objects cover of a face.
+struct Coverage {
   Interval across{2, -2}, up{2, -2};
-  for (const Rectangle& rectangle : rectangles) {
-    across = {std::min(across.low, rectangle.across.low), std::max(across.high, rectangle.across.high)};
-    up = {std::min(up.low, rectangle.up.low), std::max(up.high, rectangle.up.high)};
+  double objects = 0, area = 0;
+
+  void add(const Coverage& more) {
+    across = {std::min(across.low, more.across.low), std::max(across.high, more.across.high)};
+    up = {std::min(up.low, more.up.low), std::max(up.high, more.up.high)};
+    objects += more.objects;
+    area += more.area;
   }
-  const double width = across.high - across.low, height = up.high - up.low;
-  const double edge = std::sqrt(width * height / (cells_an_object * static_cast<double>(rectangles.size())));
+  void add(const Rectangle& r) {
+    add(Coverage{r.across, r.up, 1, (r.across.high - r.across.low) * (r.up.high - r.up.low)});
+  }
+};
+using Coverages = std::array<Coverage, faces>;
+
+/// Of what is covered, with cells that are about square.
+DirectionBuffer::Grid grid_on(const Coverage& covered) {
+  const double width = covered.across.high - covered.across.low, height = covered.up.high - covered.up.low;
+  const double edge = std::sqrt(std::max(width * height / (cells_an_object * covered.objects),
+                                         least_edge * least_edge * covered.area / covered.objects));
   const auto cells = [edge](double size) {
     return static_cast<int>(std::clamp(std::ceil(size / edge), 1.0, most_cells_an_edge));
   };
   DirectionBuffer::Grid grid;
   grid.columns = cells(width);
   grid.rows = cells(height);
-  grid.left = static_cast<float>(across.low);
-  grid.bottom = static_cast<float>(up.low);
+  grid.left = static_cast<float>(covered.across.low);
+  grid.bottom = static_cast<float>(covered.up.low);
   grid.columns_per_unit = static_cast<float>(grid.columns / width);
   grid.rows_per_unit = static_cast<float>(grid.rows / height);
   return grid;
@@ -176,124 +92,273 @@ struct CellRange {
   int count() const { return high - low + 1; }
 
  private:
-  static constexpr double rounding = 1e-3;  ///< of cells per unit in float, for at most 512 cells; and more
+  static constexpr double rounding = 1e-3;  ///< of a cell's number in float, for up to most_cells_an_edge; and more
   static int place(double value, float start, float per_unit, int count, double more) {
     return static_cast<int>(std::clamp(std::floor((value - start) * per_unit + more), 0.0, count - 1.0));
   }
 };
 
-/// Calls f(cell) for each cell of the rectangle that reaches into the cone around the object, counted from the grid's
-/// first.
+struct ObjectDepth {
+  double nearest;  ///< View::nearest
+  std::uint32_t object;
+};
+
+/// The cells of a rectangle, in some rows, that reach into the cone around an object.
+struct Listing {
+  std::uint32_t object;
+  std::uint16_t left, right, bottom, top;  ///< columns and rows of the grid, the last ones included
+  float across, up, normal;                ///< components of the cone's axis, of unit length
+  double least;  ///< cosine of the angle between it and directions through the cone, squared, its sign kept
+};
+
+/// Calls f(cell) for each, counted from the grid's first.
 template <class Function>
-void for_each_covered(const DirectionBuffer::Grid& grid, int face, const Rectangle& rectangle, const View& view,
-                      const Function& f) {
-  const CellRange columns(rectangle.across, grid.left, grid.columns_per_unit, grid.columns);
-  const CellRange rows(rectangle.up, grid.bottom, grid.rows_per_unit, grid.rows);
+void for_each_cell(const DirectionBuffer::Grid& grid, const Listing& listing, const Function& f) {
   const double width = 1.0 / grid.columns_per_unit, height = 1.0 / grid.rows_per_unit;
-  // Seen from the point, a cell's center and its corners are no further apart than they are on the face, whose
-  // distance is 1.
-  const double angle = view.angle + std::hypot(width, height) / 2 + 1e-6;
-  const double least = angle < std::numbers::pi ? std::cos(angle) * view.distance : -view.distance;
-  const int axis = face / 2;
-  const double normal = (face % 2 != 0 ? -1 : 1) * component(view.center, axis);
-  const double across_axis = component(view.center, (axis + 1) % 3), up_axis = component(view.center, (axis + 2) % 3);
-  for (int row = rows.low; row <= rows.high; ++row) {
+  for (int row = listing.bottom; row <= listing.top; ++row) {
     const double up = grid.bottom + (row + 0.5) * height;
-    for (int column = columns.low; column <= columns.high; ++column) {
+    const std::size_t first = static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns);
+    for (int column = listing.left; column <= listing.right; ++column) {
       const double across = grid.left + (column + 0.5) * width;
-      const double towards = normal + across * across_axis + up * up_axis;
-      if (towards >= least * std::sqrt(1 + across * across + up * up))
-        f(static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns) + static_cast<std::size_t>(column));
+      const double towards = listing.normal + across * listing.across + up * listing.up;
+      if (towards * std::abs(towards) >= listing.least * (1 + across * across + up * up))
+        f(first + static_cast<std::size_t>(column));
     }
   }
 }
 
+/// Some rows of a face's grid, which one thread fills.
+struct Band {
+  int face;
+  std::size_t first_cell, cell_count;
+  std::size_t used_cells = 0, crowded_cells = 0;
+  std::size_t listed = 0;  ///< by its other cells; then, where its candidates begin
+};
+
+/// Fills lists, in the order of its functions. All loops are cut into pieces that do not depend on the number of
+/// threads, and what a piece adds to comes in one order.
+class ListsMaker {
+ public:
+  using Lists = DirectionBuffer::Lists;
+  using Grid = DirectionBuffer::Grid;
+  using Cell = DirectionBuffer::Cell;
+
+  ListsMaker(Lists& lists, const Perspective& perspective, std::span<const PlacedObject> objects, int threads)
+      : lists_(lists), perspective_(perspective), objects_(objects), threads_(threads) {}
+
+  /// Sets what the faces' grids are to cover and the order of the objects. False if there is one that the perspective
+  /// has no view of.
+  bool survey() {
+    struct Surveyed {
+      Coverages covered;
+      bool all_seen = true;
+    };
+    order_.resize(objects_.size());
+    std::vector<Surveyed> chunks(chunk_count());
+    for_each_chunk([&](std::size_t chunk, std::size_t first, std::size_t last) {
+      Surveyed here;
+      for (std::size_t i = first; i < last && here.all_seen; ++i) {
+        const std::optional<View> view = perspective_.view(objects_[i]);
+        here.all_seen = view.has_value();
+        if (!view) continue;
+        order_[i] = {view->nearest, static_cast<std::uint32_t>(i)};
+        for_each_rectangle(perspective_, *view, [&](int face, const Rectangle& rectangle) {
+          here.covered[static_cast<std::size_t>(face)].add(rectangle);
+        });
+      }
+      chunks[chunk] = here;
+    });
+    for (const Surveyed& chunk : chunks) {
+      if (!chunk.all_seen) return false;
+      for (std::size_t face = 0; face < faces; ++face) covered_[face].add(chunk.covered[face]);
+    }
+    // Of objects as near as each other, the first comes last: of surfaces at one distance, the last that is tested
+    // stays.
+    sort(order_, threads_, [](const ObjectDepth& a, const ObjectDepth& b) {
+      return a.nearest < b.nearest || (a.nearest == b.nearest && a.object > b.object);
+    });
+    return true;
+  }
+
+  void lay_grids() {
+    std::size_t cells = 0;
+    for (int face = 0; face < faces; ++face) {
+      first_band_[face] = bands_.size();
+      const Coverage& covered = covered_[static_cast<std::size_t>(face)];
+      if (covered.objects == 0) continue;
+      Grid& grid = lists_.grids[face] = grid_on(covered);
+      grid.first_cell = static_cast<std::uint32_t>(cells);
+      // Seen from the point, a cell's center and its corners are no further apart than they are on the face, whose
+      // distance is 1. The rest is for a Listing's rounding.
+      const double half_cell = std::hypot(1.0 / grid.columns_per_unit, 1.0 / grid.rows_per_unit) / 2 + 2e-6;
+      half_cell_[face] = {std::cos(half_cell), std::sin(half_cell)};
+      for (int row = 0; row < grid.rows; row += rows_a_band) {
+        const auto count =
+            static_cast<std::size_t>(std::min(rows_a_band, grid.rows - row)) * static_cast<std::size_t>(grid.columns);
+        bands_.push_back({face, cells, count});
+        cells += count;
+      }
+    }
+    lists_.cells = ZeroedArray<Cell>(cells);
+  }
+
+  /// Which objects may be in which cells. False if they are so many that it would not pay.
+  bool collect() {
+    lists_.objects = ZeroedArray<DirectionBuffer::Object>(objects_.size());
+    listings_.resize(chunk_count());
+    std::vector<double> covered_cells(chunk_count());
+    for_each_chunk([&](std::size_t chunk, std::size_t first, std::size_t last) {
+      listings_[chunk].resize(bands_.size());
+      double cells = 0;
+      for (std::size_t i = first; i < last; ++i) {
+        if (i + objects_ahead < last) __builtin_prefetch(&objects_[order_[i + objects_ahead].object]);
+        const PlacedObject& object = objects_[order_[i].object];
+        lists_.objects[i] = {object.kind, object.primitive, static_cast<float>(order_[i].nearest * (1 - 1e-6))};
+        const View view = *perspective_.view(object);
+        for_each_rectangle(perspective_, view, [&](int face, const Rectangle& rectangle) {
+          cells += list(view, face, rectangle, static_cast<std::uint32_t>(i), listings_[chunk]);
+        });
+      }
+      covered_cells[chunk] = cells;
+    });
+    double all = 0;
+    for (const double cells : covered_cells) all += cells;
+    return all <= most_covered_cells * static_cast<double>(objects_.size());
+  }
+
+  /// How many objects each cell lists. False if most would list too many.
+  bool count() {
+    for_each_band([&](Band& band, std::span<Cell> cells) {
+      for_each_listing(band, [&](const Listing& listing) {
+        for_each_cell(lists_.grids[band.face], listing, [&](std::size_t cell) { ++cell_on(band.face, cell).count; });
+      });
+      std::size_t used = 0, crowded = 0, listed = 0;
+      for (Cell& cell : cells) {
+        if (cell.count == 0) continue;
+        ++used;
+        if (cell.count > most_candidates) {
+          cell.count = DirectionBuffer::crowded;
+          ++crowded;
+        } else {
+          listed += cell.count;
+        }
+      }
+      band.used_cells = used;
+      band.crowded_cells = crowded;
+      band.listed = listed;
+    });
+    std::size_t used = 0, crowded = 0;
+    for (const Band& band : bands_) {
+      used += band.used_cells;
+      crowded += band.crowded_cells;
+    }
+    return crowded * 4 <= used;
+  }
+
+  void fill() {
+    std::size_t listed = 0;
+    for (Band& band : bands_) listed += std::exchange(band.listed, listed);
+    lists_.candidates = ZeroedArray<std::uint32_t>(listed);
+    for_each_band([&](const Band& band, std::span<Cell> cells) {
+      std::size_t first = band.listed;
+      for (Cell& cell : cells) {
+        if (cell.count == DirectionBuffer::crowded) continue;
+        cell.first = static_cast<std::uint32_t>(first);
+        first += std::exchange(cell.count, 0);  // until they are listed
+      }
+      for_each_listing(band, [&](const Listing& listing) {
+        for_each_cell(lists_.grids[band.face], listing, [&](std::size_t number) {
+          Cell& cell = cell_on(band.face, number);
+          if (cell.count != DirectionBuffer::crowded) lists_.candidates[cell.first + cell.count++] = listing.object;
+        });
+      });
+    });
+  }
+
+ private:
+  std::size_t chunk_count() const { return (objects_.size() + objects_a_chunk - 1) / objects_a_chunk; }
+
+  template <class Function>
+  void for_each_chunk(const Function& f) const {
+    for_each_index(static_cast<int>(chunk_count()), threads_, [&](int index) {
+      const auto chunk = static_cast<std::size_t>(index);
+      f(chunk, chunk * objects_a_chunk, std::min((chunk + 1) * objects_a_chunk, objects_.size()));
+    });
+  }
+
+  template <class Function>
+  void for_each_band(const Function& f) {
+    const int threads = chunk_count() > 1 ? threads_ : 1;
+    for_each_index(static_cast<int>(bands_.size()), threads, [&](int index) {
+      Band& band = bands_[static_cast<std::size_t>(index)];
+      f(band, std::span(lists_.cells.data() + band.first_cell, band.cell_count));
+    });
+  }
+
+  /// The nearest object comes first.
+  template <class Function>
+  void for_each_listing(const Band& band, const Function& f) const {
+    for (const auto& chunk : listings_)
+      for (const Listing& listing : chunk[static_cast<std::size_t>(&band - bands_.data())]) f(listing);
+  }
+
+  Cell& cell_on(int face, std::size_t number) { return lists_.cells[lists_.grids[face].first_cell + number]; }
+
+  /// Adds the object to all bands that the rectangle is in; the result: how many cells it covers.
+  double list(const View& view, int face, const Rectangle& rectangle, std::uint32_t object,
+              std::vector<std::vector<Listing>>& bands) const {
+    const Grid& grid = lists_.grids[face];
+    const CellRange columns(rectangle.across, grid.left, grid.columns_per_unit, grid.columns);
+    const CellRange rows(rectangle.up, grid.bottom, grid.rows_per_unit, grid.rows);
+    Listing listing{};
+    listing.object = object;
+    listing.left = static_cast<std::uint16_t>(columns.low);
+    listing.right = static_cast<std::uint16_t>(columns.high);
+    const int axis = face / 2;
+    const Vec3f center(view.center * (1 / view.distance));
+    listing.across = component(center, (axis + 1) % 3);
+    listing.up = component(center, (axis + 2) % 3);
+    listing.normal = face % 2 != 0 ? -component(center, axis) : component(center, axis);
+    const auto& [cosine, sine] = half_cell_[face];
+    const double least = view.cosine * cosine - view.sine * sine;
+    listing.least = view.in_cone ? least * std::abs(least) : -1e300;
+    for (int first = rows.low / rows_a_band * rows_a_band; first <= rows.high; first += rows_a_band) {
+      listing.bottom = static_cast<std::uint16_t>(std::max(rows.low, first));
+      listing.top = static_cast<std::uint16_t>(std::min(rows.high, first + rows_a_band - 1));
+      bands[first_band_[face] + static_cast<std::size_t>(first / rows_a_band)].push_back(listing);
+    }
+    return 1.0 * columns.count() * rows.count();
+  }
+
+  Lists& lists_;
+  const Perspective& perspective_;
+  std::span<const PlacedObject> objects_;
+  int threads_;
+  std::vector<ObjectDepth> order_;
+  Coverages covered_;
+  std::size_t first_band_[faces];
+  std::pair<double, double> half_cell_[faces];  ///< cosine and sine of the angle by which cones are to be wider
+  std::vector<Band> bands_;
+  std::vector<std::vector<std::vector<Listing>>> listings_;  ///< of each chunk, on each band
+};
+
 }  // namespace
 
-std::optional<DirectionBuffer> DirectionBuffer::make(const Vantage& vantage, const std::vector<PlacedObject>& objects) {
+std::optional<DirectionBuffer> DirectionBuffer::make(const Vantage& vantage, std::span<const PlacedObject> objects,
+                                                     int threads) {
+  const Perspective perspective(vantage, objects);
+  if (!perspective.is_within_floats()) return std::nullopt;
   DirectionBuffer buffer;
-  buffer.infinitely_far_ = vantage.infinitely_far;
-  const Vec3d from = vantage.infinitely_far ? Vec3d(0, 0, 0) : Vec3d(vantage.place);
-  double farthest = 0;
-  for (const PlacedObject& object : objects)
-    farthest = std::max(farthest, length(center_of(object) - from) + object.radius);
-  if (!(length(from) + farthest < most_distance)) return std::nullopt;
-  // As far again as the objects reach, and more: floors are wider than what stands on them.
-  buffer.reach_ = static_cast<float>(8 * farthest);
-  const double slack = way_rounding * buffer.reach_;
-
-  std::vector<View> views;
-  views.reserve(objects.size());
-  if (vantage.infinitely_far) {
-    const Picture picture(Vec3d(vantage.place), objects, slack);
-    buffer.across_ = Vec3f(picture.across);
-    buffer.up_ = Vec3f(picture.up);
-    buffer.start_ = Vec3f(picture.start);
-    for (const PlacedObject& object : objects) views.push_back(picture.view(object, slack));
-  } else {
-    for (const PlacedObject& object : objects) {
-      const std::optional<View> view = view_of(object, from, slack);
-      if (!view) return std::nullopt;
-      views.push_back(*view);
-    }
-  }
-  std::sort(views.begin(), views.end(), [](const View& a, const View& b) { return a.nearest < b.nearest; });
-
-  std::array<std::vector<Rectangle>, 6> rectangles;
-  double covered_cells = 0;
-  for (int face = 0; face < 6; ++face) {
-    if (vantage.infinitely_far && face != face_of_picture) continue;
-    std::vector<Rectangle>& here = rectangles[static_cast<std::size_t>(face)];
-    for (std::size_t i = 0; i < views.size(); ++i)
-      if (const auto rectangle = rectangle_on(face, views[i], static_cast<std::uint32_t>(i)))
-        here.push_back(*rectangle);
-    if (here.empty()) continue;
-    Grid& grid = buffer.grids_[face] = grid_around(here);
-    grid.first_cell = static_cast<std::uint32_t>(buffer.cells_.size());
-    buffer.cells_.resize(buffer.cells_.size() +
-                         static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows));
-    for (const Rectangle& rectangle : here) {
-      covered_cells += 1.0 * CellRange(rectangle.across, grid.left, grid.columns_per_unit, grid.columns).count() *
-                       CellRange(rectangle.up, grid.bottom, grid.rows_per_unit, grid.rows).count();
-    }
-  }
-  if (covered_cells > most_covered_cells * static_cast<double>(objects.size())) return std::nullopt;
-
-  // Twice the same: first to count, then to list.
-  const auto for_each_listing = [&](const auto& f) {
-    for (int face = 0; face < 6; ++face) {
-      const Grid& grid = buffer.grids_[face];
-      for (const Rectangle& rectangle : rectangles[static_cast<std::size_t>(face)])
-        for_each_covered(grid, face, rectangle, views[rectangle.number],
-                         [&](std::size_t cell) { f(buffer.cells_[grid.first_cell + cell], rectangle.number); });
-    }
-  };
-  for_each_listing([](Cell& cell, std::uint32_t) { ++cell.count; });
-  std::uint32_t listed = 0;
-  std::size_t used = 0, crowded_cells = 0;
-  for (Cell& cell : buffer.cells_) {
-    if (cell.count == 0) continue;
-    ++used;
-    if (cell.count > most_candidates) {
-      cell.count = crowded;
-      ++crowded_cells;
-    } else {
-      cell.first = listed;
-      listed += cell.count;
-      cell.count = 0;  // until they are listed
-    }
-  }
-  if (crowded_cells * 4 > used) return std::nullopt;
-  buffer.candidates_.resize(listed);
-  for_each_listing([&](Cell& cell, std::uint32_t number) {
-    if (cell.count != crowded) buffer.candidates_[cell.first + cell.count++] = number;
-  });
-
-  buffer.objects_.reserve(views.size());
-  for (const View& view : views) {
-    const double depth = vantage.infinitely_far ? view.nearest : view.nearest * view.nearest;
-    buffer.objects_.push_back({view.object->kind, view.object->primitive, static_cast<float>(depth * (1 - 1e-6))});
-  }
+  buffer.infinitely_far_ = perspective.infinitely_far();
+  buffer.reach_ = static_cast<float>(perspective.reach());
+  buffer.across_ = Vec3f(perspective.across());
+  buffer.up_ = Vec3f(perspective.up());
+  buffer.start_ = Vec3f(perspective.start());
+  ListsMaker maker(buffer.lists_, perspective, objects, threads);
+  if (!maker.survey()) return std::nullopt;
+  maker.lay_grids();
+  if (!maker.collect() || !maker.count()) return std::nullopt;
+  maker.fill();
   return buffer;
 }
 

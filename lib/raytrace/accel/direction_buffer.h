@@ -10,31 +10,16 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <vector>
 
-#include "raytrace/math/bounds.h"
+#include "raytrace/accel/perspective.h"
 #include "raytrace/math/vec3.h"
+#include "raytrace/memory/zeroed_array.h"
 
 namespace raytrace {
 
-/// Where an object is: all that a direction buffer wants to know.
-struct PlacedObject {
-  std::uint32_t kind, primitive;  ///< as in Hits
-  Bounds bounds;
-  double radius;  ///< of a sphere around it, whose center is that of the bounds
-};
-
-/// Where it is all seen from.
-struct Vantage {
-  Vec3f place;                  ///< a point, or
-  bool infinitely_far = false;  ///< the unit direction towards one that is infinitely far
-};
-
 /// The directions from a point are those through the six faces of a cube around it. On each face, a grid covers what
 /// the objects cover, and each of its cells lists all objects that directions through it may meet.
-///
-/// From infinitely far, all directions are the same, and the grid lies across them instead. To have but one way from
-/// there on, positions on it become directions: those from (0, 0, 0) to a picture of it on a face of the cube.
+/// From infinitely far, one grid lies across all rays, on a face of the cube (perspective.h).
 class DirectionBuffer {
  public:
   struct Object {
@@ -42,8 +27,7 @@ class DirectionBuffer {
     float nearest;  ///< no part of it has a smaller Sight::depth
   };
 
-  /// The grid on a face. Of a direction, `across` is the component along the axis after the normal's (x, y, z, x, ...)
-  /// and `up` that along the one after it, divided by the size of the component along the normal.
+  /// The grid on a face, in the directions of Rectangle.
   struct Grid {
     int columns = 0, rows = 0;  ///< 0: nothing is to be met through this face
     float left = 0, bottom = 0;
@@ -51,9 +35,22 @@ class DirectionBuffer {
     std::uint32_t first_cell = 0;
   };
 
+  /// Which objects are to be met through which cells.
+  static constexpr std::uint32_t crowded = ~std::uint32_t{0};
+  struct Cell {
+    std::uint32_t first = 0, count = 0;  ///< of the candidates; count: crowded where a tree is faster
+  };
+  struct Lists {
+    Grid grids[6];            ///< face by face: twice the axis of its normal, and one more on the negative side
+    ZeroedArray<Cell> cells;  ///< grid by grid, row by row
+    ZeroedArray<std::uint32_t> candidates;  ///< cell by cell, the nearest first
+    ZeroedArray<Object> objects;            ///< the nearest first
+  };
+
   /// None where it would not pay: an object is around the point or next to it, or objects are so close together that
   /// cells list too many.
-  static std::optional<DirectionBuffer> make(const Vantage& vantage, const std::vector<PlacedObject>& objects);
+  static std::optional<DirectionBuffer> make(const Vantage& vantage, std::span<const PlacedObject> objects,
+                                             int threads);
 
   /// A place as seen from the vantage.
   template <class F>
@@ -81,28 +78,20 @@ class DirectionBuffer {
   }
 
   /// face: twice the axis of its normal, and one more on the negative side.
-  const Grid& grid(int face) const { return grids_[face]; }
+  const Grid& grid(int face) const { return lists_.grids[face]; }
 
   /// Whether so much is to be met through the cell that a tree is faster.
-  bool is_crowded(std::size_t cell) const { return cells_[cell].count == crowded; }
+  bool is_crowded(std::size_t cell) const { return lists_.cells[cell].count == crowded; }
 
   /// All that is to be met through a cell that is not crowded: numbers of objects in ascending order, the nearest
   /// first.
   std::span<const std::uint32_t> candidates(std::size_t cell) const {
-    return {candidates_.data() + cells_[cell].first, cells_[cell].count};
+    return {lists_.candidates.data() + lists_.cells[cell].first, lists_.cells[cell].count};
   }
-  const Object& object(std::uint32_t number) const { return objects_[number]; }
+  const Object& object(std::uint32_t number) const { return lists_.objects[number]; }
 
  private:
-  struct Cell {
-    std::uint32_t first = 0, count = 0;
-  };
-  static constexpr std::uint32_t crowded = ~std::uint32_t{0};
-
-  Grid grids_[6];
-  std::vector<Cell> cells_;
-  std::vector<std::uint32_t> candidates_;
-  std::vector<Object> objects_;
+  Lists lists_;
   float reach_ = 0;  ///< of the rays to a point, their length; of parallel ones, how far from (0, 0, 0) they start
   bool infinitely_far_ = false;
   Vec3f across_{}, up_{}, start_{};  ///< of the grid that lies across; start_.z: where depths begin

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "raytrace/film/aov_settings.h"
-#include "raytrace/film/zeroed_array.h"
+#include "raytrace/memory/zeroed_array.h"
 
 namespace raytrace {
 

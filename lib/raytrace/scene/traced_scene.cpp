@@ -67,11 +67,11 @@ TracedScene::TracedScene(const SceneDescription& description, int threads, const
 }
 
 void TracedScene::look_from(std::vector<std::optional<Vantage>> vantages, int threads) {
-  // It takes about as long for an object as the rays of some pixels do: beyond that it would not pay, however much
-  // faster they became. It takes memory, too. Both by what all pieces of a picture have in common.
-  constexpr std::uint64_t pixels_an_object = 4, most_objects = 1U << 18U;
+  // For an object it takes about as long as is saved for the rays of half a pixel, with some samples. It takes memory,
+  // too: some 100 bytes. Both by what all pieces of a picture have in common.
+  constexpr std::uint64_t objects_a_pixel = 2, most_objects = 1U << 21U;
   const auto pixels = static_cast<std::uint64_t>(viewplane_.hres) * static_cast<std::uint64_t>(viewplane_.vres);
-  const std::uint64_t affordable = std::min(pixels / pixels_an_object, most_objects);
+  const std::uint64_t affordable = std::min(objects_a_pixel * pixels, most_objects);
   std::uint64_t objects = 0;
   for (auto& vantage : vantages) {
     if (!vantage) continue;

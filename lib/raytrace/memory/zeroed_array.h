@@ -6,11 +6,9 @@
 #include <memory>
 #include <type_traits>
 
-namespace raytrace {
+#include "raytrace/memory/large_pages.h"
 
-/// Zeros, in large pages where the system has such and the array is large: a fraction of the requests. To be freed by
-/// std::free. Throws std::bad_alloc.
-void* zeroed_memory(std::size_t bytes);
+namespace raytrace {
 
 /// A large one comes from the system page by page, when it is first written to: by the threads that render, not by the
 /// one that makes it.

@@ -1,0 +1,126 @@
+#include "raytrace/accel/perspective.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace raytrace {
+
+namespace {
+
+/// Rays from and to further away are Embree's, which cannot take all of them: those here need not be looked at again.
+constexpr double most_distance = 1e16;
+
+/// By what part of its length rounding may turn the way from a place to the vantage aside, and more.
+constexpr double way_rounding = 0x1p-20;
+
+/// More than the rounding of a quotient of floats up to 1.
+constexpr double quotient_rounding = 1e-6;
+
+/// What is seen from infinitely far is shown as a picture in the middle of the face z = 1, which is 2 wide and high.
+constexpr double picture_size = 1;
+
+/// Of a face, across or up.
+constexpr Interval whole_face = {-1 - quotient_rounding, 1 + quotient_rounding};
+
+Vec3d center_of(const PlacedObject& object) { return (Vec3d(object.bounds.lower) + Vec3d(object.bounds.upper)) * 0.5; }
+
+/// Of all b / w for b in `b` and w in `w`, which is positive: what lies on the face.
+Interval on_face(const Interval& b, const Interval& w) {
+  return {std::max(b.low / (b.low < 0 ? w.low : w.high) - quotient_rounding, whole_face.low),
+          std::min(b.high / (b.high > 0 ? w.low : w.high) + quotient_rounding, whole_face.high)};
+}
+
+}  // namespace
+
+Perspective::Perspective(const Vantage& vantage, std::span<const PlacedObject> objects)
+    : infinitely_far_(vantage.infinitely_far), place_(vantage.place) {
+  const Vec3d from = infinitely_far_ ? Vec3d(0, 0, 0) : place_;
+  for (const PlacedObject& object : objects)
+    farthest_ = std::max(farthest_, length(center_of(object) - from) + object.radius);
+  // As far again as the objects reach, and more: floors are wider than what stands on them.
+  reach_ = static_cast<double>(static_cast<float>(8 * farthest_));
+  slack_ = way_rounding * reach_;
+  if (infinitely_far_) lay_picture(objects);
+}
+
+bool Perspective::is_within_floats() const {
+  return (infinitely_far_ ? 0 : length(place_)) + farthest_ < most_distance;
+}
+
+void Perspective::lay_picture(std::span<const PlacedObject> objects) {
+  place_ = normalize(place_);
+  const Vec3d aside = std::abs(place_.x) < 0.6 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
+  across_ = normalize(cross(aside, place_));
+  up_ = cross(place_, across_);
+  std::array<Interval, 3> all{Interval{1e30, -1e30}, Interval{1e30, -1e30}, Interval{1e30, -1e30}};
+  for (const PlacedObject& object : objects)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Interval i = extent(object, axis == 0 ? across_ : axis == 1 ? up_ : place_);
+      all[axis] = {std::min(all[axis].low, i.low), std::max(all[axis].high, i.high)};
+    }
+  const double scale = picture_size / std::max(all[0].high - all[0].low, all[1].high - all[1].low);
+  across_ = Vec3d(Vec3f(across_ * scale));
+  up_ = Vec3d(Vec3f(up_ * scale));
+  const auto middle = [scale](const Interval& i) {
+    return static_cast<double>(static_cast<float>((i.low + i.high) / 2 * scale));
+  };
+  start_ = {middle(all[0]), middle(all[1]), static_cast<double>(static_cast<float>(all[2].high + slack_))};
+}
+
+/// In the direction of an axis.
+Interval Perspective::extent(const PlacedObject& object, const Vec3d& axis) const {
+  const Vec3d half = (Vec3d(object.bounds.upper) - Vec3d(object.bounds.lower)) * 0.5;
+  const double box = std::abs(axis.x) * half.x + std::abs(axis.y) * half.y + std::abs(axis.z) * half.z;
+  const double reach = std::min(box, object.radius * length(axis)) + slack_ * length(axis);
+  const double middle = dot(axis, center_of(object));
+  return {middle - reach, middle + reach};
+}
+
+std::optional<View> Perspective::view(const PlacedObject& object) const {
+  View view;
+  if (infinitely_far_) {
+    const Interval x = extent(object, across_), y = extent(object, up_);
+    view.along = {Interval{x.low - start_.x, x.high - start_.x}, Interval{y.low - start_.y, y.high - start_.y},
+                  Interval{1, 1}};
+    view.nearest = std::max(0.0, start_.z - extent(object, place_).high);
+    view.center = {0, 0, 1};
+    view.distance = 1;
+    view.in_cone = false;
+    return view;
+  }
+  const Vec3d lower(object.bounds.lower), upper(object.bounds.upper);
+  for (int axis = 0; axis < 3; ++axis) {
+    view.along[static_cast<std::size_t>(axis)] = {component(lower, axis) - component(place_, axis) - slack_,
+                                                  component(upper, axis) - component(place_, axis) + slack_};
+  }
+  view.center = center_of(object) - place_;
+  view.distance = length(view.center);
+  const double radius = object.radius + slack_;
+  if (radius > 0.9 * view.distance) return std::nullopt;
+  view.in_cone = true;
+  view.sine = radius / view.distance;
+  view.cosine = std::sqrt(1 - view.sine * view.sine);
+  const auto gap = [](const Interval& i) { return std::max({i.low, -i.high, 0.0}); };
+  const Vec3d to_box{gap(view.along[0]), gap(view.along[1]), gap(view.along[2])};
+  const double nearest = std::max(length(to_box), view.distance - radius);
+  view.nearest = nearest * nearest;
+  return view;
+}
+
+std::optional<Rectangle> rectangle_on(int face, const View& view) {
+  // Of the angle between a face's corners and its normal, and more.
+  constexpr double corner_sine = 0.8166, corner_cosine = 0.5772;
+  const int axis = face / 2;
+  const bool negative = face % 2 != 0;
+  const double along_normal = (negative ? -1 : 1) * component(view.center, axis);
+  if (view.in_cone && along_normal < view.distance * (view.cosine * corner_cosine - view.sine * corner_sine))
+    return std::nullopt;
+  const auto along = [&](int which) { return view.along[static_cast<std::size_t>(which % 3)]; };
+  const Interval depth = negative ? Interval{-along(axis).high, -along(axis).low} : along(axis);
+  if (depth.low <= 0) return Rectangle{whole_face, whole_face};
+  const Rectangle rectangle{on_face(along(axis + 1), depth), on_face(along(axis + 2), depth)};
+  if (rectangle.across.low > rectangle.across.high || rectangle.up.low > rectangle.up.high) return std::nullopt;
+  return rectangle;
+}
+
+}  // namespace raytrace

@@ -1,0 +1,85 @@
+// Objects as seen from a vantage: the parts of a cube's faces around it that they are behind.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "raytrace/math/bounds.h"
+#include "raytrace/math/vec3.h"
+
+namespace raytrace {
+
+/// Where an object is: all that a direction buffer wants to know.
+struct PlacedObject {
+  std::uint32_t kind, primitive;  ///< as in Hits
+  Bounds bounds;
+  double radius;  ///< of a sphere around it, whose center is that of the bounds
+};
+
+/// Where it is all seen from.
+struct Vantage {
+  Vec3f place;                  ///< a point, or
+  bool infinitely_far = false;  ///< the unit direction towards one that is infinitely far
+};
+
+struct Interval {
+  double low, high;
+};
+
+/// A part of a face: of a direction, `across` is the component along the axis after the normal's (x, y, z, x, ...) and
+/// `up` that along the one after it, divided by the size of the component along the normal.
+struct Rectangle {
+  Interval across, up;
+};
+
+/// An object as seen from the vantage, which is at (0, 0, 0) here.
+struct View {
+  std::array<Interval, 3> along;  ///< its box
+  double nearest;                 ///< DirectionBuffer::Sight::depth, which no part of it has less of
+  Vec3d center;                   ///< of a sphere around it
+  double distance;                ///< of that center
+  bool in_cone;                   ///< whether that sphere says more than the box does; then
+  double sine = 0, cosine = 1;    ///< of the angle between the axis of the cone around the sphere and its sides
+};
+
+/// From infinitely far, all directions are the same, and what is seen is a picture across them. To have but one way
+/// from there on, positions on it become directions: those from (0, 0, 0) to that picture on a face of the cube.
+class Perspective {
+ public:
+  Perspective(const Vantage& vantage, std::span<const PlacedObject> objects);
+
+  /// None from inside the sphere around it, or from so close that a cone says little.
+  std::optional<View> view(const PlacedObject& object) const;
+
+  bool infinitely_far() const { return infinitely_far_; }
+
+  /// How far the rays of a direction buffer may come: from a point, their length; parallel ones, how far from
+  /// (0, 0, 0) they start.
+  double reach() const { return reach_; }
+
+  /// Whether floats hold such distances, and their squares.
+  bool is_within_floats() const;
+
+  /// From infinitely far: a point's place in the picture is (across . point, up . point) - start, and its depth start.z
+  /// less its distance towards the vantage. Exact in float.
+  const Vec3d& across() const { return across_; }
+  const Vec3d& up() const { return up_; }
+  const Vec3d& start() const { return start_; }
+
+ private:
+  void lay_picture(std::span<const PlacedObject> objects);
+  Interval extent(const PlacedObject& object, const Vec3d& axis) const;
+
+  bool infinitely_far_;
+  Vec3d place_;  ///< or, of unit length, the direction towards it
+  double farthest_ = 0, reach_, slack_;
+  Vec3d across_{}, up_{}, start_{};
+};
+
+/// The part of a face that the object is behind; none if it is behind others only. face: twice the axis of its normal,
+/// and one more on the negative side. As large as the rounding of a quotient of floats may make it.
+std::optional<Rectangle> rectangle_on(int face, const View& view);
+
+}  // namespace raytrace

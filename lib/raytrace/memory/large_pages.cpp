@@ -1,0 +1,25 @@
+#include "raytrace/memory/large_pages.h"
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <memory>
+#include <new>
+
+namespace raytrace {
+
+void* zeroed_memory(std::size_t bytes) {
+  void* const memory = std::calloc(bytes, 1);
+  if (memory == nullptr && bytes > 0) throw std::bad_alloc();
+  prefer_large_pages(memory, bytes);
+  return memory;
+}
+
+void prefer_large_pages(void* memory, std::size_t bytes) {
+  constexpr std::size_t large = std::size_t{4} << 20U;
+  if (bytes < large || std::align(static_cast<std::size_t>(sysconf(_SC_PAGESIZE)), 1, memory, bytes) == nullptr) return;
+  madvise(memory, bytes, MADV_HUGEPAGE);
+}
+
+}  // namespace raytrace
