@@ -336,7 +336,7 @@ class ListsMaker {
   int threads_;
   std::vector<ObjectDepth> order_;
   Coverages covered_;
-  std::size_t first_band_[faces];
+  std::size_t first_band_[faces] = {};
   std::pair<double, double> half_cell_[faces];  ///< cosine and sine of the angle by which cones are to be wider
   std::vector<Band> bands_;
   std::vector<std::vector<std::vector<Listing>>> listings_;  ///< of each chunk, on each band

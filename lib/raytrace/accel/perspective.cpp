@@ -37,6 +37,7 @@ Perspective::Perspective(const Vantage& vantage, std::span<const PlacedObject> o
   const Vec3d from = infinitely_far_ ? Vec3d(0, 0, 0) : place_;
   for (const PlacedObject& object : objects)
     farthest_ = std::max(farthest_, length(center_of(object) - from) + object.radius);
+  if (!is_within_floats()) return;
   // As far again as the objects reach, and more: floors are wider than what stands on them.
   reach_ = static_cast<double>(static_cast<float>(8 * farthest_));
   slack_ = way_rounding * reach_;

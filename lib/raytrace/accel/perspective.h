@@ -59,7 +59,7 @@ class Perspective {
   /// (0, 0, 0) they start.
   double reach() const { return reach_; }
 
-  /// Whether floats hold such distances, and their squares.
+  /// Whether floats hold such distances, and their squares. There are no views where they do not.
   bool is_within_floats() const;
 
   /// From infinitely far: a point's place in the picture is (across . point, up . point) - start, and its depth start.z
@@ -74,7 +74,7 @@ class Perspective {
 
   bool infinitely_far_;
   Vec3d place_;  ///< or, of unit length, the direction towards it
-  double farthest_ = 0, reach_, slack_;
+  double farthest_ = 0, reach_ = 0, slack_ = 0;
   Vec3d across_{}, up_{}, start_{};
 };
 
