@@ -288,7 +288,7 @@ TEST_CASE("where nothing is to be gained, rays go to Embree") {
   const auto& sphere = std::get<ObjectItems<Sphere>>(some.objects).front().parameters;
   CHECK(!sees(some, Vec3f(sphere.center)));
   // All behind each other.
-  const SceneDescription crowd = cloud(draw, 100, 10, {0, 0, 0});
+  const SceneDescription crowd = cloud(draw, 300, 10, {0, 0, 0});
   CHECK(!sees(crowd, {0, 0, 300}));
 }
 
