@@ -119,12 +119,9 @@ std::vector<std::optional<DirectionBuffer>> Accelerator::seen_from(std::span<con
   for_each_type(Shapes{}, [&](auto type) {
     using Shape = typename decltype(type)::type;
     if constexpr (!UnboundedShape<Shape>) {
-      constexpr std::size_t objects_a_chunk = 1U << 14U;
       const auto& records = std::get<ShapeTable<Shape>>(tables_).records;
-      const auto chunks = static_cast<int>((records.size() + objects_a_chunk - 1) / objects_a_chunk);
-      for_each_index(chunks, threads, [&](int chunk) {
-        const std::size_t first = static_cast<std::size_t>(chunk) * objects_a_chunk;
-        for (std::size_t i = first; i < std::min(first + objects_a_chunk, records.size()); ++i)
+      for_each_chunk(records.size(), threads, [&](std::size_t, std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
           objects[count + i] = placed_object<Shape>(records[i], static_cast<std::uint32_t>(i));
       });
       count += records.size();

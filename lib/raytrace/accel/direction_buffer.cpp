@@ -28,8 +28,7 @@ constexpr double least_edge = 0.25;
 /// worth it.
 constexpr double most_covered_cells = 64;
 
-/// What a thread takes at a time.
-constexpr std::size_t objects_a_chunk = 1U << 14U;
+/// What a thread fills at a time: so few that they stay in its cache.
 constexpr int rows_a_band = 32;
 
 /// Nearest first, they lie all over memory: by how many it is asked for earlier.
@@ -154,8 +153,8 @@ class ListsMaker {
       bool all_seen = true;
     };
     order_.resize(objects_.size());
-    std::vector<Surveyed> chunks(chunk_count());
-    for_each_chunk([&](std::size_t chunk, std::size_t first, std::size_t last) {
+    std::vector<Surveyed> chunks(chunk_count(objects_.size()));
+    for_each_chunk(objects_.size(), threads_, [&](std::size_t chunk, std::size_t first, std::size_t last) {
       Surveyed here;
       for (std::size_t i = first; i < last && here.all_seen; ++i) {
         const std::optional<View> view = perspective_.view(objects_[i]);
@@ -205,9 +204,9 @@ class ListsMaker {
   /// Which objects may be in which cells. False if they are so many that it would not pay.
   bool collect() {
     lists_.objects = ZeroedArray<DirectionBuffer::Object>(objects_.size());
-    listings_.resize(chunk_count());
-    std::vector<double> covered_cells(chunk_count());
-    for_each_chunk([&](std::size_t chunk, std::size_t first, std::size_t last) {
+    listings_.resize(chunk_count(objects_.size()));
+    std::vector<double> covered_cells(chunk_count(objects_.size()));
+    for_each_chunk(objects_.size(), threads_, [&](std::size_t chunk, std::size_t first, std::size_t last) {
       listings_[chunk].resize(bands_.size());
       double cells = 0;
       for (std::size_t i = first; i < last; ++i) {
@@ -276,19 +275,9 @@ class ListsMaker {
   }
 
  private:
-  std::size_t chunk_count() const { return (objects_.size() + objects_a_chunk - 1) / objects_a_chunk; }
-
-  template <class Function>
-  void for_each_chunk(const Function& f) const {
-    for_each_index(static_cast<int>(chunk_count()), threads_, [&](int index) {
-      const auto chunk = static_cast<std::size_t>(index);
-      f(chunk, chunk * objects_a_chunk, std::min((chunk + 1) * objects_a_chunk, objects_.size()));
-    });
-  }
-
   template <class Function>
   void for_each_band(const Function& f) {
-    const int threads = chunk_count() > 1 ? threads_ : 1;
+    const int threads = chunk_count(objects_.size()) > 1 ? threads_ : 1;
     for_each_index(static_cast<int>(bands_.size()), threads, [&](int index) {
       Band& band = bands_[static_cast<std::size_t>(index)];
       f(band, std::span(lists_.cells.data() + band.first_cell, band.cell_count));
