@@ -5,6 +5,8 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 
 #include "raytrace/accel/direction_buffer.h"
 #include "raytrace/math/simd.h"
@@ -49,6 +51,39 @@ RAYTRACE_INLINE void for_each_cell(const DirectionBuffer& buffer, const Vec3<Flo
   }
 }
 
+/// The candidates that a packet was tested with. A number is looked up where the one that came there last is
+/// remembered, and mostly needs no search. Nothing is set before it is wanted: most packets have one cell, with few
+/// candidates.
+class TestedCandidates {
+ public:
+  void add(std::uint32_t number) {
+    last_[number % places] = number;
+    used_ |= std::uint64_t{1} << number % places;
+  }
+
+  /// All of a cell's that contains() is to know, in ascending order. Each was added.
+  void end_cell(std::span<const std::uint32_t> numbers) {
+    cells_[count_++] = {numbers.data(), numbers.data() + numbers.size()};
+  }
+
+  bool contains(std::uint32_t number) const {
+    if ((used_ >> number % places & 1) == 0) return false;
+    if (last_[number % places] == number) return true;
+    return std::any_of(cells_.begin(), cells_.begin() + count_,
+                       [number](const Cell& cell) { return std::binary_search(cell.begin, cell.end, number); });
+  }
+
+ private:
+  static constexpr std::uint32_t places = 64;
+  struct Cell {
+    const std::uint32_t *begin, *end;
+  };
+  std::array<std::uint32_t, places> last_;
+  std::uint64_t used_ = 0;  ///< a bit for each place
+  std::array<Cell, packet_lanes> cells_;
+  std::size_t count_ = 0;
+};
+
 }  // namespace detail
 
 /// Calls test(object) once for each object that directions from the buffer's point, of any length but 0, may meet in
@@ -58,12 +93,7 @@ RAYTRACE_INLINE void for_each_cell(const DirectionBuffer& buffer, const Vec3<Flo
 template <class Reaches, class Test>
 RAYTRACE_INLINE MaskN for_each_candidate(const DirectionBuffer& buffer, const Vec3<FloatN>& direction,
                                          const MaskN& active, const Reaches& reaches, const Test& test) {
-  // Of each cell, the candidates that were tested. Not set before: most packets have one cell.
-  struct Tested {
-    const std::uint32_t *begin, *end;
-  };
-  std::array<Tested, packet_lanes> done;
-  std::size_t cells = 0;
+  detail::TestedCandidates tested;
   MaskN left(false);
   detail::for_each_cell(buffer, direction, active, [&](std::size_t cell, const MaskN& lanes) {
     if (buffer.is_crowded(cell)) {
@@ -75,12 +105,11 @@ RAYTRACE_INLINE MaskN for_each_candidate(const DirectionBuffer& buffer, const Ve
     for (; next < candidates.size(); ++next) {
       const DirectionBuffer::Object& object = buffer.object(candidates[next]);
       if (!reaches(lanes, object)) break;
-      const bool is_done = std::any_of(done.begin(), done.begin() + cells, [&](const Tested& tested) {
-        return std::binary_search(tested.begin, tested.end, candidates[next]);
-      });
-      if (!is_done) test(object);
+      if (tested.contains(candidates[next])) continue;
+      tested.add(candidates[next]);
+      test(object);
     }
-    done[cells++] = {candidates.data(), candidates.data() + next};
+    tested.end_cell(candidates.first(next));
   });
   return left;
 }
