@@ -277,6 +277,46 @@ TEST_CASE("no ray that Embree stops passes between the triangles of a surface, s
   });
 }
 
+TEST_CASE("thin triangles, and those seen from the side, are met where they are in Embree") {
+  Draw draw(6);
+  const Vec3d point = Vec3d(Vec3f(3, 2, 30)), towards = normalize(Vec3d{1, 2, -1});
+  std::string triangles;
+  std::vector<ProbeRay> from_point, to_point, parallel;
+  for (int i = 0; i < 400; ++i) {
+    const Vec3d corner = draw.in_box(10);
+    const Vec3d along = draw.direction() * std::pow(10, draw.between(-2, 0.5));
+    // Aside: anywhere, or almost in one plane with the way to the point or with the parallel rays. Exactly in it, who
+    // is right is a matter of rounding.
+    const Vec3d way = i % 3 == 0 ? draw.direction() : i % 3 == 1 ? normalize(point - corner) : towards;
+    const Vec3d aside =
+        (way + draw.direction() * std::pow(10, draw.between(-4, 0))) * std::pow(10, draw.between(-6, 0));
+    triangles += "<triangle>" + text_of("vertexposition1", corner) + text_of("vertexposition2", corner + along) +
+                 text_of("vertexposition3", corner + aside) + "<material>m</material></triangle>";
+    for (int ray = 0; ray < 64; ++ray) {
+      const double u = draw.between(-0.1, 1.1), v = draw.between(-0.1, 1.1 - u);
+      const Vec3d target = corner + along * u + aside * v;
+      const Vec3f beyond(point + (target - point) * draw.between(1.01, 4));
+      from_point.push_back({Vec3f(point), Vec3f(normalize(target - point))});
+      to_point.push_back({beyond, Vec3f(point) - beyond, 0, 1});
+      parallel.push_back({Vec3f(target - towards * draw.between(0.01, 30)), Vec3f(towards), 0,
+                          std::numeric_limits<float>::infinity()});
+    }
+  }
+  const SceneDescription scene =
+      parsed_scene(scene_text(64, 48, 1, materials + "<objects>" + group("triangles", triangles) + "</objects>"));
+  compare_hits(scene, Vec3f(point), from_point, [&](const auto& seen, const auto& wanted) {
+    int hits = 0, wrong = 0;
+    for (std::size_t i = 0; i < from_point.size(); ++i) {
+      hits += wanted[i].hit;
+      wrong += seen[i].hit != wanted[i].hit || (wanted[i].hit && seen[i].index != wanted[i].index);
+    }
+    CHECK(hits > 1000);
+    CHECK(wrong == 0);
+  });
+  check_blocked(scene, {Vec3f(point), false}, to_point);
+  check_blocked(scene, {Vec3f(towards), true}, parallel);
+}
+
 TEST_CASE("where nothing is to be gained, rays go to Embree") {
   Draw draw(3);
   const auto sees = [](const SceneDescription& scene, const Vec3f& point) {

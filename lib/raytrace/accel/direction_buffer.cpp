@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "raytrace/accel/listing.h"
 #include "raytrace/parallel/for_each_index.h"
 #include "raytrace/parallel/sort.h"
 
@@ -32,7 +33,7 @@ constexpr double most_covered_cells = 64;
 constexpr int rows_a_band = 32;
 
 /// Nearest first, they lie all over memory: by how many it is asked for earlier.
-constexpr std::size_t objects_ahead = 16;
+constexpr std::size_t objects_ahead = 16, corners_ahead = 8;
 
 constexpr int faces = 6;
 
@@ -101,30 +102,6 @@ struct ObjectDepth {
   double nearest;  ///< View::nearest
   std::uint32_t object;
 };
-
-/// The cells of a rectangle, in some rows, that reach into the cone around an object.
-struct Listing {
-  std::uint32_t object;
-  std::uint16_t left, right, bottom, top;  ///< columns and rows of the grid, the last ones included
-  float across, up, normal;                ///< components of the cone's axis, of unit length
-  double least;  ///< cosine of the angle between it and directions through the cone, squared, its sign kept
-};
-
-/// Calls f(cell) for each, counted from the grid's first.
-template <class Function>
-void for_each_cell(const DirectionBuffer::Grid& grid, const Listing& listing, const Function& f) {
-  const double width = 1.0 / grid.columns_per_unit, height = 1.0 / grid.rows_per_unit;
-  for (int row = listing.bottom; row <= listing.top; ++row) {
-    const double up = grid.bottom + (row + 0.5) * height;
-    const std::size_t first = static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns);
-    for (int column = listing.left; column <= listing.right; ++column) {
-      const double across = grid.left + (column + 0.5) * width;
-      const double towards = listing.normal + across * listing.across + up * listing.up;
-      if (towards * std::abs(towards) >= listing.least * (1 + across * across + up * up))
-        f(first + static_cast<std::size_t>(column));
-    }
-  }
-}
 
 /// Some rows of a face's grid, which one thread fills.
 struct Band {
@@ -211,11 +188,12 @@ class ListsMaker {
       double cells = 0;
       for (std::size_t i = first; i < last; ++i) {
         if (i + objects_ahead < last) __builtin_prefetch(&objects_[order_[i + objects_ahead].object]);
+        if (i + corners_ahead < last) __builtin_prefetch(objects_[order_[i + corners_ahead].object].corners);
         const PlacedObject& object = objects_[order_[i].object];
         lists_.objects[i] = {object.kind, object.primitive, static_cast<float>(order_[i].nearest * (1 - 1e-6))};
         const View view = *perspective_.view(object);
         for_each_rectangle(perspective_, view, [&](int face, const Rectangle& rectangle) {
-          cells += list(view, face, rectangle, static_cast<std::uint32_t>(i), listings_[chunk]);
+          cells += list(object, view, face, rectangle, static_cast<std::uint32_t>(i), listings_[chunk]);
         });
       }
       covered_cells[chunk] = cells;
@@ -228,9 +206,7 @@ class ListsMaker {
   /// How many objects each cell lists. False if most would list too many.
   bool count() {
     for_each_band([&](Band& band, std::span<Cell> cells) {
-      for_each_listing(band, [&](const Listing& listing) {
-        for_each_cell(lists_.grids[band.face], listing, [&](std::size_t cell) { ++cell_on(band.face, cell).count; });
-      });
+      for_each_listed_cell(band, [&](const Listing&, std::size_t cell) { ++cell_on(band.face, cell).count; });
       std::size_t used = 0, crowded = 0, listed = 0;
       for (Cell& cell : cells) {
         if (cell.count == 0) continue;
@@ -265,11 +241,9 @@ class ListsMaker {
         cell.first = static_cast<std::uint32_t>(first);
         first += std::exchange(cell.count, 0);  // until they are listed
       }
-      for_each_listing(band, [&](const Listing& listing) {
-        for_each_cell(lists_.grids[band.face], listing, [&](std::size_t number) {
-          Cell& cell = cell_on(band.face, number);
-          if (cell.count != DirectionBuffer::crowded) lists_.candidates[cell.first + cell.count++] = listing.object;
-        });
+      for_each_listed_cell(band, [&](const Listing& listing, std::size_t number) {
+        Cell& cell = cell_on(band.face, number);
+        if (cell.count != DirectionBuffer::crowded) lists_.candidates[cell.first + cell.count++] = listing.object;
       });
     });
   }
@@ -284,23 +258,36 @@ class ListsMaker {
     });
   }
 
-  /// The nearest object comes first.
+  /// Calls f(listing, cell) for all cells of all listings. The nearest object comes first.
   template <class Function>
-  void for_each_listing(const Band& band, const Function& f) const {
-    for (const auto& chunk : listings_)
-      for (const Listing& listing : chunk[static_cast<std::size_t>(&band - bands_.data())]) f(listing);
+  void for_each_listed_cell(const Band& band, const Function& f) const {
+    const Grid& grid = lists_.grids[band.face];
+    for (const auto& chunk : listings_) {
+      const Listings& listings = chunk[static_cast<std::size_t>(&band - bands_.data())];
+      auto outline = listings.outlines.begin();
+      for (const Listing& listing : listings.all) {
+        const auto list = [&](std::size_t cell) { f(listing, cell); };
+        if (listing.has_outline != 0)
+          for_each_reached_cell(grid, listing, band.face, *outline++, list);
+        else
+          for_each_reached_cell(grid, listing, list);
+      }
+    }
   }
 
   Cell& cell_on(int face, std::size_t number) { return lists_.cells[lists_.grids[face].first_cell + number]; }
 
   /// Adds the object to all bands that the rectangle is in; the result: how many cells it covers.
-  double list(const View& view, int face, const Rectangle& rectangle, std::uint32_t object,
-              std::vector<std::vector<Listing>>& bands) const {
+  double list(const PlacedObject& object, const View& view, int face, const Rectangle& rectangle, std::uint32_t number,
+              std::vector<Listings>& bands) const {
     const Grid& grid = lists_.grids[face];
     const CellRange columns(rectangle.across, grid.left, grid.columns_per_unit, grid.columns);
     const CellRange rows(rectangle.up, grid.bottom, grid.rows_per_unit, grid.rows);
+    std::optional<Outline> outline;
+    if (object.corners != nullptr) outline = perspective_.outline(object);
     Listing listing{};
-    listing.object = object;
+    listing.object = number & 0x7FFFFFFFU;
+    listing.has_outline = outline ? 1 : 0;
     listing.left = static_cast<std::uint16_t>(columns.low);
     listing.right = static_cast<std::uint16_t>(columns.high);
     const int axis = face / 2;
@@ -314,7 +301,9 @@ class ListsMaker {
     for (int first = rows.low / rows_a_band * rows_a_band; first <= rows.high; first += rows_a_band) {
       listing.bottom = static_cast<std::uint16_t>(std::max(rows.low, first));
       listing.top = static_cast<std::uint16_t>(std::min(rows.high, first + rows_a_band - 1));
-      bands[first_band_[face] + static_cast<std::size_t>(first / rows_a_band)].push_back(listing);
+      Listings& band = bands[first_band_[face] + static_cast<std::size_t>(first / rows_a_band)];
+      band.all.push_back(listing);
+      if (outline) band.outlines.push_back(*outline);
     }
     return 1.0 * columns.count() * rows.count();
   }
@@ -328,7 +317,7 @@ class ListsMaker {
   std::size_t first_band_[faces] = {};
   std::pair<double, double> half_cell_[faces];  ///< cosine and sine of the angle by which cones are to be wider
   std::vector<Band> bands_;
-  std::vector<std::vector<std::vector<Listing>>> listings_;  ///< of each chunk, on each band
+  std::vector<std::vector<Listings>> listings_;  ///< of each chunk, on each band
 };
 
 }  // namespace

@@ -108,6 +108,30 @@ std::optional<View> Perspective::view(const PlacedObject& object) const {
   return view;
 }
 
+Vec3d Perspective::direction_to(const Vec3f& point) const {
+  const Vec3d p(point);
+  if (!infinitely_far_) return p - place_;
+  return {dot(across_, p) - start_.x, dot(up_, p) - start_.y, 1};
+}
+
+Outline Perspective::outline(const PlacedObject& object) const {
+  // Where the cross product of two directions is smaller, in proportion, rounding would show in its direction.
+  constexpr double least_angle = 1e-6;
+  Outline outline;
+  const Vec3d corners[3] = {direction_to(object.corners[0]), direction_to(object.corners[1]),
+                            direction_to(object.corners[2])};
+  const double side = dot(cross(corners[0], corners[1]), corners[2]) < 0 ? -1 : 1;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3d &a = corners[i], &b = corners[(i + 1) % 3], normal = cross(a, b);
+    const double size = length(normal);
+    outline.inward[i] = size > least_angle * length(a) * length(b) ? Vec3f(normal * (side / size)) : Vec3f(0, 0, 0);
+  }
+  const double slack = infinitely_far_ ? 2 * slack_ * std::max(length(across_), length(up_))
+                                       : slack_ / (length(center_of(object) - place_) - object.radius);
+  outline.slack = static_cast<float>(slack + quotient_rounding);
+  return outline;
+}
+
 std::optional<Rectangle> rectangle_on(int face, const View& view) {
   // Of the angle between a face's corners and its normal, and more.
   constexpr double corner_sine = 0.8166, corner_cosine = 0.5772;

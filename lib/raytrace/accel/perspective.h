@@ -15,7 +15,8 @@ namespace raytrace {
 struct PlacedObject {
   std::uint32_t kind, primitive;  ///< as in Hits
   Bounds bounds;
-  double radius;  ///< of a sphere around it, whose center is that of the bounds
+  double radius;                   ///< of a sphere around it, whose center is that of the bounds
+  const Vec3f* corners = nullptr;  ///< of a triangle, three; it must stay where it is
 };
 
 /// Where it is all seen from.
@@ -44,6 +45,12 @@ struct View {
   double sine = 0, cosine = 1;    ///< of the angle between the axis of the cone around the sphere and its sides
 };
 
+/// The directions to a triangle lie between three planes through the vantage and an edge each.
+struct Outline {
+  std::array<Vec3f, 3> inward;  ///< the planes' normals, of unit length; 0 where an edge is seen end on
+  float slack;  ///< how far, times its length, a direction that leads to the triangle may be on a plane's other side
+};
+
 /// From infinitely far, all directions are the same, and what is seen is a picture across them. To have but one way
 /// from there on, positions on it become directions: those from (0, 0, 0) to that picture on a face of the cube.
 class Perspective {
@@ -52,6 +59,9 @@ class Perspective {
 
   /// None from inside the sphere around it, or from so close that a cone says little.
   std::optional<View> view(const PlacedObject& object) const;
+
+  /// Of an object with corners that there is a view of.
+  Outline outline(const PlacedObject& object) const;
 
   bool infinitely_far() const { return infinitely_far_; }
 
@@ -71,6 +81,7 @@ class Perspective {
  private:
   void lay_picture(std::span<const PlacedObject> objects);
   Interval extent(const PlacedObject& object, const Vec3d& axis) const;
+  Vec3d direction_to(const Vec3f& point) const;
 
   bool infinitely_far_;
   Vec3d place_;  ///< or, of unit length, the direction towards it

@@ -1,0 +1,89 @@
+// While a direction buffer is made: which cells of a face's grid an object may be met through.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "raytrace/accel/direction_buffer.h"
+#include "raytrace/accel/perspective.h"
+#include "raytrace/math/vec3.h"
+
+namespace raytrace {
+
+/// The cells of a rectangle, in some rows, that reach into the cone around an object and, of a triangle, its outline.
+struct Listing {
+  std::uint32_t object : 31;
+  std::uint32_t has_outline : 1;
+  std::uint16_t left, right, bottom, top;  ///< columns and rows of the grid, the last ones included
+  float across, up, normal;                ///< components of the cone's axis, of unit length
+  double least;  ///< cosine of the angle between it and directions through the cone, squared, its sign kept
+};
+
+struct Listings {
+  std::vector<Listing> all;
+  std::vector<Outline> outlines;  ///< of those that have one, in the same order
+};
+
+/// Calls f(cell) for each, counted from the grid's first.
+template <class Function>
+void for_each_reached_cell(const DirectionBuffer::Grid& grid, const Listing& listing, const Function& f) {
+  const double width = 1.0 / grid.columns_per_unit, height = 1.0 / grid.rows_per_unit;
+  for (int row = listing.bottom; row <= listing.top; ++row) {
+    const double up = grid.bottom + (row + 0.5) * height;
+    const std::size_t first = static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns);
+    for (int column = listing.left; column <= listing.right; ++column) {
+      const double across = grid.left + (column + 0.5) * width;
+      const double towards = listing.normal + across * listing.across + up * listing.up;
+      if (towards * std::abs(towards) >= listing.least * (1 + across * across + up * up))
+        f(first + static_cast<std::size_t>(column));
+    }
+  }
+}
+
+/// The same of a triangle: those that reach into its outline.
+template <class Function>
+void for_each_reached_cell(const DirectionBuffer::Grid& grid, const Listing& listing, int face, const Outline& outline,
+                           const Function& f) {
+  // Cells are wider than they are, for the rounding of directions on the face and of a cell's number.
+  const double width = 1.0 / grid.columns_per_unit, height = 1.0 / grid.rows_per_unit;
+  const double half_width = 0.501 * width + 1e-6, half_height = 0.501 * height + 1e-6;
+  // Of the product of Outline::inward with the direction to a cell's center, for each edge: it grows from column to
+  // column and from row to row, and is not negative where a part of the cell is inside.
+  struct Edge {
+    double at_first, a_column, a_row;
+  };
+  std::array<Edge, 3> edges;
+  const int axis = face / 2;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3d inward(outline.inward[i]);
+    const double across = component(inward, (axis + 1) % 3), up = component(inward, (axis + 2) % 3);
+    const double normal = face % 2 != 0 ? -component(inward, axis) : component(inward, axis);
+    // No direction on a face is longer than the root of 3.
+    const double most = std::abs(across) * half_width + std::abs(up) * half_height + 1.7321 * outline.slack;
+    edges[i] = {normal + (grid.left + width / 2) * across + (grid.bottom + height / 2) * up + most, across * width,
+                up * height};
+  }
+  for (int row = listing.bottom; row <= listing.top; ++row) {
+    double left = listing.left, right = listing.right;
+    for (const Edge& edge : edges) {
+      const double start = edge.at_first + row * edge.a_row;
+      if (edge.a_column > 0)
+        left = std::max(left, -start / edge.a_column);
+      else if (edge.a_column < 0)
+        right = std::min(right, -start / edge.a_column);
+      else if (start < 0)
+        right = -1;
+    }
+    if (left > right) continue;  // by however much: not all of it is an int's
+    const std::size_t first = static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns);
+    const int last = static_cast<int>(std::floor(right));
+    for (int column = static_cast<int>(std::ceil(left)); column <= last; ++column)
+      f(first + static_cast<std::size_t>(column));
+  }
+}
+
+}  // namespace raytrace
