@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
 namespace raytrace {
 
@@ -14,11 +13,11 @@ void* zeroed_memory(std::size_t bytes);
 /// Asks for large pages where memory has not been written to yet. Nothing happens to small pieces.
 void prefer_large_pages(void* memory, std::size_t bytes);
 
-/// Room for `count` items in an empty vector, in large pages.
-template <class Item>
-void reserve_large(std::vector<Item>& items, std::size_t count) {
+/// Room for `count` items in an empty vector or string, in large pages.
+template <class Items>
+void reserve_large(Items& items, std::size_t count) {
   items.reserve(count);
-  prefer_large_pages(items.data(), items.capacity() * sizeof(Item));
+  prefer_large_pages(items.data(), items.capacity() * sizeof(items[0]));
 }
 
 }  // namespace raytrace
