@@ -64,12 +64,12 @@ void check_binary(const std::function<D(const D&, const D&)>& wide,
   SUCCEED();
 }
 
-void check_comparison(const std::function<D::MaskType(const D&, const D&)>& wide,
+void check_comparison(const std::function<Mask<D>(const D&, const D&)>& wide,
                       const std::function<bool(double, double)>& scalar) {
   RandomDoubles random;
   for (int i = 0; i < 2000; ++i) {
     const Lanes a = random.numbers(), b = random.numbers();
-    const D::MaskType mask = wide(load(a), load(b));
+    const Mask<D> mask = wide(load(a), load(b));
     const Lanes chosen = lanes_of(select(mask, load(a), load(b)));
     std::uint32_t bits = 0;
     for (std::size_t lane = 0; lane < lanes; ++lane) {
@@ -123,13 +123,13 @@ TEST_CASE("fma and cbrt of Doubles are double's but for the last bits") {
   RandomDoubles random;
   for (int i = 0; i < 2000; ++i) {
     const Lanes a = random.numbers(), b = random.numbers(), c = random.numbers();
-    const Lanes sums = lanes_of(fma(load(a), load(b), load(c))), roots = lanes_of(cbrt(load(a)));
+    const Lanes sums = lanes_of(multiply_add(load(a), load(b), load(c))), roots = lanes_of(cbrt(load(a)));
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       // Fused or not: off by no more than the rounding of the product.
       const double wanted = std::fma(a[lane], b[lane], c[lane]),
                    rounding = (std::abs(a[lane] * b[lane]) + std::abs(wanted)) * 0x1p-53;
       if (std::abs(sums[lane] - wanted) > 2 * rounding)
-        FAIL("fma(" << a[lane] << ", " << b[lane] << ", " << c[lane] << ")");
+        FAIL("multiply_add(" << a[lane] << ", " << b[lane] << ", " << c[lane] << ")");
       if (std::abs(roots[lane] - std::cbrt(a[lane])) > std::abs(roots[lane]) * 0x1p-50) FAIL("cbrt(" << a[lane] << ")");
     }
   }

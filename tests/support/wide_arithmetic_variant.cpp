@@ -37,7 +37,7 @@ WideLanes fused(int lanes, const WideLanes& a, const WideLanes& b, const WideLan
 
 WideLanes double_sum(int lanes, const WideLanes& a, const WideLanes& b, const WideLanes& c) {
   return apply(lanes, a, b, c, []<class F>(const F& x, const F& y, const F& z) {
-    return fma(Doubles<F>(x), Doubles<F>(y), Doubles<F>(z)).to_float();
+    return multiply_add(Doubles<F>(x), Doubles<F>(y), Doubles<F>(z)).to_float();
   });
 }
 

@@ -84,134 +84,70 @@ RAYTRACE_INLINE F narrow(const D& lower, const D& upper) {
 
 }  // namespace detail
 
-/// Double precision, lane for lane beside the floats F: for what cancels in float. Two registers of half the lanes.
+template <class F>
+class Doubles;
+
+namespace detail {
+
+template <class F>
+struct HalfOfDoubles {
+  using type = xsimd::batch<double, typename F::arch_type>;
+};
+template <class F>
+  requires is_twin<F>
+struct HalfOfDoubles<F> {
+  using type = Doubles<typename F::Part>;
+};
+
+}  // namespace detail
+
+/// Double precision, lane for lane beside the floats F: for what cancels in float. Two halves of half the lanes:
+/// registers of doubles where F is one of floats, Doubles of its halves where F is two.
 template <class F>
 class Doubles {
  public:
-  using Part = xsimd::batch<double, typename F::arch_type>;
-  static_assert(2 * Part::size == F::size);
+  using Part = typename detail::HalfOfDoubles<F>::type;
+  static constexpr std::size_t size = F::size;
+  static_assert(2 * Part::size == size);
 
-  struct MaskType {
+  struct batch_bool_type {
     typename Part::batch_bool_type lower, upper;
-    friend RAYTRACE_INLINE MaskType operator&(const MaskType& a, const MaskType& b) {
+    friend RAYTRACE_INLINE batch_bool_type operator&(const batch_bool_type& a, const batch_bool_type& b) {
       return {a.lower & b.lower, a.upper & b.upper};
     }
-    friend RAYTRACE_INLINE MaskType operator|(const MaskType& a, const MaskType& b) {
+    friend RAYTRACE_INLINE batch_bool_type operator|(const batch_bool_type& a, const batch_bool_type& b) {
       return {a.lower | b.lower, a.upper | b.upper};
     }
-    friend RAYTRACE_INLINE bool any(const MaskType& a) { return xsimd::any(a.lower | a.upper); }
+    friend RAYTRACE_INLINE bool any(const batch_bool_type& a) { return any(a.lower | a.upper); }
   };
 
   Doubles() = default;
   RAYTRACE_INLINE Doubles(const Part& lower, const Part& upper) : lower_(lower), upper_(upper) {}
   /// The same value in every lane.
   RAYTRACE_INLINE explicit Doubles(double value) : lower_(value), upper_(value) {}
-  RAYTRACE_INLINE Doubles(const F& floats) { detail::widen(floats, lower_, upper_); }  // implicit: no value changes
+  RAYTRACE_INLINE Doubles(const F& floats) {  // implicit: no value changes
+    if constexpr (is_twin<F>) {
+      lower_ = Part(floats.lower());
+      upper_ = Part(floats.upper());
+    } else {
+      detail::widen(floats, lower_, upper_);
+    }
+  }
 
   RAYTRACE_INLINE const Part& lower() const { return lower_; }
   RAYTRACE_INLINE const Part& upper() const { return upper_; }
 
   /// Rounds to float; values beyond float's range become infinite.
-  RAYTRACE_INLINE F to_float() const { return detail::narrow<F>(lower_, upper_); }
+  RAYTRACE_INLINE F to_float() const {
+    if constexpr (is_twin<F>) {
+      return {lower_.to_float(), upper_.to_float()};
+    } else {
+      return detail::narrow<F>(lower_, upper_);
+    }
+  }
 
   static RAYTRACE_INLINE Doubles load_aligned(const double* lanes) {
     return {Part::load_aligned(lanes), Part::load_aligned(lanes + Part::size)};
-  }
-
-  friend RAYTRACE_INLINE Doubles operator+(const Doubles& a, const Doubles& b) {
-    return {a.lower_ + b.lower_, a.upper_ + b.upper_};
-  }
-  friend RAYTRACE_INLINE Doubles operator-(const Doubles& a, const Doubles& b) {
-    return {a.lower_ - b.lower_, a.upper_ - b.upper_};
-  }
-  friend RAYTRACE_INLINE Doubles operator*(const Doubles& a, const Doubles& b) {
-    return {a.lower_ * b.lower_, a.upper_ * b.upper_};
-  }
-  friend RAYTRACE_INLINE Doubles operator/(const Doubles& a, const Doubles& b) {
-    return {a.lower_ / b.lower_, a.upper_ / b.upper_};
-  }
-  friend RAYTRACE_INLINE Doubles operator-(const Doubles& a) { return {-a.lower_, -a.upper_}; }
-  RAYTRACE_INLINE Doubles& operator+=(const Doubles& b) { return *this = *this + b; }
-  friend RAYTRACE_INLINE Doubles sqrt(const Doubles& a) { return {xsimd::sqrt(a.lower_), xsimd::sqrt(a.upper_)}; }
-  friend RAYTRACE_INLINE Doubles cbrt(const Doubles& a) { return {xsimd::cbrt(a.lower_), xsimd::cbrt(a.upper_)}; }
-  friend RAYTRACE_INLINE Doubles abs(const Doubles& a) { return {xsimd::abs(a.lower_), xsimd::abs(a.upper_)}; }
-  friend RAYTRACE_INLINE Doubles min(const Doubles& a, const Doubles& b) {
-    return {xsimd::min(a.lower_, b.lower_), xsimd::min(a.upper_, b.upper_)};
-  }
-  friend RAYTRACE_INLINE Doubles max(const Doubles& a, const Doubles& b) {
-    return {xsimd::max(a.lower_, b.lower_), xsimd::max(a.upper_, b.upper_)};
-  }
-  /// a * b + c; fused where the instruction set can.
-  friend RAYTRACE_INLINE Doubles fma(const Doubles& a, const Doubles& b, const Doubles& c) {
-    return {multiply_add(a.lower_, b.lower_, c.lower_), multiply_add(a.upper_, b.upper_, c.upper_)};
-  }
-  friend RAYTRACE_INLINE MaskType operator<(const Doubles& a, const Doubles& b) {
-    return {a.lower_ < b.lower_, a.upper_ < b.upper_};
-  }
-  friend RAYTRACE_INLINE MaskType operator>(const Doubles& a, const Doubles& b) {
-    return {a.lower_ > b.lower_, a.upper_ > b.upper_};
-  }
-  friend RAYTRACE_INLINE MaskType operator<=(const Doubles& a, const Doubles& b) {
-    return {a.lower_ <= b.lower_, a.upper_ <= b.upper_};
-  }
-  friend RAYTRACE_INLINE MaskType operator>=(const Doubles& a, const Doubles& b) {
-    return {a.lower_ >= b.lower_, a.upper_ >= b.upper_};
-  }
-
-  friend RAYTRACE_INLINE Doubles select(const MaskType& mask, const Doubles& a, const Doubles& b) {
-    return {xsimd::select(mask.lower, a.lower_, b.lower_), xsimd::select(mask.upper, a.upper_, b.upper_)};
-  }
-
-  /// The same lanes of floats.
-  static RAYTRACE_INLINE Mask<F> float_mask(const MaskType& doubles) {
-    using Register = typename Mask<F>::register_type;
-    if constexpr (sizeof(Register) <= 2) {  // AVX-512: a bit a lane
-      return static_cast<Register>(bits(doubles.lower) | bits(doubles.upper) << Part::size);
-    } else {
-      return select(doubles, Doubles(1.0), Doubles(0.0)).to_float() > F(0);
-    }
-  }
-
- private:
-  static RAYTRACE_INLINE std::uint32_t bits(typename Part::batch_bool_type::register_type mask) {
-    std::uint32_t result = 0;
-    std::memcpy(&result, &mask, std::min(sizeof mask, sizeof result));
-    return result;
-  }
-
-  Part lower_, upper_;
-};
-
-/// Of two registers of floats.
-template <class Arch>
-class Doubles<TwinBatch<float, Arch>> {
- public:
-  using Floats = TwinBatch<float, Arch>;
-  using Part = Doubles<typename Floats::Part>;
-
-  struct MaskType {
-    typename Part::MaskType lower, upper;
-    friend RAYTRACE_INLINE MaskType operator&(const MaskType& a, const MaskType& b) {
-      return {a.lower & b.lower, a.upper & b.upper};
-    }
-    friend RAYTRACE_INLINE MaskType operator|(const MaskType& a, const MaskType& b) {
-      return {a.lower | b.lower, a.upper | b.upper};
-    }
-    friend RAYTRACE_INLINE bool any(const MaskType& a) { return any(a.lower | a.upper); }
-  };
-
-  Doubles() = default;
-  RAYTRACE_INLINE Doubles(const Part& lower, const Part& upper) : lower_(lower), upper_(upper) {}
-  RAYTRACE_INLINE explicit Doubles(double value) : lower_(value), upper_(value) {}
-  RAYTRACE_INLINE Doubles(const Floats& floats) : lower_(floats.lower()), upper_(floats.upper()) {}
-
-  RAYTRACE_INLINE const Part& lower() const { return lower_; }
-  RAYTRACE_INLINE const Part& upper() const { return upper_; }
-
-  RAYTRACE_INLINE Floats to_float() const { return {lower_.to_float(), upper_.to_float()}; }
-
-  static RAYTRACE_INLINE Doubles load_aligned(const double* lanes) {
-    return {Part::load_aligned(lanes), Part::load_aligned(lanes + Floats::Part::size)};
   }
 
   friend RAYTRACE_INLINE Doubles operator+(const Doubles& a, const Doubles& b) {
@@ -237,31 +173,47 @@ class Doubles<TwinBatch<float, Arch>> {
   friend RAYTRACE_INLINE Doubles max(const Doubles& a, const Doubles& b) {
     return {max(a.lower_, b.lower_), max(a.upper_, b.upper_)};
   }
-  friend RAYTRACE_INLINE Doubles fma(const Doubles& a, const Doubles& b, const Doubles& c) {
-    return {fma(a.lower_, b.lower_, c.lower_), fma(a.upper_, b.upper_, c.upper_)};
+  /// a * b + c; fused where the instruction set can.
+  friend RAYTRACE_INLINE Doubles multiply_add(const Doubles& a, const Doubles& b, const Doubles& c) {
+    return {multiply_add(a.lower_, b.lower_, c.lower_), multiply_add(a.upper_, b.upper_, c.upper_)};
   }
-  friend RAYTRACE_INLINE MaskType operator<(const Doubles& a, const Doubles& b) {
+  friend RAYTRACE_INLINE batch_bool_type operator<(const Doubles& a, const Doubles& b) {
     return {a.lower_ < b.lower_, a.upper_ < b.upper_};
   }
-  friend RAYTRACE_INLINE MaskType operator>(const Doubles& a, const Doubles& b) {
+  friend RAYTRACE_INLINE batch_bool_type operator>(const Doubles& a, const Doubles& b) {
     return {a.lower_ > b.lower_, a.upper_ > b.upper_};
   }
-  friend RAYTRACE_INLINE MaskType operator<=(const Doubles& a, const Doubles& b) {
+  friend RAYTRACE_INLINE batch_bool_type operator<=(const Doubles& a, const Doubles& b) {
     return {a.lower_ <= b.lower_, a.upper_ <= b.upper_};
   }
-  friend RAYTRACE_INLINE MaskType operator>=(const Doubles& a, const Doubles& b) {
+  friend RAYTRACE_INLINE batch_bool_type operator>=(const Doubles& a, const Doubles& b) {
     return {a.lower_ >= b.lower_, a.upper_ >= b.upper_};
   }
 
-  friend RAYTRACE_INLINE Doubles select(const MaskType& mask, const Doubles& a, const Doubles& b) {
+  friend RAYTRACE_INLINE Doubles select(const batch_bool_type& mask, const Doubles& a, const Doubles& b) {
     return {select(mask.lower, a.lower_, b.lower_), select(mask.upper, a.upper_, b.upper_)};
   }
 
-  static RAYTRACE_INLINE Mask<Floats> float_mask(const MaskType& doubles) {
-    return {Part::float_mask(doubles.lower), Part::float_mask(doubles.upper)};
+  /// The same lanes of floats.
+  static RAYTRACE_INLINE Mask<F> float_mask(const batch_bool_type& doubles) {
+    if constexpr (is_twin<F>) {
+      return {Part::float_mask(doubles.lower), Part::float_mask(doubles.upper)};
+    } else if constexpr (sizeof(typename Mask<F>::register_type) <= 2) {  // AVX-512: a bit a lane
+      return static_cast<typename Mask<F>::register_type>(bits(doubles.lower) | bits(doubles.upper) << Part::size);
+    } else {
+      return select(doubles, Doubles(1.0), Doubles(0.0)).to_float() > F(0);
+    }
   }
 
  private:
+  template <class HalfMask>
+  static RAYTRACE_INLINE std::uint32_t bits(const HalfMask& half) {
+    const typename HalfMask::register_type mask = half;
+    std::uint32_t result = 0;
+    std::memcpy(&result, &mask, std::min(sizeof mask, sizeof result));
+    return result;
+  }
+
   Part lower_, upper_;
 };
 

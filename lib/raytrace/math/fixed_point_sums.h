@@ -22,7 +22,7 @@ class FixedPointSums {
   RAYTRACE_INLINE void add(const F& terms, const Doubles<F>& units) {
     // In [2^52, 2^53) a double's unit in the last place is 1, so this addition rounds the term to a whole number and
     // leaves it in the low bits of the double, over those of the constant.
-    const Doubles<F> rounded = fma(Doubles<F>(terms), units, Doubles<F>(offset));
+    const Doubles<F> rounded = multiply_add(Doubles<F>(terms), units, Doubles<F>(offset));
     lower_ = lower_ + std::bit_cast<Counts>(rounded.lower());
     upper_ = upper_ + std::bit_cast<Counts>(rounded.upper());
     ++terms_;

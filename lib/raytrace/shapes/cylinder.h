@@ -64,14 +64,14 @@ RAYTRACE_INLINE F Cylinder::intersect(const Record<double>& cylinder, const Ray<
   const Vec3<D> closest = across + d_across * to_closest;
   const D radius(cylinder.radius);
   const D discriminant = radius * radius - dot(closest, closest);
-  typename D::MaskType possible = discriminant >= D(0.0);
+  Mask<D> possible = discriminant >= D(0.0);
   if (none(active & D::float_mask(possible))) return infinity<F>();
 
   const D half_chord = sqrt(max(discriminant, D(0.0)) * inverse_a);
   const D entry = to_closest - half_chord, exit = to_closest + half_chord;
   const D near(ray.near), far(ray.far), zero(0.0), height(cylinder.height);
   const auto inside = [&](const D& t) {
-    const D h = fma(climb, t, height_at_origin);
+    const D h = multiply_add(climb, t, height_at_origin);
     return (h >= zero) & (h <= height) & (t > near) & (t < far);
   };
   const auto hit_entry = possible & inside(entry);

@@ -69,20 +69,20 @@ struct TorusProfile {
     D value, newton_step;  ///< the step: value over slope
   };
   Value distance_form(const D& s, const D& side) const {
-    const D x = fma(direction.x, s, position.x), y = fma(direction.y, s, position.y),
-            z = fma(direction.z, s, position.z);
+    const D x = multiply_add(direction.x, s, position.x), y = multiply_add(direction.y, s, position.y),
+            z = multiply_add(direction.z, s, position.z);
     const D rho = sqrt(x * x + z * z);
     const D from_circle = rho - side * swept;
-    const D value = fma(from_circle, from_circle, (y - tube) * (y + tube));
+    const D value = multiply_add(from_circle, from_circle, (y - tube) * (y + tube));
     // The slope is 2 (from_circle * (x dx + z dz) / rho + y dy): one division does for both.
-    const D slope_rho = D(2.0) * fma(from_circle, x * direction.x + z * direction.z, y * direction.y * rho);
+    const D slope_rho = D(2.0) * multiply_add(from_circle, x * direction.x + z * direction.z, y * direction.y * rho);
     return {value, value * rho / slope_rho};
   }
 
   /// Of the quartic's sign: its two factors are the distance forms of both sheets.
   D sign(const D& s) const {
-    const D x = fma(direction.x, s, position.x), y = fma(direction.y, s, position.y),
-            z = fma(direction.z, s, position.z);
+    const D x = multiply_add(direction.x, s, position.x), y = multiply_add(direction.y, s, position.y),
+            z = multiply_add(direction.z, s, position.z);
     const D rho = sqrt(x * x + z * z);
     const D height = (y - tube) * (y + tube);
     const D outer = (rho - swept) * (rho - swept) + height;
