@@ -38,9 +38,8 @@ std::optional<std::string> read_text_file(const std::string& file, Diagnostics& 
   std::error_code unknown_size;
   const std::uintmax_t size = std::filesystem::file_size(file, unknown_size);
   std::string text;
-  const std::size_t expected = unknown_size
-                                   ? std::size_t(1) << 16
-                                   : static_cast<std::size_t>(std::min<std::uintmax_t>(size, largest_file)) + 1;
+  const std::size_t expected =
+      unknown_size ? std::size_t(1) << 16 : static_cast<std::size_t>(std::min<std::uintmax_t>(size, largest_file)) + 1;
   reserve_large(text, expected);
   text.resize(expected);
   std::size_t length = 0;
