@@ -60,7 +60,8 @@ TEST_CASE("a film of means takes those of sums, as floats or as halves") {
     Film means(settings_of(region, -10), content);
     CHECK(means.sums().empty());
     for (int y = part.y0; y < part.y1; ++y)
-      for (int x = part.x0; x < part.x1; ++x) set_mean(means, x, y, sums.sum(x, y));
+      for (int x = part.x0; x < part.x1; ++x)
+        set_means(means, x, y, 1, [&](int) { return mean(sums.sum(x, y), sums.unit()); });
     for (int y = region.y0; y < region.y1; ++y)
       for (int x = region.x0; x < region.x1; ++x) {
         INFO(x << ", " << y);

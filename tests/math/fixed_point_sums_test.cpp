@@ -100,4 +100,19 @@ TEST_CASE("fixed-point sums of the largest terms keep every unit") {
   });
 }
 
+TEST_CASE("fixed-point sums become the nearest doubles") {
+  std::vector<WideLanes> terms = random_terms(20);
+  terms.insert(terms.end(), 40, everywhere(0x1.fffffep30f));  // so that sums have more digits than doubles
+  for (const std::string& isa : usable_isas())
+    for (const int lanes : {4, 8, 16})
+      for (std::size_t count = 0; count <= terms.size(); ++count) {
+        INFO(count << " terms, " << isa << " in registers of " << lanes);
+        const auto some = std::span(terms).first(count);
+        const WideSums sums = wide_arithmetic(isa).fixed_point_sums(lanes, some, units);
+        WideDoubles wanted;
+        std::ranges::transform(sums, wanted.begin(), [](std::int64_t sum) { return static_cast<double>(sum); });
+        CHECK(wide_arithmetic(isa).rounded_sums(lanes, some, units) == wanted);
+      }
+}
+
 }  // namespace raytrace::test

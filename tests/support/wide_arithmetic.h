@@ -10,6 +10,7 @@
 namespace raytrace::test {
 
 using WideLanes = std::array<float, 16>;
+using WideDoubles = std::array<double, 16>;
 using WideSums = std::array<std::int64_t, 16>;
 
 /// What one instruction set makes of 16 lanes in registers of 4, 8 or 16 floats (`lanes`; where it has none such, in
@@ -21,6 +22,7 @@ struct WideArithmetic {
   Operation below;       ///< 1 where a * b < c in Doubles, else 0
   /// FixedPointSums of the terms, which are added in their order. units: one over the unit.
   WideSums (*fixed_point_sums)(int lanes, std::span<const WideLanes> terms, double units);
+  WideDoubles (*rounded_sums)(int lanes, std::span<const WideLanes> terms, double units);
 };
 
 /// isa: one of isa_names() that isa_supported().

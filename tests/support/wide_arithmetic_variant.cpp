@@ -47,27 +47,38 @@ WideLanes below(int lanes, const WideLanes& a, const WideLanes& b, const WideLan
   });
 }
 
-template <int lanes>
-WideSums sums_in_registers(std::span<const WideLanes> terms, double units) {
-  using F = FloatLanes<lanes>;
-  WideSums result;
+/// of(sums): an array of the sums of as many lanes as F has.
+template <class Result, class F, class Of>
+Result sums_of(std::span<const WideLanes> terms, double units, const Of& of) {
+  Result result;
   for (std::size_t first = 0; first < result.size(); first += F::size) {
     FixedPointSums<F> sums;
     for (const WideLanes& values : terms) sums.add(F::load_unaligned(values.data() + first), Doubles<F>(units));
-    std::ranges::copy(sums.sums(), result.begin() + static_cast<std::ptrdiff_t>(first));
+    std::ranges::copy(of(sums), result.begin() + static_cast<std::ptrdiff_t>(first));
   }
   return result;
 }
 
-WideSums fixed_point_sums(int lanes, std::span<const WideLanes> terms, double units) {
+template <class Result, class Of>
+Result sums_of(int lanes, std::span<const WideLanes> terms, double units, const Of& of) {
   switch (lanes) {
     case 4:
-      return sums_in_registers<4>(terms, units);
+      return sums_of<Result, FloatLanes<4>>(terms, units, of);
     case 8:
-      return sums_in_registers<8>(terms, units);
+      return sums_of<Result, FloatLanes<8>>(terms, units, of);
     default:
-      return sums_in_registers<16>(terms, units);
+      return sums_of<Result, FloatLanes<16>>(terms, units, of);
   }
+}
+
+WideSums fixed_point_sums(int lanes, std::span<const WideLanes> terms, double units) {
+  return sums_of<WideSums>(lanes, terms, units, [](const auto& sums) { return sums.sums(); });
+}
+
+WideDoubles rounded_sums(int lanes, std::span<const WideLanes> terms, double units) {
+  return sums_of<WideDoubles>(lanes, terms, units, []<class F>(const FixedPointSums<F>& sums) {
+    return sums.template rounded_sums_of_every<F::size>();
+  });
 }
 
 }  // namespace
@@ -79,6 +90,7 @@ WideSums fixed_point_sums(int lanes, std::span<const WideLanes> terms, double un
 
 extern "C" const raytrace::test::WideArithmetic* RAYTRACE_JOIN(raytrace_arithmetic_, RAYTRACE_VARIANT)() {
   static constexpr raytrace::test::WideArithmetic arithmetic{&raytrace::test::fused, &raytrace::test::double_sum,
-                                                             &raytrace::test::below, &raytrace::test::fixed_point_sums};
+                                                             &raytrace::test::below, &raytrace::test::fixed_point_sums,
+                                                             &raytrace::test::rounded_sums};
   return &arithmetic;
 }

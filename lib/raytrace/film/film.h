@@ -122,9 +122,9 @@ class Film {
 
   // Of films of means, which film_means.h sets.
 
-  Pixel& float_mean(int x, int y) { return means_[index(x, y)]; }
+  // The pixels that follow are beside it, row by row.
 
-  /// The pixels that follow are beside it, row by row.
+  Pixel& float_mean(int x, int y) { return means_[index(x, y)]; }
   HalfPixel& half_mean(int x, int y) { return half_means_[index(x, y)]; }
   const HalfPixel& half_mean(int x, int y) const { return half_means_[index(x, y)]; }
 

@@ -6,19 +6,26 @@
 
 #include <array>
 #include <bit>
+#include <cstdint>
 
 #include "raytrace/film/film.h"
 #include "raytrace/math/simd.h"
 
 namespace raytrace {
 
-/// Of the pixel's samples; black and empty if it has none. unit: Film::unit().
+/// Of so many samples, whose sums are given in units: black and empty if there are none. unit: Film::unit().
+RAYTRACE_INLINE Pixel mean(double red, double green, double blue, std::uint32_t hits, std::uint32_t samples,
+                           double unit) {
+  if (samples == 0) return {};
+  const CompilerVector<double, 4> totals{red, green, blue, static_cast<double>(hits)}, units{unit, unit, unit, 1};
+  const auto quotients = samples == 1 ? totals : totals / static_cast<double>(samples);  // which takes long
+  return std::bit_cast<Pixel>(__builtin_convertvector(quotients * units, CompilerVector<float, 4>));
+}
+
+/// Of the pixel's samples.
 inline Pixel mean(const PixelSum& sum, double unit) {
-  if (sum.samples == 0) return {};
-  const CompilerVector<double, 4> totals{static_cast<double>(sum.red), static_cast<double>(sum.green),
-                                         static_cast<double>(sum.blue), static_cast<double>(sum.hits)},
-      units{unit, unit, unit, 1}, means = totals / static_cast<double>(sum.samples) * units;
-  return std::bit_cast<Pixel>(__builtin_convertvector(means, CompilerVector<float, 4>));
+  return mean(static_cast<double>(sum.red), static_cast<double>(sum.green), static_cast<double>(sum.blue), sum.hits,
+              sum.samples, unit);
 }
 
 inline HalfPixel in_halves(const Pixel& pixel) {
@@ -30,13 +37,16 @@ inline HalfPixel in_halves(const Pixel& pixel) {
 #endif
 }
 
-/// Gives a pixel of a film of either kind of means that of its samples.
-inline void set_mean(Film& means, int x, int y, const PixelSum& sum) {
-  const Pixel pixel = mean(sum, means.unit());
-  if (means.content() == FilmContent::means) {
-    means.float_mean(x, y) = pixel;
+/// Gives a film of either kind of means those of `count` pixels beside each other, from (x, y) on to the right:
+/// mean_of(0) and so on.
+template <class MeanOf>
+RAYTRACE_INLINE void set_means(Film& film, int x, int y, int count, const MeanOf& mean_of) {
+  if (film.content() == FilmContent::means) {
+    Pixel* const row = &film.float_mean(x, y);
+    for (int i = 0; i < count; ++i) row[i] = mean_of(i);
   } else {
-    means.half_mean(x, y) = in_halves(pixel);
+    HalfPixel* const row = &film.half_mean(x, y);
+    for (int i = 0; i < count; ++i) row[i] = in_halves(mean_of(i));
   }
 }
 

@@ -47,23 +47,31 @@ class BlockSums {
 
   /// Adds them to the pixels of the block that lie in the region; to a film of means, they are all there is to come.
   template <class Block>
-  void add_to(Film& film, const Block& block, const Region& region) const {
+  RAYTRACE_INLINE void add_to(Film& film, const Block& block, const Region& region) const {
     alignas(64) std::array<std::int32_t, packet_lanes> hit_lanes, sample_lanes;
     hits_.store_aligned(hit_lanes.data());
     samples_.store_aligned(sample_lanes.data());
-    const auto red = red_.template sums_of_every<Block::pixels>(),
-               green = green_.template sums_of_every<Block::pixels>(),
-               blue = blue_.template sums_of_every<Block::pixels>();
     const auto hits = Block::sum_by_pixel(hit_lanes), samples = Block::sum_by_pixel(sample_lanes);
-    block.for_each_pixel(region, [&](int x, int y, std::size_t pixel) {
-      const PixelSum sum{red[pixel], green[pixel], blue[pixel], static_cast<std::uint32_t>(hits[pixel]),
-                         static_cast<std::uint32_t>(samples[pixel])};
-      if (film.content() == FilmContent::sums) {
-        film.sum(x, y) += sum;
-      } else {
-        set_mean(film, x, y, sum);
-      }
-    });
+    const auto hits_of = [&](std::size_t pixel) { return static_cast<std::uint32_t>(hits[pixel]); };
+    const auto samples_of = [&](std::size_t pixel) { return static_cast<std::uint32_t>(samples[pixel]); };
+    if (film.content() == FilmContent::sums) {
+      const auto red = red_.template sums_of_every<Block::pixels>(),
+                 green = green_.template sums_of_every<Block::pixels>(),
+                 blue = blue_.template sums_of_every<Block::pixels>();
+      block.for_each_pixel(region, [&](int x, int y, std::size_t i) {
+        film.sum(x, y) += {red[i], green[i], blue[i], hits_of(i), samples_of(i)};
+      });
+    } else {
+      const auto red = red_.template rounded_sums_of_every<Block::pixels>(),
+                 green = green_.template rounded_sums_of_every<Block::pixels>(),
+                 blue = blue_.template rounded_sums_of_every<Block::pixels>();
+      block.for_each_row(region, [&](int x, int y, int first, int count) RAYTRACE_INLINE_LAMBDA {
+        set_means(film, x, y, count, [&](int i) RAYTRACE_INLINE_LAMBDA {
+          const auto pixel = static_cast<std::size_t>(first + i);
+          return mean(red[pixel], green[pixel], blue[pixel], hits_of(pixel), samples_of(pixel), film.unit());
+        });
+      });
+    }
   }
 
  private:

@@ -1,6 +1,7 @@
 // Which samples of which pixels the rays of a packet are.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -67,6 +68,15 @@ struct PacketBlock {
       if (all || (region.x0 <= x && x < region.x1 && region.y0 <= y && y < region.y1))
         f(x, y, static_cast<std::size_t>(pixel));
     }
+  }
+
+  /// Calls f(x, y, pixel, count) for each row of those pixels: `count` beside each other, from (x, y) on.
+  template <class Function>
+  void for_each_row(const Region& region, const Function& f) const {
+    const int first = std::max(left, region.x0), count = std::min(left + shape.width, region.x1) - first;
+    if (count <= 0) return;
+    for (int y = std::max(top, region.y0); y < std::min(top + shape.height, region.y1); ++y)
+      f(first, y, (y - top) * shape.width + first - left, count);
   }
 
   /// Calls f(x, y, lane) for the lanes whose pixels lie in the region.

@@ -120,6 +120,7 @@ class BlockRenderer {
 
   PixelShift<std::uint32_t> shift_of(std::uint32_t column, std::uint32_t row) { return shifts_.at(column, row); }
   PixelShift<UintN> shift_of(const UintN& column, const UintN& row) const {
+    if (film_.settings().samples.centered) return {UintN(0u), UintN(0u)};  // it shifts nothing
     return {column, row, film_.settings().seed};
   }
 

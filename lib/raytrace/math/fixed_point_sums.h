@@ -52,6 +52,22 @@ class FixedPointSums {
     return sums;
   }
 
+  /// The same, each rounded to the nearest double.
+  template <std::size_t step>
+  RAYTRACE_INLINE std::array<double, step> rounded_sums_of_every() const {
+    std::array<double, step> rounded;
+    if constexpr (step < Counts::size) {
+      const auto sums = sums_of_every<step>();
+      std::transform(sums.begin(), sums.end(), rounded.begin(), [](std::int64_t sum) { return double(sum); });
+    } else if constexpr (step == Counts::size) {
+      to_doubles(lower_ + upper_, 2 * terms_).store_unaligned(rounded.data());
+    } else {
+      to_doubles(lower_, terms_).store_unaligned(rounded.data());
+      to_doubles(upper_, terms_).store_unaligned(rounded.data() + Counts::size);
+    }
+    return rounded;
+  }
+
   /// Lane by lane.
   friend RAYTRACE_INLINE FixedPointSums operator+(const FixedPointSums& a, const FixedPointSums& b) {
     FixedPointSums both;
@@ -64,6 +80,11 @@ class FixedPointSums {
  private:
   using Counts = xsimd::batch<std::uint64_t, typename F::arch_type>;
   static constexpr double offset = 0x1.8p52;  // the middle of its range, for terms of both signs
+
+  static RAYTRACE_INLINE auto to_doubles(const Counts& totals, std::uint64_t terms) {
+    using Sums = xsimd::batch<std::int64_t, typename F::arch_type>;
+    return xsimd::to_float(std::bit_cast<Sums>(totals - Counts(terms * std::bit_cast<std::uint64_t>(offset))));
+  }
 
   Counts lower_ = Counts(std::uint64_t{0}),
          upper_ = Counts(std::uint64_t{0});  // in braces, xsimd 8 takes it for a list
@@ -93,6 +114,21 @@ class FixedPointSums<TwinBatch<float, Arch>> {
     } else {
       const auto lower = lower_.sums(), upper = upper_.sums();
       std::array<std::int64_t, step> sums;
+      std::copy(lower.begin(), lower.end(), sums.begin());
+      std::copy(upper.begin(), upper.end(), sums.begin() + part_size);
+      return sums;
+    }
+  }
+
+  template <std::size_t step>
+  RAYTRACE_INLINE std::array<double, step> rounded_sums_of_every() const {
+    constexpr std::size_t part_size = Floats::Part::size;
+    if constexpr (step <= part_size) {
+      return (lower_ + upper_).template rounded_sums_of_every<step>();
+    } else {
+      const auto lower = lower_.template rounded_sums_of_every<part_size>(),
+                 upper = upper_.template rounded_sums_of_every<part_size>();
+      std::array<double, step> sums;
       std::copy(lower.begin(), lower.end(), sums.begin());
       std::copy(upper.begin(), upper.end(), sums.begin() + part_size);
       return sums;
