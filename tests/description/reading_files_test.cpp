@@ -1,10 +1,14 @@
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <sstream>
 
 #include "findings.h"
+#include "raytrace/description/text_file.h"
 #include "support/catch.h"
+#include "support/temporary_folder.h"
 
 namespace raytrace::test {
 namespace {
@@ -63,6 +67,27 @@ TEST_CASE("standard input is given as -, and shown as <stdin>") {
   REQUIRE(scene);
   CHECK(scene->file == "-");
   CHECK(scene->viewplane.hres == 4);
+}
+
+TEST_CASE("a large file is read by several threads as by one") {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "large.xml";
+  // Each line is another number, so that no part can stand for another.
+  std::string text = scene_with("<lights/>") + "\n<!--";
+  for (int line = 0; text.size() < (std::size_t{40} << 20); ++line) text += "\n" + std::to_string(line);
+  text += "\n-->\n";
+  write_text(file, text + "wrong");
+  const auto lines = std::to_string(std::count(text.begin(), text.end(), '\n') + 1);
+  for (const int threads : {1, 3}) {
+    Diagnostics diagnostics(file.string());
+    const auto read = read_text_file(file.string(), threads, diagnostics);
+    REQUIRE(read);
+    CHECK(read->text() == text + "wrong");
+    CHECK(!load_scene(file.string(), diagnostics, threads));
+    std::ostringstream out;
+    diagnostics.print(out);
+    CHECK(out.str() == file.string() + ":" + lines + ":1: error: text after the end of the scene; remove it\n");
+  }
 }
 
 TEST_CASE("findings are printed in the order of the file, at most 100 of a kind, and the rest counted") {

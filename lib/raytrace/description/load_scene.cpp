@@ -354,10 +354,8 @@ void report_unused(const Variables& variables, Diagnostics& diagnostics) {
   }
 }
 
-}  // namespace
-
-std::optional<SceneDescription> parse_scene(std::string text, Diagnostics& diagnostics, int threads,
-                                            const SceneSettings& settings) {
+std::optional<SceneDescription> read_scene(TextBuffer text, Diagnostics& diagnostics, int threads,
+                                           const SceneSettings& settings) {
   const SceneText scene_text(std::move(text), diagnostics);
   if (!scene_text.well_formed()) return std::nullopt;
   const Variables variables(settings);
@@ -369,11 +367,18 @@ std::optional<SceneDescription> parse_scene(std::string text, Diagnostics& diagn
   return reader.take();
 }
 
+}  // namespace
+
+std::optional<SceneDescription> parse_scene(std::string_view text, Diagnostics& diagnostics, int threads,
+                                            const SceneSettings& settings) {
+  return read_scene(TextBuffer(text), diagnostics, threads, settings);
+}
+
 std::optional<SceneDescription> load_scene(const std::string& file, Diagnostics& diagnostics, int threads,
                                            const SceneSettings& settings) {
-  std::optional<std::string> text = read_text_file(file, diagnostics);
+  std::optional<TextBuffer> text = read_text_file(file, threads, diagnostics);
   if (!text) return std::nullopt;
-  std::optional<SceneDescription> scene = parse_scene(std::move(*text), diagnostics, threads, settings);
+  std::optional<SceneDescription> scene = read_scene(std::move(*text), diagnostics, threads, settings);
   if (scene) scene->file = file;
   return scene;
 }

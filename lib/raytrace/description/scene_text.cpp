@@ -7,8 +7,8 @@
 
 namespace raytrace {
 
-SceneText::SceneText(std::string text, Diagnostics& diagnostics) : text_(std::move(text)) {
-  if (const auto problem = find_xml_problem(text_, group_elements(), pieces_)) {
+SceneText::SceneText(TextBuffer text, Diagnostics& diagnostics) : text_(std::move(text)) {
+  if (const auto problem = find_xml_problem(text_.text(), group_elements(), pieces_)) {
     diagnostics.error(locate(problem->offset), problem->message);
     pieces_.clear();
     return;
@@ -18,9 +18,10 @@ SceneText::SceneText(std::string text, Diagnostics& diagnostics) : text_(std::mo
 
 void SceneText::measure() {
   Span rest{0, 0, 1};  // what of the frame stands before the piece at hand
+  const std::string_view text = text_.text();
   std::uint32_t line = 1;
   const auto count_lines = [&](std::size_t begin, std::size_t end) {
-    line += static_cast<std::uint32_t>(std::count(text_.data() + begin, text_.data() + end, '\n'));
+    line += static_cast<std::uint32_t>(std::count(text.data() + begin, text.data() + end, '\n'));
   };
   piece_lines_.reserve(pieces_.size());
   for (const Piece& piece : pieces_) {
@@ -32,7 +33,7 @@ void SceneText::measure() {
     count_lines(piece.begin, piece.end);
     rest = {piece.end, piece.end, line};
   }
-  frame_.push_back({rest.begin, text_.size(), rest.line});
+  frame_.push_back({rest.begin, text.size(), rest.line});
 }
 
 SceneText::PieceRange SceneText::pieces_of(std::size_t group) const {
@@ -44,7 +45,7 @@ SceneText::PieceRange SceneText::pieces_of(std::size_t group) const {
 }
 
 SourceLocation SceneText::locate(std::size_t offset) const {
-  if (!lines_) lines_.emplace(text_);
+  if (!lines_) lines_.emplace(text_.text());
   return lines_->locate(offset);
 }
 

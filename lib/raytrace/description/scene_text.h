@@ -9,12 +9,12 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
 #include "raytrace/description/diagnostics.h"
 #include "raytrace/description/line_index.h"
+#include "raytrace/description/text_buffer.h"
 #include "raytrace/description/xml_scanner.h"
 
 namespace raytrace {
@@ -28,14 +28,12 @@ struct Span {
 class SceneText {
  public:
   /// Checks the text. If it is not well-formed XML, the reason goes to `diagnostics`, and there are no parts.
-  SceneText(std::string text, Diagnostics& diagnostics);
+  SceneText(TextBuffer text, Diagnostics& diagnostics);
 
   bool well_formed() const { return !frame_.empty(); }
 
   /// The text of a part.
-  std::string_view of(const Span& span) const {
-    return std::string_view(text_).substr(span.begin, span.end - span.begin);
-  }
+  std::string_view of(const Span& span) const { return text_.text().substr(span.begin, span.end - span.begin); }
 
   /// In the order of the text.
   std::span<const Span> frame() const { return frame_; }
@@ -54,7 +52,7 @@ class SceneText {
  private:
   void measure();
 
-  std::string text_;
+  TextBuffer text_;
   std::vector<Piece> pieces_;
   std::vector<std::uint32_t> piece_lines_;
   std::vector<Span> frame_;

@@ -39,7 +39,7 @@ bool is(char c, std::uint8_t classes) { return (character_classes[static_cast<un
 /// Throws XmlProblem.
 class Scanner {
  public:
-  explicit Scanner(const std::string& text) : begin_(text.c_str()), end_(begin_ + text.size()), here_(begin_) {
+  explicit Scanner(std::string_view text) : begin_(text.data()), end_(begin_ + text.size()), here_(begin_) {
     open_.reserve(most_open);
     attributes_.reserve(most_attributes);
   }
@@ -365,7 +365,7 @@ class Scanner {
 
 }  // namespace
 
-std::optional<XmlProblem> find_xml_problem(const std::string& text, std::span<const std::string_view> groups,
+std::optional<XmlProblem> find_xml_problem(std::string_view text, std::span<const std::string_view> groups,
                                            std::vector<Piece>& pieces) {
   if (auto problem = find_encoding_problem(text)) return problem;
   try {
@@ -379,7 +379,7 @@ std::optional<XmlProblem> find_xml_problem(const std::string& text, std::span<co
   return std::nullopt;
 }
 
-std::vector<std::size_t> find_nodes(const std::string& text) {
+std::vector<std::size_t> find_nodes(std::string_view text) {
   std::vector<std::size_t> nodes;
   Scanner scanner(text);
   scanner.collect_nodes(nodes);
@@ -387,7 +387,7 @@ std::vector<std::size_t> find_nodes(const std::string& text) {
   return nodes;
 }
 
-std::size_t find_attribute(const std::string& text, std::size_t tag_offset, std::string_view name) {
+std::size_t find_attribute(std::string_view text, std::size_t tag_offset, std::string_view name) {
   return Scanner(text).attribute_offset(tag_offset, name);
 }
 

@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <optional>
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -17,21 +16,23 @@
 
 namespace raytrace {
 
+// Behind a text there must be a '\0', as in std::string.
+
 /// The first place where `text` is not well-formed XML 1.0 in UTF-8, with or without byte order mark. Document type
 /// declarations with declarations of their own, processing instructions, elements nested more than 64 deep and tags of
 /// more than 64 attributes are refused too: no scene has them, and they are where XML readers get into trouble.
 ///
 /// pieces: receives those of all elements that bear one of the names in `groups` and stand where groups do (root,
 /// section, group), unless there is a problem.
-std::optional<XmlProblem> find_xml_problem(const std::string& text, std::span<const std::string_view> groups,
+std::optional<XmlProblem> find_xml_problem(std::string_view text, std::span<const std::string_view> groups,
                                            std::vector<Piece>& pieces);
 
 /// Where the elements (the '<' of their start tags) and the texts (their first character that is no white space) of a
 /// well-formed text begin, in the order of the document: the order of a walk through its tree, parents before children.
 /// White space between tags is no text; a CDATA section is one, and a comment ends one.
-std::vector<std::size_t> find_nodes(const std::string& text);
+std::vector<std::size_t> find_nodes(std::string_view text);
 
 /// Where the attribute `name` stands in the start tag at `tag_offset` of a well-formed text.
-std::size_t find_attribute(const std::string& text, std::size_t tag_offset, std::string_view name);
+std::size_t find_attribute(std::string_view text, std::size_t tag_offset, std::string_view name);
 
 }  // namespace raytrace

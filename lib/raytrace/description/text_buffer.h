@@ -1,0 +1,36 @@
+// The text of a scene in memory.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <string_view>
+
+#include "raytrace/memory/zeroed_array.h"
+
+namespace raytrace {
+
+/// Bytes with a '\0' behind them. Their memory is taken where it is first written to, by the thread that writes.
+class TextBuffer {
+ public:
+  /// Empty, with room for so many bytes. Throws std::bad_alloc.
+  explicit TextBuffer(std::size_t room) : bytes_(room + 1), room_(room) {}
+  explicit TextBuffer(std::string_view text) : TextBuffer(text.size()) { append(text); }
+
+  std::string_view text() const { return {bytes_.data(), size_}; }
+
+  /// As much as there is room for. What is written here belongs to the text once it is as long as that.
+  char* data() { return bytes_.data(); }
+  std::size_t room() const { return room_; }
+  void lengthen_to(std::size_t size) { size_ = size; }
+
+  void append(std::string_view more) {
+    std::copy(more.begin(), more.end(), data() + size_);
+    size_ += more.size();
+  }
+
+ private:
+  ZeroedArray<char> bytes_;
+  std::size_t room_, size_ = 0;
+};
+
+}  // namespace raytrace
