@@ -107,6 +107,22 @@ TEST_CASE("what does not change the picture does not change the hash") {
   }
 }
 
+TEST_CASE("the hash of many objects is of all of them, and the same by any number of threads") {
+  SceneDescription scene =
+      accepted(scene_with_sphere("<center x='0' y='0' z='0'/><radius>1</radius><material>clay</material>"));
+  auto& spheres = std::get<ObjectItems<Sphere>>(scene.objects);
+  spheres.resize(100000, spheres.front());
+  const std::string hash = scene_hash(scene, 1);
+  CHECK(scene_hash(scene, 3) == hash);
+  for (const std::size_t i : {std::size_t{0}, spheres.size() / 2, spheres.size() - 1}) {
+    spheres[i].parameters.radius = 2;
+    CHECK(scene_hash(scene, 3) != hash);
+    spheres[i].parameters.radius = 1;
+  }
+  spheres.pop_back();
+  CHECK(scene_hash(scene, 3) != hash);
+}
+
 TEST_CASE("layout, comments and the spelling of numbers do not change the hash") {
   const std::string hash = scene_hash(accepted(scene_with("")));
   CHECK(scene_hash(accepted(scene_with("<!-- a comment -->\n\n\t"))) == hash);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <variant>
 #include <vector>
@@ -81,7 +82,7 @@ std::optional<SceneDescription> load_scene(const std::string& file, Diagnostics&
                                            const SceneSettings& settings = {});
 
 /// The same for a text that is already in memory.
-std::optional<SceneDescription> parse_scene(std::string text, Diagnostics& diagnostics, int threads = 0,
+std::optional<SceneDescription> parse_scene(std::string_view text, Diagnostics& diagnostics, int threads = 0,
                                             const SceneSettings& settings = {});
 
 /// Writes the description as a scene file in canonical form: every value spelled out, defaults included; reading it

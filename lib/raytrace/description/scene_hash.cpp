@@ -1,8 +1,11 @@
 #include "raytrace/description/scene_hash.h"
 
+#include <cstddef>
 #include <type_traits>
+#include <vector>
 
 #include "raytrace/math/content_hash.h"
+#include "raytrace/parallel/for_each_index.h"
 
 namespace raytrace {
 
@@ -10,6 +13,8 @@ namespace {
 
 class SceneHash {
  public:
+  explicit SceneHash(int threads) : threads_(threads) {}
+
   std::string of(const SceneDescription& scene) {
     Fields<ViewPlane> viewplane_fields = ViewPlane::fields();
     std::erase_if(viewplane_fields, [](const auto& field) { return field.name == "samples"; });
@@ -20,17 +25,18 @@ class SceneHash {
         add_parameters(Camera::fields(), *parameters);
       }
     });
-    add_items(Lights{}, scene.lights, [](const auto&) {});
-    add_items(Materials{}, scene.materials, [&](const auto& item) { add(item.name); });
-    add_items(Shapes{}, scene.objects, [&](const auto& item) {
-      add(item.name);
-      add(item.material.kind);
-      add(item.material.index);
+    add_items(Lights{}, scene.lights, [](SceneHash&, const auto&) {});
+    add_items(Materials{}, scene.materials, [](SceneHash& hash, const auto& item) { hash.add(item.name); });
+    add_items(Shapes{}, scene.objects, [](SceneHash& hash, const auto& item) {
+      hash.add(item.name);
+      hash.add(item.material.kind);
+      hash.add(item.material.index);
     });
     return hash_.digits();
   }
 
  private:
+  /// Hashes of pieces that do not depend on the threads: one of a million objects would take as long as some renders.
   template <class List, class Tuple, class AddOthers>
   void add_items(List list, const Tuple& tuple, AddOthers add_others) {
     for_each_type(list, [&]<class T>(std::type_identity<T>) {
@@ -38,10 +44,16 @@ class SceneHash {
       add(T::element);
       add(static_cast<std::uint64_t>(items.size()));
       const auto fields = T::fields();
-      for (const auto& item : items) {
-        add_parameters(fields, item.parameters);
-        add_others(item);
-      }
+      std::vector<std::string> hashes(chunk_count(items.size()));
+      for_each_chunk(items.size(), threads_, [&](std::size_t chunk, std::size_t first, std::size_t last) {
+        SceneHash hash(1);
+        for (std::size_t i = first; i < last; ++i) {
+          hash.add_parameters(fields, items[i].parameters);
+          add_others(hash, items[i]);
+        }
+        hashes[chunk] = hash.hash_.digits();
+      });
+      for (const std::string& hash : hashes) add(hash);
     });
   }
 
@@ -69,10 +81,11 @@ class SceneHash {
   }
 
   ContentHash hash_;
+  int threads_;
 };
 
 }  // namespace
 
-std::string scene_hash(const SceneDescription& description) { return SceneHash().of(description); }
+std::string scene_hash(const SceneDescription& description, int threads) { return SceneHash(threads).of(description); }
 
 }  // namespace raytrace

@@ -78,9 +78,10 @@ std::string size_text(const PictureExtent& extent) {
 
 }  // namespace
 
-Provenance provenance_of(const std::string& software, const Scene& scene, const SceneDescription& description) {
+Provenance provenance_of(const std::string& software, const Scene& scene, const SceneDescription& description,
+                         int threads) {
   const SceneStatistics statistics = scene.statistics();
-  return {software, statistics.embree_version, statistics.isa, scene_hash(description)};
+  return {software, statistics.embree_version, statistics.isa, scene_hash(description, threads)};
 }
 
 std::vector<ImageAttribute> identity_attributes(const PieceIdentity& identity) {

@@ -20,7 +20,9 @@ struct Provenance {
   std::string scene;  ///< scene_hash()
 };
 
-Provenance provenance_of(const std::string& software, const Scene& scene, const SceneDescription& description);
+/// threads: as scene_hash() takes them.
+Provenance provenance_of(const std::string& software, const Scene& scene, const SceneDescription& description,
+                         int threads = 0);
 
 /// What an EXR file says of itself, so that it can be put together with others, or continued.
 struct PieceIdentity {
