@@ -51,7 +51,7 @@ PictureRender::PictureRender(const Scene& scene, const SceneDescription& descrip
       start_(start),
       next_checkpoint_(Clock::now() + in_seconds(options.checkpoint_interval)),
       progress_(progress) {
-  identity_.provenance = provenance_of(software_name(), scene, description);
+  identity_.provenance = provenance_of(software_name(), scene, description, options.threads);
   identity_.whole = whole;
   if (options.display_server) {
     const PictureExtent extent{description.viewplane.hres, description.viewplane.vres, region};
@@ -222,6 +222,7 @@ std::uint32_t PictureRender::next_target(std::uint32_t done, double seconds_a_sa
 
 void PictureRender::count(const RenderReport& report) {
   statistics_.rays += report.rays;
+  statistics_.scene.bvh_bytes = scene_.statistics().bvh_bytes;  // rays may have been the first to want it
   set_aside_ += report.set_aside;
 }
 

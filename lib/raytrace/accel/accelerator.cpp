@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <mutex>
 #include <new>
 #include <string>
 
@@ -20,28 +21,8 @@ namespace {
   throw RenderError(std::string("Embree: ") + (message != nullptr ? message : "unknown error"));
 }
 
-/// What Embree's callbacks report, to be thrown where it is safe: not through Embree's own frames.
-struct BuildReport {
-  std::atomic<std::int64_t> bytes{0};
-  RTCError error = RTC_ERROR_NONE;
-  std::string message;
-};
-
-void on_error(void* user, RTCError code, const char* message) {
-  auto& report = *static_cast<BuildReport*>(user);
-  if (report.error != RTC_ERROR_NONE) return;
-  report.error = code;
-  report.message = message != nullptr ? message : "";
-}
-
 /// Embree's builder threads see the report that the constructor made.
 constinit Handover report_made;
-
-bool on_memory(void* user, ssize_t bytes, bool) {
-  report_made.take();
-  static_cast<BuildReport*>(user)->bytes += bytes;
-  return true;
-}
 
 template <class Shape>
 void fill_table(const SceneDescription& description, ShapeTable<Shape>& table) {
@@ -76,14 +57,41 @@ PlacedObject placed_object(const typename ShapeTable<Shape>::Record& record, std
 
 }  // namespace
 
-Accelerator::Accelerator(const SceneDescription& description, int threads, const char* isa) {
-  BuildReport report;
+/// What Embree's callbacks report, to be thrown where it is safe: not through Embree's own frames.
+struct Accelerator::Report {
+  std::atomic<std::int64_t> bytes{0};
+  std::mutex mutex;  ///< for what follows
+  RTCError error = RTC_ERROR_NONE;
+  std::string message;
+
+  static void on_error(void* user, RTCError code, const char* message) {
+    auto& report = *static_cast<Report*>(user);
+    const std::lock_guard lock(report.mutex);
+    if (report.error != RTC_ERROR_NONE) return;
+    report.error = code;
+    report.message = message != nullptr ? message : "";
+  }
+
+  static bool on_memory(void* user, ssize_t bytes, bool) {
+    report_made.take();
+    static_cast<Report*>(user)->bytes += bytes;
+    return true;
+  }
+
+  void throw_error() {
+    const std::lock_guard lock(mutex);
+    if (error != RTC_ERROR_NONE) throw_embree_error(error, message.c_str());
+  }
+};
+
+Accelerator::Accelerator(const SceneDescription& description, int threads, const char* isa)
+    : report_(std::make_unique<Report>()) {
   report_made.give();
   const std::string configuration = "threads=" + std::to_string(threads) + ",set_affinity=0,isa=" + isa;
   device_.reset(rtcNewDevice(configuration.c_str()));
   if (!device_) throw_embree_error(rtcGetDeviceError(nullptr), "no device could be created");
-  rtcSetDeviceErrorFunction(device_.get(), &on_error, &report);
-  rtcSetDeviceMemoryMonitorFunction(device_.get(), &on_memory, &report);
+  rtcSetDeviceErrorFunction(device_.get(), &Report::on_error, report_.get());
+  rtcSetDeviceMemoryMonitorFunction(device_.get(), &Report::on_memory, report_.get());
 
   scene_.reset(rtcNewScene(device_.get()));
   rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_MEDIUM);
@@ -104,11 +112,19 @@ Accelerator::Accelerator(const SceneDescription& description, int threads, const
       rtcAttachGeometryByID(scene_.get(), geometry.get(), static_cast<unsigned>(index_of<Shape>(Shapes{})));
     }
   });
+  report_->throw_error();
+}
+
+Accelerator::~Accelerator() = default;
+
+void Accelerator::build() const {
   commit_scene(scene_.get());
-  bytes_ = static_cast<std::uint64_t>(std::max<std::int64_t>(report.bytes, 0));
-  rtcSetDeviceMemoryMonitorFunction(device_.get(), nullptr, nullptr);
-  rtcSetDeviceErrorFunction(device_.get(), nullptr, nullptr);
-  if (report.error != RTC_ERROR_NONE) throw_embree_error(report.error, report.message.c_str());
+  report_->throw_error();
+  is_built_.store(true, std::memory_order_release);
+}
+
+std::uint64_t Accelerator::bvh_bytes() const {
+  return static_cast<std::uint64_t>(std::max<std::int64_t>(report_->bytes, 0));
 }
 
 std::vector<std::optional<DirectionBuffer>> Accelerator::seen_from(std::span<const std::optional<Vantage>> vantages,

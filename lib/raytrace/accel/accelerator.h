@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -37,12 +39,15 @@ struct Hits {
   bool one_kind = false, one_object = false;
 };
 
-/// Owns Embree's device and scene, and the tables of all shapes.
+/// Owns Embree's device and scene, and the tables of all shapes. Embree's BVH is built when it is first asked for, by
+/// the threads that ask: direction buffers may answer all rays. What builds it throws RenderError with Embree's
+/// message, std::bad_alloc where memory runs out.
 class Accelerator {
  public:
-  /// Builds the BVH with `threads` threads; isa is Embree's name of the best instruction set that it may use.
-  /// Throws RenderError with Embree's message, std::bad_alloc where memory runs out.
+  /// For up to `threads` threads; isa is Embree's name of the best instruction set that it may use. Throws as building
+  /// does.
   Accelerator(const SceneDescription& description, int threads, const char* isa);
+  ~Accelerator();
 
   /// The objects as seen from each of the vantages, where there is one and it would pay. With `threads` threads.
   std::vector<std::optional<DirectionBuffer>> seen_from(std::span<const std::optional<Vantage>> vantages,
@@ -64,7 +69,8 @@ class Accelerator {
   SurfacePoint<FloatN> surface(const Ray<FloatN>& rays, const Hits& hits) const;
 
   std::uint64_t primitive_count() const;
-  std::uint64_t bvh_bytes() const { return bytes_; }
+  /// What Embree holds by now.
+  std::uint64_t bvh_bytes() const;
 
   /// "3.13.5"
   std::string embree_version() const;
@@ -73,19 +79,26 @@ class Accelerator {
   /// scene that holds all others. `active`: lanes that Embree can take; distance is `far` in lanes without a hit.
   Hits intersect_unbounded(const Ray<FloatN>& rays, const MaskN& active) const;
   MaskN occluded_unbounded(const Ray<FloatN>& rays, const MaskN& active) const;
-  RTCScene embree_scene() const { return scene_.get(); }
+  RTCScene embree_scene() const {
+    if (!is_built_.load(std::memory_order_acquire)) build();
+    return scene_.get();
+  }
 
  private:
+  struct Report;
+
+  void build() const;
   // Both return the lanes that are left to Embree.
   MaskN intersect_candidates(const DirectionBuffer& seen, const Ray<FloatN>& rays, const MaskN& active,
                              Hits& hits) const;
   MaskN occluded_by_candidates(const DirectionBuffer& seen, const Ray<FloatN>& rays, const MaskN& active,
                                const MaskN& in_reach, MaskN& occluded) const;
 
-  std::uint64_t bytes_ = 0;  ///< counted by Embree's memory monitor: before device_, which still reports while it ends
+  std::unique_ptr<Report> report_;  ///< before device_, which still reports while it ends
   TupleOf<Shapes, ShapeTable>::type tables_;
   embree::Device device_;
   embree::Scene scene_;
+  mutable std::atomic<bool> is_built_{false};
 };
 
 }  // namespace raytrace

@@ -168,9 +168,10 @@ MaskN Accelerator::occluded_by_candidates(const DirectionBuffer& seen, const Ray
     FloatN u, v;
     open = open & !(meet(tables_, object, rays, open, u, v) < infinity<FloatN>());
   };
-  const MaskN left = for_each_candidate(seen, sight.direction, active & in_reach, reaches, test);
+  MaskN left = for_each_candidate(seen, sight.direction, active & in_reach, reaches, test);
+  if (any(active & !in_reach)) left = left | (active & !in_reach & !seen.leads_past(rays));
   occluded = occluded | (active & !open);
-  return open & (left | !in_reach);
+  return open & left;
 }
 
 Hits Accelerator::intersect(const Ray<FloatN>& rays, const MaskN& active, Coherence coherence,
@@ -185,6 +186,7 @@ Hits Accelerator::intersect(const Ray<FloatN>& rays, const MaskN& active, Cohere
   }
   if (none(valid_lanes)) return hits;
 
+  const RTCScene scene = embree_scene();
   embree::Query query(coherence == Coherence::coherent);
   alignas(64) embree::RegisterPacket::RayHit packets[embree::packets];
   embree::store_rays({rays.origin, rays.direction, rays.near, hits.distance},
@@ -193,16 +195,15 @@ Hits Accelerator::intersect(const Ray<FloatN>& rays, const MaskN& active, Cohere
   embree::store(UintN(RTC_INVALID_GEOMETRY_ID), [&](int i) { return packets[i].hit.instID[0]; });
   if (coherence == Coherence::coherent) {
     const embree::ValidLanes valid(valid_lanes);
-    embree::for_each_packet(valid_lanes, [&](int i) {
-      embree::RegisterPacket::intersect(valid.lanes[i], scene_.get(), query, packets[i]);
-    });
+    embree::for_each_packet(
+        valid_lanes, [&](int i) { embree::RegisterPacket::intersect(valid.lanes[i], scene, query, packets[i]); });
   } else {
     embree::for_each_lane(valid_lanes, [&](int i, int lane) {
       auto& packet = packets[i];
       RTCRayHit single{};
       single.ray = single_ray(packet.ray, lane);
       single.hit.geomID = single.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-      embree::intersect1(scene_.get(), query, single);
+      embree::intersect1(scene, query, single);
       packet.ray.tfar[lane] = single.ray.tfar;
       packet.hit.u[lane] = single.hit.u;
       packet.hit.v[lane] = single.hit.v;
@@ -234,17 +235,18 @@ MaskN Accelerator::occluded(const Ray<FloatN>& rays, const MaskN& active, Cohere
     valid_lanes = occluded_by_candidates(*seen_from_end, rays, valid_lanes, in_reach, found);
   if (none(valid_lanes)) return found;
 
+  const RTCScene scene = embree_scene();
   embree::Query query(coherence == Coherence::coherent);
   alignas(64) embree::RegisterPacket::Ray packets[embree::packets];
   embree::store_rays(rays, [&](int i) -> auto& { return packets[i]; });
   if (coherence == Coherence::coherent) {
     const embree::ValidLanes valid(valid_lanes);
-    embree::for_each_packet(
-        valid_lanes, [&](int i) { embree::RegisterPacket::occluded(valid.lanes[i], scene_.get(), query, packets[i]); });
+    embree::for_each_packet(valid_lanes,
+                            [&](int i) { embree::RegisterPacket::occluded(valid.lanes[i], scene, query, packets[i]); });
   } else {
     embree::for_each_lane(valid_lanes, [&](int i, int lane) {
       RTCRay single = single_ray(packets[i], lane);
-      embree::occluded1(scene_.get(), query, single);
+      embree::occluded1(scene, query, single);
       packets[i].tfar[lane] = single.tfar;
     });
   }

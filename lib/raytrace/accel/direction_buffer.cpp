@@ -14,8 +14,11 @@ namespace raytrace {
 
 namespace {
 
-/// Where more are listed, a tree is faster.
-constexpr std::uint32_t most_candidates = 64;
+/// Where more are listed, a tree is faster. But to build it for few cells takes longer than to test more in them.
+constexpr std::uint32_t most_candidates = 64, most_candidates_in_few = 256;
+
+/// The part of the cells that are few.
+constexpr std::size_t cells_for_each_of_few = 1000;
 
 /// Cells, on the average, that a grid has for each object on it, and the most along an edge.
 constexpr double cells_an_object = 16;
@@ -107,8 +110,11 @@ struct ObjectDepth {
 struct Band {
   int face;
   std::size_t first_cell, cell_count;
+  // Of its cells, and those with more than most_candidates.
   std::size_t used_cells = 0, crowded_cells = 0;
-  std::size_t listed = 0;  ///< by its other cells; then, where its candidates begin
+  std::size_t listed = 0, listed_by_crowded = 0;  ///< by the others, and by those
+  std::uint32_t most_listed = 0;
+  std::size_t first_candidate = 0;
 };
 
 /// Fills lists, in the order of its functions. All loops are cut into pieces that do not depend on the number of
@@ -203,41 +209,48 @@ class ListsMaker {
     return all <= most_covered_cells * static_cast<double>(objects_.size());
   }
 
-  /// How many objects each cell lists. False if most would list too many.
+  /// How many objects each cell lists. False if too many cells would list too many.
   bool count() {
     for_each_band([&](Band& band, std::span<Cell> cells) {
       for_each_listed_cell(band, [&](const Listing&, std::size_t cell) { ++cell_on(band.face, cell).count; });
-      std::size_t used = 0, crowded = 0, listed = 0;
-      for (Cell& cell : cells) {
+      for (const Cell& cell : cells) {
         if (cell.count == 0) continue;
-        ++used;
+        ++band.used_cells;
+        band.most_listed = std::max(band.most_listed, cell.count);
         if (cell.count > most_candidates) {
-          cell.count = DirectionBuffer::crowded;
-          ++crowded;
+          ++band.crowded_cells;
+          band.listed_by_crowded += cell.count;
         } else {
-          listed += cell.count;
+          band.listed += cell.count;
         }
       }
-      band.used_cells = used;
-      band.crowded_cells = crowded;
-      band.listed = listed;
     });
     std::size_t used = 0, crowded = 0;
+    std::uint32_t most_listed = 0;
     for (const Band& band : bands_) {
       used += band.used_cells;
       crowded += band.crowded_cells;
+      most_listed = std::max(most_listed, band.most_listed);
     }
+    if (most_listed <= most_candidates_in_few && crowded * cells_for_each_of_few <= used)
+      limit_ = most_candidates_in_few;
     return crowded * 4 <= used;
   }
 
   void fill() {
     std::size_t listed = 0;
-    for (Band& band : bands_) listed += std::exchange(band.listed, listed);
+    for (Band& band : bands_) {
+      band.first_candidate = listed;
+      listed += band.listed + (limit_ > most_candidates ? band.listed_by_crowded : 0);
+    }
     lists_.candidates = ZeroedArray<std::uint32_t>(listed);
     for_each_band([&](const Band& band, std::span<Cell> cells) {
-      std::size_t first = band.listed;
+      std::size_t first = band.first_candidate;
       for (Cell& cell : cells) {
-        if (cell.count == DirectionBuffer::crowded) continue;
+        if (cell.count > limit_) {
+          cell.count = DirectionBuffer::crowded;
+          continue;
+        }
         cell.first = static_cast<std::uint32_t>(first);
         first += std::exchange(cell.count, 0);  // until they are listed
       }
@@ -317,6 +330,7 @@ class ListsMaker {
   std::size_t first_band_[faces] = {};
   std::pair<double, double> half_cell_[faces];  ///< cosine and sine of the angle by which cones are to be wider
   std::vector<Band> bands_;
+  std::uint32_t limit_ = most_candidates;        ///< of cells that list more, none is listed
   std::vector<std::vector<Listings>> listings_;  ///< of each chunk, on each band
 };
 
@@ -328,6 +342,7 @@ std::optional<DirectionBuffer> DirectionBuffer::make(const Vantage& vantage, std
   if (!perspective.is_within_floats()) return std::nullopt;
   DirectionBuffer buffer;
   buffer.infinitely_far_ = perspective.infinitely_far();
+  buffer.surroundings_ = perspective.surroundings();
   buffer.reach_ = static_cast<float>(perspective.reach());
   buffer.across_ = Vec3f(perspective.across());
   buffer.up_ = Vec3f(perspective.up());

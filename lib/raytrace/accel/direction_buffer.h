@@ -12,6 +12,8 @@
 #include <span>
 
 #include "raytrace/accel/perspective.h"
+#include "raytrace/math/bounds.h"
+#include "raytrace/math/ray.h"
 #include "raytrace/math/vec3.h"
 #include "raytrace/memory/zeroed_array.h"
 
@@ -77,6 +79,12 @@ class DirectionBuffer {
     return (squared_length <= F(reach_ * reach_)) & (squared_length > F(0));
   }
 
+  /// Whether there is no object on the ray's way from near to far, as it is mostly where a floor goes on out of reach.
+  template <class F>
+  RAYTRACE_INLINE auto leads_past(const Ray<F>& ray) const {
+    return !may_cross(surroundings_, ray);
+  }
+
   /// face: twice the axis of its normal, and one more on the negative side.
   const Grid& grid(int face) const { return lists_.grids[face]; }
 
@@ -92,6 +100,7 @@ class DirectionBuffer {
 
  private:
   Lists lists_;
+  Bounds surroundings_{};  ///< of all objects, and more than rounding could miss
   float reach_ = 0;  ///< of the rays to a point, their length; of parallel ones, how far from (0, 0, 0) they start
   bool infinitely_far_ = false;
   Vec3f across_{}, up_{}, start_{};  ///< of the grid that lies across; start_.z: where depths begin

@@ -35,13 +35,20 @@ Interval on_face(const Interval& b, const Interval& w) {
 Perspective::Perspective(const Vantage& vantage, std::span<const PlacedObject> objects)
     : infinitely_far_(vantage.infinitely_far), place_(vantage.place) {
   const Vec3d from = infinitely_far_ ? Vec3d(0, 0, 0) : place_;
-  for (const PlacedObject& object : objects)
+  for (const PlacedObject& object : objects) {
     farthest_ = std::max(farthest_, length(center_of(object) - from) + object.radius);
+    around_all_ = join(around_all_, object.bounds);
+  }
   if (!is_within_floats()) return;
   // As far again as the objects reach, and more: floors are wider than what stands on them.
   reach_ = static_cast<double>(static_cast<float>(8 * farthest_));
   slack_ = way_rounding * reach_;
   if (infinitely_far_) lay_picture(objects);
+}
+
+Bounds Perspective::surroundings() const {
+  const Vec3d more(slack_, slack_, slack_), center = (Vec3d(around_all_.lower) + Vec3d(around_all_.upper)) * 0.5;
+  return bounds_around(center, Vec3d(around_all_.upper) - center + more);
 }
 
 bool Perspective::is_within_floats() const {

@@ -69,6 +69,9 @@ class Perspective {
   /// (0, 0, 0) they start.
   double reach() const { return reach_; }
 
+  /// A box around all objects, a part of the reach wider than they are.
+  Bounds surroundings() const;
+
   /// Whether floats hold such distances, and their squares. There are no views where they do not.
   bool is_within_floats() const;
 
@@ -86,6 +89,7 @@ class Perspective {
   bool infinitely_far_;
   Vec3d place_;  ///< or, of unit length, the direction towards it
   double farthest_ = 0, reach_ = 0, slack_ = 0;
+  Bounds around_all_ = empty_bounds;
   Vec3d across_{}, up_{}, start_{};
 };
 

@@ -75,7 +75,7 @@ struct RenderReport {
 
 struct SceneStatistics {
   std::uint64_t primitives = 0;
-  std::uint64_t bvh_bytes = 0;  ///< what Embree holds for this scene
+  std::uint64_t bvh_bytes = 0;  ///< what Embree holds by now for this scene: it may wait for a ray that wants its BVH
   std::string isa;              ///< of the variant in use
   int lanes = 0;                ///< rays a packet
   std::string embree_version;
@@ -115,7 +115,8 @@ std::string best_isa();
 /// The threads that a setting stands for: itself, or all processors for 0.
 int thread_count(int wanted);
 
-/// Builds the scene's BVH. Throws RenderError, or std::bad_alloc where memory runs out.
+/// Makes the scene ready. Throws RenderError, or std::bad_alloc where memory runs out; so does a render, for a BVH that
+/// waited for it.
 std::unique_ptr<const Scene> build_scene(const SceneDescription& description, const BuildSettings& settings);
 
 /// What a render tells while it runs. Calls come from any thread, one at a time and not often.

@@ -79,6 +79,10 @@ void TracedScene::look_from(std::vector<std::optional<Vantage>> vantages, int th
     if (objects > affordable) vantage.reset();
   }
   seen_from_ = accelerator_.seen_from(vantages, threads);
+
+  // That of few takes no time. The others wait for a ray that wants them: there may be none.
+  constexpr std::uint64_t few_objects = 1U << 14U;
+  if (accelerator_.primitive_count() <= few_objects) accelerator_.embree_scene();
 }
 
 float TracedScene::largest_albedo() const {
