@@ -128,24 +128,24 @@ TEST_CASE("a film of means has those of the sums") {
 }
 
 TEST_CASE("a render that was stopped goes on with packets of any shape") {
-  const SceneDescription description = parsed_scene(busy_scene(61, 47, 64));
+  const SceneDescription description = parsed_scene(busy_scene(61, 47, 96));
   const auto scene = build_scene(description, {1, {}});
   Film once(film_settings(*scene, description, {1, 5, whole(description), {}}));
-  render(*scene, once, 64, 1);
-  // Groups of 16, 8, 4 and 1 of a pixel's samples, each stopped in the middle of a tile.
+  render(*scene, once, 96, 1);
+  // Groups of 32, 16, 8, 4 and 1 of a pixel's samples, each stopped in the middle of a tile.
   Film often(once.settings());
   const Region region = often.region();
   std::uint32_t target = 0;
   int uneven = 0;
-  for (const std::uint32_t step : {16U, 8U, 4U, 1U, 16U, 1U, 8U, 2U, 8U}) {
+  for (const std::uint32_t step : {32U, 16U, 8U, 4U, 1U, 16U, 1U, 8U, 2U, 8U}) {
     target += step;
     std::atomic<bool> stop{true};  // after a block
     for (int i = 0; i < 5; ++i) scene->render_region(region, target, often, &stop);
     uneven += often.sum(region.x0, region.y0).samples != often.sum(region.x1 - 1, region.y1 - 1).samples;
   }
-  CHECK(target == 64);
-  CHECK(uneven == 9);
-  render(*scene, often, 64, 1);
+  CHECK(target == 96);
+  CHECK(uneven == 10);
+  render(*scene, often, 96, 1);
   CHECK(std::equal(once.sums().begin(), once.sums().end(), often.sums().begin(), often.sums().end()));
 }
 

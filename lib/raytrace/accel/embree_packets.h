@@ -17,21 +17,13 @@ inline constexpr int packets = packet_lanes / register_lanes;
 
 template <class Batch, class Field>
 RAYTRACE_INLINE void store(const Batch& values, const Field& field) {
-  if constexpr (is_twin<Batch>) {
-    values.lower().store_aligned(field(0));
-    values.upper().store_aligned(field(1));
-  } else {
-    values.store_aligned(field(0));
-  }
+  values.lower().store_aligned(field(0));
+  values.upper().store_aligned(field(1));
 }
 
 template <class Batch, class Field>
 RAYTRACE_INLINE Batch load(const Field& field) {
-  if constexpr (is_twin<Batch>) {
-    return {Batch::Part::load_aligned(field(0)), Batch::Part::load_aligned(field(1))};
-  } else {
-    return Batch::load_aligned(field(0));
-  }
+  return {Batch::Part::load_aligned(field(0)), Batch::Part::load_aligned(field(1))};
 }
 
 /// What Embree wants to know of the lanes: -1 in those that are to be traced.

@@ -18,7 +18,7 @@ struct PacketShape {
 
 /// With `samples` of each pixel (a power of two, at most packet_lanes), as square as can be.
 constexpr PacketShape shape_of_samples(int samples) {
-  const int pixels = packet_lanes / samples, width = pixels >= 8 ? 4 : pixels >= 2 ? 2 : 1;
+  const int pixels = packet_lanes / samples, width = pixels >= 32 ? 8 : pixels >= 8 ? 4 : pixels >= 2 ? 2 : 1;
   return {width, pixels / width, samples};
 }
 
@@ -53,9 +53,7 @@ struct PacketBlock {
   /// Of a number in each lane, the sums of each pixel's lanes.
   template <class Number>
   static std::array<Number, pixels> sum_by_pixel(const std::array<Number, packet_lanes>& lanes) {
-    std::array<Number, pixels> sums{};
-    for (std::size_t lane = 0; lane < lanes.size(); ++lane) sums[lane % pixels] += lanes[lane];
-    return sums;
+    return sum_of_halves(lanes);
   }
 
   /// Calls f(x, y, pixel), pixel counting as in sum_by_pixel(), for the pixels that lie in the region.
@@ -89,6 +87,18 @@ struct PacketBlock {
   }
 
  private:
+  /// Each of a known size, so that it is added at once.
+  template <class Number, std::size_t size>
+  static RAYTRACE_INLINE std::array<Number, pixels> sum_of_halves(const std::array<Number, size>& lanes) {
+    if constexpr (size == pixels) {
+      return lanes;
+    } else {
+      std::array<Number, size / 2> sums;
+      for (std::size_t i = 0; i < sums.size(); ++i) sums[i] = lanes[i] + lanes[i + size / 2];
+      return sum_of_halves(sums);
+    }
+  }
+
   struct LaneNumbers {
     alignas(64) std::array<std::uint32_t, packet_lanes> column{}, row{}, slot{};
   };

@@ -1,6 +1,7 @@
 #include "raytrace/integrators/render_pixels.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 #include "raytrace/integrators/block_aovs.h"
@@ -18,6 +19,13 @@ constexpr int packets_per_look = 16;
 
 FloatN to_float(const UintN& numbers) { return to_float(same_bits<IntN>(numbers)); }
 FloatN to_float(std::uint32_t number) { return FloatN(static_cast<float>(number)); }
+
+/// even in lanes 0, 2, 4..., odd in the others.
+UintN alternate(std::uint32_t even, std::uint32_t odd) {
+  const xsimd::batch<std::uint64_t, UintN::arch_type> pairs(std::bit_cast<std::uint64_t>(std::array{even, odd}));
+  const auto lanes = std::bit_cast<UintN::Part>(pairs);
+  return {lanes, lanes};
+}
 
 /// The pixels of a part of a film, block by block.
 template <class Integrator, PacketShape shape>
@@ -98,7 +106,7 @@ class BlockRenderer {
     // From the group that the first sample is in, with all that belong to it.
     constexpr auto group = static_cast<std::uint32_t>(shape.samples);
     std::uint32_t base = left.first / group * group;
-    PixelSampler sampler(shift_of(column, row), group_, base, settings.samples.centered);
+    PixelSampler sampler(shift_of(block), group_, base, settings.samples.centered);
     BlockSums sums(scale_);
     MetSurface met;
     for (int packets = 1; base < left.last; base += group, ++packets) {
@@ -118,10 +126,19 @@ class BlockRenderer {
     sums.add_to(film_, block, region_);
   }
 
-  PixelShift<std::uint32_t> shift_of(std::uint32_t column, std::uint32_t row) { return shifts_.at(column, row); }
-  PixelShift<UintN> shift_of(const UintN& column, const UintN& row) const {
-    if (film_.settings().samples.centered) return {UintN(0u), UintN(0u)};  // it shifts nothing
-    return {column, row, film_.settings().seed};
+  /// Of each lane's pixel.
+  auto shift_of(const Block& block) {
+    const auto left = static_cast<std::uint32_t>(block.left), top = static_cast<std::uint32_t>(block.top);
+    if constexpr (Block::pixels == 1) {
+      return shifts_.at(left, top);
+    } else if constexpr (Block::pixels == 2) {
+      const PixelShift<std::uint32_t> even = shifts_.at(left, top), odd = shifts_.at(left + 1, top);
+      return PixelShift<UintN>(alternate(even.x, odd.x), alternate(even.y, odd.y));
+    } else if (film_.settings().samples.centered) {
+      return PixelShift<UintN>(UintN(0u), UintN(0u));  // it shifts nothing
+    } else {
+      return PixelShift<UintN>(block.columns(), block.rows(), film_.settings().seed);
+    }
   }
 
   static MaskN in_range(const UintN& number, const UintN& first, const UintN& last) {
@@ -170,6 +187,8 @@ RenderReport render_pixels(const TracedScene& scene, const Region& region, std::
     if (film.aovs() == nullptr) {  // they take too much for each block: one should have several packets
       if (few_are_idle(packet_lanes)) return in_groups_of(std::integral_constant<int, packet_lanes>());
       if (few_are_idle(packet_lanes / 2)) return in_groups_of(std::integral_constant<int, packet_lanes / 2>());
+      if constexpr (packet_lanes > 16)
+        if (few_are_idle(packet_lanes / 4)) return in_groups_of(std::integral_constant<int, packet_lanes / 4>());
     }
     if (few_are_idle(4)) return in_groups_of(std::integral_constant<int, 4>());
   }

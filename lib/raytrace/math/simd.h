@@ -25,8 +25,8 @@ namespace raytrace {
 using RegisterFloats = xsimd::batch<float>;
 inline constexpr int register_lanes = static_cast<int>(RegisterFloats::size);
 
-/// Floats of a packet: 16 lanes, or as many as two registers have.
-using FloatN = std::conditional_t < register_lanes<16, TwinBatch<float, RegisterFloats::arch_type>, RegisterFloats>;
+/// Floats of a packet: as many as two registers have.
+using FloatN = TwinBatch<float, RegisterFloats::arch_type>;
 inline constexpr int packet_lanes = static_cast<int>(FloatN::size);
 
 namespace detail {
