@@ -58,7 +58,7 @@ TEST_CASE("groups are cut into pieces of whole items") {
   const std::string text = large_scene();
   std::vector<Piece> pieces;
   const std::string_view groups[] = {"spheres", "disks", "mattes"};
-  REQUIRE_FALSE(find_xml_problem(text, groups, pieces));
+  REQUIRE_FALSE(find_xml_problem(text, groups, pieces, 1));
   REQUIRE(pieces.size() > 5);
 
   CHECK(text.compare(pieces[0].begin, 7, "<matte>") == 0);

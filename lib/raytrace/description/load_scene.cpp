@@ -356,7 +356,7 @@ void report_unused(const Variables& variables, Diagnostics& diagnostics) {
 
 std::optional<SceneDescription> read_scene(TextBuffer text, Diagnostics& diagnostics, int threads,
                                            const SceneSettings& settings) {
-  const SceneText scene_text(std::move(text), diagnostics);
+  const SceneText scene_text(std::move(text), threads, diagnostics);
   if (!scene_text.well_formed()) return std::nullopt;
   const Variables variables(settings);
   SceneReader reader(scene_text, variables, threads, diagnostics);

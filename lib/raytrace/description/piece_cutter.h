@@ -24,10 +24,21 @@ class PieceCutter {
   PieceCutter(std::span<const std::string_view> groups, std::vector<Piece>& pieces)
       : groups_(groups), pieces_(pieces) {}
 
+  /// Cuts as `other` does, from the start.
+  PieceCutter(const PieceCutter& other, std::vector<Piece>& pieces) : PieceCutter(other.groups_, pieces) {}
+
   void item(std::size_t parent, std::string_view parent_name, std::size_t begin);
   void end(std::size_t parent, std::size_t end_tag);
 
+  /// Whether elements of that name are cut.
+  bool cuts(std::string_view name) const;
+  /// Instead of item() for each of the items in pieces of a group that another has cut, one or more.
+  void add(std::size_t parent, std::string_view parent_name, std::span<const Piece> pieces);
+
  private:
+  /// Whether it is the parent's first item.
+  bool enter(std::size_t parent, std::string_view parent_name);
+
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
   std::span<const std::string_view> groups_;

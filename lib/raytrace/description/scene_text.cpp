@@ -4,33 +4,41 @@
 #include <utility>
 
 #include "raytrace/description/scene_layout.h"
+#include "raytrace/parallel/for_each_index.h"
 
 namespace raytrace {
 
-SceneText::SceneText(TextBuffer text, Diagnostics& diagnostics) : text_(std::move(text)) {
-  if (const auto problem = find_xml_problem(text_.text(), group_elements(), pieces_)) {
+SceneText::SceneText(TextBuffer text, int threads, Diagnostics& diagnostics) : text_(std::move(text)) {
+  if (const auto problem = find_xml_problem(text_.text(), group_elements(), pieces_, threads)) {
     diagnostics.error(locate(problem->offset), problem->message);
     pieces_.clear();
     return;
   }
-  measure();
+  measure(threads);
 }
 
-void SceneText::measure() {
-  Span rest{0, 0, 1};  // what of the frame stands before the piece at hand
+void SceneText::measure(int threads) {
   const std::string_view text = text_.text();
-  std::uint32_t line = 1;
-  const auto count_lines = [&](std::size_t begin, std::size_t end) {
-    line += static_cast<std::uint32_t>(std::count(text.data() + begin, text.data() + end, '\n'));
+  const auto line_ends = [&](std::size_t begin, std::size_t end) {
+    return static_cast<std::uint32_t>(std::count(text.data() + begin, text.data() + end, '\n'));
   };
-  piece_lines_.reserve(pieces_.size());
-  for (const Piece& piece : pieces_) {
+  piece_lines_.resize(pieces_.size());
+  for_each_index(static_cast<int>(pieces_.size()), threads, [&](int i) {
+    const auto piece = static_cast<std::size_t>(i);
+    piece_lines_[piece] = line_ends(pieces_[piece].begin, pieces_[piece].end);
+  });
+  // From how many lines each has to its first.
+  Span rest{0, 0, 1};  // what of the frame stands before the piece at hand
+  std::uint32_t line = 1;
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    const Piece& piece = pieces_[i];
     if (rest.begin != piece.begin) {
-      count_lines(rest.begin, piece.begin);
+      line += line_ends(rest.begin, piece.begin);
       frame_.push_back({rest.begin, piece.begin, rest.line});
     }
-    piece_lines_.push_back(line);
-    count_lines(piece.begin, piece.end);
+    const std::uint32_t lines = piece_lines_[i];
+    piece_lines_[i] = line;
+    line += lines;
     rest = {piece.end, piece.end, line};
   }
   frame_.push_back({rest.begin, text.size(), rest.line});

@@ -28,7 +28,8 @@ struct Span {
 class SceneText {
  public:
   /// Checks the text. If it is not well-formed XML, the reason goes to `diagnostics`, and there are no parts.
-  SceneText(TextBuffer text, Diagnostics& diagnostics);
+  /// threads: how many may share the work on a large one; 0: all processors.
+  SceneText(TextBuffer text, int threads, Diagnostics& diagnostics);
 
   bool well_formed() const { return !frame_.empty(); }
 
@@ -50,7 +51,7 @@ class SceneText {
   SourceLocation locate(std::size_t offset) const;
 
  private:
-  void measure();
+  void measure(int threads);
 
   TextBuffer text_;
   std::vector<Piece> pieces_;

@@ -10,6 +10,7 @@
 #include "raytrace/description/nearest_name.h"
 #include "raytrace/description/quoted.h"
 #include "raytrace/description/utf8.h"
+#include "raytrace/parallel/for_each_index.h"
 
 namespace raytrace {
 namespace {
@@ -49,22 +50,17 @@ class Scanner {
 
   void cut_pieces(PieceCutter& cutter) { cutter_ = &cutter; }
 
+  /// Has up to so many threads look ahead in the groups that are cut.
+  void look_ahead(int threads) { threads_ = threads; }
+
   void scan() {
     if (starts_with(byte_order_mark)) here_ += byte_order_mark.size();
     if (starts_with("<?xml") && !is(here_[5], name_part)) declaration();
     while (true) {
       skip_space();
+      if (threads_ > 1 && at_item()) pass_scanned_items();
       if (*here_ == '\0') break;
-      if (*here_ != '<')
-        text();
-      else if (here_[1] == '/')
-        end_tag();
-      else if (here_[1] == '!')
-        comment_or_section();
-      else if (here_[1] == '?')
-        refuse_instruction();
-      else
-        start_tag();
+      scan_next();
     }
     if (!open_.empty()) {
       fail(open_.back().begin, tag(open_.back().name) + " is never closed; add " + closing_tag(open_.back().name));
@@ -95,13 +91,126 @@ class Scanner {
     const char* begin;
   };
 
+  /// A tag, a text, a comment...
+  void scan_next() {
+    if (*here_ != '<')
+      text();
+    else if (here_[1] == '/')
+      end_tag();
+    else if (here_[1] == '!')
+      comment_or_section();
+    else if (here_[1] == '?')
+      refuse_instruction();
+    else
+      start_tag();
+  }
+
+  // Looking ahead. A large group is scanned in chunks by several threads, each chunk from what looks like the start of
+  // an item, which it may not be: it may stand in a comment, in another item or behind the group. The scanner that
+  // comes from the text's beginning knows. Where it finds itself at an item with which a chunk starts, it would go
+  // through the chunk as that thread did, and need not. Chunks that it does not come to like that, or with a mistake,
+  // it scans itself.
+
+  static constexpr std::ptrdiff_t chunk_size = 1 << 18;
+  static constexpr std::ptrdiff_t least_chunks = 8, most_chunks = 128;  ///< more while they are of use
+
+  /// Items of one group and what is between them, from a '<' to another, or to the group's end tag.
+  struct Chunk {
+    const char *begin = nullptr, *end = nullptr;  ///< null if nothing is known
+    std::vector<Piece> pieces;
+  };
+
+  /// At the '<' of an item's start tag.
+  bool at_item() const { return open_.size() == group_depth && *here_ == '<' && is(here_[1], name_start); }
+
+  /// From an item on: over as many as others have gone through.
+  void pass_scanned_items() {
+    if (here_ >= chunks_end_ || open_.back().begin != chunks_group_) scan_chunks();
+    while (next_chunk_ < chunks_.size() && at_item()) {
+      const Chunk& chunk = chunks_[next_chunk_];
+      if (chunk.begin > here_) return;
+      if (chunk.begin == here_) {
+        cutter_->add(offset(open_.back().begin), open_.back().name, chunk.pieces);
+        here_ = chunk.end;
+        ++passed_chunks_;
+      }
+      ++next_chunk_;
+    }
+  }
+
+  /// Makes those from this item on.
+  void scan_chunks() {
+    const bool useful = 2 * passed_chunks_ > chunks_.size();
+    if (!useful && !chunks_.empty()) --chances_;
+    wanted_chunks_ =
+        useful && open_.back().begin == chunks_group_ ? std::min(2 * wanted_chunks_, most_chunks) : least_chunks;
+    chunks_.clear();
+    next_chunk_ = passed_chunks_ = 0;
+    chunks_group_ = open_.back().begin;
+    const std::ptrdiff_t count = std::min((end_ - here_) / chunk_size, wanted_chunks_);
+    chunks_end_ = count == wanted_chunks_ ? here_ + count * chunk_size : end_;
+    if (count < 2 || chances_ == 0 || !cutter_->cuts(open_.back().name)) return;
+    const char* name_end = here_ + 1;
+    while (is(*name_end, name_part)) ++name_end;
+    const std::string_view item_start(here_, static_cast<std::size_t>(name_end - here_));
+    chunks_.resize(static_cast<std::size_t>(count));
+    for_each_index(static_cast<int>(count), threads_, [&](int i) {
+      const char* const from = here_ + i * chunk_size;
+      chunks_[static_cast<std::size_t>(i)] = scan_chunk(item_start, from, from + chunk_size);
+    });
+  }
+
+  /// From the first item in [from, to) to the first behind.
+  Chunk scan_chunk(std::string_view item_start, const char* from, const char* to) const {
+    Chunk chunk;
+    const char* const begin = find_item(item_start, from, to);
+    if (begin == nullptr) return chunk;
+    const std::ptrdiff_t scanned_most = to - begin_ + std::min(end_ - to, chunk_size);  // it may take all for a comment
+    Scanner scanner({begin_, static_cast<std::size_t>(scanned_most)});
+    scanner.open_ = open_;
+    scanner.root_seen_ = scanner.guessing_ = true;
+    scanner.here_ = begin;
+    PieceCutter cutter(*cutter_, chunk.pieces);
+    scanner.cut_pieces(cutter);
+    try {
+      if (!scanner.scan_items(to)) return chunk;
+    } catch (const XmlProblem&) {
+      return chunk;
+    }
+    chunk.begin = begin;
+    chunk.end = scanner.here_;
+    chunk.pieces.back().end = offset(chunk.end);
+    return chunk;
+  }
+
+  static const char* find_item(std::string_view item_start, const char* from, const char* to) {
+    while (true) {
+      const std::size_t found = std::string_view(from, static_cast<std::size_t>(to - from)).find(item_start);
+      if (found == std::string_view::npos) return nullptr;
+      from += found;
+      if (!is(from[item_start.size()], name_part)) return from;
+      ++from;
+    }
+  }
+
+  /// Up to the group's end tag or to the first item that is not before `to`; false if they are not found.
+  bool scan_items(const char* to) {
+    while (true) {
+      skip_space();
+      if (here_ > end_ || *here_ == '\0') return false;
+      const bool at_end_tag = open_.size() == group_depth && here_[0] == '<' && here_[1] == '/';
+      if (at_end_tag || (here_ >= to && at_item())) return true;
+      scan_next();
+    }
+  }
+
   std::size_t offset(const char* at) const { return static_cast<std::size_t>(at - begin_); }
 
   [[noreturn]] void fail(const char* at, std::string message) const {
     throw XmlProblem{offset(at), std::move(message)};
   }
 
-  std::string_view rest() const { return {here_, static_cast<std::size_t>(end_ - here_)}; }
+  std::string_view rest() const { return {here_, here_ < end_ ? static_cast<std::size_t>(end_ - here_) : 0}; }
 
   bool starts_with(std::string_view prefix) const { return rest().starts_with(prefix); }
 
@@ -300,7 +409,7 @@ class Scanner {
     const std::string_view found = name();
     if (open_.empty()) fail(start, closing_tag(found) + " closes nothing; remove it");
     const OpenElement& last = open_.back();
-    if (found != last.name) fail(start, mismatch(last, found));
+    if (found != last.name) fail(start, guessing_ ? std::string() : mismatch(last, found));  // which takes long
     skip_space();
     if (*here_ != '>') fail(start, "the tag </" + printable(found) + " never ends; add '>'");
     ++here_;
@@ -361,17 +470,26 @@ class Scanner {
   std::vector<std::string_view> attributes_;  // of the tag at hand
   bool root_seen_ = false;
   bool doctype_seen_ = false;
+
+  int threads_ = 1;
+  bool guessing_ = false;  ///< whether this scans a chunk
+  std::vector<Chunk> chunks_;
+  std::size_t next_chunk_ = 0, passed_chunks_ = 0;
+  std::ptrdiff_t wanted_chunks_ = least_chunks;
+  const char *chunks_end_ = nullptr, *chunks_group_ = nullptr;
+  int chances_ = 64;  ///< so often may most chunks be scanned in vain: a text could be made for that
 };
 
 }  // namespace
 
 std::optional<XmlProblem> find_xml_problem(std::string_view text, std::span<const std::string_view> groups,
-                                           std::vector<Piece>& pieces) {
+                                           std::vector<Piece>& pieces, int threads) {
   if (auto problem = find_encoding_problem(text)) return problem;
   try {
     Scanner scanner(text);
     PieceCutter cutter(groups, pieces);
     scanner.cut_pieces(cutter);
+    scanner.look_ahead(worker_count(threads));
     scanner.scan();
   } catch (XmlProblem& problem) {
     return std::move(problem);

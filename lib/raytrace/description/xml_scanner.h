@@ -23,9 +23,11 @@ namespace raytrace {
 /// more than 64 attributes are refused too: no scene has them, and they are where XML readers get into trouble.
 ///
 /// pieces: receives those of all elements that bear one of the names in `groups` and stand where groups do (root,
-/// section, group), unless there is a problem.
+/// section, group), unless there is a problem. Where they are cut may depend on whether there is more than one thread.
+///
+/// threads: how many may share the work on large groups; 0: all processors.
 std::optional<XmlProblem> find_xml_problem(std::string_view text, std::span<const std::string_view> groups,
-                                           std::vector<Piece>& pieces);
+                                           std::vector<Piece>& pieces, int threads);
 
 /// Where the elements (the '<' of their start tags) and the texts (their first character that is no white space) of a
 /// well-formed text begin, in the order of the document: the order of a walk through its tree, parents before children.
