@@ -67,7 +67,7 @@ class BlockSums {
                  blue = blue_.template rounded_sums_of_every<Block::pixels>();
       block.for_each_row(region, [&](int x, int y, int first, int count) RAYTRACE_INLINE_LAMBDA {
         set_means(film, x, y, count, [&](int i) RAYTRACE_INLINE_LAMBDA {
-          const auto pixel = static_cast<std::size_t>(first + i);
+          const std::size_t pixel = static_cast<std::size_t>(first) + static_cast<std::size_t>(i);
           return mean(red[pixel], green[pixel], blue[pixel], hits_of(pixel), samples_of(pixel), film.unit());
         });
       });
