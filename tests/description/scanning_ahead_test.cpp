@@ -64,11 +64,9 @@ std::string text_of(const std::function<std::string(int)>& item, const std::stri
 
 void check_alike(const std::string& text) {
   const Scanned alone = scan(text, 1);
-  for (const int threads : {2, 5}) {
-    const Scanned together = scan(text, threads);
-    REQUIRE(together.problem == alone.problem);
-    if (alone.problem.empty()) REQUIRE(joined(together.pieces) == joined(alone.pieces));
-  }
+  const Scanned together = scan(text, 4);
+  REQUIRE(together.problem == alone.problem);
+  if (alone.problem.empty()) REQUIRE(joined(together.pieces) == joined(alone.pieces));
 }
 
 }  // namespace
@@ -105,7 +103,7 @@ TEST_CASE("what only looks like an item is none") {
   };
   for (std::size_t i = 0; i < traps.size(); ++i) {
     INFO("trap " << i);
-    for (const int where : {0, 5000, 20000})
+    for (const int where : {0, 20000})
       check_alike(text_of([&](int item) { return item == where ? traps[i] + plain_item(item) : plain_item(item); }));
   }
   std::mt19937 random(3);
@@ -135,7 +133,7 @@ TEST_CASE("the first problem of a text is the same for all threads") {
   };
   for (const std::string& mistake : mistakes) {
     INFO(mistake);
-    for (const int where : {1, 9000, 30000}) {
+    for (const int where : {1, 30000}) {
       const std::string text =
           text_of([&](int item) { return item == where ? mistake + plain_item(item) : plain_item(item); });
       REQUIRE_FALSE(scan(text, 4).problem.empty());

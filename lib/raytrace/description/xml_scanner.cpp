@@ -1,40 +1,26 @@
 #include "raytrace/description/xml_scanner.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <cstring>
 
 #include "raytrace/description/encoding_problem.h"
+#include "raytrace/description/items_ahead.h"
 #include "raytrace/description/line_index.h"
 #include "raytrace/description/nearest_name.h"
 #include "raytrace/description/quoted.h"
 #include "raytrace/description/utf8.h"
-#include "raytrace/parallel/for_each_index.h"
+#include "raytrace/description/xml_characters.h"
+#include "raytrace/parallel/worker_count.h"
 
 namespace raytrace {
 namespace {
 
+using namespace xml;
+
 constexpr std::size_t most_open = 64;
 constexpr std::size_t most_attributes = 64;
 constexpr std::size_t group_depth = 3;
-
-enum CharacterClass : std::uint8_t { space = 1, name_start = 2, name_part = 4, text_end = 8, value_end = 16 };
-
-constexpr std::array<std::uint8_t, 256> character_classes = [] {
-  std::array<std::uint8_t, 256> classes{};
-  for (const char c : {' ', '\t', '\n', '\r'}) classes[static_cast<unsigned char>(c)] |= space;
-  for (std::size_t c = 0; c < 256; ++c) {
-    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == ':' || c >= 0x80;
-    if (letter) classes[c] |= name_start | name_part;
-    if ((c >= '0' && c <= '9') || c == '-' || c == '.') classes[c] |= name_part;
-  }
-  for (const char c : {'\0', '<', '&', ']'}) classes[static_cast<unsigned char>(c)] |= text_end;
-  for (const char c : {'\0', '<', '&', '"', '\''}) classes[static_cast<unsigned char>(c)] |= value_end;
-  return classes;
-}();
-
-bool is(char c, std::uint8_t classes) { return (character_classes[static_cast<unsigned char>(c)] & classes) != 0; }
 
 /// Walks over a text that has passed the check of its bytes, so that '\0' stands at its end and nowhere else.
 /// Throws XmlProblem.
@@ -50,15 +36,20 @@ class Scanner {
 
   void cut_pieces(PieceCutter& cutter) { cutter_ = &cutter; }
 
-  /// Has up to so many threads look ahead in the groups that are cut.
-  void look_ahead(int threads) { threads_ = threads; }
+  /// Has up to so many threads look ahead in the groups that are cut: behind cut_pieces().
+  void look_ahead(int threads) {
+    const auto scan = [this](const char* from, const char* to, const char* limit, std::vector<Piece>& pieces) {
+      return scan_items(from, to, limit, pieces);
+    };
+    if (threads > 1) ahead_.emplace(end_, threads, scan);
+  }
 
   void scan() {
     if (starts_with(byte_order_mark)) here_ += byte_order_mark.size();
     if (starts_with("<?xml") && !is(here_[5], name_part)) declaration();
     while (true) {
       skip_space();
-      if (threads_ > 1 && at_item()) pass_scanned_items();
+      if (ahead_ && at_item() && cutter_->cuts(open_.back().name)) pass_scanned_items();
       if (*here_ == '\0') break;
       scan_next();
     }
@@ -105,92 +96,34 @@ class Scanner {
       start_tag();
   }
 
-  // Looking ahead. A large group is scanned in chunks by several threads, each chunk from what looks like the start of
-  // an item, which it may not be: it may stand in a comment, in another item or behind the group. The scanner that
-  // comes from the text's beginning knows. Where it finds itself at an item with which a chunk starts, it would go
-  // through the chunk as that thread did, and need not. Chunks that it does not come to like that, or with a mistake,
-  // it scans itself.
-
-  static constexpr std::ptrdiff_t chunk_size = 1 << 18;
-  static constexpr std::ptrdiff_t least_chunks = 8, most_chunks = 128;  ///< more while they are of use
-
-  /// Items of one group and what is between them, from a '<' to another, or to the group's end tag.
-  struct Chunk {
-    const char *begin = nullptr, *end = nullptr;  ///< null if nothing is known
-    std::vector<Piece> pieces;
-  };
-
   /// At the '<' of an item's start tag.
   bool at_item() const { return open_.size() == group_depth && *here_ == '<' && is(here_[1], name_start); }
 
   /// From an item on: over as many as others have gone through.
   void pass_scanned_items() {
-    if (here_ >= chunks_end_ || open_.back().begin != chunks_group_) scan_chunks();
-    while (next_chunk_ < chunks_.size() && at_item()) {
-      const Chunk& chunk = chunks_[next_chunk_];
-      if (chunk.begin > here_) return;
-      if (chunk.begin == here_) {
-        cutter_->add(offset(open_.back().begin), open_.back().name, chunk.pieces);
-        here_ = chunk.end;
-        ++passed_chunks_;
-      }
-      ++next_chunk_;
+    while (at_item()) {
+      const ItemsAhead::Chunk* const chunk = ahead_->from(open_.back().begin, here_);
+      if (chunk == nullptr) return;
+      cutter_->add(offset(open_.back().begin), open_.back().name, chunk->pieces);
+      here_ = chunk->end;
     }
   }
 
-  /// Makes those from this item on.
-  void scan_chunks() {
-    const bool useful = 2 * passed_chunks_ > chunks_.size();
-    if (!useful && !chunks_.empty()) --chances_;
-    wanted_chunks_ =
-        useful && open_.back().begin == chunks_group_ ? std::min(2 * wanted_chunks_, most_chunks) : least_chunks;
-    chunks_.clear();
-    next_chunk_ = passed_chunks_ = 0;
-    chunks_group_ = open_.back().begin;
-    const std::ptrdiff_t count = std::min((end_ - here_) / chunk_size, wanted_chunks_);
-    chunks_end_ = count == wanted_chunks_ ? here_ + count * chunk_size : end_;
-    if (count < 2 || chances_ == 0 || !cutter_->cuts(open_.back().name)) return;
-    const char* name_end = here_ + 1;
-    while (is(*name_end, name_part)) ++name_end;
-    const std::string_view item_start(here_, static_cast<std::size_t>(name_end - here_));
-    chunks_.resize(static_cast<std::size_t>(count));
-    for_each_index(static_cast<int>(count), threads_, [&](int i) {
-      const char* const from = here_ + i * chunk_size;
-      chunks_[static_cast<std::size_t>(i)] = scan_chunk(item_start, from, from + chunk_size);
-    });
-  }
-
-  /// From the first item in [from, to) to the first behind.
-  Chunk scan_chunk(std::string_view item_start, const char* from, const char* to) const {
-    Chunk chunk;
-    const char* const begin = find_item(item_start, from, to);
-    if (begin == nullptr) return chunk;
-    const std::ptrdiff_t scanned_most = to - begin_ + std::min(end_ - to, chunk_size);  // it may take all for a comment
-    Scanner scanner({begin_, static_cast<std::size_t>(scanned_most)});
+  /// What ItemsAhead wants: another scanner's work on the group at hand.
+  const char* scan_items(const char* from, const char* to, const char* limit, std::vector<Piece>& pieces) const {
+    Scanner scanner({begin_, offset(limit)});
     scanner.open_ = open_;
     scanner.root_seen_ = scanner.guessing_ = true;
-    scanner.here_ = begin;
-    PieceCutter cutter(*cutter_, chunk.pieces);
+    scanner.here_ = from;
+    PieceCutter cutter(*cutter_, pieces);
     scanner.cut_pieces(cutter);
     try {
-      if (!scanner.scan_items(to)) return chunk;
+      if (!scanner.scan_items(to)) return nullptr;
     } catch (const XmlProblem&) {
-      return chunk;
+      return nullptr;
     }
-    chunk.begin = begin;
-    chunk.end = scanner.here_;
-    chunk.pieces.back().end = offset(chunk.end);
-    return chunk;
-  }
-
-  static const char* find_item(std::string_view item_start, const char* from, const char* to) {
-    while (true) {
-      const std::size_t found = std::string_view(from, static_cast<std::size_t>(to - from)).find(item_start);
-      if (found == std::string_view::npos) return nullptr;
-      from += found;
-      if (!is(from[item_start.size()], name_part)) return from;
-      ++from;
-    }
+    pieces.back().end = offset(scanner.here_);
+    return scanner.here_;
   }
 
   /// Up to the group's end tag or to the first item that is not before `to`; false if they are not found.
@@ -318,19 +251,6 @@ class Scanner {
            "unknown entity " + in_quotes({start, found.size() + 2}) + "; XML knows &amp; &lt; &gt; &quot; and &apos;");
     }
     fail(start, "a '&' in a text must be written '&amp;'");
-  }
-
-  static std::uint32_t digit(char c) {
-    if (c >= '0' && c <= '9') return static_cast<std::uint32_t>(c - '0');
-    if (c >= 'a' && c <= 'f') return static_cast<std::uint32_t>(c - 'a' + 10);
-    if (c >= 'A' && c <= 'F') return static_cast<std::uint32_t>(c - 'A' + 10);
-    return 16;
-  }
-
-  static bool allowed(std::uint32_t character) {
-    if (character < 0x20) return character == '\t' || character == '\n' || character == '\r';
-    const bool surrogate = character >= 0xd800 && character <= 0xdfff;
-    return character <= 0x10ffff && !surrogate && character != 0xfffe && character != 0xffff;
   }
 
   void start_tag() {
@@ -471,13 +391,8 @@ class Scanner {
   bool root_seen_ = false;
   bool doctype_seen_ = false;
 
-  int threads_ = 1;
-  bool guessing_ = false;  ///< whether this scans a chunk
-  std::vector<Chunk> chunks_;
-  std::size_t next_chunk_ = 0, passed_chunks_ = 0;
-  std::ptrdiff_t wanted_chunks_ = least_chunks;
-  const char *chunks_end_ = nullptr, *chunks_group_ = nullptr;
-  int chances_ = 64;  ///< so often may most chunks be scanned in vain: a text could be made for that
+  bool guessing_ = false;  ///< whether it works for ItemsAhead
+  std::optional<ItemsAhead> ahead_;
 };
 
 }  // namespace

@@ -51,9 +51,15 @@ struct PacketBlock {
   static UintN slots() { return UintN::load_aligned(numbers.slot.data()); }
 
   /// Of a number in each lane, the sums of each pixel's lanes.
-  template <class Number>
-  static std::array<Number, pixels> sum_by_pixel(const std::array<Number, packet_lanes>& lanes) {
-    return sum_of_halves(lanes);
+  template <class Number, std::size_t size>
+  static RAYTRACE_INLINE std::array<Number, pixels> sum_by_pixel(const std::array<Number, size>& lanes) {
+    if constexpr (size == pixels) {
+      return lanes;
+    } else {  // by halves of known size, so that each is added at once
+      std::array<Number, size / 2> sums;
+      for (std::size_t i = 0; i < sums.size(); ++i) sums[i] = lanes[i] + lanes[i + size / 2];
+      return sum_by_pixel(sums);
+    }
   }
 
   /// Calls f(x, y, pixel), pixel counting as in sum_by_pixel(), for the pixels that lie in the region.
@@ -87,18 +93,6 @@ struct PacketBlock {
   }
 
  private:
-  /// Each of a known size, so that it is added at once.
-  template <class Number, std::size_t size>
-  static RAYTRACE_INLINE std::array<Number, pixels> sum_of_halves(const std::array<Number, size>& lanes) {
-    if constexpr (size == pixels) {
-      return lanes;
-    } else {
-      std::array<Number, size / 2> sums;
-      for (std::size_t i = 0; i < sums.size(); ++i) sums[i] = lanes[i] + lanes[i + size / 2];
-      return sum_of_halves(sums);
-    }
-  }
-
   struct LaneNumbers {
     alignas(64) std::array<std::uint32_t, packet_lanes> column{}, row{}, slot{};
   };

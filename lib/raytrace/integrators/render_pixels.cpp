@@ -1,7 +1,6 @@
 #include "raytrace/integrators/render_pixels.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 
 #include "raytrace/integrators/block_aovs.h"
@@ -19,13 +18,6 @@ constexpr int packets_per_look = 16;
 
 FloatN to_float(const UintN& numbers) { return to_float(same_bits<IntN>(numbers)); }
 FloatN to_float(std::uint32_t number) { return FloatN(static_cast<float>(number)); }
-
-/// even in lanes 0, 2, 4..., odd in the others.
-UintN alternate(std::uint32_t even, std::uint32_t odd) {
-  const xsimd::batch<std::uint64_t, UintN::arch_type> pairs(std::bit_cast<std::uint64_t>(std::array{even, odd}));
-  const auto lanes = std::bit_cast<UintN::Part>(pairs);
-  return {lanes, lanes};
-}
 
 /// The pixels of a part of a film, block by block.
 template <class Integrator, PacketShape shape>

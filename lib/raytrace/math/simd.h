@@ -169,6 +169,13 @@ RAYTRACE_INLINE Batch lane_numbers() {
   return Batch::load_aligned(numbers.data());
 }
 
+/// `even` in lanes 0, 2, 4..., `odd` in the others.
+inline UintN alternate(std::uint32_t even, std::uint32_t odd) {
+  const xsimd::batch<std::uint64_t, UintN::arch_type> pairs(std::bit_cast<std::uint64_t>(std::array{even, odd}));
+  const auto lanes = std::bit_cast<UintN::Part>(pairs);
+  return {lanes, lanes};
+}
+
 /// The mask that is true in lanes [0, count).
 template <class F>
 Mask<F> first_lanes(int count) {
