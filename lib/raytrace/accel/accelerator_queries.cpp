@@ -72,6 +72,16 @@ RAYTRACE_INLINE FloatN meet(const Tables& tables, const DirectionBuffer::Object&
   });
 }
 
+/// Whether the object lies on the rays.
+template <class Tables>
+RAYTRACE_INLINE MaskN is_occluded(const Tables& tables, const DirectionBuffer::Object& object, const Ray<FloatN>& rays,
+                                  const MaskN& active) {
+  return with_type(Shapes{}, object.kind, [&](auto type) {
+    using Shape = typename decltype(type)::type;
+    return occludes<Shape>(std::get<ShapeTable<Shape>>(tables).records[object.primitive], rays, active);
+  });
+}
+
 /// Shapes whose objects are few and large: their surface() takes one, so that it can be of the plain numbers.
 template <class Shape>
 concept SurfaceOfOne = requires(typename ShapeTable<Shape>::Record record, Ray<FloatN> rays, FloatN distance) {
@@ -131,7 +141,7 @@ MaskN Accelerator::occluded_unbounded(const Ray<FloatN>& rays, const MaskN& acti
   MaskN occluded(false);
   for_each_unbounded(tables_, [&](auto type, std::uint32_t, const auto& record) RAYTRACE_INLINE_LAMBDA {
     using Shape = typename decltype(type)::type;
-    occluded = occluded | (Shape::template intersect<FloatN>(record, rays, active) < infinity<FloatN>());
+    occluded = occluded | occludes<Shape>(record, rays, active);
   });
   return occluded;
 }
@@ -165,8 +175,7 @@ MaskN Accelerator::occluded_by_candidates(const DirectionBuffer& seen, const Ray
     return any(lanes & open & (sight.depth >= FloatN(object.nearest)));
   };
   const auto test = [&](const DirectionBuffer::Object& object) {
-    FloatN u, v;
-    open = open & !(meet(tables_, object, rays, open, u, v) < infinity<FloatN>());
+    open = open & !is_occluded(tables_, object, rays, open);
   };
   MaskN left = for_each_candidate(seen, sight.direction, active & in_reach, reaches, test);
   if (any(active & !in_reach)) left = left | (active & !in_reach & !seen.leads_past(rays));

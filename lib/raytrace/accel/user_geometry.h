@@ -1,7 +1,8 @@
 // Embree's callbacks for the shapes that we intersect ourselves: one template for every shape and packet size.
 //
 // A shape supplies bounds() and intersect() for F lanes and knows nothing of Embree. intersect and occluded go through
-// the same root finder. https://github.com/RenderKit/embree, doc/src/api/rtcSetGeometryIntersectFunction.md
+// the same code, but that a shape may leave out what only the distance needs (occludes()).
+// https://github.com/RenderKit/embree, doc/src/api/rtcSetGeometryIntersectFunction.md
 #pragma once
 
 #include <algorithm>
@@ -28,6 +29,20 @@ concept UnboundedShape = !requires { &Shape::bounds; };
 /// All others: they bring their own intersection, and bounds for a BVH to keep them in.
 template <class Shape>
 concept UserGeometry = !EmbreeTriangle<Shape> && !UnboundedShape<Shape>;
+
+/// Whether the object lies on the rays, in the lanes of `active`. Shape::occludes(), where there is one, need not find
+/// out where.
+template <class Shape, class Record, class F>
+RAYTRACE_INLINE Mask<F> occludes(const Record& record, const Ray<F>& ray, const Mask<F>& active) {
+  if constexpr (requires { Shape::template occludes<F>(record, ray, active); }) {
+    return Shape::template occludes<F>(record, ray, active);
+  } else if constexpr (EmbreeTriangle<Shape>) {
+    F u, v;
+    return Shape::template intersect<F>(record, ray, active, u, v) < infinity<F>();
+  } else {
+    return Shape::template intersect<F>(record, ray, active) < infinity<F>();
+  }
+}
 
 /// The records of all objects of one shape: what an Embree geometry points at.
 template <class Shape>
@@ -124,8 +139,7 @@ void occluded_packet(const RTCOccludedFunctionNArguments* arguments) {
   for (unsigned first = 0; first < size; first += static_cast<unsigned>(lane_count<F>)) {
     const int count = static_cast<int>(size - first);
     const Mask<F> active = load_mask<F>(arguments->valid + first, count);
-    const F t = Shape::template intersect<F>(record, load_rays<F>(arguments->ray, size, first, count), active);
-    const Mask<F> hit = t < infinity<F>();
+    const Mask<F> hit = occludes<Shape>(record, load_rays<F>(arguments->ray, size, first, count), active);
     if (any(hit)) store_lanes<F>(&RTCRayN_tfar(arguments->ray, size, first), count, hit, -infinity<F>());
     report_hits<F>(arguments->valid + first, count, hit);
   }

@@ -221,4 +221,10 @@ RAYTRACE_INLINE TwinBatch<T, Arch> multiply_add(const TwinBatch<T, Arch>& a, con
   return {multiply_add(a.lower(), b.lower(), c.lower()), multiply_add(a.upper(), b.upper(), c.upper())};
 }
 
+/// dot() with as few roundings as the instruction set allows.
+template <class F>
+RAYTRACE_INLINE F fused_dot(const Vec3<F>& a, const Vec3<F>& b) {
+  return multiply_add(a.x, b.x, multiply_add(a.y, b.y, a.z * b.z));
+}
+
 }  // namespace raytrace

@@ -52,10 +52,6 @@ namespace detail {
 
 /// With as few roundings as the instruction set allows.
 template <class F>
-RAYTRACE_INLINE F fused_dot(const Vec3<F>& a, const Vec3<F>& b) {
-  return multiply_add(a.x, b.x, multiply_add(a.y, b.y, a.z * b.z));
-}
-template <class F>
 RAYTRACE_INLINE Vec3<F> fused_cross(const Vec3<F>& a, const Vec3<F>& b) {
   return {multiply_add(a.y, b.z, -(a.z * b.y)), multiply_add(a.z, b.x, -(a.x * b.z)),
           multiply_add(a.x, b.y, -(a.y * b.x))};
@@ -73,9 +69,9 @@ RAYTRACE_INLINE F Triangle::intersect(const Record<float>& triangle, const Ray<F
   // way gives exactly the negative. The operations and their order are those of Embree's robust mode, so that a ray
   // meets the same triangles by either.
   const Vec3<F> edge31 = vertex3 - vertex1, edge12 = vertex1 - vertex2, edge23 = vertex2 - vertex3;
-  const F opposite2 = detail::fused_dot(detail::fused_cross(edge31, vertex3 + vertex1), ray.direction);
-  const F opposite3 = detail::fused_dot(detail::fused_cross(edge12, vertex1 + vertex2), ray.direction);
-  const F opposite1 = detail::fused_dot(detail::fused_cross(edge23, vertex2 + vertex3), ray.direction);
+  const F opposite2 = fused_dot(detail::fused_cross(edge31, vertex3 + vertex1), ray.direction);
+  const F opposite3 = fused_dot(detail::fused_cross(edge12, vertex1 + vertex2), ray.direction);
+  const F opposite1 = fused_dot(detail::fused_cross(edge23, vertex2 + vertex3), ray.direction);
   const F sum = opposite2 + opposite3 + opposite1;
   const F rounding = abs(sum) * F(0x1p-23f);
   const F least = min(min(opposite1, opposite2), opposite3);
@@ -83,7 +79,7 @@ RAYTRACE_INLINE F Triangle::intersect(const Record<float>& triangle, const Ray<F
   const Mask<F> inside = active & ((least >= -rounding) | (most <= rounding));
   if (none(inside)) return infinity<F>();
   const Vec3<F> perpendicular = detail::fused_cross(edge31, edge12);
-  const F t = detail::fused_dot(vertex1, perpendicular) / detail::fused_dot(perpendicular, ray.direction);
+  const F t = fused_dot(vertex1, perpendicular) / fused_dot(perpendicular, ray.direction);
   const F inverse_sum = F(1) / sum;
   u = min(max(opposite2 * inverse_sum, F(0)), F(1));
   v = min(max(opposite3 * inverse_sum, F(0)), F(1));
