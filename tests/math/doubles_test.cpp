@@ -119,18 +119,17 @@ TEST_CASE("arithmetic of Doubles is double's") {
   }
 }
 
-TEST_CASE("fma and cbrt of Doubles are double's but for the last bits") {
+TEST_CASE("fma of Doubles is double's but for the last bits") {
   RandomDoubles random;
   for (int i = 0; i < 2000; ++i) {
     const Lanes a = random.numbers(), b = random.numbers(), c = random.numbers();
-    const Lanes sums = lanes_of(multiply_add(load(a), load(b), load(c))), roots = lanes_of(cbrt(load(a)));
+    const Lanes sums = lanes_of(multiply_add(load(a), load(b), load(c)));
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       // Fused or not: off by no more than the rounding of the product.
       const double wanted = std::fma(a[lane], b[lane], c[lane]),
                    rounding = (std::abs(a[lane] * b[lane]) + std::abs(wanted)) * 0x1p-53;
       if (std::abs(sums[lane] - wanted) > 2 * rounding)
         FAIL("multiply_add(" << a[lane] << ", " << b[lane] << ", " << c[lane] << ")");
-      if (std::abs(roots[lane] - std::cbrt(a[lane])) > std::abs(roots[lane]) * 0x1p-50) FAIL("cbrt(" << a[lane] << ")");
     }
   }
   SUCCEED();

@@ -165,7 +165,6 @@ class Doubles {
   friend RAYTRACE_INLINE Doubles operator-(const Doubles& a) { return {-a.lower_, -a.upper_}; }
   RAYTRACE_INLINE Doubles& operator+=(const Doubles& b) { return *this = *this + b; }
   friend RAYTRACE_INLINE Doubles sqrt(const Doubles& a) { return {sqrt(a.lower_), sqrt(a.upper_)}; }
-  friend RAYTRACE_INLINE Doubles cbrt(const Doubles& a) { return {cbrt(a.lower_), cbrt(a.upper_)}; }
   friend RAYTRACE_INLINE Doubles abs(const Doubles& a) { return {abs(a.lower_), abs(a.upper_)}; }
   friend RAYTRACE_INLINE Doubles min(const Doubles& a, const Doubles& b) {
     return {min(a.lower_, b.lower_), min(a.upper_, b.upper_)};

@@ -141,7 +141,6 @@ class TwinBatch {
   }
   friend RAYTRACE_INLINE TwinBatch abs(const TwinBatch& a) { return {xsimd::abs(a.lower_), xsimd::abs(a.upper_)}; }
   friend RAYTRACE_INLINE TwinBatch sqrt(const TwinBatch& a) { return {xsimd::sqrt(a.lower_), xsimd::sqrt(a.upper_)}; }
-  friend RAYTRACE_INLINE TwinBatch cbrt(const TwinBatch& a) { return {xsimd::cbrt(a.lower_), xsimd::cbrt(a.upper_)}; }
   friend RAYTRACE_INLINE TwinBatch exp(const TwinBatch& a) { return {xsimd::exp(a.lower_), xsimd::exp(a.upper_)}; }
   friend RAYTRACE_INLINE TwinBatch expm1(const TwinBatch& a) {
     return {xsimd::expm1(a.lower_), xsimd::expm1(a.upper_)};

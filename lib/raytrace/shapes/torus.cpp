@@ -9,12 +9,7 @@ Fields<Torus::Parameters> Torus::fields() {
 }
 
 Torus::Record<double> Torus::record(const Parameters& parameters) {
-  const Vec3d axis = normalize(parameters.axis);
-  // The unit vector least along the axis gives the most precise perpendicular.
-  const double x = std::abs(axis.x), y = std::abs(axis.y), z = std::abs(axis.z);
-  const Vec3d least = x <= y && x <= z ? Vec3d{1, 0, 0} : y <= z ? Vec3d{0, 1, 0} : Vec3d{0, 0, 1};
-  const Vec3d side1 = normalize(cross(axis, least));
-  return {parameters.center, side1, axis, cross(side1, axis), parameters.sweptradius, parameters.tuberadius};
+  return {parameters.center, normalize(parameters.axis), parameters.sweptradius, parameters.tuberadius};
 }
 
 Bounds Torus::bounds(const Record<double>& torus) {
