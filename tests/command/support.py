@@ -51,6 +51,20 @@ def samples(count):
     return str(max(count // 40, 8) if SANITIZERS else count)
 
 
+def catches(process, number):
+    """Whether a process has a handler for the signal now."""
+    with open(f"/proc/{process.pid}/status", encoding="ascii") as file:
+        caught = next(line.split()[1] for line in file if line.startswith("SigCgt:"))
+    return int(caught, 16) >> (number - 1) & 1 == 1
+
+
+def processor_seconds(process):
+    """What a process has computed so far: what it has come to on a busy machine, unlike the time that has passed."""
+    with open(f"/proc/{process.pid}/stat", encoding="ascii") as file:
+        fields = file.read().rsplit(")", 1)[1].split()  # from the third, its state
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
 class CommandTest(unittest.TestCase):
     """Each test has a folder of its own with scene.xml in it, and runs the program there."""
 

@@ -328,12 +328,6 @@ class LogFile(CommandTest):
 
 
 class Signals(CommandTest):
-    def catches(self, process, number):
-        """Whether the process has a handler for the signal now."""
-        with open(f"/proc/{process.pid}/status", encoding="ascii") as file:
-            caught = re.search(r"^SigCgt:\s*([0-9a-f]+)$", file.read(), re.M).group(1)
-        return int(caught, 16) >> (number - 1) & 1 == 1
-
     def wait_until(self, condition, process):
         while not condition():
             if process.poll() is not None:
@@ -347,7 +341,7 @@ class Signals(CommandTest):
         self.addCleanup(process.kill)
         self.addCleanup(process.stdout.close)
         self.addCleanup(process.stderr.close)
-        self.wait_until(lambda: self.catches(process, signal.SIGTERM), process)
+        self.wait_until(lambda: support.catches(process, signal.SIGTERM), process)
         return process
 
     def test_first_signal_stops(self):
@@ -362,9 +356,10 @@ class Signals(CommandTest):
         light = '<pointlight><location x="4" y="6" z="4"/></pointlight>'
         self.write("scene.xml", support.SCENE.replace("</pointlights>", 200000 * light + "</pointlights>"))
         process = self.rendering("-s", "20000", "--crop", "0,50,80,60")
-        time.sleep(0.1)  # handlers come before rays
+        before = support.processor_seconds(process)  # handlers come before rays
+        self.wait_until(lambda: support.processor_seconds(process) > before + 0.5, process)
         process.send_signal(signal.SIGINT)
-        self.wait_until(lambda: not self.catches(process, signal.SIGTERM), process)
+        self.wait_until(lambda: not support.catches(process, signal.SIGTERM), process)
         process.send_signal(signal.SIGTERM)
         self.assertEqual(process.wait(timeout=300), -signal.SIGTERM)
         self.assertEqual(self.names(), ["scene.xml"])

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <ctime>
+#include <functional>
 #include <random>
 #include <string>
 #include <thread>
@@ -25,6 +27,14 @@ int whole_pixels(const FloatPicture& film, const FloatPicture& all) {
     ++done;
   }
   return done;
+}
+
+/// Sets the flag when the render beside it has computed for a while: on a busy machine it may not even have begun after
+/// the same time.
+void stop_after_some_rays(std::atomic<bool>& stop) {
+  const std::clock_t end = std::clock() + CLOCKS_PER_SEC / 20;  // of all threads
+  while (std::clock() < end) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  stop = true;
 }
 
 }  // namespace
@@ -76,11 +86,8 @@ TEST_CASE("a render stops inside a pixel, however many samples that has") {
   const SceneDescription description = parsed_scene(busy_scene(32, 32, 2'000'000'000));
   const auto scene = build_scene(description, {1, {}});
   std::atomic<bool> stop{false};
-  std::thread stopper([&] {
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    stop = true;
-  });
   Film film(film_settings(*scene, description, {1, 0, whole(description), {}}));
+  std::thread stopper(stop_after_some_rays, std::ref(stop));
   render(*scene, film, 2'000'000'000, 1, {}, &stop);
   stopper.join();
   CHECK(film.fewest_samples() < 2'000'000'000);
@@ -154,10 +161,7 @@ TEST_CASE("a film of means shows what there is of a tile that was stopped") {
   const auto scene = build_scene(description, {1, {}});
   std::atomic<bool> stop{false};
   Film film(film_settings(*scene, description, {1, 0, whole(description), {}}), FilmContent::means);
-  std::thread stopper([&] {
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    stop = true;
-  });
+  std::thread stopper(stop_after_some_rays, std::ref(stop));
   render(*scene, film, 2'000'000'000, 1, {}, &stop);
   stopper.join();
   const std::vector<Pixel> pixels = film.pixels();
