@@ -51,7 +51,7 @@ struct TorusProfile {
   Step newton_step(const N& s, const N& side) const {
     const Place at = place(s);
     const N from_circle = at.rho - side * swept;
-    const N value = multiply_add(from_circle, from_circle, (at.y - tube) * (at.y + tube));
+    const N value = distance_form(at, side);
     // The slope is 2 (from_circle * (length2 s - y climb) / rho + y climb), the second derivative at most
     // 2 length2 (1 + |from_circle| / rho): one division does for all.
     const N climbing = at.y * climb;
