@@ -7,7 +7,6 @@
 #include <ImfFloatAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
-#include <ImfIO.h>
 #include <ImfIntAttribute.h>
 #include <ImfMatrixAttribute.h>
 #include <ImfOutputFile.h>
@@ -18,55 +17,18 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <system_error>
 
+#include "raytrace/output/exr_destination.h"
 #include "raytrace/output/picture_date.h"
 #include "raytrace/parallel/for_each_index.h"
 
 namespace raytrace {
 
 namespace {
-
-/// A stream that remembers why a write failed, since OpenEXR tells only that it did.
-class Destination final : public Imf::OStream {
- public:
-  explicit Destination(std::FILE* file) : OStream("picture"), file_(file) {}
-
-  void write(const char data[], int size) override {
-    errno = 0;
-    if (std::fwrite(data, 1, static_cast<std::size_t>(size), file_) != static_cast<std::size_t>(size)) fail();
-    position_ += static_cast<std::uint64_t>(size);
-  }
-  std::uint64_t tellp() override { return position_; }
-  void seekp(std::uint64_t position) override {
-    errno = 0;
-    if (fseeko(file_, static_cast<off_t>(position), SEEK_SET) != 0) fail();
-    position_ = position;
-  }
-
-  /// Empties the file's buffer. Throws if that or any write before failed.
-  void finish() {
-    errno = 0;
-    if (error_ != 0 || std::fflush(file_) != 0) fail();
-  }
-
-  /// 0, or the error number of the first failure.
-  int error() const { return error_; }
-
- private:
-  [[noreturn]] void fail() {
-    if (error_ == 0) error_ = errno != 0 ? errno : EIO;
-    throw OutputError("the destination failed");
-  }
-
-  std::FILE* file_;
-  std::uint64_t position_ = 0;
-  int error_ = 0;
-};
 
 Imath::M44f matrix_of(const float (&values)[16]) {
   Imath::M44f matrix;
@@ -165,7 +127,7 @@ struct ExrEncoder::OpenFile {
   OpenFile(std::FILE* file, const std::vector<Channel>& its_channels)
       : destination(file), channels(its_channels), halves(channels.size()), floats(channels.size()) {}
 
-  Destination destination;
+  ExrDestination destination;
   std::optional<Imf::OutputFile> exr;
   std::vector<Channel> channels;
   /// What is written of each channel; kept from band to band.
