@@ -124,6 +124,11 @@ class Statistics(CommandTest):
         self.assertRegex(report["embree"], r"^\d+\.\d+")
         self.assertRegex(report["software"], r"^raytrace \d")
 
+    def test_memory_of_whoever_starts_it_does_not_count(self):
+        ballast = b"x" * (400 << 20)
+        self.succeed("scene.xml", "-q", "-o", "a.exr", "--stats=stats.json")
+        self.assertLess(json.loads(self.read("stats.json"))["memory"]["peak_bytes"], len(ballast))
+
     def test_schema(self):
         with open(os.path.join(support.REPOSITORY, "share", "statistics.schema.json"), encoding="utf-8") as file:
             schema = json.load(file)
