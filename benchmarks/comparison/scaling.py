@@ -6,7 +6,7 @@ import json
 import os
 import statistics
 
-from . import scenes
+from . import report, scenes
 from .paths import PROGRAM, REPOSITORY, WORK
 from .process import run
 from .renderers import raytrace
@@ -49,7 +49,7 @@ def table(results):
     for one in results:
         count = one["count"]
         cells = [f"{count:,}", *(f"{one[phase]:.3f} s" for phase in ("load", "build", "render"))]
-        cells += [f"{one['ray'] * 1e9:.1f}", f"{one['bvh'] / count:,.0f}"]
+        cells += [f"{one['ray'] * 1e9:.1f}", f"{one['bvh'] / count:,.0f}" if one["bvh"] else "none"]
         cells += [f"{peak / 1e6:,.0f} MB" for peak in one["peaks"]]
         cells.append(f"{one['peak'] / count:,.0f}" if count >= 100_000 else "")
         lines.append(f"| {' | '.join(cells)} |")
@@ -67,7 +67,8 @@ def plot(results, file):
     figure, (time, memory) = pyplot.subplots(1, 2, figsize=(10, 3.4), layout="constrained")
     time.plot(counts, [one["ray"] * 1e9 for one in results], "o-", label="time a ray")
     time.set_ylabel("ns a ray")
-    memory.plot(counts, [one["bvh"] / one["count"] for one in results], "o-", label="BVH")
+    with_bvh = [one for one in results if one["bvh"]]
+    memory.plot([one["count"] for one in with_bvh], [one["bvh"] / one["count"] for one in with_bvh], "o-", label="BVH")
     large = [one for one in results if one["count"] >= 1000]
     memory.plot([one["count"] for one in large], [one["peak"] / one["count"] for one in large], "s--", label="whole process")
     memory.set_ylabel("bytes a sphere")
@@ -88,14 +89,18 @@ def main():
     parser.add_argument("--repeats", type=int, default=3, help="runs of which the median counts (3)")
     parser.add_argument("--output", default=os.path.join(REPOSITORY, "docs"), help="folder of scaling.md and .svg (docs)")
     chosen = parser.parse_args()
+    where = report.host()
     counts = [10**power for power in range(1, len(str(chosen.most)))]
     results = [measured(count, chosen.threads, chosen.repeats) for count in counts]
     with open(os.path.join(chosen.output, "scaling.md"), "w", encoding="utf-8") as file:
         file.write(
             "# How it grows\n\nRandom spheres over a plane that fill the same share of the same box, 1024 x 1024 pixels, 16"
             " samples, one shadowing point light.\n\n"
-            f"{raytrace.version()}; threads: {chosen.threads}; medians of {chosen.repeats}.\n\n"
+            f"{report.machine_line(where)}; {raytrace.version()}; threads: {chosen.threads}; medians of {chosen.repeats}."
+            f" Load when it began: {where['load_at_start']}.\n\n"
             f"{table(results)}\n![Time a ray and bytes a sphere over the number of spheres](scaling.svg)\n\n"
+            "BVH: none where no ray asked for it, so that it was not built: [lists](design.md) of what is to be met in"
+            " which direction from the eye and the light answered them all.\n\n"
             "Peaks: the most memory that the process had held by the end of the phase. With few spheres it is that of the"
             " program, its libraries and the picture. `benchmarks/scaling` measures it on your machine.\n"
         )
