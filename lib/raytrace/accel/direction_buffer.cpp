@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <utility>
 #include <vector>
 
 #include "raytrace/accel/listing.h"
 #include "raytrace/parallel/for_each_index.h"
-#include "raytrace/parallel/sort.h"
+#include "raytrace/parallel/radix_sort.h"
 
 namespace raytrace {
 
@@ -37,6 +38,9 @@ constexpr int rows_a_band = 32;
 
 /// Nearest first, they lie all over memory: by how many it is asked for earlier.
 constexpr std::size_t objects_ahead = 16, corners_ahead = 8;
+
+/// Of a float's distance, to be on the safe side of its rounding.
+constexpr double a_little_less = 1 - 1e-6;
 
 constexpr int faces = 6;
 
@@ -102,7 +106,7 @@ struct CellRange {
 };
 
 struct ObjectDepth {
-  double nearest;  ///< View::nearest
+  std::uint32_t key;  ///< the bits of Object::nearest: as numbers, they have the order of floats that are not negative
   std::uint32_t object;
 };
 
@@ -143,7 +147,11 @@ class ListsMaker {
         const std::optional<View> view = perspective_.view(objects_[i]);
         here.all_seen = view.has_value();
         if (!view) continue;
-        order_[i] = {view->nearest, static_cast<std::uint32_t>(i)};
+        // Of objects as near as each other, the first comes last: of surfaces at one distance, the last that is tested
+        // stays.
+        order_[objects_.size() - 1 - i] = {
+            std::bit_cast<std::uint32_t>(static_cast<float>(view->nearest * a_little_less)),
+            static_cast<std::uint32_t>(i)};
         for_each_rectangle(perspective_, *view, [&](int face, const Rectangle& rectangle) {
           here.covered[static_cast<std::size_t>(face)].add(rectangle);
         });
@@ -154,11 +162,7 @@ class ListsMaker {
       if (!chunk.all_seen) return false;
       for (std::size_t face = 0; face < faces; ++face) covered_[face].add(chunk.covered[face]);
     }
-    // Of objects as near as each other, the first comes last: of surfaces at one distance, the last that is tested
-    // stays.
-    sort(order_, threads_, [](const ObjectDepth& a, const ObjectDepth& b) {
-      return a.nearest < b.nearest || (a.nearest == b.nearest && a.object > b.object);
-    });
+    radix_sort(order_, threads_);
     return true;
   }
 
@@ -191,12 +195,17 @@ class ListsMaker {
     std::vector<double> covered_cells(chunk_count(objects_.size()));
     for_each_chunk(objects_.size(), threads_, [&](std::size_t chunk, std::size_t first, std::size_t last) {
       listings_[chunk].resize(bands_.size());
+      for (auto& l : listings_[chunk]) l.all.reserve((last - first) * 5 / 4 / bands_.size());
       double cells = 0;
       for (std::size_t i = first; i < last; ++i) {
-        if (i + objects_ahead < last) __builtin_prefetch(&objects_[order_[i + objects_ahead].object]);
+        if (i + objects_ahead < last) {
+          const PlacedObject& ahead = objects_[order_[i + objects_ahead].object];
+          __builtin_prefetch(&ahead);
+          __builtin_prefetch(&ahead.radius);
+        }
         if (i + corners_ahead < last) __builtin_prefetch(objects_[order_[i + corners_ahead].object].corners);
         const PlacedObject& object = objects_[order_[i].object];
-        lists_.objects[i] = {object.kind, object.primitive, static_cast<float>(order_[i].nearest * (1 - 1e-6))};
+        lists_.objects[i] = {object.kind, object.primitive, std::bit_cast<float>(order_[i].key)};
         const View view = *perspective_.view(object);
         for_each_rectangle(perspective_, view, [&](int face, const Rectangle& rectangle) {
           cells += list(object, view, face, rectangle, static_cast<std::uint32_t>(i), listings_[chunk]);
@@ -338,7 +347,7 @@ class ListsMaker {
 
 std::optional<DirectionBuffer> DirectionBuffer::make(const Vantage& vantage, std::span<const PlacedObject> objects,
                                                      int threads) {
-  const Perspective perspective(vantage, objects);
+  const Perspective perspective(vantage, objects, threads);
   if (!perspective.is_within_floats()) return std::nullopt;
   DirectionBuffer buffer;
   buffer.infinitely_far_ = perspective.infinitely_far();

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
+
+#include "raytrace/parallel/for_each_index.h"
 
 namespace raytrace {
 
@@ -30,20 +33,47 @@ Interval on_face(const Interval& b, const Interval& w) {
           std::min(b.high / (b.high > 0 ? w.low : w.high) + quotient_rounding, whole_face.high)};
 }
 
+/// What add(sum, object) makes of all objects, from `nothing` on, where the order does not matter; join(sum, another)
+/// adds one of others.
+template <class Sum, class Add, class Join>
+Sum sum_of(std::span<const PlacedObject> objects, int threads, const Sum& nothing, const Add& add, const Join& join) {
+  std::vector<Sum> chunks(chunk_count(objects.size()), nothing);
+  for_each_chunk(objects.size(), threads, [&](std::size_t chunk, std::size_t first, std::size_t last) {
+    Sum here = nothing;
+    for (const PlacedObject& object : objects.subspan(first, last - first)) add(here, object);
+    chunks[chunk] = here;
+  });
+  Sum all = nothing;
+  for (const Sum& chunk : chunks) join(all, chunk);
+  return all;
+}
+
 }  // namespace
 
-Perspective::Perspective(const Vantage& vantage, std::span<const PlacedObject> objects)
+Perspective::Perspective(const Vantage& vantage, std::span<const PlacedObject> objects, int threads)
     : infinitely_far_(vantage.infinitely_far), place_(vantage.place) {
   const Vec3d from = infinitely_far_ ? Vec3d(0, 0, 0) : place_;
-  for (const PlacedObject& object : objects) {
-    farthest_ = std::max(farthest_, length(center_of(object) - from) + object.radius);
-    around_all_ = join(around_all_, object.bounds);
-  }
+  struct Reach {
+    double farthest = 0;
+    Bounds around = empty_bounds;
+  };
+  const Reach all = sum_of(
+      objects, threads, Reach{},
+      [&](Reach& reach, const PlacedObject& object) {
+        reach.farthest = std::max(reach.farthest, length(center_of(object) - from) + object.radius);
+        reach.around = join(reach.around, object.bounds);
+      },
+      [](Reach& reach, const Reach& other) {
+        reach.farthest = std::max(reach.farthest, other.farthest);
+        reach.around = join(reach.around, other.around);
+      });
+  farthest_ = all.farthest;
+  around_all_ = all.around;
   if (!is_within_floats()) return;
   // As far again as the objects reach, and more: floors are wider than what stands on them.
   reach_ = static_cast<double>(static_cast<float>(8 * farthest_));
   slack_ = way_rounding * reach_;
-  if (infinitely_far_) lay_picture(objects);
+  if (infinitely_far_) lay_picture(objects, threads);
 }
 
 Bounds Perspective::surroundings() const {
@@ -55,17 +85,24 @@ bool Perspective::is_within_floats() const {
   return (infinitely_far_ ? 0 : length(place_)) + farthest_ < most_distance;
 }
 
-void Perspective::lay_picture(std::span<const PlacedObject> objects) {
+void Perspective::lay_picture(std::span<const PlacedObject> objects, int threads) {
   place_ = normalize(place_);
   const Vec3d aside = std::abs(place_.x) < 0.6 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
   across_ = normalize(cross(aside, place_));
   up_ = cross(place_, across_);
-  std::array<Interval, 3> all{Interval{1e30, -1e30}, Interval{1e30, -1e30}, Interval{1e30, -1e30}};
-  for (const PlacedObject& object : objects)
+  using Extents = std::array<Interval, 3>;
+  constexpr Extents nothing{Interval{1e30, -1e30}, Interval{1e30, -1e30}, Interval{1e30, -1e30}};
+  const auto widen = [](Extents& extents, const Extents& more) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const Interval i = extent(object, axis == 0 ? across_ : axis == 1 ? up_ : place_);
-      all[axis] = {std::min(all[axis].low, i.low), std::max(all[axis].high, i.high)};
+      extents[axis] = {std::min(extents[axis].low, more[axis].low), std::max(extents[axis].high, more[axis].high)};
     }
+  };
+  const Extents all = sum_of(
+      objects, threads, nothing,
+      [&](Extents& extents, const PlacedObject& object) {
+        widen(extents, {extent(object, across_), extent(object, up_), extent(object, place_)});
+      },
+      widen);
   const double scale = picture_size / std::max(all[0].high - all[0].low, all[1].high - all[1].low);
   across_ = Vec3d(Vec3f(across_ * scale));
   up_ = Vec3d(Vec3f(up_ * scale));

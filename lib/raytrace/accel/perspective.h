@@ -55,7 +55,8 @@ struct Outline {
 /// from there on, positions on it become directions: those from (0, 0, 0) to that picture on a face of the cube.
 class Perspective {
  public:
-  Perspective(const Vantage& vantage, std::span<const PlacedObject> objects);
+  /// threads: so many at most share the work; 0: all that the machine has. The result does not depend on it.
+  Perspective(const Vantage& vantage, std::span<const PlacedObject> objects, int threads);
 
   /// None from inside the sphere around it, or from so close that a cone says little.
   std::optional<View> view(const PlacedObject& object) const;
@@ -82,7 +83,7 @@ class Perspective {
   const Vec3d& start() const { return start_; }
 
  private:
-  void lay_picture(std::span<const PlacedObject> objects);
+  void lay_picture(std::span<const PlacedObject> objects, int threads);
   Interval extent(const PlacedObject& object, const Vec3d& axis) const;
   Vec3d direction_to(const Vec3f& point) const;
 
