@@ -20,7 +20,10 @@ SceneText::SceneText(TextBuffer text, int threads, Diagnostics& diagnostics) : t
 void SceneText::measure(int threads) {
   const std::string_view text = text_.text();
   const auto line_ends = [&](std::size_t begin, std::size_t end) {
-    return static_cast<std::uint32_t>(std::count(text.data() + begin, text.data() + end, '\n'));
+    const std::string_view part = text.substr(begin, end - begin);
+    std::uint32_t count = 0;
+    for (std::size_t at = part.find('\n'); at != std::string_view::npos; at = part.find('\n', at + 1)) ++count;
+    return count;
   };
   piece_lines_.resize(pieces_.size());
   for_each_index(static_cast<int>(pieces_.size()), threads, [&](int i) {
