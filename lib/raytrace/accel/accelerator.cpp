@@ -7,7 +7,7 @@
 #include <string>
 
 #include "raytrace/memory/large_pages.h"
-#include "raytrace/memory/zeroed_array.h"
+#include "raytrace/memory/large_array.h"
 #include "raytrace/parallel/for_each_index.h"
 #include "raytrace/parallel/handover.h"
 #include "raytrace/render/renderer.h"
@@ -132,7 +132,7 @@ std::vector<std::optional<DirectionBuffer>> Accelerator::seen_from(std::span<con
   std::vector<std::optional<DirectionBuffer>> buffers(vantages.size());
   if (std::none_of(vantages.begin(), vantages.end(), [](const auto& vantage) { return vantage.has_value(); }))
     return buffers;
-  ZeroedArray<PlacedObject> objects(primitive_count());
+  auto objects = LargeArray<PlacedObject>::unset(primitive_count());
   std::size_t count = 0;
   for_each_type(Shapes{}, [&](auto type) {
     using Shape = typename decltype(type)::type;

@@ -185,12 +185,12 @@ class ListsMaker {
         cells += count;
       }
     }
-    lists_.cells = ZeroedArray<Cell>(cells);
+    lists_.cells = LargeArray<Cell>::zeros(cells);
   }
 
   /// Which objects may be in which cells. False if they are so many that it would not pay.
   bool collect() {
-    lists_.objects = ZeroedArray<DirectionBuffer::Object>(objects_.size());
+    lists_.objects = LargeArray<DirectionBuffer::Object>::unset(objects_.size());
     listings_.resize(chunk_count(objects_.size()));
     std::vector<double> covered_cells(chunk_count(objects_.size()));
     for_each_chunk(objects_.size(), threads_, [&](std::size_t chunk, std::size_t first, std::size_t last) {
@@ -252,7 +252,7 @@ class ListsMaker {
       band.first_candidate = listed;
       listed += band.listed + (limit_ > most_candidates ? band.listed_by_crowded : 0);
     }
-    lists_.candidates = ZeroedArray<std::uint32_t>(listed);
+    lists_.candidates = LargeArray<std::uint32_t>::unset(listed);
     for_each_band([&](const Band& band, std::span<Cell> cells) {
       std::size_t first = band.first_candidate;
       for (Cell& cell : cells) {

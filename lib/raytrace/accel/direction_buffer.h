@@ -15,7 +15,7 @@
 #include "raytrace/math/bounds.h"
 #include "raytrace/math/ray.h"
 #include "raytrace/math/vec3.h"
-#include "raytrace/memory/zeroed_array.h"
+#include "raytrace/memory/large_array.h"
 
 namespace raytrace {
 
@@ -43,10 +43,10 @@ class DirectionBuffer {
     std::uint32_t first = 0, count = 0;  ///< of the candidates; count: crowded where a tree is faster
   };
   struct Lists {
-    Grid grids[6];            ///< face by face: twice the axis of its normal, and one more on the negative side
-    ZeroedArray<Cell> cells;  ///< grid by grid, row by row
-    ZeroedArray<std::uint32_t> candidates;  ///< cell by cell, the nearest first
-    ZeroedArray<Object> objects;            ///< the nearest first
+    Grid grids[6];           ///< face by face: twice the axis of its normal, and one more on the negative side
+    LargeArray<Cell> cells;  ///< grid by grid, row by row
+    LargeArray<std::uint32_t> candidates;  ///< cell by cell, the nearest first
+    LargeArray<Object> objects;            ///< the nearest first
   };
 
   /// None where it would not pay: an object is around the point or next to it, or objects are so close together that

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <string_view>
 
-#include "raytrace/memory/zeroed_array.h"
+#include "raytrace/memory/large_array.h"
 
 namespace raytrace {
 
@@ -13,7 +13,7 @@ namespace raytrace {
 class TextBuffer {
  public:
   /// Empty, with room for so many bytes. Throws std::bad_alloc.
-  explicit TextBuffer(std::size_t room) : bytes_(room + 1), room_(room) {}
+  explicit TextBuffer(std::size_t room) : bytes_(LargeArray<char>::unset(room + 1)), room_(room) { lengthen_to(0); }
   explicit TextBuffer(std::string_view text) : TextBuffer(text.size()) { append(text); }
 
   std::string_view text() const { return {bytes_.data(), size_}; }
@@ -21,15 +21,18 @@ class TextBuffer {
   /// As much as there is room for. What is written here belongs to the text once it is as long as that.
   char* data() { return bytes_.data(); }
   std::size_t room() const { return room_; }
-  void lengthen_to(std::size_t size) { size_ = size; }
+  void lengthen_to(std::size_t size) {
+    size_ = size;
+    bytes_[size] = '\0';
+  }
 
   void append(std::string_view more) {
     std::copy(more.begin(), more.end(), data() + size_);
-    size_ += more.size();
+    lengthen_to(size_ + more.size());
   }
 
  private:
-  ZeroedArray<char> bytes_;
+  LargeArray<char> bytes_;
   std::size_t room_, size_ = 0;
 };
 

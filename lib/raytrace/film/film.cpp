@@ -29,14 +29,14 @@ Film::Film(const FilmSettings& settings, FilmContent content)
     : settings_(settings), content_(content), unit_(std::ldexp(1.0, settings.unit_exponent)) {
   switch (content_) {
     case FilmContent::sums:
-      sums_ = ZeroedArray<PixelSum>(count());
+      sums_ = LargeArray<PixelSum>::zeros(count());
       if (settings.aovs.gather()) aovs_ = std::make_unique<AovFilm>(region(), settings.aovs);
       break;
     case FilmContent::means:
-      means_ = ZeroedArray<Pixel>(count());
+      means_ = LargeArray<Pixel>::zeros(count());
       break;
     case FilmContent::half_means:
-      half_means_ = ZeroedArray<HalfPixel>(count());
+      half_means_ = LargeArray<HalfPixel>::zeros(count());
       break;
   }
 }

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "raytrace/film/aov_settings.h"
-#include "raytrace/memory/zeroed_array.h"
+#include "raytrace/memory/large_array.h"
 
 namespace raytrace {
 
@@ -140,9 +140,9 @@ class Film {
   FilmContent content_;
   double unit_;  ///< of radiance
   // One of them holds the pixels.
-  ZeroedArray<PixelSum> sums_;
-  ZeroedArray<Pixel> means_;
-  ZeroedArray<HalfPixel> half_means_;
+  LargeArray<PixelSum> sums_;
+  LargeArray<Pixel> means_;
+  LargeArray<HalfPixel> half_means_;
   std::unique_ptr<AovFilm> aovs_;
 };
 

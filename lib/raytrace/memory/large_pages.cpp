@@ -9,12 +9,19 @@
 
 namespace raytrace {
 
-void* zeroed_memory(std::size_t bytes) {
-  void* const memory = std::calloc(bytes, 1);
+namespace {
+
+void* in_large_pages(void* memory, std::size_t bytes) {
   if (memory == nullptr && bytes > 0) throw std::bad_alloc();
   prefer_large_pages(memory, bytes);
   return memory;
 }
+
+}  // namespace
+
+void* zeroed_memory(std::size_t bytes) { return in_large_pages(std::calloc(bytes, 1), bytes); }
+
+void* unset_memory(std::size_t bytes) { return in_large_pages(std::malloc(bytes), bytes); }
 
 void prefer_large_pages(void* memory, std::size_t bytes) {
   constexpr std::size_t large = std::size_t{4} << 20U;

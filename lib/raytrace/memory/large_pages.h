@@ -10,6 +10,9 @@ namespace raytrace {
 /// Throws std::bad_alloc.
 void* zeroed_memory(std::size_t bytes);
 
+/// The same without values.
+void* unset_memory(std::size_t bytes);
+
 /// Asks for large pages where memory has not been written to yet. Nothing happens to small pieces.
 void prefer_large_pages(void* memory, std::size_t bytes);
 

@@ -1,4 +1,4 @@
-// Large arrays of zeros, whose memory is taken where it is first written to.
+// Large arrays, whose memory is taken where it is first written to.
 #pragma once
 
 #include <cstddef>
@@ -10,15 +10,19 @@
 
 namespace raytrace {
 
-/// A large one comes from the system page by page, when it is first written to: by the threads that render, not by the
+/// A large one comes from the system page by page, when it is first written to: by the threads that fill it, not by the
 /// one that makes it.
 template <class T>
-class ZeroedArray {
+class LargeArray {
  public:
   static_assert(std::is_trivially_copyable_v<T>);
 
-  ZeroedArray() = default;
-  explicit ZeroedArray(std::size_t count) : values_(static_cast<T*>(zeroed_memory(count * sizeof(T)))) {}
+  LargeArray() = default;
+
+  static LargeArray zeros(std::size_t count) { return LargeArray(zeroed_memory(count * sizeof(T))); }
+
+  /// Of values that are to be written before they are read.
+  static LargeArray unset(std::size_t count) { return LargeArray(unset_memory(count * sizeof(T))); }
 
   T* data() { return values_.get(); }
   const T* data() const { return values_.get(); }
@@ -29,6 +33,8 @@ class ZeroedArray {
   struct Free {
     void operator()(T* values) const { std::free(values); }
   };
+  explicit LargeArray(void* memory) : values_(static_cast<T*>(memory)) {}
+
   std::unique_ptr<T[], Free> values_;
 };
 
