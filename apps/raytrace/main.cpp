@@ -11,7 +11,6 @@
 #include "options.h"
 #include "picture_render.h"
 #include "picture_settings.h"
-#include "raytrace/memory/freed_memory.h"
 #include "raytrace/output/complete_picture.h"
 #include "signals.h"
 #include "stages.h"
@@ -70,7 +69,6 @@ int run(const Options& options, Progress& progress) {
 
 int main(int argc, char** argv) {
   using namespace raytrace;
-  keep_freed_memory();
   return guarded([&] {
     if (is_merge_command(argc, argv)) return merge_command(argc, argv);
     const Options options = parse_options(argc, argv);

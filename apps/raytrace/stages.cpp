@@ -11,7 +11,6 @@
 #include "messages.h"
 #include "picture_settings.h"
 #include "raytrace/description/parse_value.h"
-#include "raytrace/memory/freed_memory.h"
 #include "raytrace/output/atomic_file.h"
 #include "raytrace/output/image_file.h"
 
@@ -101,7 +100,6 @@ std::unique_ptr<const Scene> build(const SceneDescription& description, const Op
   {
     const PhaseTimer timer(statistics.phases.build);
     scene = build_scene(description, {options.threads, options.isa});
-    give_back_freed_memory();  // Embree, which may build a tree while it renders, does not ask the C library for any
   }
   obey_group_memory_limit(stacks_of(options.threads));
   statistics.scene = scene->statistics();

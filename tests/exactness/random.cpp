@@ -3,12 +3,21 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "support/sanitizers.h"
+#if defined(__has_feature)
+#define RAYTRACE_HAS_FEATURE(name) __has_feature(name)
+#else
+#define RAYTRACE_HAS_FEATURE(name) 0
+#endif
 
 namespace raytrace::test {
 
 int ray_count(int wanted) {
-  double share = sanitized ? 0.02 : 1;
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || RAYTRACE_HAS_FEATURE(address_sanitizer) || \
+    RAYTRACE_HAS_FEATURE(thread_sanitizer)
+  double share = 0.02;
+#else
+  double share = 1;
+#endif
   if (const char* text = std::getenv("RAYTRACE_TEST_SHARE")) share = std::atof(text);
   return std::max(1, static_cast<int>(wanted * share));
 }

@@ -6,8 +6,8 @@
 #include <new>
 #include <string>
 
-#include "raytrace/memory/large_pages.h"
 #include "raytrace/memory/large_array.h"
+#include "raytrace/memory/large_pages.h"
 #include "raytrace/parallel/for_each_index.h"
 #include "raytrace/parallel/handover.h"
 #include "raytrace/render/renderer.h"
