@@ -10,6 +10,10 @@
 #include <optional>
 #include <sstream>
 
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
 namespace raytrace {
 
 namespace {
@@ -78,22 +82,40 @@ std::optional<std::uint64_t> limit_in(const std::string& folder) {
   return std::nullopt;
 }
 
-/// A field of /proc/self/status, in bytes: of a line "VmData:    1234 kB".
-std::uint64_t status_bytes(const std::string& field) {
+/// A number of /proc/self/status: of a line "VmData:    1234 kB" or "Threads:   4".
+std::uint64_t status_number(const std::string& field) {
   std::istringstream lines(text_of("/proc/self/status"));
   for (std::string line; std::getline(lines, line);) {
-    std::uint64_t kibibytes = 0;
-    if (line.starts_with(field + ":") && std::istringstream(line.substr(field.size() + 1)) >> kibibytes)
-      return kibibytes << 10U;
+    std::uint64_t number = 0;
+    if (line.starts_with(field + ":") && std::istringstream(line.substr(field.size() + 1)) >> number) return number;
   }
   return 0;
 }
 
-/// What is reserved, and counts for RLIMIT_DATA, but was never touched, and does not count for the group: large parts
+/// What was freed, whose pages go back to the system: it is reserved, but will be touched again.
+std::uint64_t given_back() {
+#if defined(__GLIBC__)
+  malloc_trim(0);
+  return mallinfo2().fordblks;
+#else
+  return 0;
+#endif
+}
+
+/// What is reserved, and counts for RLIMIT_DATA, but is never touched, and does not count for the group: large parts
 /// of stacks, and 128 MiB of a device of Embree 3.
 std::uint64_t untouched_memory() {
-  const std::uint64_t reserved = status_bytes("VmData"), touched = status_bytes("RssAnon");
-  return reserved - std::min(touched, reserved);
+  const std::uint64_t to_be_touched = given_back();
+  const std::uint64_t reserved = status_number("VmData") << 10U, touched = status_number("RssAnon") << 10U;
+  return reserved - std::min(touched + to_be_touched, reserved);
+}
+
+/// What the threads that are still to be started reserve for their stacks: those that work, and as many that write
+/// pictures.
+std::uint64_t stacks_to_come(int threads) {
+  constexpr std::uint64_t stack = std::uint64_t{8} << 20U, small_stack = std::uint64_t{1} << 20U;
+  const auto wanted = static_cast<std::uint64_t>(threads);
+  return (wanted - std::min(wanted, status_number("Threads") - 1)) * stack + wanted * small_stack;
 }
 
 /// The least that a group of this process allows, in bytes.
@@ -138,14 +160,15 @@ std::vector<std::string> memory_group_folders(const std::string& cgroups, const 
   return folders;
 }
 
-void obey_group_memory_limit(std::uint64_t untouched_to_come) {
+void obey_group_memory_limit(int threads, std::uint64_t untouched_to_come) {
   const std::optional<std::uint64_t> allowed = group_memory_limit();
   rlimit data{};
   if (!allowed || getrlimit(RLIMIT_DATA, &data) != 0) return;
   static const rlim_t asked = data.rlim_cur;  // by `ulimit -d`
   // What is not data: the kernel's tables, the group's other processes, files on their way to the disk.
   const std::uint64_t others = *allowed / 16;
-  data.rlim_cur = std::min<rlim_t>(asked, *allowed - others + untouched_memory() + untouched_to_come);
+  data.rlim_cur =
+      std::min<rlim_t>(asked, *allowed - others + untouched_memory() + stacks_to_come(threads) + untouched_to_come);
   if (setrlimit(RLIMIT_DATA, &data) != 0) return;
   reserve_small_stacks();
   obeyed_limit = *allowed;

@@ -14,12 +14,9 @@ std::vector<std::string> memory_group_folders(const std::string& cgroups, const 
 
 /// The kernel kills what grows beyond its group's memory limit, without a word. So that the program can tell it
 /// instead, and end as it does where the machine itself has no more, it may from now on take no more data (RLIMIT_DATA)
-/// than the group allows. What is reserved and never touched does not count: what there is of it now, and
-/// untouched_to_come, in bytes. Does nothing without a limit.
-void obey_group_memory_limit(std::uint64_t untouched_to_come);
-
-/// What so many threads reserve for their stacks, in bytes: 8 MiB each.
-constexpr std::uint64_t stacks_of(int threads) { return static_cast<std::uint64_t>(threads) << 23U; }
+/// than the group allows. What is reserved and never touched does not count: what there is of it now, the stacks that
+/// are still to come where so many threads work, and untouched_to_come, in bytes. Does nothing without a limit.
+void obey_group_memory_limit(int threads, std::uint64_t untouched_to_come = 0);
 
 /// ": the control group of this process allows 200 MiB" if that is what is obeyed, else nothing.
 std::string memory_limit_text();

@@ -105,7 +105,7 @@ int merge_command(int argc, const char* const* argv) {
     return std::cout ? exit_code::done : exit_code::failed;
   }
   set_verbosity(options.quiet ? Verbosity::errors : options.verbose ? Verbosity::steps : Verbosity::warnings);
-  obey_group_memory_limit(stacks_of(thread_count(options.settings.threads)));
+  obey_group_memory_limit(thread_count(options.settings.threads));
   try {
     tell(merge_pieces(options.settings));
   } catch (const MergeError& error) {

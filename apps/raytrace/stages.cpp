@@ -77,7 +77,7 @@ void check_outputs(const Options& options) {
 }
 
 std::optional<SceneDescription> load(const Options& options, Statistics& statistics) {
-  obey_group_memory_limit(stacks_of(options.threads));
+  obey_group_memory_limit(options.threads);
   Diagnostics diagnostics(shown_name(options.scene));
   std::optional<SceneDescription> description;
   {
@@ -95,13 +95,13 @@ std::optional<SceneDescription> load(const Options& options, Statistics& statist
 std::unique_ptr<const Scene> build(const SceneDescription& description, const Options& options,
                                    Statistics& statistics) {
   constexpr std::uint64_t embree_device = std::uint64_t{128} << 20U;
-  obey_group_memory_limit(embree_device + stacks_of(options.threads));
+  obey_group_memory_limit(options.threads, embree_device);
   std::unique_ptr<const Scene> scene;
   {
     const PhaseTimer timer(statistics.phases.build);
     scene = build_scene(description, {options.threads, options.isa});
   }
-  obey_group_memory_limit(stacks_of(options.threads));
+  obey_group_memory_limit(options.threads);
   statistics.scene = scene->statistics();
   tell_step("built for " + statistics.scene.isa + " with Embree " + statistics.scene.embree_version +
             in_seconds(statistics.phases.build.seconds));

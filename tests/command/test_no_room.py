@@ -264,9 +264,10 @@ class MemoryGroup(SafetyTest):
         sphere = '<sphere><center x="{}" y="0" z="0"/><radius>1</radius><material>shiny</material></sphere>\n'
         many = "".join(sphere.format(number) for number in range(1000000))
         self.write("large.xml", support.SCENE.replace("</spheres>", many + "</spheres>"))
-        done = self.run_in_group("large.xml", "-o", "a.exr", "-t", "1")
-        self.assertEqual(done.returncode, 33, done.stderr)
-        self.assertEqual(self.names(), ["large.xml", "scene.xml"])
+        for threads in ("1", "4"):
+            done = self.run_in_group("large.xml", "-o", "a.exr", "-t", threads)
+            self.assertEqual(done.returncode, 33, f"{threads} threads: {done.stderr}")
+            self.assertEqual(self.names(), ["large.xml", "scene.xml"])
 
     def test_a_picture_that_fits(self):
         self.assertEqual(self.run_in_group("scene.xml", "-s", "1", "-o", "a.exr", "-t", "4").returncode, 0)
