@@ -10,6 +10,8 @@
 #include <optional>
 #include <sstream>
 
+#include "process_status.h"
+
 #if defined(__GLIBC__)
 #include <malloc.h>
 #endif
@@ -82,16 +84,6 @@ std::optional<std::uint64_t> limit_in(const std::string& folder) {
   return std::nullopt;
 }
 
-/// A number of /proc/self/status: of a line "VmData:    1234 kB" or "Threads:   4".
-std::uint64_t status_number(const std::string& field) {
-  std::istringstream lines(text_of("/proc/self/status"));
-  for (std::string line; std::getline(lines, line);) {
-    std::uint64_t number = 0;
-    if (line.starts_with(field + ":") && std::istringstream(line.substr(field.size() + 1)) >> number) return number;
-  }
-  return 0;
-}
-
 /// What was freed, whose pages go back to the system: it is reserved, but will be touched again.
 std::uint64_t given_back() {
 #if defined(__GLIBC__)
@@ -106,7 +98,7 @@ std::uint64_t given_back() {
 /// of stacks, and 128 MiB of a device of Embree 3.
 std::uint64_t untouched_memory() {
   const std::uint64_t to_be_touched = given_back();
-  const std::uint64_t reserved = status_number("VmData") << 10U, touched = status_number("RssAnon") << 10U;
+  const std::uint64_t reserved = process_status_bytes("VmData"), touched = process_status_bytes("RssAnon");
   return reserved - std::min(touched + to_be_touched, reserved);
 }
 
@@ -115,7 +107,7 @@ std::uint64_t untouched_memory() {
 std::uint64_t stacks_to_come(int threads) {
   constexpr std::uint64_t stack = std::uint64_t{8} << 20U, small_stack = std::uint64_t{1} << 20U;
   const auto wanted = static_cast<std::uint64_t>(threads);
-  return (wanted - std::min(wanted, status_number("Threads") - 1)) * stack + wanted * small_stack;
+  return (wanted - std::min(wanted, process_status("Threads") - 1)) * stack + wanted * small_stack;
 }
 
 /// The least that a group of this process allows, in bytes.

@@ -3,8 +3,9 @@
 #include <sys/resource.h>
 
 #include <cstdio>
-#include <fstream>
 #include <nlohmann/json.hpp>
+
+#include "process_status.h"
 
 namespace raytrace {
 
@@ -49,13 +50,9 @@ double Statistics::rays_per_second() const {
 }
 
 std::uint64_t peak_memory_bytes() {
-  constexpr std::uint64_t unit = 1024;  // Linux counts kibibytes
-  std::ifstream status("/proc/self/status");
-  for (std::string word; status >> word;) {
-    std::uint64_t peak = 0;
-    if (word == "VmHWM:" && status >> peak) return peak * unit;
-  }
+  if (const std::uint64_t peak = process_status_bytes("VmHWM")) return peak;
   // The next best: the peak of whoever started this process is in it, too.
+  constexpr std::uint64_t unit = 1024;  // Linux counts kibibytes
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<std::uint64_t>(usage.ru_maxrss) * unit;
