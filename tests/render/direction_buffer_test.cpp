@@ -227,6 +227,40 @@ TEST_CASE("parallel rays are blocked where they are in Embree, from wherever the
   }
 }
 
+TEST_CASE("small objects far away are met where they are in Embree") {
+  // Their cones differ from their axes by no more than a float's rounding. They are larger than the cells, and so many
+  // that most rays that pass one by meet another one behind it.
+  Draw draw(7);
+  const Vec3d point = Vec3d(Vec3f(180, 200, 150)), away = normalize(-point);
+  std::string spheres;
+  std::vector<ProbeRay> from_point, to_point;
+  for (int i = 0; i < 4000; ++i) {
+    const Vec3d center = draw.in_box(0.5) + away * draw.between(0, 20);
+    const double radius = draw.between(0.01, 0.05);
+    spheres += "<sphere>" + text_of("center", center) + "<radius>" + std::to_string(radius) +
+               "</radius><material>m</material></sphere>";
+    for (int ray = 0; ray < 64; ++ray) {
+      const Vec3d aside = normalize(cross(away, draw.direction()));
+      const Vec3d target = center + aside * (radius * (1 + std::pow(10, draw.between(-4, 0))));
+      const Vec3f beyond(point + (target - point) * draw.between(1, 1.1));
+      from_point.push_back({Vec3f(point), Vec3f(normalize(target - point))});
+      to_point.push_back({beyond, Vec3f(point) - beyond, 0, 1});
+    }
+  }
+  const SceneDescription scene =
+      parsed_scene(scene_text(64, 48, 1, materials + "<objects>" + group("spheres", spheres) + "</objects>"));
+  compare_hits(scene, Vec3f(point), from_point, [&](const auto& seen, const auto& wanted) {
+    int hits = 0, wrong = 0;
+    for (std::size_t i = 0; i < from_point.size(); ++i) {
+      hits += wanted[i].hit;
+      wrong += seen[i].hit != wanted[i].hit || (wanted[i].hit && seen[i].distance != wanted[i].distance);
+    }
+    CHECK(hits > 1000);
+    CHECK(wrong == 0);
+  });
+  check_blocked(scene, {Vec3f(point), false}, to_point);
+}
+
 TEST_CASE("no ray that Embree stops passes between the triangles of a surface, seen from a point") {
   // A bumpy sheet, aimed at exactly in its vertices and along its edges. Where there is no fused multiply-add, Embree
   // itself lets some through.

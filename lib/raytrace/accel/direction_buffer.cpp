@@ -318,8 +318,10 @@ class ListsMaker {
     listing.up = component(center, (axis + 2) % 3);
     listing.normal = face % 2 != 0 ? -component(center, axis) : component(center, axis);
     const auto& [cosine, sine] = half_cell_[face];
+    // Next to the differences between such cosines, the rounding of the axis' length is large.
+    const double squared_length = dot(Vec3d(center), Vec3d(center));
     const double least = view.cosine * cosine - view.sine * sine;
-    listing.least = view.in_cone ? least * std::abs(least) : -1e300;
+    listing.least = view.in_cone ? least * std::abs(least) * squared_length : -1e300;
     for (int first = rows.low / rows_a_band * rows_a_band; first <= rows.high; first += rows_a_band) {
       listing.bottom = static_cast<std::uint16_t>(std::max(rows.low, first));
       listing.top = static_cast<std::uint16_t>(std::min(rows.high, first + rows_a_band - 1));
