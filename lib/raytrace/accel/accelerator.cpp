@@ -50,7 +50,8 @@ PlacedObject placed_object(const typename ShapeTable<Shape>::Record& record, std
   const Bounds bounds = Shape::bounds(record);
   double radius = length(Vec3d(bounds.upper) - Vec3d(bounds.lower)) / 2;
   if constexpr (requires { Shape::bounding_radius(record); }) radius = std::min(radius, Shape::bounding_radius(record));
-  PlacedObject object{static_cast<std::uint32_t>(index_of<Shape>(Shapes{})), primitive, bounds, radius};
+  constexpr bool is_sphere = requires { requires Shape::is_its_bounding_sphere; };
+  PlacedObject object{static_cast<std::uint16_t>(index_of<Shape>(Shapes{})), is_sphere, primitive, bounds, radius};
   if constexpr (EmbreeTriangle<Shape>) object.corners = &record.vertex1;
   return object;
 }

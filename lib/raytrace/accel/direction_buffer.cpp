@@ -23,7 +23,7 @@ constexpr std::size_t cells_for_each_of_few = 1000;
 
 /// Cells, on the average, that a grid has for each object on it, and the most along an edge.
 constexpr double cells_an_object = 16;
-constexpr double most_cells_an_edge = 2048;
+constexpr double most_cells_an_edge = 1 << Listing::column_bits;
 
 /// Of a cell's edge to that of the objects' average rectangle: where objects overlap, smaller ones list the same
 /// objects, many times.
@@ -34,7 +34,7 @@ constexpr double least_edge = 0.25;
 constexpr double most_covered_cells = 64;
 
 /// What a thread fills at a time: so few that they stay in its cache.
-constexpr int rows_a_band = 32;
+constexpr int rows_a_band = 1 << Listing::row_bits;
 
 /// Nearest first, they lie all over memory: by how many it is asked for earlier.
 constexpr std::size_t objects_ahead = 16, corners_ahead = 8;
@@ -112,7 +112,7 @@ struct ObjectDepth {
 
 /// Some rows of a face's grid, which one thread fills.
 struct Band {
-  int face;
+  int face, first_row;
   std::size_t first_cell, cell_count;
   // Of its cells, and those with more than most_candidates.
   std::size_t used_cells = 0, crowded_cells = 0;
@@ -181,7 +181,7 @@ class ListsMaker {
       for (int row = 0; row < grid.rows; row += rows_a_band) {
         const auto count =
             static_cast<std::size_t>(std::min(rows_a_band, grid.rows - row)) * static_cast<std::size_t>(grid.columns);
-        bands_.push_back({face, cells, count});
+        bands_.push_back({face, row, cells, count});
         cells += count;
       }
     }
@@ -221,8 +221,20 @@ class ListsMaker {
   /// How many objects each cell lists. False if too many cells would list too many.
   bool count() {
     for_each_band([&](Band& band, std::span<Cell> cells) {
-      for_each_listed_cell(band, [&](const Listing&, std::size_t cell) { ++cell_on(band.face, cell).count; });
-      for (const Cell& cell : cells) {
+      struct Listed {
+        std::uint32_t count = 0;
+        float behind = infinity<float>();  ///< nothing that is as deep as that is seen through the cell
+      };
+      std::vector<Listed> listed(cells.size());
+      for_each_listed_cell(band, [&](const Listing& listing, std::size_t number, bool covered) {
+        // Without branches, which nobody could foresee.
+        Listed& cell = listed[number];
+        cell.count += listing.nearest < cell.behind ? 1 : 0;
+        cell.behind = std::min(cell.behind, covered ? listing.behind : infinity<float>());
+      });
+      for (std::size_t i = 0; i < cells.size(); ++i) {
+        Cell& cell = cells[i];
+        cell.count = listed[i].count;
         if (cell.count == 0) continue;
         ++band.used_cells;
         band.most_listed = std::max(band.most_listed, cell.count);
@@ -253,19 +265,29 @@ class ListsMaker {
       listed += band.listed + (limit_ > most_candidates ? band.listed_by_crowded : 0);
     }
     lists_.candidates = LargeArray<std::uint32_t>::unset(listed);
+    std::uint32_t* const candidates = lists_.candidates.data();
     for_each_band([&](const Band& band, std::span<Cell> cells) {
+      // Of each cell. What is behind an object that covers it comes last, so that its room is used up by then.
+      struct Room {
+        std::uint32_t next = 0, end = 0;
+      };
+      std::vector<Room> rooms(cells.size());
+      std::uint32_t unseen = 0;
       std::size_t first = band.first_candidate;
-      for (Cell& cell : cells) {
-        if (cell.count > limit_) {
-          cell.count = DirectionBuffer::crowded;
+      for (std::size_t i = 0; i < cells.size(); ++i) {
+        if (cells[i].count > limit_) {
+          cells[i].count = DirectionBuffer::crowded;
           continue;
         }
-        cell.first = static_cast<std::uint32_t>(first);
-        first += std::exchange(cell.count, 0);  // until they are listed
+        cells[i].first = static_cast<std::uint32_t>(first);
+        first += cells[i].count;
+        rooms[i] = {cells[i].first, static_cast<std::uint32_t>(first)};
       }
-      for_each_listed_cell(band, [&](const Listing& listing, std::size_t number) {
-        Cell& cell = cell_on(band.face, number);
-        if (cell.count != DirectionBuffer::crowded) lists_.candidates[cell.first + cell.count++] = listing.object;
+      for_each_listed_cell(band, [&](const Listing& listing, std::size_t cell, bool) {
+        Room& room = rooms[cell];
+        const bool is_seen = room.next < room.end;
+        *(is_seen ? candidates + room.next : &unseen) = listing.object;
+        room.next += is_seen ? 1 : 0;
       });
     });
   }
@@ -280,7 +302,8 @@ class ListsMaker {
     });
   }
 
-  /// Calls f(listing, cell) for all cells of all listings. The nearest object comes first.
+  /// Calls f(listing, cell, whether it is covered) for all cells of all listings; cells are counted from the band's
+  /// first. The nearest object comes first.
   template <class Function>
   void for_each_listed_cell(const Band& band, const Function& f) const {
     const Grid& grid = lists_.grids[band.face];
@@ -288,16 +311,14 @@ class ListsMaker {
       const Listings& listings = chunk[static_cast<std::size_t>(&band - bands_.data())];
       auto outline = listings.outlines.begin();
       for (const Listing& listing : listings.all) {
-        const auto list = [&](std::size_t cell) { f(listing, cell); };
+        const auto list = [&](std::size_t cell, bool covered) { f(listing, cell, covered); };
         if (listing.has_outline != 0)
-          for_each_reached_cell(grid, listing, band.face, *outline++, list);
+          for_each_reached_cell(grid, band.first_row, listing, band.face, *outline++, list);
         else
-          for_each_reached_cell(grid, listing, list);
+          for_each_reached_cell(grid, band.first_row, listing, list);
       }
     }
   }
-
-  Cell& cell_on(int face, std::size_t number) { return lists_.cells[lists_.grids[face].first_cell + number]; }
 
   /// Adds the object to all bands that the rectangle is in; the result: how many cells it covers.
   double list(const PlacedObject& object, const View& view, int face, const Rectangle& rectangle, std::uint32_t number,
@@ -310,8 +331,10 @@ class ListsMaker {
     Listing listing{};
     listing.object = number & 0x7FFFFFFFU;
     listing.has_outline = outline ? 1 : 0;
-    listing.left = static_cast<std::uint16_t>(columns.low);
-    listing.right = static_cast<std::uint16_t>(columns.high);
+    const auto bits = [](int number, int count) { return static_cast<std::uint32_t>(number) & ((1U << count) - 1); };
+    listing.left = bits(columns.low, Listing::column_bits);
+    listing.right = bits(columns.high, Listing::column_bits);
+    listing.nearest = lists_.objects[number].nearest;
     const int axis = face / 2;
     const Vec3f center(view.center * (1 / view.distance));
     listing.across = component(center, (axis + 1) % 3);
@@ -322,9 +345,16 @@ class ListsMaker {
     const double squared_length = dot(Vec3d(center), Vec3d(center));
     const double least = view.cosine * cosine - view.sine * sine;
     listing.least = view.in_cone ? least * std::abs(least) * squared_length : -1e300;
+    listing.inner = infinity<float>();
+    if (view.inner_sine > sine) {
+      const double inner = view.inner_cosine * cosine + view.inner_sine * sine;
+      // Rounded up, as this is to be on the safe side.
+      listing.inner = static_cast<float>((inner * inner * squared_length - listing.least) * (1 + 1e-6));
+      listing.behind = static_cast<float>(view.behind * (1 + 1e-6));
+    }
     for (int first = rows.low / rows_a_band * rows_a_band; first <= rows.high; first += rows_a_band) {
-      listing.bottom = static_cast<std::uint16_t>(std::max(rows.low, first));
-      listing.top = static_cast<std::uint16_t>(std::min(rows.high, first + rows_a_band - 1));
+      listing.bottom = bits(std::max(rows.low - first, 0), Listing::row_bits);
+      listing.top = bits(std::min(rows.high - first, rows_a_band - 1), Listing::row_bits);
       Listings& band = bands[first_band_[face] + static_cast<std::size_t>(first / rows_a_band)];
       band.all.push_back(listing);
       if (outline) band.outlines.push_back(*outline);

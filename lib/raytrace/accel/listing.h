@@ -19,11 +19,17 @@ namespace raytrace {
 
 /// The cells of a rectangle, in some rows, that reach into the cone around an object and, of a triangle, its outline.
 struct Listing {
+  static constexpr int column_bits = 11, row_bits = 5;
+
   std::uint32_t object : 31;
   std::uint32_t has_outline : 1;
-  std::uint16_t left, right, bottom, top;  ///< columns and rows of the grid, the last ones included
-  float across, up, normal;                ///< components of the cone's axis, of unit length
-  double least;  ///< cosine of the angle between it and directions through the cone, squared, its sign kept
+  std::uint32_t left : column_bits, right : column_bits;  ///< columns of the grid, the last one included
+  std::uint32_t bottom : row_bits, top : row_bits;  ///< rows, counted from the first of these, the last one included
+  float across, up, normal;                         ///< components of the cone's axis, of unit length
+  double least;   ///< cosine of the angle between it and directions through the cone, squared, its sign kept
+  float nearest;  ///< DirectionBuffer::Object::nearest
+  float inner;    ///< by what that is more in directions all around which the object is met; infinity: in none
+  float behind;   ///< View::behind
 };
 
 struct Listings {
@@ -31,9 +37,11 @@ struct Listings {
   std::vector<Outline> outlines;  ///< of those that have one, in the same order
 };
 
-/// Calls f(cell) for each, counted from the grid's first.
+/// Calls f(cell, whether the object covers it wholly) for each, counted from the first of `first_row`, the first of
+/// those rows in the grid.
 template <class Function>
-void for_each_reached_cell(const DirectionBuffer::Grid& grid, const Listing& listing, const Function& f) {
+void for_each_reached_cell(const DirectionBuffer::Grid& grid, int first_row, const Listing& listing,
+                           const Function& f) {
   // Column by column, the processor would guess wrong at every other edge of an object: so many at once.
   using Columns = Doubles<RegisterFloats>;
   alignas(64) static constexpr auto numbers = [] {
@@ -43,27 +51,32 @@ void for_each_reached_cell(const DirectionBuffer::Grid& grid, const Listing& lis
   }();
   const double width = 1.0 / grid.columns_per_unit, height = 1.0 / grid.rows_per_unit;
   for (int row = listing.bottom; row <= listing.top; ++row) {
-    const double up = grid.bottom + (row + 0.5) * height;
+    const double up = grid.bottom + (first_row + row + 0.5) * height;
     const std::size_t first = static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns);
     for (int column = listing.left; column <= listing.right; column += register_lanes) {
       const Columns number = Columns(column) + Columns::load_aligned(numbers.data());
       const Columns across = Columns(grid.left) + number * Columns(width);
       const Columns towards = Columns(listing.normal + up * listing.up) + across * Columns(listing.across);
       const Columns squared_length = Columns(1 + up * up) + across * across;
-      std::uint32_t reached = bits_of<RegisterFloats>(
-          Columns::float_mask(towards * abs(towards) >= Columns(listing.least) * squared_length));
+      const Columns signed_square = towards * abs(towards);
+      std::uint32_t reached =
+          bits_of<RegisterFloats>(Columns::float_mask(signed_square >= Columns(listing.least) * squared_length));
+      const std::uint32_t covered = bits_of<RegisterFloats>(
+          Columns::float_mask(signed_square >= Columns(listing.least + listing.inner) * squared_length));
       const int columns_left = listing.right + 1 - column;
       if (columns_left < register_lanes) reached &= (std::uint32_t{1} << columns_left) - 1;
-      for (; reached != 0; reached &= reached - 1)
-        f(first + static_cast<std::size_t>(column + std::countr_zero(reached)));
+      for (; reached != 0; reached &= reached - 1) {
+        const int lane = std::countr_zero(reached);
+        f(first + static_cast<std::size_t>(column + lane), (covered >> lane & 1) != 0);
+      }
     }
   }
 }
 
-/// The same of a triangle: those that reach into its outline.
+/// The same of a triangle: those that reach into its outline; that it covers one is not looked for.
 template <class Function>
-void for_each_reached_cell(const DirectionBuffer::Grid& grid, const Listing& listing, int face, const Outline& outline,
-                           const Function& f) {
+void for_each_reached_cell(const DirectionBuffer::Grid& grid, int first_row, const Listing& listing, int face,
+                           const Outline& outline, const Function& f) {
   // Cells are wider than they are, for the rounding of directions on the face and of a cell's number.
   const double width = 1.0 / grid.columns_per_unit, height = 1.0 / grid.rows_per_unit;
   const double half_width = 0.501 * width + 1e-6, half_height = 0.501 * height + 1e-6;
@@ -86,7 +99,7 @@ void for_each_reached_cell(const DirectionBuffer::Grid& grid, const Listing& lis
   for (int row = listing.bottom; row <= listing.top; ++row) {
     double left = listing.left, right = listing.right;
     for (const Edge& edge : edges) {
-      const double start = edge.at_first + row * edge.a_row;
+      const double start = edge.at_first + (first_row + row) * edge.a_row;
       if (edge.a_column > 0)
         left = std::max(left, -start / edge.a_column);
       else if (edge.a_column < 0)
@@ -98,7 +111,7 @@ void for_each_reached_cell(const DirectionBuffer::Grid& grid, const Listing& lis
     const std::size_t first = static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns);
     const int last = static_cast<int>(std::floor(right));
     for (int column = static_cast<int>(std::ceil(left)); column <= last; ++column)
-      f(first + static_cast<std::size_t>(column));
+      f(first + static_cast<std::size_t>(column), false);
   }
 }
 

@@ -145,6 +145,13 @@ std::optional<View> Perspective::view(const PlacedObject& object) const {
   view.in_cone = true;
   view.sine = radius / view.distance;
   view.cosine = std::sqrt(1 - view.sine * view.sine);
+  if (const double inner_radius = object.radius - slack_; object.is_sphere && inner_radius > 0) {
+    view.inner_sine = inner_radius / view.distance;
+    view.inner_cosine = std::sqrt(1 - view.inner_sine * view.inner_sine);
+    // No ray from the place meets its near side further away than the one that touches it.
+    const double touching = view.distance * view.inner_cosine + slack_;
+    view.behind = touching * touching;
+  }
   const auto gap = [](const Interval& i) { return std::max({i.low, -i.high, 0.0}); };
   const Vec3d to_box{gap(view.along[0]), gap(view.along[1]), gap(view.along[2])};
   const double nearest = std::max(length(to_box), view.distance - radius);

@@ -13,7 +13,9 @@ namespace raytrace {
 
 /// Where an object is: all that a direction buffer wants to know.
 struct PlacedObject {
-  std::uint32_t kind, primitive;  ///< as in Hits
+  std::uint16_t kind;  ///< as in Hits
+  bool is_sphere;      ///< whether it is the sphere of `radius` itself, so that no ray leads through that and misses it
+  std::uint32_t primitive;
   Bounds bounds;
   double radius;                   ///< of a sphere around it, whose center is that of the bounds
   const Vec3f* corners = nullptr;  ///< of a triangle, three; it must stay where it is
@@ -43,6 +45,9 @@ struct View {
   double distance;                ///< of that center
   bool in_cone;                   ///< whether that sphere says more than the box does; then
   double sine = 0, cosine = 1;    ///< of the angle between the axis of the cone around the sphere and its sides
+  // Of an object that is a sphere, seen as large as it is at least: a cone whose rays all meet it. 0: there is none.
+  double inner_sine = 0, inner_cosine = 1;
+  double behind = 0;  ///< what is as deep as that or deeper is behind the surface that those rays meet
 };
 
 /// The directions to a triangle lie between three planes through the vantage and an edge each.

@@ -35,6 +35,7 @@ class Sphere {
   static Record<float> record(const Parameters& parameters);
   static Bounds bounds(const Record<float>& sphere);
   static double bounding_radius(const Record<float>& sphere);
+  static constexpr bool is_its_bounding_sphere = true;  ///< so that nothing is seen through it
 
   /// The nearest distance inside (ray.near, ray.far) in each lane of `active`; infinity elsewhere.
   template <class F>
