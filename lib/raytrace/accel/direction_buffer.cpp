@@ -23,7 +23,7 @@ constexpr std::size_t cells_for_each_of_few = 1000;
 
 /// Cells, on the average, that a grid has for each object on it, and the most along an edge.
 constexpr double cells_an_object = 16;
-constexpr double most_cells_an_edge = 1 << Listing::column_bits;
+constexpr double most_cells_an_edge = Listing::last_column + 1;
 
 /// Of a cell's edge to that of the objects' average rectangle: where objects overlap, smaller ones list the same
 /// objects, many times.
@@ -34,7 +34,7 @@ constexpr double least_edge = 0.25;
 constexpr double most_covered_cells = 64;
 
 /// What a thread fills at a time: so few that they stay in its cache.
-constexpr int rows_a_band = 1 << Listing::row_bits;
+constexpr int rows_a_band = Listing::last_row + 1;
 
 /// Nearest first, they lie all over memory: by how many it is asked for earlier.
 constexpr std::size_t objects_ahead = 16, corners_ahead = 8;
@@ -331,9 +331,8 @@ class ListsMaker {
     Listing listing{};
     listing.object = number & 0x7FFFFFFFU;
     listing.has_outline = outline ? 1 : 0;
-    const auto bits = [](int number, int count) { return static_cast<std::uint32_t>(number) & ((1U << count) - 1); };
-    listing.left = bits(columns.low, Listing::column_bits);
-    listing.right = bits(columns.high, Listing::column_bits);
+    listing.left = static_cast<std::uint32_t>(columns.low) & Listing::last_column;
+    listing.right = static_cast<std::uint32_t>(columns.high) & Listing::last_column;
     listing.nearest = lists_.objects[number].nearest;
     const int axis = face / 2;
     const Vec3f center(view.center * (1 / view.distance));
@@ -353,8 +352,8 @@ class ListsMaker {
       listing.behind = static_cast<float>(view.behind * (1 + 1e-6));
     }
     for (int first = rows.low / rows_a_band * rows_a_band; first <= rows.high; first += rows_a_band) {
-      listing.bottom = bits(std::max(rows.low - first, 0), Listing::row_bits);
-      listing.top = bits(std::min(rows.high - first, rows_a_band - 1), Listing::row_bits);
+      listing.bottom = static_cast<std::uint32_t>(std::max(rows.low - first, 0)) & Listing::last_row;
+      listing.top = static_cast<std::uint32_t>(std::min(rows.high - first, rows_a_band - 1)) & Listing::last_row;
       Listings& band = bands[first_band_[face] + static_cast<std::size_t>(first / rows_a_band)];
       band.all.push_back(listing);
       if (outline) band.outlines.push_back(*outline);

@@ -20,6 +20,7 @@ namespace raytrace {
 /// The cells of a rectangle, in some rows, that reach into the cone around an object and, of a triangle, its outline.
 struct Listing {
   static constexpr int column_bits = 11, row_bits = 5;
+  static constexpr std::uint32_t last_column = (1U << column_bits) - 1, last_row = (1U << row_bits) - 1;
 
   std::uint32_t object : 31;
   std::uint32_t has_outline : 1;
