@@ -119,6 +119,8 @@ struct Band {
   std::size_t listed = 0, listed_by_crowded = 0;  ///< by the others, and by those
   std::uint32_t most_listed = 0;
   std::size_t first_candidate = 0;
+  std::vector<std::uint8_t> seen =
+      {};  ///< of each listing's cells in turn, as for_each_reached() finds them, those that list
 };
 
 /// Fills lists, in the order of its functions. All loops are cut into pieces that do not depend on the number of
@@ -221,20 +223,32 @@ class ListsMaker {
   /// How many objects each cell lists. False if too many cells would list too many.
   bool count() {
     for_each_band([&](Band& band, std::span<Cell> cells) {
-      struct Listed {
-        std::uint32_t count = 0;
-        float behind = infinity<float>();  ///< nothing that is as deep as that is seen through the cell
+      // The last cells are tested together with some that there are not.
+      const std::size_t places = cells.size() + CellFloats::size;
+      std::vector<std::int32_t> counts(places);
+      std::vector<float> depths(places, infinity<float>());  // nothing that is as deep as that is seen through a cell
+      const auto add = [&](const Listing& listing, std::size_t first, const CellMask& reached,
+                           const CellMask& covered) RAYTRACE_INLINE_LAMBDA {
+        using Counts = Ints<CellFloats>;
+        const CellFloats depth = CellFloats::load_unaligned(&depths[first]);
+        const CellMask seen = reached & (CellFloats(listing.nearest) < depth);
+        const auto more = same_bits<Counts>(select(seen, same_bits<CellFloats>(Counts(1)), CellFloats(0)));
+        (Counts::load_unaligned(&counts[first]) + more).store_unaligned(&counts[first]);
+        min(depth, select(covered, CellFloats(listing.behind), infinity<CellFloats>())).store_unaligned(&depths[first]);
+        band.seen.push_back(static_cast<std::uint8_t>(bits_of<CellFloats>(seen)));
       };
-      std::vector<Listed> listed(cells.size());
-      for_each_listed_cell(band, [&](const Listing& listing, std::size_t number, bool covered) {
-        // Without branches, which nobody could foresee.
-        Listed& cell = listed[number];
-        cell.count += listing.nearest < cell.behind ? 1 : 0;
-        cell.behind = std::min(cell.behind, covered ? listing.behind : infinity<float>());
+      for_each_listing(band, [&](const Listing& listing, const Outline* outline) {
+        const auto add_listing = [&](std::size_t first, const CellMask& reached, const CellMask& covered)
+                                     RAYTRACE_INLINE_LAMBDA { add(listing, first, reached, covered); };
+        const Grid& grid = lists_.grids[band.face];
+        if (outline != nullptr)
+          for_each_reached(grid, band.first_row, listing, band.face, *outline, add_listing);
+        else
+          for_each_reached(grid, band.first_row, listing, add_listing);
       });
       for (std::size_t i = 0; i < cells.size(); ++i) {
         Cell& cell = cells[i];
-        cell.count = listed[i].count;
+        cell.count = static_cast<std::uint32_t>(counts[i]);
         if (cell.count == 0) continue;
         ++band.used_cells;
         band.most_listed = std::max(band.most_listed, cell.count);
@@ -267,27 +281,25 @@ class ListsMaker {
     lists_.candidates = LargeArray<std::uint32_t>::unset(listed);
     std::uint32_t* const candidates = lists_.candidates.data();
     for_each_band([&](const Band& band, std::span<Cell> cells) {
-      // Of each cell. What is behind an object that covers it comes last, so that its room is used up by then.
-      struct Room {
-        std::uint32_t next = 0, end = 0;
-      };
-      std::vector<Room> rooms(cells.size());
-      std::uint32_t unseen = 0;
+      std::vector<std::uint32_t> next(cells.size());  // each cell's next place among the candidates
       std::size_t first = band.first_candidate;
       for (std::size_t i = 0; i < cells.size(); ++i) {
         if (cells[i].count > limit_) {
           cells[i].count = DirectionBuffer::crowded;
           continue;
         }
-        cells[i].first = static_cast<std::uint32_t>(first);
+        cells[i].first = next[i] = static_cast<std::uint32_t>(first);
         first += cells[i].count;
-        rooms[i] = {cells[i].first, static_cast<std::uint32_t>(first)};
       }
-      for_each_listed_cell(band, [&](const Listing& listing, std::size_t cell, bool) {
-        Room& room = rooms[cell];
-        const bool is_seen = room.next < room.end;
-        *(is_seen ? candidates + room.next : &unseen) = listing.object;
-        room.next += is_seen ? 1 : 0;
+      auto seen = band.seen.begin();
+      const auto columns = static_cast<std::size_t>(lists_.grids[band.face].columns);
+      for_each_listing(band, [&](const Listing& listing, const Outline*) {
+        for (std::size_t row = listing.bottom; row <= listing.top; ++row)
+          for (std::size_t column = listing.left; column <= listing.right; column += CellFloats::size)
+            for (std::uint32_t lanes = *seen++; lanes != 0; lanes &= lanes - 1) {
+              const std::size_t cell = row * columns + column + static_cast<std::size_t>(std::countr_zero(lanes));
+              if (cells[cell].count != DirectionBuffer::crowded) candidates[next[cell]++] = listing.object;
+            }
       });
     });
   }
@@ -302,21 +314,13 @@ class ListsMaker {
     });
   }
 
-  /// Calls f(listing, cell, whether it is covered) for all cells of all listings; cells are counted from the band's
-  /// first. The nearest object comes first.
+  /// Calls f(listing, outline) for all of the band, that of the nearest object first; outline: null if it has none.
   template <class Function>
-  void for_each_listed_cell(const Band& band, const Function& f) const {
-    const Grid& grid = lists_.grids[band.face];
+  void for_each_listing(const Band& band, const Function& f) const {
     for (const auto& chunk : listings_) {
       const Listings& listings = chunk[static_cast<std::size_t>(&band - bands_.data())];
       auto outline = listings.outlines.begin();
-      for (const Listing& listing : listings.all) {
-        const auto list = [&](std::size_t cell, bool covered) { f(listing, cell, covered); };
-        if (listing.has_outline != 0)
-          for_each_reached_cell(grid, band.first_row, listing, band.face, *outline++, list);
-        else
-          for_each_reached_cell(grid, band.first_row, listing, list);
-      }
+      for (const Listing& listing : listings.all) f(listing, listing.has_outline != 0 ? &*outline++ : nullptr);
     }
   }
 

@@ -38,13 +38,15 @@ struct Listings {
   std::vector<Outline> outlines;  ///< of those that have one, in the same order
 };
 
-/// Calls f(cell, whether the object covers it wholly) for each, counted from the first of `first_row`, the first of
-/// those rows in the grid.
+/// Cells beside each other in a row that are tested at once: about as many as a small object reaches into.
+using CellFloats = FloatLanes<8>;
+using CellMask = Mask<CellFloats>;
+
+/// Calls f(first, reached, covered) for all that the listing may reach into, so many at a time: `first` counts from the
+/// first cell of `first_row`, the first of those rows in the grid; covered are those that the object covers wholly.
 template <class Function>
-void for_each_reached_cell(const DirectionBuffer::Grid& grid, int first_row, const Listing& listing,
-                           const Function& f) {
-  // Column by column, the processor would guess wrong at every other edge of an object: so many at once.
-  using Columns = Doubles<RegisterFloats>;
+void for_each_reached(const DirectionBuffer::Grid& grid, int first_row, const Listing& listing, const Function& f) {
+  using Columns = Doubles<CellFloats>;
   alignas(64) static constexpr auto numbers = [] {
     std::array<double, Columns::size> lanes{};
     for (std::size_t i = 0; i < lanes.size(); ++i) lanes[i] = static_cast<double>(i) + 0.5;
@@ -54,30 +56,25 @@ void for_each_reached_cell(const DirectionBuffer::Grid& grid, int first_row, con
   for (int row = listing.bottom; row <= listing.top; ++row) {
     const double up = grid.bottom + (first_row + row + 0.5) * height;
     const std::size_t first = static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns);
-    for (int column = listing.left; column <= listing.right; column += register_lanes) {
+    for (int column = listing.left; column <= listing.right; column += lane_count<CellFloats>) {
       const Columns number = Columns(column) + Columns::load_aligned(numbers.data());
       const Columns across = Columns(grid.left) + number * Columns(width);
       const Columns towards = Columns(listing.normal + up * listing.up) + across * Columns(listing.across);
       const Columns squared_length = Columns(1 + up * up) + across * across;
       const Columns signed_square = towards * abs(towards);
-      std::uint32_t reached =
-          bits_of<RegisterFloats>(Columns::float_mask(signed_square >= Columns(listing.least) * squared_length));
-      const std::uint32_t covered = bits_of<RegisterFloats>(
-          Columns::float_mask(signed_square >= Columns(listing.least + listing.inner) * squared_length));
-      const int columns_left = listing.right + 1 - column;
-      if (columns_left < register_lanes) reached &= (std::uint32_t{1} << columns_left) - 1;
-      for (; reached != 0; reached &= reached - 1) {
-        const int lane = std::countr_zero(reached);
-        f(first + static_cast<std::size_t>(column + lane), (covered >> lane & 1) != 0);
-      }
+      const CellMask reached = Columns::float_mask(signed_square >= Columns(listing.least) * squared_length);
+      const CellMask covered =
+          Columns::float_mask(signed_square >= Columns(listing.least + listing.inner) * squared_length);
+      const CellMask here = first_lanes<CellFloats>(listing.right + 1 - column);
+      f(first + static_cast<std::size_t>(column), reached & here, covered & here);
     }
   }
 }
 
 /// The same of a triangle: those that reach into its outline; that it covers one is not looked for.
 template <class Function>
-void for_each_reached_cell(const DirectionBuffer::Grid& grid, int first_row, const Listing& listing, int face,
-                           const Outline& outline, const Function& f) {
+void for_each_reached(const DirectionBuffer::Grid& grid, int first_row, const Listing& listing, int face,
+                      const Outline& outline, const Function& f) {
   // Cells are wider than they are, for the rounding of directions on the face and of a cell's number.
   const double width = 1.0 / grid.columns_per_unit, height = 1.0 / grid.rows_per_unit;
   const double half_width = 0.501 * width + 1e-6, half_height = 0.501 * height + 1e-6;
@@ -108,11 +105,14 @@ void for_each_reached_cell(const DirectionBuffer::Grid& grid, int first_row, con
       else if (start < 0)
         right = -1;
     }
-    if (left > right) continue;  // by however much: not all of it is an int's
+    if (left > right) left = 1, right = 0;  // by however much: not all of it is a float's
     const std::size_t first = static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns);
-    const int last = static_cast<int>(std::floor(right));
-    for (int column = static_cast<int>(std::ceil(left)); column <= last; ++column)
-      f(first + static_cast<std::size_t>(column), false);
+    for (int column = listing.left; column <= listing.right; column += lane_count<CellFloats>) {
+      const CellFloats number = lane_numbers<CellFloats>() + CellFloats(static_cast<float>(column));
+      const CellMask reached =
+          (number >= CellFloats(static_cast<float>(left))) & (number <= CellFloats(static_cast<float>(right)));
+      f(first + static_cast<std::size_t>(column), reached, CellMask(false));
+    }
   }
 }
 
