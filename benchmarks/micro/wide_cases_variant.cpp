@@ -258,15 +258,15 @@ constexpr Region sums_region = {0, 0, static_cast<int>(packet_count) * sampled_s
 
 class ExactFilm {
  public:
-  using Sums = BlockSums;
+  using Sums = BlockSums<SampledBlock>;
 
-  Sums no_sums() const { return BlockSums(scale_); }
+  Sums no_sums() const { return Sums(scale_); }
   void add(const Sums& sums, const SampledBlock& block) { sums.add_to(film_, block, sums_region); }
   float red(int x) const { return static_cast<float>(film_.sum(x, 0).red); }
 
  private:
   static constexpr int unit_exponent = -44;
-  BlockSums::Scale scale_{unit_exponent};
+  SumScale scale_{unit_exponent};
   Film film_{FilmSettings{{sums_region.x1, sums_region.y1, sums_region}, {}, 0, unit_exponent, {}}};
 };
 
@@ -293,7 +293,9 @@ class FloatFilm {
     const auto by_pixel = []<class Batch>(const Batch& batch) {
       alignas(64) std::array<typename Batch::value_type, packet_lanes> lanes;
       batch.store_aligned(lanes.data());
-      return SampledBlock::sum_by_pixel(lanes);
+      std::array<typename Batch::value_type, SampledBlock::pixels> totals{};
+      for (std::size_t lane = 0; lane < packet_lanes; ++lane) totals[lane % totals.size()] += lanes[lane];
+      return totals;
     };
     const auto red = by_pixel(sums.radiance.red), green = by_pixel(sums.radiance.green),
                blue = by_pixel(sums.radiance.blue);

@@ -115,4 +115,18 @@ TEST_CASE("fixed-point sums become the nearest doubles") {
       }
 }
 
+TEST_CASE("several lanes' terms meet in one fixed-point sum") {
+  std::vector<float> terms;
+  for (const WideLanes& values : random_terms(8)) terms.insert(terms.end(), values.begin(), values.end());
+  for (const std::string& isa : usable_isas())
+    for (const std::size_t count : {1U, 2U, 4U, 8U}) {
+      INFO(count << " sums, " << isa);
+      std::vector<std::int64_t> wanted(count);
+      for (std::size_t i = 0; i < terms.size(); ++i) wanted[i % count] += std::llrint(double{terms[i]} * units);
+      const PacketSums sums = wide_arithmetic(isa).packet_sums(static_cast<int>(count), terms, units);
+      CHECK(sums.exact == wanted);
+      CHECK(sums.rounded == std::vector<double>(wanted.begin(), wanted.end()));
+    }
+}
+
 }  // namespace raytrace::test

@@ -53,7 +53,7 @@ Result sums_of(std::span<const WideLanes> terms, double units, const Of& of) {
   Result result;
   for (std::size_t first = 0; first < result.size(); first += F::size) {
     FixedPointSums<F> sums;
-    for (const WideLanes& values : terms) sums.add(F::load_unaligned(values.data() + first), Doubles<F>(units));
+    for (const WideLanes& values : terms) sums.add(F::load_unaligned(values.data() + first), units);
     std::ranges::copy(of(sums), result.begin() + static_cast<std::ptrdiff_t>(first));
   }
   return result;
@@ -76,9 +76,29 @@ WideSums fixed_point_sums(int lanes, std::span<const WideLanes> terms, double un
 }
 
 WideDoubles rounded_sums(int lanes, std::span<const WideLanes> terms, double units) {
-  return sums_of<WideDoubles>(lanes, terms, units, []<class F>(const FixedPointSums<F>& sums) {
-    return sums.template rounded_sums_of_every<F::size>();
-  });
+  return sums_of<WideDoubles>(lanes, terms, units, [](const auto& sums) { return sums.rounded_sums(); });
+}
+
+template <std::size_t count>
+PacketSums sums_of_packets(std::span<const float> terms, double units) {
+  FixedPointSums<FloatN, count> sums;
+  for (std::size_t i = 0; i < terms.size(); i += packet_lanes) sums.add(FloatN::load_unaligned(&terms[i]), units);
+  const auto exact = sums.sums();
+  const auto rounded = sums.rounded_sums();
+  return {{exact.begin(), exact.end()}, {rounded.begin(), rounded.end()}};
+}
+
+PacketSums packet_sums(int count, std::span<const float> terms, double units) {
+  switch (count) {
+    case 1:
+      return sums_of_packets<1>(terms, units);
+    case 2:
+      return sums_of_packets<2>(terms, units);
+    case 4:
+      return sums_of_packets<4>(terms, units);
+    default:
+      return sums_of_packets<8>(terms, units);
+  }
 }
 
 }  // namespace
@@ -89,8 +109,9 @@ WideDoubles rounded_sums(int lanes, std::span<const WideLanes> terms, double uni
 #define RAYTRACE_JOIN(a, b) RAYTRACE_JOIN_NAMES(a, b)
 
 extern "C" const raytrace::test::WideArithmetic* RAYTRACE_JOIN(raytrace_arithmetic_, RAYTRACE_VARIANT)() {
-  static constexpr raytrace::test::WideArithmetic arithmetic{&raytrace::test::fused, &raytrace::test::double_sum,
-                                                             &raytrace::test::below, &raytrace::test::fixed_point_sums,
-                                                             &raytrace::test::rounded_sums};
+  static constexpr raytrace::test::WideArithmetic arithmetic{
+      &raytrace::test::fused,        &raytrace::test::double_sum,
+      &raytrace::test::below,        &raytrace::test::fixed_point_sums,
+      &raytrace::test::rounded_sums, &raytrace::test::packet_sums};
   return &arithmetic;
 }

@@ -11,7 +11,7 @@ void BlockAovs::prepare() {
   nearest_.fill(FloatN(0));
   const std::vector<int>& units = film_.settings().mean_units;
   for (std::size_t i = 0; i < units.size(); ++i) {
-    means_[i].units = Doubles<FloatN>(std::ldexp(1.0, -units[i]));
+    means_[i].units = std::ldexp(1.0, -units[i]);
     means_[i].largest = FloatN(static_cast<float>(std::min(std::ldexp(FixedPointSums<FloatN>::largest_term, units[i]),
                                                            double{std::numeric_limits<float>::max()})));
   }

@@ -52,7 +52,7 @@ class BlockAovs {
   static constexpr std::int32_t nothing = -1;
 
   struct Mean {
-    Doubles<FloatN> units{1.0};  ///< one over the sum's unit
+    double units = 1;  ///< one over the sum's unit
     FloatN largest = FloatN(0);
     FixedPointSums<FloatN> sum;
   };

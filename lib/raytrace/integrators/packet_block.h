@@ -50,19 +50,8 @@ struct PacketBlock {
 
   static UintN slots() { return UintN::load_aligned(numbers.slot.data()); }
 
-  /// Of a number in each lane, the sums of each pixel's lanes.
-  template <class Number, std::size_t size>
-  static RAYTRACE_INLINE std::array<Number, pixels> sum_by_pixel(const std::array<Number, size>& lanes) {
-    if constexpr (size == pixels) {
-      return lanes;
-    } else {  // by halves of known size, so that each is added at once
-      std::array<Number, size / 2> sums;
-      for (std::size_t i = 0; i < sums.size(); ++i) sums[i] = lanes[i] + lanes[i + size / 2];
-      return sum_by_pixel(sums);
-    }
-  }
-
-  /// Calls f(x, y, pixel), pixel counting as in sum_by_pixel(), for the pixels that lie in the region.
+  /// Calls f(x, y, pixel), a pixel being that of lanes pixel, pixel + pixels and so on, for the pixels that lie in the
+  /// region.
   template <class Function>
   void for_each_pixel(const Region& region, const Function& f) const {
     const bool all =

@@ -99,14 +99,14 @@ class BlockRenderer {
     constexpr auto group = static_cast<std::uint32_t>(shape.samples);
     std::uint32_t base = left.first / group * group;
     PixelSampler sampler(shift_of(block), group_, base, settings.samples.centered);
-    BlockSums sums(scale_);
+    BlockSums<Block> sums(scale_);
     MetSurface met;
     for (int packets = 1; base < left.last; base += group, ++packets) {
       const UintN sample = UintN(base) + slot;
       const bool all_wanted = base >= left.all_from && left.last - base >= group;
       const MaskN wanted = all_wanted ? active : active & in_range(sample, left.lane_first, UintN(left.last));
       const PixelSampler::Point point = sampler.next();
-      const Ray<FloatN> rays = scene_.camera().generate(x + point.x, y + point.y);
+      Ray<FloatN> rays = scene_.camera().generate(x + point.x, y + point.y);
       const SeenRadiance seen =
           Integrator::radiance(scene_, rays, active, wanted, report_.rays, aovs != nullptr ? &met : nullptr);
       const MaskN bad = sums.add(seen, wanted);
@@ -152,7 +152,7 @@ class BlockRenderer {
   const Region& region_;
   Film& film_;
   const std::atomic<bool>* stop_;
-  BlockSums::Scale scale_;
+  SumScale scale_;
   SampleGroup group_;
   PixelShifts shifts_;
   RenderReport report_;
