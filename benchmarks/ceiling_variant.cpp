@@ -114,8 +114,9 @@ class CeilingOfVariant final : public Ceiling {
 
   void intersect(CameraPacket& packet) const {
     if (bare_ == BareLoop::parts) {
-      const Hits hits = scene_.accelerator().intersect_unbounded(embree::load_rays(packet.ray()), MaskN(true));
-      embree::store(hits.distance, [&](int i) { return packet.rays[i].ray.tfar; });
+      Ray<FloatN> rays = embree::load_rays(packet.ray());
+      scene_.accelerator().intersect_unbounded(rays, MaskN(true));
+      embree::store(rays.far, [&](int i) { return packet.rays[i].ray.tfar; });
     }
     embree::Query query(true);
     const embree::ValidLanes valid(packet.valid);
@@ -167,7 +168,7 @@ class CeilingOfVariant final : public Ceiling {
       const PixelSampler::Point point = sampler.next();
       if (sample < first_sample) continue;
       const MaskN all(true);
-      const Ray<FloatN> rays =
+      Ray<FloatN> rays =
           scene_.camera().generate(FloatN::load_aligned(xs) + point.x, FloatN::load_aligned(ys) + point.y);
       CameraPacket& packet = camera.emplace_back();
       embree::store_rays(rays, packet.ray());
@@ -177,15 +178,17 @@ class CeilingOfVariant final : public Ceiling {
 
       const Hits hits = scene_.accelerator().intersect(rays, all, Coherence::coherent);
       if (none(hits.hit)) continue;
-      SurfacePoint<FloatN> surface = scene_.accelerator().surface(rays, hits);
-      surface.normal = select(dot(surface.normal, rays.direction) > FloatN(0), -surface.normal, surface.normal);
-      const Vec3<FloatN> origin = leaving_origin(surface);
+      const SurfacePoint<FloatN> surface = scene_.accelerator().surface(rays, hits);
+      Ray<FloatN> shadow_rays;
+      shadow_rays.origin = leaving_origin(surface);
+      shadow_rays.near = FloatN(0);
       for (const auto& light : scene_.lights()) {
-        const MaskN lit = hits.hit & (dot(surface.normal, light->sample(surface.position).to_light) > FloatN(0));
+        Rgb<FloatN> radiance;
+        light->sample(shadow_rays, radiance);
+        const MaskN lit = hits.hit & (dot(surface.normal, shadow_rays.direction) > FloatN(0));
         if (none(lit)) continue;
-        const LightSample<FloatN> to_light = light->sample(origin);
         ShadowPacket& shadow_packet = shadow.emplace_back();
-        embree::store_rays(Ray<FloatN>{origin, to_light.to_light, FloatN(0), to_light.end}, shadow_packet.ray());
+        embree::store_rays(shadow_rays, shadow_packet.ray());
         shadow_packet.valid = lit;
         counts.shadow += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(lit)));
       }

@@ -15,14 +15,26 @@ const Vec3<FloatN> positions = vectors_of([](std::size_t i) {
   return Vec3d{x * x - 3, 0.5 - x, 1 / (1 + x)};
 });
 
+struct Arriving {
+  Ray<FloatN> rays;
+  Rgb<FloatN> radiance;
+};
+
+Arriving arriving_at(const Vec3<FloatN>& points, const LightSource& light) {
+  Arriving arriving;
+  arriving.rays.origin = points;
+  light.sample(arriving.rays, arriving.radiance);
+  return arriving;
+}
+
 }  // namespace
 
 TEST_CASE("a point light is reached from each point along the difference, and ends there") {
   const LightSourceOf<PointLight> light(PointLight({{2, 30, -4}, 3, {1, 0.5, 0.25}, true}));
-  const LightSample<FloatN> sample = light.sample(positions);
-  CHECK(all(sample.end == FloatN(1)));
+  const Ray<FloatN> rays = arriving_at(positions, light).rays;
+  CHECK(all(rays.far == FloatN(1)));
   for (std::size_t lane = 0; lane < lanes; ++lane) {
-    const Vec3d reached = lane_of(positions, lane) + lane_of(sample.to_light, lane);
+    const Vec3d reached = lane_of(positions, lane) + lane_of(rays.direction, lane);
     CHECK(length(reached - Vec3d{2, 30, -4}) < 1e-5);
   }
 }
@@ -30,10 +42,10 @@ TEST_CASE("a point light is reached from each point along the difference, and en
 TEST_CASE("a directional light lies in the same direction from everywhere, infinitely far") {
   for (const double scale : {1e-9, 1.0, 1e9}) {
     const LightSourceOf<DirectionalLight> light(DirectionalLight({Vec3d{3, -4, 12} * scale, 1, {1, 1, 1}, true}));
-    const LightSample<FloatN> sample = light.sample(positions);
-    CHECK(all(sample.end == FloatN(std::numeric_limits<float>::infinity())));
+    const Ray<FloatN> rays = arriving_at(positions, light).rays;
+    CHECK(all(rays.far == FloatN(std::numeric_limits<float>::infinity())));
     for (std::size_t lane = 0; lane < lanes; ++lane)
-      CHECK(length(normalize(lane_of(sample.to_light, lane)) - Vec3d{3.0 / 13, -4.0 / 13, 12.0 / 13}) < 1e-6);
+      CHECK(length(normalize(lane_of(rays.direction, lane)) - Vec3d{3.0 / 13, -4.0 / 13, 12.0 / 13}) < 1e-6);
   }
 }
 
@@ -44,7 +56,7 @@ TEST_CASE("a light's radiance is its color times its scale, and shadows are cast
     CHECK(radiance.blue == 0.75f);
   };
   const auto sampled = [](const LightSource& light) {
-    const Rgb<FloatN> radiance = light.sample({FloatN(1), FloatN(2), FloatN(3)}).radiance;
+    const Rgb<FloatN> radiance = arriving_at({FloatN(1), FloatN(2), FloatN(3)}, light).radiance;
     return Rgb<float>(radiance.red.get(1), radiance.green.get(1), radiance.blue.get(1));
   };
   check(AmbientLight({3, {1, 0.5, 0.25}}).radiance());

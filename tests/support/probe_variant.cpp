@@ -13,7 +13,7 @@ using Lanes = std::array<float, packet_lanes>;
 
 Vec3f lane_of(const Vec3<FloatN>& v, std::size_t lane) { return {v.x.get(lane), v.y.get(lane), v.z.get(lane)}; }
 
-/// Calls f(first, count, rays, active) for each packet of the rays.
+/// Calls f(first, count, rays, active) for each packet of the rays, which it may change.
 template <class Function>
 void for_each_packet(std::span<const ProbeRay> all, Function f) {
   constexpr std::size_t size = packet_lanes;
@@ -27,7 +27,7 @@ void for_each_packet(std::span<const ProbeRay> all, Function f) {
       for (std::size_t field = 0; field < 8; ++field) lanes[field][i] = values[field];
     }
     const auto field = [&](std::size_t i) { return FloatN::load_aligned(lanes[i].data()); };
-    const Ray<FloatN> rays{{field(0), field(1), field(2)}, {field(3), field(4), field(5)}, field(6), field(7)};
+    Ray<FloatN> rays{{field(0), field(1), field(2)}, {field(3), field(4), field(5)}, field(6), field(7)};
     f(first, count, rays, first_lanes<FloatN>(static_cast<int>(count)));
   }
 }
@@ -123,14 +123,14 @@ class Backend final : public ProbeBackend {
   std::vector<ProbeHit> intersect_embree(std::span<const ProbeRay> all, int packet_size) const override {
     std::vector<ProbeRay> shortened(all.begin(), all.end());
     std::vector<ProbeHit> result(all.size());
-    for_each_packet(all, [&](std::size_t first, std::size_t count, const Ray<FloatN>& rays, const MaskN& active) {
+    for_each_packet(all, [&](std::size_t first, std::size_t count, Ray<FloatN>& rays, const MaskN& active) {
       const Hits hits = accelerator_.intersect_unbounded(rays, active);
       const std::uint32_t lanes = bits_of<FloatN>(hits.hit);
       for (std::size_t i = 0; i < count; ++i)
         if ((lanes >> i & 1) != 0) {
           ProbeHit& hit = result[first + i];
           hit.hit = true;
-          hit.distance = shortened[first + i].far = hits.distance.get(i);
+          hit.distance = shortened[first + i].far = rays.far.get(i);
           hit.kind = hits.kind.get(i);
           hit.index = static_cast<std::uint32_t>(hits.primitive.get(i));
         }
@@ -162,17 +162,16 @@ class Backend final : public ProbeBackend {
   std::vector<ProbeHit> intersect(std::span<const ProbeRay> all, Coherence coherence,
                                   const DirectionBuffer* seen) const {
     std::vector<ProbeHit> result(all.size());
-    for_each_packet(all, [&](std::size_t first, std::size_t count, const Ray<FloatN>& rays, const MaskN& active) {
+    for_each_packet(all, [&](std::size_t first, std::size_t count, Ray<FloatN>& rays, const MaskN& active) {
       const Hits hits = accelerator_.intersect(rays, active, coherence, seen);
       const std::uint32_t lanes = bits_of<FloatN>(hits.hit);
       if (lanes == 0) return;
-      SurfacePoint<FloatN> point = accelerator_.surface(rays, hits);
-      point.normal = select(dot(point.normal, rays.direction) > FloatN(0), -point.normal, point.normal);
+      const SurfacePoint<FloatN> point = accelerator_.surface(rays, hits);
       const Vec3<FloatN> leaving = leaving_origin(point);
       for (std::size_t i = 0; i < count; ++i)
         if ((lanes >> i & 1) != 0)
           result[first + i] = {true,
-                               hits.distance.get(i),
+                               rays.far.get(i),
                                hits.kind.get(i),
                                static_cast<std::uint32_t>(hits.primitive.get(i)),
                                lane_of(point.position, i),

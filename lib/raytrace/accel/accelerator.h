@@ -29,8 +29,7 @@ struct Hits {
   MaskN hit;
   UintN kind;      ///< position of the shape's type in the Shapes registry
   IntN primitive;  ///< index among the objects of that type
-  FloatN distance;
-  FloatN u, v;  ///< barycentric coordinates on triangles
+  FloatN u, v;     ///< barycentric coordinates on triangles
 
   // Of the first lane with a hit, and whether all others with one have the same kind, and hit the same object, as
   // neighbours mostly do.
@@ -53,10 +52,11 @@ class Accelerator {
   std::vector<std::optional<DirectionBuffer>> seen_from(std::span<const std::optional<Vantage>> vantages,
                                                         int threads) const;
 
-  /// Nearest hits in the lanes of `active`. Rays that Embree cannot take (a component that is NaN, infinite or beyond
-  /// 1.8e18, or a direction of length 0) hit nothing. seen_from_origin: from the point that all rays start at, their
-  /// directions being of unit length; null if there is none. The same answer, sooner.
-  Hits intersect(const Ray<FloatN>& rays, const MaskN& active, Coherence coherence,
+  /// Nearest hits in the lanes of `active`, which then are where the rays end. Rays that Embree cannot take (a
+  /// component that is NaN, infinite or beyond 1.8e18, or a direction of length 0) hit nothing. seen_from_origin: from
+  /// the point that all rays start at, their directions being of unit length; null if there is none. The same answer,
+  /// sooner.
+  Hits intersect(Ray<FloatN>& rays, const MaskN& active, Coherence coherence,
                  const DirectionBuffer* seen_from_origin = nullptr) const;
 
   /// The lanes of `active` in which anything lies between near and far. seen_from_end: from where all rays go, which is
@@ -65,7 +65,8 @@ class Accelerator {
   MaskN occluded(const Ray<FloatN>& rays, const MaskN& active, Coherence coherence,
                  const DirectionBuffer* seen_from_end = nullptr) const;
 
-  /// The surfaces that were hit; lanes without a hit hold anything.
+  /// The surfaces that were hit, where the rays end, with their normals on the side that the rays come from; lanes
+  /// without a hit hold anything.
   SurfacePoint<FloatN> surface(const Ray<FloatN>& rays, const Hits& hits) const;
 
   std::uint64_t primitive_count() const;
@@ -76,8 +77,8 @@ class Accelerator {
   std::string embree_version() const;
 
   /// The two parts of a query, for tests and benchmarks that put their own to Embree: the shapes without end, and the
-  /// scene that holds all others. `active`: lanes that Embree can take; distance is `far` in lanes without a hit.
-  Hits intersect_unbounded(const Ray<FloatN>& rays, const MaskN& active) const;
+  /// scene that holds all others. `active`: lanes that Embree can take.
+  Hits intersect_unbounded(Ray<FloatN>& rays, const MaskN& active) const;
   MaskN occluded_unbounded(const Ray<FloatN>& rays, const MaskN& active) const;
   RTCScene embree_scene() const {
     if (!is_built_.load(std::memory_order_acquire)) build();
@@ -89,8 +90,7 @@ class Accelerator {
 
   void build() const;
   // Both return the lanes that are left to Embree.
-  MaskN intersect_candidates(const DirectionBuffer& seen, const Ray<FloatN>& rays, const MaskN& active,
-                             Hits& hits) const;
+  MaskN intersect_candidates(const DirectionBuffer& seen, Ray<FloatN>& rays, const MaskN& active, Hits& hits) const;
   MaskN occluded_by_candidates(const DirectionBuffer& seen, const Ray<FloatN>& rays, const MaskN& active,
                                const MaskN& in_reach, MaskN& occluded) const;
 

@@ -38,7 +38,7 @@ RTCRay single_ray(const embree::RegisterPacket::Ray& rays, int lane) {
 /// Calls f(kind, primitive, record) for each object of the shapes without end.
 template <class Tables, class Function>
 RAYTRACE_INLINE void for_each_unbounded(const Tables& tables, Function f) {
-  for_each_type(Shapes{}, [&](auto type) {
+  for_each_type(Shapes{}, [&](auto type) RAYTRACE_INLINE_LAMBDA {
     using Shape = typename decltype(type)::type;
     if constexpr (UnboundedShape<Shape>) {
       std::uint32_t primitive = 0;
@@ -57,19 +57,26 @@ RAYTRACE_INLINE void find_first(Hits& hits) {
   hits.one_object = hits.one_kind && none(hits.hit & float_mask<FloatN>(hits.primitive != IntN(hits.first_primitive)));
 }
 
-/// Where rays meet an object: at infinity in lanes that do not. u, v: set on triangles.
-template <class Tables>
-RAYTRACE_INLINE FloatN meet(const Tables& tables, const DirectionBuffer::Object& object, const Ray<FloatN>& rays,
-                            const MaskN& active, FloatN& u, FloatN& v) {
-  return with_type(Shapes{}, object.kind, [&](auto type) {
-    using Shape = typename decltype(type)::type;
-    const auto& record = std::get<ShapeTable<Shape>>(tables).records[object.primitive];
-    if constexpr (EmbreeTriangle<Shape>) {
-      return Shape::template intersect<FloatN>(record, rays, active, u, v);
-    } else {
-      return Shape::template intersect<FloatN>(record, rays, active);
-    }
-  });
+/// Ends the rays where they meet an object.
+template <class Shape>
+RAYTRACE_INLINE void meet(const typename ShapeTable<Shape>::Record& record, std::uint32_t primitive, Ray<FloatN>& rays,
+                          const MaskN& active, Hits& hits) {
+  FloatN distance, u, v;
+  if constexpr (EmbreeTriangle<Shape>) {
+    distance = Shape::template intersect<FloatN>(record, rays, active, u, v);
+  } else {
+    distance = Shape::template intersect<FloatN>(record, rays, active);
+  }
+  const MaskN hit = distance < infinity<FloatN>();  // in float it may be the same as the one before
+  if (none(hit)) return;
+  rays.far = select(hit, distance, rays.far);
+  hits.hit = hits.hit | hit;
+  hits.kind = select_lanes(hit, UintN(static_cast<std::uint32_t>(index_of<Shape>(Shapes{}))), hits.kind);
+  hits.primitive = select_lanes(hit, IntN(static_cast<std::int32_t>(primitive)), hits.primitive);
+  if constexpr (EmbreeTriangle<Shape>) {
+    hits.u = select(hit, u, hits.u);
+    hits.v = select(hit, v, hits.v);
+  }
 }
 
 /// Whether the object lies on the rays.
@@ -88,19 +95,26 @@ concept SurfaceOfOne = requires(typename ShapeTable<Shape>::Record record, Ray<F
   Shape::surface(record, rays, distance);
 };
 
+/// With the normal on the side that the rays come from.
+RAYTRACE_INLINE SurfacePoint<FloatN> facing(const SurfacePoint<FloatN>& point, const Ray<FloatN>& rays) {
+  return {point.position, select(dot(point.normal, rays.direction) > FloatN(0), -point.normal, point.normal),
+          point.error};
+}
+
 /// The surfaces of one shape, under the wide type of its table's precision.
 template <class Shape>
 SurfacePoint<FloatN> surface_of(const ShapeTable<Shape>& table, const LanePlaces& primitive, const Ray<FloatN>& rays,
                                 const Hits& hits) {
   if constexpr (SurfaceOfOne<Shape>) {
-    SurfacePoint<FloatN> points = Shape::surface(table.records[primitive.first()], rays, hits.distance);
+    SurfacePoint<FloatN> points = facing(Shape::surface(table.records[primitive.first()], rays, rays.far), rays);
     if (primitive.all_same()) return points;
     MaskN left = float_mask<FloatN>(primitive.lanes() != IntN(static_cast<std::int32_t>(primitive.first())));
     while (any(left)) {
       const std::int32_t next =
           primitive.lanes().get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(left))));
       const MaskN here = left & float_mask<FloatN>(primitive.lanes() == IntN(next));
-      points = select(here, Shape::surface(table.records[static_cast<std::size_t>(next)], rays, hits.distance), points);
+      const auto& record = table.records[static_cast<std::size_t>(next)];
+      points = select(here, facing(Shape::surface(record, rays, rays.far), rays), points);
       left = left & !here;
     }
     return points;
@@ -110,30 +124,24 @@ SurfacePoint<FloatN> surface_of(const ShapeTable<Shape>& table, const LanePlaces
     using Wide = std::conditional_t<in_float, FloatN, Doubles<FloatN>>;
     const auto records = gather_records<Shape::template Record, Wide>(table.records.data(), primitive);
     if constexpr (EmbreeTriangle<Shape>) {
-      return Shape::template surface<FloatN>(records, hits.u, hits.v);
+      return facing(Shape::template surface<FloatN>(records, hits.u, hits.v), rays);
     } else {
-      return Shape::template surface<FloatN>(records, rays, hits.distance);
+      return facing(Shape::template surface<FloatN>(records, rays, rays.far), rays);
     }
   }
 }
 
 }  // namespace
 
-Hits Accelerator::intersect_unbounded(const Ray<FloatN>& rays, const MaskN& active) const {
+Hits Accelerator::intersect_unbounded(Ray<FloatN>& rays, const MaskN& active) const {
   Hits hits;
+  hits.hit = MaskN(false);
   hits.kind = UintN(RTC_INVALID_GEOMETRY_ID);
   hits.primitive = IntN(0);
-  hits.distance = rays.far;
   hits.u = hits.v = FloatN(0);
   for_each_unbounded(tables_, [&](auto type, std::uint32_t primitive, const auto& record) RAYTRACE_INLINE_LAMBDA {
-    using Shape = typename decltype(type)::type;
-    const FloatN t = Shape::template intersect<FloatN>(record, rays, active);
-    const MaskN hit = t < hits.distance;
-    hits.distance = select(hit, t, hits.distance);
-    hits.kind = select_lanes(hit, UintN(static_cast<std::uint32_t>(index_of<Shape>(Shapes{}))), hits.kind);
-    hits.primitive = select_lanes(hit, IntN(static_cast<std::int32_t>(primitive)), hits.primitive);
+    meet<typename decltype(type)::type>(record, primitive, rays, active, hits);
   });
-  hits.hit = float_mask<FloatN>(hits.kind != UintN(RTC_INVALID_GEOMETRY_ID));
   return hits;
 }
 
@@ -146,44 +154,41 @@ MaskN Accelerator::occluded_unbounded(const Ray<FloatN>& rays, const MaskN& acti
   return occluded;
 }
 
-MaskN Accelerator::intersect_candidates(const DirectionBuffer& seen, const Ray<FloatN>& rays, const MaskN& active,
+MaskN Accelerator::intersect_candidates(const DirectionBuffer& seen, Ray<FloatN>& rays, const MaskN& active,
                                         Hits& hits) const {
   const auto reaches = [&](const MaskN& lanes, const DirectionBuffer::Object& object) {
-    return any(lanes & (hits.distance * hits.distance >= FloatN(object.nearest)));
+    return any(lanes & (rays.far * rays.far >= FloatN(object.nearest)));
   };
   const auto test = [&](const DirectionBuffer::Object& object) {
-    const Ray<FloatN> shortened{rays.origin, rays.direction, rays.near, hits.distance};
-    FloatN u = hits.u, v = hits.v;
-    const FloatN distance = meet(tables_, object, shortened, active, u, v);
-    const MaskN hit = distance < infinity<FloatN>();  // in float it may be the same as the one before
-    if (none(hit)) return;
-    hits.hit = hits.hit | hit;
-    hits.distance = select(hit, distance, hits.distance);
-    hits.u = select(hit, u, hits.u);
-    hits.v = select(hit, v, hits.v);
-    hits.kind = select_lanes(hit, UintN(object.kind), hits.kind);
-    hits.primitive = select_lanes(hit, IntN(static_cast<std::int32_t>(object.primitive)), hits.primitive);
+    with_type(Shapes{}, object.kind, [&](auto type) {
+      using Shape = typename decltype(type)::type;
+      const auto& records = std::get<ShapeTable<Shape>>(tables_).records;
+      meet<Shape>(records[object.primitive], object.primitive, rays, active, hits);
+    });
   };
-  return for_each_candidate(seen, rays.direction, active, reaches, test);
+  return for_each_candidate<Way::from_point>(seen, rays.direction, active, reaches, test);
 }
 
 MaskN Accelerator::occluded_by_candidates(const DirectionBuffer& seen, const Ray<FloatN>& rays, const MaskN& active,
                                           const MaskN& in_reach, MaskN& occluded) const {
-  const auto sight = seen.sight(rays.origin, rays.direction);
+  const FloatN depth = seen.depth(rays.origin, rays.direction);
   MaskN open = active;
   const auto reaches = [&](const MaskN& lanes, const DirectionBuffer::Object& object) {
-    return any(lanes & open & (sight.depth >= FloatN(object.nearest)));
+    return any(lanes & open & (depth >= FloatN(object.nearest)));
   };
   const auto test = [&](const DirectionBuffer::Object& object) {
     open = open & !is_occluded(tables_, object, rays, open);
   };
-  MaskN left = for_each_candidate(seen, sight.direction, active & in_reach, reaches, test);
+  const auto test_all = [&](const Vec3<FloatN>& direction) RAYTRACE_INLINE_LAMBDA {
+    return for_each_candidate<Way::to_point>(seen, direction, active & in_reach, reaches, test);
+  };
+  MaskN left = seen.infinitely_far() ? test_all(seen.direction_to_picture(rays.origin)) : test_all(rays.direction);
   if (any(active & !in_reach)) left = left | (active & !in_reach & !seen.leads_past(rays));
   occluded = occluded | (active & !open);
   return open & left;
 }
 
-Hits Accelerator::intersect(const Ray<FloatN>& rays, const MaskN& active, Coherence coherence,
+Hits Accelerator::intersect(Ray<FloatN>& rays, const MaskN& active, Coherence coherence,
                             const DirectionBuffer* seen_from_origin) const {
   // All rays that start where the vantage is can be taken.
   MaskN valid_lanes = seen_from_origin != nullptr ? active : active & embree_takes(rays);
@@ -198,8 +203,7 @@ Hits Accelerator::intersect(const Ray<FloatN>& rays, const MaskN& active, Cohere
   const RTCScene scene = embree_scene();
   embree::Query query(coherence == Coherence::coherent);
   alignas(64) embree::RegisterPacket::RayHit packets[embree::packets];
-  embree::store_rays({rays.origin, rays.direction, rays.near, hits.distance},
-                     [&](int i) -> auto& { return packets[i].ray; });
+  embree::store_rays(rays, [&](int i) -> auto& { return packets[i].ray; });
   embree::store(UintN(RTC_INVALID_GEOMETRY_ID), [&](int i) { return packets[i].hit.geomID; });
   embree::store(UintN(RTC_INVALID_GEOMETRY_ID), [&](int i) { return packets[i].hit.instID[0]; });
   if (coherence == Coherence::coherent) {
@@ -226,7 +230,7 @@ Hits Accelerator::intersect(const Ray<FloatN>& rays, const MaskN& active, Cohere
   hits.kind = select_lanes(in_bvh, kind, hits.kind);
   const UintN primitive = embree::load<UintN>([&](int i) { return packets[i].hit.primID; });
   hits.primitive = select_lanes(in_bvh, same_bits<IntN>(primitive), hits.primitive);
-  hits.distance = embree::load<FloatN>([&](int i) { return packets[i].ray.tfar; });
+  rays.far = embree::load<FloatN>([&](int i) { return packets[i].ray.tfar; });
   hits.u = select(in_bvh, embree::load<FloatN>([&](int i) { return packets[i].hit.u; }), hits.u);
   hits.v = select(in_bvh, embree::load<FloatN>([&](int i) { return packets[i].hit.v; }), hits.v);
   find_first(hits);

@@ -26,7 +26,7 @@ class DirectionBuffer {
  public:
   struct Object {
     std::uint32_t kind, primitive;
-    float nearest;  ///< no part of it has a smaller Sight::depth
+    float nearest;  ///< no part of it has a smaller depth()
   };
 
   /// The grid on a face, in the directions of Rectangle.
@@ -54,20 +54,20 @@ class DirectionBuffer {
   static std::optional<DirectionBuffer> make(const Vantage& vantage, std::span<const PlacedObject> objects,
                                              int threads);
 
-  /// A place as seen from the vantage.
-  template <class F>
-  struct Sight {
-    Vec3<F> direction;  ///< of any length but 0
-    F depth;  ///< larger for what is behind it: the squared distance from the point, the distance from a plane
-  };
+  bool infinitely_far() const { return infinitely_far_; }
 
-  /// Of the origins of rays that go to the vantage: each ray is seen as a point, up to rounding. to_vantage: their
-  /// directions, which lead right to the point if there is one.
+  /// Of the origins of rays that go to the vantage, to_vantage being their directions, which lead right to the point if
+  /// there is one: larger for what is behind it, the squared distance from the point, or the distance from a plane.
   template <class F>
-  RAYTRACE_INLINE Sight<F> sight(const Vec3<F>& origin, const Vec3<F>& to_vantage) const {
-    if (!infinitely_far_) return {-to_vantage, dot(to_vantage, to_vantage)};
-    return {{dot(Vec3<F>(across_), origin) - F(start_.x), dot(Vec3<F>(up_), origin) - F(start_.y), F(1)},
-            F(start_.z) - dot(to_vantage, origin)};
+  RAYTRACE_INLINE F depth(const Vec3<F>& origin, const Vec3<F>& to_vantage) const {
+    return infinitely_far_ ? F(start_.z) - dot(to_vantage, origin) : dot(to_vantage, to_vantage);
+  }
+
+  /// From infinitely far, a ray is seen as a point of the picture across all rays, up to rounding: the direction from
+  /// there to the point from which that picture is seen (perspective.h).
+  template <class F>
+  RAYTRACE_INLINE Vec3<F> direction_to_picture(const Vec3<F>& origin) const {
+    return {F(start_.x) - dot(Vec3<F>(across_), origin), F(start_.y) - dot(Vec3<F>(up_), origin), F(-1)};
   }
 
   /// Whether its rounding is small enough that cells list all that such a ray may meet. Not if it starts at the

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -13,35 +14,44 @@
 
 namespace raytrace {
 
+/// How rays lead past the point of a buffer, whose cells are seen from there.
+enum class Way { from_point, to_point };
+
 namespace detail {
 
-/// Calls f(cell, lanes) for each cell that the directions in the lanes of `active` lead through; those that lead
-/// through none meet nothing.
-template <class Function>
+/// Calls f(cell, lanes) for each cell that the rays in the lanes of `active` lead through; those that lead through none
+/// meet nothing.
+template <Way way, class Function>
 RAYTRACE_INLINE void for_each_cell(const DirectionBuffer& buffer, const Vec3<FloatN>& direction, const MaskN& active,
                                    const Function& f) {
-  const Vec3<FloatN> sizes{abs(direction.x), abs(direction.y), abs(direction.z)};
-  const MaskN along_x = (sizes.x >= sizes.y) & (sizes.x >= sizes.z), along_x_or_y = along_x | (sizes.y >= sizes.z);
+  // Neighbours mostly lead through one face, and one cell of it: those of the first, then those of the first of the
+  // others, and so on.
   MaskN left = active;
-  // Neighbours mostly lead through one face, and one cell of it.
   while (any(left)) {
-    const std::uint32_t first = std::uint32_t{1} << std::countr_zero(bits_of<FloatN>(left));
-    const int axis = (bits_of<FloatN>(along_x) & first) != 0 ? 0 : (bits_of<FloatN>(along_x_or_y) & first) != 0 ? 1 : 2;
-    const FloatN& normal = component(direction, axis);
-    const MaskN negative = normal < FloatN(0);
-    const bool first_is_negative = (bits_of<FloatN>(negative) & first) != 0;
-    const MaskN along = axis == 0 ? along_x : axis == 1 ? !along_x & along_x_or_y : !along_x_or_y;
-    const MaskN here = left & along & (first_is_negative ? negative : !negative);
-    left = left & !here;
-    const DirectionBuffer::Grid& grid = buffer.grid(2 * axis + (first_is_negative ? 1 : 0));
-    if (grid.columns == 0) continue;
-    const FloatN inverse_size = FloatN(1) / component(sizes, axis);
+    const auto lane = static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(left)));
+    const Vec3f first(direction.x.get(lane), direction.y.get(lane), direction.z.get(lane));
+    const float x = std::abs(first.x), y = std::abs(first.y), z = std::abs(first.z);
+    const int axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+    const bool negative = component(first, axis) < 0;
+    const FloatN size = negative ? -component(direction, axis) : component(direction, axis);
     const FloatN across = component(direction, (axis + 1) % 3), up = component(direction, (axis + 2) % 3);
-    const FloatN column = (across * inverse_size - FloatN(grid.left)) * FloatN(grid.columns_per_unit);
-    const FloatN row = (up * inverse_size - FloatN(grid.bottom)) * FloatN(grid.rows_per_unit);
-    MaskN inside = here & (column >= FloatN(0)) & (column < FloatN(static_cast<float>(grid.columns))) &
-                   (row >= FloatN(0)) & (row < FloatN(static_cast<float>(grid.rows)));
-    const IntN cell = to_int(row) * IntN(grid.columns) + to_int(column);
+    const MaskN here = left & (size >= abs(across)) & (size >= abs(up));
+    if ((bits_of<FloatN>(here) >> lane & 1U) == 0) {  // what is no number meets nothing
+      left = left & (abs(direction.x) + abs(direction.y) + abs(direction.z) >= FloatN(0));
+      continue;
+    }
+    left = left & !here;
+    const bool on_negative_side = negative == (way == Way::from_point);
+    const DirectionBuffer::Grid& grid = buffer.grid(2 * axis + (on_negative_side ? 1 : 0));
+    if (grid.columns == 0) continue;
+    const FloatN inverse_size = FloatN(way == Way::from_point ? 1.0F : -1.0F) / size;
+    const IntN column = to_int((across * inverse_size - FloatN(grid.left)) * FloatN(grid.columns_per_unit));
+    const IntN row = to_int((up * inverse_size - FloatN(grid.bottom)) * FloatN(grid.rows_per_unit));
+    // What is less than 0 is a large number here.
+    MaskN inside = here &
+                   float_mask<FloatN>(same_bits<UintN>(column) < UintN(static_cast<std::uint32_t>(grid.columns))) &
+                   float_mask<FloatN>(same_bits<UintN>(row) < UintN(static_cast<std::uint32_t>(grid.rows)));
+    const IntN cell = row * IntN(grid.columns) + column;
     while (any(inside)) {
       const std::int32_t number = cell.get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(inside))));
       const MaskN same = inside & float_mask<FloatN>(cell == IntN(number));
@@ -86,16 +96,16 @@ class TestedCandidates {
 
 }  // namespace detail
 
-/// Calls test(object) once for each object that directions from the buffer's point, of any length but 0, may meet in
-/// the lanes of `active`; the test is of all lanes at once, since that costs no more than one. Of each cell's, the
-/// nearest comes first, and what is behind one for which reaches(lanes, object) is false, of the cell's lanes, is left
-/// out. The result: lanes that must be traced by other means.
-template <class Reaches, class Test>
+/// Calls test(object) once for each object that rays from or to the buffer's point, in directions of any length but 0,
+/// may meet in the lanes of `active`; the test is of all lanes at once, since that costs no more than one. Of each
+/// cell's, the nearest comes first, and what is behind one for which reaches(lanes, object) is false, of the cell's
+/// lanes, is left out. The result: lanes that must be traced by other means.
+template <Way way, class Reaches, class Test>
 RAYTRACE_INLINE MaskN for_each_candidate(const DirectionBuffer& buffer, const Vec3<FloatN>& direction,
                                          const MaskN& active, const Reaches& reaches, const Test& test) {
   detail::TestedCandidates tested;
   MaskN left(false);
-  detail::for_each_cell(buffer, direction, active, [&](std::size_t cell, const MaskN& lanes) {
+  detail::for_each_cell<way>(buffer, direction, active, [&](std::size_t cell, const MaskN& lanes) {
     if (buffer.is_crowded(cell)) {
       left = left | lanes;
       return;

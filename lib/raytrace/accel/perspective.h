@@ -40,7 +40,7 @@ struct Rectangle {
 /// An object as seen from the vantage, which is at (0, 0, 0) here.
 struct View {
   std::array<Interval, 3> along;  ///< its box
-  double nearest;                 ///< DirectionBuffer::Sight::depth, which no part of it has less of
+  double nearest;                 ///< DirectionBuffer::depth(), which no part of it has less of
   Vec3d center;                   ///< of a sphere around it
   double distance;                ///< of that center
   bool in_cone;                   ///< whether that sphere says more than the box does; then

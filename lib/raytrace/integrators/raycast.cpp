@@ -16,16 +16,14 @@ constexpr std::size_t lights_per_run = 16;
 
 }  // namespace
 
-SeenRadiance Raycast::radiance(const TracedScene& scene, const Ray<FloatN>& rays, const MaskN& active,
-                               const MaskN& counted, RayCounts& counts, MetSurface* met) {
-  const Rgb<FloatN> background{Rgb<float>(scene.viewplane().background)};
+SeenRadiance Raycast::radiance(const TracedScene& scene, Ray<FloatN>& rays, const MaskN& active, const MaskN& counted,
+                               RayCounts& counts, MetSurface* met) {
   const Hits hits = scene.accelerator().intersect(rays, active, Coherence::coherent, scene.seen_from_camera());
   if (met != nullptr) met->hits = hits;
-  if (none(hits.hit)) return {background, hits.hit};
+  const auto background = [&] { return Rgb<FloatN>(Rgb<float>(scene.viewplane().background)); };
+  if (none(hits.hit)) return {background(), hits.hit};
 
-  SurfacePoint<FloatN> point = scene.accelerator().surface(rays, hits);
-  const Vec3<FloatN> wo = -rays.direction;
-  point.normal = select(dot(point.normal, wo) < FloatN(0), -point.normal, point.normal);
+  const SurfacePoint<FloatN> point = scene.accelerator().surface(rays, hits);
   if (met != nullptr) met->point = point;
 
   std::array<ArrivingLight, lights_per_run> arriving;
@@ -33,7 +31,7 @@ SeenRadiance Raycast::radiance(const TracedScene& scene, const Ray<FloatN>& rays
   Rgb<FloatN> radiance{Rgb<float>(0, 0, 0)};
   Rgb<float> ambient = scene.ambient_radiance();
   const auto shade_run = [&] {
-    radiance += scene.shade(hits, wo, point.normal, ambient, {arriving.data(), count});
+    radiance += scene.shade(hits, rays.direction, point.normal, ambient, {arriving.data(), count});
     ambient = Rgb<float>(0, 0, 0);
     count = 0;
   };
@@ -43,26 +41,25 @@ SeenRadiance Raycast::radiance(const TracedScene& scene, const Ray<FloatN>& rays
   for (std::size_t number = 0; number < scene.lights().size(); ++number) {
     // The first run has the ambient light, whoever sees the others.
     if (number > 0 && number % lights_per_run == 0 && (count > 0 || number == lights_per_run)) shade_run();
-    const auto& light = scene.lights()[number];
-    const LightSample<FloatN> sample = light->sample(shadow_rays.origin);
+    const LightSource& light = *scene.lights()[number];
+    const bool shadows = light.shadows();
+    ArrivingLight& arriving_here = arriving[count];  // in its place at once: it is large
+    light.sample(shadow_rays, arriving_here.radiance);
     // Of any length: the shadow rays need not wait for a square root and a quotient.
-    MaskN lit = hits.hit & (dot(point.normal, sample.to_light) > FloatN(0));
-    if (light->shadows() && any(lit)) {
+    MaskN lit = hits.hit & (dot(point.normal, shadow_rays.direction) > FloatN(0));
+    if (shadows && any(lit)) {
       counts.shadow += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(lit & counted)));
-      shadow_rays.direction = sample.to_light;
-      shadow_rays.far = sample.end;
       const MaskN occluded =
           scene.accelerator().occluded(shadow_rays, lit, Coherence::coherent, scene.seen_from_light(number));
       lit = lit & !occluded;
     }
     if (none(lit)) continue;
-    ArrivingLight& light_here = arriving[count++];  // in its place at once: it is large
-    light_here.wi = normalize(sample.to_light);
-    light_here.cosine = select(lit, max(dot(point.normal, light_here.wi), FloatN(0)), FloatN(0));
-    light_here.radiance = sample.radiance;
+    arriving_here.wi = normalize(shadow_rays.direction);
+    arriving_here.cosine = select(lit, max(dot(point.normal, arriving_here.wi), FloatN(0)), FloatN(0));
+    ++count;
   }
   if (count > 0 || scene.lights().size() <= lights_per_run) shade_run();
-  return {select(hits.hit, radiance, background), hits.hit};
+  return {select(hits.hit, radiance, background()), hits.hit};
 }
 
 }  // namespace raytrace

@@ -22,10 +22,11 @@ class Raycast {
  public:
   static constexpr std::string_view name = "raycast";
 
-  /// The radiance that arrives along the rays, whose directions have unit length, in the lanes of `active`; adds the
-  /// shadow rays in those of `counted` to `counts`, and tells what was met if `met` is not null.
-  static SeenRadiance radiance(const TracedScene& scene, const Ray<FloatN>& rays, const MaskN& active,
-                               const MaskN& counted, RayCounts& counts, MetSurface* met);
+  /// The radiance that arrives along the rays, whose directions have unit length, in the lanes of `active`, and ends
+  /// the rays where it comes from. Adds the shadow rays in the lanes of `counted` to `counts`, and tells what was met
+  /// if `met` is not null.
+  static SeenRadiance radiance(const TracedScene& scene, Ray<FloatN>& rays, const MaskN& active, const MaskN& counted,
+                               RayCounts& counts, MetSurface* met);
 };
 
 }  // namespace raytrace

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "raytrace/lights/light.h"
+#include "raytrace/math/ray.h"
 #include "raytrace/math/simd.h"
 
 namespace raytrace {
@@ -13,7 +14,8 @@ namespace raytrace {
 class LightSource {
  public:
   virtual ~LightSource() = default;
-  virtual LightSample<FloatN> sample(const Vec3<FloatN>& position) const = 0;
+  /// Leads rays, whose origins are set, to the light, where they end. radiance: receives what arrives along them.
+  virtual void sample(Ray<FloatN>& shadow_rays, Rgb<FloatN>& radiance) const = 0;
   virtual bool shadows() const = 0;
   virtual Rgb<float> largest_radiance() const = 0;
 };
@@ -22,8 +24,11 @@ template <class Light>
 class LightSourceOf final : public LightSource {
  public:
   explicit LightSourceOf(const Light& light) : light_(light) {}
-  LightSample<FloatN> sample(const Vec3<FloatN>& position) const override {
-    return light_.template sample<FloatN>(position);
+  void sample(Ray<FloatN>& shadow_rays, Rgb<FloatN>& radiance) const override {
+    const LightSample<FloatN> sample = light_.template sample<FloatN>(shadow_rays.origin);
+    shadow_rays.direction = sample.to_light;
+    shadow_rays.far = sample.end;
+    radiance = sample.radiance;
   }
   bool shadows() const override { return light_.shadows(); }
   Rgb<float> largest_radiance() const override { return light_.largest_radiance(); }

@@ -44,8 +44,9 @@ class MaterialTable {
   virtual Rgb<FloatN> albedo(const LanePlaces& places) const = 0;
   virtual Rgb<float> largest_albedo() const = 0;
 
-  /// The radiance that leaves along wo. `places`: each lane's material, for every lane one that exists.
-  virtual Rgb<FloatN> shade(const LanePlaces& places, const Vec3<FloatN>& wo, const Vec3<FloatN>& normal,
+  /// The radiance that leaves against `direction`: that of the rays which see it, of unit length. `places`: each lane's
+  /// material, for every lane one that exists.
+  virtual Rgb<FloatN> shade(const LanePlaces& places, const Vec3<FloatN>& direction, const Vec3<FloatN>& normal,
                             const Rgb<float>& ambient_radiance, std::span<const ArrivingLight> lights) const = 0;
 };
 
@@ -54,10 +55,11 @@ class MaterialTableOf final : public MaterialTable {
  public:
   explicit MaterialTableOf(std::vector<typename Material::template Brdfs<float>> brdfs) : brdfs_(std::move(brdfs)) {}
 
-  Rgb<FloatN> shade(const LanePlaces& places, const Vec3<FloatN>& wo, const Vec3<FloatN>& normal,
+  Rgb<FloatN> shade(const LanePlaces& places, const Vec3<FloatN>& direction, const Vec3<FloatN>& normal,
                     const Rgb<float>& ambient_radiance, std::span<const ArrivingLight> lights) const override {
     const auto brdfs = gather_records<Material::template Brdfs, FloatN>(brdfs_.data(), places);
     Rgb<FloatN> result = Material::template ambient<FloatN>(brdfs, Rgb<FloatN>(ambient_radiance));
+    const Vec3<FloatN> wo = -direction;
     for (const ArrivingLight& light : lights)
       // The cosine first: where it is 0, a product beyond the range of floats would make it NaN.
       result += Material::template reflect<FloatN>(brdfs, wo, light.wi, normal) * (light.radiance * light.cosine);

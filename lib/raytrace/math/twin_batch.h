@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <utility>
 #include <xsimd/xsimd.hpp>
 
@@ -78,9 +79,9 @@ class TwinBatch {
     upper_.store_unaligned(lanes + Part::size);
   }
   RAYTRACE_INLINE T get(std::size_t lane) const {
-    alignas(64) std::array<T, size> lanes;
-    store_aligned(lanes.data());
-    return lanes[lane];
+    T value;  // where it stands in memory already, read from there
+    std::memcpy(&value, reinterpret_cast<const char*>(this) + lane * sizeof value, sizeof value);
+    return value;
   }
 
   friend RAYTRACE_INLINE TwinBatch operator+(const TwinBatch& a, const TwinBatch& b) {

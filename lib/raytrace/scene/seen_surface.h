@@ -10,14 +10,14 @@ namespace raytrace {
 /// Lanes without a hit hold anything.
 class SeenSurface {
  public:
-  /// rays: from the eye. point: what they hit, its normal on the side that is seen. All must outlive it.
+  /// rays: from the eye to what they hit. point: of that, its normal on the side that is seen. All must outlive it.
   SeenSurface(const TracedScene& scene, const Ray<FloatN>& rays, const Hits& hits, const SurfacePoint<FloatN>& point)
       : scene_(scene), rays_(rays), hits_(hits), point_(point) {}
 
   const MaskN& hit() const { return hits_.hit; }
 
   /// From the eye, along the camera's viewing direction.
-  FloatN depth() const { return hits_.distance * dot(rays_.direction, Vec3<FloatN>(scene_.viewing_direction())); }
+  FloatN depth() const { return rays_.far * dot(rays_.direction, Vec3<FloatN>(scene_.viewing_direction())); }
   const Vec3<FloatN>& position() const { return point_.position; }
   const Vec3<FloatN>& normal() const { return point_.normal; }
   /// What the material reflects diffusely of light from all sides.

@@ -130,10 +130,10 @@ Rgb<FloatN> TracedScene::albedo(const Hits& hits) const {
   return by_material(hits, [](const MaterialTable& table, const LanePlaces& places) { return table.albedo(places); });
 }
 
-Rgb<FloatN> TracedScene::shade(const Hits& hits, const Vec3<FloatN>& wo, const Vec3<FloatN>& normal,
+Rgb<FloatN> TracedScene::shade(const Hits& hits, const Vec3<FloatN>& direction, const Vec3<FloatN>& normal,
                                const Rgb<float>& ambient_radiance, std::span<const ArrivingLight> lights) const {
   return by_material(hits, [&](const MaterialTable& table, const LanePlaces& places) {
-    return table.shade(places, wo, normal, ambient_radiance, lights);
+    return table.shade(places, direction, normal, ambient_radiance, lights);
   });
 }
 

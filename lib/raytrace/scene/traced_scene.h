@@ -52,9 +52,9 @@ class TracedScene final : public Scene {
   IntN material(const Hits& hits) const;
   Rgb<FloatN> albedo(const Hits& hits) const;
 
-  /// The radiance that leaves the points hit along wo, each by its own material: one call for each material type among
-  /// the lanes.
-  Rgb<FloatN> shade(const Hits& hits, const Vec3<FloatN>& wo, const Vec3<FloatN>& normal,
+  /// The radiance that leaves the points hit against `direction`, that of the rays which hit them, each by its own
+  /// material: one call for each material type among the lanes.
+  Rgb<FloatN> shade(const Hits& hits, const Vec3<FloatN>& direction, const Vec3<FloatN>& normal,
                     const Rgb<float>& ambient_radiance, std::span<const ArrivingLight> lights) const;
 
  private:

@@ -60,7 +60,7 @@ RAYTRACE_INLINE F Plane::intersect(const Record& plane, const Ray<F>& ray, const
 }
 
 template <class F>
-SurfacePoint<F> Plane::surface(const Record& plane, const Ray<F>& ray, const F& distance) {
+RAYTRACE_INLINE SurfacePoint<F> Plane::surface(const Record& plane, const Ray<F>& ray, const F& distance) {
   if (plane.axis == 3) {
     using D = Doubles<F>;
     const Vec3<D> normal(plane.normal);

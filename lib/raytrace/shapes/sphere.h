@@ -116,7 +116,7 @@ F Sphere::intersect_in_double(const Record<float>& sphere, const Ray<F>& ray) {
 }
 
 template <class F>
-SurfacePoint<F> Sphere::surface(const Record<F>& sphere, const Ray<F>& ray, const F& distance) {
+RAYTRACE_INLINE SurfacePoint<F> Sphere::surface(const Record<F>& sphere, const Ray<F>& ray, const F& distance) {
   const Vec3<F>& d = ray.direction;
   Vec3<F> from_center, rest;
   detail::exact_difference(ray.origin.x, sphere.center.x, from_center.x, rest.x);
