@@ -120,11 +120,11 @@ void Document::parse_frame(Diagnostics& diagnostics) {
   document.parse(diagnostics);
 }
 
-void Document::parse_piece(std::size_t index, Diagnostics& diagnostics) {
+void Document::parse_items(const Span& items, Diagnostics& diagnostics) {
   Implementation& document = *implementation_;
   document.clear();
   document.text = "<_>";
-  document.add(document.source.piece(index), 1);
+  document.add(items, 1);
   document.text += "</_>";
   document.parse(diagnostics);
 }

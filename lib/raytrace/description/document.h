@@ -85,9 +85,9 @@ class Document {
 
   /// Parses the frame. The root is that of the scene.
   void parse_frame(Diagnostics& diagnostics);
-  /// Parses a piece. The root stands for the group that it was cut from, and bears another name. Many pieces parsed by
-  /// one document take less time than by as many, since tinyxml2 uses its memory again.
-  void parse_piece(std::size_t index, Diagnostics& diagnostics);
+  /// Parses whole items of a group. The root stands for the group, and bears another name. Many parsed by one document
+  /// take less time than by as many, since tinyxml2 uses its memory again.
+  void parse_items(const Span& items, Diagnostics& diagnostics);
 
   /// Of what was parsed last; false if that failed.
   Element root() const;

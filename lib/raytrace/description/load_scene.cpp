@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "raytrace/description/document.h"
+#include "raytrace/description/item_reader.h"
 #include "raytrace/description/name_table.h"
 #include "raytrace/description/nearest_name.h"
 #include "raytrace/description/quoted.h"
@@ -28,23 +29,6 @@
 
 namespace raytrace {
 namespace {
-
-/// An element with its parameters read.
-template <class T>
-struct Item {
-  Element element;
-  typename T::Parameters parameters;
-  std::array<std::string_view, 2> labels;  ///< the section's labels; empty where absent
-  bool usable = false;                     ///< free of errors, and not to be left out
-};
-
-/// What remains of an item when the tree that it was read from is gone. Stored: of the description, such as LightItem.
-template <class Stored>
-struct Harvested {
-  Stored item;
-  std::uint32_t number;  ///< among the elements of its piece
-  bool usable;
-};
 
 /// Where the text of a label stands.
 Node label_text(Element item, std::string_view label) { return item.child(label).first_child(); }
@@ -121,9 +105,7 @@ class SceneReader {
   }
 
   void read_lights(Element section) {
-    const auto convert = []<class T>(Item<T>& item, Diagnostics&) {
-      return LightItem<T>{item.parameters, item.element.line()};
-    };
+    const auto convert = []<class T>(Item<T>& item, Diagnostics&) { return LightItem<T>{item.parameters, item.line}; };
     read_section(section, Lights{}, scene_.lights, {}, true, convert,
                  []<class T>(auto&& light, ItemPlace, auto& items) {
                    if (light.usable) items.push_back(std::move(light.item));
@@ -132,7 +114,7 @@ class SceneReader {
 
   void read_materials(Element section) {
     const auto convert = []<class T>(Item<T>& item, Diagnostics&) {
-      return MaterialItem<T>{item.parameters, std::string(item.labels[0]), item.element.line()};
+      return MaterialItem<T>{item.parameters, std::string(item.labels[0]), item.line};
     };
     const auto accept = [&]<class T>(auto&& material, ItemPlace place, auto& items) {
       // A faulty material keeps its name, so that the objects that use it are not reported too.
@@ -149,13 +131,13 @@ class SceneReader {
   void read_objects(Element section) {
     const auto convert = [this]<class T>(Item<T>& item, Diagnostics& diagnostics) {
       const auto [name, material_name] = item.labels;
-      ObjectItem<T> object{item.parameters, std::string(name), {}, item.element.line()};
+      ObjectItem<T> object{item.parameters, std::string(name), {}, item.line};
       // Without one it has been reported.
       if (material_name.empty()) return object;
       if (const std::optional<std::size_t> material = material_names_.find(material_name)) {
         object.material = materials_[*material];
       } else {
-        report_unknown_material(item.element, material_name, diagnostics);
+        if (item.element) report_unknown_material(item.element, material_name, diagnostics);
         item.usable = false;
       }
       return object;
@@ -183,18 +165,13 @@ class SceneReader {
         found = true;
         auto& items = std::get<index_of<T>(List{})>(tuple);
         using Stored = typename std::remove_reference_t<decltype(items)>::value_type;
-        const auto read_one = [&](Element element, FieldsReader<typename T::Parameters>& reader, std::uint32_t number,
-                                  Diagnostics& diagnostics) {
-          Item<T> item = read_item<T>(element, reader, may_skip, diagnostics);
-          Stored stored = convert(item, diagnostics);
-          return Harvested<Stored>{std::move(stored), number, item.usable};
-        };
+        const ItemReader<T, Stored, Convert> reader(text_, child, labels, may_skip, convert);
         if constexpr (T::group.empty()) {
-          FieldsReader<typename T::Parameters> reader(T::fields(), labels);
+          FieldsReader<typename T::Parameters> fields(T::fields(), labels);
           if (is_first(T::element, child))
-            accept.template operator()<T>(read_one(child, reader, 0, diagnostics_), ItemPlace{}, items);
+            accept.template operator()<T>(reader.read(child, 0, fields, diagnostics_), ItemPlace{}, items);
         } else {
-          read_group<T, Stored>(child, labels, read_one, items, [&](Harvested<Stored>&& harvested, ItemPlace place) {
+          read_group(child, reader, items, [&](Harvested<Stored>&& harvested, ItemPlace place) {
             accept.template operator()<T>(std::move(harvested), place, items);
           });
         }
@@ -203,58 +180,26 @@ class SceneReader {
     }
   }
 
-  /// read_one: gives an element's Harvested. accept(Harvested, its place): called in the order of the file.
-  template <class T, class Stored, class ReadOne, class Accept>
-  void read_group(Element group, const std::vector<FieldInfo>& labels, const ReadOne& read_one,
-                  std::vector<Stored>& items, const Accept& accept) {
+  /// accept(Harvested, its place): called in the order of the file.
+  template <class Reader, class Items, class Accept>
+  void read_group(Element group, const Reader& reader, Items& items, const Accept& accept) {
     refuse_attributes(group, {}, diagnostics_);
     // What stands before the first item; that one and the rest are in the pieces.
     for (Node node = group.first_child(); node; node = node.next()) refuse_text(node, group, diagnostics_);
 
-    using Harvest = std::vector<Harvested<Stored>>;
-    const auto read = [&](Element root, Harvest& harvest, Diagnostics& diagnostics) {
-      FieldsReader<typename T::Parameters> reader(T::fields(), labels);
-      std::uint32_t number = 0;
-      for (Node node = root.first_child(); node; node = node.next()) {
-        if (refuse_text(node, group, diagnostics)) continue;
-        const Element child = node.element();
-        if (child.name() == T::element)
-          harvest.push_back(read_one(child, reader, number, diagnostics));
-        else
-          refuse_misplaced(child, group.name(), diagnostics);
-        ++number;
-      }
+    using Harvest = typename Reader::Harvest;
+    const auto read = [&](std::size_t piece, ItemTools& tools, Harvest& harvest, Diagnostics& diagnostics) {
+      reader.read_piece(piece, tools, harvest, diagnostics);
     };
     const auto take = [&](std::size_t piece, Harvest& harvest) {
-      for (Harvested<Stored>& harvested : harvest) {
+      for (auto& harvested : harvest) {
         const ItemPlace place{static_cast<std::uint32_t>(piece), harvested.number};
         accept(std::move(harvested), place);
       }
     };
     const SceneText::PieceRange pieces = text_.pieces_of(group.offset());
     reserve_more(items, pieces.items);
-    read_pieces<Harvest>(text_, variables_, pieces, arena_, diagnostics_, read, take);
-  }
-
-  /// may_skip: whether the item may be left out where its type says so; otherwise that is an error.
-  template <class T, class Reader>
-  static Item<T> read_item(Element element, Reader& reader, bool may_skip, Diagnostics& diagnostics) {
-    Item<T> item;
-    item.element = element;
-    item.usable = reader.read(element, item.parameters, item.labels, diagnostics);
-    if constexpr (requires { T::check(item.parameters); }) {
-      if (item.usable) {
-        if (const std::optional<Problem> problem = T::check(item.parameters)) {
-          const auto message = [&] { return problem->message; };
-          if (problem->kind == Problem::Kind::skip && may_skip)
-            report_warning(diagnostics, element, message);
-          else
-            report_error(diagnostics, element, message);
-          item.usable = false;
-        }
-      }
-    }
-    return item;
+    read_pieces<Harvest, ItemTools>(text_, variables_, pieces, arena_, diagnostics_, read, take);
   }
 
   template <class Items>
@@ -299,9 +244,9 @@ class SceneReader {
   }
 
   /// The item once more, parsed by `document`.
-  static Element item_at(ItemPlace place, Document& document) {
+  Element item_at(ItemPlace place, Document& document) const {
     Diagnostics none = Diagnostics::counter();
-    document.parse_piece(place.piece, none);
+    document.parse_items(text_.piece(place.piece), none);
     std::uint32_t number = 0;
     Node node = document.root().first_child();
     while (!node.element() || number++ < place.number) node = node.next();
@@ -327,10 +272,6 @@ class SceneReader {
         return "unexpected attribute " + in_quotes(attribute.name()) + " in " + tag(root.name()) + "; remove it";
       });
     }
-  }
-
-  static void refuse_misplaced(Element element, std::string_view parent, Diagnostics& diagnostics) {
-    report_error(diagnostics, element, [&] { return explain_misplaced(element.name(), parent); });
   }
 
   void report_missing(Element root, std::string_view section) {

@@ -17,12 +17,6 @@ std::vector<std::string_view> names_of(std::span<const FieldInfo> infos) {
   return names;
 }
 
-std::size_t find_field(std::span<const FieldInfo> infos, std::string_view name) {
-  std::size_t i = 0;
-  while (i < infos.size() && infos[i].name != name) ++i;
-  return i;
-}
-
 /// Bit i: the element has a child infos[i].
 std::uint64_t present_fields(Element element, std::span<const FieldInfo> infos) {
   std::uint64_t present = 0;

@@ -36,12 +36,18 @@ class FieldsReader {
 
   /// labels: receives the labels' texts, in the order of the constructor's.
   bool read(Element element, Parameters& parameters, std::span<std::string_view> labels, Diagnostics& diagnostics) {
+    return read_fields(element, infos_, targets(parameters, labels), diagnostics);
+  }
+
+  /// What read() gives read_fields(); targets are valid until the next call.
+  std::span<const FieldInfo> infos() const { return infos_; }
+  std::span<const FieldTarget> targets(Parameters& parameters, std::span<std::string_view> labels) {
     targets_.clear();
     for (std::size_t i = 0; i < label_count_; ++i) targets_.emplace_back(&labels[i]);
     for (const Field<Parameters>& field : fields_) {
       std::visit([&](auto member) { targets_.emplace_back(&(parameters.*member)); }, field.member);
     }
-    return read_fields(element, infos_, targets_, diagnostics);
+    return targets_;
   }
 
  private:

@@ -8,32 +8,31 @@
 #include <deque>
 
 #include "raytrace/description/diagnostics.h"
-#include "raytrace/description/document.h"
 #include "raytrace/description/scene_text.h"
 #include "raytrace/description/variables.h"
 #include "raytrace/parallel/in_order.h"
 
 namespace raytrace {
 
-/// For each piece, in their order: take(the piece's index, result), with what read(root, result, diagnostics) has left
-/// in a result, a container that was empty. read is called by several threads at once, take by one at a time.
+/// For each piece, in their order: take(the piece's index, result), with what read(index, tools, result, diagnostics)
+/// has left in a result, a container that was empty. read is called by several threads at once, each time with Tools,
+/// made of a text and variables, that nobody else uses; take by one at a time.
 ///
 /// Pieces are read without a message at first. Where there is something to say, the piece is read once more when all
 /// before it have been taken: so no more messages are composed than are kept, and they do not depend on the threads.
-template <class Result, class Read, class Take>
+template <class Result, class Tools, class Read, class Take>
 void read_pieces(const SceneText& text, const Variables& variables, const SceneText::PieceRange& pieces,
                  tbb::task_arena& arena, Diagnostics& diagnostics, const Read& read, const Take& take) {
   struct Workplace {
-    Workplace(const SceneText& text, const Variables& variables) : document(text, variables) {}
+    Workplace(const SceneText& text, const Variables& variables) : tools(text, variables) {}
 
-    Document document;
+    Tools tools;
     Result result;
     Diagnostics findings = Diagnostics::counter();
   };
   const auto read_piece = [&](std::size_t i, Workplace& workplace, Diagnostics& findings) {
     workplace.result.clear();
-    workplace.document.parse_piece(pieces.first + i, findings);
-    if (const Element root = workplace.document.root()) read(root, workplace.result, findings);
+    read(pieces.first + i, workplace.tools, workplace.result, findings);
   };
   const auto read_quietly = [&](std::size_t i, Workplace& workplace) {
     workplace.findings = Diagnostics::counter();

@@ -94,10 +94,8 @@ class ValueReader {
   }
 
   bool operator()(Vec3d* value) const {
-    Vec3d& v = *value;
-    if (!read_components(vector_components, {&v.x, &v.y, &v.z})) return false;
-    if (info_.range != Range::nonzero || std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) >= smallest_size)
-      return true;
+    if (!read_components(vector_components, {&value->x, &value->y, &value->z})) return false;
+    if (info_.range != Range::nonzero || is_direction(*value)) return true;
     report_error(diagnostics_, element_, [&] {
       return tag(info_.name) + " is a direction, so x, y and z must not all be 0; write one such as <" +
              printable(info_.name) + " x=\"0\" y=\"1\" z=\"0\"/>" + at_frame();
@@ -153,8 +151,8 @@ class ValueReader {
     if (element_.first_child() && has_keys(element_))
       return read_keys(element_, names, values, info_.range, diagnostics_);
     const bool fine = refuse_content(names);
-    const Range range = info_.range == Range::nonzero ? Range::any : info_.range;
-    return read_attributes(element_, fields_of(names, values, range), !fine, diagnostics_) && fine;
+    const auto fields = fields_of(names, values, range_of_components(info_.range));
+    return read_attributes(element_, fields, !fine, diagnostics_) && fine;
   }
 
   /// For values that are wrong only at some frames.
@@ -183,6 +181,22 @@ class ValueReader {
 };
 
 }  // namespace
+
+std::size_t find_field(std::span<const FieldInfo> infos, std::string_view name) {
+  std::size_t i = 0;
+  while (i < infos.size() && infos[i].name != name) ++i;
+  return i;
+}
+
+std::span<const std::string_view> component_names(const FieldTarget& target) {
+  if (std::holds_alternative<Vec3d*>(target)) return vector_components;
+  if (std::holds_alternative<Rgb<double>*>(target)) return color_components;
+  return {};
+}
+
+bool is_direction(const Vec3d& vector) {
+  return std::max({std::abs(vector.x), std::abs(vector.y), std::abs(vector.z)}) >= smallest_size;
+}
 
 bool read_value(Element element, const FieldInfo& info, const FieldTarget& target, Diagnostics& diagnostics) {
   return std::visit(ValueReader(element, info, diagnostics), target);

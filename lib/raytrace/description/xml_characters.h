@@ -7,7 +7,14 @@
 
 namespace raytrace::xml {
 
-enum CharacterClass : std::uint8_t { space = 1, name_start = 2, name_part = 4, text_end = 8, value_end = 16 };
+enum CharacterClass : std::uint8_t {
+  space = 1,
+  name_start = 2,
+  name_part = 4,
+  text_end = 8,
+  value_end = 16,
+  plain = 32,  ///< stands for itself in every value, and may be anywhere in it but for spaces
+};
 
 inline constexpr std::array<std::uint8_t, 256> character_classes = [] {
   std::array<std::uint8_t, 256> classes{};
@@ -16,9 +23,13 @@ inline constexpr std::array<std::uint8_t, 256> character_classes = [] {
     const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == ':' || c >= 0x80;
     if (letter) classes[c] |= name_start | name_part;
     if ((c >= '0' && c <= '9') || c == '-' || c == '.') classes[c] |= name_part;
+    if (c >= ' ') classes[c] |= plain;
   }
   for (const char c : {'\0', '<', '&', ']'}) classes[static_cast<unsigned char>(c)] |= text_end;
   for (const char c : {'\0', '<', '&', '"', '\''}) classes[static_cast<unsigned char>(c)] |= value_end;
+  // '$' starts the scene format's variables.
+  for (const char c : {'<', '>', '&', '"', '\'', '$'})
+    classes[static_cast<unsigned char>(c)] &= static_cast<std::uint8_t>(~plain);
   return classes;
 }();
 

@@ -34,6 +34,9 @@ class Scanner {
   /// nodes: receives what find_nodes returns.
   void collect_nodes(std::vector<std::size_t>& nodes) { nodes_ = &nodes; }
 
+  /// values: receives what find_values returns.
+  void collect_values(std::vector<std::string_view>& values) { values_ = &values; }
+
   void cut_pieces(PieceCutter& cutter) { cutter_ = &cutter; }
 
   /// Has up to so many threads look ahead in the groups that are cut: behind cut_pieces().
@@ -61,6 +64,15 @@ class Scanner {
       fail(begin_, std::string(empty ? "the file is empty" : "there is no scene in the file") +
                        "; a scene starts with <raytracer>");
     }
+  }
+
+  /// The first element alone, at the '<' of which the text starts; where it ends.
+  std::size_t scan_element() {
+    do {
+      skip_space();
+      scan_next();
+    } while (!open_.empty());
+    return offset(here_);
   }
 
   /// Leaves the scanner behind the name of an attribute, having gone through the tag at `tag_offset` that far.
@@ -166,6 +178,11 @@ class Scanner {
     if (nodes_) nodes_->push_back(offset(at));
   }
 
+  /// That ends here.
+  void note_value(const char* begin) {
+    if (values_) values_->emplace_back(begin, here_);
+  }
+
   /// What comes after the next `end`; fails at `start` if there is none.
   void skip_past(const char* start, std::string_view end, const char* what) {
     const std::size_t found = rest().find(end);
@@ -207,13 +224,14 @@ class Scanner {
       fail(here_, "this is no XML: it starts with " + in_quotes({here_, std::strcspn(here_, "\r\n<")}) +
                       ", but a scene starts with <raytracer>");
     }
-    note_node(here_);
+    const char* const start = here_;
+    note_node(start);
     while (true) {
       while (!is(*here_, text_end)) ++here_;
       if (*here_ == '&')
         entity();
       else if (*here_ != ']')
-        return;
+        return note_value(start);
       else if (starts_with("]]>"))
         fail(here_, "']]>' in a text must be written ']]&gt;'");
       else
@@ -308,7 +326,7 @@ class Scanner {
     if (quote != '"' && quote != '\'') {
       fail(here_, "the value of the attribute " + in_quotes(found) + " must stand in quotes" + example());
     }
-    ++here_;
+    const char* const value = ++here_;
     while (true) {
       while (!is(*here_, value_end)) ++here_;
       if (*here_ == quote) break;
@@ -319,6 +337,7 @@ class Scanner {
       else
         fail(start, "the value of the attribute " + in_quotes(found) + " has no closing quote");
     }
+    note_value(value);
     ++here_;
     return found;
   }
@@ -385,6 +404,7 @@ class Scanner {
   const char* end_;
   const char* here_;
   std::vector<std::size_t>* nodes_ = nullptr;
+  std::vector<std::string_view>* values_ = nullptr;
   PieceCutter* cutter_ = nullptr;
   std::vector<OpenElement> open_;
   std::vector<std::string_view> attributes_;  // of the tag at hand
@@ -418,6 +438,16 @@ std::vector<std::size_t> find_nodes(std::string_view text) {
   scanner.collect_nodes(nodes);
   scanner.scan();
   return nodes;
+}
+
+std::size_t element_length(std::string_view text) { return Scanner(text).scan_element(); }
+
+std::vector<std::string_view> find_values(std::string_view text) {
+  std::vector<std::string_view> values;
+  Scanner scanner(text);
+  scanner.collect_values(values);
+  scanner.scan_element();
+  return values;
 }
 
 std::size_t find_attribute(std::string_view text, std::size_t tag_offset, std::string_view name) {

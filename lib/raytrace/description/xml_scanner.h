@@ -34,6 +34,13 @@ std::optional<XmlProblem> find_xml_problem(std::string_view text, std::span<cons
 /// White space between tags is no text; a CDATA section is one, and a comment ends one.
 std::vector<std::size_t> find_nodes(std::string_view text);
 
+/// How long the element is that a well-formed text starts with.
+std::size_t element_length(std::string_view text);
+
+/// What stands in the quotes of attributes and, without the white space before it, between tags, in the order of a
+/// well-formed text without comments and character data.
+std::vector<std::string_view> find_values(std::string_view text);
+
 /// Where the attribute `name` stands in the start tag at `tag_offset` of a well-formed text.
 std::size_t find_attribute(std::string_view text, std::size_t tag_offset, std::string_view name);
 
