@@ -129,7 +129,6 @@ class ListsMaker {
  public:
   using Lists = DirectionBuffer::Lists;
   using Grid = DirectionBuffer::Grid;
-  using Cell = DirectionBuffer::Cell;
 
   ListsMaker(Lists& lists, const Perspective& perspective, std::span<const PlacedObject> objects, int threads)
       : lists_(lists), perspective_(perspective), objects_(objects), threads_(threads) {}
@@ -187,7 +186,7 @@ class ListsMaker {
         cells += count;
       }
     }
-    lists_.cells = LargeArray<Cell>::zeros(cells);
+    lists_.cells = LargeArray<std::uint32_t>::unset(cells + 1);
   }
 
   /// Which objects may be in which cells. False if they are so many that it would not pay.
@@ -207,7 +206,9 @@ class ListsMaker {
         }
         if (i + corners_ahead < last) __builtin_prefetch(objects_[order_[i + corners_ahead].object].corners);
         const PlacedObject& object = objects_[order_[i].object];
-        lists_.objects[i] = {object.kind, object.primitive, std::bit_cast<float>(order_[i].key)};
+        lists_.objects[i] = {static_cast<std::uint8_t>(object.kind),
+                             object.primitive & DirectionBuffer::Object::last_primitive,
+                             std::bit_cast<float>(order_[i].key)};
         const View view = *perspective_.view(object);
         for_each_rectangle(perspective_, view, [&](int face, const Rectangle& rectangle) {
           cells += list(object, view, face, rectangle, static_cast<std::uint32_t>(i), listings_[chunk]);
@@ -222,7 +223,7 @@ class ListsMaker {
 
   /// How many objects each cell lists. False if too many cells would list too many.
   bool count() {
-    for_each_band([&](Band& band, std::span<Cell> cells) {
+    for_each_band([&](Band& band, std::span<std::uint32_t> cells) {
       // The last cells are tested together with some that there are not.
       const std::size_t places = cells.size() + CellFloats::size;
       std::vector<std::int32_t> counts(places);
@@ -247,16 +248,15 @@ class ListsMaker {
           for_each_reached(grid, band.first_row, listing, add_listing);
       });
       for (std::size_t i = 0; i < cells.size(); ++i) {
-        Cell& cell = cells[i];
-        cell.count = static_cast<std::uint32_t>(counts[i]);
-        if (cell.count == 0) continue;
+        const std::uint32_t count = cells[i] = static_cast<std::uint32_t>(counts[i]);
+        if (count == 0) continue;
         ++band.used_cells;
-        band.most_listed = std::max(band.most_listed, cell.count);
-        if (cell.count > most_candidates) {
+        band.most_listed = std::max(band.most_listed, count);
+        if (count > most_candidates) {
           ++band.crowded_cells;
-          band.listed_by_crowded += cell.count;
+          band.listed_by_crowded += count;
         } else {
-          band.listed += cell.count;
+          band.listed += count;
         }
       }
     });
@@ -279,17 +279,17 @@ class ListsMaker {
       listed += band.listed + (limit_ > most_candidates ? band.listed_by_crowded : 0);
     }
     lists_.candidates = LargeArray<std::uint32_t>::unset(listed);
+    lists_.cells[bands_.empty() ? 0 : bands_.back().first_cell + bands_.back().cell_count] =
+        static_cast<std::uint32_t>(listed);
     std::uint32_t* const candidates = lists_.candidates.data();
-    for_each_band([&](const Band& band, std::span<Cell> cells) {
+    for_each_band([&](const Band& band, std::span<std::uint32_t> cells) {
       std::vector<std::uint32_t> next(cells.size());  // each cell's next place among the candidates
       std::size_t first = band.first_candidate;
       for (std::size_t i = 0; i < cells.size(); ++i) {
-        if (cells[i].count > limit_) {
-          cells[i].count = DirectionBuffer::crowded;
-          continue;
-        }
-        cells[i].first = next[i] = static_cast<std::uint32_t>(first);
-        first += cells[i].count;
+        const std::uint32_t count = cells[i];
+        next[i] = static_cast<std::uint32_t>(first);
+        cells[i] = next[i] | (count > limit_ ? DirectionBuffer::crowded : 0);
+        first += count > limit_ ? 0 : count;
       }
       auto seen = band.seen.begin();
       const auto columns = static_cast<std::size_t>(lists_.grids[band.face].columns);
@@ -298,7 +298,7 @@ class ListsMaker {
           for (std::size_t column = listing.left; column <= listing.right; column += CellFloats::size)
             for (std::uint32_t lanes = *seen++; lanes != 0; lanes &= lanes - 1) {
               const std::size_t cell = row * columns + column + static_cast<std::size_t>(std::countr_zero(lanes));
-              if (cells[cell].count != DirectionBuffer::crowded) candidates[next[cell]++] = listing.object;
+              if ((cells[cell] & DirectionBuffer::crowded) == 0) candidates[next[cell]++] = listing.object;
             }
       });
     });
@@ -382,6 +382,7 @@ class ListsMaker {
 
 std::optional<DirectionBuffer> DirectionBuffer::make(const Vantage& vantage, std::span<const PlacedObject> objects,
                                                      int threads) {
+  if (objects.size() > Object::last_primitive) return std::nullopt;
   const Perspective perspective(vantage, objects, threads);
   if (!perspective.is_within_floats()) return std::nullopt;
   DirectionBuffer buffer;

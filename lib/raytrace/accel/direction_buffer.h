@@ -25,7 +25,11 @@ namespace raytrace {
 class DirectionBuffer {
  public:
   struct Object {
-    std::uint32_t kind, primitive;
+    static constexpr int primitive_bits = 24;
+    static constexpr std::uint32_t last_primitive = (1U << primitive_bits) - 1;
+
+    std::uint32_t kind : 32 - primitive_bits;
+    std::uint32_t primitive : primitive_bits;
     float nearest;  ///< no part of it has a smaller depth()
   };
 
@@ -38,19 +42,18 @@ class DirectionBuffer {
   };
 
   /// Which objects are to be met through which cells.
-  static constexpr std::uint32_t crowded = ~std::uint32_t{0};
-  struct Cell {
-    std::uint32_t first = 0, count = 0;  ///< of the candidates; count: crowded where a tree is faster
-  };
   struct Lists {
-    Grid grids[6];           ///< face by face: twice the axis of its normal, and one more on the negative side
-    LargeArray<Cell> cells;  ///< grid by grid, row by row
+    Grid grids[6];  ///< face by face: twice the axis of its normal, and one more on the negative side
+    /// Where each cell's candidates begin, grid by grid, row by row; behind the last cell, where they end. With the
+    /// bit `crowded` where a tree is faster: that cell has none.
+    LargeArray<std::uint32_t> cells;
     LargeArray<std::uint32_t> candidates;  ///< cell by cell, the nearest first
     LargeArray<Object> objects;            ///< the nearest first
   };
+  static constexpr std::uint32_t crowded = std::uint32_t{1} << 31U;
 
   /// None where it would not pay: an object is around the point or next to it, or objects are so close together that
-  /// cells list too many.
+  /// cells list too many, or they are too many for Object.
   static std::optional<DirectionBuffer> make(const Vantage& vantage, std::span<const PlacedObject> objects,
                                              int threads);
 
@@ -89,12 +92,13 @@ class DirectionBuffer {
   const Grid& grid(int face) const { return lists_.grids[face]; }
 
   /// Whether so much is to be met through the cell that a tree is faster.
-  bool is_crowded(std::size_t cell) const { return lists_.cells[cell].count == crowded; }
+  bool is_crowded(std::size_t cell) const { return (lists_.cells[cell] & crowded) != 0; }
 
   /// All that is to be met through a cell that is not crowded: numbers of objects in ascending order, the nearest
   /// first.
   std::span<const std::uint32_t> candidates(std::size_t cell) const {
-    return {lists_.candidates.data() + lists_.cells[cell].first, lists_.cells[cell].count};
+    const std::uint32_t* const candidates = lists_.candidates.data();
+    return {candidates + (lists_.cells[cell] & ~crowded), candidates + (lists_.cells[cell + 1] & ~crowded)};
   }
   const Object& object(std::uint32_t number) const { return lists_.objects[number]; }
 
