@@ -19,7 +19,7 @@ RAYTRACE_INLINE F above_cbrt(const F& x) {
 /// The real roots of s^3 + p s + q, where its value is within 1e-5 of the largest of its terms, in ascending order.
 /// Where there is only one, it stands in all three places.
 template <class F>
-void depressed_cubic_roots(const F& p, const F& q, F (&root)[3]) {
+RAYTRACE_INLINE void depressed_cubic_roots(const F& p, const F& q, F (&root)[3]) {
   // The root on the far side of q's sign always exists and is simple. From beyond it, Newton's method comes down to it
   // monotonically. It is at most u + d where s^3 + p s >= d^3 and >= 2 u^2 d, u^2 = -p, and, where p is positive, at
   // most the lesser of cbrt(|q|) and |q| / p.

@@ -20,7 +20,7 @@ struct TorusProfile {
   struct Place {
     N y, rho;
   };
-  Place place(const N& s) const {
+  RAYTRACE_INLINE Place place(const N& s) const {
     const N y = multiply_add(climb, s, height);
     return {y, sqrt(max(multiply_add(length2 * s, s, distance2) - y * y, N(0.0F)))};
   }
@@ -28,7 +28,7 @@ struct TorusProfile {
   /// Positive outside of the torus, negative inside its tube. As a difference of lengths, (rho - R)^2 + y^2 - r^2, it
   /// keeps the digits that the quartic loses when the tube is thin. `side` is 1, or -1 for the inner sheet
   /// (the "lemon") of a torus whose tube is wider than its hole.
-  N distance_form(const Place& at, const N& side) const {
+  RAYTRACE_INLINE N distance_form(const Place& at, const N& side) const {
     const N from_circle = at.rho - side * swept;
     return multiply_add(from_circle, from_circle, (at.y - tube) * (at.y + tube));
   }
@@ -38,7 +38,7 @@ struct TorusProfile {
     N value;
     N least;  ///< the smaller form's size
   };
-  Sign sign(const Place& at) const {
+  RAYTRACE_INLINE Sign sign(const Place& at) const {
     const N outer = distance_form(at, N(1.0F)), inner = distance_form(at, N(-1.0F));
     return {select(inner < N(0.0F), -outer, outer), min(abs(outer), abs(inner))};
   }
@@ -48,7 +48,7 @@ struct TorusProfile {
     N value, step;
     N remaining;  ///< an estimate of the way from there to the root: from the second derivative
   };
-  Step newton_step(const N& s, const N& side) const {
+  RAYTRACE_INLINE Step newton_step(const N& s, const N& side) const {
     const Place at = place(s);
     const N from_circle = at.rho - side * swept;
     const N value = distance_form(at, side);
@@ -72,8 +72,8 @@ struct Precision {
 /// The root of the distance form between left and right, where it has different signs and one root: Newton's method
 /// from `s`, and bisection where that would leave the bracket.
 template <class N>
-N root_in_bracket(const TorusProfile<N>& profile, const N& side, N s, N left, N right, const N& left_sign,
-                  const Precision<N>& wanted) {
+RAYTRACE_INLINE N root_in_bracket(const TorusProfile<N>& profile, const N& side, N s, N left, N right,
+                                  const N& left_sign, const Precision<N>& wanted) {
   auto moving = left <= right;  // all that have a bracket; lanes that have arrived stay, whatever the others do
   for (int i = 0; i < wanted.most_steps; ++i) {
     const auto at = profile.newton_step(s, side);

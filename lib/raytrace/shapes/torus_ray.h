@@ -61,7 +61,7 @@ class TorusRay {
   /// The quartic's sign at the place s, which exactly() has in double. Where float leaves it open, in the lanes of
   /// `asked`, it is found there.
   template <class Exactly>
-  F sign(const F& s, const Mask<F>& asked, const Exactly& exactly) const {
+  RAYTRACE_INLINE F sign(const F& s, const Mask<F>& asked, const Exactly& exactly) const {
     const auto at = small_.place(s);
     const auto rough = small_.sign(at);
     const Mask<F> open = asked & (rough.least * at.rho <= (at.rho + small_.swept) * F(0x1p-17F));
