@@ -1,7 +1,6 @@
 #include "raytrace/description/xml_scanner.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <cstring>
 
 #include "raytrace/description/encoding_problem.h"
@@ -11,6 +10,7 @@
 #include "raytrace/description/quoted.h"
 #include "raytrace/description/utf8.h"
 #include "raytrace/description/xml_characters.h"
+#include "raytrace/description/xml_cursor.h"
 #include "raytrace/parallel/worker_count.h"
 
 namespace raytrace {
@@ -22,11 +22,10 @@ constexpr std::size_t most_open = 64;
 constexpr std::size_t most_attributes = 64;
 constexpr std::size_t group_depth = 3;
 
-/// Walks over a text that has passed the check of its bytes, so that '\0' stands at its end and nowhere else.
-/// Throws XmlProblem.
-class Scanner {
+/// Walks over a whole text. Throws XmlProblem.
+class Scanner : private XmlCursor {
  public:
-  explicit Scanner(std::string_view text) : begin_(text.data()), end_(begin_ + text.size()), here_(begin_) {
+  explicit Scanner(std::string_view text) : XmlCursor(text) {
     open_.reserve(most_open);
     attributes_.reserve(most_attributes);
   }
@@ -83,8 +82,7 @@ class Scanner {
       skip_space();
       if (!is(*here_, name_start)) return tag_offset;
       const char* const start = here_;
-      const std::string_view found = attribute();
-      if (found == wanted) return offset(start);
+      if (attribute().name == wanted) return offset(start);
     }
   }
 
@@ -149,26 +147,6 @@ class Scanner {
     }
   }
 
-  std::size_t offset(const char* at) const { return static_cast<std::size_t>(at - begin_); }
-
-  [[noreturn]] void fail(const char* at, std::string message) const {
-    throw XmlProblem{offset(at), std::move(message)};
-  }
-
-  std::string_view rest() const { return {here_, here_ < end_ ? static_cast<std::size_t>(end_ - here_) : 0}; }
-
-  bool starts_with(std::string_view prefix) const { return rest().starts_with(prefix); }
-
-  void skip_space() {
-    while (is(*here_, space)) ++here_;
-  }
-
-  std::string_view name() {
-    const char* const start = here_;
-    while (is(*here_, name_part)) ++here_;
-    return {start, static_cast<std::size_t>(here_ - start)};
-  }
-
   std::string opened_in(const OpenElement& element) const {
     const SourceLocation location = LineIndex({begin_, offset(here_)}).locate(offset(element.begin));
     return "opened in line " + std::to_string(location.line) + ", column " + std::to_string(location.column);
@@ -178,17 +156,8 @@ class Scanner {
     if (nodes_) nodes_->push_back(offset(at));
   }
 
-  /// That ends here.
-  void note_value(const char* begin) {
-    if (values_) values_->emplace_back(begin, here_);
-  }
-
-  /// What comes after the next `end`; fails at `start` if there is none.
-  void skip_past(const char* start, std::string_view end, const char* what) {
-    const std::size_t found = rest().find(end);
-    if (found == std::string_view::npos)
-      fail(start, std::string(what) + " that starts here never ends; add " + std::string(end));
-    here_ += found + end.size();
+  void note_value(std::string_view value) {
+    if (values_) values_->push_back(value);
   }
 
   void declaration() {
@@ -197,10 +166,9 @@ class Scanner {
     bool has_version = false;
     std::string_view encoding;
     for (skip_space(); is(*here_, name_start); skip_space()) {
-      const char* const attribute_start = here_;
-      const std::string_view found = attribute();
-      if (found == "version") has_version = true;
-      if (found == "encoding") encoding = attribute_value(attribute_start);
+      const Attribute found = attribute();
+      if (found.name == "version") has_version = true;
+      if (found.name == "encoding") encoding = found.value;
     }
     if (!has_version || !starts_with("?>"))
       fail(start, "write this declaration as <?xml version=\"1.0\" encoding=\"UTF-8\"?>");
@@ -210,12 +178,6 @@ class Scanner {
     if (!upper.empty() && upper != "UTF-8" && upper != "US-ASCII" && upper != "ASCII") {
       fail(start, "the encoding " + in_quotes(encoding) + " is not read; save the file as UTF-8, and write that here");
     }
-  }
-
-  /// The value, without its quotes, of an attribute that has passed the check and starts here.
-  static std::string_view attribute_value(const char* at) {
-    const char* const open_quote = std::strpbrk(at, "\"'");
-    return {open_quote + 1, static_cast<std::size_t>(std::strchr(open_quote + 1, *open_quote) - open_quote - 1)};
   }
 
   void text() {
@@ -231,44 +193,12 @@ class Scanner {
       if (*here_ == '&')
         entity();
       else if (*here_ != ']')
-        return note_value(start);
+        return note_value({start, static_cast<std::size_t>(here_ - start)});
       else if (starts_with("]]>"))
         fail(here_, "']]>' in a text must be written ']]&gt;'");
       else
         ++here_;
     }
-  }
-
-  void entity() {
-    static constexpr std::string_view known[] = {"&amp;", "&lt;", "&gt;", "&quot;", "&apos;"};
-    for (const std::string_view entity : known) {
-      if (starts_with(entity)) {
-        here_ += entity.size();
-        return;
-      }
-    }
-    const char* const start = here_;
-    if (here_[1] == '#') {
-      const bool hexadecimal = here_[2] == 'x';
-      here_ += hexadecimal ? 3 : 2;
-      const std::uint32_t base = hexadecimal ? 16 : 10;
-      std::uint32_t character = 0;
-      const char* const digits = here_;
-      for (; digit(*here_) < base && character <= 0x10ffff; ++here_) character = character * base + digit(*here_);
-      if (here_ > digits && *here_ == ';' && allowed(character)) {
-        ++here_;
-        return;
-      }
-      fail(start, in_quotes({start, static_cast<std::size_t>(here_ - start) + (*here_ == ';' ? 1 : 0)}) +
-                      " is no character that XML allows");
-    }
-    ++here_;
-    const std::string_view found = name();
-    if (!found.empty() && *here_ == ';') {
-      fail(start,
-           "unknown entity " + in_quotes({start, found.size() + 2}) + "; XML knows &amp; &lt; &gt; &quot; and &apos;");
-    }
-    fail(start, "a '&' in a text must be written '&amp;'");
   }
 
   void start_tag() {
@@ -303,43 +233,15 @@ class Scanner {
                         tag(element) + "; attributes look like x=\"1\" y=\"2\" (is a quote or a space missing?)");
       }
       const char* const attribute_start = here_;
-      const std::string_view found = attribute();
+      const auto [found, value] = attribute();
       if (std::find(attributes_.begin(), attributes_.end(), found) != attributes_.end()) {
         fail(attribute_start,
              "the attribute " + in_quotes(found) + " stands twice in " + tag(element) + "; remove one");
       }
       if (attributes_.size() == most_attributes) fail(attribute_start, tag(element) + " has more than 64 attributes");
       attributes_.push_back(found);
+      note_value(value);
     }
-  }
-
-  /// name="value" or name='value'; gives the name.
-  std::string_view attribute() {
-    const char* const start = here_;
-    const std::string_view found = name();
-    const auto example = [&] { return ", as in " + printable(found) + "=\"1\""; };
-    skip_space();
-    if (*here_ != '=') fail(start, "the attribute " + in_quotes(found) + " has no value; add one" + example());
-    ++here_;
-    skip_space();
-    const char quote = *here_;
-    if (quote != '"' && quote != '\'') {
-      fail(here_, "the value of the attribute " + in_quotes(found) + " must stand in quotes" + example());
-    }
-    const char* const value = ++here_;
-    while (true) {
-      while (!is(*here_, value_end)) ++here_;
-      if (*here_ == quote) break;
-      if (*here_ == '&')
-        entity();
-      else if (*here_ == '"' || *here_ == '\'')
-        ++here_;
-      else
-        fail(start, "the value of the attribute " + in_quotes(found) + " has no closing quote");
-    }
-    note_value(value);
-    ++here_;
-    return found;
   }
 
   void end_tag() {
@@ -400,9 +302,6 @@ class Scanner {
     fail(start, "processing instructions (<?...?>) are not part of the scene format; remove this one");
   }
 
-  const char* begin_;
-  const char* end_;
-  const char* here_;
   std::vector<std::size_t>* nodes_ = nullptr;
   std::vector<std::string_view>* values_ = nullptr;
   PieceCutter* cutter_ = nullptr;
