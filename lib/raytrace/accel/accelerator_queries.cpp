@@ -57,10 +57,19 @@ RAYTRACE_INLINE void find_first(Hits& hits) {
   hits.one_object = hits.one_kind && none(hits.hit & float_mask<FloatN>(hits.primitive != IntN(hits.first_primitive)));
 }
 
-/// Ends the rays where they meet an object.
+/// Shapes that take rays from a point as such.
 template <class Shape>
-RAYTRACE_INLINE void meet(const typename ShapeTable<Shape>::Record& record, std::uint32_t primitive, Ray<FloatN>& rays,
-                          const MaskN& active, Hits& hits) {
+concept TakesRaysFromPoint =
+    requires(typename ShapeTable<Shape>::Record record, RaysFromPoint<FloatN> rays, MaskN active, FloatN u) {
+      Shape::template intersect<FloatN>(record, rays, active);
+    } || requires(typename ShapeTable<Shape>::Record record, RaysFromPoint<FloatN> rays, MaskN active, FloatN u) {
+      Shape::template intersect<FloatN>(record, rays, active, u, u);
+    };
+
+/// Ends the rays where they meet an object. far: where they end, whatever Rays is.
+template <class Shape, class Rays>
+RAYTRACE_INLINE void meet(const typename ShapeTable<Shape>::Record& record, std::uint32_t primitive, const Rays& rays,
+                          FloatN& far, const MaskN& active, Hits& hits) {
   FloatN distance, u, v;
   if constexpr (EmbreeTriangle<Shape>) {
     distance = Shape::template intersect<FloatN>(record, rays, active, u, v);
@@ -69,7 +78,7 @@ RAYTRACE_INLINE void meet(const typename ShapeTable<Shape>::Record& record, std:
   }
   const MaskN hit = distance < infinity<FloatN>();  // in float it may be the same as the one before
   if (none(hit)) return;
-  rays.far = select(hit, distance, rays.far);
+  far = select(hit, distance, far);
   hits.hit = hits.hit | hit;
   hits.kind = select_lanes(hit, UintN(static_cast<std::uint32_t>(index_of<Shape>(Shapes{}))), hits.kind);
   hits.primitive = select_lanes(hit, IntN(static_cast<std::int32_t>(primitive)), hits.primitive);
@@ -140,7 +149,7 @@ Hits Accelerator::intersect_unbounded(Ray<FloatN>& rays, const MaskN& active) co
   hits.primitive = IntN(0);
   hits.u = hits.v = FloatN(0);
   for_each_unbounded(tables_, [&](auto type, std::uint32_t primitive, const auto& record) RAYTRACE_INLINE_LAMBDA {
-    meet<typename decltype(type)::type>(record, primitive, rays, active, hits);
+    meet<typename decltype(type)::type>(record, primitive, rays, rays.far, active, hits);
   });
   return hits;
 }
@@ -159,11 +168,16 @@ MaskN Accelerator::intersect_candidates(const DirectionBuffer& seen, Ray<FloatN>
   const auto reaches = [&](const MaskN& lanes, const DirectionBuffer::Object& object) {
     return any(lanes & (rays.far * rays.far >= FloatN(object.nearest)));
   };
+  const RaysFromPoint<FloatN> from_point{seen.point(), rays.direction, rays.near, rays.far};
   const auto test = [&](const DirectionBuffer::Object& object) {
     with_type(Shapes{}, object.kind, [&](auto type) {
       using Shape = typename decltype(type)::type;
-      const auto& records = std::get<ShapeTable<Shape>>(tables_).records;
-      meet<Shape>(records[object.primitive], object.primitive, rays, active, hits);
+      const auto& record = std::get<ShapeTable<Shape>>(tables_).records[object.primitive];
+      if constexpr (TakesRaysFromPoint<Shape>) {
+        meet<Shape>(record, object.primitive, from_point, rays.far, active, hits);
+      } else {
+        meet<Shape>(record, object.primitive, rays, rays.far, active, hits);
+      }
     });
   };
   return for_each_candidate<Way::from_point>(seen, rays.direction, active, reaches, test);

@@ -386,6 +386,7 @@ std::optional<DirectionBuffer> DirectionBuffer::make(const Vantage& vantage, std
   const Perspective perspective(vantage, objects, threads);
   if (!perspective.is_within_floats()) return std::nullopt;
   DirectionBuffer buffer;
+  buffer.point_ = vantage.place;
   buffer.infinitely_far_ = perspective.infinitely_far();
   buffer.surroundings_ = perspective.surroundings();
   buffer.reach_ = static_cast<float>(perspective.reach());

@@ -58,6 +58,8 @@ class DirectionBuffer {
                                              int threads);
 
   bool infinitely_far() const { return infinitely_far_; }
+  /// Where all is seen from, if that is not so.
+  const Vec3f& point() const { return point_; }
 
   /// Of the origins of rays that go to the vantage, to_vantage being their directions, which lead right to the point if
   /// there is one: larger for what is behind it, the squared distance from the point, or the distance from a plane.
@@ -104,6 +106,7 @@ class DirectionBuffer {
 
  private:
   Lists lists_;
+  Vec3f point_{};
   Bounds surroundings_{};  ///< of all objects, and more than rounding could miss
   float reach_ = 0;  ///< of the rays to a point, their length; of parallel ones, how far from (0, 0, 0) they start
   bool infinitely_far_ = false;

@@ -17,6 +17,16 @@ struct Ray {
   RAYTRACE_INLINE Vec3<F> at(const F& t) const { return origin + direction * t; }
 };
 
+/// Rays that all start at one point, and of which all else stands elsewhere. Shapes that take them as they take a Ray
+/// do once what is the same for all.
+template <class F>
+struct RaysFromPoint {
+  Vec3<float> origin;
+  const Vec3<F>& direction;
+  const F& near;
+  const F& far;
+};
+
 /// The point of a surface that a ray hit.
 template <class F>
 struct SurfacePoint {

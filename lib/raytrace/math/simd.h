@@ -221,6 +221,15 @@ RAYTRACE_INLINE TwinBatch<T, Arch> multiply_add(const TwinBatch<T, Arch>& a, con
   return {multiply_add(a.lower(), b.lower(), c.lower()), multiply_add(a.upper(), b.upper(), c.upper())};
 }
 
+/// The same of one number, with the same roundings.
+RAYTRACE_INLINE float multiply_add(float a, float b, float c) {
+#if defined(__FMA__) || defined(__ARM_FEATURE_FMA)
+  return __builtin_fmaf(a, b, c);
+#else
+  return a * b + c;
+#endif
+}
+
 /// dot() with as few roundings as the instruction set allows.
 template <class F>
 RAYTRACE_INLINE F fused_dot(const Vec3<F>& a, const Vec3<F>& b) {

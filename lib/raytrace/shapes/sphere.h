@@ -38,16 +38,17 @@ class Sphere {
   static constexpr bool is_its_bounding_sphere = true;  ///< so that nothing is seen through it
 
   /// The nearest distance inside (ray.near, ray.far) in each lane of `active`; infinity elsewhere.
-  template <class F>
-  static F intersect(const Record<float>& sphere, const Ray<F>& ray, const Mask<F>& active);
+  /// Rays: Ray<F> or RaysFromPoint<F>.
+  template <class F, class Rays>
+  static F intersect(const Record<float>& sphere, const Rays& ray, const Mask<F>& active);
 
   /// The surface at a distance that intersect() gave.
   template <class F>
   static SurfacePoint<F> surface(const Record<F>& sphere, const Ray<F>& ray, const F& distance);
 
  private:
-  template <class F>
-  static F intersect_in_double(const Record<float>& sphere, const Ray<F>& ray);
+  template <class F, class Rays>
+  static F intersect_in_double(const Record<float>& sphere, const Rays& ray);
 };
 
 namespace detail {
@@ -60,15 +61,17 @@ RAYTRACE_INLINE void exact_difference(const F& a, const F& b, F& difference, F& 
 }
 }  // namespace detail
 
-template <class F>
-RAYTRACE_INLINE F Sphere::intersect(const Record<float>& sphere, const Ray<F>& ray, const Mask<F>& active) {
+template <class F, class Rays>
+RAYTRACE_INLINE F Sphere::intersect(const Record<float>& sphere, const Rays& ray, const Mask<F>& active) {
   const Vec3<F>& d = ray.direction;
   const F radius(sphere.radius);
   // o = origin - center = from_center + rest, exactly.
-  Vec3<F> from_center, rest;
-  detail::exact_difference(ray.origin.x, F(sphere.center.x), from_center.x, rest.x);
-  detail::exact_difference(ray.origin.y, F(sphere.center.y), from_center.y, rest.y);
-  detail::exact_difference(ray.origin.z, F(sphere.center.z), from_center.z, rest.z);
+  auto from = ray.origin, missing = ray.origin;
+  const decltype(from) center(sphere.center);
+  detail::exact_difference(ray.origin.x, center.x, from.x, missing.x);
+  detail::exact_difference(ray.origin.y, center.y, from.y, missing.y);
+  detail::exact_difference(ray.origin.z, center.z, from.z, missing.z);
+  const Vec3<F> from_center(from), rest(missing);
   // Two steps to the ray's point closest to the center. Neither needs an exact distance, only an exact point: the
   // first brings the cancelling digits in, with one rounding, and the second has nothing left to cancel.
   const F inverse_dd = F(1) / dot(d, d);
@@ -93,12 +96,12 @@ RAYTRACE_INLINE F Sphere::intersect(const Record<float>& sphere, const Ray<F>& r
   const F rounding = terms * F(0x1p-22f);
   const Mask<F> imprecise = possible & (t > ray.near - rounding) & (t < ray.far + rounding) &
                             ((t * F(64) < terms) | (t * half_chord * F(64) < radius * radius * inverse_dd));
-  if (any(imprecise)) t = select(imprecise, intersect_in_double(sphere, ray), t);
+  if (any(imprecise)) t = select(imprecise, intersect_in_double<F>(sphere, ray), t);
   return select(possible & (t > ray.near) & (t < ray.far), t, infinity<F>());
 }
 
-template <class F>
-F Sphere::intersect_in_double(const Record<float>& sphere, const Ray<F>& ray) {
+template <class F, class Rays>
+F Sphere::intersect_in_double(const Record<float>& sphere, const Rays& ray) {
   using D = Doubles<F>;
   const Vec3<D> o = Vec3<D>(ray.origin) - Vec3<D>(Vec3d(sphere.center));
   const Vec3<D> d(ray.direction);

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cmath>
+#include <type_traits>
 
 #include "raytrace/description/fields.h"
 #include "raytrace/math/bounds.h"
@@ -40,8 +41,9 @@ class Triangle {
   /// coordinates u of vertex 2, v of vertex 3. Rays do not pass between triangles that share an edge: both find the
   /// same on which side of it the ray is, and what is within rounding belongs to both. Plücker coordinates: Davidovič
   /// et al., "3D Rasterization: A Bridge between Rasterization and Ray Casting", Graphics Interface 2012.
-  template <class F>
-  static F intersect(const Record<float>& triangle, const Ray<F>& ray, const Mask<F>& active, F& u, F& v);
+  /// Rays: Ray<F> or RaysFromPoint<F>.
+  template <class F, class Rays>
+  static F intersect(const Record<float>& triangle, const Rays& ray, const Mask<F>& active, F& u, F& v);
 
   /// The surface at barycentric coordinates: u of vertex 2, v of vertex 3.
   template <class F>
@@ -59,27 +61,28 @@ RAYTRACE_INLINE Vec3<F> fused_cross(const Vec3<F>& a, const Vec3<F>& b) {
 
 }  // namespace detail
 
-template <class F>
-RAYTRACE_INLINE F Triangle::intersect(const Record<float>& triangle, const Ray<F>& ray, const Mask<F>& active, F& u,
+template <class F, class Rays>
+RAYTRACE_INLINE F Triangle::intersect(const Record<float>& triangle, const Rays& ray, const Mask<F>& active, F& u,
                                       F& v) {
-  const Vec3<F> vertex1 = Vec3<F>(triangle.vertex1) - ray.origin;
-  const Vec3<F> vertex2 = Vec3<F>(triangle.vertex2) - ray.origin;
-  const Vec3<F> vertex3 = Vec3<F>(triangle.vertex3) - ray.origin;
+  using Vector = std::remove_cvref_t<decltype(ray.origin)>;  // as wide as the origin is
+  const Vector vertex1 = Vector(triangle.vertex1) - ray.origin;
+  const Vector vertex2 = Vector(triangle.vertex2) - ray.origin;
+  const Vector vertex3 = Vector(triangle.vertex3) - ray.origin;
   // Each edge and the ray as lines: their product, of which side of the edge the ray passes. An edge walked the other
   // way gives exactly the negative. The operations and their order are those of Embree's robust mode, so that a ray
   // meets the same triangles by either.
-  const Vec3<F> edge31 = vertex3 - vertex1, edge12 = vertex1 - vertex2, edge23 = vertex2 - vertex3;
-  const F opposite2 = fused_dot(detail::fused_cross(edge31, vertex3 + vertex1), ray.direction);
-  const F opposite3 = fused_dot(detail::fused_cross(edge12, vertex1 + vertex2), ray.direction);
-  const F opposite1 = fused_dot(detail::fused_cross(edge23, vertex2 + vertex3), ray.direction);
+  const Vector edge31 = vertex3 - vertex1, edge12 = vertex1 - vertex2, edge23 = vertex2 - vertex3;
+  const F opposite2 = fused_dot(Vec3<F>(detail::fused_cross(edge31, vertex3 + vertex1)), ray.direction);
+  const F opposite3 = fused_dot(Vec3<F>(detail::fused_cross(edge12, vertex1 + vertex2)), ray.direction);
+  const F opposite1 = fused_dot(Vec3<F>(detail::fused_cross(edge23, vertex2 + vertex3)), ray.direction);
   const F sum = opposite2 + opposite3 + opposite1;
   const F rounding = abs(sum) * F(0x1p-23f);
   const F least = min(min(opposite1, opposite2), opposite3);
   const F most = max(max(opposite1, opposite2), opposite3);
   const Mask<F> inside = active & ((least >= -rounding) | (most <= rounding));
   if (none(inside)) return infinity<F>();
-  const Vec3<F> perpendicular = detail::fused_cross(edge31, edge12);
-  const F t = fused_dot(vertex1, perpendicular) / fused_dot(perpendicular, ray.direction);
+  const Vector perpendicular = detail::fused_cross(edge31, edge12);
+  const F t = F(fused_dot(vertex1, perpendicular)) / fused_dot(Vec3<F>(perpendicular), ray.direction);
   const F inverse_sum = F(1) / sum;
   u = min(max(opposite2 * inverse_sum, F(0)), F(1));
   v = min(max(opposite3 * inverse_sum, F(0)), F(1));
