@@ -232,7 +232,7 @@ class SceneReader {
 
   void report_taken(const char* what, NameTable& names) {
     Document first_document(text_, variables_), other_document(text_, variables_);
-    names.finish([&](std::string_view name, ItemPlace first_place, ItemPlace other_place) {
+    names.finish(arena_.max_concurrency(), [&](std::string_view name, ItemPlace first_place, ItemPlace other_place) {
       if (!diagnostics_.keeps_another(Severity::error)) return diagnostics_.error({}, {});
       const Element first = item_at(first_place, first_document);
       const Element other = item_at(other_place, other_document);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "raytrace/parallel/radix_sort.h"
+
 namespace raytrace {
 
 std::string_view NameTable::name(std::size_t position) const {
@@ -10,29 +12,33 @@ std::string_view NameTable::name(std::size_t position) const {
   return std::string_view(characters_).substr(begin, bearers_[position].name_end - begin);
 }
 
-// By hash first: most comparisons are then of two numbers, not of texts all over the memory.
-bool NameTable::less(const Key& a, const Key& b) const {
-  if (a.hash != b.hash) return a.hash < b.hash;
-  const int order = name(a.position).compare(name(b.position));
-  return order != 0 ? order < 0 : a.position < b.position;
+std::uint32_t NameTable::hash(std::string_view name) {
+  return static_cast<std::uint32_t>(std::hash<std::string_view>{}(name));
 }
 
 void NameTable::add(std::string_view name, ItemPlace place) {
-  keys_.push_back({std::hash<std::string_view>{}(name), bearers_.size()});
+  keys_.push_back({hash(name), static_cast<std::uint32_t>(bearers_.size())});
   characters_ += name;
   bearers_.push_back({characters_.size(), place});
 }
 
 void NameTable::finish(
-    const std::function<void(std::string_view name, ItemPlace first, ItemPlace other)>& report_taken) {
-  std::sort(keys_.begin(), keys_.end(), [this](const Key& a, const Key& b) { return less(a, b); });
+    int threads, const std::function<void(std::string_view name, ItemPlace first, ItemPlace other)>& report_taken) {
+  radix_sort(keys_, threads);
   std::vector<std::pair<std::size_t, std::size_t>> taken;  // a name's second and further bearers, each with the first
-  const Key* first = nullptr;
-  for (const Key& key : keys_) {
-    if (first && first->hash == key.hash && name(first->position) == name(key.position)) {
-      taken.emplace_back(key.position, first->position);
-    } else {
-      first = &key;
+  for (auto begin = keys_.begin(), end = begin; begin != keys_.end(); begin = end) {
+    while (end != keys_.end() && end->key == begin->key) ++end;
+    if (end - begin == 1) continue;
+    // Of one hash. They may be many, if somebody wants them to be.
+    std::sort(begin, end, [this](const Key& a, const Key& b) {
+      const int order = name(a.position).compare(name(b.position));
+      return order != 0 ? order < 0 : a.position < b.position;
+    });
+    for (auto first = begin, key = begin + 1; key != end; ++key) {
+      if (name(first->position) == name(key->position))
+        taken.emplace_back(key->position, first->position);
+      else
+        first = key;
     }
   }
   std::sort(taken.begin(), taken.end());
@@ -42,9 +48,10 @@ void NameTable::finish(
 }
 
 std::optional<std::size_t> NameTable::find(std::string_view name) const {
-  const std::size_t hash = std::hash<std::string_view>{}(name);
-  auto key = std::lower_bound(keys_.begin(), keys_.end(), hash, [](const Key& k, std::size_t h) { return k.hash < h; });
-  for (; key != keys_.end() && key->hash == hash; ++key) {
+  const std::uint32_t wanted = hash(name);
+  auto key =
+      std::lower_bound(keys_.begin(), keys_.end(), wanted, [](const Key& k, std::uint32_t h) { return k.key < h; });
+  for (; key != keys_.end() && key->key == wanted; ++key) {
     if (this->name(key->position) == name) return key->position;
   }
   return std::nullopt;

@@ -25,7 +25,9 @@ class NameTable {
   void add(std::string_view name, ItemPlace place);
 
   /// To be called once all names are there: reports each item whose name another, its first bearer, has already.
-  void finish(const std::function<void(std::string_view name, ItemPlace first, ItemPlace other)>& report_taken);
+  /// threads: how many may share the work.
+  void finish(int threads,
+              const std::function<void(std::string_view name, ItemPlace first, ItemPlace other)>& report_taken);
 
   /// Which call of add brought the name; after finish.
   std::optional<std::size_t> find(std::string_view name) const;
@@ -39,16 +41,16 @@ class NameTable {
     ItemPlace place;
   };
   struct Key {
-    std::size_t hash;
-    std::size_t position;  // in bearers_
+    std::uint32_t key;       // a hash of the name
+    std::uint32_t position;  // in bearers_
   };
 
+  static std::uint32_t hash(std::string_view name);
   std::string_view name(std::size_t position) const;
-  bool less(const Key& a, const Key& b) const;
 
   std::string characters_;       // all names, one behind the other
   std::vector<Bearer> bearers_;  // in the order of add
-  std::vector<Key> keys_;        // sorted by finish
+  std::vector<Key> keys_;        // sorted by finish: by their hash, then by name, then by position
 };
 
 }  // namespace raytrace
