@@ -18,17 +18,17 @@ namespace raytrace::test {
 namespace {
 
 /// What comes of a text.
-struct Reading {
+struct ReadText {
   std::string findings, scene;
   std::vector<std::uint32_t> lines;  ///< of the objects
 };
 
-Reading reading(const std::string& text) {
+ReadText read_text(const std::string& text) {
   Diagnostics diagnostics("s");
   const auto scene = parse_scene(text, diagnostics, 2, {7, {{"size", "2"}}});
   std::ostringstream out;
   diagnostics.print(out);
-  Reading result{out.str(), {}, {}};
+  ReadText result{out.str(), {}, {}};
   if (!scene) return result;
   result.scene = print_scene(*scene);
   for_each_type(Shapes{}, [&]<class Shape>(std::type_identity<Shape>) {
@@ -39,7 +39,7 @@ Reading reading(const std::string& text) {
 
 /// A group of which each item ends with a comment, or none: a comment has no part in a pattern. Comments stand where
 /// no place that a message names comes after them in their line.
-struct Group {
+struct AlikeGroup {
   std::string section, group, item;
   std::vector<std::string> contents;
 
@@ -53,9 +53,9 @@ struct Group {
   }
 };
 
-const std::string clay = "<material>clay</material>";
+const std::string clay_end = "<material>clay</material>";
 
-std::string sphere(int number, const std::string& rest = clay) {
+std::string numbered_sphere(int number, const std::string& rest = clay_end) {
   const std::string n = std::to_string(number);
   return "<name>s" + n + "</name>\n <center x=\"" + n + ".25\" y=\"-" + n + "e-2\" z=\"+1\"/><radius>0.5" + n +
          "</radius>" + rest;
@@ -66,19 +66,19 @@ void check_among(const std::string& section, const std::string& group, const std
                  const std::vector<std::string>& others, const std::vector<std::string>& odd_ones) {
   for (const std::string& odd : odd_ones)
     for (const std::size_t place : {std::size_t{0}, std::size_t{1}, others.size() / 2, others.size()}) {
-      Group mixed{section, group, item, others};
+      AlikeGroup mixed{section, group, item, others};
       mixed.contents.insert(mixed.contents.begin() + static_cast<std::ptrdiff_t>(place), odd);
       INFO(odd << " in place " << place);
-      const Reading alike = reading(mixed.scene(false)), parsed = reading(mixed.scene(true));
+      const ReadText alike = read_text(mixed.scene(false)), parsed = read_text(mixed.scene(true));
       CHECK(alike.findings == parsed.findings);
       CHECK(alike.scene == parsed.scene);
       CHECK(alike.lines == parsed.lines);
     }
 }
 
-std::vector<std::string> spheres(int count) {
+std::vector<std::string> numbered_spheres(int count) {
   std::vector<std::string> items;
-  for (int i = 0; i < count; ++i) items.push_back(sphere(i));
+  for (int i = 0; i < count; ++i) items.push_back(numbered_sphere(i));
   return items;
 }
 
@@ -86,44 +86,44 @@ std::vector<std::string> spheres(int count) {
 
 TEST_CASE("a sphere written in another way among others that are alike is read as it stands") {
   const std::string center = "<center x=\"1\" y=\"2\" z=\"3\"/>";
-  check_among("objects", "spheres", "sphere", spheres(20),
+  check_among("objects", "spheres", "sphere", numbered_spheres(20),
               {
-                  sphere(99),
-                  center + "<radius>1</radius>" + clay,
-                  "<name>a</name>\n <center z=\"1\" y=\"2\" x=\"3\"/><radius>1</radius>" + clay,
-                  "<name>a</name>\n <center x='1' y='2' z='3'/><radius>1</radius>" + clay,
-                  "<name>a</name>\n <center x=\"1\"  y=\"2\" z=\"3\" /><radius> 1\n</radius>" + clay,
-                  "<name>a</name>\n <center x=\" 1\" y=\"2 \" z=\"3\"/><radius>1 </radius>" + clay,
+                  numbered_sphere(99),
+                  center + "<radius>1</radius>" + clay_end,
+                  "<name>a</name>\n <center z=\"1\" y=\"2\" x=\"3\"/><radius>1</radius>" + clay_end,
+                  "<name>a</name>\n <center x='1' y='2' z='3'/><radius>1</radius>" + clay_end,
+                  "<name>a</name>\n <center x=\"1\"  y=\"2\" z=\"3\" /><radius> 1\n</radius>" + clay_end,
+                  "<name>a</name>\n <center x=\" 1\" y=\"2 \" z=\"3\"/><radius>1 </radius>" + clay_end,
                   "<name>a b</name>\n" + center + "<radius>1</radius><material> clay </material>",
-                  "<name>a  b</name>\n " + center + "<radius>1</radius>" + clay,
-                  "<name>\xc3\xa4 &amp; &#65;]</name>\n " + center + "<radius>1</radius>" + clay,
-                  "<name>a > b</name>\n " + center + "<radius>1</radius>" + clay,
-                  "<name><![CDATA[a]]></name>\n " + center + "<radius>1</radius>" + clay,
-                  "<name></name>\n " + center + "<radius>1</radius>" + clay,
-                  "<name>a\nb</name>\n " + center + "<radius>1</radius>" + clay,
-                  "<name>s3</name>\n " + center + "<radius>1</radius>" + clay,
-                  "<name>a</name>\n " + center + "<radius>$size</radius>" + clay,
-                  "<name>a$frame</name>\n " + center + "<radius>1</radius>" + clay,
-                  "<name>a</name>\n " + center + "<radius>$sice</radius>" + clay,
-                  "<name>a</name>\n " + center + "<radius>-1</radius>" + clay,
-                  "<name>a</name>\n " + center + "<radius>0</radius>" + clay,
-                  "<name>a</name>\n " + center + "<radius>1,5</radius>" + clay,
-                  "<name>a</name>\n " + center + "<radius>1e999</radius>" + clay,
-                  "<name>a</name>\n " + center + "<radius>nan</radius>" + clay,
-                  "<name>a</name>\n " + center + "<radius>1 2</radius>" + clay,
-                  "<name>a</name>\n " + center + "<radius/>" + clay,
-                  "<name>a</name>\n " + center + "<radius a=\"1\">1</radius>" + clay,
-                  "<name>a</name>\n <center x=\"\" y=\"2\" z=\"3\"/><radius>1</radius>" + clay,
-                  "<name>a</name>\n <center x=\"1\" y=\"2\" z=\"3\" w=\"4\"/><radius>1</radius>" + clay,
-                  "<name>a</name>\n <center x=\"1\" y=\"2\"/><radius>1</radius>" + clay,
-                  "<name>a</name>\n <center x=\"1\" y=\"2\" z=\"3\">1</center><radius>1</radius>" + clay,
+                  "<name>a  b</name>\n " + center + "<radius>1</radius>" + clay_end,
+                  "<name>\xc3\xa4 &amp; &#65;]</name>\n " + center + "<radius>1</radius>" + clay_end,
+                  "<name>a > b</name>\n " + center + "<radius>1</radius>" + clay_end,
+                  "<name><![CDATA[a]]></name>\n " + center + "<radius>1</radius>" + clay_end,
+                  "<name></name>\n " + center + "<radius>1</radius>" + clay_end,
+                  "<name>a\nb</name>\n " + center + "<radius>1</radius>" + clay_end,
+                  "<name>s3</name>\n " + center + "<radius>1</radius>" + clay_end,
+                  "<name>a</name>\n " + center + "<radius>$size</radius>" + clay_end,
+                  "<name>a$frame</name>\n " + center + "<radius>1</radius>" + clay_end,
+                  "<name>a</name>\n " + center + "<radius>$sice</radius>" + clay_end,
+                  "<name>a</name>\n " + center + "<radius>-1</radius>" + clay_end,
+                  "<name>a</name>\n " + center + "<radius>0</radius>" + clay_end,
+                  "<name>a</name>\n " + center + "<radius>1,5</radius>" + clay_end,
+                  "<name>a</name>\n " + center + "<radius>1e999</radius>" + clay_end,
+                  "<name>a</name>\n " + center + "<radius>nan</radius>" + clay_end,
+                  "<name>a</name>\n " + center + "<radius>1 2</radius>" + clay_end,
+                  "<name>a</name>\n " + center + "<radius/>" + clay_end,
+                  "<name>a</name>\n " + center + "<radius a=\"1\">1</radius>" + clay_end,
+                  "<name>a</name>\n <center x=\"\" y=\"2\" z=\"3\"/><radius>1</radius>" + clay_end,
+                  "<name>a</name>\n <center x=\"1\" y=\"2\" z=\"3\" w=\"4\"/><radius>1</radius>" + clay_end,
+                  "<name>a</name>\n <center x=\"1\" y=\"2\"/><radius>1</radius>" + clay_end,
+                  "<name>a</name>\n <center x=\"1\" y=\"2\" z=\"3\">1</center><radius>1</radius>" + clay_end,
                   "<name>a</name>\n " + center + "<radius>1</radius><material>cley</material>",
                   "<name>a</name>\n " + center + "<radius>1</radius>",
-                  "<name>a</name>\n " + center + "<radius>1</radius>" + clay + clay,
-                  "<name>a</name>\n " + center + "<radius>1</radius>" + clay + "<raduis>1</raduis>",
-                  "<name>a</name>\n " + center + "<radius>1</radius>" + clay + "text",
+                  "<name>a</name>\n " + center + "<radius>1</radius>" + clay_end + clay_end,
+                  "<name>a</name>\n " + center + "<radius>1</radius>" + clay_end + "<raduis>1</raduis>",
+                  "<name>a</name>\n " + center + "<radius>1</radius>" + clay_end + "text",
                   "<name>a</name>\n " + center +
-                      "<radius><key frame=\"1\" value=\"1\"/><key frame=\"9\" value=\"5\"/></radius>" + clay,
+                      "<radius><key frame=\"1\" value=\"1\"/><key frame=\"9\" value=\"5\"/></radius>" + clay_end,
                   "",
               });
 }
@@ -135,14 +135,14 @@ TEST_CASE("other items than spheres are read alike, with their own conditions") 
     return items;
   };
   check_among("objects", "planes", "plane",
-              repeated("<point x=\"0\" y=\"0\" z=\"0\"/><normal x=\"0\" y=\"", "\" z=\"0\"/>" + clay),
-              {"<point x=\"0\" y=\"0\" z=\"0\"/><normal x=\"0\" y=\"0\" z=\"0\"/>" + clay,
-               "<point x=\"0\" y=\"0\" z=\"0\"/><normal x=\"0\" y=\"1e-30\" z=\"0\"/>" + clay,
-               "<point x=\"0\" y=\"0\" z=\"0\"/><normal x=\"0\" y=\"1e18\" z=\"0\"/>" + clay});
+              repeated("<point x=\"0\" y=\"0\" z=\"0\"/><normal x=\"0\" y=\"", "\" z=\"0\"/>" + clay_end),
+              {"<point x=\"0\" y=\"0\" z=\"0\"/><normal x=\"0\" y=\"0\" z=\"0\"/>" + clay_end,
+               "<point x=\"0\" y=\"0\" z=\"0\"/><normal x=\"0\" y=\"1e-30\" z=\"0\"/>" + clay_end,
+               "<point x=\"0\" y=\"0\" z=\"0\"/><normal x=\"0\" y=\"1e18\" z=\"0\"/>" + clay_end});
   const std::string corners = "<vertexposition1 x=\"0\" y=\"0\" z=\"0\"/><vertexposition2 x=\"1\" y=\"0\" z=\"0\"/>";
   check_among("objects", "triangles", "triangle",
-              repeated(corners + "<vertexposition3 x=\"0\" y=\"", "\" z=\"0\"/>" + clay),
-              {corners + "<vertexposition3 x=\"0\" y=\"0\" z=\"0\"/>" + clay});  // a warning
+              repeated(corners + "<vertexposition3 x=\"0\" y=\"", "\" z=\"0\"/>" + clay_end),
+              {corners + "<vertexposition3 x=\"0\" y=\"0\" z=\"0\"/>" + clay_end});  // a warning
   check_among(
       "lights", "pointlights", "pointlight",
       repeated("<location x=\"0\" y=\"",
@@ -158,15 +158,15 @@ TEST_CASE("other items than spheres are read alike, with their own conditions") 
 }
 
 TEST_CASE("items that change their pattern again and again are read as they stand") {
-  Group mixed{"objects", "spheres", "sphere", {}};
+  AlikeGroup mixed{"objects", "spheres", "sphere", {}};
   for (int i = 0; i < 300; ++i) {
     const std::string n = std::to_string(i);
     const bool is_named = i % 2 == 0 || i > 250;
-    mixed.contents.push_back((is_named ? "<name>s" + n + "</name>" : "") + (i % 3 == 0 ? clay : "") + "<center x=\"" +
-                             n + "\" y=\"0\" z=\"0\"/>" + (i % 5 == 0 ? " " : "") + "<radius>1</radius>" +
-                             (i % 3 == 0 ? "" : clay));
+    mixed.contents.push_back((is_named ? "<name>s" + n + "</name>" : "") + (i % 3 == 0 ? clay_end : "") +
+                             "<center x=\"" + n + "\" y=\"0\" z=\"0\"/>" + (i % 5 == 0 ? " " : "") +
+                             "<radius>1</radius>" + (i % 3 == 0 ? "" : clay_end));
   }
-  const Reading alike = reading(mixed.scene(false)), parsed = reading(mixed.scene(true));
+  const ReadText alike = read_text(mixed.scene(false)), parsed = read_text(mixed.scene(true));
   CHECK(alike.findings == "");
   CHECK(alike.scene == parsed.scene);
   CHECK(alike.lines == parsed.lines);

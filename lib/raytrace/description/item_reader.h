@@ -69,7 +69,7 @@ inline void refuse_misplaced(Element element, std::string_view parent, Diagnosti
   report_error(diagnostics, element, [&] { return explain_misplaced(element.name(), parent); });
 }
 
-/// What a thread reads items with.
+/// What items are read with, by one thread at a time.
 struct ItemTools {
   ItemTools(const SceneText& text, const Variables& variables) : document(text, variables) {}
 
