@@ -70,7 +70,7 @@ concept TakesRaysFromPoint =
 template <class Shape, class Rays>
 RAYTRACE_INLINE void meet(const typename ShapeTable<Shape>::Record& record, std::uint32_t primitive, const Rays& rays,
                           FloatN& far, const MaskN& active, Hits& hits) {
-  FloatN distance, u, v;
+  FloatN distance, u(0), v(0);  // a triangle that no ray meets leaves u and v as they are
   if constexpr (EmbreeTriangle<Shape>) {
     distance = Shape::template intersect<FloatN>(record, rays, active, u, v);
   } else {
