@@ -101,6 +101,8 @@ Accelerator::Accelerator(const SceneDescription& description, int threads, const
     using Shape = typename decltype(type)::type;
     auto& table = std::get<ShapeTable<Shape>>(tables_);
     fill_table(description, table);
+    records_in_memory_[index_of<Shape>(Shapes{})] = {std::as_bytes(std::span(table.records)).data(),
+                                                     sizeof(typename ShapeTable<Shape>::Record)};
     if constexpr (!UnboundedShape<Shape>) {
       if (table.records.empty()) return;
       embree::Geometry geometry;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -87,8 +88,17 @@ class Accelerator {
 
  private:
   struct Report;
+  struct RecordsInMemory {
+    const std::byte* first = nullptr;
+    std::size_t record_size = 0;
+  };
 
   void build() const;
+  /// Asks for the memory of an object's record, without waiting for it.
+  RAYTRACE_INLINE void fetch_record(const DirectionBuffer::Object& object) const {
+    const RecordsInMemory& records = records_in_memory_[object.kind];
+    __builtin_prefetch(records.first + object.primitive * records.record_size);
+  }
   // Both return the lanes that are left to Embree.
   MaskN intersect_candidates(const DirectionBuffer& seen, Ray<FloatN>& rays, const MaskN& active, Hits& hits) const;
   MaskN occluded_by_candidates(const DirectionBuffer& seen, const Ray<FloatN>& rays, const MaskN& active,
@@ -96,6 +106,7 @@ class Accelerator {
 
   std::unique_ptr<Report> report_;  ///< before device_, which still reports while it ends
   TupleOf<Shapes, ShapeTable>::type tables_;
+  std::array<RecordsInMemory, Shapes::size> records_in_memory_;  ///< of each table
   embree::Device device_;
   embree::Scene scene_;
   mutable std::atomic<bool> is_built_{false};

@@ -180,7 +180,8 @@ MaskN Accelerator::intersect_candidates(const DirectionBuffer& seen, Ray<FloatN>
       }
     });
   };
-  return for_each_candidate<Way::from_point>(seen, rays.direction, active, reaches, test);
+  const auto fetch = [&](const DirectionBuffer::Object& object) RAYTRACE_INLINE_LAMBDA { fetch_record(object); };
+  return for_each_candidate<Way::from_point>(seen, rays.direction, active, reaches, fetch, test);
 }
 
 MaskN Accelerator::occluded_by_candidates(const DirectionBuffer& seen, const Ray<FloatN>& rays, const MaskN& active,
@@ -193,8 +194,9 @@ MaskN Accelerator::occluded_by_candidates(const DirectionBuffer& seen, const Ray
   const auto test = [&](const DirectionBuffer::Object& object) {
     open = open & !is_occluded(tables_, object, rays, open);
   };
+  const auto fetch = [&](const DirectionBuffer::Object& object) RAYTRACE_INLINE_LAMBDA { fetch_record(object); };
   const auto test_all = [&](const Vec3<FloatN>& direction) RAYTRACE_INLINE_LAMBDA {
-    return for_each_candidate<Way::to_point>(seen, direction, active & in_reach, reaches, test);
+    return for_each_candidate<Way::to_point>(seen, direction, active & in_reach, reaches, fetch, test);
   };
   MaskN left = seen.infinitely_far() ? test_all(seen.direction_to_picture(rays.origin)) : test_all(rays.direction);
   if (any(active & !in_reach)) left = left | (active & !in_reach & !seen.leads_past(rays));

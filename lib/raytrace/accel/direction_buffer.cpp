@@ -191,7 +191,6 @@ class ListsMaker {
 
   /// Which objects may be in which cells. False if they are so many that it would not pay.
   bool collect() {
-    lists_.objects = LargeArray<DirectionBuffer::Object>::unset(objects_.size());
     listings_.resize(chunk_count(objects_.size()));
     std::vector<double> covered_cells(chunk_count(objects_.size()));
     for_each_chunk(objects_.size(), threads_, [&](std::size_t chunk, std::size_t first, std::size_t last) {
@@ -206,12 +205,10 @@ class ListsMaker {
         }
         if (i + corners_ahead < last) __builtin_prefetch(objects_[order_[i + corners_ahead].object].corners);
         const PlacedObject& object = objects_[order_[i].object];
-        lists_.objects[i] = {static_cast<std::uint8_t>(object.kind),
-                             object.primitive & DirectionBuffer::Object::last_primitive,
-                             std::bit_cast<float>(order_[i].key)};
+        const float nearest = std::bit_cast<float>(order_[i].key);
         const View view = *perspective_.view(object);
         for_each_rectangle(perspective_, view, [&](int face, const Rectangle& rectangle) {
-          cells += list(object, view, face, rectangle, static_cast<std::uint32_t>(i), listings_[chunk]);
+          cells += list(object, nearest, view, face, rectangle, listings_[chunk]);
         });
       }
       covered_cells[chunk] = cells;
@@ -232,7 +229,7 @@ class ListsMaker {
                            const CellMask& covered) RAYTRACE_INLINE_LAMBDA {
         using Counts = Ints<CellFloats>;
         const CellFloats depth = CellFloats::load_unaligned(&depths[first]);
-        const CellMask seen = reached & (CellFloats(listing.nearest) < depth);
+        const CellMask seen = reached & (CellFloats(listing.object.nearest) < depth);
         const auto more = same_bits<Counts>(select(seen, same_bits<CellFloats>(Counts(1)), CellFloats(0)));
         (Counts::load_unaligned(&counts[first]) + more).store_unaligned(&counts[first]);
         min(depth, select(covered, CellFloats(listing.behind), infinity<CellFloats>())).store_unaligned(&depths[first]);
@@ -278,10 +275,10 @@ class ListsMaker {
       band.first_candidate = listed;
       listed += band.listed + (limit_ > most_candidates ? band.listed_by_crowded : 0);
     }
-    lists_.candidates = LargeArray<std::uint32_t>::unset(listed);
+    lists_.candidates = LargeArray<DirectionBuffer::Object>::unset(listed);
     lists_.cells[bands_.empty() ? 0 : bands_.back().first_cell + bands_.back().cell_count] =
         static_cast<std::uint32_t>(listed);
-    std::uint32_t* const candidates = lists_.candidates.data();
+    DirectionBuffer::Object* const candidates = lists_.candidates.data();
     for_each_band([&](const Band& band, std::span<std::uint32_t> cells) {
       std::vector<std::uint32_t> next(cells.size());  // each cell's next place among the candidates
       std::size_t first = band.first_candidate;
@@ -320,12 +317,12 @@ class ListsMaker {
     for (const auto& chunk : listings_) {
       const Listings& listings = chunk[static_cast<std::size_t>(&band - bands_.data())];
       auto outline = listings.outlines.begin();
-      for (const Listing& listing : listings.all) f(listing, listing.has_outline != 0 ? &*outline++ : nullptr);
+      for (const Listing& listing : listings.all) f(listing, listing.has_outline ? &*outline++ : nullptr);
     }
   }
 
   /// Adds the object to all bands that the rectangle is in; the result: how many cells it covers.
-  double list(const PlacedObject& object, const View& view, int face, const Rectangle& rectangle, std::uint32_t number,
+  double list(const PlacedObject& object, float nearest, const View& view, int face, const Rectangle& rectangle,
               std::vector<Listings>& bands) const {
     const Grid& grid = lists_.grids[face];
     const CellRange columns(rectangle.across, grid.left, grid.columns_per_unit, grid.columns);
@@ -333,11 +330,11 @@ class ListsMaker {
     std::optional<Outline> outline;
     if (object.corners != nullptr) outline = perspective_.outline(object);
     Listing listing{};
-    listing.object = number & 0x7FFFFFFFU;
-    listing.has_outline = outline ? 1 : 0;
+    listing.object = {static_cast<std::uint8_t>(object.kind),
+                      object.primitive & DirectionBuffer::Object::last_primitive, nearest};
+    listing.has_outline = outline.has_value();
     listing.left = static_cast<std::uint32_t>(columns.low) & Listing::last_column;
     listing.right = static_cast<std::uint32_t>(columns.high) & Listing::last_column;
-    listing.nearest = lists_.objects[number].nearest;
     const int axis = face / 2;
     const Vec3f center(view.center * (1 / view.distance));
     listing.across = component(center, (axis + 1) % 3);

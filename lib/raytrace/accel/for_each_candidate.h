@@ -61,34 +61,36 @@ RAYTRACE_INLINE void for_each_cell(const DirectionBuffer& buffer, const Vec3<Flo
   }
 }
 
-/// The candidates that a packet was tested with. A number is looked up where the one that came there last is
-/// remembered, and mostly needs no search. Nothing is set before it is wanted: most packets have one cell, with few
-/// candidates.
+/// The candidates that a packet was tested with. One is looked up where the one that came there last is remembered, and
+/// mostly needs no search. Nothing is set before it is wanted: most packets have one cell, with few candidates.
 class TestedCandidates {
  public:
-  void add(std::uint32_t number) {
-    last_[number % places] = number;
-    used_ |= std::uint64_t{1} << number % places;
+  using Object = DirectionBuffer::Object;
+
+  void add(const Object& object) {
+    last_[object.primitive % places] = object;
+    used_ |= std::uint64_t{1} << object.primitive % places;
   }
 
-  /// All of a cell's that contains() is to know, in ascending order. Each was added.
-  void end_cell(std::span<const std::uint32_t> numbers) {
-    cells_[count_++] = {numbers.data(), numbers.data() + numbers.size()};
-  }
+  /// All of a cell's that contains() is to know, the nearest first. Each was added.
+  void end_cell(std::span<const Object> tested) { cells_[count_++] = {tested.data(), tested.data() + tested.size()}; }
 
-  bool contains(std::uint32_t number) const {
-    if ((used_ >> number % places & 1) == 0) return false;
-    if (last_[number % places] == number) return true;
-    return std::any_of(cells_.begin(), cells_.begin() + count_,
-                       [number](const Cell& cell) { return std::binary_search(cell.begin, cell.end, number); });
+  bool contains(const Object& object) const {
+    if ((used_ >> object.primitive % places & 1) == 0) return false;
+    if (last_[object.primitive % places].is(object)) return true;
+    return std::any_of(cells_.begin(), cells_.begin() + count_, [&object](const Cell& cell) {
+      const Object* const nearer_end = std::partition_point(
+          cell.begin, cell.end, [&object](const Object& other) { return other.nearest < object.nearest; });
+      return std::any_of(nearer_end, cell.end, [&object](const Object& other) { return other.is(object); });
+    });
   }
 
  private:
   static constexpr std::uint32_t places = 64;
   struct Cell {
-    const std::uint32_t *begin, *end;
+    const Object *begin, *end;
   };
-  std::array<std::uint32_t, places> last_;
+  std::array<Object, places> last_;
   std::uint64_t used_ = 0;  ///< a bit for each place
   std::array<Cell, packet_lanes> cells_;
   std::size_t count_ = 0;
@@ -100,27 +102,51 @@ class TestedCandidates {
 /// may meet in the lanes of `active`; the test is of all lanes at once, since that costs no more than one. Of each
 /// cell's, the nearest comes first, and what is behind one for which reaches(lanes, object) is false, of the cell's
 /// lanes, is left out. The result: lanes that must be traced by other means.
-template <Way way, class Reaches, class Test>
+///
+/// With many objects, most of the time would be spent waiting for memory: for a cell, then for its candidates, then for
+/// what test(object) reads. So each is asked for while those before it are tested, the last by fetch(object).
+template <Way way, class Reaches, class Fetch, class Test>
 RAYTRACE_INLINE MaskN for_each_candidate(const DirectionBuffer& buffer, const Vec3<FloatN>& direction,
-                                         const MaskN& active, const Reaches& reaches, const Test& test) {
+                                         const MaskN& active, const Reaches& reaches, const Fetch& fetch,
+                                         const Test& test) {
+  using Object = DirectionBuffer::Object;
+  struct CellOfLanes {
+    std::size_t cell;
+    MaskN lanes;
+  };
+  std::array<CellOfLanes, packet_lanes> cells;
+  std::size_t count = 0;
+  detail::for_each_cell<way>(buffer, direction, active, [&](std::size_t cell, const MaskN& lanes) {
+    buffer.fetch_cell(cell);
+    cells[count++] = {cell, lanes};
+  });
+  if (count > 1) buffer.fetch_candidates(cells[1].cell);
+
   detail::TestedCandidates tested;
   MaskN left(false);
-  detail::for_each_cell<way>(buffer, direction, active, [&](std::size_t cell, const MaskN& lanes) {
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i + 2 < count) buffer.fetch_candidates(cells[i + 2].cell);
+    if (i + 1 < count) {
+      const std::span<const Object> of_next_cell = buffer.candidates(cells[i + 1].cell);
+      if (!of_next_cell.empty()) fetch(of_next_cell.front());
+    }
+    const auto& [cell, lanes] = cells[i];
     if (buffer.is_crowded(cell)) {
       left = left | lanes;
-      return;
+      continue;
     }
-    const std::span<const std::uint32_t> candidates = buffer.candidates(cell);
+    const std::span<const Object> candidates = buffer.candidates(cell);
     std::size_t next = 0;
     for (; next < candidates.size(); ++next) {
-      const DirectionBuffer::Object& object = buffer.object(candidates[next]);
+      const Object& object = candidates[next];
       if (!reaches(lanes, object)) break;
-      if (tested.contains(candidates[next])) continue;
-      tested.add(candidates[next]);
+      if (tested.contains(object)) continue;
+      tested.add(object);
+      if (next + 1 < candidates.size()) fetch(candidates[next + 1]);
       test(object);
     }
     tested.end_cell(candidates.first(next));
-  });
+  }
   return left;
 }
 

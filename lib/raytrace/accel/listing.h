@@ -22,15 +22,14 @@ struct Listing {
   static constexpr int column_bits = 11, row_bits = 5;
   static constexpr std::uint32_t last_column = (1U << column_bits) - 1, last_row = (1U << row_bits) - 1;
 
-  std::uint32_t object : 31;
-  std::uint32_t has_outline : 1;
+  DirectionBuffer::Object object;
   std::uint32_t left : column_bits, right : column_bits;  ///< columns of the grid, the last one included
   std::uint32_t bottom : row_bits, top : row_bits;  ///< rows, counted from the first of these, the last one included
   float across, up, normal;                         ///< components of the cone's axis, of unit length
-  double least;   ///< cosine of the angle between it and directions through the cone, squared, its sign kept
-  float nearest;  ///< DirectionBuffer::Object::nearest
-  float inner;    ///< by what that is more in directions all around which the object is met; infinity: in none
-  float behind;   ///< View::behind
+  double least;  ///< cosine of the angle between it and directions through the cone, squared, its sign kept
+  float inner;   ///< by what that is more in directions all around which the object is met; infinity: in none
+  float behind;  ///< View::behind
+  bool has_outline;
 };
 
 struct Listings {
