@@ -88,6 +88,7 @@ class Accelerator {
 
  private:
   struct Report;
+  /// What the tables could tell, without a branch on the shape's type, which would take what fetch_record() gains.
   struct RecordsInMemory {
     const std::byte* first = nullptr;
     std::size_t record_size = 0;
