@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "raytrace/accel/cell_grid.h"
 #include "raytrace/accel/direction_buffer.h"
 #include "raytrace/accel/perspective.h"
 #include "raytrace/math/doubles.h"
@@ -20,6 +21,7 @@ namespace raytrace {
 /// The cells of a rectangle, in some rows, that reach into the cone around an object and, of a triangle, its outline.
 struct Listing {
   static constexpr int column_bits = 11, row_bits = 5;
+  static_assert(most_cells_an_edge <= 1 << column_bits);
   static constexpr std::uint32_t last_column = (1U << column_bits) - 1, last_row = (1U << row_bits) - 1;
 
   DirectionBuffer::Object object;
