@@ -46,7 +46,7 @@ void define(const std::string& text, std::map<std::string, std::string>& variabl
   if (name == frame_variable) throw UsageError("--define: $frame is the frame's number; use --frames");
   const std::string value = text.substr(equals + 1);
   const bool has_control = std::any_of(value.begin(), value.end(), [](char c) { return c >= 0 && c < ' '; });
-  if (has_control || find_invalid_utf8(value) != std::string_view::npos) {
+  if (has_control || find_invalid_utf8(value, 1) != std::string_view::npos) {
     throw UsageError("--define: the value of " + name + " is no text in UTF-8 without control characters");
   }
   variables[name] = value;

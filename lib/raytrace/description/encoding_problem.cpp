@@ -5,11 +5,11 @@
 
 namespace raytrace {
 
-std::optional<XmlProblem> find_encoding_problem(std::string_view text) {
+std::optional<XmlProblem> find_encoding_problem(std::string_view text, int threads) {
   using namespace std::string_view_literals;
   for (const std::string_view start : {"\xff\xfe"sv, "\xfe\xff"sv, "<\0"sv, "\0<"sv})
     if (text.starts_with(start)) return XmlProblem{0, "the file is encoded as UTF-16 or UTF-32; save it as UTF-8"};
-  const std::size_t invalid = find_invalid_utf8(text);
+  const std::size_t invalid = find_invalid_utf8(text, threads);
   if (invalid == std::string_view::npos) return std::nullopt;
   const bool control = static_cast<unsigned char>(text[invalid]) < 0x20;
   return XmlProblem{invalid,

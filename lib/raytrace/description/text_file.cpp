@@ -41,7 +41,7 @@ std::size_t read_at(int file, char* bytes, std::size_t count, std::size_t offset
 /// A file of known size, by several threads: memory that is fresh from the system takes longer to get than the bytes to
 /// copy. No value if the file does not have that size, or no places.
 std::optional<TextBuffer> read_in_pieces(int file, std::size_t size, int threads) {
-  constexpr std::size_t piece = std::size_t(1) << 23;
+  constexpr std::size_t piece = std::size_t(1) << 21;
   TextBuffer text(size);
   std::atomic<bool> complete{true};
   for_each_index(static_cast<int>((size + piece - 1) / piece), threads, [&](int index) {
@@ -68,7 +68,7 @@ std::optional<TextBuffer> read_text_file(const std::string& file, int threads, D
 
   std::error_code unknown_size;
   const std::uintmax_t size = std::filesystem::file_size(file, unknown_size);
-  constexpr std::size_t large_file = std::size_t(1) << 24;
+  constexpr std::size_t large_file = std::size_t(1) << 22;
   if (!unknown_size && size >= large_file && size <= largest_file) {
     if (std::optional<TextBuffer> text = read_in_pieces(fileno(input.get()), static_cast<std::size_t>(size), threads))
       return text;

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <vector>
+
+#include "raytrace/parallel/for_each_index.h"
 
 namespace raytrace {
 namespace {
@@ -15,6 +18,32 @@ bool surely_plain(std::string_view block) {
     plain &= static_cast<std::uint8_t>(printable | white_space);
   }
   return plain != 0;
+}
+
+/// The place of the first invalid byte at which a character of [i, end) would start, all of which ends before
+/// `text` does; npos if there is none.
+std::size_t find_invalid(std::string_view text, std::size_t i, std::size_t end) {
+  constexpr std::size_t block = 4096;
+  while (i < end) {
+    const std::size_t block_end = std::min(i + block, end);
+    if (surely_plain(text.substr(i, block_end - i))) {
+      i = block_end;
+      continue;
+    }
+    while (i < block_end) {
+      const std::size_t length = utf8_length(text.substr(i));
+      if (length == 0) return i;
+      i += length;
+    }
+  }
+  return std::string_view::npos;
+}
+
+/// The first place from `i` on at which a character may start, which is at most three bytes on in valid text.
+std::size_t character_start(std::string_view text, std::size_t i) {
+  const std::size_t last = std::min(i + 3, text.size());
+  while (i < last && (static_cast<unsigned char>(text[i]) & 0xc0U) == 0x80U) ++i;
+  return i;
 }
 
 }  // namespace
@@ -39,21 +68,19 @@ std::size_t utf8_length(std::string_view text) {
   return refused ? 0 : length;
 }
 
-std::size_t find_invalid_utf8(std::string_view text) {
-  constexpr std::size_t block = 4096;
-  std::size_t i = 0;
-  while (i < text.size()) {
-    if (surely_plain(text.substr(i, block))) {
-      i += block;
-      continue;
-    }
-    for (const std::size_t end = std::min(i + block, text.size()); i < end;) {
-      const std::size_t length = utf8_length(text.substr(i));
-      if (length == 0) return i;
-      i += length;
-    }
-  }
-  return std::string_view::npos;
+std::size_t find_invalid_utf8(std::string_view text, int threads) {
+  constexpr std::size_t piece = std::size_t{1} << 20U;
+  const std::size_t pieces = (text.size() + piece - 1) / piece;
+  std::vector<std::size_t> found(pieces);
+  for_each_index(static_cast<int>(pieces), threads, [&](int index) {
+    const auto i = static_cast<std::size_t>(index);
+    const std::size_t start = i == 0 ? 0 : character_start(text, i * piece);
+    const std::size_t end = i + 1 == pieces ? text.size() : character_start(text, (i + 1) * piece);
+    found[i] = find_invalid(text, start, end);
+  });
+  const auto first =
+      std::find_if(found.begin(), found.end(), [](std::size_t at) { return at != std::string_view::npos; });
+  return first == found.end() ? std::string_view::npos : *first;
 }
 
 }  // namespace raytrace

@@ -10,7 +10,8 @@ namespace raytrace {
 /// overlong sequence, a surrogate, U+FFFE, U+FFFF, or a control character other than tab, line feed and return.
 std::size_t utf8_length(std::string_view text);
 
-/// The place of the first byte that is no part of an allowed character; npos if all of the text is fine.
-std::size_t find_invalid_utf8(std::string_view text);
+/// The place of the first byte that is no part of an allowed character; npos if all of the text is fine. threads: so
+/// many at most share the work; 0: all that the machine has.
+std::size_t find_invalid_utf8(std::string_view text, int threads);
 
 }  // namespace raytrace

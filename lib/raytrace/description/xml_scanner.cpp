@@ -318,7 +318,7 @@ class Scanner : private XmlCursor {
 
 std::optional<XmlProblem> find_xml_problem(std::string_view text, std::span<const std::string_view> groups,
                                            std::vector<Piece>& pieces, int threads) {
-  if (auto problem = find_encoding_problem(text)) return problem;
+  if (auto problem = find_encoding_problem(text, threads)) return problem;
   try {
     Scanner scanner(text);
     PieceCutter cutter(groups, pieces);

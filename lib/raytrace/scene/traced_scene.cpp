@@ -4,6 +4,7 @@
 
 #include "raytrace/integrators/render_pixels.h"
 #include "raytrace/math/gather.h"
+#include "raytrace/parallel/for_each_index.h"
 
 namespace raytrace {
 
@@ -57,12 +58,20 @@ TracedScene::TracedScene(const SceneDescription& description, int threads, const
     largest = max(largest, table->largest_radiance(ambient_radiance_, light_radiance));
   largest_radiance_ = std::max({largest.red, largest.green, largest.blue});
 
-  object_materials_.reserve(accelerator_.primitive_count());
+  object_materials_.resize(accelerator_.primitive_count());
+  std::size_t first_object = 0;
   for_each_type(Shapes{}, [&](auto type) {
     using Shape = typename decltype(type)::type;
-    first_object_[index_of<Shape>(Shapes{})] = static_cast<std::int32_t>(object_materials_.size());
-    for (const auto& item : std::get<ObjectItems<Shape>>(description.objects))
-      object_materials_.push_back(first_material_[item.material.kind] + static_cast<std::int32_t>(item.material.index));
+    const auto& items = std::get<ObjectItems<Shape>>(description.objects);
+    first_object_[index_of<Shape>(Shapes{})] = static_cast<std::int32_t>(first_object);
+    for_each_chunk(items.size(), threads, [&](std::size_t, std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        const MaterialReference& material = items[i].material;
+        object_materials_[first_object + i] =
+            first_material_[material.kind] + static_cast<std::int32_t>(material.index);
+      }
+    });
+    first_object += items.size();
   });
 }
 
