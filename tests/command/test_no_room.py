@@ -47,7 +47,7 @@ def halted(process):
 LARGE = ["-r", "800x600"]
 LARGE_FILES = [*LARGE, "--float"]
 # A render that is not over when it has been seen to run.
-LONG = ["scene.xml", "-s", support.samples(40000)]
+LONG = ["scene.xml", "-s", support.samples(100000)]
 
 
 class FullDisk(MountTest):
@@ -109,9 +109,8 @@ class ReadOnlyFileSystem(MountTest):
         self.assert_kept()
 
     def test_during_the_render(self):
-        process = self.start(*LONG, "-o", "disk/a.exr", "-o", "b.exr", "--progress=plain",
-                             "--checkpoint", "disk/c.exr")
-        self.assertIn("rendered", process.stderr.readline())
+        process = self.start(*LONG, "-o", "disk/a.exr", "-o", "b.exr", "-q", "--checkpoint", "disk/c.exr")
+        self.wait_for_rays(process)
         with halted(process):
             self.assertEqual(self.mount("-o", "remount,ro", self.path("disk")).returncode, 0)
         code, told = process.wait(timeout=LIMIT), process.stderr.read()
@@ -125,9 +124,9 @@ class LostFolders(SafetyTest):
     def lose(self, action):
         """What a render tells whose folder is lost by the action."""
         os.mkdir(self.path("folder"))
-        process = self.start(*LONG, "-o", "folder/a.exr", "-o", "b.exr", "--progress=plain",
+        process = self.start(*LONG, "-o", "folder/a.exr", "-o", "b.exr", "-q",
                              "--checkpoint", "folder/c.exr", "--checkpoint-interval", "0.2s")
-        self.assertIn("rendered", process.stderr.readline())
+        self.wait_for_rays(process)
         with halted(process):
             action(self.path("folder"))
         code, told = process.wait(timeout=LIMIT), process.stderr.read()

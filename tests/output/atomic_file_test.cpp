@@ -23,13 +23,18 @@ mode_t permissions_of(const std::string& file) {
   return status.st_mode & 0777U;
 }
 
-std::string refusal(const std::string& file) {
+template <class Action>
+std::string message_of(const Action& action) {
   try {
-    const AtomicFile atomic(file);
+    action();
   } catch (const OutputError& error) {
     return error.what();
   }
   return {};
+}
+
+std::string refusal(const std::string& file) {
+  return message_of([&] { const AtomicFile atomic(file); });
 }
 
 }  // namespace
@@ -119,6 +124,15 @@ TEST_CASE("a symbolic link stays, and what it points to is written") {
   atomic.commit();
   CHECK(fs::is_symlink(link));
   CHECK(bytes_of(target) == "new");
+}
+
+TEST_CASE("a folder that is gone at the commit is told") {
+  const TemporaryFolder folder;
+  fs::create_directory(folder.path() / "removed");
+  AtomicFile atomic(folder.file("removed/a.exr"));
+  fs::remove_all(folder.path() / "removed");
+  const std::string message = message_of([&] { atomic.commit(); });
+  CHECK(contains(message, "there is no folder " + folder.file("removed")));
 }
 
 TEST_CASE("what cannot be written is refused at once, with the reason") {

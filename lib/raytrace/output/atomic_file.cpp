@@ -38,6 +38,14 @@ fs::path follow_links(const std::string& file) {
 
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
+/// Of a call that failed about what is in the target's folder: that the folder is gone says more than the call does.
+[[noreturn]] void fail(const std::string& file, const fs::path& target, int error_number) {
+  const fs::path folder = folder_of(target);
+  std::error_code error;
+  if (error_number == ENOENT && !fs::exists(folder, error)) fail(file, "there is no folder " + folder.string());
+  fail(file, error_number);
+}
+
 void refuse_unwritable(const std::string& file, const fs::path& target) {
   constexpr mode_t any_write = S_IWUSR | S_IWGRP | S_IWOTH;
   const fs::path folder = folder_of(target);
@@ -46,10 +54,7 @@ void refuse_unwritable(const std::string& file, const fs::path& target) {
   if (stat(file.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) {
     fail(file, "it is not a regular file, which alone appears whole or not at all; write to one, and copy it");
   }
-  if (stat(folder.c_str(), &status) != 0) {
-    if (errno == ENOENT) fail(file, "there is no folder " + folder.string());
-    fail(file, errno);
-  }
+  if (stat(folder.c_str(), &status) != 0) fail(file, target, errno);
   if (!S_ISDIR(status.st_mode)) fail(file, folder.string() + " is not a folder");
   if ((status.st_mode & any_write) == 0) fail(file, "the folder " + folder.string() + " is read-only");
 
@@ -93,7 +98,7 @@ AtomicFile::AtomicFile(const std::string& file) : file_(file), target_(follow_li
       temporary_ = candidate;
       return;
     }
-    if (errno != EEXIST) fail(file_, errno);  // EEXIST: another machine's process on a shared disk
+    if (errno != EEXIST) fail(errno);  // EEXIST: another machine's process on a shared disk
   }
 }
 
@@ -101,12 +106,14 @@ AtomicFile::~AtomicFile() {
   if (!temporary_.empty()) unlink(temporary_.c_str());
 }
 
+void AtomicFile::fail(int error_number) const { raytrace::fail(file_, target_, error_number); }
+
 void AtomicFile::commit() {
   {
     const Descriptor written(open(temporary_.c_str(), O_RDONLY | O_CLOEXEC));
-    if (written.number() < 0 || fsync(written.number()) != 0) fail(file_, errno);
+    if (written.number() < 0 || fsync(written.number()) != 0) fail(errno);
   }
-  if (rename(temporary_.c_str(), target_.c_str()) != 0) fail(file_, errno);
+  if (rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
   temporary_.clear();
   // So that the new name survives a power cut as well. Not every file system can; the picture is there either way.
   const Descriptor folder(open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));

@@ -27,6 +27,9 @@ class AtomicFile {
   /// Throws OutputError if the disk does not take it.
   void commit();
 
+  /// Throws the OutputError of a call about the temporary file that failed with this `errno`.
+  [[noreturn]] void fail(int error_number) const;
+
  private:
   std::string file_;  ///< as the caller named it, for messages
   std::filesystem::path target_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <system_error>
 
 #include "raytrace/output/image_encoder.h"
 
@@ -10,9 +9,9 @@ namespace raytrace {
 
 namespace {
 
-FileHandle open_to_write(const AtomicFile& atomic, const std::string& file) {
+FileHandle open_to_write(const AtomicFile& atomic) {
   FileHandle handle(std::fopen(atomic.temporary_name().c_str(), "wb"));
-  if (!handle) throw OutputError("cannot write " + file + ": " + std::generic_category().message(errno));
+  if (!handle) atomic.fail(errno);
   return handle;
 }
 
@@ -46,7 +45,7 @@ void check_writable(const std::string& file, const ImageFileSettings& settings) 
 
 ImageFile::ImageFile(const std::string& file, std::unique_ptr<ImageEncoder> encoder, const PictureExtent& extent,
                      const std::vector<Channel>& channels, const ImageMetadata& metadata)
-    : atomic_(file), temporary_(open_to_write(atomic_, file)), encoder_(std::move(encoder)) {
+    : atomic_(file), temporary_(open_to_write(atomic_)), encoder_(std::move(encoder)) {
   encoder_->begin(extent, channels, metadata, temporary_.get());
 }
 
