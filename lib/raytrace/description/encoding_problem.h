@@ -9,6 +9,7 @@
 namespace raytrace {
 
 /// The first byte of `text` that XML in UTF-8 cannot have there, or its first byte if all of it is UTF-16 or UTF-32.
+/// threads: as in find_invalid_utf8().
 std::optional<XmlProblem> find_encoding_problem(std::string_view text, int threads);
 
 }  // namespace raytrace
