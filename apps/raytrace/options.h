@@ -16,11 +16,9 @@
 #include "raytrace/film/film.h"
 #include "raytrace/output/image_file.h"
 
-namespace CLI {
-class App;
-}
-
 namespace raytrace {
+
+class OptionParser;
 
 /// The value of Options::statistics for --stats without a file.
 inline constexpr std::string_view statistics_as_text = "text";
@@ -77,7 +75,7 @@ struct Options {
 };
 
 /// Adds all options to a parser, which fills `options`.
-void define_options(CLI::App& parser, Options& options);
+void define_options(OptionParser& parser, Options& options);
 
 /// Throws UsageError, which tells what is wrong and, where a name is not known, the nearest one.
 Options parse_options(int argc, const char* const* argv);
