@@ -1,4 +1,4 @@
-# Sourced by cmake/run, cmake/test, cmake/lint and .ci/run: installs what is missing, configures and builds.
+# Sourced by the scripts beside it: installs what is missing, configures and builds.
 # POSIX sh. Everything it says goes to standard error, which leaves standard output to the program.
 
 root=$(CDPATH= cd -- "$(dirname -- "$0")/.." && pwd)
@@ -73,6 +73,22 @@ build() {
   preset=$1
   shift
   ninja -C "$root/build/$preset" $quiet "$@" >&2
+}
+
+# labels_of TIER: a regular expression for ctest -L, of the labels that tests/budgets.txt has in a tier.
+labels_of() {
+  awk -v tier="$1" '$1 == "label" { for (i = 4; i <= NF; ++i) if ($i == tier) labels = labels "|" $2 }
+    END { print "^(" substr(labels, 2) ")$" }' "$root/tests/budgets.txt"
+}
+
+# targets_of TIER: what must be built for its tests.
+targets_of() {
+  printf 'raytrace_program raytrace_manual'
+  for label in $(labels_of "$1" | tr '^(|)$' ' '); do
+    for source in "$root/tests/$label"/*_test.cpp; do
+      [ ! -f "$source" ] || { printf ' %s_tests' "$label" && break; }
+    done
+  done
 }
 
 # instruction_sets: the lowest that is built for this machine's kind of processor, and the best that it runs, as a CMake
