@@ -1,5 +1,7 @@
 # cmake -D ROOT=... -D BUILD=... -D CTEST=... -P budgets.cmake
 # Holds tests/budgets.txt against the labels of the build's tests and against the steps of .ci/run.
+cmake_minimum_required(VERSION 3.24)
+
 set(most_seconds 2700)
 
 file(STRINGS ${ROOT}/tests/budgets.txt lines REGEX "^(label|step) ")
