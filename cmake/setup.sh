@@ -7,7 +7,7 @@ root=$(CDPATH= cd -- "$(dirname -- "$0")/.." && pwd)
 # (openimageio-tools: the CMake files of libopenimageio-dev refuse to work without, though we do not use it.)
 packages="
   cmake ninja-build g++ git
-  libembree-dev libopenimageio-dev openimageio-tools libopenexr-dev libtbb-dev libxsimd-dev libcli11-dev
+  libembree-dev libopenimageio-dev openimageio-tools libopenexr-dev libpng-dev libtbb-dev libxsimd-dev libcli11-dev
   nlohmann-json3-dev libtinyxml2-dev libxxhash-dev pkg-config libasio-dev
   catch2 libbenchmark-dev libxml2-utils python3 python3-jsonschema
 "
