@@ -10,6 +10,7 @@
 #include "memory_limit.h"
 #include "messages.h"
 #include "option_parser.h"
+#include "outputs.h"
 #include "raytrace/render/renderer.h"
 
 namespace raytrace {
@@ -45,6 +46,7 @@ MergeOptions parsed(int argc, const char* const* argv) {
   if (settings.pieces.empty()) throw UsageError("no pieces given; for example: raytrace merge tile.*.exr -o whole.exr");
   if (settings.outputs.empty())
     throw UsageError("no output given; for example: raytrace merge tile.*.exr -o whole.exr");
+  if (settings.exposure) refuse_useless_exposure(settings.outputs, {});
   return options;
 }
 
@@ -85,6 +87,9 @@ void define_merge_options(CLI::App& parser, MergeOptions& options) {
   add(parser, "--bit-depth", "8|16", "Bits a channel in PNG, TIFF and other sRGB-encoded files (8)",
       [&](const std::string& text) { settings.bit_depth = bit_depth(text); })
       ->group("Output");
+  add(parser, "--exposure", exposure_value_name, exposure_help, [&](const std::string& text) {
+    settings.exposure = exposure(text);
+  })->group("Output");
   add(parser, "-t,--threads", "N", "Use N threads (all processors)", [&](const std::string& text) {
     settings.threads = integer(text, 1, most_threads);
   })->group("Work");

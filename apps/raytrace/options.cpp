@@ -119,6 +119,13 @@ void define_options(CLI::App& parser, Options& options) {
       ->group("Output");
   add_switch(parser, "--float", options.full_float, "32 bit floats in EXR (else 16 bit) and in TIFF (else sRGB)")
       ->group("Output");
+  add_switch(
+      parser, "--transparent", options.transparent,
+      "Leave the background out of the colour; alpha is coverage: premultiplied in EXR, straight RGBA in PNG and TIFF")
+      ->group("Output");
+  add(parser, "--exposure", exposure_value_name, exposure_help, [&](const std::string& text) {
+    options.exposure = exposure(text);
+  })->group("Output");
   add(parser, "--aov", "LIST",
       "What EXR files hold besides the colour, separated by commas: " + joined(aov_names(), ", ") + "; or all",
       [&](const std::string& text) { options.aovs = aovs(text); })
