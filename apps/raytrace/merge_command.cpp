@@ -11,6 +11,7 @@
 #include "memory_limit.h"
 #include "messages.h"
 #include "option_parser.h"
+#include "outputs.h"
 #include "raytrace/render/renderer.h"
 
 namespace raytrace {
@@ -46,6 +47,7 @@ MergeOptions parsed(int argc, const char* const* argv) {
   if (settings.pieces.empty()) throw UsageError("no pieces given; for example: raytrace merge tile.*.exr -o whole.exr");
   if (settings.outputs.empty())
     throw UsageError("no output given; for example: raytrace merge tile.*.exr -o whole.exr");
+  if (settings.exposure) refuse_useless_exposure(settings.outputs, {});
   return options;
 }
 
@@ -78,6 +80,8 @@ void define_merge_options(OptionParser& parser, MergeOptions& options) {
                         [&](const std::string& text) { settings.outputs.push_back(text); });
   parser.add("--bit-depth", "8|16", "Bits a channel in PNG, TIFF and other sRGB-encoded files (8)",
              [&](const std::string& text) { settings.bit_depth = bit_depth(text); });
+  parser.add("--exposure", exposure_value_name, exposure_help,
+             [&](const std::string& text) { settings.exposure = exposure(text); });
   parser.group("Work");
   parser.add("-t,--threads", "N", "Use N threads (all processors)",
              [&](const std::string& text) { settings.threads = integer(text, 1, most_threads); });

@@ -104,6 +104,11 @@ void define_options(OptionParser& parser, Options& options) {
   parser.add_switch("--skip-existing", options.skip_existing,
                     "Render no frame whose outputs all exist and are complete");
   parser.add_switch("--float", options.full_float, "32 bit floats in EXR (else 16 bit) and in TIFF (else sRGB)");
+  parser.add_switch("--transparent", options.transparent,
+                    "Leave the background out of the colour; alpha is coverage: premultiplied in EXR, straight RGBA in "
+                    "PNG and TIFF");
+  parser.add("--exposure", exposure_value_name, exposure_help,
+             [&](const std::string& text) { options.exposure = exposure(text); });
   parser.add("--aov", "LIST",
              "What EXR files hold besides the colour, separated by commas: " + joined(aov_names(), ", ") + "; or all",
              [&](const std::string& text) { options.aovs = aovs(text); });

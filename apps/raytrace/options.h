@@ -63,6 +63,8 @@ struct Options {
   std::string list;  ///< empty, or the kind of thing to list
 
   bool full_float = false;
+  bool transparent = false;
+  std::optional<double> exposure;  ///< in stops; none: not asked for
   bool quiet = false;
   bool validate = false;
   bool print_scene = false;
@@ -71,7 +73,9 @@ struct Options {
 
   bool renders() const { return !validate && !print_scene && !pixel; }
   Verbosity verbosity() const;
-  ImageFileSettings image_file_settings() const { return {full_float, bit_depth, true, threads}; }
+  ImageFileSettings image_file_settings() const {
+    return {full_float, bit_depth, true, threads, transparent, exposure.value_or(0)};
+  }
 };
 
 /// Adds all options to a parser, which fills `options`.

@@ -47,7 +47,8 @@ PictureRender::PictureRender(const Scene& scene, const SceneDescription& descrip
       options_(options),
       signals_(signals),
       statistics_(statistics),
-      settings_{options.threads, options.seed, region, sample_range(description.viewplane, options), options.aovs},
+      settings_{options.threads, options.seed,       region, sample_range(description.viewplane, options),
+                options.aovs,    options.transparent},
       start_(start),
       next_checkpoint_(Clock::now() + in_seconds(options.checkpoint_interval)),
       progress_(progress) {

@@ -9,6 +9,7 @@
 #include "about.h"
 #include "memory_limit.h"
 #include "messages.h"
+#include "outputs.h"
 #include "picture_settings.h"
 #include "raytrace/description/parse_value.h"
 #include "raytrace/output/atomic_file.h"
@@ -62,6 +63,10 @@ void check_outputs(const Options& options) {
   if (options.full_float && std::none_of(options.outputs.begin(), options.outputs.end(), holds_float)) {
     throw UsageError("--float: none of the outputs can hold floats; .exr and .tif can");
   }
+  if (options.transparent && std::none_of(options.outputs.begin(), options.outputs.end(), holds_alpha)) {
+    throw UsageError("--transparent: none of the outputs can hold alpha; .exr, .png and .tif can");
+  }
+  if (options.exposure) refuse_useless_exposure(options.outputs, options.image_file_settings());
   if (!options.aovs.empty() && std::none_of(options.outputs.begin(), options.outputs.end(), holds_data)) {
     throw UsageError("--aov: none of the outputs can hold more than colour; .exr can");
   }
@@ -129,6 +134,7 @@ std::string pixel_text(const Scene& scene, const SceneDescription& description, 
     return text + "\n";
   };
   RenderSettings settings{1, options.seed, pixel, sample_range(description.viewplane, options)};
+  settings.transparent = options.transparent;
   const SampleRange samples = *settings.samples;
   std::string text;
   for (std::uint32_t i = 0; i < samples.count; ++i) {

@@ -6,6 +6,7 @@
 
 #include "raytrace/output/exr_encoder.h"
 #include "raytrace/output/openimageio_module.h"
+#include "raytrace/output/png_encoder.h"
 
 namespace raytrace {
 
@@ -18,6 +19,7 @@ std::unique_ptr<ImageEncoder> make_image_encoder(const std::string& file, const 
                       ": the name has no extension to tell the format; .exr and .png are usual");
   }
   if (extension == ".exr") return std::make_unique<ExrEncoder>(file, settings);
+  if (extension == ".png") return std::make_unique<PngEncoder>(file, settings);
   return make_openimageio_encoder(file, extension, settings);
 }
 

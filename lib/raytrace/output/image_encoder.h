@@ -26,6 +26,12 @@ class ImageEncoder {
   /// Whether it stores other channels than color_channels(), and ImageMetadata::data_attributes.
   virtual bool holds_data() const = 0;
 
+  /// Whether it stores alpha, where ImageFileSettings::transparent asks for it.
+  virtual bool holds_alpha() const = 0;
+
+  /// Whether it stores a picture for eyes, clamped and sRGB-encoded, which ImageFileSettings::exposure is for.
+  virtual bool is_for_display() const = 0;
+
   /// channels: color_channels() and any others, which are passed over by those that hold no data.
   /// destination: an open, empty file.
   virtual void begin(const PictureExtent& extent, const std::vector<Channel>& channels, const ImageMetadata& metadata,

@@ -30,6 +30,12 @@ bool holds_halves(const std::string& file, const ImageFileSettings& settings) {
 
 bool holds_data(const std::string& file) { return make_image_encoder(file, {})->holds_data(); }
 
+bool holds_alpha(const std::string& file) { return make_image_encoder(file, {})->holds_alpha(); }
+
+bool is_for_display(const std::string& file, const ImageFileSettings& settings) {
+  return make_image_encoder(file, settings)->is_for_display();
+}
+
 void check_writable(const std::string& file, const ImageFileSettings& settings) {
   constexpr int edge = 64;  // JPEG 2000 takes none below 32
   const PictureExtent extent{edge, edge, {0, 0, edge, edge}};

@@ -1,7 +1,11 @@
 // Writes a film to an image file; the format follows from the file name's extension.
 //
-// .exr and .hdr (and .pfm, where OpenImageIO writes it) hold linear radiance as it is. Every other format that
-// OpenImageIO writes (.png, .jpg, .tif, ...) holds it clamped to [0, 1] and encoded with the sRGB curve.
+// .exr and .hdr (and .pfm, where OpenImageIO writes it) hold linear radiance as it is. PNG and every other format that
+// OpenImageIO writes (.jpg, .tif, ...) hold it clamped to [0, 1] and encoded with the sRGB curve.
+//
+// EXR has alpha always, with premultiplied colour. Of a transparent picture so have PNG and TIFF: of 8 and 16 bits with
+// straight colour, that of the covered part alone; TIFF of floats with premultiplied colour. All others hold it as it
+// is over black.
 #pragma once
 
 #include <cstdint>
@@ -21,10 +25,12 @@
 namespace raytrace {
 
 struct ImageFileSettings {
-  bool full_float = false;  ///< EXR: colours in 32 bit instead of half. TIFF: linear 32 bit float instead of sRGB.
-  int bit_depth = 8;        ///< 8 or 16: PNG, TIFF and others that can; no matter to formats that hold linear radiance
-  bool compressed = true;   ///< EXR: with zip
-  int threads = 0;          ///< for compression; 0: all processors. Holds for the process, as OpenImageIO has it.
+  bool full_float = false;   ///< EXR: colours in 32 bit instead of half. TIFF: linear 32 bit float instead of sRGB.
+  int bit_depth = 8;         ///< 8 or 16: PNG, TIFF and others that can; no matter to formats that hold linear radiance
+  bool compressed = true;    ///< EXR: with zip
+  int threads = 0;           ///< for compression; 0: all processors. Holds for the process, as OpenImageIO has it.
+  bool transparent = false;  ///< FilmSettings::transparent: PNG and TIFF get alpha
+  double exposure = 0;       ///< formats for display: the linear colour is multiplied by 2^exposure
 };
 
 /// Something more that a picture says about itself. EXR keeps the type, PNG stores text, and other formats nothing.
@@ -68,6 +74,13 @@ bool holds_halves(const std::string& file, const ImageFileSettings& settings);
 /// Whether files of this name hold channels besides colour. Throws OutputError as holds_float() does.
 bool holds_data(const std::string& file);
 
+/// Whether files of this name hold the alpha of a transparent picture. Throws OutputError as holds_float() does.
+bool holds_alpha(const std::string& file);
+
+/// Whether ImageFileSettings::exposure matters to files of this name with these settings. Throws OutputError as
+/// holds_float() does.
+bool is_for_display(const std::string& file, const ImageFileSettings& settings);
+
 /// Throws OutputError if files of this name cannot be written: no known extension, no such folder, no permission, a bit
 /// depth that the format lacks. Leaves no trace. To be called before the render, so that hours of work do not end in
 /// an error that could be told at once.
@@ -79,7 +92,7 @@ class ImageEncoder;
 /// appears whole or not at all (AtomicFile).
 ///
 /// EXR: half (or float) RGBA and further channels, zip, scanlines, the film's region as data window in the full display
-/// window. All others: RGB, just the region.
+/// window. All others: RGB, or RGBA, of just the region.
 /// Dates are UTC. Where the environment has SOURCE_DATE_EPOCH, it is the date, and what differs from one run to the
 /// next (the render time, the number of threads) is left out: same picture, same bytes.
 class ImageFile {

@@ -23,7 +23,7 @@ MakeOpenImageIOEncoder* load_module() {
     }
     reasons += std::string("\n  ") + dlerror();
   }
-  throw OutputError("formats other than EXR need the module raytrace_openimageio.so, which cannot be loaded:" +
+  throw OutputError("formats other than EXR and PNG need the module raytrace_openimageio.so, which cannot be loaded:" +
                     reasons);
 }
 

@@ -1,5 +1,6 @@
-// All formats but EXR come through OpenImageIO, which brings some 250 shared libraries: loading them takes longer than
-// a small render. So what uses it is a module of its own (output/openimageio/), loaded when a picture asks for it.
+// All formats but EXR and PNG come through OpenImageIO, which brings some 250 shared libraries: loading them takes
+// longer than a small render. So what uses it is a module of its own (output/openimageio/), loaded when a picture asks
+// for it.
 #pragma once
 
 #include <memory>

@@ -25,6 +25,7 @@ constexpr const char* aovs_name = "raytrace:aovs";  // only where there are any
 constexpr const char* aov_units_name = "raytrace:aovUnits";
 constexpr const char* whole_name = "raytrace:whole";
 constexpr const char* partial_name = "raytrace:partial";
+constexpr const char* transparent_name = "raytrace:transparent";  // only where it is
 
 template <class Value>
 Value needed(const ExrReader& piece, const char* name) {
@@ -105,6 +106,7 @@ std::vector<ImageAttribute> identity_attributes(const PieceIdentity& identity) {
     for (const int unit : aovs.mean_units) units.push_back(std::to_string(unit));
     attributes.push_back({aov_units_name, joined(units)});
   }
+  if (identity.film.transparent) attributes.push_back({transparent_name, 1});
   if (identity.partial) attributes.push_back({partial_name, 1});
   return attributes;
 }
@@ -127,6 +129,7 @@ PieceIdentity identity_of(const ExrReader& piece) {
     *edge = number<int>(piece, whole_name, text);
   }
   if (const auto names = piece.attribute<std::string>(aovs_name)) film.aovs = aovs_of(piece, *names);
+  film.transparent = piece.attribute<int>(transparent_name).value_or(0) != 0;
   identity.partial = piece.attribute<int>(partial_name).value_or(0) != 0;
   return identity;
 }
@@ -145,6 +148,10 @@ std::optional<std::string> difference(const PieceIdentity& wanted, const PieceId
   if (a.isa != b.isa) return other("the instruction set", printable(b.isa), printable(a.isa)) + ": pin one with --isa";
   if (c.samples.centered != d.samples.centered)
     return "the place of the samples: one has a single sample in each pixel's center; render it with --sample-offset 0";
+  if (c.transparent != d.transparent) {
+    const auto text = [](const FilmSettings& film) { return film.transparent ? "transparent" : "opaque"; };
+    return other("the background", text(d), text(c)) + ": use --transparent for all of them, or none";
+  }
   if (c.aovs.wanted != d.aovs.wanted) {
     const auto text = [](const AovSettings& aovs) {
       return aovs.wanted.empty() ? "none" : joined(aov_names(aovs.wanted));
