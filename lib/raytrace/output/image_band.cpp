@@ -1,21 +1,11 @@
 #include "raytrace/output/image_band.h"
 
-#include <half.h>
-
 #include <algorithm>
 #include <array>
 
 #include "raytrace/parallel/for_each_index.h"
 
 namespace raytrace {
-
-Pixel color_at(const ImageBand& band, std::size_t index) {
-  const auto value = [&](std::size_t color) {
-    if (band.half_colors != nullptr) return imath_half_to_float(band.half_colors[index * ImageBand::colors + color]);
-    return std::get<std::vector<float>>(band.planes[color])[index];
-  };
-  return {value(0), value(1), value(2), value(3)};
-}
 
 std::vector<Channel> color_channels(bool full_float) {
   const ChannelType type = full_float ? ChannelType::float32 : ChannelType::half;

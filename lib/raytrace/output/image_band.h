@@ -34,9 +34,6 @@ struct ImageBand {
   const std::uint16_t* half_colors = nullptr;
 };
 
-/// The colour of a pixel, which `index` counts from the band's left upper one, row by row.
-Pixel color_at(const ImageBand& band, std::size_t index);
-
 /// R, G, B and A: 16 bits each, or 32.
 std::vector<Channel> color_channels(bool full_float);
 

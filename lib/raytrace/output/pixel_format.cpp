@@ -1,11 +1,22 @@
 #include "raytrace/output/pixel_format.h"
 
+#include <half.h>
+
 #include <algorithm>
 #include <cmath>
 
 namespace raytrace {
 
 namespace {
+
+/// The colour of a pixel, which `index` counts from the band's left upper one, row by row.
+Pixel color_at(const ImageBand& band, std::size_t index) {
+  const auto value = [&](std::size_t color) {
+    if (band.half_colors != nullptr) return imath_half_to_float(band.half_colors[index * ImageBand::colors + color]);
+    return std::get<std::vector<float>>(band.planes[color])[index];
+  };
+  return {value(0), value(1), value(2), value(3)};
+}
 
 /// factor: what finite radiance is multiplied by.
 float stored(float radiance, float factor, const PixelFormat& format, Repairs& repairs) {
