@@ -73,11 +73,12 @@ int main(int argc, char** argv) {
     if (is_merge_command(argc, argv)) return merge_command(argc, argv);
     const Options options = parse_options(argc, argv);
     set_verbosity(options.verbosity());
-    if (!options.log_file.empty()) log_to(options.log_file);
     tell_program_in(options.progress);
     if (const auto answer = about_program(options)) return print(*answer);
+    const Jobs jobs(options);  // before the log file is opened, which might be the scene
+    if (!options.log_file.empty()) log_to(options.log_file);
     ignore_picture_requests();
     Progress progress(options.progress);
-    return run_all(Jobs(options), [&](const Options& job) { return run(job, progress); });
+    return run_all(jobs, [&](const Options& job) { return run(job, progress); });
   });
 }

@@ -63,10 +63,6 @@ void refuse_incomplete(const Options& options) {
   if (options.resume && options.checkpoint.empty()) {
     throw UsageError("--resume goes on from a checkpoint: say which with --checkpoint FILE");
   }
-  if (!options.checkpoint.empty() &&
-      std::find(options.outputs.begin(), options.outputs.end(), options.checkpoint) != options.outputs.end()) {
-    throw UsageError("--checkpoint: " + options.checkpoint + " is an output, too");
-  }
   for (auto output = options.outputs.begin(); output != options.outputs.end(); ++output) {
     if (output->empty()) throw UsageError("--output: the file name is empty");
     if (std::find(options.outputs.begin(), output, *output) != output) {
