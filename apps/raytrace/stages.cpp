@@ -1,8 +1,8 @@
 #include "stages.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <tuple>
 
@@ -37,10 +37,8 @@ std::string contents(const SceneDescription& description) {
 
 void write_statistics(const Statistics& statistics, const std::string& file) {
   AtomicFile atomic(file);
-  std::ofstream stream(atomic.temporary_name());
-  stream << json(statistics);
-  stream.close();
-  if (!stream) throw OutputError("cannot write " + file);
+  const std::string text = json(statistics);
+  if (std::fwrite(text.data(), 1, text.size(), atomic.stream()) != text.size()) atomic.fail(errno);
   atomic.commit();
 }
 

@@ -1,21 +1,10 @@
 #include "raytrace/output/image_file.h"
 
 #include <algorithm>
-#include <cerrno>
 
 #include "raytrace/output/image_encoder.h"
 
 namespace raytrace {
-
-namespace {
-
-FileHandle open_to_write(const AtomicFile& atomic) {
-  FileHandle handle(std::fopen(atomic.temporary_name().c_str(), "wb"));
-  if (!handle) atomic.fail(errno);
-  return handle;
-}
-
-}  // namespace
 
 bool holds_float(const std::string& file) {
   ImageFileSettings settings;
@@ -45,8 +34,8 @@ void check_writable(const std::string& file, const ImageFileSettings& settings) 
 
 ImageFile::ImageFile(const std::string& file, std::unique_ptr<ImageEncoder> encoder, const PictureExtent& extent,
                      const std::vector<Channel>& channels, const ImageMetadata& metadata)
-    : atomic_(file), temporary_(open_to_write(atomic_)), encoder_(std::move(encoder)) {
-  encoder_->begin(extent, channels, metadata, temporary_.get());
+    : atomic_(file), encoder_(std::move(encoder)) {
+  encoder_->begin(extent, channels, metadata, atomic_.stream());
 }
 
 ImageFile::ImageFile(const std::string& file, const PictureExtent& extent, const std::vector<Channel>& channels,
@@ -73,7 +62,6 @@ void ImageFile::write(const Film& film) {
 Repairs ImageFile::commit() {
   const Repairs repairs = encoder_->finish();
   encoder_.reset();
-  temporary_.reset();
   atomic_.commit();
   return repairs;
 }

@@ -14,7 +14,6 @@
 #include "raytrace/cameras/camera_matrices.h"
 #include "raytrace/film/film.h"
 #include "raytrace/output/atomic_file.h"
-#include "raytrace/output/file_handle.h"
 #include "raytrace/output/image_band.h"
 #include "raytrace/output/output_error.h"
 
@@ -106,9 +105,10 @@ class ImageFile {
   /// After the last row: flushes it to disk and gives it its name.
   Repairs commit();
 
+  FileIdentity identity() const { return atomic_.identity(); }
+
  private:
   AtomicFile atomic_;
-  FileHandle temporary_;
   std::unique_ptr<ImageEncoder> encoder_;
 };
 
