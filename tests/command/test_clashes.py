@@ -83,5 +83,18 @@ class Clashes(CommandTest):
         self.succeed("merge", "@list.exr", "-q", "-o", "w.exr")
 
 
+class Checkpoint(CommandTest):
+    def test_a_file_that_took_its_place_is_not_removed(self):
+        self.write("kept", "kept")
+        os.mkfifo(self.path("late.xml"))
+        process = self.start_program("late.xml", *SMALL, "-o", "a.exr", "--checkpoint", "c.exr")
+        with open(self.path("late.xml"), "wb") as scene:  # waits for the program, whose checks are done by then
+            os.symlink("kept", self.path("c.exr"))
+            scene.write(self.read("scene.xml"))
+        _, told = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 0, told)
+        self.assertEqual(self.names(), ["a.exr", "c.exr", "kept", "late.xml", "scene.xml"])
+
+
 if __name__ == "__main__":
     unittest.main()
