@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "exit_code.h"
+#include "file_clash.h"
 #include "manual.h"
 #include "memory_limit.h"
 #include "messages.h"
@@ -18,11 +19,13 @@ namespace raytrace {
 
 namespace {
 
+bool is_list(const std::string& piece) { return piece.starts_with('@'); }
+
 /// "@FILE" stands for the names in the file, one a line: there may be more than a command line holds.
 std::vector<std::string> with_lists_read(const std::vector<std::string>& names) {
   std::vector<std::string> all;
   for (const std::string& name : names) {
-    if (!name.starts_with('@')) {
+    if (!is_list(name)) {
       all.push_back(name);
       continue;
     }
@@ -35,6 +38,15 @@ std::vector<std::string> with_lists_read(const std::vector<std::string>& names) 
   return all;
 }
 
+/// names: as they were given, with the lists.
+void refuse_clashes(const std::vector<std::string>& names, const MergeSettings& settings) {
+  UsedFiles files;
+  for (const std::string& name : names)
+    if (is_list(name)) add_file(files, {"the list", name.substr(1), false});
+  for (const std::string& piece : settings.pieces) add_file(files, {"the piece", piece, false});
+  for (const std::string& output : settings.outputs) add_file(files, {"--output", output, true});
+}
+
 MergeOptions parsed(int argc, const char* const* argv) {
   MergeOptions options;
   OptionParser parser;
@@ -42,12 +54,14 @@ MergeOptions parsed(int argc, const char* const* argv) {
   parser.parse(argc, argv);
   if (options.quiet && options.verbose) throw UsageError("--quiet excludes --verbose");
   if (options.help) return options;
-  options.settings.pieces = with_lists_read(options.settings.pieces);
+  const std::vector<std::string> names = options.settings.pieces;
+  options.settings.pieces = with_lists_read(names);
   const MergeSettings& settings = options.settings;
   if (settings.pieces.empty()) throw UsageError("no pieces given; for example: raytrace merge tile.*.exr -o whole.exr");
   if (settings.outputs.empty())
     throw UsageError("no output given; for example: raytrace merge tile.*.exr -o whole.exr");
   if (settings.exposure) refuse_useless_exposure(settings.outputs, {});
+  refuse_clashes(names, settings);
   return options;
 }
 

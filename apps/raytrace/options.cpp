@@ -62,10 +62,6 @@ void refuse_incomplete(const Options& options) {
   if (options.resume && options.checkpoint.empty()) {
     throw UsageError("--resume goes on from a checkpoint: say which with --checkpoint FILE");
   }
-  if (!options.checkpoint.empty() &&
-      std::find(options.outputs.begin(), options.outputs.end(), options.checkpoint) != options.outputs.end()) {
-    throw UsageError("--checkpoint: " + options.checkpoint + " is an output, too");
-  }
   for (auto output = options.outputs.begin(); output != options.outputs.end(); ++output) {
     if (output->empty()) throw UsageError("--output: the file name is empty");
     if (std::find(options.outputs.begin(), output, *output) != output) {
@@ -89,7 +85,8 @@ void define_options(OptionParser& parser, Options& options) {
   parser.add_arguments("SCENE.xml", "Scene files; - reads one from standard input", options.scenes);
   parser.add(
       "--frames", "FRAMES",
-      "Render these frames, e.g. 1-10:2,15; #### or %04d in the names of scenes, outputs and statistics is the number",
+      "Render these frames, e.g. 1-10:2,15; #### or %04d in the names of scenes, outputs and statistics is the number, "
+      "{#} a #",
       [&](const std::string& text) { options.frames = frame_numbers(text); });
   parser.add_repeatable("-D,--define", "NAME=VALUE", "Set the variable $NAME of the scene; repeatable",
                         [&](const std::string& text) { define(text, options.variables); });

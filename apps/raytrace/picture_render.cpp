@@ -93,6 +93,7 @@ Ending PictureRender::render_at_once() {
   identity_.film = film.settings();
   std::uint32_t done = 0;
   if (options_.resume && std::filesystem::exists(options_.checkpoint)) {
+    checkpoint_ = file_identity(options_.checkpoint);  // first: one that takes its place is not ours to remove
     read_checkpoint(options_.checkpoint, identity_, film);
     done = film.fewest_samples();
     tell_step("resumed from " + options_.checkpoint);
@@ -136,11 +137,10 @@ Ending PictureRender::leave_what_there_is(const Film& film) {
   return written && saved ? Ending::stopped : Ending::failed;
 }
 
-/// If there is one. Of a symbolic link, the link stays, as it does when a file is written.
+/// The one that this run read or wrote last.
 void PictureRender::remove_checkpoint() const {
-  std::error_code there_is_none;
-  const std::filesystem::path target = std::filesystem::canonical(options_.checkpoint, there_is_none);
-  if (!options_.checkpoint.empty() && !there_is_none) std::filesystem::remove(target, there_is_none);
+  if (!checkpoint_ || remove_file(options_.checkpoint, *checkpoint_)) return;
+  tell_warning("the checkpoint " + options_.checkpoint + " is not removed: another file has taken its place");
 }
 
 /// Large pictures go to their files band by band, so that no more than one of them need be in memory.
@@ -278,7 +278,7 @@ bool PictureRender::save_checkpoint(const Film& film) {
   const Clock::time_point begin = Clock::now();
   bool saved = true;
   try {
-    write_checkpoint(options_.checkpoint, film, identity_, metadata());
+    checkpoint_ = write_checkpoint(options_.checkpoint, film, identity_, metadata());
   } catch (const OutputError& error) {
     tell_error(error.what());
     saved = false;

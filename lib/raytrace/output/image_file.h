@@ -18,7 +18,6 @@
 #include "raytrace/cameras/camera_matrices.h"
 #include "raytrace/film/film.h"
 #include "raytrace/output/atomic_file.h"
-#include "raytrace/output/file_handle.h"
 #include "raytrace/output/image_band.h"
 #include "raytrace/output/output_error.h"
 
@@ -86,6 +85,10 @@ bool is_for_display(const std::string& file, const ImageFileSettings& settings);
 /// an error that could be told at once.
 void check_writable(const std::string& file, const ImageFileSettings& settings);
 
+/// Throws SizeError if files of this name cannot hold a picture of the region's size. To be called before the render,
+/// too, as soon as the size is known.
+void check_size(const std::string& file, const Region& region, const ImageFileSettings& settings);
+
 class ImageEncoder;
 
 /// An image file that is written band by band, so that no more than a band of a large picture need be in memory, and
@@ -119,9 +122,10 @@ class ImageFile {
   /// After the last row: flushes it to disk and gives it its name.
   Repairs commit();
 
+  FileIdentity identity() const { return atomic_.identity(); }
+
  private:
   AtomicFile atomic_;
-  FileHandle temporary_;
   std::unique_ptr<ImageEncoder> encoder_;
 };
 

@@ -32,8 +32,8 @@ std::string edges_text(const Region& r) {
 
 }  // namespace
 
-void write_checkpoint(const std::string& file, const Film& film, const PieceIdentity& identity,
-                      ImageMetadata metadata) {
+FileIdentity write_checkpoint(const std::string& file, const Film& film, const PieceIdentity& identity,
+                              ImageMetadata metadata) {
   PieceIdentity partial = identity;
   partial.partial = true;
   metadata.samples = static_cast<int>(film.settings().samples.count);
@@ -58,6 +58,7 @@ void write_checkpoint(const std::string& file, const Film& film, const PieceIden
     y = end;
   }
   image.commit();
+  return image.identity();
 }
 
 void read_checkpoint(const std::string& file, const PieceIdentity& identity, Film& film) {

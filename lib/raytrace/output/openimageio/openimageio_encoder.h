@@ -23,6 +23,7 @@ class OpenImageIOEncoder final : public ImageEncoder {
   bool holds_data() const override { return false; }
   bool holds_alpha() const override { return is_tiff(); }
   bool is_for_display() const override { return pixels_.srgb; }
+  void check_size(int width, int height) const override;
   void begin(const PictureExtent& extent, const std::vector<Channel>& channels, const ImageMetadata& metadata,
              std::FILE* destination) override;
   void write(const ImageBand& band) override;
@@ -40,7 +41,7 @@ class OpenImageIOEncoder final : public ImageEncoder {
   void check(bool done) const;
   [[noreturn]] void fail(const std::string& reason) const;
 
-  std::string file_;
+  std::string file_, extension_;
   ImageFileSettings settings_;
   PictureExtent extent_;
   std::FILE* destination_ = nullptr;
