@@ -89,6 +89,7 @@ bool outputs_are_complete(const SceneDescription& description, const Region& who
   PieceIdentity identity;
   identity.provenance.scene = scene_hash(description, options.threads);
   identity.film.seed = options.seed;
+  identity.film.transparent = options.transparent;
   identity.film.samples = sample_range(description.viewplane, options);
   identity.whole = whole;
   WantedPicture wanted;
@@ -98,6 +99,7 @@ bool outputs_are_complete(const SceneDescription& description, const Region& who
   if (options.sample_offset)
     for (Channel& channel : sum_channels()) wanted.channels.push_back(std::move(channel));
   wanted.bit_depth = options.bit_depth;
+  wanted.exposure = options.exposure.value_or(0);
   wanted.attributes = picture_attributes(identity, options.time_limit.has_value());
   return std::all_of(options.outputs.begin(), options.outputs.end(),
                      [&](const std::string& file) { return is_complete_picture(file, wanted); });

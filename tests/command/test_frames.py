@@ -197,11 +197,12 @@ class SkipExisting(CommandTest):
                                     *(options if "-D" in options else (*options, "-D", "radius=1")))
                 return "skipped" in done.stderr
             for change in ([], ["-D", "radius=0.5"], ["--seed", "3"], ["-s", "3"], ["-s", "1"], ["-r", "20x16"],
-                           ["--sample-offset", "2"], ["--tile", "1/2"], ["--crop", "0,0,8,16"]):
+                           ["--sample-offset", "2"], ["--tile", "1/2"], ["--crop", "0,0,8,16"],
+                           ["--transparent"]):
                 self.assertFalse(skipped(*change), change)
                 self.assertTrue(skipped(*change), change)
         for kept, change in (("a.exr", ["--float"]), ("a.exr", ["--aov", "depth"]), ("a.exr", ["--sample-offset", "0"]),
-                             ("a.png", ["--bit-depth", "16"])):
+                             ("a.png", ["--bit-depth", "16"]), ("a.png", ["--exposure", "-0.75"])):
             outputs = ["-o", kept]
             skipped()
             self.assertTrue(skipped(), change)

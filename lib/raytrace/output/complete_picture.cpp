@@ -10,6 +10,7 @@
 #include "raytrace/output/image_encoder.h"
 #include "raytrace/output/openimageio_module.h"
 #include "raytrace/output/png_file.h"
+#include "raytrace/output/png_text.h"
 
 namespace raytrace {
 namespace {
@@ -62,7 +63,8 @@ bool is_whole_png(const std::string& file, const WantedPicture* wanted) {
   const auto picture = read_png_file(file);
   if (!picture || !fit(picture->texts, wanted)) return false;
   return wanted == nullptr || (picture->width == wanted->extent.region.width() &&
-                               picture->height == wanted->extent.region.height() && picture->bits == wanted->bit_depth);
+                               picture->height == wanted->extent.region.height() && picture->bits == wanted->bit_depth &&
+                               has(picture->texts, exposure_keyword, exposure_text(wanted->exposure)));
 }
 
 bool is_whole(const std::string& file, const WantedPicture* wanted) {

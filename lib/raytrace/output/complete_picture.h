@@ -15,6 +15,7 @@ struct WantedPicture {
   PictureExtent extent;           ///< EXR: where in the picture; all others: the size
   std::vector<Channel> channels;  ///< EXR: these, or more
   int bit_depth = 8;              ///< PNG
+  double exposure = 0;            ///< PNG
   /// EXR and PNG: names and values, as text; "" for what the file must not have.
   std::map<std::string, std::string> attributes;
 };

@@ -38,10 +38,12 @@ std::vector<PngText> png_texts(const ImageMetadata& metadata, const ImageFileSet
     all.push_back({"raytrace:threads", std::to_string(metadata.threads)});
     if (metadata.render_seconds) all.push_back({"raytrace:renderSeconds", text_of(*metadata.render_seconds)});
   }
-  if (settings.exposure != 0) all.push_back({"raytrace:exposure", text_of(settings.exposure)});
+  if (settings.exposure != 0) all.push_back({exposure_keyword, exposure_text(settings.exposure)});
   for (const ImageAttribute& attribute : metadata.attributes)
     all.push_back({attribute.name, std::visit([](const auto& value) { return text_of(value); }, attribute.value)});
   return all;
 }
+
+std::string exposure_text(double exposure) { return exposure == 0 ? std::string() : text_of(exposure); }
 
 }  // namespace raytrace

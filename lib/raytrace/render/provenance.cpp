@@ -113,7 +113,7 @@ std::vector<ImageAttribute> identity_attributes(const PieceIdentity& identity) {
 
 std::map<std::string, std::string> picture_attributes(const PieceIdentity& identity, bool any_samples) {
   std::map<std::string, std::string> texts = {{seed_name, std::to_string(identity.film.seed)}};
-  for (const char* const name : {scene_name, first_sample_name, centered_name, whole_name}) texts[name];
+  for (const char* const name : {scene_name, first_sample_name, centered_name, whole_name, transparent_name}) texts[name];
   for (const ImageAttribute& attribute : identity_attributes(identity)) {
     const auto wanted = texts.find(attribute.name);
     if (wanted == texts.end()) continue;
