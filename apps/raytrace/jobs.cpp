@@ -10,6 +10,7 @@
 #include "file_names.h"
 #include "memory_limit.h"
 #include "messages.h"
+#include "raytrace/output/output_error.h"
 
 namespace raytrace {
 
@@ -114,6 +115,9 @@ int guarded(const std::function<int()>& action) {
     return action();
   } catch (const UsageError& error) {
     tell_error(std::string(error.what()) + "\nTry 'raytrace --help'.");
+    return exit_code::usage;
+  } catch (const SizeError& error) {  // what was asked for cannot be, and nothing was rendered for it
+    tell_error(error.what());
     return exit_code::usage;
   } catch (const std::bad_alloc&) {
     tell_error("out of memory" + memory_limit_text());

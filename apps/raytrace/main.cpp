@@ -11,7 +11,6 @@
 #include "options.h"
 #include "picture_render.h"
 #include "picture_settings.h"
-#include "raytrace/output/complete_picture.h"
 #include "signals.h"
 #include "stages.h"
 
@@ -26,21 +25,20 @@ int print(const std::string& text) {
   return exit_code::failed;
 }
 
-/// A checkpoint that is still there tells that they are not, whatever their formats can.
-bool outputs_are_complete(const Options& options) {
-  return (options.checkpoint.empty() || !std::filesystem::exists(options.checkpoint)) &&
-         std::all_of(options.outputs.begin(), options.outputs.end(), is_complete_picture);
+/// Whether there is anything that --skip-existing might leave as it is. A checkpoint that is still there tells that
+/// the outputs are not complete, whatever their formats can.
+bool might_be_skipped(const Options& options) {
+  return options.skip_existing && options.renders() &&
+         (options.checkpoint.empty() || !std::filesystem::exists(options.checkpoint)) &&
+         std::all_of(options.outputs.begin(), options.outputs.end(),
+                     [](const std::string& file) { return std::filesystem::exists(file); });
 }
 
 int run(const Options& options, Progress& progress) {
   progress.begin(options.job_index, options.job_count);
-  if (options.skip_existing && options.renders() && outputs_are_complete(options)) {
-    tell_note(joined(options.outputs, ", ") + ": there already, skipped");
-    progress.finish();
-    return exit_code::done;
-  }
   const auto start = PictureRender::Clock::now();
-  check_outputs(options);
+  const bool might_skip = might_be_skipped(options);  // if the files are of this picture, which the scene tells
+  if (!might_skip) check_outputs(options);
   Statistics statistics;
   std::optional<SceneDescription> description = load(options, statistics);
   if (!description) return exit_code::failed;
@@ -49,6 +47,15 @@ int run(const Options& options, Progress& progress) {
   const Region region = asked_region(whole, options);
   if (options.print_scene) return print(print_scene(*description));
   if (options.validate) return options.quiet ? exit_code::done : print(summary(*description) + "\n");
+  if (might_skip) {
+    if (outputs_are_complete(*description, whole, region, options)) {
+      tell_note(joined(options.outputs, ", ") + ": there already, skipped");
+      progress.skip();
+      return exit_code::done;
+    }
+    check_outputs(options);
+  }
+  if (options.renders()) check_output_sizes(options, region);
 
   const std::unique_ptr<const Scene> scene = build(*description, options, statistics);
   if (options.pixel) return print(pixel_text(*scene, *description, region, options));

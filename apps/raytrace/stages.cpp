@@ -10,9 +10,14 @@
 #include "memory_limit.h"
 #include "messages.h"
 #include "picture_settings.h"
+#include "raytrace/aovs/aov_selection.h"
 #include "raytrace/description/parse_value.h"
+#include "raytrace/description/scene_hash.h"
 #include "raytrace/output/atomic_file.h"
+#include "raytrace/output/complete_picture.h"
+#include "raytrace/output/film_channels.h"
 #include "raytrace/output/image_file.h"
+#include "raytrace/render/provenance.h"
 
 namespace raytrace {
 
@@ -72,6 +77,29 @@ void check_outputs(const Options& options) {
                      " already; --resume goes on from it, or remove it");
   }
   const AtomicFile made_and_removed(options.checkpoint);
+}
+
+bool outputs_are_complete(const SceneDescription& description, const Region& whole, const Region& region,
+                          const Options& options) {
+  PieceIdentity identity;
+  identity.provenance.scene = scene_hash(description, options.threads);
+  identity.film.seed = options.seed;
+  identity.film.samples = sample_range(description.viewplane, options);
+  identity.whole = whole;
+  WantedPicture wanted;
+  wanted.extent = {description.viewplane.hres, description.viewplane.vres, region};
+  wanted.channels = color_channels(options.full_float);
+  for (Channel& channel : aov_channels(options.aovs)) wanted.channels.push_back(std::move(channel));
+  if (options.sample_offset)
+    for (Channel& channel : sum_channels()) wanted.channels.push_back(std::move(channel));
+  wanted.bit_depth = options.bit_depth;
+  wanted.attributes = picture_attributes(identity, options.time_limit.has_value());
+  return std::all_of(options.outputs.begin(), options.outputs.end(),
+                     [&](const std::string& file) { return is_complete_picture(file, wanted); });
+}
+
+void check_output_sizes(const Options& options, const Region& region) {
+  for (const std::string& file : options.outputs) check_size(file, region, options.image_file_settings());
 }
 
 std::optional<SceneDescription> load(const Options& options, Statistics& statistics) {

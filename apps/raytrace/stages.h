@@ -15,6 +15,13 @@ namespace raytrace {
 /// Throws OutputError or UsageError for what would fail at the end of a run.
 void check_outputs(const Options& options);
 
+/// Whether all outputs are there, whole, and of this picture, as far as their formats can tell.
+bool outputs_are_complete(const SceneDescription& description, const Region& whole, const Region& region,
+                          const Options& options);
+
+/// What check_outputs() does, for what depends on the size of the picture.
+void check_output_sizes(const Options& options, const Region& region);
+
 /// Reads the scene and tells what is wrong with it; none if that is an error.
 std::optional<SceneDescription> load(const Options& options, Statistics& statistics);
 

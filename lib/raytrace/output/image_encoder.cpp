@@ -9,10 +9,15 @@
 
 namespace raytrace {
 
-std::unique_ptr<ImageEncoder> make_image_encoder(const std::string& file, const ImageFileSettings& settings) {
+std::string lower_extension(const std::string& file) {
   std::string extension = std::filesystem::path(file).extension();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+std::unique_ptr<ImageEncoder> make_image_encoder(const std::string& file, const ImageFileSettings& settings) {
+  const std::string extension = lower_extension(file);
   if (extension.size() < 2) {
     throw OutputError("cannot write " + file +
                       ": the name has no extension to tell the format; .exr and .png are usual");

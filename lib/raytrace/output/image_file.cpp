@@ -32,6 +32,10 @@ void check_writable(const std::string& file, const ImageFileSettings& settings) 
   const AtomicFile made_and_removed(file);
 }
 
+void check_size(const std::string& file, const Region& region, const ImageFileSettings& settings) {
+  make_image_encoder(file, settings)->check_size(region.width(), region.height());
+}
+
 ImageFile::ImageFile(const std::string& file, std::unique_ptr<ImageEncoder> encoder, const PictureExtent& extent,
                      const std::vector<Channel>& channels, const ImageMetadata& metadata)
     : atomic_(file), encoder_(std::move(encoder)) {

@@ -72,6 +72,10 @@ bool holds_data(const std::string& file);
 /// an error that could be told at once.
 void check_writable(const std::string& file, const ImageFileSettings& settings);
 
+/// Throws SizeError if files of this name cannot hold a picture of the region's size. To be called before the render,
+/// too, as soon as the size is known.
+void check_size(const std::string& file, const Region& region, const ImageFileSettings& settings);
+
 class ImageEncoder;
 
 /// An image file that is written band by band, so that no more than a band of a large picture need be in memory, and

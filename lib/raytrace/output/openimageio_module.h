@@ -13,9 +13,15 @@ namespace raytrace {
 std::unique_ptr<ImageEncoder> make_openimageio_encoder(const std::string& file, const std::string& extension,
                                                        const ImageFileSettings& settings);
 
-/// The module's only symbol. The caller owns what it returns.
+/// Whether the file is a picture that OpenImageIO can read from its first row to its last, of this size; 0 x 0: of any.
+/// Throws OutputError if the module is missing.
+bool openimageio_reads_all_of(const std::string& file, int width, int height);
+
+/// The module's symbols. The caller owns the encoder.
 using MakeOpenImageIOEncoder = ImageEncoder*(const std::string& file, const std::string& extension,
                                              const ImageFileSettings& settings);
 extern "C" MakeOpenImageIOEncoder raytrace_make_openimageio_encoder;
+using OpenImageIOReadsAllOf = bool(const std::string& file, int width, int height);
+extern "C" OpenImageIOReadsAllOf raytrace_openimageio_reads_all_of;
 
 }  // namespace raytrace

@@ -109,6 +109,19 @@ std::vector<ImageAttribute> identity_attributes(const PieceIdentity& identity) {
   return attributes;
 }
 
+std::map<std::string, std::string> picture_attributes(const PieceIdentity& identity, bool any_samples) {
+  std::map<std::string, std::string> texts = {{seed_name, std::to_string(identity.film.seed)}};
+  for (const char* const name : {scene_name, first_sample_name, centered_name, whole_name}) texts[name];
+  for (const ImageAttribute& attribute : identity_attributes(identity)) {
+    const auto wanted = texts.find(attribute.name);
+    if (wanted == texts.end()) continue;
+    const auto* const text = std::get_if<std::string>(&attribute.value);
+    wanted->second = text != nullptr ? *text : std::to_string(std::get<int>(attribute.value));
+  }
+  if (!any_samples) texts[samples_name] = std::to_string(identity.film.samples.count);
+  return texts;
+}
+
 PieceIdentity identity_of(const ExrReader& piece) {
   PieceIdentity identity;
   identity.provenance = {needed<std::string>(piece, software_name), needed<std::string>(piece, embree_name),

@@ -10,6 +10,7 @@
 
 #include "raytrace/description/nearest_name.h"
 #include "raytrace/description/quoted.h"
+#include "raytrace/output/openimageio/edge_limits.h"
 #include "raytrace/output/openimageio/metadata.h"
 #include "raytrace/output/openimageio_module.h"
 
@@ -108,7 +109,7 @@ class OpenImageIOEncoder::CheckedFile final : public OIIO::Filesystem::IOFile {
 
 OpenImageIOEncoder::OpenImageIOEncoder(std::string file, const std::string& extension,
                                        const ImageFileSettings& settings)
-    : file_(std::move(file)), writer_(create_writer(extension)) {
+    : file_(std::move(file)), extension_(extension), writer_(create_writer(extension)) {
   if (!writer_) {
     fail((is_known(extension) ? in_quotes(extension) + " is a format that can be read but not written"
                               : "no picture format has the extension " + in_quotes(extension)) +
@@ -120,8 +121,18 @@ OpenImageIOEncoder::OpenImageIOEncoder(std::string file, const std::string& exte
 
 OpenImageIOEncoder::~OpenImageIOEncoder() = default;
 
+void OpenImageIOEncoder::check_size(int width, int height) const {
+  const auto [least, most] = edge_limits(writer_->format_name());
+  if (std::min(width, height) >= least && std::max(width, height) <= most) return;
+  const bool too_large = std::max(width, height) > most;
+  throw SizeError("cannot write " + file_ + ": a " + in_quotes(extension_) + " file has edges of at " +
+                  (too_large ? "most " + std::to_string(most) : "least " + std::to_string(least)) + " pixels, not " +
+                  std::to_string(width) + " x " + std::to_string(height) + "; .exr and .png have room for it");
+}
+
 void OpenImageIOEncoder::begin(const PictureExtent& extent, const std::vector<Channel>& /*only the first are stored*/,
                                const ImageMetadata& metadata, std::FILE* destination) {
+  check_size(extent.region.width(), extent.region.height());
   extent_ = extent;
   destination_ = destination;
   std::string name = file_;

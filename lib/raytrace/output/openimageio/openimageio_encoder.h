@@ -21,6 +21,7 @@ class OpenImageIOEncoder final : public ImageEncoder {
 
   bool holds_float() const override { return pixels_.type == OIIO::TypeFloat; }
   bool holds_data() const override { return false; }
+  void check_size(int width, int height) const override;
   void begin(const PictureExtent& extent, const std::vector<Channel>& channels, const ImageMetadata& metadata,
              std::FILE* destination) override;
   void write(const ImageBand& band) override;
@@ -36,7 +37,7 @@ class OpenImageIOEncoder final : public ImageEncoder {
   void check(bool done) const;
   [[noreturn]] void fail(const std::string& reason) const;
 
-  std::string file_;
+  std::string file_, extension_;
   PictureExtent extent_;
   std::FILE* destination_ = nullptr;
   std::unique_ptr<CheckedFile> checked_;  ///< the destination, for writers that take such a thing
