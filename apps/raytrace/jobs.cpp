@@ -25,6 +25,11 @@ bool has_statistics_file(const Options& options) {
 Jobs::Jobs(Options options) : options_(std::move(options)) {
   std::swap(scenes_, options_.scenes);
   std::swap(frames_, options_.frames);
+  if (!frames_.empty()) {
+    for (auto* const names : {&scenes_, &options_.outputs})
+      for (std::string& name : *names) name = with_folders_kept(name);
+    for (auto* const name : {&options_.statistics, &options_.checkpoint}) *name = with_folders_kept(*name);
+  }
   const auto from_standard_input = std::count(scenes_.begin(), scenes_.end(), "-");
   if (from_standard_input > 1 || (from_standard_input == 1 && frame_count() > 1)) {
     throw UsageError("standard input can be read once; give a file for " +

@@ -88,7 +88,8 @@ void define_options(CLI::App& parser, Options& options) {
       ->type_name("SCENE.xml")
       ->group("Input");
   add(parser, "--frames", "FRAMES",
-      "Render these frames, e.g. 1-10:2,15; #### or %04d in the names of scenes, outputs and statistics is the number",
+      "Render these frames, e.g. 1-10:2,15; #### or %04d in the names of scenes, outputs and statistics is the number, "
+      "{#} a #",
       [&](const std::string& text) { options.frames = frame_numbers(text); })
       ->group("Input");
   parser

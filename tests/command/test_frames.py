@@ -74,6 +74,17 @@ class Frames(CommandTest):
                          env=self.environment)
             self.assertEqual((self.read(f"a.{i:04}.exr"), self.read(f"b{i:02}.png")), together)
 
+    def test_a_folder_that_is_there_keeps_its_name(self):
+        os.mkdir(self.path("C#"))
+        os.rename(self.path("scene.xml"), self.path("C#/scene.xml"))
+        os.mkdir(self.path("f1"))
+        os.mkdir(self.path("f2"))
+        self.succeed("C#/scene.xml", *SMALL, "--frames", "1-2", "-o", "C#/a.#.exr", "-o", "f#/{#}%%.exr",
+                     "--stats=C#/s.#.json")
+        self.assertEqual(sorted(os.listdir(self.path("C#"))), ["a.1.exr", "a.2.exr", "s.1.json", "s.2.json", "scene.xml"])
+        self.assertEqual(os.listdir(self.path("f1")) + os.listdir(self.path("f2")), ["#%.exr", "#%.exr"])
+        self.fail_with(2, "C#/scene.xml", *SMALL, "--frames", "1-2", "-o", "C#/a.exr")
+
     def test_many_frames_need_a_token(self):
         message = self.fail_with(2, "scene.xml", "--frames", "1-3", "-o", "a.exr")
         self.assertIn("use a name such as a.####.exr", message)
