@@ -109,9 +109,9 @@ int run_all(const Jobs& jobs, const std::function<int(const Options&)>& run) {
     failed.push_back(jobs.name(i));
   }
   if (failed.empty()) return exit_code::done;
-  std::string names;
-  for (const std::string& name : failed) names += "\n  " + name;
-  tell_error(std::to_string(failed.size()) + " of " + counted(jobs.count(), "render") + " failed:" + names);
+  std::vector<std::string> names;
+  for (const std::string& name : failed) names.push_back("  " + name);
+  tell_error(std::to_string(failed.size()) + " of " + counted(jobs.count(), "render") + " failed:", names);
   return common_code;
 }
 
@@ -119,7 +119,7 @@ int guarded(const std::function<int()>& action) {
   try {
     return action();
   } catch (const UsageError& error) {
-    tell_error(std::string(error.what()) + "\nTry 'raytrace --help'.");
+    tell_error(error.what(), {"Try 'raytrace --help'."});
     return exit_code::usage;
   } catch (const SizeError& error) {  // what was asked for cannot be, and nothing was rendered for it
     tell_error(error.what());

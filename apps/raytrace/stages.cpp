@@ -12,6 +12,7 @@
 #include "picture_settings.h"
 #include "raytrace/aovs/aov_selection.h"
 #include "raytrace/description/parse_value.h"
+#include "raytrace/description/quoted.h"
 #include "raytrace/description/scene_hash.h"
 #include "raytrace/output/atomic_file.h"
 #include "raytrace/output/complete_picture.h"
@@ -104,7 +105,7 @@ void check_output_sizes(const Options& options, const Region& region) {
 
 std::optional<SceneDescription> load(const Options& options, Statistics& statistics) {
   obey_group_memory_limit(options.threads);
-  Diagnostics diagnostics(shown_name(options.scene));
+  Diagnostics diagnostics(on_one_line(shown_name(options.scene)));
   std::optional<SceneDescription> description;
   {
     const PhaseTimer timer(statistics.phases.load);
@@ -178,7 +179,7 @@ void report(Statistics& statistics, const Options& options) {
 }
 
 std::string summary(const SceneDescription& description) {
-  return shown_name(description.file) + ": ok (" + contents(description) + ")";
+  return on_one_line(shown_name(description.file)) + ": ok (" + contents(description) + ")";
 }
 
 }  // namespace raytrace

@@ -19,7 +19,7 @@ void* load_module() {
   std::string reasons;
   for (const std::string& candidate : candidates) {
     if (void* const module = dlopen(candidate.c_str(), RTLD_NOW | RTLD_LOCAL)) return module;
-    reasons += std::string("\n  ") + dlerror();
+    reasons += std::string(reasons.empty() ? " " : "; ") + dlerror();
   }
   throw OutputError("formats other than EXR need the module raytrace_openimageio.so, which cannot be loaded:" +
                     reasons);

@@ -67,7 +67,7 @@ std::vector<Channel> ordered_channels(const Piece& piece) {
 
 [[noreturn]] void refuse(const std::vector<std::string>& problems) {
   std::string text;
-  for (const std::string& problem : problems) text += (text.empty() ? "" : "\n") + problem;
+  for (const std::string& problem : problems) text += (text.empty() ? "" : "\n") + on_one_line(problem);
   throw MergeError(text);
 }
 

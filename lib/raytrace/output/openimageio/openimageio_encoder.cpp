@@ -196,7 +196,8 @@ void OpenImageIOEncoder::guard(const Action& action) {
 
 void OpenImageIOEncoder::check(bool done) const {
   if (done && !writer_->has_error()) return;
-  const std::string reason = writer_->geterror();
+  std::string reason = writer_->geterror();
+  std::replace(reason.begin(), reason.end(), '\n', ' ');
   fail(reason.empty() ? "OpenImageIO's writer failed" : reason);
 }
 
