@@ -65,15 +65,7 @@ class ValueReader {
   bool operator()(std::string_view* value) const {
     const bool fine = read_text<Dollars::may_fit>(single_text(), [&](std::string_view text) -> Complaint {
       *value = text;
-      // Schemas take runs of white space for single spaces; to agree with them there must not be any.
-      bool runs = false;
-      char last = 0;
-      for (const char c : text) {
-        runs |= c == '\t' || c == '\n' || c == '\r' || (c == ' ' && last == ' ');
-        last = c;
-      }
-      if (!runs) return std::nullopt;
-      return "has line breaks, tabs or several spaces in a row; write single spaces";
+      return check_label(text);
     });
     // With a variable that is not set it is no label, and nothing more is to be said about it.
     if (!fine && value->find('$') != std::string_view::npos) *value = {};
