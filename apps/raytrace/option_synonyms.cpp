@@ -42,6 +42,8 @@ constexpr Synonyms synonyms[] = {
     {"--display-server", " display viewer preview tev show displaydriver interactive "},
     {"--bit-depth", " bits depth bpp bitdepth bitsperchannel "},
     {"--float", " full float32 fullfloat fp32 singleprecision half "},
+    {"--transparent", " alpha nobackground background transparentbackground filmtransparent nosky "},
+    {"--exposure", " ev gain brightness expose stops "},
     {"--scale", " percent percentage resize resolutionscale fraction "},
     {"--sample-offset", " offset firstsample startsample samplestart sampleoffset samplerange skipsamples "},
     {"--seed", " randomseed rngseed random "},
