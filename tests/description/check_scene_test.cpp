@@ -100,7 +100,7 @@ TEST_CASE("each rule of the format holds for a description that a program has ma
         "s:7: error: <sphere> [0] has '0' as <radius>, which must be greater than 0\n");
 }
 
-TEST_CASE("all problems are told at once, and warnings alone are none") {
+TEST_CASE("all problems are reported at once, and warnings alone are none") {
   SceneDescription scene = good_scene();
   sphere(scene).parameters.radius = 0;
   sphere(scene).material.index = 9;

@@ -26,8 +26,8 @@ constexpr const char* aov_units_name = "raytrace:aovUnits";
 constexpr const char* whole_name = "raytrace:whole";
 constexpr const char* partial_name = "raytrace:partial";
 constexpr const char* transparent_name = "raytrace:transparent";  // only where it is
-constexpr const char* frame_name = "raytrace:frame";          // only where one was asked for
-constexpr const char* variables_name = "raytrace:variables";  // only where there are any
+constexpr const char* frame_name = "raytrace:frame";              // only where one was asked for
+constexpr const char* variables_name = "raytrace:variables";      // only where there are any
 
 template <class Value>
 Value needed(const ExrReader& piece, const char* name) {
@@ -137,7 +137,8 @@ std::vector<ImageAttribute> identity_attributes(const PieceIdentity& identity) {
 
 std::map<std::string, std::string> picture_attributes(const PieceIdentity& identity, bool any_samples) {
   std::map<std::string, std::string> texts = {{seed_name, std::to_string(identity.film.seed)}};
-  for (const char* const name : {scene_name, first_sample_name, centered_name, whole_name, transparent_name}) texts[name];
+  for (const char* const name : {scene_name, first_sample_name, centered_name, whole_name, transparent_name})
+    texts[name];
   for (const ImageAttribute& attribute : identity_attributes(identity)) {
     const auto wanted = texts.find(attribute.name);
     if (wanted == texts.end()) continue;
