@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "raytrace/display/display_server.h"
-#include "raytrace/film/film.h"
+#include "raytrace/film/aov_settings.h"
+#include "raytrace/film/region.h"
+#include "raytrace/film/tiles.h"
 
 namespace raytrace {
 
@@ -45,11 +47,6 @@ struct Resolution {
 /// "1920x1080"
 Resolution resolution(const std::string& text);
 
-/// Part `index` of `count`.
-struct Tile {
-  int index = 0, count = 1;
-};
-
 /// "2/8": the third of eight.
 Tile tile(const std::string& text);
 
@@ -57,7 +54,7 @@ struct PixelPlace {
   int x = 0, y = 0;
 };
 
-/// "x,y", from the top left.
+/// "x,y", from the top left; beyond the picture, perhaps.
 PixelPlace pixel_place(const std::string& text);
 
 /// "90", "90s", "10m", "1h30m": in seconds.
@@ -66,7 +63,7 @@ double duration(const std::string& text);
 /// A finite number above 0.
 double scale(const std::string& text);
 
-/// "x0,y0,x1,y1", at least one pixel; it may reach outside of the picture.
+/// "x0,y0,x1,y1", at least one pixel; it may reach beyond the picture.
 Region crop(const std::string& text);
 
 /// "host:port", "[::1]:port", or a host alone, for tev's own port

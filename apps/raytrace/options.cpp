@@ -134,7 +134,8 @@ void define_options(CLI::App& parser, Options& options) {
     options.scale = scale(text);
   })->group("Picture");
   add(parser, "--crop", "x0,y0,x1,y1",
-      "Only these pixels: origin at the top left, x1 and y1 exclusive; an EXR says where in the whole picture they are",
+      "Only these pixels: origin at the top left, x1 and y1 exclusive; they may reach beyond the picture; an EXR says "
+      "where in the whole picture they are",
       [&](const std::string& text) { options.crop = crop(text); })
       ->group("Picture");
   add(parser, "--tile", "I/N",

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "raytrace/film/film.h"
+#include "raytrace/film/tiles.h"
 #include "raytrace/output/exr_reader.h"
 #include "raytrace/output/image_file.h"
 #include "raytrace/render/renderer.h"
@@ -28,15 +29,19 @@ Provenance provenance_of(const std::string& software, const Scene& scene, const 
 struct PieceIdentity {
   Provenance provenance;
   FilmSettings film;
-  Region whole;          ///< the region of the picture that this piece is a part of
-  bool partial = false;  ///< stopped before all its samples were taken; pixels may have different numbers of them
+  Region whole;              ///< the region of the picture that this piece is a part of
+  std::optional<Tile> tile;  ///< the part of it; none: all
+  bool partial = false;      ///< stopped before all its samples were taken; pixels may have different numbers of them
 };
 
 /// All of it that ImageMetadata has no member for.
 std::vector<ImageAttribute> identity_attributes(const PieceIdentity& identity);
 
-/// Throws InputError if it is no picture of ours.
+/// Throws InputError if it is no picture of ours, or holds what no picture of ours can.
 PieceIdentity identity_of(const ExrReader& piece);
+
+/// Throws InputError if the file has other channels than these, in whatever order; the first of which it names.
+void refuse_other_channels(const ExrReader& piece, const std::vector<Channel>& wanted);
 
 /// What must not differ between pictures of which one continues or completes another, and does: "the scene",
 /// "the instruction set (x86-64-v3, not x86-64-v4): pin one with --isa"; none if all is the same. Regions and sample
