@@ -56,8 +56,8 @@ std::string resume_refusal(const std::string& file, const SamplePiece& piece) {
 void check_refused(const SamplePiece& kind, const Edit& edit, const std::string& text) {
   const TemporaryFolder folder;
   SamplePiece left = kind, right = kind;
-  left.tile = Tile{0, 2};
-  right.tile = Tile{1, 2};
+  left.tile = raytrace::Tile{0, 2};
+  right.tile = raytrace::Tile{1, 2};
   write_piece(folder.file("left.exr"), left);
   write_piece(folder.file("right.exr"), right);
   REQUIRE(refusal(folder, {"left.exr", "right.exr"}) == "");
@@ -91,7 +91,7 @@ ExrChannel& channel(std::vector<ExrChannel>& channels, const std::string& name) 
   throw std::runtime_error("no channel " + name);
 }
 
-constexpr int largest = std::numeric_limits<int>::max(), least = std::numeric_limits<int>::min();
+constexpr int highest = std::numeric_limits<int>::max(), lowest = std::numeric_limits<int>::min();
 
 }  // namespace
 
@@ -108,8 +108,8 @@ TEST_CASE("a piece whose windows are not its own is refused") {
   check_refused(data(12, 0, 22, 17), "data window");
   check_refused(data(0, 0, 65535, 65535), "data window");
   check_refused(data(23, 0, 12, 17), "data window");
-  check_refused(data(least, least, largest, largest), "data window");
-  check_refused(data(largest, 0, largest, 17), "data window");
+  check_refused(data(lowest, lowest, highest, highest), "data window");
+  check_refused(data(highest, 0, highest, 17), "data window");
   const auto display = [](int x0, int y0, int x1, int y1) {
     return [=](ExrBytes& exr) { set_window(exr, "displayWindow", {x0, y0, x1, y1}); };
   };
@@ -118,7 +118,7 @@ TEST_CASE("a piece whose windows are not its own is refused") {
   check_refused(display(0, 0, 65535, 65535), "its display window of 65536 x 65536 pixels");
   check_refused(display(0, 0, 65536, 0), "its display window of 65537 x 1 pixels");
   check_refused(display(0, 0, -1, 17), "its display window of 0 x 18 pixels");
-  check_refused(display(0, 0, largest, largest), "its display window");
+  check_refused(display(0, 0, highest, highest), "its display window");
   check_refused(display(0, 0, 3, 3), "data window");
   check_refused([](ExrBytes& exr) { exr.remove("dataWindow"); }, "no data window");
   check_refused([](ExrBytes& exr) { exr["dataWindow"].type = "box2f"; }, "no data window");
@@ -146,10 +146,10 @@ TEST_CASE("a piece whose numbers are none of this program's is refused") {
   const auto text = [](const char* name, const std::string& value) {
     return [=](ExrBytes& exr) { exr.set_text(name, value); };
   };
-  for (const int samples : {-1, 0, least}) check_refused(number("raytrace:samples", samples), "raytrace:samples");
+  for (const int samples : {-1, 0, lowest}) check_refused(number("raytrace:samples", samples), "raytrace:samples");
   check_refused(
       [](ExrBytes& exr) {
-        exr.set_int("raytrace:samples", largest);
+        exr.set_int("raytrace:samples", highest);
         exr.set_text("raytrace:firstSample", "1");
       },
       "raytrace:samples");
@@ -159,7 +159,7 @@ TEST_CASE("a piece whose numbers are none of this program's is refused") {
     check_refused(text("raytrace:seed", seed), "raytrace:seed");
   for (const int centered : {2, -1, 1}) check_refused(number("raytrace:centered", centered), "raytrace:centered");
   for (const int partial : {2, -1}) check_refused(number("raytrace:partial", partial), "raytrace:partial");
-  for (const int unit : {-193, 97, 1000, least, largest})
+  for (const int unit : {-193, 97, 1000, lowest, highest})
     check_refused(number("raytrace:unitExponent", unit), "raytrace:unitExponent");
   for (const char* const aovs : {"", "dept", "depth,", ",depth", "depth,depth", "position,depth"})
     check_refused(text("raytrace:aovs", aovs), "");
@@ -212,7 +212,7 @@ TEST_CASE("an EXR file of another kind is refused") {
     check_refused([=](ExrBytes& exr) { exr["lineOrder"].value[0] = static_cast<char>(order); }, "");
   for (const std::uint32_t version : {1U, 3U, 0x202U, 0x802U, 0x1002U, 0x1802U, 0x80000002U})
     check_refused([=](ExrBytes& exr) { exr.version = version; }, "this program writes none");
-  const std::string huge_tiles = little_endian(std::vector{largest, largest}) + std::string(1, '\0');
+  const std::string huge_tiles = little_endian(std::vector{highest, highest}) + std::string(1, '\0');
   check_refused([&](ExrBytes& exr) { exr.set("tiles", "tiledesc", huge_tiles); }, "");
   check_refused([](ExrBytes& exr) { exr.set_text("type", "deepscanline"); }, "");
   // What a few bytes claim to be.
@@ -239,6 +239,22 @@ TEST_CASE("a header that claims more bytes than the file has is refused") {
   }
 }
 
+TEST_CASE("a header whose values have other sizes than their types is refused") {
+  for (const char* const name : {"raytrace:samples", "worldToNDC", "chromaticities", "dataWindow", "compression",
+                                 "pixelAspectRatio", "screenWindowCenter", "channels"})
+    for (const bool longer : {false, true})
+      check_refused(
+          [=](ExrBytes& exr) {
+            std::string& value = exr[name].value;
+            longer ? value.push_back('\0') : value.pop_back();
+          },
+          "");
+  check_refused([](ExrBytes& exr) { exr.set("names", "stringvector", little_endian(0x7fffffffU)); },
+                "its header has names of the type stringvector");
+  check_refused([](ExrBytes& exr) { exr.set("small", "preview", little_endian({30000, 30000})); },
+                "of the type preview");
+}
+
 TEST_CASE("sums that no samples can have are refused") {
   SamplePiece kind;
   kind.samples = {3, 5};
@@ -246,10 +262,10 @@ TEST_CASE("sums that no samples can have are refused") {
   kind.compressed = false;
   SamplePiece before = kind;
   before.samples = {0, 3};
-  before.tile = Tile{1, 2};
+  before.tile = raytrace::Tile{1, 2};
   const auto refusal_of = [&](const Edit& edit, const Edit& edit_before) {
     const TemporaryFolder folder;
-    kind.tile = Tile{1, 2};
+    kind.tile = raytrace::Tile{1, 2};
     for (const auto& [name, piece, change] : {std::tuple{"a.exr", before, edit_before}, {"b.exr", kind, edit}}) {
       write_piece(folder.file(name), piece);
       ExrBytes exr = exr_of(folder.file(name));
@@ -313,7 +329,7 @@ TEST_CASE("a piece that was stopped is told with the options that make it") {
     CHECK(refusal(folder, {"piece.exr"}, true) == "");
   };
   check("");
-  piece.tile = Tile{1, 4};
+  piece.tile = raytrace::Tile{1, 4};
   check("--tile 1/4 ");
   piece.samples = {8, 4};
   check("--tile 1/4 --sample-offset 8 ");

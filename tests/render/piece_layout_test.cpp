@@ -118,7 +118,7 @@ TEST_CASE("what is missing is told with the options that render it") {
   using Lines = std::vector<std::string>;
   const Region whole{-8, 0, 56, 48};
   const auto tile = [&](int index, int count, std::uint64_t first, std::uint64_t last) {
-    return PieceExtent{"piece.exr", tile_of(whole, index, count), first, last, Tile{index, count}};
+    return PieceExtent{"piece.exr", tile_of(whole, index, count), first, last, raytrace::Tile{index, count}};
   };
   const PieceExtent all{"all.exr", whole, 0, 3}, rest{"rest.exr", whole, 5, 9};
   CHECK(missing_parts({tile(0, 3, 0, 4), tile(1, 3, 0, 4)}, {whole, 4}) ==

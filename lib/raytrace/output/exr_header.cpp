@@ -2,6 +2,7 @@
 
 #include <array>
 #include <bit>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -64,6 +65,24 @@ std::string read_text(Bytes& bytes, std::uint32_t size) {
   return text;
 }
 
+/// OpenEXR reads as many bytes as a value of the type has, or as it begins to say, whatever size its header gives:
+/// where both differ, what follows is anything.
+void refuse_other_size(const std::string& name, const std::string& type, std::uint32_t size) {
+  static const std::map<std::string, std::uint32_t> sizes = {
+      {"box2f", 16},      {"box2i", 16},   {"chromaticities", 32},
+      {"compression", 1}, {"double", 8},   {"envmap", 1},
+      {"float", 4},       {"int", 4},      {"keycode", 28},
+      {"lineOrder", 1},   {"m33f", 36},    {"m44f", 64},
+      {"rational", 8},    {"timecode", 8}, {"v2f", 8},
+      {"v2i", 8},         {"v3f", 12},     {"v3i", 12}};
+  if (type == "string" || type == "chlist") return;
+  const auto found = sizes.find(type);
+  if (found == sizes.end())
+    throw InputError("its header has " + printable(name) + " of the type " + printable(type) +
+                     ", of which this program knows none");
+  if (found->second != size) throw InputError("its header is damaged at " + printable(name));
+}
+
 struct Window {
   std::array<std::int64_t, 4> edges{};  ///< the last column and row are in it
   std::int64_t width() const { return edges[2] - edges[0] + 1; }
@@ -118,13 +137,17 @@ PictureExtent check_exr_header(std::FILE* file) {
     const std::uint32_t size = read_number(bytes);
     if (!names.insert(name).second) throw InputError("its header has " + printable(name) + " twice");
     if (size > bytes.left()) throw InputError("it is not whole: its header ends within " + printable(name));
+    if (name == "tiles") throw InputError(other_kind);
+    refuse_other_size(name, type, size);
     const std::uint64_t left_behind = bytes.left() - size;
-    const bool is_window = type == "box2i" && size == 16;
+    const bool is_window = type == "box2i";
     if (name == "displayWindow" && is_window) display = read_window(bytes);
     if (name == "dataWindow" && is_window) data = read_window(bytes);
-    if (name == "channels") refuse_doubled_channels(bytes);
-    if (name == "tiles" || (name == "type" && read_text(bytes, size) != "scanlineimage")) throw InputError(other_kind);
-    if (bytes.left() < left_behind) throw InputError("its header is damaged at " + printable(name));
+    if (name == "type" && read_text(bytes, size) != "scanlineimage") throw InputError(other_kind);
+    if (type == "chlist") {
+      refuse_doubled_channels(bytes);
+      if (bytes.left() != left_behind) throw InputError("its header is damaged at " + printable(name));
+    }
     bytes.pass(bytes.left() - left_behind);
   }
   if (!display || !data) throw InputError("its header has no display window, or no data window");
