@@ -91,10 +91,11 @@ bool outputs_are_complete(const SceneDescription& description, const Region& who
   identity.provenance.scene = scene_hash(description, options.threads);
   identity.film.seed = options.seed;
   identity.film.transparent = options.transparent;
+  identity.film.extent = {description.viewplane.hres, description.viewplane.vres, region};
   identity.film.samples = sample_range(description.viewplane, options);
   identity.whole = whole;
   WantedPicture wanted;
-  wanted.extent = {description.viewplane.hres, description.viewplane.vres, region};
+  wanted.extent = identity.film.extent;
   wanted.channels = color_channels(options.full_float);
   for (Channel& channel : aov_channels(options.aovs)) wanted.channels.push_back(std::move(channel));
   if (options.sample_offset)
