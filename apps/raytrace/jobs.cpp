@@ -120,7 +120,9 @@ int guarded(const std::function<int()>& action) {
   try {
     return action();
   } catch (const UsageError& error) {
-    tell_error(error.what(), {"Try 'raytrace --help'."});
+    std::vector<std::string> more_lines = error.more_lines();
+    more_lines.emplace_back("Try 'raytrace --help'.");
+    tell_error(error.what(), more_lines);
     return exit_code::usage;
   } catch (const SizeError& error) {  // what was asked for cannot be, and nothing was rendered for it
     tell_error(error.what());

@@ -71,7 +71,7 @@ void refuse_clashes(const std::vector<std::string>& names, const MergeSettings& 
 
 MergeOptions parsed(int argc, const char* const* argv) {
   constexpr const char* no_pieces = "no pieces given; for example: raytrace merge tile.*.exr -o whole.exr";
-  if (argc == 1) throw UsageError(no_pieces + ("\n" + short_help(merge_manual)));
+  if (argc == 1) throw UsageError(no_pieces, short_help(merge_manual));
   MergeOptions options;
   OptionParser parser;
   define_merge_options(parser, options);

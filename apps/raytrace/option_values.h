@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "raytrace/display/display_server.h"
@@ -16,7 +17,14 @@ namespace raytrace {
 /// A command line that makes no sense: exit code 2.
 class UsageError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  /// more_lines: what to type instead, where that takes lines of its own.
+  explicit UsageError(const std::string& text, std::vector<std::string> more_lines = {})
+      : std::runtime_error(text), more_lines_(std::move(more_lines)) {}
+
+  const std::vector<std::string>& more_lines() const { return more_lines_; }
+
+ private:
+  std::vector<std::string> more_lines_;
 };
 
 using Names = std::vector<std::string>;

@@ -200,7 +200,7 @@ void define_options(OptionParser& parser, Options& options) {
 }
 
 Options parse_options(int argc, const char* const* argv) {
-  if (argc == 1) throw UsageError(no_scene + ("\n" + short_help(render_manual)));
+  if (argc == 1) throw UsageError(no_scene, short_help(render_manual));
   Options options;
   OptionParser parser;
   define_options(parser, options);
