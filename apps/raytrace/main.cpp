@@ -1,7 +1,6 @@
 // The command: options -> for each frame of each scene: load -> build -> render -> write.
 #include <algorithm>
 #include <filesystem>
-#include <iostream>
 
 #include "about.h"
 #include "exit_code.h"
@@ -11,20 +10,15 @@
 #include "options.h"
 #include "picture_render.h"
 #include "picture_settings.h"
+#include "process_setup.h"
 #include "raytrace/output/complete_picture.h"
+#include "run_checks.h"
 #include "signals.h"
 #include "stages.h"
 
 namespace raytrace {
 
 namespace {
-
-int print(const std::string& text) {
-  std::cout << text << std::flush;
-  if (std::cout) return exit_code::done;
-  tell_error("cannot write to standard output");
-  return exit_code::failed;
-}
 
 /// A checkpoint that is still there tells that they are not, whatever their formats can.
 bool outputs_are_complete(const Options& options) {
@@ -40,18 +34,27 @@ int run(const Options& options, Progress& progress) {
     return exit_code::done;
   }
   const auto start = PictureRender::Clock::now();
-  check_outputs(options);
+  {
+    const StopSignalsWait no_temporary_file_stays;
+    check_outputs(options);
+  }
   Statistics statistics;
   std::optional<SceneDescription> description = load(options, statistics);
   if (!description) return exit_code::failed;
   description->viewplane = asked_viewplane(description->viewplane, options);
   const Region whole = asked_whole(description->viewplane, options);
   const Region region = asked_region(whole, options);
-  if (options.print_scene) return print(print_scene(*description));
-  if (options.validate) return options.quiet ? exit_code::done : print(summary(*description) + "\n");
+  if (options.print_scene || options.validate) {
+    if (options.print_scene) print(print_scene(*description));
+    if (!options.print_scene && !options.quiet) print(summary(*description) + "\n");
+    return exit_code::done;
+  }
 
   const std::unique_ptr<const Scene> scene = build(*description, options, statistics);
-  if (options.pixel) return print(pixel_text(*scene, *description, region, options));
+  if (options.pixel) {
+    print_pixel(*scene, *description, region, options);
+    return exit_code::done;
+  }
   describe(*description, region, options, statistics);
   const Signals signals;
   const Ending ending =
@@ -69,15 +72,20 @@ int run(const Options& options, Progress& progress) {
 
 int main(int argc, char** argv) {
   using namespace raytrace;
-  return guarded([&] {
+  const auto program = [&] {
     if (is_merge_command(argc, argv)) return merge_command(argc, argv);
     const Options options = parse_options(argc, argv);
     set_verbosity(options.verbosity());
     if (!options.log_file.empty()) log_to(options.log_file);
     tell_program_in(options.progress);
-    if (const auto answer = about_program(options)) return print(*answer);
-    ignore_picture_requests();
+    if (const auto answer = about_program(options)) {
+      print(*answer);
+      return exit_code::done;
+    }
     Progress progress(options.progress);
-    return run_all(Jobs(options), [&](const Options& job) { return run(job, progress); });
-  });
+    const Jobs jobs(options);
+    const RunChecks checks(jobs);
+    return run_all(jobs, [&](const Options& job) { return checks.forbid(job) ? exit_code::failed : run(job, progress); });
+  };
+  return run_in_prepared_process([&] { return guarded(program); });
 }

@@ -1,7 +1,6 @@
 #include "merge_command.h"
 
 #include <fstream>
-#include <iostream>
 #include <sstream>
 #include <string_view>
 
@@ -11,6 +10,7 @@
 #include "messages.h"
 #include "option_parser.h"
 #include "raytrace/render/renderer.h"
+#include "signals.h"
 
 namespace raytrace {
 
@@ -101,13 +101,19 @@ int merge_command(int argc, const char* const* argv) {
     CLI::App parser;
     MergeOptions unused;
     define_merge_options(parser, unused);
-    std::cout << help_text(merge_manual, parser) << std::flush;
-    return std::cout ? exit_code::done : exit_code::failed;
+    print(help_text(merge_manual, parser));
+    return exit_code::done;
   }
   set_verbosity(options.quiet ? Verbosity::errors : options.verbose ? Verbosity::steps : Verbosity::warnings);
   obey_group_memory_limit(thread_count(options.settings.threads));
+  const Signals signals;
   try {
-    tell(merge_pieces(options.settings));
+    const MergeReport report = merge_pieces(options.settings, [&] { return signals.stop_signal() != 0; });
+    if (report.stopped) {
+      tell_note("stopped by " + signals.stop_signal_name() + ": nothing written");
+      return exit_code::stopped + signals.stop_signal();
+    }
+    tell(report);
   } catch (const MergeError& error) {
     std::istringstream problems(error.what());
     for (std::string problem; std::getline(problems, problem);) tell_error(problem);

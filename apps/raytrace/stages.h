@@ -12,8 +12,12 @@
 
 namespace raytrace {
 
-/// Throws OutputError or UsageError for what would fail at the end of a run.
+/// Throws OutputError or UsageError for what would fail at the end of a render. All of it:
 void check_outputs(const Options& options);
+/// What depends on the outputs' formats alone.
+void check_formats(const Options& options);
+/// A checkpoint that is there without --resume.
+void check_checkpoint(const Options& options);
 
 /// Reads the scene and tells what is wrong with it; none if that is an error.
 std::optional<SceneDescription> load(const Options& options, Statistics& statistics);
@@ -24,9 +28,8 @@ std::unique_ptr<const Scene> build(const SceneDescription& description, const Op
 void describe(const SceneDescription& description, const Region& region, const Options& options,
               Statistics& statistics);
 
-/// The pixel's samples, one a line, and their mean.
-std::string pixel_text(const Scene& scene, const SceneDescription& description, const Region& pixel,
-                       const Options& options);
+/// Prints the pixel's samples, each in a line as soon as it is there, and their mean.
+void print_pixel(const Scene& scene, const SceneDescription& description, const Region& pixel, const Options& options);
 
 /// Completes the statistics, and tells or writes them if they were asked for.
 void report(Statistics& statistics, const Options& options);

@@ -30,7 +30,7 @@ bool holds_halves(const std::string& file, const ImageFileSettings& settings) {
 
 bool holds_data(const std::string& file) { return make_image_encoder(file, {})->holds_data(); }
 
-void check_writable(const std::string& file, const ImageFileSettings& settings) {
+void check_format(const std::string& file, const ImageFileSettings& settings) {
   constexpr int edge = 64;  // JPEG 2000 takes none below 32
   const PictureExtent extent{edge, edge, {0, 0, edge, edge}};
   const std::vector<Channel> channels = color_channels(settings.full_float);
@@ -40,6 +40,10 @@ void check_writable(const std::string& file, const ImageFileSettings& settings) 
   encoder->begin(extent, channels, {}, memory.get());
   encoder->write(black);
   encoder->finish();
+}
+
+void check_writable(const std::string& file, const ImageFileSettings& settings) {
+  check_format(file, settings);
   const AtomicFile made_and_removed(file);
 }
 

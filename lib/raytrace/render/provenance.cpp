@@ -7,6 +7,7 @@
 #include "raytrace/aovs/aov_selection.h"
 #include "raytrace/description/quoted.h"
 #include "raytrace/description/scene_hash.h"
+#include "raytrace/film/samples_done.h"
 
 namespace raytrace {
 
@@ -25,6 +26,8 @@ constexpr const char* aovs_name = "raytrace:aovs";  // only where there are any
 constexpr const char* aov_units_name = "raytrace:aovUnits";
 constexpr const char* whole_name = "raytrace:whole";
 constexpr const char* partial_name = "raytrace:partial";
+constexpr const char* least_samples_name = "raytrace:leastSamples";  // only where it is partial
+constexpr const char* most_samples_name = "raytrace:mostSamples";
 
 template <class Value>
 Value needed(const ExrReader& piece, const char* name) {
@@ -106,6 +109,15 @@ std::vector<ImageAttribute> identity_attributes(const PieceIdentity& identity) {
     attributes.push_back({aov_units_name, joined(units)});
   }
   if (identity.partial) attributes.push_back({partial_name, 1});
+  return attributes;
+}
+
+std::vector<ImageAttribute> partial_attributes(PieceIdentity identity, const Film& film) {
+  identity.partial = true;
+  std::vector<ImageAttribute> attributes = identity_attributes(identity);
+  const SamplesDone done = samples_done(film);
+  attributes.push_back({least_samples_name, static_cast<int>(done.least)});
+  attributes.push_back({most_samples_name, static_cast<int>(done.most)});
   return attributes;
 }
 

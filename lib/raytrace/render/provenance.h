@@ -35,6 +35,10 @@ struct PieceIdentity {
 /// All of it that ImageMetadata has no member for.
 std::vector<ImageAttribute> identity_attributes(const PieceIdentity& identity);
 
+/// Of a picture whose render has not ended: marked as partial, with the fewest and the most samples that its pixels
+/// have so far.
+std::vector<ImageAttribute> partial_attributes(PieceIdentity identity, const Film& film);
+
 /// Throws InputError if it is no picture of ours.
 PieceIdentity identity_of(const ExrReader& piece);
 
