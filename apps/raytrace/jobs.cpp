@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <new>
 #include <system_error>
+#include <typeinfo>
 #include <unordered_set>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "frame_numbers.h"
 #include "memory_limit.h"
 #include "messages.h"
+#include "raytrace/memory/out_of_memory.h"
 
 namespace raytrace {
 
@@ -80,7 +82,8 @@ std::vector<std::string> Jobs::names(const std::vector<std::size_t>& some) const
     const std::size_t scene_number = some[k] / frame_count();
     std::vector<int> numbers;
     const std::size_t first = some[k];
-    for (; k < some.size() && some[k] / frame_count() == scene_number; ++k) numbers.push_back(frame(some[k]).value_or(0));
+    for (; k < some.size() && some[k] / frame_count() == scene_number; ++k)
+      numbers.push_back(frame(some[k]).value_or(0));
     names.push_back(numbers.size() == 1 ? name(first) : scenes_[scene_number] + ", frames " + frames_text(numbers));
   }
   return names;
@@ -123,23 +126,27 @@ void tell_new_error(const std::string& text) {
 }  // namespace
 
 int guarded(const std::function<int()>& action) {
+  const auto tell_no_memory = [](const std::string& more) {
+    tell_new_error("out of memory" + memory_limit_text() + more);
+    return exit_code::out_of_memory;
+  };
   try {
     return action();
   } catch (const UsageError& error) {
     tell_new_error(std::string(error.what()) + "\nTry 'raytrace --help'.");
     return exit_code::usage;
   } catch (const std::bad_alloc&) {
-    tell_new_error("out of memory" + memory_limit_text());
-    return exit_code::out_of_memory;
+    return tell_no_memory("");
   } catch (const std::system_error& error) {
-    // Of a thread that could not be started, and of whatever else the system has no memory for.
+    // Mostly of a thread that could not be started.
     if (error.code() != std::errc::resource_unavailable_try_again && error.code() != std::errc::not_enough_memory) {
       tell_new_error(error.what());
       return exit_code::failed;
     }
-    tell_new_error(std::string("out of memory, or of threads: ") + error.what() + "; fewer threads: -t N");
-    return exit_code::out_of_memory;
+    return tell_no_memory(std::string(" or of threads, of which -t N takes fewer: ") + error.what());
   } catch (const std::exception& error) {
+    const bool is_library_error = typeid(error) == typeid(std::runtime_error);  // oneTBB's; others bear names of files
+    if (is_library_error && says_out_of_memory(error.what())) return tell_no_memory(std::string(": ") + error.what());
     tell_new_error(error.what());
     return exit_code::failed;
   }

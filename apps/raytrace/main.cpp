@@ -15,6 +15,7 @@
 #include "run_checks.h"
 #include "signals.h"
 #include "stages.h"
+#include "thread_limit.h"
 
 namespace raytrace {
 
@@ -74,7 +75,7 @@ int main(int argc, char** argv) {
   using namespace raytrace;
   const auto program = [&] {
     if (is_merge_command(argc, argv)) return merge_command(argc, argv);
-    const Options options = parse_options(argc, argv);
+    Options options = parse_options(argc, argv);
     set_verbosity(options.verbosity());
     if (!options.log_file.empty()) log_to(options.log_file);
     tell_program_in(options.progress);
@@ -82,10 +83,12 @@ int main(int argc, char** argv) {
       print(*answer);
       return exit_code::done;
     }
+    options.threads = threads_with_room(options.threads);
     Progress progress(options.progress);
     const Jobs jobs(options);
     const RunChecks checks(jobs);
-    return run_all(jobs, [&](const Options& job) { return checks.forbid(job) ? exit_code::failed : run(job, progress); });
+    return run_all(jobs,
+                   [&](const Options& job) { return checks.forbid(job) ? exit_code::failed : run(job, progress); });
   };
   return run_in_prepared_process([&] { return guarded(program); });
 }

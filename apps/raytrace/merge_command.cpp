@@ -11,6 +11,7 @@
 #include "option_parser.h"
 #include "raytrace/render/renderer.h"
 #include "signals.h"
+#include "thread_limit.h"
 
 namespace raytrace {
 
@@ -96,7 +97,7 @@ void define_merge_options(CLI::App& parser, MergeOptions& options) {
 bool is_merge_command(int argc, const char* const* argv) { return argc > 1 && std::string_view(argv[1]) == "merge"; }
 
 int merge_command(int argc, const char* const* argv) {
-  const MergeOptions options = parsed(argc - 1, argv + 1);  // "merge" is the program's name here
+  MergeOptions options = parsed(argc - 1, argv + 1);  // "merge" is the program's name here
   if (options.help) {
     CLI::App parser;
     MergeOptions unused;
@@ -105,7 +106,8 @@ int merge_command(int argc, const char* const* argv) {
     return exit_code::done;
   }
   set_verbosity(options.quiet ? Verbosity::errors : options.verbose ? Verbosity::steps : Verbosity::warnings);
-  obey_group_memory_limit(thread_count(options.settings.threads));
+  options.settings.threads = threads_with_room(thread_count(options.settings.threads));
+  obey_group_memory_limit(options.settings.threads);
   const Signals signals;
   try {
     const MergeReport report = merge_pieces(options.settings, [&] { return signals.stop_signal() != 0; });

@@ -6,7 +6,8 @@
 namespace raytrace {
 
 /// Ends the process with the exit code of `program`, which runs in a process where
-/// - files 0 to 2 are open: if one was closed, the next file that is opened, a picture perhaps, would get its number and
+/// - files 0 to 2 are open: if one was closed, the next file that is opened, a picture perhaps, would get its number
+/// and
 ///   whatever is printed;
 /// - writing to a pipe that nobody reads, or beyond the limit on a file's size, is an error and no signal
 ///   (SIGPIPE, SIGXFSZ), and SIGUSR1, which asks a render for its picture, ends nothing that is no render;

@@ -16,9 +16,7 @@ namespace raytrace {
 namespace {
 
 /// With a "/" at its end, so that none has the name of a scene.
-std::string folder_of(const std::string& file) {
-  return (std::filesystem::path(file).parent_path() / "").string();
-}
+std::string folder_of(const std::string& file) { return (std::filesystem::path(file).parent_path() / "").string(); }
 
 /// Throws OutputError.
 void try_to_write(const std::string& file) { const AtomicFile made_and_removed(file); }
@@ -71,7 +69,8 @@ bool RunChecks::forbid(const Options& job) const {
   if (bad_.empty()) return false;
   if (bad_.contains(job.scene)) return true;
   const std::vector<std::string> files = job.renders() ? job.files() : std::vector<std::string>();
-  return std::any_of(files.begin(), files.end(), [&](const std::string& file) { return bad_.contains(folder_of(file)); });
+  return std::any_of(files.begin(), files.end(),
+                     [&](const std::string& file) { return bad_.contains(folder_of(file)); });
 }
 
 }  // namespace raytrace

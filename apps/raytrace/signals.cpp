@@ -42,8 +42,8 @@ void restore_defaults() {
   }
 }
 
-/// Beyond the limit the system sends one for each second that the processors work, also while the checkpoint is written.
-/// A SIGXCPU from anybody else is a second signal.
+/// Beyond the limit the system sends one for each second that the processors work, also while the checkpoint is
+/// written. A SIGXCPU from anybody else is a second signal.
 void on_later_second(int number, siginfo_t* info, void* /*context*/) {
   if (info->si_code == SI_KERNEL) return;
   std::signal(number, SIG_DFL);

@@ -14,6 +14,8 @@
 #include <system_error>
 #include <vector>
 
+#include "raytrace/memory/out_of_memory.h"
+
 namespace raytrace {
 namespace {
 
@@ -42,7 +44,8 @@ bool is_complete_exr(const std::string& file) {
       read_last_row(picture, part);
     }
     return true;
-  } catch (const std::exception&) {
+  } catch (const std::exception& exception) {
+    rethrow_out_of_memory(exception);
     return false;
   }
 }

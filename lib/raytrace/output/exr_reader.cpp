@@ -15,6 +15,8 @@
 #include <cerrno>
 #include <system_error>
 
+#include "raytrace/memory/out_of_memory.h"
+
 namespace raytrace {
 
 namespace {
@@ -81,9 +83,8 @@ ExrReader::ExrReader(const std::string& file) : file_(file) {
     if (!open_->exr.isComplete()) refuse(file, "it is not whole");
   } catch (const InputError&) {
     throw;
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception&) {
+  } catch (const std::exception& exception) {
+    rethrow_out_of_memory(exception);
     refuse(file, "it is not an EXR file, or not whole");
   }
   const Imf::Header& header = open_->exr.header();
@@ -120,9 +121,8 @@ ImageBand ExrReader::read(const std::vector<Channel>& channels, int y0, int y1) 
   try {
     open_->exr.setFrameBuffer(buffer);
     open_->exr.readPixels(y0, y1 - 1);
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception&) {
+  } catch (const std::exception& exception) {
+    rethrow_out_of_memory(exception);
     refuse(file_, "its pixels are damaged");
   }
   return band;

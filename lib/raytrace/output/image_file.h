@@ -69,8 +69,8 @@ bool holds_halves(const std::string& file, const ImageFileSettings& settings);
 /// Whether files of this name hold channels besides colour. Throws OutputError as holds_float() does.
 bool holds_data(const std::string& file);
 
-/// Throws OutputError if files of this name cannot be written for their format: no known extension, a bit depth that the
-/// format lacks.
+/// Throws OutputError if files of this name cannot be written for their format: no known extension, a bit depth that
+/// the format lacks.
 void check_format(const std::string& file, const ImageFileSettings& settings);
 
 /// Throws OutputError for that, too, and if the file itself cannot be written: no such folder, no permission. Leaves no

@@ -37,8 +37,8 @@ class MergeError : public std::runtime_error {
 
 /// Checks that the pieces are of one scene, with the same settings, version and instruction set, and cover the picture
 /// once, without a gap; then writes it, bit for bit as one render of the whole would have. A band of rows is in memory
-/// at a time, and a piece is open only while it is read. Ends early, and leaves all files as they were, once `stop` says
-/// so, which is asked before each piece and band. Throws MergeError, InputError or OutputError.
+/// at a time, and a piece is open only while it is read. Ends early, and leaves all files as they were, once `stop`
+/// says so, which is asked before each piece and band. Throws MergeError, InputError or OutputError.
 MergeReport merge_pieces(const MergeSettings& settings, const std::function<bool()>& stop = {});
 
 }  // namespace raytrace

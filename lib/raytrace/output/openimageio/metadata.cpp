@@ -45,8 +45,8 @@ void add_metadata(OIIO::ImageSpec& spec, const std::string& oiio_name, const Ima
     for (const ImageAttribute& attribute : metadata.attributes)
       spec.attribute(attribute.name, std::visit([](const auto& value) { return text_of(value); }, attribute.value));
   } else {
-    std::string description = "scene " + metadata.scene_file + ", " + std::to_string(metadata.samples) +
-                              " samples a pixel, seed " + seed;
+    std::string description =
+        "scene " + metadata.scene_file + ", " + std::to_string(metadata.samples) + " samples a pixel, seed " + seed;
     for (const ImageAttribute& attribute : metadata.attributes)
       if (attribute.name == "raytrace:partial") description += ", partial";
     spec.attribute("ImageDescription", description);

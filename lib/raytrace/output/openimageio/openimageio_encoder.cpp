@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <new>
 #include <system_error>
 #include <vector>
 
 #include "raytrace/description/nearest_name.h"
 #include "raytrace/description/quoted.h"
+#include "raytrace/memory/out_of_memory.h"
 #include "raytrace/output/openimageio/metadata.h"
 #include "raytrace/output/openimageio_module.h"
 
@@ -115,7 +117,10 @@ OpenImageIOEncoder::OpenImageIOEncoder(std::string file, const std::string& exte
          suggestion(extension));
   }
   pixels_ = pixel_format(writer_->format_name(), extension, settings);
-  OIIO::attribute("threads", settings.threads);  // a pool of the whole process
+  // A pool of the whole process; where it cannot be started, the process crashes at its end. TIFF alone has work for
+  // it.
+  constexpr int most_threads = 8;
+  OIIO::attribute("threads", std::min(settings.threads, most_threads));
 }
 
 OpenImageIOEncoder::~OpenImageIOEncoder() = default;
@@ -186,6 +191,7 @@ void OpenImageIOEncoder::guard(const Action& action) {
 void OpenImageIOEncoder::check(bool done) const {
   if (done && !writer_->has_error()) return;
   const std::string reason = writer_->geterror();
+  if (says_out_of_memory(reason)) throw std::bad_alloc();
   fail(reason.empty() ? "OpenImageIO's writer failed" : reason);
 }
 
