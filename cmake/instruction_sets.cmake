@@ -55,11 +55,11 @@ function(raytrace_add_variants target)
     # As one translation unit, so that the compiler sees through the calls between accelerator, scene and integrator; and the
     # headers, which are most of it, are read once.
     set_target_properties(${objects} PROPERTIES RAYTRACE_WIDE ON UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
-    # Where the library's files are joined, too, those that its module takes bring the wide code with them.
-    set_target_properties(${objects} PROPERTIES POSITION_INDEPENDENT_CODE "${CMAKE_UNITY_BUILD}")
     target_compile_definitions(${objects} PRIVATE RAYTRACE_VARIANT=${variant} RAYTRACE_ISA="${isa}")
     target_compile_options(${objects} PRIVATE
       $<$<NOT:$<STREQUAL:${isa},generic>>:-march=${isa}>
+      # Rays are traced here, whatever the rest is built with (the preset "run": -O2).
+      $<$<CONFIG:Release>:-O3>
       # Without it, the compiler's choices are those for all processors: toruses take 4 % longer.
       $<$<STREQUAL:${isa},x86-64-v3>:-mtune=haswell>
       # Without these, GCC 12 copies structs 16 bytes at a time, and whoever then reads a register's width waits for the stores.

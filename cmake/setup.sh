@@ -1,15 +1,20 @@
-# Sourced by cmake/run, cmake/test, cmake/lint and .ci/run: installs what is missing, configures and builds.
+# Sourced by the scripts beside it: installs what is missing, configures and builds.
 # POSIX sh. Everything it says goes to standard error, which leaves standard output to the program.
 
 root=$(CDPATH= cd -- "$(dirname -- "$0")/.." && pwd)
 
-# The one list of packages, by their names in Debian and Ubuntu. Least versions: cmake/dependencies.cmake.
-# (openimageio-tools: the CMake files of libopenimageio-dev refuse to work without, though we do not use it.)
+# The lists of packages, by their names in Debian and Ubuntu. Least versions: cmake/dependencies.cmake.
+# What the program is built with. (openimageio-tools: the CMake files of libopenimageio-dev refuse to work without, though
+# we do not use it.)
+program_packages="
+  cmake ninja-build g++ pkg-config
+  libembree-dev libopenimageio-dev openimageio-tools libopenexr-dev libpng-dev libtbb-dev libxsimd-dev
+  libcli11-dev nlohmann-json3-dev libtinyxml2-dev libxxhash-dev libasio-dev
+"
+# What tests and benchmarks need besides.
 packages="
-  cmake ninja-build g++ git
-  libembree-dev libopenimageio-dev openimageio-tools libopenexr-dev libtbb-dev libxsimd-dev libcli11-dev
-  nlohmann-json3-dev libtinyxml2-dev libxxhash-dev pkg-config libasio-dev
-  catch2 libbenchmark-dev libxml2-utils python3 python3-jsonschema
+  $program_packages
+  git catch2 libbenchmark-dev libxml2-utils python3 python3-jsonschema
 "
 
 say() { printf '%s\n' "$*" >&2; }
@@ -53,16 +58,48 @@ install_packages() {
   }
 }
 
-# build PRESET TARGET...: configures once, then builds what changed; silent if that is nothing.
-build() {
-  preset=$1
-  shift
+# configure PRESET [cmake options]: once; sets `quiet` for the builds after the first.
+configure() {
   quiet=--quiet
-  if [ ! -f "$root/build/$preset/build.ninja" ]; then
-    (cd "$root" && cmake --preset "$preset") >&2 || return 1
+  if [ ! -f "$root/build/$1/build.ninja" ]; then
+    (cd "$root" && cmake --preset "$@") >&2 || return 1
     quiet=
   fi
+}
+
+# build PRESET TARGET...: configures once, then builds what changed; silent if that is nothing.
+build() {
+  configure "$1" || return 1
+  preset=$1
+  shift
   ninja -C "$root/build/$preset" $quiet "$@" >&2
+}
+
+# labels_of TIER: a regular expression for ctest -L, of the labels that tests/budgets.txt has in a tier.
+labels_of() {
+  awk -v tier="$1" '$1 == "label" { for (i = 4; i <= NF; ++i) if ($i == tier) labels = labels "|" $2 }
+    END { print "^(" substr(labels, 2) ")$" }' "$root/tests/budgets.txt"
+}
+
+# targets_of TIER: what must be built for its tests.
+targets_of() {
+  printf 'raytrace_program raytrace_manual'
+  for label in $(labels_of "$1" | tr '^(|)$' ' '); do
+    for source in "$root/tests/$label"/*_test.cpp; do
+      [ ! -f "$source" ] || { printf ' %s_tests' "$label" && break; }
+    done
+  done
+}
+
+# instruction_sets: the lowest that is built for this machine's kind of processor, and the best that it runs, as a CMake
+# list; nothing where glibc does not say.
+instruction_sets() {
+  for loader in /lib64/ld-linux-x86-64.so.2 /lib/ld-linux-x86-64.so.2; do
+    [ -x "$loader" ] || continue
+    "$loader" --help | awk '$1 ~ /^x86-64-v[34]$/ && $2 ~ /supported/ { best = best == "" ? ";" $1 : best }
+      $1 == "x86-64-v2" && $2 ~ /supported/ { print $1 best }'
+    return
+  done
 }
 
 # python_environment NAME REQUIREMENTS: Python packages in build/NAME/venv, which has a copy of the file REQUIREMENTS as

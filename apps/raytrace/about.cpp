@@ -2,10 +2,9 @@
 
 #include <tbb/version.h>
 
-#include <CLI/CLI.hpp>
-
 #include "listing.h"
 #include "manual.h"
+#include "option_parser.h"
 #include "raytrace/render/renderer.h"
 
 namespace raytrace {
@@ -13,10 +12,10 @@ namespace raytrace {
 namespace {
 
 std::string help() {
-  CLI::App parser;
+  OptionParser parser;
   Options options;
   define_options(parser, options);
-  return help_text(render_manual, parser);
+  return help_text(render_manual, parser.entries());
 }
 
 /// The version, the libraries' and the instruction sets, one a line.

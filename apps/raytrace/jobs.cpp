@@ -9,17 +9,24 @@
 #include <vector>
 
 #include "exit_code.h"
+#include "file_clash.h"
 #include "file_names.h"
 #include "frame_numbers.h"
 #include "memory_limit.h"
 #include "messages.h"
 #include "raytrace/memory/out_of_memory.h"
+#include "raytrace/output/output_error.h"
 
 namespace raytrace {
 
 Jobs::Jobs(Options options) : options_(std::move(options)) {
   std::swap(scenes_, options_.scenes);
   std::swap(frames_, options_.frames);
+  if (!frames_.empty()) {
+    for (auto* const names : {&scenes_, &options_.outputs})
+      for (std::string& name : *names) name = with_folders_kept(name);
+    for (auto* const name : {&options_.statistics, &options_.checkpoint}) *name = with_folders_kept(*name);
+  }
   const auto from_standard_input = std::count(scenes_.begin(), scenes_.end(), "-");
   if (from_standard_input > 1 || (from_standard_input == 1 && frame_count() > 1)) {
     throw UsageError("standard input can be read once; give a file for " +
@@ -30,24 +37,31 @@ Jobs::Jobs(Options options) : options_(std::move(options)) {
         "--print-scene prints one scene; give one" +
         (frame_count() > 1 ? ", and one frame, e.g. --frames " + std::to_string(frames_.front()) : std::string()));
   }
-  if (!options_.renders()) return;
-  refuse_same_files();
+  refuse_clashes();
 }
 
-void Jobs::refuse_same_files() const {
-  std::unordered_set<std::string> names;
+void Jobs::refuse_clashes() const {
+  UsedFiles files;
+  if (!options_.log_file.empty()) files.add({"--log-file", options_.log_file, true});
+  const auto add_written = [&](const std::string& option, const std::string& pattern, const std::string& name) {
+    const UsedFile file{option, name, true};
+    const UsedFile* const other = files.add(file);
+    if (other == nullptr) return;
+    if (other->role != option || other->file != name) refuse_clash(file, *other);
+    const std::string tokens = with_tokens(pattern, frame_count() > 1, scenes_.size() > 1);
+    throw UsageError(
+        option + ": more than one render would write " + name + "; " +
+        (tokens == pattern ? "give scenes and outputs names that differ" : "use a name such as " + tokens));
+  };
+  std::string last_scene;
   for (std::size_t i = 0; i < count(); ++i) {
     const Options job = (*this)[i];
-    const auto add = [&](const std::string& option, const std::string& pattern, const std::string& name) {
-      if (names.insert(name).second) return;
-      const std::string tokens = with_tokens(pattern, frame_count() > 1, scenes_.size() > 1);
-      throw UsageError(
-          option + ": more than one render would write " + name + "; " +
-          (tokens == pattern ? "give scenes and outputs names that differ" : "use a name such as " + tokens));
-    };
-    for (std::size_t k = 0; k < job.outputs.size(); ++k) add("--output", options_.outputs[k], job.outputs[k]);
-    if (job.has_statistics_file()) add("--stats", options_.statistics, job.statistics);
-    if (!job.checkpoint.empty()) add("--checkpoint", options_.checkpoint, job.checkpoint);
+    if (job.scene != last_scene) add_file(files, {"the scene", job.scene == "-" ? "/dev/stdin" : job.scene, false});
+    last_scene = job.scene;
+    if (!options_.renders()) continue;
+    for (std::size_t k = 0; k < job.outputs.size(); ++k) add_written("--output", options_.outputs[k], job.outputs[k]);
+    if (job.has_statistics_file()) add_written("--stats", options_.statistics, job.statistics);
+    if (!job.checkpoint.empty()) add_written("--checkpoint", options_.checkpoint, job.checkpoint);
   }
 }
 
@@ -134,6 +148,9 @@ int guarded(const std::function<int()>& action) {
     return action();
   } catch (const UsageError& error) {
     tell_new_error(std::string(error.what()) + "\nTry 'raytrace --help'.");
+    return exit_code::usage;
+  } catch (const SizeError& error) {  // what was asked for cannot be, and nothing was rendered for it
+    tell_new_error(error.what());
     return exit_code::usage;
   } catch (const std::bad_alloc&) {
     return tell_no_memory("");

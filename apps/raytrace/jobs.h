@@ -13,7 +13,8 @@ namespace raytrace {
 
 class Jobs {
  public:
-  /// Throws UsageError if two renders would write the same file, or if the scenes cannot be read so often.
+  /// Throws UsageError if a file that is written would be another file of the run, too, or if the scenes cannot be read
+  /// so often. Opens none of them.
   explicit Jobs(Options options);
 
   /// All frames of the first scene, then those of the next.
@@ -32,7 +33,7 @@ class Jobs {
   std::size_t frame_count() const { return frames_.empty() ? 1 : frames_.size(); }
   std::optional<int> frame(std::size_t i) const;
   std::string scene(std::size_t i) const;
-  void refuse_same_files() const;
+  void refuse_clashes() const;
 
   Options options_;  // without scenes and frames, of which there may be many: all renders' options are copies
   std::vector<std::string> scenes_;

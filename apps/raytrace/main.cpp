@@ -1,6 +1,5 @@
 // The command: options -> for each frame of each scene: load -> build -> render -> write.
-#include <algorithm>
-#include <filesystem>
+#include <utility>
 
 #include "about.h"
 #include "exit_code.h"
@@ -11,7 +10,6 @@
 #include "picture_render.h"
 #include "picture_settings.h"
 #include "process_setup.h"
-#include "raytrace/output/complete_picture.h"
 #include "run_checks.h"
 #include "signals.h"
 #include "stages.h"
@@ -21,24 +19,11 @@ namespace raytrace {
 
 namespace {
 
-/// A checkpoint that is still there tells that they are not, whatever their formats can.
-bool outputs_are_complete(const Options& options) {
-  return (options.checkpoint.empty() || !std::filesystem::exists(options.checkpoint)) &&
-         std::all_of(options.outputs.begin(), options.outputs.end(), is_complete_picture);
-}
-
 int run(const Options& options, Progress& progress) {
   progress.begin(options.job_index, options.job_count);
-  if (options.skip_existing && options.renders() && outputs_are_complete(options)) {
-    tell_note(joined(options.outputs, ", ") + ": there already, skipped");
-    progress.finish();
-    return exit_code::done;
-  }
   const auto start = PictureRender::Clock::now();
-  {
-    const StopSignalsWait no_temporary_file_stays;
-    check_outputs(options);
-  }
+  const bool might_skip = might_be_skipped(options);  // if the files are of this picture, which the scene tells
+  if (!might_skip) check_outputs(options);
   Statistics statistics;
   std::optional<SceneDescription> description = load(options, statistics);
   if (!description) return exit_code::failed;
@@ -50,6 +35,15 @@ int run(const Options& options, Progress& progress) {
     if (!options.print_scene && !options.quiet) print(summary(*description) + "\n");
     return exit_code::done;
   }
+  if (might_skip) {
+    if (outputs_are_complete(*description, whole, region, options)) {
+      tell_note(joined(options.outputs, ", ") + ": there already, skipped");
+      progress.skip();
+      return exit_code::done;
+    }
+    check_outputs(options);
+  }
+  if (options.renders()) check_output_sizes(options, region);
 
   const std::unique_ptr<const Scene> scene = build(*description, options, statistics);
   if (options.pixel) {
@@ -77,15 +71,16 @@ int main(int argc, char** argv) {
     if (is_merge_command(argc, argv)) return merge_command(argc, argv);
     Options options = parse_options(argc, argv);
     set_verbosity(options.verbosity());
-    if (!options.log_file.empty()) log_to(options.log_file);
     tell_program_in(options.progress);
     if (const auto answer = about_program(options)) {
       print(*answer);
       return exit_code::done;
     }
-    options.threads = threads_with_room(options.threads);
+    const int wanted_threads = std::exchange(options.threads, threads_with_room(options.threads));
+    const Jobs jobs(options);  // before the log file is opened, which might be the scene
+    if (!options.log_file.empty()) log_to(options.log_file);
+    tell_missing_threads(wanted_threads, options.threads);
     Progress progress(options.progress);
-    const Jobs jobs(options);
     const RunChecks checks(jobs);
     return run_all(jobs,
                    [&](const Options& job) { return checks.forbid(job) ? exit_code::failed : run(job, progress); });

@@ -1,7 +1,6 @@
 // Prints a man page; run by the build.
 //   raytrace_man_page         raytrace(1)
 //   raytrace_man_page merge   raytrace-merge(1)
-#include <CLI/CLI.hpp>
 #include <iostream>
 
 #include "about.h"
@@ -11,15 +10,15 @@
 
 int main(int argc, char**) {
   using namespace raytrace;
-  CLI::App parser;
+  OptionParser parser;
   Options options;
   MergeOptions merge_options;
   if (argc == 1) {
     define_options(parser, options);
-    std::cout << man_page(render_manual, parser, software_name()) << std::flush;
+    std::cout << man_page(render_manual, parser.entries(), software_name()) << std::flush;
   } else {
     define_merge_options(parser, merge_options);
-    std::cout << man_page(merge_manual, parser, software_name()) << std::flush;
+    std::cout << man_page(merge_manual, parser.entries(), software_name()) << std::flush;
   }
   return std::cout ? 0 : 1;
 }

@@ -1,6 +1,5 @@
 #include "manual.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <string_view>
 #include <vector>
@@ -68,20 +67,11 @@ const Manual merge_manual = {
 
 namespace {
 
-std::string term_of(const CLI::Option& option) {
-  if (option.get_positional()) return option.get_type_name();
-  std::string term;
-  for (const std::string& name : option.get_snames()) term += (term.empty() ? "-" : ", -") + name;
-  for (const std::string& name : option.get_lnames()) term += (term.empty() ? "--" : ", --") + name;
-  if (!option.get_option_text().empty()) return term + option.get_option_text();
-  return option.get_items_expected_max() == 0 ? term : term + " " + option.get_type_name();
-}
-
-std::vector<Section> option_sections(const CLI::App& parser) {
+std::vector<Section> option_sections(const std::vector<OptionEntry>& options) {
   std::vector<Section> sections;
-  for (const CLI::Option* const option : parser.get_options()) {
-    if (sections.empty() || sections.back().title != option->get_group()) sections.push_back({option->get_group(), {}});
-    sections.back().entries.push_back({term_of(*option), option->get_description()});
+  for (const OptionEntry& option : options) {
+    if (sections.empty() || sections.back().title != option.group) sections.push_back({option.group, {}});
+    sections.back().entries.push_back({option.term(), option.help});
   }
   return sections;
 }
@@ -140,10 +130,10 @@ std::string troff_section(const Section& section) {
 
 }  // namespace
 
-std::string help_text(const Manual& manual, const CLI::App& parser) {
+std::string help_text(const Manual& manual, const std::vector<OptionEntry>& options) {
   constexpr std::size_t columns = 80;
   std::string help = manual.command + ": " + manual.purpose + "\n\nUsage: " + manual.synopsis + "\n";
-  std::vector<Section> sections = option_sections(parser);
+  std::vector<Section> sections = option_sections(options);
   const std::size_t options_indent = longest_term(sections) + 4;
   for (const Section& section : sections) {
     help += "\n" + section.title + ":\n";
@@ -163,13 +153,13 @@ std::string help_text(const Manual& manual, const CLI::App& parser) {
   return help;
 }
 
-std::string man_page(const Manual& manual, const CLI::App& parser, const std::string& software) {
+std::string man_page(const Manual& manual, const std::vector<OptionEntry>& options, const std::string& software) {
   std::string name = manual.command;  // a page is one word
   std::replace(name.begin(), name.end(), ' ', '-');
   std::string page = ".TH " + troff(in_capitals(name)) + " 1 \"\" \"" + troff(software) + "\"\n";
   page += ".SH NAME\n" + troff(name) + " \\- " + troff(manual.purpose) + "\n";
   page += ".SH SYNOPSIS\n\\fB" + troff(manual.synopsis) + "\\fR\n";
-  for (const Section& section : option_sections(parser)) page += troff_section(section);
+  for (const Section& section : option_sections(options)) page += troff_section(section);
   page += troff_section(manual.examples) + troff_section(manual.exit_codes);
   return page;
 }

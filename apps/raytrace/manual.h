@@ -2,10 +2,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
-namespace CLI {
-class App;
-}
+#include "option_parser.h"
 
 namespace raytrace {
 
@@ -15,9 +14,9 @@ extern const Manual render_manual;  ///< of raytrace
 extern const Manual merge_manual;   ///< of raytrace merge
 
 /// For a terminal: no line above 80 columns.
-std::string help_text(const Manual& manual, const CLI::App& parser);
+std::string help_text(const Manual& manual, const std::vector<OptionEntry>& options);
 
 /// For man(1), in the man macros of troff. `software` stands in the page's margins.
-std::string man_page(const Manual& manual, const CLI::App& parser, const std::string& software);
+std::string man_page(const Manual& manual, const std::vector<OptionEntry>& options, const std::string& software);
 
 }  // namespace raytrace

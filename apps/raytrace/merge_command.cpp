@@ -1,14 +1,17 @@
 #include "merge_command.h"
 
 #include <fstream>
+#include <limits>
 #include <sstream>
 #include <string_view>
 
 #include "exit_code.h"
+#include "file_clash.h"
 #include "manual.h"
 #include "memory_limit.h"
 #include "messages.h"
 #include "option_parser.h"
+#include "outputs.h"
 #include "raytrace/render/renderer.h"
 #include "signals.h"
 #include "thread_limit.h"
@@ -17,11 +20,13 @@ namespace raytrace {
 
 namespace {
 
+bool is_list(const std::string& piece) { return piece.starts_with('@'); }
+
 /// "@FILE" stands for the names in the file, one a line: there may be more than a command line holds.
 std::vector<std::string> with_lists_read(const std::vector<std::string>& names) {
   std::vector<std::string> all;
   for (const std::string& name : names) {
-    if (!name.starts_with('@')) {
+    if (!is_list(name)) {
       all.push_back(name);
       continue;
     }
@@ -34,18 +39,30 @@ std::vector<std::string> with_lists_read(const std::vector<std::string>& names) 
   return all;
 }
 
+/// names: as they were given, with the lists.
+void refuse_clashes(const std::vector<std::string>& names, const MergeSettings& settings) {
+  UsedFiles files;
+  for (const std::string& name : names)
+    if (is_list(name)) add_file(files, {"the list", name.substr(1), false});
+  for (const std::string& piece : settings.pieces) add_file(files, {"the piece", piece, false});
+  for (const std::string& output : settings.outputs) add_file(files, {"--output", output, true});
+}
+
 MergeOptions parsed(int argc, const char* const* argv) {
   MergeOptions options;
-  CLI::App parser;
+  OptionParser parser;
   define_merge_options(parser, options);
-  parse(parser, argc, argv);
+  parser.parse(argc, argv);
   if (options.quiet && options.verbose) throw UsageError("--quiet excludes --verbose");
   if (options.help) return options;
-  options.settings.pieces = with_lists_read(options.settings.pieces);
+  const std::vector<std::string> names = options.settings.pieces;
+  options.settings.pieces = with_lists_read(names);
   const MergeSettings& settings = options.settings;
   if (settings.pieces.empty()) throw UsageError("no pieces given; for example: raytrace merge tile.*.exr -o whole.exr");
   if (settings.outputs.empty())
     throw UsageError("no output given; for example: raytrace merge tile.*.exr -o whole.exr");
+  if (settings.exposure) refuse_useless_exposure(settings.outputs, {});
+  refuse_clashes(names, settings);
   return options;
 }
 
@@ -59,39 +76,34 @@ void tell(const MergeReport& report) {
 
 }  // namespace
 
-void define_merge_options(CLI::App& parser, MergeOptions& options) {
+void define_merge_options(OptionParser& parser, MergeOptions& options) {
   constexpr int largest = std::numeric_limits<int>::max();
   constexpr int most_threads = 1024;
   MergeSettings& settings = options.settings;
-  prepare(parser);
-  parser
-      .add_option(
-          "pieces", settings.pieces,
-          "EXR files that raytrace wrote with --tile, --crop or --sample-offset: parts of one picture; @FILE stands "
-          "for the names in FILE, one a line")
-      ->type_name("PIECES...")
-      ->group("Input");
-  add_switch(
-      parser, "--partial", settings.partial,
-      "Pieces may be missing or unfinished: a pixel gets the samples that there are, or else a checked background "
-      "with alpha 0")
-      ->group("Input");
-  add(parser, "-s,--spp", "N", "Refuse pieces that have other than N samples a pixel together (as many as there are)",
-      [&](const std::string& text) { settings.samples = integer(text, 1, largest); })
-      ->group("Input");
-  parser.add_option("-o,--output", settings.outputs, "Write the picture to FILE; repeatable")
-      ->type_name("FILE")
-      ->allow_extra_args(false)
-      ->group("Output");
-  add(parser, "--bit-depth", "8|16", "Bits a channel in PNG, TIFF and other sRGB-encoded files (8)",
-      [&](const std::string& text) { settings.bit_depth = bit_depth(text); })
-      ->group("Output");
-  add(parser, "-t,--threads", "N", "Use N threads (all processors)", [&](const std::string& text) {
-    settings.threads = integer(text, 1, most_threads);
-  })->group("Work");
-  add_switch(parser, "-q,--quiet", options.quiet, "Errors only")->group("Messages");
-  add_switch(parser, "-v,--verbose", options.verbose, "Tell what is done")->group("Messages");
-  add_switch(parser, "-h,--help", options.help, "Print this")->group("Messages");
+  parser.group("Input");
+  parser.add_arguments("PIECES...",
+                       "EXR files that raytrace wrote with --tile, --crop or --sample-offset: parts of one picture; "
+                       "@FILE stands for the names in FILE, one a line",
+                       settings.pieces);
+  parser.add_switch("--partial", settings.partial,
+                    "Pieces may be missing or unfinished: a pixel gets the samples that there are, or else a checked "
+                    "background with alpha 0");
+  parser.add("-s,--spp", "N", "Refuse pieces that have other than N samples a pixel together (as many as there are)",
+             [&](const std::string& text) { settings.samples = integer(text, 1, largest); });
+  parser.group("Output");
+  parser.add_repeatable("-o,--output", "FILE", "Write the picture to FILE; repeatable",
+                        [&](const std::string& text) { settings.outputs.push_back(text); });
+  parser.add("--bit-depth", "8|16", "Bits a channel in PNG, TIFF and other sRGB-encoded files (8)",
+             [&](const std::string& text) { settings.bit_depth = bit_depth(text); });
+  parser.add("--exposure", exposure_value_name, exposure_help,
+             [&](const std::string& text) { settings.exposure = exposure(text); });
+  parser.group("Work");
+  parser.add("-t,--threads", "N", "Use N threads (all processors)",
+             [&](const std::string& text) { settings.threads = integer(text, 1, most_threads); });
+  parser.group("Messages");
+  parser.add_switch("-q,--quiet", options.quiet, "Errors only");
+  parser.add_switch("-v,--verbose", options.verbose, "Tell what is done");
+  parser.add_switch("-h,--help", options.help, "Print this");
 }
 
 bool is_merge_command(int argc, const char* const* argv) { return argc > 1 && std::string_view(argv[1]) == "merge"; }
@@ -99,14 +111,16 @@ bool is_merge_command(int argc, const char* const* argv) { return argc > 1 && st
 int merge_command(int argc, const char* const* argv) {
   MergeOptions options = parsed(argc - 1, argv + 1);  // "merge" is the program's name here
   if (options.help) {
-    CLI::App parser;
+    OptionParser parser;
     MergeOptions unused;
     define_merge_options(parser, unused);
-    print(help_text(merge_manual, parser));
+    print(help_text(merge_manual, parser.entries()));
     return exit_code::done;
   }
   set_verbosity(options.quiet ? Verbosity::errors : options.verbose ? Verbosity::steps : Verbosity::warnings);
-  options.settings.threads = threads_with_room(thread_count(options.settings.threads));
+  const int wanted_threads = thread_count(options.settings.threads);
+  options.settings.threads = threads_with_room(wanted_threads);
+  tell_missing_threads(wanted_threads, options.settings.threads);
   obey_group_memory_limit(options.settings.threads);
   const Signals signals;
   try {

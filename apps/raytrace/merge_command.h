@@ -6,11 +6,9 @@
 
 #include "raytrace/render/merge_pieces.h"
 
-namespace CLI {
-class App;
-}
-
 namespace raytrace {
+
+class OptionParser;
 
 struct MergeOptions {
   MergeSettings settings;
@@ -20,7 +18,7 @@ struct MergeOptions {
 };
 
 /// Adds all options to a parser, which fills `options`.
-void define_merge_options(CLI::App& parser, MergeOptions& options);
+void define_merge_options(OptionParser& parser, MergeOptions& options);
 
 /// Whether a command line is one of `raytrace merge`.
 bool is_merge_command(int argc, const char* const* argv);

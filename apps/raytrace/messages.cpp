@@ -10,6 +10,7 @@
 #include <mutex>
 #include <string_view>
 
+#include "raytrace/output/link_target.h"
 #include "raytrace/output/output_error.h"
 
 namespace raytrace {
@@ -73,6 +74,7 @@ void set_verbosity(Verbosity verbosity) { told = verbosity; }
 
 void log_to(const std::string& file) {
   constexpr mode_t by_umask = 0666;
+  link_target(file);  // refuses another user's trap
   log_file = open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, by_umask);
   if (log_file < 0) throw OutputError("cannot write the log file " + file + ": " + std::strerror(errno));
   log_name = file;

@@ -1,28 +1,74 @@
-// CLI11 as this program uses it: options that say what would have been right.
+// Command line options that say what would have been right. CLI11 parses them, and is included in option_parser.cpp
+// alone, since its headers take longer to compile than all the rest of the program.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "option_values.h"
 
 namespace raytrace {
 
-/// Before any option is added.
-void prepare(CLI::App& parser);
+/// An option as help, man pages and completions show it.
+struct OptionEntry {
+  std::string group;       ///< "Output"
+  Names names;             ///< "-o", "--output"; empty for what stands without an option's name
+  std::string value_name;  ///< "FILE"; empty for a switch
+  std::string help;
+  bool value_is_optional = false;  ///< it follows a "=": --stats[=FILE.json]
 
-/// An option with a value; the last one counts, so that a wrapper script's can be overridden.
-CLI::Option* add(CLI::App& parser, const std::string& names, const std::string& value_name, const std::string& help,
-                 const std::function<void(const std::string&)>& take);
+  /// "-o, --output FILE"
+  std::string term() const;
+};
 
-/// An option without a value.
-template <class Flag>
-CLI::Option* add_switch(CLI::App& parser, const std::string& names, Flag& flag, const std::string& help) {
-  return parser.add_flag(names, flag, help)->disable_flag_override();
-}
+class OptionParser {
+ public:
+  using Take = std::function<void(const std::string& value)>;
 
-/// Throws UsageError, which tells what is wrong and, where an option is not known, the nearest one.
-void parse(CLI::App& parser, int argc, const char* const* argv);
+  OptionParser();
+  ~OptionParser();
+  OptionParser(const OptionParser&) = delete;
+  OptionParser& operator=(const OptionParser&) = delete;
+
+  // names: "-o,--output". The variables must live until parse() has returned.
+
+  /// The options that follow belong to it.
+  void group(const std::string& name) { group_ = name; }
+
+  /// Arguments without an option's name.
+  void add_arguments(const std::string& value_name, const std::string& help, std::vector<std::string>& values);
+
+  /// An option with a value; the last one counts, so that a wrapper script's can be overridden. A UsageError that
+  /// `take` throws is thrown again with the option's name before it.
+  void add(const std::string& names, const std::string& value_name, const std::string& help, const Take& take);
+
+  /// One that may be repeated, and keeps all its values.
+  void add_repeatable(const std::string& names, const std::string& value_name, const std::string& help,
+                      const Take& take);
+
+  /// One that can do without a value, which is then `without`: no argument after it is taken for the value.
+  void add_with_optional_value(const std::string& names, const std::string& value_name, const std::string& help,
+                               std::string& value, const std::string& without);
+
+  /// Options without a value. The count is how often it was given.
+  void add_switch(const std::string& names, bool& flag, const std::string& help);
+  void add_switch(const std::string& names, int& count, const std::string& help);
+
+  /// Throws UsageError, which tells what is wrong and, where an option is not known, the nearest one.
+  void parse(int argc, const char* const* argv);
+
+  const std::vector<OptionEntry>& entries() const { return entries_; }
+
+ private:
+  struct Parser;
+  void refuse_unknown() const;
+  void note(const Names& names, const std::string& value_name, const std::string& help, bool value_is_optional = false);
+
+  std::unique_ptr<Parser> parser_;
+  std::string group_;
+  std::vector<OptionEntry> entries_;
+};
 
 }  // namespace raytrace

@@ -66,6 +66,12 @@ double duration(const std::string& text);
 /// A finite number above 0.
 double scale(const std::string& text);
 
+/// A number of stops: "-1.5", "+2".
+double exposure(const std::string& text);
+inline constexpr const char* exposure_value_name = "EV";
+inline constexpr const char* exposure_help =
+    "Multiply the colour by 2^EV in PNG, JPEG and other sRGB-encoded files (0); EXR and floats stay as they are";
+
 /// "x0,y0,x1,y1", at least one pixel; it may reach outside of the picture.
 Region crop(const std::string& text);
 

@@ -40,14 +40,13 @@ void define(const std::string& text, std::map<std::string, std::string>& variabl
   const std::size_t equals = text.find('=');
   const std::string name = text.substr(0, equals);
   if (equals == std::string::npos || !is_variable_name(name)) {
-    throw UsageError("--define: " + in_quotes(text) +
-                     " sets no variable; use NAME=VALUE, e.g. -D radius=2 for $radius");
+    throw UsageError("" + in_quotes(text) + " sets no variable; use NAME=VALUE, e.g. -D radius=2 for $radius");
   }
-  if (name == frame_variable) throw UsageError("--define: $frame is the frame's number; use --frames");
+  if (name == frame_variable) throw UsageError("$frame is the frame's number; use --frames");
   const std::string value = text.substr(equals + 1);
   const bool has_control = std::any_of(value.begin(), value.end(), [](char c) { return c >= 0 && c < ' '; });
   if (has_control || find_invalid_utf8(value, 1) != std::string_view::npos) {
-    throw UsageError("--define: the value of " + name + " is no text in UTF-8 without control characters");
+    throw UsageError("the value of " + name + " is no text in UTF-8 without control characters");
   }
   variables[name] = value;
 }
@@ -62,10 +61,6 @@ void refuse_incomplete(const Options& options) {
   }
   if (options.resume && options.checkpoint.empty()) {
     throw UsageError("--resume goes on from a checkpoint: say which with --checkpoint FILE");
-  }
-  if (!options.checkpoint.empty() &&
-      std::find(options.outputs.begin(), options.outputs.end(), options.checkpoint) != options.outputs.end()) {
-    throw UsageError("--checkpoint: " + options.checkpoint + " is an output, too");
   }
   for (auto output = options.outputs.begin(); output != options.outputs.end(); ++output) {
     if (output->empty()) throw UsageError("--output: the file name is empty");
@@ -90,146 +85,124 @@ Verbosity Options::verbosity() const {
   return verbose == 1 ? Verbosity::steps : Verbosity::details;
 }
 
-void define_options(CLI::App& parser, Options& options) {
+void define_options(OptionParser& parser, Options& options) {
   constexpr int largest = std::numeric_limits<int>::max();
   constexpr int most_threads = 1024;
-  prepare(parser);
+  parser.group("Input");
+  parser.add_arguments("SCENE.xml", "Scene files; - reads one from standard input", options.scenes);
+  parser.add(
+      "--frames", "FRAMES",
+      "Render these frames, e.g. 1-10:2,15; #### or %04d in the names of scenes, outputs and statistics is the number, "
+      "{#} a #",
+      [&](const std::string& text) { options.frames = frame_numbers(text); });
+  parser.add_repeatable("-D,--define", "NAME=VALUE", "Set the variable $NAME of the scene; repeatable",
+                        [&](const std::string& text) { define(text, options.variables); });
 
-  parser.add_option("scene", options.scenes, "Scene files; - reads one from standard input")
-      ->type_name("SCENE.xml")
-      ->group("Input");
-  add(parser, "--frames", "FRAMES",
-      "Render these frames, e.g. 1-10:2,15; #### or %04d in the names of scenes, outputs and statistics is the number",
-      [&](const std::string& text) { options.frames = frame_numbers(text); })
-      ->group("Input");
-  parser
-      .add_option_function<std::vector<std::string>>(
-          "-D,--define",
-          [&](const std::vector<std::string>& definitions) {
-            for (const std::string& definition : definitions) define(definition, options.variables);
-          },
-          "Set the variable $NAME of the scene; repeatable")
-      ->type_name("NAME=VALUE")
-      ->allow_extra_args(false)
-      ->group("Input");
+  parser.group("Output");
+  parser.add_repeatable(
+      "-o,--output", "FILE",
+      "Write the picture to FILE, in the format of its extension (.exr, .png, .tif, .jpg, .hdr...); "
+      "repeatable, for several files from one render. {scene} in the name is that of the scene, {tile} the "
+      "tile's number",
+      [&](const std::string& text) { options.outputs.push_back(text); });
+  parser.add_switch("--skip-existing", options.skip_existing,
+                    "Render no frame whose outputs all exist and are complete");
+  parser.add_switch("--float", options.full_float, "32 bit floats in EXR (else 16 bit) and in TIFF (else sRGB)");
+  parser.add_switch("--transparent", options.transparent,
+                    "Leave the background out of the colour; alpha is coverage: premultiplied in EXR, straight RGBA in "
+                    "PNG and TIFF");
+  parser.add("--exposure", exposure_value_name, exposure_help,
+             [&](const std::string& text) { options.exposure = exposure(text); });
+  parser.add("--aov", "LIST",
+             "What EXR files hold besides the colour, separated by commas: " + joined(aov_names(), ", ") + "; or all",
+             [&](const std::string& text) { options.aovs = aovs(text); });
+  parser.add("--bit-depth", "8|16", "Bits a channel in PNG, TIFF and other sRGB-encoded files (8)",
+             [&](const std::string& text) { options.bit_depth = bit_depth(text); });
 
-  parser
-      .add_option("-o,--output", options.outputs,
-                  "Write the picture to FILE, in the format of its extension (.exr, .png, .tif, .jpg, .hdr...); "
-                  "repeatable, for several files from one render. {scene} in the name is that of the scene, {tile} the "
-                  "tile's number")
-      ->type_name("FILE")
-      ->allow_extra_args(false)
-      ->group("Output");
-  add_switch(parser, "--skip-existing", options.skip_existing,
-             "Render no frame whose outputs all exist and are complete")
-      ->group("Output");
-  add_switch(parser, "--float", options.full_float, "32 bit floats in EXR (else 16 bit) and in TIFF (else sRGB)")
-      ->group("Output");
-  add(parser, "--aov", "LIST",
-      "What EXR files hold besides the colour, separated by commas: " + joined(aov_names(), ", ") + "; or all",
-      [&](const std::string& text) { options.aovs = aovs(text); })
-      ->group("Output");
-  add(parser, "--bit-depth", "8|16", "Bits a channel in PNG, TIFF and other sRGB-encoded files (8)",
-      [&](const std::string& text) { options.bit_depth = bit_depth(text); })
-      ->group("Output");
-
-  add(parser, "-r,--resolution", "WxH", "Size in pixels instead of the scene's; what was in view stays in view",
-      [&](const std::string& text) { options.resolution = resolution(text); })
-      ->group("Picture");
-  add(parser, "--scale", "F", "Multiply the resolution by F (1)", [&](const std::string& text) {
-    options.scale = scale(text);
-  })->group("Picture");
-  add(parser, "--crop", "x0,y0,x1,y1",
+  parser.group("Picture");
+  parser.add("-r,--resolution", "WxH", "Size in pixels instead of the scene's; what was in view stays in view",
+             [&](const std::string& text) { options.resolution = resolution(text); });
+  parser.add("--scale", "F", "Multiply the resolution by F (1)",
+             [&](const std::string& text) { options.scale = scale(text); });
+  parser.add(
+      "--crop", "x0,y0,x1,y1",
       "Only these pixels: origin at the top left, x1 and y1 exclusive; an EXR says where in the whole picture they are",
-      [&](const std::string& text) { options.crop = crop(text); })
-      ->group("Picture");
-  add(parser, "--tile", "I/N",
+      [&](const std::string& text) { options.crop = crop(text); });
+  parser.add(
+      "--tile", "I/N",
       "Only part I (from 0) of N of the picture or crop, for as many machines: together they cover it; `raytrace "
       "merge` "
       "puts them together",
-      [&](const std::string& text) { options.tile = tile(text); })
-      ->group("Picture");
-  add(parser, "-s,--spp", "N", "Samples a pixel instead of the scene's; 1 goes through the pixel's centre",
-      [&](const std::string& text) { options.samples = integer(text, 1, largest); })
-      ->group("Picture");
-  add(parser, "--sample-offset", "K",
+      [&](const std::string& text) { options.tile = tile(text); });
+  parser.add("-s,--spp", "N", "Samples a pixel instead of the scene's; 1 goes through the pixel's centre",
+             [&](const std::string& text) { options.samples = integer(text, 1, largest); });
+  parser.add(
+      "--sample-offset", "K",
       "These --spp samples are the picture's from number K on; the EXR keeps their sums for `raytrace merge`",
-      [&](const std::string& text) { options.sample_offset = static_cast<std::uint32_t>(integer(text, 0, largest)); })
-      ->group("Picture");
-  add(parser, "--pixel", "x,y", "Print the samples of one pixel, from the top left, instead of rendering a picture",
-      [&](const std::string& text) { options.pixel = pixel_place(text); })
-      ->group("Picture");
-  add(parser, "--seed", "N", "Another, equally good, pattern of samples (0)", [&](const std::string& text) {
-    options.seed = natural_number(text);
-  })->group("Picture");
+      [&](const std::string& text) { options.sample_offset = static_cast<std::uint32_t>(integer(text, 0, largest)); });
+  parser.add("--pixel", "x,y", "Print the samples of one pixel, from the top left, instead of rendering a picture",
+             [&](const std::string& text) { options.pixel = pixel_place(text); });
+  parser.add("--seed", "N", "Another, equally good, pattern of samples (0)",
+             [&](const std::string& text) { options.seed = natural_number(text); });
 
-  add(parser, "-t,--threads", "N", "Use N threads (all processors); the picture does not depend on it",
-      [&](const std::string& text) { options.threads = integer(text, 1, most_threads); })
-      ->group("Work");
-  add(parser, "--isa", "NAME", "Instruction set: " + joined(isa_names(), ", ") + " (the best that the processor has)",
-      [&](const std::string& text) { options.isa = instruction_set(text); })
-      ->group("Work");
+  parser.group("Work");
+  parser.add("-t,--threads", "N", "Use N threads (all processors); the picture does not depend on it",
+             [&](const std::string& text) { options.threads = integer(text, 1, most_threads); });
+  parser.add("--isa", "NAME", "Instruction set: " + joined(isa_names(), ", ") + " (the best that the processor has)",
+             [&](const std::string& text) { options.isa = instruction_set(text); });
 
-  add(parser, "--time-limit", "TIME",
+  parser.add(
+      "--time-limit", "TIME",
       "Stop adding samples when TIME (90s, 10m, 1h30m) has passed since the start; the picture has as many as fit, at "
       "least 4",
-      [&](const std::string& text) { options.time_limit = duration(text); })
-      ->group("Work");
+      [&](const std::string& text) { options.time_limit = duration(text); });
 
-  add(parser, "--checkpoint", "FILE", "Keep what is rendered in FILE, once a minute and when stopped by a signal",
-      [&](const std::string& text) { options.checkpoint = text; })
-      ->group("Safety");
-  add(parser, "--checkpoint-interval", "TIME", "Time between two checkpoints (60s)", [&](const std::string& text) {
-    options.checkpoint_interval = duration(text);
-  })->group("Safety");
-  add_switch(parser, "--resume", options.resume, "Go on from the checkpoint, if there is one")->group("Safety");
+  parser.group("Safety");
+  parser.add("--checkpoint", "FILE", "Keep what is rendered in FILE, once a minute and when stopped by a signal",
+             [&](const std::string& text) { options.checkpoint = text; });
+  parser.add("--checkpoint-interval", "TIME", "Time between two checkpoints (60s)",
+             [&](const std::string& text) { options.checkpoint_interval = duration(text); });
+  parser.add_switch("--resume", options.resume, "Go on from the checkpoint, if there is one");
 
-  add_switch(parser, "-q,--quiet", options.quiet,
-             "Errors only: no warnings, and no progress but what --progress asks for")
-      ->group("Messages");
-  add_switch(parser, "-v,--verbose", options.verbose, "Tell what is done; twice: all that --stats tells, too")
-      ->group("Messages");
-  add(parser, "--progress", "STYLE",
+  parser.group("Messages");
+  parser.add_switch("-q,--quiet", options.quiet,
+                    "Errors only: no warnings, and no progress but what --progress asks for");
+  parser.add_switch("-v,--verbose", options.verbose, "Tell what is done; twice: all that --stats tells, too");
+  parser.add(
+      "--progress", "STYLE",
       "auto, bar, plain, openjd, alf, json or none: how far the render is; auto, bar and plain on standard error "
       "(auto: "
       "a bar on a terminal, plain lines elsewhere), lines for Open Job Description, Tractor and other programs on "
       "standard output",
-      [&](const std::string& text) { options.progress = progress_style(text); })
-      ->group("Messages");
-  add(parser, "--log-file", "FILE", "Add the messages to FILE, too, each with its time", [&](const std::string& text) {
+      [&](const std::string& text) { options.progress = progress_style(text); });
+  parser.add("--log-file", "FILE", "Add the messages to FILE, too, each with its time", [&](const std::string& text) {
     if (text.empty()) throw UsageError("the file name is empty");
     options.log_file = text;
-  })->group("Messages");
-  // A flag that can have a value: no word after it is taken for the value, only what follows a "=".
-  parser
-      .add_flag("--stats{" + std::string(statistics_as_text) + "}", options.statistics,
-                "Times, rays, memory: as text on standard error, or as JSON in a file")
-      ->option_text("[=FILE.json]")
-      ->group("Messages");
+  });
+  parser.add_with_optional_value("--stats", "FILE.json",
+                                 "Times, rays, memory: as text on standard error, or as JSON in a file",
+                                 options.statistics, std::string(statistics_as_text));
 
-  add(parser, "--display-server", "HOST:PORT",
+  parser.add(
+      "--display-server", "HOST:PORT",
       "Show the picture as it grows in the image viewer tev (port 14158); one that fails does not stop the render",
-      [&](const std::string& text) { options.display_server = display_address(text); })
-      ->group("Messages");
+      [&](const std::string& text) { options.display_server = display_address(text); });
 
-  add_switch(parser, "--validate", options.validate, "Check the scene and render nothing")->group("Look first");
-  add_switch(parser, "--print-scene", options.print_scene,
-             "Print the scene with every value spelled out, as it would be rendered, and render nothing")
-      ->group("Look first");
-  add(parser, "--list", "KIND", "Print the " + joined(listing_kinds(), ", ") + " that there are",
-      [&](const std::string& text) { options.list = one_of(text, listing_kinds()); })
-      ->group("Look first");
-  add_switch(parser, "--version", options.version, "Print the version, the libraries' and the instruction sets")
-      ->group("Look first");
-  add_switch(parser, "-h,--help", options.help, "Print this")->group("Look first");
+  parser.group("Look first");
+  parser.add_switch("--validate", options.validate, "Check the scene and render nothing");
+  parser.add_switch("--print-scene", options.print_scene,
+                    "Print the scene with every value spelled out, as it would be rendered, and render nothing");
+  parser.add("--list", "KIND", "Print the " + joined(listing_kinds(), ", ") + " that there are",
+             [&](const std::string& text) { options.list = one_of(text, listing_kinds()); });
+  parser.add_switch("--version", options.version, "Print the version, the libraries' and the instruction sets");
+  parser.add_switch("-h,--help", options.help, "Print this");
 }
 
 Options parse_options(int argc, const char* const* argv) {
   Options options;
-  CLI::App parser;
+  OptionParser parser;
   define_options(parser, options);
-  parse(parser, argc, argv);
+  parser.parse(argc, argv);
   options.threads = thread_count(options.threads);
   // Not by CLI11's excludes(): from version 2.4 on, a counting flag counts as given when it is not.
   if (options.quiet && options.verbose > 0) throw UsageError("--quiet excludes --verbose");

@@ -16,11 +16,9 @@
 #include "raytrace/film/film.h"
 #include "raytrace/output/image_file.h"
 
-namespace CLI {
-class App;
-}
-
 namespace raytrace {
+
+class OptionParser;
 
 /// The value of Options::statistics for --stats without a file.
 inline constexpr std::string_view statistics_as_text = "text";
@@ -65,6 +63,8 @@ struct Options {
   std::string list;  ///< empty, or the kind of thing to list
 
   bool full_float = false;
+  bool transparent = false;
+  std::optional<double> exposure;  ///< in stops; none: not asked for
   bool quiet = false;
   bool validate = false;
   bool print_scene = false;
@@ -75,11 +75,13 @@ struct Options {
   bool has_statistics_file() const { return !statistics.empty() && statistics != statistics_as_text; }
   std::vector<std::string> files() const;  ///< that a render writes
   Verbosity verbosity() const;
-  ImageFileSettings image_file_settings() const { return {full_float, bit_depth, true, threads}; }
+  ImageFileSettings image_file_settings() const {
+    return {full_float, bit_depth, true, threads, transparent, exposure.value_or(0)};
+  }
 };
 
 /// Adds all options to a parser, which fills `options`.
-void define_options(CLI::App& parser, Options& options);
+void define_options(OptionParser& parser, Options& options);
 
 /// Throws UsageError, which tells what is wrong and, where a name is not known, the nearest one.
 Options parse_options(int argc, const char* const* argv);

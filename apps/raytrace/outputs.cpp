@@ -34,6 +34,14 @@ bool succeeds(const Action& action) {
 
 }  // namespace
 
+void refuse_useless_exposure(const std::vector<std::string>& files, const ImageFileSettings& settings) {
+  const auto uses_it = [&](const std::string& file) { return is_for_display(file, settings); };
+  if (std::none_of(files.begin(), files.end(), uses_it))
+    throw UsageError(
+        "--exposure: all outputs hold linear colour, which it does not change; .png, .jpg and .tif (without "
+        "--float) are sRGB-encoded");
+}
+
 Outputs::Outputs(const Options& options, const std::vector<std::string>& files, const PictureExtent& extent,
                  const ImageMetadata& metadata, std::vector<Channel> sums)
     : options_(options),

@@ -11,6 +11,9 @@
 
 namespace raytrace {
 
+/// Throws UsageError if --exposure matters to none of the files.
+void refuse_useless_exposure(const std::vector<std::string>& files, const ImageFileSettings& settings);
+
 class Outputs {
  public:
   /// files: those of options.outputs to write. sums: the sum_channels() that EXR files keep, too; empty if none.

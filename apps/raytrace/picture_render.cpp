@@ -48,7 +48,8 @@ PictureRender::PictureRender(const Scene& scene, const SceneDescription& descrip
       options_(options),
       signals_(signals),
       statistics_(statistics),
-      settings_{options.threads, options.seed, region, sample_range(description.viewplane, options), options.aovs},
+      settings_{options.threads, options.seed,       region, sample_range(description.viewplane, options),
+                options.aovs,    options.transparent},
       start_(start),
       next_checkpoint_(Clock::now() + in_seconds(options.checkpoint_interval)),
       progress_(progress) {
@@ -93,6 +94,7 @@ Ending PictureRender::render_at_once() {
   identity_.film = film.settings();
   std::uint32_t done = 0;
   if (options_.resume && std::filesystem::exists(options_.checkpoint)) {
+    checkpoint_ = file_identity(options_.checkpoint);  // first: one that takes its place is not ours to remove
     read_checkpoint(options_.checkpoint, identity_, film);
     done = film.fewest_samples();
     tell_step("resumed from " + options_.checkpoint);
@@ -148,11 +150,10 @@ void PictureRender::tell_stopped(const std::string& what_is_kept) const {
   tell_note("stopped by " + signals_.stop_signal_name() + ": " + what_is_kept);
 }
 
-/// If there is one. Of a symbolic link, the link stays, as it does when a file is written.
+/// The one that this run read or wrote last.
 void PictureRender::remove_checkpoint() const {
-  std::error_code there_is_none;
-  const std::filesystem::path target = std::filesystem::canonical(options_.checkpoint, there_is_none);
-  if (!options_.checkpoint.empty() && !there_is_none) std::filesystem::remove(target, there_is_none);
+  if (!checkpoint_ || remove_file(options_.checkpoint, *checkpoint_)) return;
+  tell_warning("the checkpoint " + options_.checkpoint + " is not removed: another file has taken its place");
 }
 
 /// Large pictures go to their files band by band, so that no more than one of them need be in memory.
@@ -289,7 +290,7 @@ bool PictureRender::save_checkpoint(const Film& film) {
   const Clock::time_point begin = Clock::now();
   bool saved = true;
   try {
-    write_checkpoint(options_.checkpoint, film, identity_, metadata());
+    checkpoint_ = write_checkpoint(options_.checkpoint, film, identity_, metadata());
     tell_step("wrote checkpoint " + options_.checkpoint + ": " + samples_done_text(film));
   } catch (const OutputError& error) {
     tell_error(error.what());

@@ -3,11 +3,13 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 
 #include "options.h"
 #include "progress.h"
 #include "raytrace/description/scene_description.h"
 #include "raytrace/display/display_client.h"
+#include "raytrace/output/file_identity.h"
 #include "raytrace/render/provenance.h"
 #include "raytrace/render/renderer.h"
 #include "signals.h"
@@ -63,6 +65,7 @@ class PictureRender {
   PieceIdentity identity_;
   Clock::time_point start_;
   Clock::time_point next_checkpoint_;
+  std::optional<FileIdentity> checkpoint_;  ///< that was read or written last
   SetAsideSamples set_aside_;
   std::unique_ptr<DisplayClient> display_;  ///< none if it was not asked for
   bool in_bands_ = false;

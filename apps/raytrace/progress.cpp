@@ -71,6 +71,11 @@ void Progress::update(double fraction) {
   }
 }
 
+void Progress::skip() {
+  // People are not told that what nobody rendered is rendered.
+  if (first_fraction_ || is_for_programs(style_)) finish();
+}
+
 void Progress::finish() {
   if (index_ + 1 < count_) return update(1);
   if (style_ == ProgressStyle::bar) {

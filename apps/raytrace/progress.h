@@ -24,6 +24,9 @@ class Progress {
   /// fraction: of the render that is done, 0 to 1.
   void update(double fraction);
 
+  /// The render need not be done.
+  void skip();
+
   /// The render is done, and after the last one all is: the last line, or no more bar.
   void finish();
 

@@ -39,7 +39,7 @@ RunChecks::RunChecks(const Jobs& jobs) {
     const Options job = jobs[i];
     if (i == 0 && job.renders()) check_formats(job);
     check_scene(job);
-    if (!job.renders()) continue;
+    if (!job.renders() || might_be_skipped(job)) continue;  // what is skipped may be in a folder that is read-only
     check_checkpoint(job);
     check_folders(job);
   }
@@ -68,7 +68,8 @@ void RunChecks::check_folders(const Options& job) {
 bool RunChecks::forbid(const Options& job) const {
   if (bad_.empty()) return false;
   if (bad_.contains(job.scene)) return true;
-  const std::vector<std::string> files = job.renders() ? job.files() : std::vector<std::string>();
+  if (!job.renders() || might_be_skipped(job)) return false;
+  const std::vector<std::string> files = job.files();
   return std::any_of(files.begin(), files.end(),
                      [&](const std::string& file) { return bad_.contains(folder_of(file)); });
 }

@@ -1,8 +1,8 @@
 #include "stages.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <tuple>
 #include <unordered_set>
@@ -10,10 +10,17 @@
 #include "about.h"
 #include "memory_limit.h"
 #include "messages.h"
+#include "outputs.h"
 #include "picture_settings.h"
+#include "signals.h"
+#include "raytrace/aovs/aov_selection.h"
 #include "raytrace/description/parse_value.h"
+#include "raytrace/description/scene_hash.h"
 #include "raytrace/output/atomic_file.h"
+#include "raytrace/output/complete_picture.h"
+#include "raytrace/output/film_channels.h"
 #include "raytrace/output/image_file.h"
+#include "raytrace/render/provenance.h"
 
 namespace raytrace {
 
@@ -38,10 +45,8 @@ std::string contents(const SceneDescription& description) {
 
 void write_statistics(const Statistics& statistics, const std::string& file) {
   AtomicFile atomic(file);
-  std::ofstream stream(atomic.temporary_name());
-  stream << json(statistics);
-  stream.close();
-  if (!stream) throw OutputError("cannot write " + file);
+  const std::string text = json(statistics);
+  if (std::fwrite(text.data(), 1, text.size(), atomic.stream()) != text.size()) atomic.fail(errno);
   atomic.commit();
 }
 
@@ -70,6 +75,10 @@ void check_formats(const Options& options) {
   if (options.full_float && std::none_of(options.outputs.begin(), options.outputs.end(), holds_float)) {
     throw UsageError("--float: none of the outputs can hold floats; .exr and .tif can");
   }
+  if (options.transparent && std::none_of(options.outputs.begin(), options.outputs.end(), holds_alpha)) {
+    throw UsageError("--transparent: none of the outputs can hold alpha; .exr, .png and .tif can");
+  }
+  if (options.exposure) refuse_useless_exposure(options.outputs, options.image_file_settings());
   if (!options.aovs.empty() && std::none_of(options.outputs.begin(), options.outputs.end(), holds_data)) {
     throw UsageError("--aov: none of the outputs can hold more than colour; .exr can");
   }
@@ -85,9 +94,42 @@ void check_outputs(const Options& options) {
   if (!options.renders()) return;
   check_formats(options);
   check_checkpoint(options);
+  const StopSignalsWait no_temporary_file_stays;
   for (const std::string& file : options.files()) {
     const AtomicFile made_and_removed(file);
   }
+}
+
+bool might_be_skipped(const Options& options) {
+  return options.skip_existing && options.renders() &&
+         (options.checkpoint.empty() || !std::filesystem::exists(options.checkpoint)) &&
+         std::all_of(options.outputs.begin(), options.outputs.end(),
+                     [](const std::string& file) { return std::filesystem::exists(file); });
+}
+
+bool outputs_are_complete(const SceneDescription& description, const Region& whole, const Region& region,
+                          const Options& options) {
+  PieceIdentity identity;
+  identity.provenance.scene = scene_hash(description, options.threads);
+  identity.film.seed = options.seed;
+  identity.film.transparent = options.transparent;
+  identity.film.samples = sample_range(description.viewplane, options);
+  identity.whole = whole;
+  WantedPicture wanted;
+  wanted.extent = {description.viewplane.hres, description.viewplane.vres, region};
+  wanted.channels = color_channels(options.full_float);
+  for (Channel& channel : aov_channels(options.aovs)) wanted.channels.push_back(std::move(channel));
+  if (options.sample_offset)
+    for (Channel& channel : sum_channels()) wanted.channels.push_back(std::move(channel));
+  wanted.bit_depth = options.bit_depth;
+  wanted.exposure = options.exposure.value_or(0);
+  wanted.attributes = picture_attributes(identity, options.time_limit.has_value());
+  return std::all_of(options.outputs.begin(), options.outputs.end(),
+                     [&](const std::string& file) { return is_complete_picture(file, wanted); });
+}
+
+void check_output_sizes(const Options& options, const Region& region) {
+  for (const std::string& file : options.outputs) check_size(file, region, options.image_file_settings());
 }
 
 std::optional<SceneDescription> load(const Options& options, Statistics& statistics) {
@@ -142,6 +184,7 @@ void print_pixel(const Scene& scene, const SceneDescription& description, const 
     return text + "\n";
   };
   RenderSettings settings{1, options.seed, pixel, sample_range(description.viewplane, options)};
+  settings.transparent = options.transparent;
   const SampleRange samples = *settings.samples;
   for (std::uint32_t i = 0; i < samples.count; ++i) {
     settings.samples = SampleRange{samples.first + i, 1, samples.centered};

@@ -19,6 +19,17 @@ void check_formats(const Options& options);
 /// A checkpoint that is there without --resume.
 void check_checkpoint(const Options& options);
 
+/// Whether there is anything that --skip-existing might leave as it is. A checkpoint that is still there tells that
+/// the outputs are not complete, whatever their formats can.
+bool might_be_skipped(const Options& options);
+
+/// Whether all outputs are there, whole, and of this picture, as far as their formats can tell.
+bool outputs_are_complete(const SceneDescription& description, const Region& whole, const Region& region,
+                          const Options& options);
+
+/// What check_outputs() does, for what depends on the size of the picture.
+void check_output_sizes(const Options& options, const Region& region);
+
 /// Reads the scene and tells what is wrong with it; none if that is an error.
 std::optional<SceneDescription> load(const Options& options, Statistics& statistics);
 

@@ -40,11 +40,14 @@ int threads_with_room(int wanted) {
     for (const pthread_t started : threads) pthread_join(started, nullptr);
   }
   pthread_attr_destroy(&attributes);
-  if (static_cast<int>(threads.size()) == wanted) return wanted;
-  const int usable = std::max(1, static_cast<int>(threads.size()) / 2);
-  tell_warning("there is no room for " + std::to_string(wanted) +
-               " threads: " + counted(static_cast<std::uint64_t>(usable), "thread") + " used");
-  return usable;
+  const int started = static_cast<int>(threads.size());
+  return started == wanted ? wanted : std::max(1, started / 2);
+}
+
+void tell_missing_threads(int wanted, int used) {
+  if (used == wanted) return;
+  tell_warning("there is no room for " + std::to_string(wanted) + " threads: " +
+               counted(static_cast<std::uint64_t>(used), "thread") + " used");
 }
 
 }  // namespace raytrace

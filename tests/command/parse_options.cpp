@@ -78,6 +78,14 @@ TEST_CASE("every option reaches its setting, in each of its spellings") {
     CHECK(options.resolution->height == 30);
   }
   CHECK(with({"--scale", "0.25"}).scale == 0.25);
+  CHECK_FALSE(with({}).exposure.has_value());
+  CHECK(with({"--exposure", "-1.5"}).exposure == -1.5);
+  CHECK(with({"--exposure=-1.5"}).exposure == -1.5);
+  CHECK(with({"--exposure", "-.5"}).exposure == -0.5);
+  CHECK(with({"--exposure", "+2"}).exposure == 2);
+  CHECK(with({"--exposure", "0"}).exposure == 0);
+  CHECK(with({"--transparent"}).transparent);
+  CHECK_FALSE(with({}).transparent);
   CHECK(with({"--crop", "1,2,3,4"}).crop == Region{1, 2, 3, 4});
   CHECK(with({"--crop", "-1,0,5,5"}).crop == Region{-1, 0, 5, 5});
   CHECK(with({"-s", "7"}).samples == 7);
@@ -183,6 +191,8 @@ TEST_CASE("what is no value of an option is refused with what would be one") {
   CHECK_REFUSED(with({"-D", "a=\n"}), "without control characters");
   CHECK_REFUSED(with({"--frames", "1..5"}), "--frames: '1..5' is no list of frames");
   CHECK_REFUSED(with({"--bit-depth", "12"}), "neither 8 nor 16");
+  for (const char* const text : {"", "bright", "1x", "nan", "inf", "-inf", "64.5", "-65", "+", "+-1", "--1", "1,5"})
+    CHECK_REFUSED(with({"--exposure", text}), "is not an exposure");
   CHECK_REFUSED(with({"--log-file="}), "--log-file");
   CHECK_REFUSED(with({"--progress", "plan"}), "did you mean 'plain'?");
   CHECK_REFUSED(with({"--isa", (isa_names().front() + "x").c_str()}), "did you mean '" + isa_names().front() + "'?");

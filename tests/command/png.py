@@ -1,11 +1,12 @@
-"""Reads the PNG files that the program writes: RGB, not interlaced. Written from the description of the format."""
+"""Reads the PNG files that the program writes: RGB or RGBA, not interlaced. Written from the description of the format.
+"""
 
 import struct
 import zlib
 
 
 class Png:
-    """text: keyword -> text; rows: lists of integers, three a pixel."""
+    """text: keyword -> text; rows: lists of integers, `channels` a pixel."""
 
     def __init__(self, data):
         assert data[:8] == b"\x89PNG\r\n\x1a\n"
@@ -17,24 +18,30 @@ class Png:
             at += size + 12
             if kind == b"IHDR":
                 self.width, self.height, self.bits, self.color, _, _, interlaced = struct.unpack(">IIBBBBB", body)
-                rgb = 2
-                assert self.color == rgb and not interlaced
+                self.channels = {2: 3, 6: 4}[self.color]
+                assert not interlaced
             elif kind == b"IDAT":
                 packed += body
             elif kind == b"tEXt":
                 keyword, value = body.split(b"\0", 1)
                 self.text[keyword.decode()] = value.decode("latin-1")
+            elif kind == b"iTXt":
+                keyword, value = body.split(b"\0", 1)
+                self.text[keyword.decode()] = value.split(b"\0", 3)[3].decode()  # after two flags and two names
         self.rows = self._rows(zlib.decompress(packed))
 
+    def pixel(self, x, y):
+        return tuple(self.rows[y][self.channels * x:self.channels * (x + 1)])
+
     def _rows(self, plain):
-        step = 3 * self.bits // 8
+        step = self.channels * self.bits // 8
         size = step * self.width
         rows, above = [], bytearray(size)
         for y in range(self.height):
             start = y * (size + 1)
             row = bytearray(plain[start + 1:start + 1 + size])
             _undo_filter(plain[start], row, above, step)
-            rows.append(list(struct.unpack(f">{3 * self.width}{'B' if self.bits == 8 else 'H'}", row)))
+            rows.append(list(struct.unpack(f">{self.channels * self.width}{'B' if self.bits == 8 else 'H'}", row)))
             above = row
         return rows
 

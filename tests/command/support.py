@@ -7,6 +7,7 @@ import unittest
 
 PROGRAM = os.environ["RAYTRACE_PROGRAM"]
 MAN_PAGE = os.environ["RAYTRACE_MAN_PAGE"]
+LONG = bool(os.environ.get("RAYTRACE_LONG_TESTS"))  # docs/testing.md
 SANITIZERS = os.environ.get("RAYTRACE_SANITIZERS", "")
 REPOSITORY = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 

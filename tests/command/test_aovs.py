@@ -101,11 +101,11 @@ class Aovs(CommandTest):
         self.assertEqual(objects["plane#1"], materials["floor"])
         # The sphere lies on the plane, which hides nothing of it.
         self.write("sphere.xml", re.sub("<planes>.*</planes>", "", support.SCENE))
-        alone = self.render("--float", "-s", "16", scene="sphere.xml", name="b.exr").pixels()
+        alone = self.render("--float", "-s", "16", "--transparent", scene="sphere.xml", name="b.exr").pixels()
         wanted = {place: pixel[3] for place, pixel in alone.items() if pixel[3]}
         self.assertEqual(objects["sphere#1"], wanted)
         self.assertGreater(len({share for share in wanted.values() if share < 1}), 5)  # soft edges
-        whole = self.render("--float", "-s", "16", name="b.exr").pixels()
+        whole = self.render("--float", "-s", "16", "--transparent", name="b.exr").pixels()
         for place, pixel in whole.items():
             covered = objects["sphere#1"].get(place, 0) + objects["plane#1"].get(place, 0)
             self.assertAlmostEqual(covered, pixel[3], places=6)

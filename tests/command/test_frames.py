@@ -1,5 +1,6 @@
 """Variables, frames, keys, several scenes: what only a whole run shows."""
 
+import json
 import os
 import re
 import struct
@@ -72,6 +73,17 @@ class Frames(CommandTest):
             self.succeed("scene.xml", *SMALL, "--frames", str(i), "-o", f"a.{i:04}.exr", "-o", f"b{i:02}.png",
                          env=self.environment)
             self.assertEqual((self.read(f"a.{i:04}.exr"), self.read(f"b{i:02}.png")), together)
+
+    def test_a_folder_that_is_there_keeps_its_name(self):
+        os.mkdir(self.path("C#"))
+        os.rename(self.path("scene.xml"), self.path("C#/scene.xml"))
+        os.mkdir(self.path("f1"))
+        os.mkdir(self.path("f2"))
+        self.succeed("C#/scene.xml", *SMALL, "--frames", "1-2", "-o", "C#/a.#.exr", "-o", "f#/{#}%%.exr",
+                     "--stats=C#/s.#.json")
+        self.assertEqual(sorted(os.listdir(self.path("C#"))), ["a.1.exr", "a.2.exr", "s.1.json", "s.2.json", "scene.xml"])
+        self.assertEqual(os.listdir(self.path("f1")) + os.listdir(self.path("f2")), ["#%.exr", "#%.exr"])
+        self.fail_with(2, "C#/scene.xml", *SMALL, "--frames", "1-2", "-o", "C#/a.exr")
 
     def test_many_frames_need_a_token(self):
         message = self.fail_with(2, "scene.xml", "--frames", "1-3", "-o", "a.exr")
@@ -163,6 +175,58 @@ class SkipExisting(CommandTest):
             self.write_bytes("a.1.exr", self.read("a.1.exr")[:length])
             self.assertEqual(self.render("1"), [], length)
             self.assertEqual(self.render("1"), ["a.1.exr, b.1.png"])
+
+    def test_a_truncated_picture_of_any_format_is_rendered_again(self):
+        names = [f"a.{ending}" for ending in ("png", "jpg", "tif", "bmp", "tga", "hdr", "gif", "ppm")]
+        outputs = [word for name in names for word in ("-o", name)]
+        command = ["scene.xml", "-r", "23x17", "-s", "1", "--progress=none", "--skip-existing", *outputs]
+        self.succeed(*command)
+        whole = {name: self.read(name) for name in names}
+        self.assertIn("skipped", self.succeed(*command).stderr)
+        for name in names:
+            for length in (0, len(whole[name]) - 1):
+                self.write_bytes(name, whole[name][:length])
+                self.assertEqual(self.succeed("scene.xml", "-r", "23x17", "-s", "1", "--progress=none",
+                                              "--skip-existing", "-o", name).stderr, "", (name, length))
+
+    def test_another_picture_is_rendered_again(self):
+        self.write("scene.xml", support.SCENE.replace("<radius>1<", "<radius>$radius<"))
+        for outputs in (["-o", "a.exr"], ["-o", "a.png"]):
+            def skipped(*options):
+                done = self.succeed("scene.xml", "-r", "24x16", "-s", "2", "--progress=none", "--skip-existing", *outputs,
+                                    *(options if "-D" in options else (*options, "-D", "radius=1")))
+                return "skipped" in done.stderr
+            for change in ([], ["-D", "radius=0.5"], ["--seed", "3"], ["-s", "3"], ["-s", "1"], ["-r", "20x16"],
+                           ["--sample-offset", "2"], ["--tile", "1/2"], ["--crop", "0,0,8,16"],
+                           ["--transparent"]):
+                self.assertFalse(skipped(*change), change)
+                self.assertTrue(skipped(*change), change)
+        for kept, change in (("a.exr", ["--float"]), ("a.exr", ["--aov", "depth"]), ("a.exr", ["--sample-offset", "0"]),
+                             ("a.png", ["--bit-depth", "16"]), ("a.png", ["--exposure", "-0.75"])):
+            outputs = ["-o", kept]
+            skipped()
+            self.assertTrue(skipped(), change)
+            self.assertFalse(skipped(*change), change)
+        # What only the machine or the program decides does not count.
+        outputs = ["-o", "a.exr"]
+        skipped()
+        self.assertTrue(skipped("-t", "1"))
+        self.assertTrue(skipped("--time-limit", "1h", "-s", "64"))
+
+    def test_a_size_that_no_picture_has_costs_no_memory(self):
+        self.render("1")
+        whole = self.read("a.1.exr")
+        at = whole.index(b"dataWindow\0box2i\0") + len(b"dataWindow\0box2i\0") + 4
+        self.write_bytes("a.1.exr", whole[:at] + struct.pack("<iiii", 0, 0, (1 << 30) - 1, 11) + whole[at + 16:])
+        self.succeed("scene.xml", *SMALL, "--skip-existing", "-o", "a.1.exr", "--stats=stats.json")
+        self.assertEqual(Exr(self.read("a.1.exr")).data_window, (0, 0, 15, 11))
+        self.assertLess(json.loads(self.read("stats.json"))["memory"]["peak_bytes"], 2 << 30)
+
+    def test_what_is_skipped_is_not_said_to_be_rendered(self):
+        command = ["scene.xml", "-r", "16x12", "-s", "1", "--skip-existing", "-o", "a.exr"]
+        self.assertIn("rendered 100 %", self.succeed(*command, "--progress=plain").stderr)
+        self.assertEqual(self.succeed(*command, "--progress=plain").stderr, "raytrace: a.exr: there already, skipped\n")
+        self.assertIn("openjd_progress: 100", self.succeed(*command, "--progress=openjd").stdout)
 
     def write_bytes(self, name, data):
         with open(self.path(name), "wb") as file:

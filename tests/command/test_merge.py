@@ -56,6 +56,8 @@ class Merge(CommandTest):
                  ("the seed (7, not 0)", ["--tile", "1/2", "--seed", "7"], "scene.xml"),
                  ("the resolution (40 x 30, not 80 x 60)", ["--tile", "1/2", "-r", "40x30"], "scene.xml"),
                  ("the crop that it is a part of", ["--tile", "1/2", "--crop", "0,0,79,60"], "scene.xml"),
+                 ("the background (transparent, not opaque): use --transparent for all of them, or none",
+                  ["--tile", "1/2", "--transparent"], "scene.xml"),
                  ("its channels", ["--tile", "1/2", "--float"], "scene.xml"),
                  ("the AOVs (depth, not none)", ["--tile", "1/2", "--aov", "depth"], "scene.xml"),
                  ("the place of the samples", ["--tile", "1/2", "-s", "1"], "scene.xml")]

@@ -13,7 +13,6 @@ import support
 from exr import Exr
 from support import CommandTest
 
-LONG = bool(os.environ.get("RAYTRACE_LONG_TESTS"))
 # The same command gives the same bytes, header and all.
 ENVIRONMENT = dict(os.environ, SOURCE_DATE_EPOCH="0")
 LIMIT = 300  # seconds after which whatever a test waits for does not come any more
@@ -69,7 +68,7 @@ class SafetyTest(CommandTest):
 
 class Killed(SafetyTest):
     def test_kills_at_random_moments(self):
-        moments, samples = (200, support.samples(24000)) if LONG else (15, support.samples(3000))
+        moments, samples = (200, support.samples(24000)) if support.LONG else (15, support.samples(3000))
         chance = random.Random(1)
         scene = ["scene.xml", "-q", "-s", samples, "--aov", "depth,crypto_object"]
         begin = time.monotonic()
@@ -98,7 +97,7 @@ class Killed(SafetyTest):
         self.succeed(*command)
         self.assert_same("a.exr", wanted)
         self.assertGreater(resumed, 0, f"none of {kills} kills came after a checkpoint")
-        if LONG:
+        if support.LONG:
             print(f"{kills} kills, {resumed} times resumed, {ended + 1} renders ended with the same bits")
         # What stays of a process that was killed while it wrote has a name that nobody takes for a picture.
         for name in self.names():
@@ -274,8 +273,8 @@ class ForeignCheckpoints(SafetyTest):
         self.succeed("scene.xml", "-q", *arguments, "-o", "whole.exr")
         wanted = self.read("whole.exr")
         chance = random.Random(2)
-        places = [*chance.sample(range(2000), 12 if not LONG else 400),
-                  *chance.sample(range(2000, len(whole)), 12 if not LONG else 400)]
+        places = [*chance.sample(range(2000), 12 if not support.LONG else 400),
+                  *chance.sample(range(2000, len(whole)), 12 if not support.LONG else 400)]
         refusals = 0
         for place in places:
             damaged = bytearray(whole)

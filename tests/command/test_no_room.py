@@ -47,7 +47,7 @@ def halted(process):
 LARGE = ["-r", "800x600"]
 LARGE_FILES = [*LARGE, "--float"]
 # A render that is not over when it has been seen to run.
-LONG = ["scene.xml", "-s", support.samples(100000)]
+LONG = ["scene.xml", "-s", support.samples(40000)]
 
 
 class FullDisk(MountTest):

@@ -32,6 +32,17 @@ class Usage(CommandTest):
     def test_float_where_nothing_can_hold_it(self):
         self.assertIn("--float", self.refused("scene.xml", "-o", "a.png", "--float"))
 
+    def test_transparent_where_nothing_can_hold_alpha(self):
+        self.assertIn("--transparent: none of the outputs can hold alpha; .exr, .png and .tif can",
+                      self.refused("scene.xml", "-o", "a.jpg", "-o", "a.hdr", "--transparent"))
+
+    def test_exposure_where_all_is_linear(self):
+        for outputs in (["a.exr"], ["a.exr", "-o", "a.hdr"], ["a.tif", "--float"]):
+            self.assertIn("--exposure: all outputs hold linear colour",
+                          self.refused("scene.xml", "--exposure", "1", "-o", *outputs))
+        self.assertIn("--exposure: all outputs hold linear colour",
+                      self.refused("merge", "a.exr", "-o", "b.exr", "--exposure", "1"))
+
 
 if __name__ == "__main__":
     unittest.main()

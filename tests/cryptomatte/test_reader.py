@@ -33,7 +33,8 @@ def check(program, folder):
         print(f"{kind}: {len(names)} mattes, {numpy.count_nonzero(numpy.unique(ids))} of them seen")
 
     # With more, mattes add up to the coverage.
-    subprocess.run([program, SCENE, "-q", "-o", file, "-r", "240x180", "-s", "16", "--aov", "all", "--float"], check=True)
+    subprocess.run([program, SCENE, "-q", "-o", file, "-r", "240x180", "-s", "16", "--aov", "all", "--float",
+                    "--transparent"], check=True)
     with open(file, "rb") as opened:
         picture = Exr(opened.read())
     alpha = numpy.array([picture.rows[y]["A"] for y in range(180)])

@@ -16,8 +16,9 @@ int ray_count(int wanted) {
     RAYTRACE_HAS_FEATURE(thread_sanitizer)
   double share = 0.02;
 #else
-  double share = 1;
+  double share = 0.1;
 #endif
+  if (std::getenv("RAYTRACE_LONG_TESTS") != nullptr) share *= 10;
   if (const char* text = std::getenv("RAYTRACE_TEST_SHARE")) share = std::atof(text);
   return std::max(1, static_cast<int>(wanted * share));
 }

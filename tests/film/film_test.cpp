@@ -40,13 +40,23 @@ TEST_CASE("a pixel is the mean of its samples in the film's units, and black and
   CHECK(pixel.red == 0.5f);
   CHECK(pixel.green == -0.25f);
   CHECK(pixel.blue == 1.0f);
-  CHECK(pixel.alpha == 0.25f);
+  CHECK(pixel.alpha == 1.0f);
   const Pixel empty = film.pixel(0, 0);
   CHECK(empty.red == 0.0f);
   CHECK(empty.alpha == 0.0f);
   CHECK(film.fewest_samples() == 0);
   film.sum(0, 0).samples = 7;
   CHECK(film.fewest_samples() == 4);
+}
+
+TEST_CASE("alpha is coverage in a transparent picture") {
+  FilmSettings settings = settings_of({0, 0, 2, 1}, -10);
+  settings.transparent = true;
+  Film film(settings);
+  film.sum(1, 0) += {1024, -512, 3 * 1024, 1, 4};
+  CHECK(film.pixel(1, 0).alpha == 0.25f);
+  CHECK(film.pixel(1, 0).red == 0.25f);  // premultiplied
+  CHECK(film.pixel(0, 0).alpha == 0.0f);
 }
 
 TEST_CASE("a film of means takes those of sums, as floats or as halves") {
@@ -60,8 +70,7 @@ TEST_CASE("a film of means takes those of sums, as floats or as halves") {
     Film means(settings_of(region, -10), content);
     CHECK(means.sums().empty());
     for (int y = part.y0; y < part.y1; ++y)
-      for (int x = part.x0; x < part.x1; ++x)
-        set_means(means, x, y, 1, [&](int) { return mean(sums.sum(x, y), sums.unit()); });
+      for (int x = part.x0; x < part.x1; ++x) set_means(means, x, y, 1, [&](int) { return sums.pixel(x, y); });
     for (int y = region.y0; y < region.y1; ++y)
       for (int x = region.x0; x < region.x1; ++x) {
         INFO(x << ", " << y);

@@ -37,8 +37,8 @@ run(${CMAKE_COMMAND} -G Ninja -S ${CONSUMER} -B ${SCRATCH}/build -D CMAKE_PREFIX
   -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_BUILD_TYPE=${BUILD_TYPE} -D CMAKE_CXX_FLAGS=${flags}
   -D RAYTRACE_LEAST_VERSION=${VERSION})
 run(${CMAKE_COMMAND} --build ${SCRATCH}/build)
-# A PNG, so that the module is found. (The dlopen of sanitizers overlooks run paths.)
-set(picture ${SCRATCH}/seed.png)
+# A JPEG, so that the module is found. (The dlopen of sanitizers overlooks run paths.)
+set(picture ${SCRATCH}/seed.jpg)
 if(SANITIZERS)
   set(picture ${SCRATCH}/seed.exr)
 endif()

@@ -23,6 +23,8 @@ mode_t permissions_of(const std::string& file) {
   return status.st_mode & 0777U;
 }
 
+void fill(const AtomicFile& atomic, const char* text) { std::fputs(text, atomic.stream()); }
+
 template <class Action>
 std::string message_of(const Action& action) {
   try {
@@ -44,7 +46,7 @@ TEST_CASE("a file appears at its commit") {
   const std::string file = folder.file("a.txt");
   {
     AtomicFile atomic(file);
-    write_text(atomic.temporary_name(), "new");
+    fill(atomic, "new");
     CHECK_FALSE(fs::exists(file));
     atomic.commit();
     CHECK(bytes_of(file) == "new");
@@ -58,7 +60,7 @@ TEST_CASE("without a commit all is as it was") {
   write_text(file, "old");
   {
     const AtomicFile atomic(file);
-    write_text(atomic.temporary_name(), "new");
+    fill(atomic, "new");
   }
   CHECK(bytes_of(file) == "old");
   CHECK(folder.names() == std::vector<std::string>{"a.txt"});
@@ -67,20 +69,19 @@ TEST_CASE("without a commit all is as it was") {
 TEST_CASE("the temporary file is in the same folder, is hidden and has the same extension") {
   const TemporaryFolder folder;
   const AtomicFile atomic(folder.file("a.exr"));
-  const fs::path temporary = atomic.temporary_name();
-  CHECK(temporary.parent_path() == folder.path());
-  CHECK(temporary.filename().string().front() == '.');
+  REQUIRE(folder.names().size() == 1);
+  const fs::path temporary = folder.names().front();
+  CHECK(temporary.string().front() == '.');
   CHECK(temporary.extension() == ".exr");
-  CHECK(fs::exists(temporary));
 }
 
 TEST_CASE("several files may be under way for one name") {
   const TemporaryFolder folder;
   const std::string file = folder.file("a.txt");
   AtomicFile first(file), second(file);
-  REQUIRE(first.temporary_name() != second.temporary_name());
-  write_text(first.temporary_name(), "first");
-  write_text(second.temporary_name(), "second");
+  REQUIRE(folder.names().size() == 2);
+  fill(first, "first");
+  fill(second, "second");
   second.commit();
   first.commit();
   CHECK(bytes_of(file) == "first");
@@ -90,7 +91,7 @@ TEST_CASE("a name as long as names can be is fine") {
   const TemporaryFolder folder;
   const std::string file = folder.file(std::string(251, 'n') + ".txt");
   AtomicFile atomic(file);
-  write_text(atomic.temporary_name(), "long");
+  fill(atomic, "long");
   atomic.commit();
   CHECK(bytes_of(file) == "long");
 }
@@ -102,6 +103,72 @@ TEST_CASE("permissions are what the umask leaves") {
   write_image(file, distinct_film(4, 4), {}, {});
   umask(before);
   CHECK(permissions_of(file) == 0640);
+}
+
+TEST_CASE("a file that is replaced keeps its permissions") {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("a.txt");
+  write_text(file, "old");
+  for (const mode_t mode : {0600U, 0664U, 0666U, 0755U}) {
+    REQUIRE(chmod(file.c_str(), mode) == 0);
+    AtomicFile atomic(file);
+    fill(atomic, "new");
+    atomic.commit();
+    CHECK(permissions_of(file) == mode);
+  }
+}
+
+TEST_CASE("a file that root replaces stays its owner's") {
+  if (geteuid() != 0) return;
+  const TemporaryFolder folder;
+  const std::string file = folder.file("a.txt");
+  write_text(file, "old");
+  REQUIRE(chown(file.c_str(), 1234, 4321) == 0);
+  AtomicFile atomic(file);
+  atomic.commit();
+  struct stat status{};
+  REQUIRE(stat(file.c_str(), &status) == 0);
+  CHECK(status.st_uid == 1234);
+  CHECK(status.st_gid == 4321);
+}
+
+TEST_CASE("another user's link in a folder for everyone is not followed") {
+  if (geteuid() != 0) return;  // who alone can make a link of another user
+  const TemporaryFolder folder;
+  fs::create_directories(folder.path() / "mine");
+  fs::create_directory(folder.path() / "shared");
+  fs::permissions(folder.path() / "shared", fs::perms::all | fs::perms::sticky_bit);
+  write_text(folder.file("mine/kept.txt"), "kept");
+  const bool is_folder = GENERATE(false, true);
+  const std::string link = folder.file("shared/link");
+  fs::create_symlink(is_folder ? "../mine" : "../mine/kept.txt", link);
+  const std::string file = is_folder ? link + "/kept.txt" : link;
+
+  CHECK(refusal(file) == "");  // our own
+  REQUIRE(lchown(link.c_str(), 1234, 1234) == 0);
+  const FileIdentity kept = *file_identity(folder.file("mine/kept.txt"));
+  CHECK(contains(refusal(file), "another user's symbolic link"));
+  CHECK_FALSE(remove_file(file, kept));
+  CHECK(bytes_of(folder.file("mine/kept.txt")) == "kept");
+
+  REQUIRE(chown(folder.file("shared").c_str(), 1234, 1234) == 0);
+  CHECK(refusal(file) == "");  // the folder's owner's
+}
+
+TEST_CASE("a file is removed if it is the very one") {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("a.txt"), link = folder.file("link"), other = folder.file("other");
+  AtomicFile atomic(file);
+  atomic.commit();
+  const FileIdentity identity = atomic.identity();
+  fs::create_symlink("a.txt", link);
+  write_text(other, "other");
+  CHECK_FALSE(remove_file(other, identity));
+  CHECK(fs::exists(other));
+  CHECK(remove_file(link, identity));
+  CHECK(folder.names().size() == 2);
+  CHECK(fs::is_symlink(link));
+  CHECK(remove_file(file, identity));  // it is gone
 }
 
 TEST_CASE("a symbolic link stays, and what it points to is written") {
@@ -119,8 +186,8 @@ TEST_CASE("a symbolic link stays, and what it points to is written") {
   }
 
   AtomicFile atomic(link);
-  CHECK(fs::path(atomic.temporary_name()).parent_path() == folder.path() / "elsewhere");
-  write_text(atomic.temporary_name(), "new");
+  CHECK(folder.names().size() == (chained ? 3 : 2));  // the temporary file is beside the target
+  fill(atomic, "new");
   atomic.commit();
   CHECK(fs::is_symlink(link));
   CHECK(bytes_of(target) == "new");
@@ -164,6 +231,19 @@ TEST_CASE("what cannot be written is refused at once, with the reason") {
     fs::create_directory(folder.path() / "kept");
     fs::permissions(folder.path() / "kept", fs::perms::owner_read | fs::perms::owner_exec);
     CHECK(contains(refusal(folder.file("kept/a.exr")), "read-only"));
+  }
+  SECTION("another user's file in a folder where only its owner may replace it") {
+    if (geteuid() != 0) return;  // who alone can make one
+    fs::permissions(folder.path(), fs::perms::all | fs::perms::sticky_bit);
+    write_text(file, "old");
+    fs::permissions(file, fs::perms::owner_all | fs::perms::others_all);
+    REQUIRE(chown(file.c_str(), 1234, 1234) == 0);
+    REQUIRE(chown(folder.path().c_str(), 1234, 1234) == 0);
+    REQUIRE(seteuid(4321) == 0);
+    const std::string message = refusal(file);
+    REQUIRE(seteuid(0) == 0);
+    CHECK(contains(message, "belongs to another user"));
+    CHECK(bytes_of(file) == "old");
   }
   SECTION("something that is no file") {
     REQUIRE(mkfifo(file.c_str(), 0600) == 0);

@@ -133,7 +133,7 @@ TEST_CASE("a film of half means makes the same EXR as the sums that they are of"
   if (too_bright) sums.sum(20, 30) = {std::int64_t{1} << 50, 0, -(std::int64_t{1} << 50), 1, 1};
   Film means(settings, FilmContent::half_means);
   for (int y = 5; y < 59; ++y)
-    for (int x = 3; x < 37; ++x) set_means(means, x, y, 1, [&](int) { return mean(sums.sum(x, y), sums.unit()); });
+    for (int x = 3; x < 37; ++x) set_means(means, x, y, 1, [&](int) { return sums.pixel(x, y); });
 
   const Repairs of_sums = write_image(file, sums, {}, {});
   const std::string wanted = bytes_of(file);

@@ -82,8 +82,8 @@ struct ReadPicture {
   }
 };
 
-inline ReadPicture read_picture(const std::string& file) {
-  const auto input = OIIO::ImageInput::open(file);
+inline ReadPicture read_picture(const std::string& file, const OIIO::ImageSpec* config = nullptr) {
+  const auto input = OIIO::ImageInput::open(file, config);
   if (!input) throw std::runtime_error("cannot read " + file + ": " + OIIO::geterror());
   ReadPicture picture;
   picture.spec = input->spec();
@@ -93,6 +93,19 @@ inline ReadPicture read_picture(const std::string& file) {
     throw std::runtime_error("cannot read the pixels of " + file + ": " + input->geterror());
   }
   return picture;
+}
+
+/// The values as the file has them; straight colour is not multiplied by alpha.
+template <class Integer>
+std::vector<Integer> integers(const std::string& file, OIIO::TypeDesc type) {
+  OIIO::ImageSpec config;
+  config.attribute("oiio:UnassociatedAlpha", 1);
+  const auto input = OIIO::ImageInput::open(file, &config);
+  if (!input || input->spec().format != type) throw std::runtime_error(file + " holds other integers");
+  std::vector<Integer> values(static_cast<std::size_t>(input->spec().image_pixels()) *
+                              static_cast<std::size_t>(input->spec().nchannels));
+  input->read_image(0, 0, 0, input->spec().nchannels, type, values.data());
+  return values;
 }
 
 inline ImageMetadata some_metadata() {

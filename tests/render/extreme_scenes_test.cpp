@@ -26,7 +26,7 @@ int not_finite(const FloatPicture& film) {
 
 }  // namespace
 
-TEST_CASE("a scene without objects is its background, and covers nothing") {
+TEST_CASE("a scene without objects is its background, which is opaque") {
   for (const std::string& isa : usable_isas()) {
     const FloatPicture film =
         rendered(parsed_scene(scene_text(33, 17, 3,
@@ -36,7 +36,7 @@ TEST_CASE("a scene without objects is its background, and covers nothing") {
     int wrong = 0;
     for (const Pixel& pixel : film.pixels())
       wrong += std::abs(pixel.red - 0.1f) > 1e-7f || std::abs(pixel.green - 0.2f) > 1e-7f ||
-               std::abs(pixel.blue - 0.4f) > 1e-7f || pixel.alpha != 0;
+               std::abs(pixel.blue - 0.4f) > 1e-7f || pixel.alpha != 1;
     CHECK(wrong == 0);
   }
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,12 +13,12 @@
 #include <vector>
 
 #include "raytrace/description/document.h"
-#include "raytrace/description/item_reader.h"
+#include "raytrace/description/item_list.h"
 #include "raytrace/description/name_table.h"
 #include "raytrace/description/nearest_name.h"
 #include "raytrace/description/quoted.h"
 #include "raytrace/description/read_fields.h"
-#include "raytrace/description/read_pieces.h"
+#include "raytrace/description/read_items.h"
 #include "raytrace/description/refuse_content.h"
 #include "raytrace/description/report.h"
 #include "raytrace/description/scene_description.h"
@@ -151,7 +152,8 @@ class SceneReader {
 
   /// Reads the groups of a section. tuple: its vectors of items, one for each type of the list. labels: what its items
   /// have beside their parameters. convert(Item<T>&, diagnostics): gives what the vector holds, and may find the item
-  /// not usable; called by several threads at once. accept<T>(Harvested, its place, the vector): stores an item.
+  /// not usable; called by several threads at once. accept<T>(TypedItemList::Entry, its place, the vector): stores an
+  /// item.
   template <class List, class Tuple, class Convert, class Accept>
   void read_section(Element section, List list, Tuple& tuple, const std::vector<FieldInfo>& labels, bool may_skip,
                     const Convert& convert, const Accept& accept) {
@@ -164,42 +166,34 @@ class SceneReader {
         if (found || child.name() != (T::group.empty() ? T::element : T::group)) return;
         found = true;
         auto& items = std::get<index_of<T>(List{})>(tuple);
-        using Stored = typename std::remove_reference_t<decltype(items)>::value_type;
-        const ItemReader<T, Stored, Convert> reader(text_, child, labels, may_skip, convert);
+        using Typed = TypedItemList<T, typename std::remove_reference_t<decltype(items)>::value_type, Convert>;
         if constexpr (T::group.empty()) {
-          FieldsReader<typename T::Parameters> fields(T::fields(), labels);
-          if (is_first(T::element, child))
-            accept.template operator()<T>(reader.read(child, 0, fields, diagnostics_), ItemPlace{}, items);
+          if (!is_first(T::element, child)) return;
+          Typed one(labels, may_skip, convert);
+          one.read(child, 0, diagnostics_);
+          accept.template operator()<T>(std::move(one.entries().front()), ItemPlace{}, items);
         } else {
-          read_group(child, reader, items, [&](Harvested<Stored>&& harvested, ItemPlace place) {
-            accept.template operator()<T>(std::move(harvested), place, items);
-          });
+          refuse_group_content(child);
+          reserve_more(items, text_.pieces_of(child.offset()).items);
+          read_items(
+              {text_, variables_, child, T::element}, arena_, diagnostics_,
+              [&] { return std::make_unique<Typed>(labels, may_skip, convert); },
+              [&](std::size_t piece, ItemList& read) {
+                for (auto& entry : static_cast<Typed&>(read).entries()) {
+                  const ItemPlace place{static_cast<std::uint32_t>(piece), entry.number};
+                  accept.template operator()<T>(std::move(entry), place, items);
+                }
+              });
         }
       });
       if (!found) refuse_misplaced(child, section.name(), diagnostics_);
     }
   }
 
-  /// accept(Harvested, its place): called in the order of the file.
-  template <class Reader, class Items, class Accept>
-  void read_group(Element group, const Reader& reader, Items& items, const Accept& accept) {
+  void refuse_group_content(Element group) {
     refuse_attributes(group, {}, diagnostics_);
     // What stands before the first item; that one and the rest are in the pieces.
     for (Node node = group.first_child(); node; node = node.next()) refuse_text(node, group, diagnostics_);
-
-    using Harvest = typename Reader::Harvest;
-    const auto read = [&](std::size_t piece, ItemTools& tools, Harvest& harvest, Diagnostics& diagnostics) {
-      reader.read_piece(piece, tools, harvest, diagnostics);
-    };
-    const auto take = [&](std::size_t piece, Harvest& harvest) {
-      for (auto& harvested : harvest) {
-        const ItemPlace place{static_cast<std::uint32_t>(piece), harvested.number};
-        accept(std::move(harvested), place);
-      }
-    };
-    const SceneText::PieceRange pieces = text_.pieces_of(group.offset());
-    reserve_more(items, pieces.items);
-    read_pieces<Harvest, ItemTools>(text_, variables_, pieces, arena_, diagnostics_, read, take);
   }
 
   template <class Items>

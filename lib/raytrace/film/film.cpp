@@ -44,7 +44,7 @@ Film::Film(const FilmSettings& settings, FilmContent content)
 Pixel Film::pixel(int x, int y) const {
   switch (content_) {
     case FilmContent::sums:
-      return mean(sums_[index(x, y)], unit_);
+      return mean(sums_[index(x, y)], unit_, settings_.transparent);
     case FilmContent::means:
       return means_[index(x, y)];
     case FilmContent::half_means:

@@ -28,7 +28,7 @@ struct PictureExtent {
   friend bool operator==(const PictureExtent&, const PictureExtent&) = default;
 };
 
-/// Linear RGB radiance, and A: the part of the pixel's samples that hit an object. A mean of samples.
+/// Linear RGB radiance, a mean of samples, and A: 1; in a transparent picture the coverage, by which RGB is multiplied.
 struct Pixel {
   float red = 0, green = 0, blue = 0, alpha = 0;
 };
@@ -65,6 +65,8 @@ struct FilmSettings {
   std::uint64_t seed = 0;
   int unit_exponent = -44;  ///< the sums count radiance in units of 2^unit_exponent
   AovSettings aovs;
+  /// The background is left out of the colour, and A is coverage: the part of a pixel's samples that hit an object.
+  bool transparent = false;
   friend bool operator==(const FilmSettings&, const FilmSettings&) = default;
 };
 

@@ -13,19 +13,20 @@
 
 namespace raytrace {
 
-/// Of so many samples, whose sums are given in units: black and empty if there are none. unit: Film::unit().
-RAYTRACE_INLINE Pixel mean(double red, double green, double blue, std::uint32_t hits, std::uint32_t samples,
+/// Of so many samples, whose sums are given in units: black and empty if there are none. covered: the samples that
+/// count for alpha. unit: Film::unit().
+RAYTRACE_INLINE Pixel mean(double red, double green, double blue, std::uint32_t covered, std::uint32_t samples,
                            double unit) {
   if (samples == 0) return {};
-  const CompilerVector<double, 4> totals{red, green, blue, static_cast<double>(hits)}, units{unit, unit, unit, 1};
+  const CompilerVector<double, 4> totals{red, green, blue, static_cast<double>(covered)}, units{unit, unit, unit, 1};
   const auto quotients = samples == 1 ? totals : totals / static_cast<double>(samples);  // which takes long
   return std::bit_cast<Pixel>(__builtin_convertvector(quotients * units, CompilerVector<float, 4>));
 }
 
-/// Of the pixel's samples.
-inline Pixel mean(const PixelSum& sum, double unit) {
-  return mean(static_cast<double>(sum.red), static_cast<double>(sum.green), static_cast<double>(sum.blue), sum.hits,
-              sum.samples, unit);
+/// Of the pixel's samples. transparent: FilmSettings::transparent.
+inline Pixel mean(const PixelSum& sum, double unit, bool transparent) {
+  return mean(static_cast<double>(sum.red), static_cast<double>(sum.green), static_cast<double>(sum.blue),
+              transparent ? sum.hits : sum.samples, sum.samples, unit);
 }
 
 inline HalfPixel in_halves(const Pixel& pixel) {

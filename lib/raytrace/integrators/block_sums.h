@@ -55,11 +55,12 @@ class BlockSums {
         film.sum(x, y) += {red[i], green[i], blue[i], hits[i], samples[i]};
       });
     } else {
+      const auto& covered = film.settings().transparent ? hits : samples;
       const auto red = red_.rounded_sums(), green = green_.rounded_sums(), blue = blue_.rounded_sums();
       block.for_each_row(region, [&](int x, int y, int first, int count) RAYTRACE_INLINE_LAMBDA {
         set_means(film, x, y, count, [&](int i) RAYTRACE_INLINE_LAMBDA {
           const std::size_t pixel = static_cast<std::size_t>(first) + static_cast<std::size_t>(i);
-          return mean(red[pixel], green[pixel], blue[pixel], hits[pixel], samples[pixel], film.unit());
+          return mean(red[pixel], green[pixel], blue[pixel], covered[pixel], samples[pixel], film.unit());
         });
       });
     }

@@ -16,12 +16,11 @@ constexpr std::size_t lights_per_run = 16;
 
 }  // namespace
 
-SeenRadiance Raycast::radiance(const TracedScene& scene, Ray<FloatN>& rays, const MaskN& active, const MaskN& counted,
-                               RayCounts& counts, MetSurface* met) {
+SeenRadiance Raycast::radiance(const TracedScene& scene, const Rgb<float>& background, Ray<FloatN>& rays,
+                               const MaskN& active, const MaskN& counted, RayCounts& counts, MetSurface* met) {
   const Hits hits = scene.accelerator().intersect(rays, active, Coherence::coherent, scene.seen_from_camera());
   if (met != nullptr) met->hits = hits;
-  const auto background = [&] { return Rgb<FloatN>(Rgb<float>(scene.viewplane().background)); };
-  if (none(hits.hit)) return {background(), hits.hit};
+  if (none(hits.hit)) return {Rgb<FloatN>(background), hits.hit};
 
   const SurfacePoint<FloatN> point = scene.accelerator().surface(rays, hits);
   if (met != nullptr) met->point = point;
@@ -59,7 +58,7 @@ SeenRadiance Raycast::radiance(const TracedScene& scene, Ray<FloatN>& rays, cons
     ++count;
   }
   if (count > 0 || scene.lights().size() <= lights_per_run) shade_run();
-  return {select(hits.hit, radiance, background()), hits.hit};
+  return {select(hits.hit, radiance, Rgb<FloatN>(background)), hits.hit};
 }
 
 }  // namespace raytrace

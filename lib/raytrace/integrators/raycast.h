@@ -23,10 +23,10 @@ class Raycast {
   static constexpr std::string_view name = "raycast";
 
   /// The radiance that arrives along the rays, whose directions have unit length, in the lanes of `active`, and ends
-  /// the rays where it comes from. Adds the shadow rays in the lanes of `counted` to `counts`, and tells what was met
-  /// if `met` is not null.
-  static SeenRadiance radiance(const TracedScene& scene, Ray<FloatN>& rays, const MaskN& active, const MaskN& counted,
-                               RayCounts& counts, MetSurface* met);
+  /// the rays where it comes from; `background` arrives along those that meet nothing. Adds the shadow rays in the
+  /// lanes of `counted` to `counts`, and sets `met` to what was met if it is not null.
+  static SeenRadiance radiance(const TracedScene& scene, const Rgb<float>& background, Ray<FloatN>& rays,
+                               const MaskN& active, const MaskN& counted, RayCounts& counts, MetSurface* met);
 };
 
 }  // namespace raytrace

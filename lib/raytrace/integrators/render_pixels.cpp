@@ -28,6 +28,7 @@ class BlockRenderer {
         region_(region),
         film_(film),
         stop_(stop),
+        background_(film.settings().transparent ? Rgb<float>(0, 0, 0) : Rgb<float>(scene.viewplane().background)),
         scale_(film.settings().unit_exponent),
         group_(Block::slots(), shape.samples),
         shifts_(film.settings().seed) {}
@@ -107,8 +108,8 @@ class BlockRenderer {
       const MaskN wanted = all_wanted ? active : active & in_range(sample, left.lane_first, UintN(left.last));
       const PixelSampler::Point point = sampler.next();
       Ray<FloatN> rays = scene_.camera().generate(x + point.x, y + point.y);
-      const SeenRadiance seen =
-          Integrator::radiance(scene_, rays, active, wanted, report_.rays, aovs != nullptr ? &met : nullptr);
+      const SeenRadiance seen = Integrator::radiance(scene_, background_, rays, active, wanted, report_.rays,
+                                                     aovs != nullptr ? &met : nullptr);
       const MaskN bad = sums.add(seen, wanted);
       if (aovs != nullptr) aovs->add(SeenSurface(scene_, rays, met.hits, met.point), wanted, sample);
       report_.rays.camera += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(wanted)));
@@ -152,6 +153,7 @@ class BlockRenderer {
   const Region& region_;
   Film& film_;
   const std::atomic<bool>* stop_;
+  Rgb<float> background_;  ///< what camera rays see where they meet nothing
   SumScale scale_;
   SampleGroup group_;
   PixelShifts shifts_;

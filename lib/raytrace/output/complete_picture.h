@@ -1,12 +1,32 @@
 // Whether a picture need not be rendered again.
 #pragma once
 
+#include <map>
 #include <string>
+#include <vector>
+
+#include "raytrace/film/film.h"
+#include "raytrace/output/image_band.h"
 
 namespace raytrace {
 
-/// The file exists and, if it is an EXR, can be read, has all its rows and is not marked as a part of a picture (int
-/// attribute raytrace:partial, 1). Other formats hold no mark; what is there counts as complete.
+/// What a file must hold to be the picture that is wanted. Each format is asked for what it can tell.
+struct WantedPicture {
+  PictureExtent extent;           ///< EXR: where in the picture; all others: the size
+  std::vector<Channel> channels;  ///< EXR: these, or more
+  int bit_depth = 8;              ///< PNG
+  double exposure = 0;            ///< PNG
+  /// EXR and PNG: names and values, as text; "" for what the file must not have.
+  std::map<std::string, std::string> attributes;
+};
+
+/// The file is a picture from its first row to its last, and is not marked as unfinished (attribute raytrace:partial in
+/// EXR and PNG). Of EXR only the header and a row are read, of PNG the heads of its chunks; of a claim that is larger
+/// than this program's pictures can be, nothing. An icon (.ico) never counts: OpenImageIO 2.4 writes past its memory
+/// when it reads one.
 bool is_complete_picture(const std::string& file);
+
+/// ... and it is this picture.
+bool is_complete_picture(const std::string& file, const WantedPicture& wanted);
 
 }  // namespace raytrace

@@ -20,6 +20,8 @@ class ExrEncoder final : public ImageEncoder {
 
   bool holds_float() const override { return settings_.full_float; }
   bool holds_data() const override { return true; }
+  bool holds_alpha() const override { return true; }
+  bool is_for_display() const override { return false; }
   void begin(const PictureExtent& extent, const std::vector<Channel>& channels, const ImageMetadata& metadata,
              std::FILE* destination) override;
   void write(const ImageBand& band) override;

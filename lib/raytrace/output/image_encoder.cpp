@@ -6,18 +6,25 @@
 
 #include "raytrace/output/exr_encoder.h"
 #include "raytrace/output/openimageio_module.h"
+#include "raytrace/output/png_encoder.h"
 
 namespace raytrace {
 
-std::unique_ptr<ImageEncoder> make_image_encoder(const std::string& file, const ImageFileSettings& settings) {
+std::string lower_extension(const std::string& file) {
   std::string extension = std::filesystem::path(file).extension();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+std::unique_ptr<ImageEncoder> make_image_encoder(const std::string& file, const ImageFileSettings& settings) {
+  const std::string extension = lower_extension(file);
   if (extension.size() < 2) {
     throw OutputError("cannot write " + file +
                       ": the name has no extension to tell the format; .exr and .png are usual");
   }
   if (extension == ".exr") return std::make_unique<ExrEncoder>(file, settings);
+  if (extension == ".png") return std::make_unique<PngEncoder>(file, settings);
   return make_openimageio_encoder(file, extension, settings);
 }
 

@@ -26,6 +26,15 @@ class ImageEncoder {
   /// Whether it stores other channels than color_channels(), and ImageMetadata::data_attributes.
   virtual bool holds_data() const = 0;
 
+  /// Whether it stores alpha, where ImageFileSettings::transparent asks for it.
+  virtual bool holds_alpha() const = 0;
+
+  /// Whether it stores a picture for eyes, clamped and sRGB-encoded, which ImageFileSettings::exposure is for.
+  virtual bool is_for_display() const = 0;
+
+  /// Throws SizeError if the format cannot hold a picture of so many pixels. So does begin().
+  virtual void check_size(int /*width*/, int /*height*/) const {}
+
   /// channels: color_channels() and any others, which are passed over by those that hold no data.
   /// destination: an open, empty file.
   virtual void begin(const PictureExtent& extent, const std::vector<Channel>& channels, const ImageMetadata& metadata,
@@ -37,6 +46,9 @@ class ImageEncoder {
   /// After the last row; empties the destination's buffer.
   virtual Repairs finish() = 0;
 };
+
+/// ".exr", in lower case; empty if the name has none.
+std::string lower_extension(const std::string& file);
 
 /// For the format that the extension of `file` names; the name itself is only for messages. Throws OutputError if there
 /// is none, or if it cannot hold what the settings ask for.

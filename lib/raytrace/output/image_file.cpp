@@ -1,21 +1,10 @@
 #include "raytrace/output/image_file.h"
 
 #include <algorithm>
-#include <cerrno>
 
 #include "raytrace/output/image_encoder.h"
 
 namespace raytrace {
-
-namespace {
-
-FileHandle open_to_write(const AtomicFile& atomic) {
-  FileHandle handle(std::fopen(atomic.temporary_name().c_str(), "wb"));
-  if (!handle) atomic.fail(errno);
-  return handle;
-}
-
-}  // namespace
 
 bool holds_float(const std::string& file) {
   ImageFileSettings settings;
@@ -29,6 +18,12 @@ bool holds_halves(const std::string& file, const ImageFileSettings& settings) {
 }
 
 bool holds_data(const std::string& file) { return make_image_encoder(file, {})->holds_data(); }
+
+bool holds_alpha(const std::string& file) { return make_image_encoder(file, {})->holds_alpha(); }
+
+bool is_for_display(const std::string& file, const ImageFileSettings& settings) {
+  return make_image_encoder(file, settings)->is_for_display();
+}
 
 void check_format(const std::string& file, const ImageFileSettings& settings) {
   constexpr int edge = 64;  // JPEG 2000 takes none below 32
@@ -47,10 +42,14 @@ void check_writable(const std::string& file, const ImageFileSettings& settings) 
   const AtomicFile made_and_removed(file);
 }
 
+void check_size(const std::string& file, const Region& region, const ImageFileSettings& settings) {
+  make_image_encoder(file, settings)->check_size(region.width(), region.height());
+}
+
 ImageFile::ImageFile(const std::string& file, std::unique_ptr<ImageEncoder> encoder, const PictureExtent& extent,
                      const std::vector<Channel>& channels, const ImageMetadata& metadata)
-    : atomic_(file), temporary_(open_to_write(atomic_)), encoder_(std::move(encoder)) {
-  encoder_->begin(extent, channels, metadata, temporary_.get());
+    : atomic_(file), encoder_(std::move(encoder)) {
+  encoder_->begin(extent, channels, metadata, atomic_.stream());
 }
 
 ImageFile::ImageFile(const std::string& file, const PictureExtent& extent, const std::vector<Channel>& channels,
@@ -77,7 +76,6 @@ void ImageFile::write(const Film& film) {
 Repairs ImageFile::commit() {
   const Repairs repairs = encoder_->finish();
   encoder_.reset();
-  temporary_.reset();
   atomic_.commit();
   return repairs;
 }

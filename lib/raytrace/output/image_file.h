@@ -1,7 +1,11 @@
 // Writes a film to an image file; the format follows from the file name's extension.
 //
-// .exr and .hdr (and .pfm, where OpenImageIO writes it) hold linear radiance as it is. Every other format that
-// OpenImageIO writes (.png, .jpg, .tif, ...) holds it clamped to [0, 1] and encoded with the sRGB curve.
+// .exr and .hdr (and .pfm, where OpenImageIO writes it) hold linear radiance as it is. PNG and every other format that
+// OpenImageIO writes (.jpg, .tif, ...) hold it clamped to [0, 1] and encoded with the sRGB curve.
+//
+// EXR has alpha always, with premultiplied colour. Of a transparent picture so have PNG and TIFF: of 8 and 16 bits with
+// straight colour, that of the covered part alone; TIFF of floats with premultiplied colour. All others hold it as it
+// is over black.
 #pragma once
 
 #include <cstdint>
@@ -14,17 +18,18 @@
 #include "raytrace/cameras/camera_matrices.h"
 #include "raytrace/film/film.h"
 #include "raytrace/output/atomic_file.h"
-#include "raytrace/output/file_handle.h"
 #include "raytrace/output/image_band.h"
 #include "raytrace/output/output_error.h"
 
 namespace raytrace {
 
 struct ImageFileSettings {
-  bool full_float = false;  ///< EXR: colours in 32 bit instead of half. TIFF: linear 32 bit float instead of sRGB.
-  int bit_depth = 8;        ///< 8 or 16: PNG, TIFF and others that can; no matter to formats that hold linear radiance
-  bool compressed = true;   ///< EXR: with zip
-  int threads = 0;          ///< for compression; 0: all processors. Holds for the process, as OpenImageIO has it.
+  bool full_float = false;   ///< EXR: colours in 32 bit instead of half. TIFF: linear 32 bit float instead of sRGB.
+  int bit_depth = 8;         ///< 8 or 16: PNG, TIFF and others that can; no matter to formats that hold linear radiance
+  bool compressed = true;    ///< EXR: with zip
+  int threads = 0;           ///< for compression; 0: all processors. Holds for the process, as OpenImageIO has it.
+  bool transparent = false;  ///< FilmSettings::transparent: PNG and TIFF get alpha
+  double exposure = 0;       ///< formats for display: the linear colour is multiplied by 2^exposure
 };
 
 /// Something more that a picture says about itself. EXR keeps the type, PNG stores text, and other formats nothing but
@@ -69,6 +74,13 @@ bool holds_halves(const std::string& file, const ImageFileSettings& settings);
 /// Whether files of this name hold channels besides colour. Throws OutputError as holds_float() does.
 bool holds_data(const std::string& file);
 
+/// Whether files of this name hold the alpha of a transparent picture. Throws OutputError as holds_float() does.
+bool holds_alpha(const std::string& file);
+
+/// Whether ImageFileSettings::exposure matters to files of this name with these settings. Throws OutputError as
+/// holds_float() does.
+bool is_for_display(const std::string& file, const ImageFileSettings& settings);
+
 /// Throws OutputError if files of this name cannot be written for their format: no known extension, a bit depth that
 /// the format lacks.
 void check_format(const std::string& file, const ImageFileSettings& settings);
@@ -77,13 +89,17 @@ void check_format(const std::string& file, const ImageFileSettings& settings);
 /// trace. To be called before the render, so that hours of work do not end in an error that could be told at once.
 void check_writable(const std::string& file, const ImageFileSettings& settings);
 
+/// Throws SizeError if files of this name cannot hold a picture of the region's size. To be called before the render,
+/// too, as soon as the size is known.
+void check_size(const std::string& file, const Region& region, const ImageFileSettings& settings);
+
 class ImageEncoder;
 
 /// An image file that is written band by band, so that no more than a band of a large picture need be in memory, and
 /// appears whole or not at all (AtomicFile).
 ///
 /// EXR: half (or float) RGBA and further channels, zip, scanlines, the film's region as data window in the full display
-/// window. All others: RGB, just the region.
+/// window. All others: RGB, or RGBA, of just the region.
 /// Dates are UTC. Where the environment has SOURCE_DATE_EPOCH, it is the date, and what differs from one run to the
 /// next (the render time, the number of threads) is left out: same picture, same bytes.
 class ImageFile {
@@ -110,9 +126,10 @@ class ImageFile {
   /// After the last row: flushes it to disk and gives it its name.
   Repairs commit();
 
+  FileIdentity identity() const { return atomic_.identity(); }
+
  private:
   AtomicFile atomic_;
-  FileHandle temporary_;
   std::unique_ptr<ImageEncoder> encoder_;
 };
 

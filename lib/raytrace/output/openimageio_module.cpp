@@ -22,7 +22,7 @@ void need_room() {
 
 /// Where the module is beside this program's folder, in the build's tree and where the program is installed; where the
 /// library was configured to be installed; wherever the system looks.
-MakeOpenImageIOEncoder* load_module() {
+void* load_module() {
   constexpr const char* name = "raytrace_openimageio.so";
   std::error_code error;
   const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
@@ -31,23 +31,32 @@ MakeOpenImageIOEncoder* load_module() {
   need_room();
   std::string reasons;
   for (const std::string& candidate : candidates) {
-    if (void* const module = dlopen(candidate.c_str(), RTLD_NOW | RTLD_LOCAL)) {
-      return reinterpret_cast<MakeOpenImageIOEncoder*>(dlsym(module, "raytrace_make_openimageio_encoder"));
-    }
+    if (void* const module = dlopen(candidate.c_str(), RTLD_NOW | RTLD_LOCAL)) return module;
     const std::string reason = dlerror();
     if (says_out_of_memory(reason) || reason.find("failed to map segment") != std::string::npos) throw std::bad_alloc();
     reasons += "\n  " + reason;
   }
-  throw OutputError("formats other than EXR need the module raytrace_openimageio.so, which cannot be loaded:" +
+  throw OutputError("formats other than EXR and PNG need the module raytrace_openimageio.so, which cannot be loaded:" +
                     reasons);
+}
+
+template <class Function>
+Function* symbol(const char* name) {
+  static void* const module = load_module();
+  return reinterpret_cast<Function*>(dlsym(module, name));
 }
 
 }  // namespace
 
 std::unique_ptr<ImageEncoder> make_openimageio_encoder(const std::string& file, const std::string& extension,
                                                        const ImageFileSettings& settings) {
-  static MakeOpenImageIOEncoder* const make = load_module();
+  static auto* const make = symbol<MakeOpenImageIOEncoder>("raytrace_make_openimageio_encoder");
   return std::unique_ptr<ImageEncoder>(make(file, extension, settings));
+}
+
+bool openimageio_reads_all_of(const std::string& file, int width, int height) {
+  static auto* const reads_all_of = symbol<OpenImageIOReadsAllOf>("raytrace_openimageio_reads_all_of");
+  return reads_all_of(file, width, height);
 }
 
 }  // namespace raytrace

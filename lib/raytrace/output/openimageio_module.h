@@ -1,5 +1,6 @@
-// All formats but EXR come through OpenImageIO, which brings some 250 shared libraries: loading them takes longer than
-// a small render. So what uses it is a module of its own (output/openimageio/), loaded when a picture asks for it.
+// All formats but EXR and PNG come through OpenImageIO, which brings some 250 shared libraries: loading them takes
+// longer than a small render. So what uses it is a module of its own (output/openimageio/), loaded when a picture asks
+// for it.
 #pragma once
 
 #include <memory>
@@ -13,9 +14,15 @@ namespace raytrace {
 std::unique_ptr<ImageEncoder> make_openimageio_encoder(const std::string& file, const std::string& extension,
                                                        const ImageFileSettings& settings);
 
-/// The module's only symbol. The caller owns what it returns.
+/// Whether the file is a picture that OpenImageIO can read from its first row to its last, of this size; 0 x 0: of any.
+/// Throws OutputError if the module is missing.
+bool openimageio_reads_all_of(const std::string& file, int width, int height);
+
+/// The module's symbols. The caller owns the encoder.
 using MakeOpenImageIOEncoder = ImageEncoder*(const std::string& file, const std::string& extension,
                                              const ImageFileSettings& settings);
 extern "C" MakeOpenImageIOEncoder raytrace_make_openimageio_encoder;
+using OpenImageIOReadsAllOf = bool(const std::string& file, int width, int height);
+extern "C" OpenImageIOReadsAllOf raytrace_openimageio_reads_all_of;
 
 }  // namespace raytrace

@@ -12,4 +12,10 @@ class OutputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A picture that is too large, or too small, for the format that its file's name asks for.
+class SizeError : public OutputError {
+ public:
+  using OutputError::OutputError;
+};
+
 }  // namespace raytrace

@@ -33,7 +33,7 @@ PictureDate picture_date() {
   gmtime_r(&time, &utc);
   char text[sizeof "2026:01:31 23:59:59"];
   std::strftime(text, sizeof text, "%Y:%m:%d %H:%M:%S", &utc);
-  return {text, fixed.has_value()};
+  return {text, utc, fixed.has_value()};
 }
 
 }  // namespace raytrace

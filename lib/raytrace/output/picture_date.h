@@ -1,6 +1,7 @@
 // The date that a picture carries.
 #pragma once
 
+#include <ctime>
 #include <string>
 
 #include "raytrace/output/output_error.h"
@@ -8,7 +9,8 @@
 namespace raytrace {
 
 struct PictureDate {
-  std::string text;  ///< UTC, in the form of EXR's capDate and of TIFF's and PNG's DateTime: "2026:01:31 23:59:59"
+  std::string text;  ///< UTC, in the form of EXR's capDate and of TIFF's DateTime: "2026:01:31 23:59:59"
+  std::tm utc;       ///< the same
   bool fixed;        ///< by the environment's SOURCE_DATE_EPOCH: the same picture is to give the same bytes
 };
 

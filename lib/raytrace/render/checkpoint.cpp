@@ -27,8 +27,8 @@ std::string edges_text(const Region& r) {
 
 }  // namespace
 
-void write_checkpoint(const std::string& file, const Film& film, const PieceIdentity& identity,
-                      ImageMetadata metadata) {
+FileIdentity write_checkpoint(const std::string& file, const Film& film, const PieceIdentity& identity,
+                              ImageMetadata metadata) {
   metadata.samples = static_cast<int>(film.settings().samples.count);
   metadata.attributes = partial_attributes(identity, film);
   metadata.attributes.push_back({hash_name, hash_of(film)});
@@ -51,6 +51,7 @@ void write_checkpoint(const std::string& file, const Film& film, const PieceIden
     y = end;
   }
   image.commit();
+  return image.identity();
 }
 
 void read_checkpoint(const std::string& file, const PieceIdentity& identity, Film& film) {

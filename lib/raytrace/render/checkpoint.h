@@ -11,8 +11,10 @@
 
 namespace raytrace {
 
-/// Throws OutputError. identity.film is the film's; metadata: its samples and attributes are set here.
-void write_checkpoint(const std::string& file, const Film& film, const PieceIdentity& identity, ImageMetadata metadata);
+/// Gives the file that it made. Throws OutputError. identity.film is the film's; metadata: its samples and attributes
+/// are set here.
+FileIdentity write_checkpoint(const std::string& file, const Film& film, const PieceIdentity& identity,
+                              ImageMetadata metadata);
 
 /// Fills an empty film. Throws InputError if the file is not whole, or of another scene, other settings or another
 /// region, which it names. The checkpoint may be of fewer or more samples than the film's settings ask for, but not

@@ -170,6 +170,9 @@ class Merger {
     image_settings.full_float = channels_.front().type == ChannelType::float32;
     image_settings.bit_depth = settings_.bit_depth;
     image_settings.threads = settings_.threads;
+    image_settings.transparent = identity.film.transparent;
+    image_settings.exposure = settings_.exposure.value_or(0);
+    refuse_useless_exposure(image_settings);
     std::vector<std::unique_ptr<ImageFile>> files;
     for (const std::string& file : settings_.outputs)
       files.push_back(std::make_unique<ImageFile>(file, identity.film.extent, channels_, metadata_, image_settings));
@@ -187,6 +190,12 @@ class Merger {
       report_.repairs += files[i]->commit();
       report_.outputs.push_back(settings_.outputs[i]);
     }
+  }
+
+  void refuse_useless_exposure(const ImageFileSettings& image_settings) const {
+    const auto uses_it = [&](const std::string& file) { return is_for_display(file, image_settings); };
+    if (settings_.exposure && std::none_of(settings_.outputs.begin(), settings_.outputs.end(), uses_it))
+      refuse({"--exposure: all outputs hold linear colour, which it does not change, for the pieces hold floats"});
   }
 
   ImageBand merged_band(const Region& region) {

@@ -17,6 +17,7 @@ struct MergeSettings {
   std::optional<int> samples;        ///< a pixel that the picture must get; none: as many as the pieces have
   bool partial = false;  ///< what is missing is filled with a checked, empty background, or has fewer samples
   int bit_depth = 8;
+  std::optional<double> exposure;  ///< ImageFileSettings::exposure; some output must be for display. None: 0
   int threads = 0;
 };
 

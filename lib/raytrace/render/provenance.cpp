@@ -28,6 +28,7 @@ constexpr const char* whole_name = "raytrace:whole";
 constexpr const char* partial_name = "raytrace:partial";
 constexpr const char* least_samples_name = "raytrace:leastSamples";  // only where it is partial
 constexpr const char* most_samples_name = "raytrace:mostSamples";
+constexpr const char* transparent_name = "raytrace:transparent";  // only where it is
 
 template <class Value>
 Value needed(const ExrReader& piece, const char* name) {
@@ -108,6 +109,7 @@ std::vector<ImageAttribute> identity_attributes(const PieceIdentity& identity) {
     for (const int unit : aovs.mean_units) units.push_back(std::to_string(unit));
     attributes.push_back({aov_units_name, joined(units)});
   }
+  if (identity.film.transparent) attributes.push_back({transparent_name, 1});
   if (identity.partial) attributes.push_back({partial_name, 1});
   return attributes;
 }
@@ -119,6 +121,19 @@ std::vector<ImageAttribute> partial_attributes(PieceIdentity identity, const Fil
   attributes.push_back({least_samples_name, static_cast<int>(done.least)});
   attributes.push_back({most_samples_name, static_cast<int>(done.most)});
   return attributes;
+}
+
+std::map<std::string, std::string> picture_attributes(const PieceIdentity& identity, bool any_samples) {
+  std::map<std::string, std::string> texts = {{seed_name, std::to_string(identity.film.seed)}};
+  for (const char* const name : {scene_name, first_sample_name, centered_name, whole_name, transparent_name}) texts[name];
+  for (const ImageAttribute& attribute : identity_attributes(identity)) {
+    const auto wanted = texts.find(attribute.name);
+    if (wanted == texts.end()) continue;
+    const auto* const text = std::get_if<std::string>(&attribute.value);
+    wanted->second = text != nullptr ? *text : std::to_string(std::get<int>(attribute.value));
+  }
+  if (!any_samples) texts[samples_name] = std::to_string(identity.film.samples.count);
+  return texts;
 }
 
 PieceIdentity identity_of(const ExrReader& piece) {
@@ -139,6 +154,7 @@ PieceIdentity identity_of(const ExrReader& piece) {
     *edge = number<int>(piece, whole_name, text);
   }
   if (const auto names = piece.attribute<std::string>(aovs_name)) film.aovs = aovs_of(piece, *names);
+  film.transparent = piece.attribute<int>(transparent_name).value_or(0) != 0;
   identity.partial = piece.attribute<int>(partial_name).value_or(0) != 0;
   return identity;
 }
@@ -157,6 +173,10 @@ std::optional<std::string> difference(const PieceIdentity& wanted, const PieceId
   if (a.isa != b.isa) return other("the instruction set", printable(b.isa), printable(a.isa)) + ": pin one with --isa";
   if (c.samples.centered != d.samples.centered)
     return "the place of the samples: one has a single sample in each pixel's center; render it with --sample-offset 0";
+  if (c.transparent != d.transparent) {
+    const auto text = [](const FilmSettings& film) { return film.transparent ? "transparent" : "opaque"; };
+    return other("the background", text(d), text(c)) + ": use --transparent for all of them, or none";
+  }
   if (c.aovs.wanted != d.aovs.wanted) {
     const auto text = [](const AovSettings& aovs) {
       return aovs.wanted.empty() ? "none" : joined(aov_names(aovs.wanted));

@@ -1,6 +1,7 @@
 // What a picture's bits depend on.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,6 +39,11 @@ std::vector<ImageAttribute> identity_attributes(const PieceIdentity& identity);
 /// Of a picture whose render has not ended: marked as partial, with the fewest and the most samples that its pixels
 /// have so far.
 std::vector<ImageAttribute> partial_attributes(PieceIdentity identity, const Film& film);
+
+/// Of it, what tells one picture from another, as text: neither the program's version nor the machine, and nothing that
+/// is known only when the scene is built. "" for what the picture's file does not have. any_samples: but for their
+/// number.
+std::map<std::string, std::string> picture_attributes(const PieceIdentity& identity, bool any_samples);
 
 /// Throws InputError if it is no picture of ours.
 PieceIdentity identity_of(const ExrReader& piece);

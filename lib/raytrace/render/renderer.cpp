@@ -109,6 +109,7 @@ FilmSettings film_settings(const Scene& scene, const SceneDescription& descripti
   const std::uint64_t most_samples = std::uint64_t{film.samples.first} + film.samples.count;
   film.unit_exponent = unit_exponent(scene.largest_radiance(), most_samples);
   film.aovs = aov_settings(settings.aovs, scene, description, most_samples);
+  film.transparent = settings.transparent;
   return film;
 }
 

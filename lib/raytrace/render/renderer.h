@@ -34,6 +34,7 @@ struct RenderSettings {
   Region region;                                      ///< the pixels wanted; those outside are not in the film
   std::optional<SampleRange> samples = std::nullopt;  ///< none: as many as the scene says, from the first on
   AovSet aovs{};
+  bool transparent = false;  ///< FilmSettings::transparent
 };
 
 /// The rays of a render, by kind.

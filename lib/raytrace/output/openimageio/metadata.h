@@ -3,15 +3,12 @@
 
 #include <OpenImageIO/imageio.h>
 
-#include <string>
-
 #include "raytrace/output/image_file.h"
 
 namespace raytrace {
 
-/// Adds the metadata to an image of the format that OpenImageIO calls `oiio_name`: as text to PNG, which drops
-/// numbers, and as one line of description to the rest, which keep only standard attributes. Throws OutputError if
-/// SOURCE_DATE_EPOCH is not a time.
-void add_metadata(OIIO::ImageSpec& spec, const std::string& oiio_name, const ImageMetadata& metadata);
+/// Adds the metadata as standard attributes, which are all that these formats keep: one line of description holds most
+/// of it. exposure: of a picture for display, else 0. Throws OutputError if SOURCE_DATE_EPOCH is not a time.
+void add_metadata(OIIO::ImageSpec& spec, const ImageMetadata& metadata, double exposure);
 
 }  // namespace raytrace

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <limits>
 #include <new>
 #include <system_error>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "raytrace/description/nearest_name.h"
 #include "raytrace/description/quoted.h"
 #include "raytrace/memory/out_of_memory.h"
+#include "raytrace/output/openimageio/edge_limits.h"
 #include "raytrace/output/openimageio/metadata.h"
 #include "raytrace/output/openimageio_module.h"
 
@@ -25,9 +27,9 @@ std::unique_ptr<OIIO::ImageOutput> create_writer(const std::string& extension) {
   auto writer = OIIO::ImageOutput::create("picture" + extension);
   OIIO::geterror();  // told better by the caller
   if (!writer) return writer;
-  // Two of OpenImageIO's writers make no file: a text terminal and a bin. EXR files are written elsewhere.
+  // Two of OpenImageIO's writers make no file: a text terminal and a bin. EXR and PNG files are written elsewhere.
   const std::string_view format = writer->format_name();
-  if (format == "term" || format == "null" || format == "openexr") return {};
+  if (format == "term" || format == "null" || format == "openexr" || format == "png") return {};
   return writer;
 }
 
@@ -110,13 +112,13 @@ class OpenImageIOEncoder::CheckedFile final : public OIIO::Filesystem::IOFile {
 
 OpenImageIOEncoder::OpenImageIOEncoder(std::string file, const std::string& extension,
                                        const ImageFileSettings& settings)
-    : file_(std::move(file)), writer_(create_writer(extension)) {
+    : file_(std::move(file)), extension_(extension), settings_(settings), writer_(create_writer(extension)) {
   if (!writer_) {
     fail((is_known(extension) ? in_quotes(extension) + " is a format that can be read but not written"
                               : "no picture format has the extension " + in_quotes(extension)) +
          suggestion(extension));
   }
-  pixels_ = pixel_format(writer_->format_name(), extension, settings);
+  choose_pixels(extension);
   // A pool of the whole process; where it cannot be started, the process crashes at its end. TIFF alone has work for
   // it.
   constexpr int most_threads = 8;
@@ -125,8 +127,33 @@ OpenImageIOEncoder::OpenImageIOEncoder(std::string file, const std::string& exte
 
 OpenImageIOEncoder::~OpenImageIOEncoder() = default;
 
+void OpenImageIOEncoder::choose_pixels(const std::string& extension) {
+  constexpr float largest_float = std::numeric_limits<float>::max();
+  constexpr float largest_rgbe = 1.6e38F;  // 255/256 x 2^127, with room for its rounding
+  type_ = OIIO::TypeFloat;
+  if (writer_->format_name() == std::string_view("hdr")) {
+    pixels_ = {false, false, 0, largest_rgbe};
+  } else if (extension == ".pfm" || (is_tiff() && settings_.full_float)) {
+    pixels_ = {is_tiff() && settings_.transparent, false, -largest_float, largest_float};
+  } else {
+    type_ = settings_.bit_depth == 16 ? OIIO::TypeUInt16 : OIIO::TypeUInt8;
+    pixels_ = display_format(settings_);
+    pixels_.alpha = is_tiff() && settings_.transparent;
+  }
+}
+
+void OpenImageIOEncoder::check_size(int width, int height) const {
+  const auto [least, most] = edge_limits(writer_->format_name());
+  if (std::min(width, height) >= least && std::max(width, height) <= most) return;
+  const bool too_large = std::max(width, height) > most;
+  throw SizeError("cannot write " + file_ + ": a " + in_quotes(extension_) + " file has edges of at " +
+                  (too_large ? "most " + std::to_string(most) : "least " + std::to_string(least)) + " pixels, not " +
+                  std::to_string(width) + " x " + std::to_string(height) + "; .exr and .png have room for it");
+}
+
 void OpenImageIOEncoder::begin(const PictureExtent& extent, const std::vector<Channel>& /*only the first are stored*/,
                                const ImageMetadata& metadata, std::FILE* destination) {
+  check_size(extent.region.width(), extent.region.height());
   extent_ = extent;
   destination_ = destination;
   std::string name = file_;
@@ -142,28 +169,31 @@ void OpenImageIOEncoder::begin(const PictureExtent& extent, const std::vector<Ch
   const OIIO::ImageSpec spec = image_spec(metadata);
   guard([&] {
     check(writer_->open(name, spec));
-    if (writer_->spec().format.size() < pixels_.type.size()) {
+    if (writer_->spec().format.size() < type_.size()) {
       fail("this format holds " + std::to_string(8 * writer_->spec().format.size()) + " bits a channel, not " +
-           std::to_string(8 * pixels_.type.size()));
+           std::to_string(8 * type_.size()));
     }
   });
 }
 
 OIIO::ImageSpec OpenImageIOEncoder::image_spec(const ImageMetadata& metadata) const {
-  const std::string format = writer_->format_name();
-  OIIO::ImageSpec spec(extent_.region.width(), extent_.region.height(), PixelFormat::channels, pixels_.type);
+  OIIO::ImageSpec spec(extent_.region.width(), extent_.region.height(), pixels_.channels(), type_);
   if (pixels_.srgb) {
     spec.attribute("oiio:ColorSpace", "sRGB");
-  } else if (format == "tiff") {
+    if (pixels_.alpha) spec.attribute("oiio:UnassociatedAlpha", 1);  // else it tells that the colour is premultiplied
+  } else if (is_tiff()) {
     constexpr int uncalibrated = 0xFFFF;
     spec.attribute("Exif:ColorSpace", uncalibrated);  // OpenImageIO 2.4 reports an error where there is no Exif at all
   }
-  add_metadata(spec, format, metadata);
+  add_metadata(spec, metadata, pixels_.srgb ? settings_.exposure : 0);
   return spec;
 }
 
 void OpenImageIOEncoder::write(const ImageBand& band) {
-  const std::vector<float> values = interleaved_rgb(band, pixels_, repairs_);
+  const auto row_values = static_cast<std::size_t>(pixels_.channels()) * static_cast<std::size_t>(band.region.width());
+  std::vector<float> values(row_values * static_cast<std::size_t>(band.region.height()));
+  for (int row = 0; row < band.region.height(); ++row)
+    repairs_ += stored_row(band, row, pixels_, values.data() + static_cast<std::size_t>(row) * row_values);
   const int y0 = band.region.y0 - extent_.region.y0, y1 = band.region.y1 - extent_.region.y0;
   guard([&] { check(writer_->write_scanlines(y0, y1, 0, OIIO::TypeFloat, values.data())); });
 }

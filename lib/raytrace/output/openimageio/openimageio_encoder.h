@@ -1,4 +1,4 @@
-// All formats that OpenImageIO writes.
+// The formats that OpenImageIO writes, but for EXR and PNG.
 #pragma once
 
 #include <OpenImageIO/imageio.h>
@@ -9,7 +9,7 @@
 
 #include "raytrace/output/file_handle.h"
 #include "raytrace/output/image_encoder.h"
-#include "raytrace/output/openimageio/pixel_format.h"
+#include "raytrace/output/pixel_format.h"
 
 namespace raytrace {
 
@@ -19,8 +19,11 @@ class OpenImageIOEncoder final : public ImageEncoder {
   OpenImageIOEncoder(std::string file, const std::string& extension, const ImageFileSettings& settings);
   ~OpenImageIOEncoder() override;
 
-  bool holds_float() const override { return pixels_.type == OIIO::TypeFloat; }
+  bool holds_float() const override { return type_ == OIIO::TypeFloat; }
   bool holds_data() const override { return false; }
+  bool holds_alpha() const override { return is_tiff(); }
+  bool is_for_display() const override { return pixels_.srgb; }
+  void check_size(int width, int height) const override;
   void begin(const PictureExtent& extent, const std::vector<Channel>& channels, const ImageMetadata& metadata,
              std::FILE* destination) override;
   void write(const ImageBand& band) override;
@@ -29,6 +32,8 @@ class OpenImageIOEncoder final : public ImageEncoder {
  private:
   class CheckedFile;
 
+  bool is_tiff() const { return writer_->format_name() == std::string_view("tiff"); }
+  void choose_pixels(const std::string& extension);
   OIIO::ImageSpec image_spec(const ImageMetadata& metadata) const;
   /// Runs it; where a failed write is the cause of its error, throws that instead.
   template <class Action>
@@ -36,13 +41,15 @@ class OpenImageIOEncoder final : public ImageEncoder {
   void check(bool done) const;
   [[noreturn]] void fail(const std::string& reason) const;
 
-  std::string file_;
+  std::string file_, extension_;
+  ImageFileSettings settings_;
   PictureExtent extent_;
   std::FILE* destination_ = nullptr;
   std::unique_ptr<CheckedFile> checked_;  ///< the destination, for writers that take such a thing
   FileHandle memory_;                     ///< to be copied there, for the others
   std::unique_ptr<OIIO::ImageOutput> writer_;
-  PixelFormat pixels_{};
+  OIIO::TypeDesc type_;  ///< of a stored channel
+  PixelFormat pixels_;
   Repairs repairs_;
 };
 

@@ -1,0 +1,147 @@
+#include "raytrace/description/read_items.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <deque>
+#include <optional>
+
+#include "raytrace/description/refuse_content.h"
+#include "raytrace/description/report.h"
+#include "raytrace/description/scene_layout.h"
+#include "raytrace/description/xml_characters.h"
+#include "raytrace/description/xml_scanner.h"
+#include "raytrace/parallel/in_order.h"
+
+namespace raytrace {
+
+namespace {
+
+/// What one thread reads pieces with.
+class PieceReader {
+ public:
+  PieceReader(const ItemGroup& group, std::unique_ptr<ItemList> items)
+      : group_(group), document_(group.text, group.variables), items_(std::move(items)) {}
+
+  ItemList& items() { return *items_; }
+
+  void read(std::size_t piece, Diagnostics& diagnostics) {
+    items_->clear();
+    number_ = 0;
+    rest_ = group_.text.piece(piece);
+    while (true) {
+      const std::uint32_t number_before = number_;
+      if (pattern_) read_alike();
+      if (rest_.begin == rest_.end) return;
+      // Alone, an item takes longer to parse than among others. So that must be rare, or lead to the next pattern.
+      constexpr std::uint32_t many = 8;
+      const std::uint32_t alike = number_ - number_before;
+      const bool wants_pattern = alike == 0 && patterns_left_ > 0;
+      const std::size_t length = wants_pattern || alike >= many ? first_length() : 0;
+      Span parsed = rest_;
+      if (length > 0) parsed.end = parsed.begin + length;
+      const std::size_t findings_before = diagnostics.error_count() + diagnostics.warning_count();
+      read_parsed(parsed, diagnostics);
+      if (length == 0) return;
+      const std::string_view text = group_.text.of(parsed);
+      if (wants_pattern) {
+        --patterns_left_;
+        if (diagnostics.error_count() + diagnostics.warning_count() == findings_before)
+          pattern_ = items_->pattern_of(text, document_.root().first_child().element());
+      }
+      rest_.line += static_cast<std::uint32_t>(std::count(text.begin(), text.end(), '\n'));
+      rest_.begin = parsed.end;
+      skip_space();
+    }
+  }
+
+ private:
+  /// As many as have the pattern, off the beginning of what is left.
+  void read_alike() {
+    while (rest_.begin < rest_.end) {
+      const std::size_t length = items_->read_alike(*pattern_, group_.text.of(rest_), rest_.line, number_);
+      if (length == 0) return;
+      ++number_;
+      rest_.line += pattern_->line_ends();
+      rest_.begin += length;
+      skip_space();
+    }
+  }
+
+  void read_parsed(const Span& span, Diagnostics& diagnostics) {
+    document_.parse_items(span, diagnostics);
+    const Element root = document_.root();
+    if (!root) return;
+    for (Node node = root.first_child(); node; node = node.next()) {
+      if (refuse_text(node, group_.element, diagnostics)) continue;
+      const Element child = node.element();
+      if (child.name() == group_.item_name)
+        items_->read(child, number_, diagnostics);
+      else
+        refuse_misplaced(child, group_.element.name(), diagnostics);
+      ++number_;
+    }
+  }
+
+  /// Of the item that comes next; 0 if there is something else.
+  std::size_t first_length() const {
+    const std::string_view text = group_.text.of(rest_);
+    return text.size() > 1 && text[0] == '<' && xml::is(text[1], xml::name_start) ? element_length(text) : 0;
+  }
+
+  void skip_space() {
+    const std::string_view text = group_.text.of(rest_);
+    std::size_t size = 0;
+    for (; size < text.size() && xml::is(text[size], xml::space); ++size) rest_.line += text[size] == '\n' ? 1 : 0;
+    rest_.begin += size;
+  }
+
+  const ItemGroup& group_;
+  Document document_;
+  std::unique_ptr<ItemList> items_;
+  std::optional<ItemPattern> pattern_;  // that items had lately
+  int patterns_left_ = 8;               // so many may be tried: items may all differ
+  std::uint32_t number_ = 0;            // of the next item
+  Span rest_{};                         // of the piece
+};
+
+}  // namespace
+
+void read_items(const ItemGroup& group, tbb::task_arena& arena, Diagnostics& diagnostics,
+                const std::function<std::unique_ptr<ItemList>()>& make,
+                const std::function<void(std::size_t piece, ItemList& items)>& take) {
+  struct Worker {
+    Worker(const ItemGroup& group, std::unique_ptr<ItemList> items) : reader(group, std::move(items)) {}
+
+    PieceReader reader;
+    Diagnostics findings = Diagnostics::counter();
+  };
+  const SceneText::PieceRange pieces = group.text.pieces_of(group.element.offset());
+  // Pieces are read without a message at first. Where there is something to say, the piece is read once more when all
+  // before it have been taken: so no more messages are composed than are kept, and they do not depend on the threads.
+  const auto read_quietly = [&](std::size_t i, Worker& worker) {
+    worker.findings = Diagnostics::counter();
+    worker.reader.read(pieces.first + i, worker.findings);
+  };
+  const auto report_and_take = [&](std::size_t i, Worker& worker) {
+    const Diagnostics& findings = worker.findings;
+    const bool more_errors = findings.error_count() > 0 && diagnostics.keeps_another(Severity::error);
+    const bool more_warnings = findings.warning_count() > 0 && diagnostics.keeps_another(Severity::warning);
+    if (more_errors || more_warnings)
+      worker.reader.read(pieces.first + i, diagnostics);
+    else
+      diagnostics.count(findings);
+    take(pieces.first + i, worker.reader.items());
+  };
+
+  // Enough that no thread waits for one that has a longer piece.
+  const std::size_t enough = 4 * static_cast<std::size_t>(arena.max_concurrency());
+  std::deque<Worker> workers;  // no vector, since they cannot be moved
+  for (std::size_t i = 0; i < std::min(pieces.count, enough); ++i) workers.emplace_back(group, make());
+  in_order(pieces.count, workers, arena, read_quietly, report_and_take);
+}
+
+void refuse_misplaced(Element element, std::string_view parent, Diagnostics& diagnostics) {
+  report_error(diagnostics, element, [&] { return explain_misplaced(element.name(), parent); });
+}
+
+}  // namespace raytrace

@@ -1,0 +1,174 @@
+#include "raytrace/output/png_encoder.h"
+
+#include <png.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csetjmp>
+#include <cstdlib>
+#include <new>
+#include <system_error>
+
+#include "raytrace/description/utf8.h"
+#include "raytrace/output/picture_date.h"
+#include "raytrace/output/png_text.h"
+#include "raytrace/parallel/for_each_index.h"
+
+namespace raytrace {
+
+namespace {
+
+/// The nearest whole number, halves upwards: what std::round() gives, but no call of a function.
+unsigned nearest(float value) {
+  const auto floor = static_cast<unsigned>(value);
+  return floor + (value - static_cast<float>(floor) >= 0.5F ? 1 : 0);
+}
+
+/// Values in [0, 1]; most significant byte first.
+void quantize(const std::vector<float>& values, int bit_depth, std::uint8_t* bytes) {
+  if (bit_depth == 8) {
+    for (const float value : values) *bytes++ = static_cast<std::uint8_t>(nearest(value * 255.0F));
+    return;
+  }
+  for (const float value : values) {
+    const unsigned number = nearest(value * 65535.0F);
+    *bytes++ = static_cast<std::uint8_t>(number >> 8U);
+    *bytes++ = static_cast<std::uint8_t>(number & 0xFFU);
+  }
+}
+
+/// tEXt holds Latin-1, of which ASCII is a part; iTXt holds UTF-8.
+int text_kind(const std::string& text) {
+  const bool ascii = std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+  return ascii || find_invalid_utf8(text, 1) != std::string_view::npos ? PNG_TEXT_COMPRESSION_NONE
+                                                                       : PNG_ITXT_COMPRESSION_NONE;
+}
+
+}  // namespace
+
+struct PngEncoder::OpenFile {
+  explicit OpenFile(std::FILE* file)
+      : destination(file),
+        png(png_create_write_struct_2(PNG_LIBPNG_VER_STRING, this, note_error, ignore_warning, this, allocate,
+                                      release)),
+        info(png != nullptr ? png_create_info_struct(png) : nullptr) {
+    if (info == nullptr) {
+      png_destroy_write_struct(&png, nullptr);
+      throw std::bad_alloc();
+    }
+    png_set_write_fn(png, this, write_bytes, flush_nothing);
+  }
+  ~OpenFile() { png_destroy_write_struct(&png, &info); }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  static void write_bytes(png_structp png, png_bytep data, std::size_t size) {
+    auto* const file = static_cast<OpenFile*>(png_get_io_ptr(png));
+    errno = 0;
+    if (std::fwrite(data, 1, size, file->destination) == size) return;
+    file->error = errno != 0 ? errno : EIO;
+    png_error(png, "the destination failed");
+  }
+  static void flush_nothing(png_structp) {}
+
+  static void note_error(png_structp png, const char* message) {
+    auto* const file = static_cast<OpenFile*>(png_get_error_ptr(png));
+    std::snprintf(file->message, sizeof file->message, "%s", message);
+    png_longjmp(png, 1);
+  }
+  static void ignore_warning(png_structp, const char*) {}
+
+  static void* allocate(png_structp png, png_alloc_size_t size) {
+    void* const memory = std::malloc(size);
+    if (memory == nullptr) static_cast<OpenFile*>(png_get_mem_ptr(png))->out_of_memory = true;
+    return memory;
+  }
+  static void release(png_structp, void* memory) { std::free(memory); }
+
+  std::FILE* destination;
+  png_structp png;
+  png_infop info;
+  int error = 0;  ///< of the destination
+  bool out_of_memory = false;
+  char message[128] = {};  ///< libpng's
+};
+
+PngEncoder::PngEncoder(std::string file, const ImageFileSettings& settings)
+    : file_(std::move(file)), settings_(settings), pixels_(display_format(settings)) {}
+
+PngEncoder::~PngEncoder() = default;
+
+void PngEncoder::begin(const PictureExtent& extent, const std::vector<Channel>& /*only the first are stored*/,
+                       const ImageMetadata& metadata, std::FILE* destination) {
+  std::vector<PngText> texts = png_texts(metadata, settings_);
+  std::vector<png_text_struct> chunks(texts.size());
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    chunks[i].compression = text_kind(texts[i].text);
+    chunks[i].key = texts[i].keyword.data();
+    chunks[i].text = texts[i].text.data();
+    chunks[i].text_length = texts[i].text.size();
+  }
+  const std::tm utc = picture_date().utc;
+  const auto width = static_cast<png_uint_32>(extent.region.width());
+  const auto height = static_cast<png_uint_32>(extent.region.height());
+  const int color = pixels_.alpha ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB;
+  open_ = std::make_unique<OpenFile>(destination);
+  const png_structp png = open_->png;
+  const png_infop info = open_->info;
+  guard([&] {
+    png_set_IHDR(png, info, width, height, settings_.bit_depth, color, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
+    png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_ABSOLUTE);
+    png_time time;
+    png_convert_from_struct_tm(&time, &utc);
+    png_set_tIME(png, info, &time);
+    png_set_text(png, info, chunks.data(), static_cast<int>(chunks.size()));
+    // Differences to the left neighbour. Those of 8 bits repeat in runs, or not at all: docs/design.md, Output.
+    png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
+    png_set_compression_level(png, Z_BEST_SPEED);
+    if (settings_.bit_depth == 8) png_set_compression_strategy(png, Z_RLE);
+    png_set_compression_buffer_size(png, 65536);
+    png_write_info(png, info);
+  });
+}
+
+void PngEncoder::write(const ImageBand& band) {
+  const auto row_values = static_cast<std::size_t>(pixels_.channels()) * static_cast<std::size_t>(band.region.width());
+  const std::size_t row_bytes = row_values * static_cast<std::size_t>(settings_.bit_depth / 8);
+  const auto rows = static_cast<std::size_t>(band.region.height());
+  bytes_.resize(rows * row_bytes);
+  std::vector<Repairs> repairs(rows);
+  for_each_index(band.region.height(), settings_.threads, [&](int row) {
+    const auto place = static_cast<std::size_t>(row);
+    std::vector<float> values(row_values);
+    repairs[place] = stored_row(band, row, pixels_, values.data());
+    quantize(values, settings_.bit_depth, bytes_.data() + place * row_bytes);
+  });
+  for (const Repairs& of_row : repairs) repairs_ += of_row;
+  guard([&] {
+    for (std::size_t row = 0; row < rows; ++row) png_write_row(open_->png, bytes_.data() + row * row_bytes);
+  });
+}
+
+Repairs PngEncoder::finish() {
+  guard([&] { png_write_end(open_->png, nullptr); });
+  errno = 0;
+  if (std::fflush(open_->destination) != 0) fail(std::generic_category().message(errno != 0 ? errno : EIO));
+  return repairs_;
+}
+
+template <class Calls>
+void PngEncoder::guard(const Calls& calls) {
+  if (setjmp(png_jmpbuf(open_->png)) == 0) {
+    calls();
+    return;
+  }
+  if (open_->error != 0) fail(std::generic_category().message(open_->error));
+  if (open_->out_of_memory) throw std::bad_alloc();
+  fail(open_->message);
+}
+
+void PngEncoder::fail(const std::string& reason) const { throw OutputError("cannot write " + file_ + ": " + reason); }
+
+}  // namespace raytrace

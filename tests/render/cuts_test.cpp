@@ -1,0 +1,265 @@
+// However a picture is cut - threads, crops, tiles, ranges of samples, passes - its pixels have the same bits. The
+// gallery's scenes are cut at random, rendered piece by piece into files, and merged; command/test_pieces.py does one
+// of each kind through the program.
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <random>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "raytrace/description/scene_description.h"
+#include "raytrace/film/tiles.h"
+#include "raytrace/output/exr_reader.h"
+#include "raytrace/output/film_channels.h"
+#include "raytrace/output/image_file.h"
+#include "raytrace/render/merge_pieces.h"
+#include "raytrace/render/provenance.h"
+#include "raytrace/render/renderer.h"
+#include "support/catch.h"
+#include "support/temporary_folder.h"
+
+namespace raytrace::test {
+
+namespace {
+
+constexpr int width = 40, height = 28;  // no multiples of the blocks of 8 x 8 pixels that are traced together
+
+std::vector<std::string> gallery() {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(RAYTRACE_SOURCE_DIR "/scenes/gallery"))
+    if (entry.path().extension() == ".xml") files.push_back(entry.path().string());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+SceneDescription small_scene(const std::string& file, int samples) {
+  Diagnostics diagnostics(file);
+  std::optional<SceneDescription> description = load_scene(file, diagnostics);
+  if (!description) {
+    std::ostringstream text;
+    diagnostics.print(text);
+    FAIL(text.str());
+  }
+  description->viewplane = with_resolution(description->viewplane, width, height);
+  description->viewplane.samples = samples;
+  return std::move(*description);
+}
+
+class Chance {
+ public:
+  explicit Chance(unsigned seed) : bits_(seed) {}
+
+  /// From `least` to `most`, both included.
+  int number(int least, int most) {
+    return least + static_cast<int>(bits_() % static_cast<unsigned>(most - least + 1));
+  }
+
+  Region crop() {
+    Region r;
+    do {
+      r = {number(0, width - 1), number(0, height - 1), 0, 0};
+      r.x1 = number(r.x0 + 1, width);
+      r.y1 = number(r.y0 + 1, height);
+    } while (r.width() * r.height() < 8);  // enough pixels for all tiles
+    return r;
+  }
+
+  /// [0, total) as so many ranges that are not empty, or fewer: where they begin, and `total`.
+  std::vector<int> edges(int total, int parts) {
+    std::set<int> all = {0, total};
+    for (int i = 1; i < parts; ++i) all.insert(number(1, total - 1));
+    return {all.begin(), all.end()};
+  }
+
+  template <class Items>
+  void shuffle(Items& items) {
+    std::shuffle(items.begin(), items.end(), bits_);
+  }
+
+ private:
+  std::mt19937 bits_;
+};
+
+/// The colours of a picture as its file holds them.
+struct Colors {
+  Region region;
+  std::array<std::vector<float>, 4> planes;
+
+  /// The same pixels' bits in both.
+  friend bool same(const Colors& part, const Colors& whole) {
+    const auto row_length = static_cast<std::size_t>(part.region.width());
+    for (std::size_t plane = 0; plane < 4; ++plane)
+      for (int y = part.region.y0; y < part.region.y1; ++y) {
+        const auto at = [&](const Colors& picture) {
+          const auto row = static_cast<std::size_t>(y - picture.region.y0);
+          const auto column = static_cast<std::size_t>(part.region.x0 - picture.region.x0);
+          return picture.planes[plane].data() + row * static_cast<std::size_t>(picture.region.width()) + column;
+        };
+        if (std::memcmp(at(part), at(whole), row_length * sizeof(float)) != 0) return false;
+      }
+    return true;
+  }
+};
+
+/// One gallery scene, and the ways to render it.
+class CutRender {
+ public:
+  CutRender(const std::string& file, unsigned seed)
+      : chance_(seed),
+        samples_(chance_.number(8, 12)),
+        description_(small_scene(file, samples_)),
+        scene_(build_scene(description_, {8, {}})),
+        whole_(in_one({0, 0, width, height}, 1)) {}
+
+  /// Whether the picture, or a crop of it, has the same bits when it is rendered in a way of this kind. What was done
+  /// is added to `steps`.
+  bool same_after(const std::string& kind, std::string& steps) {
+    const Region crop = kind.ends_with("of a crop") ? chance_.crop() : Region{0, 0, width, height};
+    steps = kind + " " + text_of(crop) + ", " + std::to_string(samples_) + " samples:";
+    steps_ = &steps;
+    if (kind.starts_with("threads")) return same(in_one(crop, chance_.number(1, 8)), whole_);
+    if (kind.starts_with("passes")) return same(in_passes(crop), whole_);
+    if (kind.starts_with("tiles")) return same(merged(tiles(crop, 6, 1)), whole_);
+    if (kind.starts_with("samples")) return same(merged(ranges(crop, crop, chance_.number(2, 5))), whole_);
+    return same(merged(tiles(crop, 3, 3)), whole_);
+  }
+
+ private:
+  static std::string text_of(const Region& r) {
+    std::ostringstream text;
+    text << r.x0 << ',' << r.y0 << ',' << r.x1 << ',' << r.y1;
+    return text.str();
+  }
+
+  Film empty_film(const Region& region, const SampleRange& samples) const {
+    return Film(film_settings(*scene_, description_, {1, 0, region, samples, {}}));
+  }
+
+  Colors in_one(const Region& region, int threads) {
+    Film film = empty_film(region, all_samples());
+    render(*scene_, film, all_samples().count, threads);
+    return colors_of(film);
+  }
+
+  Colors in_passes(const Region& region) {
+    Film film = empty_film(region, all_samples());
+    for (const int samples : chance_.edges(samples_, 4))
+      render(*scene_, film, static_cast<std::uint32_t>(samples), chance_.number(1, 4));
+    return colors_of(film);
+  }
+
+  std::vector<std::string> tiles(const Region& whole, int parts, int splits) {
+    std::vector<std::string> files;
+    const int count = chance_.number(2, parts);
+    for (int i = 0; i < count; ++i)
+      for (std::string& file : ranges(whole, tile_of(whole, i, count), chance_.number(1, splits)))
+        files.push_back(std::move(file));
+    return files;
+  }
+
+  /// Pieces of all samples, in so many ranges.
+  std::vector<std::string> ranges(const Region& whole, const Region& region, int parts) {
+    std::vector<std::string> files;
+    const std::vector<int> edges = chance_.edges(samples_, parts);
+    for (std::size_t i = 1; i < edges.size(); ++i) {
+      const auto first = static_cast<std::uint32_t>(edges[i - 1]), end = static_cast<std::uint32_t>(edges[i]);
+      files.push_back(piece(whole, region, {first, end - first, false}, parts > 1));
+    }
+    return files;
+  }
+
+  std::string piece(const Region& whole, const Region& region, const SampleRange& samples, bool keeps_sums) {
+    *steps_ +=
+        " " + text_of(region) + " from " + std::to_string(samples.first) + " on " + std::to_string(samples.count) + ";";
+    Film film = empty_film(region, samples);
+    render(*scene_, film, samples.count, chance_.number(1, 4));
+    PieceIdentity identity{provenance_of("raytrace test", *scene_, description_), film.settings(), whole, false};
+    ImageMetadata metadata;
+    metadata.software = identity.provenance.software;
+    metadata.samples = static_cast<int>(samples.count);
+    metadata.attributes = identity_attributes(identity);
+    std::vector<Channel> channels = color_channels(true);
+    const std::vector<Channel> sums = keeps_sums ? sum_channels(film) : std::vector<Channel>();
+    channels.insert(channels.end(), sums.begin(), sums.end());
+    const std::string file = folder_.file("piece" + std::to_string(pieces_++) + ".exr");
+    ImageFile image(file, film.settings().extent, channels, metadata, {.full_float = true, .threads = 1});
+    ImageBand band;
+    fill_color(band, film, region.y0, region.y1);
+    if (keeps_sums) append_sums(band, sums, film);
+    image.write(band);
+    image.commit();
+    return file;
+  }
+
+  Colors merged(std::vector<std::string> pieces) {
+    chance_.shuffle(pieces);
+    const std::string file = folder_.file("merged.exr");
+    MergeSettings settings;
+    settings.pieces = std::move(pieces);
+    settings.outputs = {file};
+    settings.threads = 1;
+    merge_pieces(settings);
+    ExrReader reader(file);
+    const Region& region = reader.extent().region;
+    const ImageBand band = reader.read(color_channels(true), region.y0, region.y1);
+    Colors colors{region, {}};
+    for (std::size_t i = 0; i < 4; ++i) colors.planes[i] = std::get<std::vector<float>>(band.planes[i]);
+    return colors;
+  }
+
+  Colors colors_of(const Film& film) const {
+    ImageBand band;
+    fill_color(band, film, film.region().y0, film.region().y1);
+    Colors colors{film.region(), {}};
+    for (std::size_t i = 0; i < 4; ++i) colors.planes[i] = std::get<std::vector<float>>(band.planes[i]);
+    return colors;
+  }
+
+  SampleRange all_samples() const { return {0, static_cast<std::uint32_t>(samples_), false}; }
+
+  TemporaryFolder folder_;
+  Chance chance_;
+  int samples_;
+  SceneDescription description_;
+  std::unique_ptr<const Scene> scene_;
+  int pieces_ = 0;
+  std::string* steps_ = nullptr;
+  Colors whole_;
+};
+
+}  // namespace
+
+TEST_CASE("the gallery's scenes have the same bits however they are cut") {
+  std::vector<std::string> kinds;
+  for (const auto& [kind, count] : std::vector<std::pair<std::string, int>>{{"threads", 3},
+                                                                            {"threads of a crop", 4},
+                                                                            {"passes", 2},
+                                                                            {"passes of a crop", 2},
+                                                                            {"tiles", 2},
+                                                                            {"tiles of a crop", 1},
+                                                                            {"samples", 3},
+                                                                            {"samples of a crop", 1},
+                                                                            {"mixed", 4},
+                                                                            {"mixed of a crop", 1}})
+    kinds.insert(kinds.end(), static_cast<std::size_t>(count), kind);
+  const std::vector<std::string> files = gallery();
+  CHECK(files.size() >= 7);
+  unsigned seed = 0;
+  for (const std::string& file : files) {
+    CutRender cut(file, seed++);
+    for (const std::string& kind : kinds) {
+      std::string steps;
+      const bool same = cut.same_after(kind, steps);
+      INFO(file << ": " << steps);
+      CHECK(same);
+    }
+  }
+}
+
+}  // namespace raytrace::test
