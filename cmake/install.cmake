@@ -1,5 +1,5 @@
-# cmake --install: program, library, headers, scenes, schemas, what render farms run, man pages, and the package for
-# find_package(raytrace).
+# cmake --install: program, library, headers, scenes, schemas, what render farms run, man pages, completions, documents, and
+# the package for find_package(raytrace).
 include(CMakePackageConfigHelpers)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/raytrace)
@@ -23,7 +23,15 @@ install(FILES ${PROJECT_BINARY_DIR}/share/man/man1/raytrace.1 ${PROJECT_BINARY_D
   DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(DIRECTORY share/openjd share/slurm DESTINATION ${CMAKE_INSTALL_DATADIR}/raytrace)
 install(FILES share/statistics.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/raytrace)
-install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+foreach(file bash-completion/completions/raytrace zsh/site-functions/_raytrace fish/vendor_completions.d/raytrace.fish)
+  get_filename_component(folder ${file} DIRECTORY)
+  install(FILES ${PROJECT_BINARY_DIR}/share/${file} DESTINATION ${CMAKE_INSTALL_DATADIR}/${folder})
+endforeach()
+
+# As they lie in the repository, so that their links and pictures are found.
+install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR}
+  FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.svg" PATTERN "*.json")
 
 install(EXPORT raytraceTargets NAMESPACE raytrace:: DESTINATION ${package_folder})
 string(REGEX MATCH "^[0-9]+" embree_major "${embree_VERSION}")

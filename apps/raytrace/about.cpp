@@ -23,7 +23,7 @@ std::string version() {
   std::string isas;
   for (const std::string& name : isa_names()) isas += (isas.empty() ? "" : ", ") + name;
   // An empty scene knows which Embree it is made with.
-  const std::string embree_version = build_scene({}, {1, ""})->statistics().embree_version;
+  const std::string embree_version = build_scene({}, {1, "", true})->statistics().embree_version;
   return software_name() + "\nEmbree " + embree_version + "\nOpenImageIO " OPENIMAGEIO_VERSION "\noneTBB " +
          TBB_runtime_version() + "\ninstruction sets: " + isas + " (best here: " + best_isa() + ")\n";
 }

@@ -81,6 +81,7 @@ Options Jobs::operator[](std::size_t i) const {
   Options job = options_;
   job.scene = scene(i);
   job.frame = frame(i).value_or(job.frame);
+  job.is_one_of_frames = frame(i).has_value();
   job.job_index = i;
   job.job_count = count();
   const NameValues values{frame(i), job.tile ? std::optional(job.tile->index) : std::nullopt, job.scene};

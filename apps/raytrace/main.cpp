@@ -1,7 +1,9 @@
 // The command: options -> for each frame of each scene: load -> build -> render -> write.
 #include <utility>
+#include <vector>
 
 #include "about.h"
+#include "command_words.h"
 #include "exit_code.h"
 #include "jobs.h"
 #include "merge_command.h"
@@ -68,8 +70,10 @@ int run(const Options& options, Progress& progress) {
 int main(int argc, char** argv) {
   using namespace raytrace;
   const auto program = [&] {
-    if (is_merge_command(argc, argv)) return merge_command(argc, argv);
-    Options options = parse_options(argc, argv);
+    const std::vector<const char*> arguments = with_command_words_read(argc, argv);
+    const int count = static_cast<int>(arguments.size());
+    if (is_merge_command(count, arguments.data())) return merge_command(count, arguments.data());
+    Options options = parse_options(count, arguments.data());
     set_verbosity(options.verbosity());
     tell_program_in(options.progress);
     if (const auto answer = about_program(options)) {

@@ -128,7 +128,17 @@ std::string troff_section(const Section& section) {
   return page;
 }
 
+std::string examples_text(const Section& examples) {
+  std::string text = "\n" + examples.title + ":\n";
+  for (const Entry& example : examples.entries) text += "  " + example.term + "\n      " + example.text + "\n";
+  return text;
+}
+
 }  // namespace
+
+std::string short_help(const Manual& manual) {
+  return "\nUsage: " + manual.synopsis + "\n" + examples_text(manual.examples);
+}
 
 std::string help_text(const Manual& manual, const std::vector<OptionEntry>& options) {
   constexpr std::size_t columns = 80;
@@ -142,8 +152,7 @@ std::string help_text(const Manual& manual, const std::vector<OptionEntry>& opti
               wrapped(entry.text, columns - options_indent, options_indent) + "\n";
     }
   }
-  help += "\n" + manual.examples.title + ":\n";
-  for (const Entry& example : manual.examples.entries) help += "  " + example.term + "\n      " + example.text + "\n";
+  help += examples_text(manual.examples);
   help += "\n" + manual.exit_codes.title + ":\n";
   const std::size_t codes_indent = longest_term({manual.exit_codes}) + 4;
   for (const Entry& code : manual.exit_codes.entries) {

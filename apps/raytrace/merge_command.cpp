@@ -49,6 +49,8 @@ void refuse_clashes(const std::vector<std::string>& names, const MergeSettings& 
 }
 
 MergeOptions parsed(int argc, const char* const* argv) {
+  constexpr const char* no_pieces = "no pieces given; for example: raytrace merge tile.*.exr -o whole.exr";
+  if (argc == 1) throw UsageError(no_pieces + ("\n" + short_help(merge_manual)));
   MergeOptions options;
   OptionParser parser;
   define_merge_options(parser, options);
@@ -58,7 +60,7 @@ MergeOptions parsed(int argc, const char* const* argv) {
   const std::vector<std::string> names = options.settings.pieces;
   options.settings.pieces = with_lists_read(names);
   const MergeSettings& settings = options.settings;
-  if (settings.pieces.empty()) throw UsageError("no pieces given; for example: raytrace merge tile.*.exr -o whole.exr");
+  if (settings.pieces.empty()) throw UsageError(no_pieces);
   if (settings.outputs.empty())
     throw UsageError("no output given; for example: raytrace merge tile.*.exr -o whole.exr");
   if (settings.exposure) refuse_useless_exposure(settings.outputs, {});
@@ -94,7 +96,7 @@ void define_merge_options(OptionParser& parser, MergeOptions& options) {
   parser.add_repeatable("-o,--output", "FILE", "Write the picture to FILE; repeatable",
                         [&](const std::string& text) { settings.outputs.push_back(text); });
   parser.add("--bit-depth", "8|16", "Bits a channel in PNG, TIFF and other sRGB-encoded files (8)",
-             [&](const std::string& text) { settings.bit_depth = bit_depth(text); });
+             [&](const std::string& text) { settings.bit_depth = bit_depth(text); }, {"8", "16"});
   parser.add("--exposure", exposure_value_name, exposure_help,
              [&](const std::string& text) { settings.exposure = exposure(text); });
   parser.group("Work");

@@ -1,27 +1,15 @@
 #include "option_parser.h"
 
 #include <CLI/CLI.hpp>
-#include <string_view>
+#include <algorithm>
+#include <filesystem>
 
+#include "option_synonyms.h"
 #include "raytrace/description/quoted.h"
 
 namespace raytrace {
 
 namespace {
-
-/// CLI11's message in other words, where they are clearer.
-std::string explained(const std::string& message) {
-  static constexpr std::string_view missing_value = ": 1 required ";                           // --spp ... N missing
-  static constexpr std::string_view needless_value = " was given a disallowed flag override";  // float ...
-  if (const std::size_t found = message.find(missing_value); found != std::string::npos) {
-    const std::string rest = message.substr(found + missing_value.size());
-    return message.substr(0, found) + " needs a value: " + rest.substr(0, rest.find(' '));
-  }
-  if (message.ends_with(needless_value)) {
-    return "--" + message.substr(0, message.size() - needless_value.size()) + " takes no value";
-  }
-  return message;
-}
 
 /// The names of a CLI11 option, short ones first, with their dashes.
 Names names_of(const CLI::Option& option) {
@@ -65,14 +53,15 @@ OptionParser::~OptionParser() = default;
 void OptionParser::add_arguments(const std::string& value_name, const std::string& help,
                                  std::vector<std::string>& values) {
   parser_->app.add_option("arguments", values)->type_name(value_name);
+  arguments_ = &values;
   note({}, value_name, help);
 }
 
 void OptionParser::add(const std::string& names, const std::string& value_name, const std::string& help,
-                       const Take& take) {
+                       const Take& take, const Names& values) {
   const CLI::Option* const option =
       parser_->app.add_option_function<std::string>(names, named(take, names))->type_name(value_name)->take_last();
-  note(names_of(*option), value_name, help);
+  note(names_of(*option), value_name, help, values);
 }
 
 void OptionParser::add_repeatable(const std::string& names, const std::string& value_name, const std::string& help,
@@ -90,7 +79,7 @@ void OptionParser::add_with_optional_value(const std::string& names, const std::
                                            const std::string& help, std::string& value, const std::string& without) {
   // CLI11's flag with a value: it takes no argument after it.
   const CLI::Option* const option = parser_->app.add_flag(names + "{" + without + "}", value);
-  note(names_of(*option), value_name, help, true);
+  note(names_of(*option), value_name, help, {}, true);
 }
 
 void OptionParser::add_switch(const std::string& names, bool& flag, const std::string& help) {
@@ -101,12 +90,13 @@ void OptionParser::add_switch(const std::string& names, int& count, const std::s
   note(names_of(*parser_->app.add_flag(names, count)->disable_flag_override()), {}, help);
 }
 
-void OptionParser::note(const Names& names, const std::string& value_name, const std::string& help,
+void OptionParser::note(const Names& names, const std::string& value_name, const std::string& help, const Names& values,
                         bool value_is_optional) {
-  entries_.push_back({group_, names, value_name, help, value_is_optional});
+  entries_.push_back({group_, names, value_name, help, values, value_is_optional});
 }
 
 void OptionParser::parse(int argc, const char* const* argv) {
+  refuse_other_style(argc, argv);
   try {
     parser_->app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -115,17 +105,79 @@ void OptionParser::parse(int argc, const char* const* argv) {
   refuse_unknown();
 }
 
-void OptionParser::refuse_unknown() const {
-  Names long_names;
-  for (const OptionEntry& entry : entries_)
-    for (const std::string& name : entry.names)
-      if (name.starts_with("--")) long_names.push_back(name);
-  for (const std::string& argument : parser_->app.remaining()) {
-    if (argument.size() < 2 || argument.front() != '-') continue;
-    const std::string name = argument.substr(0, argument.find('='));
-    const bool is_long = name.size() > 2 && name[1] == '-';
-    throw UsageError("there is no option " + in_quotes(name) + (is_long ? suggestion(name, long_names) : ""));
+/// "-samples" would be read as "-s amples".
+void OptionParser::refuse_other_style(int argc, const char* const* argv) const {
+  constexpr std::size_t least_length = 3;  // of such a word
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view argument(argv[i]);
+    if (argument == "--") return;
+    const OptionEntry* const before = entry(argv[i - 1]);
+    const bool is_value = before != nullptr && !before->value_name.empty() && !before->value_is_optional;
+    if (is_value || argument.size() <= least_length || argument[0] != '-' || argument[1] == '-') continue;
+    const std::string name(argument.substr(0, argument.find('=')));
+    const std::string own_name = "-" + name;
+    const std::string found = entry(own_name) != nullptr ? "; did you mean " + in_quotes(own_name) + "?" : hint(name);
+    if (!found.empty()) throw UsageError("there is no option " + in_quotes(name) + found);
   }
+}
+
+void OptionParser::refuse_unknown() const {
+  for (const std::string& argument : parser_->app.remaining()) {
+    if (argument.size() < 2 || argument.front() != '-' || argument == "--") continue;
+    const bool is_long = argument[1] == '-';
+    const std::string name = is_long ? argument.substr(0, argument.find('=')) : argument.substr(0, 2);
+    Names long_names;
+    for (const OptionEntry& entry : entries_)
+      for (const std::string& known : entry.names)
+        if (known.starts_with("--")) long_names.push_back(known);
+    std::string found = hint(name);
+    for (const std::string& known : long_names)
+      if (found.empty() && name.size() > 4 && known.starts_with(name))
+        found = "; did you mean " + in_quotes(known) + "?";
+    if (found.empty() && is_long) found = suggestion(name, long_names);
+    throw UsageError("there is no option " + in_quotes(name) + found);
+  }
+  if (arguments_ == nullptr) return;
+  for (const std::string& argument : *arguments_) {
+    const bool is_option = argument.size() > 1 && argument[0] == '+' && argument[1] >= 'A' && argument[1] <= 'Z';
+    if (!is_option || argument.ends_with(".xml") || std::filesystem::exists(argument)) continue;
+    const std::string_view meant = option_of_povray(argument);
+    throw UsageError("there is no option " + in_quotes(argument) +
+                     (entry(meant) != nullptr ? "; did you mean " + in_quotes(meant) + "?" : ""));
+  }
+}
+
+/// "; did you mean '--spp'?" for what other renderers call an option; empty if none does.
+std::string OptionParser::hint(const std::string& name) const {
+  const OptionEntry* const meant = entry(option_of_other_renderers(name));
+  if (meant == nullptr) return {};
+  const bool has_value = !meant->value_name.empty() && !meant->value_is_optional;
+  return "; did you mean " + in_quotes(meant->names.back()) + "?" + (has_value ? " (" + meant->term() + ")" : "");
+}
+
+/// Null if there is no option of that name.
+const OptionEntry* OptionParser::entry(std::string_view name) const {
+  for (const OptionEntry& entry : entries_)
+    if (std::find(entry.names.begin(), entry.names.end(), name) != entry.names.end()) return &entry;
+  return nullptr;
+}
+
+/// CLI11's message in other words, where they are clearer.
+std::string OptionParser::explained(const std::string& message) const {
+  static constexpr std::string_view missing_value = ": 1 required ";                           // --spp ... N missing
+  static constexpr std::string_view needless_value = " was given a disallowed flag override";  // float ...
+  if (const std::size_t found = message.find(missing_value); found != std::string::npos) {
+    const std::string name = message.substr(0, found);
+    const OptionEntry* const option = entry(name);
+    const std::string value = option == nullptr        ? ""
+                              : option->values.empty() ? option->value_name
+                                                       : "one of " + joined(option->values, ", ");
+    return name + " needs a value: " + value;
+  }
+  if (message.ends_with(needless_value)) {
+    return "--" + message.substr(0, message.size() - needless_value.size()) + " takes no value";
+  }
+  return message;
 }
 
 }  // namespace raytrace

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "option_values.h"
@@ -17,6 +18,7 @@ struct OptionEntry {
   Names names;             ///< "-o", "--output"; empty for what stands without an option's name
   std::string value_name;  ///< "FILE"; empty for a switch
   std::string help;
+  Names values{};                  ///< those that the value is one of; empty: any text
   bool value_is_optional = false;  ///< it follows a "=": --stats[=FILE.json]
 
   /// "-o, --output FILE"
@@ -41,8 +43,10 @@ class OptionParser {
   void add_arguments(const std::string& value_name, const std::string& help, std::vector<std::string>& values);
 
   /// An option with a value; the last one counts, so that a wrapper script's can be overridden. A UsageError that
-  /// `take` throws is thrown again with the option's name before it.
-  void add(const std::string& names, const std::string& value_name, const std::string& help, const Take& take);
+  /// `take` throws is thrown again with the option's name before it. values: those that it takes, for messages and
+  /// completions; empty: any text.
+  void add(const std::string& names, const std::string& value_name, const std::string& help, const Take& take,
+           const Names& values = {});
 
   /// One that may be repeated, and keeps all its values.
   void add_repeatable(const std::string& names, const std::string& value_name, const std::string& help,
@@ -63,12 +67,18 @@ class OptionParser {
 
  private:
   struct Parser;
+  void refuse_other_style(int argc, const char* const* argv) const;
   void refuse_unknown() const;
-  void note(const Names& names, const std::string& value_name, const std::string& help, bool value_is_optional = false);
+  std::string hint(const std::string& name) const;
+  const OptionEntry* entry(std::string_view name) const;
+  std::string explained(const std::string& message) const;
+  void note(const Names& names, const std::string& value_name, const std::string& help, const Names& values = {},
+            bool value_is_optional = false);
 
   std::unique_ptr<Parser> parser_;
   std::string group_;
   std::vector<OptionEntry> entries_;
+  std::vector<std::string>* arguments_ = nullptr;
 };
 
 }  // namespace raytrace

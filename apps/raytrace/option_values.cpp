@@ -43,10 +43,14 @@ std::string joined(const Names& names, const char* separator) {
   return all;
 }
 
-std::string suggestion(const std::string& wrong, const Names& names) {
+std::string nearest(const std::string& wrong, const Names& names) {
   const std::vector<std::string_view> candidates(names.begin(), names.end());
-  const std::string_view nearest = nearest_name(wrong, candidates);
-  return nearest.empty() ? "" : "; did you mean " + in_quotes(nearest) + "?";
+  return std::string(nearest_name(wrong, candidates));
+}
+
+std::string suggestion(const std::string& wrong, const Names& names) {
+  const std::string meant = nearest(wrong, names);
+  return meant.empty() ? "" : "; did you mean " + in_quotes(meant) + "?";
 }
 
 int integer(const std::string& text, int least, int most) {
@@ -74,14 +78,17 @@ std::string one_of(const std::string& text, const Names& names) {
   throw UsageError(in_quotes(text) + " is not one of " + joined(names, ", ") + suggestion(text, names));
 }
 
-AovSet aovs(const std::string& text) {
-  const Names all = aov_names();
-  Names choices = all;
+Names aov_choices() {
+  Names choices = aov_names();
   choices.emplace_back("all");
+  return choices;
+}
+
+AovSet aovs(const std::string& text) {
   Names wanted;
-  for (const std::string_view name : split(text, ',')) wanted.push_back(one_of(std::string(name), choices));
+  for (const std::string_view name : split(text, ',')) wanted.push_back(one_of(std::string(name), aov_choices()));
   const bool everything = std::find(wanted.begin(), wanted.end(), "all") != wanted.end();
-  return aov_set(everything ? all : wanted);
+  return aov_set(everything ? aov_names() : wanted);
 }
 
 Resolution resolution(const std::string& text) {

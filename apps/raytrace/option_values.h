@@ -21,6 +21,9 @@ using Names = std::vector<std::string>;
 
 std::string joined(const Names& names, const char* separator);
 
+/// The name that is most like the wrong one; empty if none is.
+std::string nearest(const std::string& wrong, const Names& names);
+
 /// "; did you mean 'name'?", if any of the names is like the wrong one.
 std::string suggestion(const std::string& wrong, const Names& names);
 
@@ -34,6 +37,9 @@ int bit_depth(const std::string& text);
 
 /// The text, if it is one of the names.
 std::string one_of(const std::string& text, const Names& names);
+
+/// Those that --aov knows, and "all".
+Names aov_choices();
 
 /// "depth,normal", or "all" of them.
 AovSet aovs(const std::string& text);

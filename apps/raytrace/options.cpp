@@ -7,6 +7,7 @@
 
 #include "frame_numbers.h"
 #include "listing.h"
+#include "manual.h"
 #include "option_parser.h"
 #include "option_values.h"
 #include "raytrace/aovs/aov_selection.h"
@@ -27,8 +28,10 @@ std::string instruction_set(const std::string& text) {
   return text;
 }
 
+Names progress_names() { return {"auto", "bar", "plain", "openjd", "alf", "json", "none"}; }
+
 ProgressStyle progress_style(const std::string& text) {
-  const Names names = {"auto", "bar", "plain", "openjd", "alf", "json", "none"};
+  const Names names = progress_names();
   const ProgressStyle styles[] = {ProgressStyle::automatic, ProgressStyle::bar, ProgressStyle::plain,
                                   ProgressStyle::openjd,    ProgressStyle::alf, ProgressStyle::json,
                                   ProgressStyle::none};
@@ -51,8 +54,10 @@ void define(const std::string& text, std::map<std::string, std::string>& variabl
   variables[name] = value;
 }
 
+constexpr const char* no_scene = "no scene given; for example: raytrace scene.xml -o picture.exr";
+
 void refuse_incomplete(const Options& options) {
-  if (options.scenes.empty()) throw UsageError("no scene given; for example: raytrace scene.xml -o picture.exr");
+  if (options.scenes.empty()) throw UsageError(no_scene);
   for (const std::string& scene : options.scenes) {
     if (scene.empty()) throw UsageError("the scene's file name is empty");
   }
@@ -113,11 +118,12 @@ void define_options(OptionParser& parser, Options& options) {
                     "PNG and TIFF");
   parser.add("--exposure", exposure_value_name, exposure_help,
              [&](const std::string& text) { options.exposure = exposure(text); });
-  parser.add("--aov", "LIST",
-             "What EXR files hold besides the colour, separated by commas: " + joined(aov_names(), ", ") + "; or all",
-             [&](const std::string& text) { options.aovs = aovs(text); });
+  parser.add(
+      "--aov", "LIST",
+      "What EXR files hold besides the colour, separated by commas: " + joined(aov_names(), ", ") + "; or all",
+      [&](const std::string& text) { options.aovs = aovs(text); }, aov_choices());
   parser.add("--bit-depth", "8|16", "Bits a channel in PNG, TIFF and other sRGB-encoded files (8)",
-             [&](const std::string& text) { options.bit_depth = bit_depth(text); });
+             [&](const std::string& text) { options.bit_depth = bit_depth(text); }, {"8", "16"});
 
   parser.group("Picture");
   parser.add("-r,--resolution", "WxH", "Size in pixels instead of the scene's; what was in view stays in view",
@@ -148,8 +154,9 @@ void define_options(OptionParser& parser, Options& options) {
   parser.group("Work");
   parser.add("-t,--threads", "N", "Use N threads (all processors); the picture does not depend on it",
              [&](const std::string& text) { options.threads = integer(text, 1, most_threads); });
-  parser.add("--isa", "NAME", "Instruction set: " + joined(isa_names(), ", ") + " (the best that the processor has)",
-             [&](const std::string& text) { options.isa = instruction_set(text); });
+  parser.add(
+      "--isa", "NAME", "Instruction set: " + joined(isa_names(), ", ") + " (the best that the processor has)",
+      [&](const std::string& text) { options.isa = instruction_set(text); }, isa_names());
 
   parser.add(
       "--time-limit", "TIME",
@@ -170,11 +177,10 @@ void define_options(OptionParser& parser, Options& options) {
   parser.add_switch("-v,--verbose", options.verbose, "Tell what is done; twice: all that --stats tells, too");
   parser.add(
       "--progress", "STYLE",
-      "auto, bar, plain, openjd, alf, json or none: how far the render is; auto, bar and plain on standard error "
-      "(auto: "
-      "a bar on a terminal, plain lines elsewhere), lines for Open Job Description, Tractor and other programs on "
-      "standard output",
-      [&](const std::string& text) { options.progress = progress_style(text); });
+      "How far the render is: auto, bar and plain on standard error (auto: a bar on a terminal, plain lines "
+      "elsewhere); "
+      "openjd, alf and json on standard output, for Open Job Description, Tractor and other programs; or none",
+      [&](const std::string& text) { options.progress = progress_style(text); }, progress_names());
   parser.add("--log-file", "FILE", "Add the messages to FILE, too, each with its time", [&](const std::string& text) {
     if (text.empty()) throw UsageError("the file name is empty");
     options.log_file = text;
@@ -192,13 +198,15 @@ void define_options(OptionParser& parser, Options& options) {
   parser.add_switch("--validate", options.validate, "Check the scene and render nothing");
   parser.add_switch("--print-scene", options.print_scene,
                     "Print the scene with every value spelled out, as it would be rendered, and render nothing");
-  parser.add("--list", "KIND", "Print the " + joined(listing_kinds(), ", ") + " that there are",
-             [&](const std::string& text) { options.list = one_of(text, listing_kinds()); });
+  parser.add(
+      "--list", "KIND", "Print the " + joined(listing_kinds(), ", ") + " that there are",
+      [&](const std::string& text) { options.list = one_of(text, listing_kinds()); }, listing_kinds());
   parser.add_switch("--version", options.version, "Print the version, the libraries' and the instruction sets");
   parser.add_switch("-h,--help", options.help, "Print this");
 }
 
 Options parse_options(int argc, const char* const* argv) {
+  if (argc == 1) throw UsageError(no_scene + ("\n" + short_help(render_manual)));
   Options options;
   OptionParser parser;
   define_options(parser, options);

@@ -33,6 +33,7 @@ struct Options {
   // Of one render; Jobs sets them, and puts its values into the names of files.
   std::string scene;
   int frame = 1;
+  bool is_one_of_frames = false;  ///< the frame is one of --frames
   std::size_t job_index = 0, job_count = 1;
 
   std::optional<Resolution> resolution;  ///< none: the scene's

@@ -55,6 +55,8 @@ PictureRender::PictureRender(const Scene& scene, const SceneDescription& descrip
       progress_(progress) {
   identity_.provenance = provenance_of(software_name(), scene, description, options.threads);
   identity_.whole = whole;
+  if (options.is_one_of_frames) identity_.frame = options.frame;
+  identity_.variables = variables_text(options.variables);
   if (options.display_server) {
     const PictureExtent extent{description.viewplane.hres, description.viewplane.vres, region};
     display_ = std::make_unique<DisplayClient>(*options.display_server, options.outputs.front(), extent, tell_warning);

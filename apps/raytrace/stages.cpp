@@ -155,7 +155,7 @@ std::unique_ptr<const Scene> build(const SceneDescription& description, const Op
   std::unique_ptr<const Scene> scene;
   {
     const PhaseTimer timer(statistics.phases.build);
-    scene = build_scene(description, {options.threads, options.isa});
+    scene = build_scene(description, {options.threads, options.isa, true});
   }
   obey_group_memory_limit(options.threads);
   statistics.scene = scene->statistics();

@@ -1,4 +1,9 @@
 // What the parser makes of command lines, and what it says about those that make no sense.
+#include <algorithm>
+
+#include "command_words.h"
+#include "option_parser.h"
+#include "option_synonyms.h"
 #include "options.h"
 #include "raytrace/render/renderer.h"
 #include "support/catch.h"
@@ -151,6 +156,10 @@ TEST_CASE("quiet silences the progress that nobody asked for") {
 
 TEST_CASE("incomplete command lines are refused with what to type") {
   CHECK_REFUSED(parse({}), "raytrace scene.xml -o picture.exr");
+  CHECK_REFUSED(parse({}), "\nUsage: raytrace SCENE.xml... -o FILE [options]\n\nExamples:\n");
+  CHECK_REFUSED(parse({"-q"}), "no scene given");
+  CHECK_REFUSED(parse({"--list"}), "--list needs a value: one of shapes, materials, lights, ");
+  CHECK_REFUSED(parse({"--progress"}), "--progress needs a value: one of auto, bar, ");
   CHECK_REFUSED(parse({"my.xml"}), "raytrace my.xml -o picture.exr");
   CHECK_REFUSED(parse({"my.xml", "-o"}), "--output needs a value: FILE");
   CHECK_REFUSED(parse({"my.xml", "-o", "a.exr", "-t"}), "--threads needs a value: N");
@@ -165,6 +174,74 @@ TEST_CASE("an unknown option is refused with the nearest known one") {
   CHECK_REFUSED(with({"--stat"}), "did you mean '--stats'?");
   CHECK_REFUSED(with({"-x"}), "there is no option '-x'");
   CHECK_REFUSED(parse({"--frobnicate"}), "there is no option '--frobnicate'");
+}
+
+TEST_CASE("the words of other renderers are refused with the option that they stand for") {
+  const auto check = [](const char* word, const std::string& option) {
+    CHECK_REFUSED(with({word}), "there is no option '" + std::string(word) + "'; did you mean '" + option + "'?");
+  };
+  for (const char* const word : {"--samples", "--sample", "--samples-per-pixel", "--aa", "-samples", "-spp", "+A0.3"})
+    check(word, "--spp");
+  for (const char* const word :
+       {"--width", "--HEIGHT", "--size", "--res", "--image-size", "-res", "-width", "+W640", "+H480"})
+    check(word, "--resolution");
+  for (const char* const word : {"--out", "--outfile", "--output_file", "--outputFile", "-output", "+Oa.png"})
+    check(word, "--output");
+  for (const char* const word : {"--num_threads", "--jobs", "--cpus", "-threads", "+WT4"}) check(word, "--threads");
+  for (const char* const word : {"--frame", "--frame-range", "--start", "+KFF10"}) check(word, "--frames");
+  check("--region", "--crop");
+  check("--set", "--define");
+  check("--dry-run", "--validate");
+  check("--no-overwrite", "--skip-existing");
+  check("--continue", "--resume");
+  check("-help", "--help");
+  check("--resol", "--resolution");
+  CHECK_REFUSED(with({"--samples=16"}), "'--samples'; did you mean '--spp'? (-s, --spp N)");
+  CHECK_REFUSED(with({"-j4"}), "'-j'; did you mean '--threads'?");
+  CHECK_REFUSED(with({"+Q9"}), "there is no option '+Q9'");
+  // Values that are written together with short options are none of these words.
+  CHECK(with({"-oout", "-s16"}).outputs.back() == "out");
+  CHECK(with({"-o", "-out"}).outputs.size() == 2);
+  CHECK(with({"+Scene.xml", "--", "-samples"}).scenes ==
+        std::vector<std::string>{"scene.xml", "+Scene.xml", "-samples"});
+}
+
+TEST_CASE("every word of other renderers leads to an option that there is") {
+  OptionParser parser;
+  Options options;
+  define_options(parser, options);
+  Names known;
+  for (const OptionEntry& entry : parser.entries()) known.insert(known.end(), entry.names.begin(), entry.names.end());
+  for (const char* const word :
+       {"samples",     "width",   "outfile", "frame",    "jobs",     "roi",         "chunk", "var",
+        "simd",        "passes",  "timeout", "continue", "autosave", "nooverwrite", "log",   "timing",
+        "check",       "dump",    "silent",  "debug",    "viewer",   "bpp",         "fp32",  "percent",
+        "firstsample", "rngseed", "inspect", "plugins",  "ver",      "usage"}) {
+    INFO(word);
+    CHECK(std::count(known.begin(), known.end(), option_of_other_renderers(word)) == 1);
+  }
+}
+
+TEST_CASE("the first word may be a command, or like one") {
+  const auto read = [](std::vector<const char*> arguments) {
+    arguments.insert(arguments.begin(), "raytrace");
+    std::string words;
+    for (const char* const word : with_command_words_read(static_cast<int>(arguments.size()), arguments.data()))
+      words += std::string(words.empty() ? "" : " ") + word;
+    return words;
+  };
+  CHECK(read({}) == "raytrace");
+  CHECK(read({"help"}) == "raytrace --help");
+  CHECK(read({"help", "merge"}) == "raytrace merge --help");
+  CHECK(read({"merge", "help"}) == "raytrace merge --help");
+  CHECK(read({"help", "--spp"}) == "raytrace --help");
+  for (const char* const line : {"scene", "mrege.xml", "./mrege", "merge", "-q"})
+    CHECK(read({line}) == "raytrace " + std::string(line));
+  CHECK_REFUSED(read({"help", "me"}), "there is no help about 'me'");
+  CHECK_REFUSED(read({"mrege", "a", "b"}), "no command 'mrege'; did you mean 'raytrace merge'?");
+  CHECK_REFUSED(read({"Merge"}), "did you mean 'raytrace merge'?");
+  CHECK_REFUSED(read({"halp"}), "did you mean 'raytrace help'?");
+  CHECK_REFUSED(read({"render", "a.xml"}), "no command 'render'; use raytrace scene.xml -o picture.exr");
 }
 
 TEST_CASE("what is no value of an option is refused with what would be one") {

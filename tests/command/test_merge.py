@@ -70,6 +70,26 @@ class Merge(CommandTest):
                 self.assertIn(f"b.exr does not belong to a.exr: it differs in {what}", self.refused("a.exr", "b.exr"))
                 self.assertIn(f"it differs in {what}", self.refused("a.exr", "b.exr", "--partial"))
 
+    def test_frame_and_variables_are_kept_and_compared(self):
+        self.write("scene.xml", support.SCENE.replace("<radius>1</radius>", "<radius>${size:-1}</radius>")
+                   .replace('<eye x="0"', '<eye x="0.$frame"'))
+
+        def render(tile, frame, size):
+            self.succeed("scene.xml", "-q", "--frames", frame, "-D", f"size={size}", "--tile", f"{tile}/2",
+                         "-o", f"{tile}.#.exr")
+
+        render(0, "7", "0.5")
+        render(1, "7", "0.5")
+        self.succeed("merge", "0.7.exr", "1.7.exr", "-o", "whole.exr", "-o", "whole.png")
+        picture = Exr(self.read("whole.exr"))
+        self.assertEqual(picture.attributes["raytrace:frame"], ("int", struct.pack("<i", 7)))
+        self.assertEqual(picture.text("raytrace:variables"), "size=0.5")
+        self.assertIn(b"raytrace:variables\0size=0.5", self.read("whole.png"))
+        render(1, "8", "0.5")
+        self.assertIn("it differs in the scene (frame 8, not frame 7)\n", self.refused("0.7.exr", "1.8.exr"))
+        render(1, "7", "2")
+        self.assertIn("it differs in the scene (size=2, not size=0.5)\n", self.refused("0.7.exr", "1.7.exr"))
+
     def test_overlaps_and_gaps_are_refused_by_name(self):
         pieces = self.tiles(3)
         self.assertIn("tile1.exr holds what tile1.exr holds, too", self.refused(*pieces, "tile1.exr"))

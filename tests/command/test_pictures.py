@@ -162,6 +162,19 @@ class Pictures(CommandTest):
         self.assertAlmostEqual(seen[0] / seen[3], 0.5, delta=1e-5)
         self.assertAlmostEqual(seen[1] / seen[3], 0.5, delta=1e-5)
 
+    def test_metadata_has_frame_and_variables(self):
+        self.write("scene.xml", support.SCENE.replace("<radius>1</radius>", "<name>$who</name><radius>$size</radius>"))
+        self.succeed("scene.xml", "-q", "--frames", "-3", "-D", "who=a b\\=c", "-D", "size=2", "-o", "a.exr", "-o", "a.png")
+        exr, png = Exr(self.read("a.exr")), Png(self.read("a.png"))
+        self.assertEqual(exr.attributes["raytrace:frame"], ("int", struct.pack("<i", -3)))
+        self.assertEqual(exr.text("raytrace:variables"), r"size=2 who=a\ b\\=c")
+        self.assertEqual(png.text["raytrace:frame"], "-3")
+        self.assertEqual(png.text["raytrace:variables"], r"size=2 who=a\ b\\=c")
+        self.write("scene.xml", support.SCENE)
+        self.succeed("scene.xml", "-q", "-o", "a.exr", "-o", "a.png")
+        for names in (Exr(self.read("a.exr")).attributes, Png(self.read("a.png")).text):
+            self.assertFalse({"raytrace:frame", "raytrace:variables"} & set(names))
+
     def test_source_date_epoch_makes_bytes_repeat(self):
         environment = dict(os.environ, SOURCE_DATE_EPOCH="1000000000")
         for name in ("a.exr", "a.png"):

@@ -18,6 +18,22 @@ class Usage(CommandTest):
         self.assertIn("raytrace scene.xml -o picture.exr", self.refused())
         self.assertIn("'--thread'; did you mean '--threads'?", self.refused("scene.xml", "--thread", "4", "-o", "a.exr"))
 
+    def test_help_in_other_words(self):
+        self.assertEqual(self.succeed("help").stdout, self.succeed("--help").stdout)
+        self.assertEqual(self.succeed("help", "merge").stdout, self.succeed("merge", "--help").stdout)
+        self.assertIn("\nUsage: raytrace SCENE.xml", self.refused())
+        self.assertIn("\nUsage: raytrace merge PIECES", self.refused("merge"))
+        self.assertIn("one of shapes, materials", self.refused("--list"))
+        self.assertIn("did you mean 'raytrace merge'?", self.refused("mrege", "a.exr", "b.exr", "-o", "c.exr"))
+        self.assertIn("did you mean '--resolution'?", self.refused("scene.xml", "+W640", "+H480", "-o", "a.exr"))
+
+    def test_outputs_that_are_no_files(self):
+        for name in ("/dev/stdout", "/dev/stderr", "/dev/fd/1", "-"):
+            message = self.fail_with(1, "scene.xml", "-o", name)
+            self.assertIn("write to a file, and cat it", message)
+            self.assertNotIn("extension", message)
+        self.assertIn("it is a folder; name a file in it", self.fail_with(1, "scene.xml", "-o", "/"))
+
     def test_crops_outside_the_picture(self):
         for text in ["0,0,81,60", "0,0,80,61", "-1,0,5,5", "100,100,110,110"]:
             self.assertIn("outside the picture of 80 x 60",

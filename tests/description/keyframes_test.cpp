@@ -132,7 +132,7 @@ TEST_CASE("keys that make no sense are refused where they stand") {
   };
   const std::string good = "<key frame='1' value='2'/>";
   check("<radius><key value='2'/></radius>",
-        "36: error: missing attribute 'frame' in <key>; write <key frame=\"1\" value=\"1\"/>");
+        "36: error: missing attribute 'frame' in <key>; write <key frame=\"1\" value=\"2\"/>");
   check("<radius><key frame='1'/></radius>",
         "36: error: missing attribute 'value' in <key>; write <key frame=\"1\" value=\"1\"/>");
   check("<radius><key/></radius>",
@@ -140,7 +140,7 @@ TEST_CASE("keys that make no sense are refused where they stand") {
   check("<radius><key frme='1' value='2'/></radius>",
         "41: error: unknown attribute 'frme' in <key>; did you mean 'frame'?");
   check("<radius><key frame='1' x='2'/></radius>",
-        "51: error: unknown attribute 'x' in <key>; write <key frame=\"1\" value=\"1\"/>");
+        "51: error: unknown attribute 'x' in <key>; write <key frame=\"1\" value=\"2\"/>");
   check("<radius>" + good + "<key frame='1.0' value='3'/></radius>",
         "62: error: a second key of frame 1 in <radius>; the first one is in line 2");
   check("<radius><key frame='1' value='2' interpolation='cubic'/></radius>",
@@ -153,13 +153,13 @@ TEST_CASE("keys that make no sense are refused where they stand") {
         "36: error: unexpected text '2' in <radius>, which has keys; remove it or them");
   check("<radius value='2'>" + good + "</radius>",
         "36: error: unexpected attribute 'value' in <radius>, which has keys; write it into them, as in "
-        "<key frame=\"1\" value=\"1\"/>");
+        "<key frame=\"1\" value=\"2\"/>");
   check("<radius>" + good + "<kez frame='2' value='2'/></radius>",
         "62: error: unexpected element <kez> beside the keys of <radius>; did you mean <key>?");
   check("<radius>" + good + "<sphere/></radius>",
         "62: error: unexpected element <sphere> beside the keys of <radius>; remove it");
   check("<radius><key frame='1' value='2'>3</key></radius>",
-        "61: error: unexpected content of <key>; write it as <key frame=\"1\" value=\"1\"/>");
+        "61: error: unexpected content of <key>; write it as <key frame=\"1\" value=\"2\"/>");
 }
 
 TEST_CASE("keys of a vector have its components, and no value stands beside them") {
@@ -168,7 +168,7 @@ TEST_CASE("keys of a vector have its components, and no value stands beside them
     CHECK(findings_at(text, 1) == "s:2:" + expected + "\n");
   };
   check("<center><key frame='1' value='2'/></center>",
-        "24: error: unknown attribute 'value' in <key>; write <key frame=\"1\" x=\"1\" y=\"1\" z=\"1\"/>");
+        "24: error: unknown attribute 'value' in <key>; write <key frame=\"1\" x=\"2\" y=\"2\" z=\"2\"/>");
   check("<center x='1' y='1' z='1'><key frame='1' x='1' y='1' z='1'/></center>",
         "9: error: unexpected attribute 'x' in <center>, which has keys; write it into them, as in "
         "<key frame=\"1\" x=\"1\" y=\"1\" z=\"1\"/>\n"

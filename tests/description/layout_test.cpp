@@ -131,6 +131,71 @@ TEST_CASE("a faulty material is no second fault for the objects that use it") {
   CHECK_FALSE(contains(found, "unknown material"));
 }
 
+TEST_CASE("what is only misspelt or misplaced is not reported as missing, too") {
+  const std::string good = scene_with_sphere("<center x='0' y='0' z='0'/><radius>1</radius><material>clay</material>");
+  const auto with = [&](const std::vector<std::pair<std::string, std::string>>& changes) {
+    std::string text = good;
+    for (const auto& [from, to] : changes) text.replace(text.find(from), from.size(), to);
+    return findings(text);
+  };
+  REQUIRE(with({}).empty());
+  CHECK(with({{"<viewplane>", "<viewPlane>"}, {"</viewplane>", "</viewPlane>"}}) ==
+        "s:1:12: error: unknown element <viewPlane> in <raytracer>; did you mean <viewplane>?\n");
+  CHECK(with({{"<camera>", "<cameras>"}, {"</camera>", "</cameras>"}}) ==
+        "s:1:63: error: unknown element <cameras> in <raytracer>; did you mean <camera>?\n");
+  CHECK(with({{"<viewplane>", "<lights><viewplane>"}, {"</viewplane>", "</viewplane></lights>"}}) ==
+        "s:1:20: error: <viewplane> does not belong in <lights>; put it into <raytracer>\n");
+  for (const char* const name : {"materials", "mattes", "matte"}) {
+    const std::string element(name);
+    const std::string found =
+        with({{"<" + element + ">", "<" + element + "x>"}, {"</" + element + ">", "</" + element + "x>"}});
+    INFO(found);
+    CHECK(contains(found, "unknown element <" + element + "x> in"));
+    CHECK_FALSE(contains(found, "unknown material"));
+  }
+  CHECK(contains(with({{"<materials><mattes>", "<mattes>"}, {"</mattes>", "</mattes><materials>"}}),
+                 "<mattes> does not belong in <raytracer>; put it into <materials>\n"));
+  const std::string unnamed = with({{"<name>clay</name>", "<nam>clay</nam>"}});
+  CHECK(contains(unnamed, "unknown element <nam> in <matte>; did you mean <name>?"));
+  CHECK_FALSE(contains(unnamed, "unknown material"));
+  // What has nothing to do with it is reported all the same.
+  CHECK(contains(with({{"<viewplane>", "<stuff/><viewplane>"}, {"<material>clay", "<material>cley"}}),
+                 "unknown material 'cley'"));
+  CHECK(contains(findings("<raytracer><stuff/></raytracer>"), "the scene has no <camera>; add one"));
+}
+
+TEST_CASE("a vector or colour that is written in another way is shown with its own numbers") {
+  const auto center = [](const std::string& element) {
+    return findings(scene_with_sphere(element + "<radius>1</radius><material>clay</material>"));
+  };
+  const std::string right = "<center x=\"0\" y=\"1\" z=\"-2.5\"/>";
+  for (const char* const element :
+       {"<center>0 1 -2.5</center>", "<center>0, 1, -2.5</center>", "<center>(0;1;-2.5)</center>",
+        "<center>\n0\t1\n-2.5</center>", "<center><x>0</x><y>1</y><z>-2.5</z></center>",
+        "<center><z>-2.5</z><x>0</x><y>1</y></center>", "<center value='0 1 -2.5'/>", "<center a='0' b='1' c='-2.5'/>",
+        "<center x='0' y='1' depth='-2.5'/>", "<center x='0' y='1' z='-2.5' w='1'/>",
+        "<center x='0' y='1'>-2.5</center>"})
+    CHECK(contains(center(element), right));
+  CHECK(contains(center("<center>$x 0 1e3</center>"), "<center x=\"$x\" y=\"0\" z=\"1e3\"/>"));
+  CHECK(contains(center("<center x='0' z='5'/>"), "write <center x=\"0\" y=\"1\" z=\"5\"/>"));
+  for (const char* const element : {"<center>here</center>", "<center>1 2</center>", "<center>1 2 3 4</center>"})
+    CHECK(contains(center(element), "<center x=\"1\" y=\"1\" z=\"1\"/>"));
+  CHECK(contains(center("<center><key frame='3'>0 1 -2.5</key></center>"),
+                 "<key frame=\"3\" x=\"0\" y=\"1\" z=\"-2.5\"/>\n"));
+
+  const auto color = [](const std::string& element) {
+    return findings(scene_with("<lights><ambientlight>" + element + "</ambientlight></lights>"));
+  };
+  const std::string warm = "<color red=\"1\" green=\"0.5\" blue=\"0\"/>";
+  for (const char* const element :
+       {"<color>1 0.5 0</color>", "<color r='1' g='0.5' b='0'/>", "<color rgb='1, 0.5, 0'/>"})
+    CHECK(contains(color(element), warm));
+  CHECK(contains(color("<color>0.3</color>"), "<color red=\"0.3\" green=\"0.3\" blue=\"0.3\"/>"));
+  CHECK(contains(color("<scaleradiance value='3'/>"),
+                 "unexpected attribute 'value' in <scaleradiance>; write its value between its tags: "
+                 "<scaleradiance>3</scaleradiance>\n"));
+}
+
 TEST_CASE("the root may name its schema, and nothing else") {
   std::string scene = scene_with("");
   scene.replace(0, 10,

@@ -50,8 +50,45 @@ TEST_CASE("variables in a text are replaced by their values, once") {
   CHECK(replaced("$$a$$$a$$") == "$a$1$");
   CHECK(replaced("$abc") == "uses $abc, which is not set; did you mean $ab?");
   CHECK(replaced("$zzzzzz") == "uses $zzzzzz, which is not set; set it: -D zzzzzz=VALUE");
-  for (const char* const text : {"$", "1$", "$ a", "$9", "$-a", "${a}", "$$$"})
+  for (const char* const text : {"$", "1$", "$ a", "$9", "$-a", "$$$"})
     CHECK(replaced(text) == "has a '$' without a name behind it; write $$ for a dollar");
+}
+
+TEST_CASE("braces end a variable's name, and may give it a default") {
+  CHECK(replaced("${a}b") == "1b");
+  CHECK(replaced("${frame}${a}") == "71");
+  CHECK(replaced("${a:-5}") == "1");
+  CHECK(replaced("x${z:-5}y") == "x5y");
+  CHECK(replaced("${z:-}") == "");
+  CHECK(replaced("${z:--1.5e3}") == "-1.5e3");
+  CHECK(replaced("${z:-two words}$a") == "two words1");
+  CHECK(replaced("${z:-$$5}") == "$5");
+  CHECK(replaced("${frame:-3}") == "7");
+  CHECK(replaced("$${a}") == "${a}");
+  CHECK(replaced("${_A9:-3}") == "$a");
+  CHECK(replaced("${abc}") == "uses $abc, which is not set; did you mean $ab?");
+  CHECK(replaced("${z:-${a}}") ==
+        "has a variable in the default of ${z}; a default is a plain value, with $$ for a dollar");
+  for (const char* const text : {"${a", "${", "${z:-5"})
+    CHECK(contains(replaced(text), "has a '${' without a '}'; write ${name}"));
+  for (const char* const text : {"${}", "${:-1}", "${9}", "${a b}", "${a:=5}", "${a-5}", "${ a}"})
+    CHECK(contains(replaced(text), "has a '${' that is no variable; write ${name}, or ${name:-value}"));
+}
+
+TEST_CASE("an empty value counts as none where there is a default, as in the shell") {
+  std::string result;
+  CHECK_FALSE(Variables({1, {{"e", ""}}}).replace("<${e}><${e:-2}>", result));
+  CHECK(result == "<><2>");
+}
+
+TEST_CASE("a default stands where the variable is not set, and -D overrides it") {
+  const std::string text = sphere("${radius:-2}");
+  CHECK(contains(printed(text, {}), "<radius>2</radius>"));
+  CHECK(contains(printed(text, {{"radius", "3"}}), "<radius>3</radius>"));
+  CHECK(findings(text, {{"radius", "0"}}) == "s:2:36: error: '0' in <radius> must be greater than 0\n");
+  CHECK(findings(sphere("${radius:-x}"), {}) ==
+        "s:2:36: error: 'x' in <radius> is not a number; write one such as 1.5\n");
+  CHECK(findings(text, {{"radios", "3"}}) == "s: error: no value of the scene uses $radios; remove -D radios=...\n");
 }
 
 TEST_CASE("names of variables") {

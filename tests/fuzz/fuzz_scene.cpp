@@ -36,7 +36,8 @@ const std::map<std::string, std::string> known_variables = {
 SceneSettings settings_for(const std::string& text, int frame) {
   SceneSettings settings{frame, {}};
   for (const auto& [name, value] : known_variables) {
-    if (text.find('$' + name) != std::string::npos) settings.variables.emplace(name, value);
+    if (text.find('$' + name) != std::string::npos || text.find("${" + name) != std::string::npos)
+      settings.variables.emplace(name, value);
   }
   return settings;
 }

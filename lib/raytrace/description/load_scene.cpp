@@ -76,14 +76,14 @@ class SceneReader {
       else if (child.name() == ViewPlane::element)
         read_viewplane(child);
       else if (!read_camera(child))
-        refuse_misplaced(child, root_element, diagnostics_);
+        refuse_unknown(child, root_element);
     }
     // Objects name materials, which may come after them.
     report_taken("material", material_names_);
     for (const Element section : object_sections) read_objects(section);
     report_taken("object", object_names_);
-    if (!first_of(ViewPlane::element)) report_missing(root, ViewPlane::element);
-    if (!first_of(camera_key)) report_missing(root, camera_key);
+    if (!has(ViewPlane::element)) report_missing(root, ViewPlane::element);
+    if (!has(camera_key)) report_missing(root, camera_key);
   }
 
   void read_viewplane(Element element) {
@@ -123,6 +123,8 @@ class SceneReader {
         material_names_.add(material.item.name, place);
         materials_.push_back(
             {static_cast<std::uint32_t>(index_of<T>(Materials{})), static_cast<std::uint32_t>(items.size())});
+      } else {
+        material_names_missing_ = true;
       }
       if (material.usable) items.push_back(std::move(material.item));
     };
@@ -138,7 +140,7 @@ class SceneReader {
       if (const std::optional<std::size_t> material = material_names_.find(material_name)) {
         object.material = materials_[*material];
       } else {
-        if (item.element) report_unknown_material(item.element, material_name, diagnostics);
+        if (item.element && !material_names_missing_) report_unknown_material(item.element, material_name, diagnostics);
         item.usable = false;
       }
       return object;
@@ -174,20 +176,37 @@ class SceneReader {
           accept.template operator()<T>(std::move(one.entries().front()), ItemPlace{}, items);
         } else {
           refuse_group_content(child);
-          reserve_more(items, text_.pieces_of(child.offset()).items);
+          const std::size_t elements = text_.pieces_of(child.offset()).items;
+          reserve_more(items, elements);
+          std::size_t read_elements = 0;
           read_items(
               {text_, variables_, child, T::element}, arena_, diagnostics_,
               [&] { return std::make_unique<Typed>(labels, may_skip, convert); },
               [&](std::size_t piece, ItemList& read) {
                 for (auto& entry : static_cast<Typed&>(read).entries()) {
+                  ++read_elements;
                   const ItemPlace place{static_cast<std::uint32_t>(piece), entry.number};
                   accept.template operator()<T>(std::move(entry), place, items);
                 }
               });
+          if (read_elements < elements && section.name() == materials_element) material_names_missing_ = true;
         }
       });
-      if (!found) refuse_misplaced(child, section.name(), diagnostics_);
+      if (!found) refuse_unknown(child, section.name());
     }
+  }
+
+  /// One slip, one message: what was only misspelt, or stands in the wrong place, is not reported as missing, too.
+  void refuse_unknown(Element child, std::string_view parent) {
+    if (diagnostics_.keeps_another(Severity::error)) {
+      const std::string_view meant = meant_element(child.name(), parent);
+      for_each_type(Cameras{}, [&]<class Camera>(std::type_identity<Camera>) {
+        if (meant == Camera::element) meant_.push_back(camera_key);
+      });
+      meant_.push_back(meant);
+      if (parent == materials_element || belongs_to_section(meant, materials_element)) material_names_missing_ = true;
+    }
+    refuse_misplaced(child, parent, diagnostics_);
   }
 
   void refuse_group_content(Element group) {
@@ -215,6 +234,11 @@ class SceneReader {
              std::to_string(first.line());
     });
     return false;
+  }
+
+  /// Whether the scene has that element, or what was meant for it.
+  bool has(std::string_view key) const {
+    return first_of(key) || std::find(meant_.begin(), meant_.end(), key) != meant_.end();
   }
 
   Element first_of(std::string_view key) const {
@@ -279,6 +303,8 @@ class SceneReader {
   tbb::task_arena arena_;
   SceneDescription scene_;
   std::vector<std::pair<std::string_view, Element>> firsts_;
+  std::vector<std::string_view> meant_;  // of the layout, for elements that were refused
+  bool material_names_missing_ = false;  // a material was refused before its name was read
   NameTable material_names_, object_names_;
   std::vector<MaterialReference> materials_;  // in the order of material_names_
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <system_error>
 
 #include "raytrace/description/document.h"
@@ -53,13 +54,19 @@ Complaint parse_number(std::string_view text, Range range, double& value) {
     case Outcome::too_small:
       return "is too small to be told from 0; write 0";
     case Outcome::too_large:
-      number = HUGE_VAL;
+      number = std::numeric_limits<double>::max();
       break;
     case Outcome::whole:
-      // from_chars takes "nan" and "inf" for numbers.
-      if (!std::isfinite(number)) return "is not a finite number; write one such as 1.5";
       break;
   }
+  if (Complaint complaint = check_number(number, range)) return complaint;
+  value = number;
+  return std::nullopt;
+}
+
+Complaint check_number(double number, Range range) {
+  // std::from_chars takes "nan" and "inf" for numbers.
+  if (!std::isfinite(number)) return "is not a finite number; write one such as 1.5";
   if (std::abs(number) > largest_number) {
     return "is beyond the largest number that a scene may have, " + number_text(largest_number);
   }
@@ -68,7 +75,6 @@ Complaint parse_number(std::string_view text, Range range, double& value) {
   if (range == Range::positive && number < smallest_size) {
     return "is too small; the smallest size is " + number_text(smallest_size);
   }
-  value = number;
   return std::nullopt;
 }
 
@@ -92,9 +98,14 @@ Complaint parse_integer(std::string_view text, Range range, int& value) {
     case Outcome::whole:
       break;
   }
+  if (Complaint complaint = check_integer(integer, range)) return complaint;
+  value = integer;
+  return std::nullopt;
+}
+
+Complaint check_integer(int integer, Range range) {
   if (range == Range::not_negative && integer < 0) return "must not be negative";
   if (range == Range::positive && integer < 1) return "must be at least 1";
-  value = integer;
   return std::nullopt;
 }
 
@@ -104,6 +115,18 @@ Complaint parse_boolean(std::string_view text, bool& value) {
   if (!yes && text != "false" && text != "0") return "is neither true nor false; write one of them";
   value = yes;
   return std::nullopt;
+}
+
+// Schemas take runs of white space for single spaces; to agree with them there must not be any.
+Complaint check_label(std::string_view text) {
+  bool runs = false;
+  char last = 0;
+  for (const char c : text) {
+    runs |= c == '\t' || c == '\n' || c == '\r' || (c == ' ' && last == ' ');
+    last = c;
+  }
+  if (!runs) return std::nullopt;
+  return "has line breaks, tabs or several spaces in a row; write single spaces";
 }
 
 }  // namespace raytrace

@@ -22,6 +22,13 @@ Complaint parse_integer(std::string_view text, Range range, int& value);
 /// true, false, 1 or 0.
 Complaint parse_boolean(std::string_view text, bool& value);
 
+// What is wrong with a value that is there already. Those above find the same.
+
+Complaint check_number(double value, Range range);
+Complaint check_integer(int value, Range range);
+/// Of a name.
+Complaint check_label(std::string_view text);
+
 /// The shortest text that parse_number turns into exactly this number.
 std::string number_text(double value);
 

@@ -1,5 +1,6 @@
 #include "raytrace/description/read_attributes.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "raytrace/description/parse_value.h"
 #include "raytrace/description/quoted.h"
 #include "raytrace/description/report.h"
+#include "raytrace/description/variables.h"
 
 namespace raytrace {
 namespace {
@@ -19,8 +21,77 @@ std::size_t find_field(std::span<const AttributeField> fields, std::string_view 
   return i;
 }
 
-std::string example_of(Element element, std::span<const AttributeField> fields) {
-  return "<" + printable(element.name()) + " " + example_of(fields) + "/>";
+bool is_number_or_variable(std::string_view word) {
+  double number = 0;
+  return word.starts_with('$') ? is_variable_name(word.substr(1)) : !parse_number(word, Range::any, number);
+}
+
+/// Numbers with spaces, commas or semicolons between them, in brackets or not. False if there is anything else.
+bool append_numbers(std::string_view text, std::vector<std::string>& numbers) {
+  static constexpr std::string_view separators = " \t\r\n,;()[]{}";
+  while (true) {
+    text.remove_prefix(std::min(text.find_first_not_of(separators), text.size()));
+    if (text.empty()) return true;
+    const std::string_view word = text.substr(0, text.find_first_of(separators));
+    if (!is_number_or_variable(word)) return false;
+    numbers.emplace_back(word);
+    text.remove_prefix(word.size());
+  }
+}
+
+/// What an element holds for some fields.
+class OwnNumbers {
+ public:
+  OwnNumbers(Element element, std::span<const AttributeField> fields) : fields_(fields), values_(fields.size()) {
+    for (Attribute attribute = element.first_attribute(); attribute; attribute = attribute.next())
+      take(attribute.name(), attribute.value());
+    for (Node node = element.first_child(); node; node = node.next()) {
+      const Element child = node.element();
+      const Node content = child ? child.first_child() : node;
+      if (content && !content.element()) take(child ? child.name() : std::string_view(), content.text());
+    }
+    give_others();
+  }
+
+  /// Of fields[i]; empty if it is not known.
+  const std::string& operator[](std::size_t i) const { return values_[i]; }
+
+ private:
+  void take(std::string_view name, std::string_view text) {
+    const std::size_t i = find_field(fields_, name);
+    std::vector<std::string> numbers;
+    const bool fine = append_numbers(text, numbers);
+    if (i == fields_.size()) {
+      others_fine_ = others_fine_ && fine;
+      others_.insert(others_.end(), numbers.begin(), numbers.end());
+    } else if (fine && numbers.size() == 1) {
+      values_[i] = numbers.front();
+    }
+  }
+
+  /// Numbers without a field's name go to the required fields that have none, in their order.
+  void give_others() {
+    std::vector<std::size_t> places;
+    for (std::size_t i = 0; i < fields_.size(); ++i)
+      if (fields_[i].required && values_[i].empty()) places.push_back(i);
+    if (!others_fine_) return;
+    if (others_.size() == 1 && places.size() == 3) others_.assign(3, others_.front());  // a grey
+    if (others_.size() != places.size()) return;
+    for (std::size_t i = 0; i < places.size(); ++i) values_[places[i]] = others_[i];
+  }
+
+  std::span<const AttributeField> fields_;
+  std::vector<std::string> values_, others_;
+  bool others_fine_ = true;
+};
+
+/// value(i): of fields[i].
+template <class Value>
+std::string example(std::string_view element, std::span<const AttributeField> fields, const Value& value) {
+  std::string text = "<" + printable(element);
+  for (std::size_t i = 0; i < fields.size(); ++i)
+    if (fields[i].required) text.append(" ").append(fields[i].name).append("=\"").append(value(i)).append("\"");
+  return text + "/>";
 }
 
 /// The field that an unknown attribute may have been meant for: a near one that is not there under its own name.
@@ -38,7 +109,7 @@ std::string explain_unknown(Element element, Attribute attribute, std::span<cons
                             std::string_view nearest) {
   const std::string start = "unknown attribute " + in_quotes(attribute.name()) + " in " + tag(element.name()) + "; ";
   if (!nearest.empty()) return start + "did you mean " + in_quotes(nearest) + "?";
-  return start + "write " + example_of(element, fields);
+  return start + "write " + own_example(element.name(), fields, element);
 }
 
 bool read_attribute(Element element, Attribute attribute, const AttributeField& field, Diagnostics& diagnostics) {
@@ -63,7 +134,7 @@ bool require_all(Element element, std::span<const AttributeField> fields, std::u
   if (count == 0) return true;
   report_error(diagnostics, element, [&] {
     return "missing " + std::string(count > 1 ? "attributes " : "attribute ") + missing + " in " + tag(element.name()) +
-           "; write " + example_of(element, fields);
+           "; write " + own_example(element.name(), fields, element);
   });
   return false;
 }
@@ -93,14 +164,13 @@ bool read_attributes(Element element, std::span<const AttributeField> fields, bo
   return (example_shown || require_all(element, fields, seen, diagnostics)) && fine;
 }
 
-std::string example_of(std::span<const AttributeField> fields) {
-  std::string example;
-  for (const AttributeField& field : fields) {
-    if (!field.required) continue;
-    if (!example.empty()) example += ' ';
-    example.append(field.name).append("=\"1\"");
-  }
-  return example;
+std::string example_of(std::string_view element, std::span<const AttributeField> fields) {
+  return example(element, fields, [](std::size_t) { return "1"; });
+}
+
+std::string own_example(std::string_view element, std::span<const AttributeField> fields, Element source) {
+  const OwnNumbers own(source, fields);
+  return example(element, fields, [&](std::size_t i) { return own[i].empty() ? "1" : own[i]; });
 }
 
 }  // namespace raytrace

@@ -25,7 +25,11 @@ struct AttributeField {
 bool read_attributes(Element element, std::span<const AttributeField> fields, bool example_shown,
                      Diagnostics& diagnostics);
 
-/// name="1" name="1": those that are required.
-std::string example_of(std::span<const AttributeField> fields);
+/// <name x="1" y="1" z="1"/>: how an element with these fields is written, as far as they are required.
+std::string example_of(std::string_view element, std::span<const AttributeField> fields);
+
+/// The same with the numbers that `source` has already, in whichever way they are written there: in its text, in its
+/// children or in attributes of other names.
+std::string own_example(std::string_view element, std::span<const AttributeField> fields, Element source);
 
 }  // namespace raytrace

@@ -58,7 +58,7 @@ class KeysReader {
     for (Attribute attribute = element_.first_attribute(); attribute; attribute = attribute.next()) {
       refuse(attribute, [&] {
         return "unexpected attribute " + in_quotes(attribute.name()) + " in " + tag(element_.name()) +
-               ", which has keys; write it into them, as in " + example();
+               ", which has keys; write it into them, as in " + example(element_);
       });
     }
   }
@@ -87,18 +87,21 @@ class KeysReader {
     return fields;
   }
 
-  std::string example() const {
+  /// A key with the numbers of `source`.
+  std::string example(Element source) const {
     Key key;
-    return "<" + std::string(key_element) + " " + example_of(fields(key)) + "/>";
+    return own_example(key_element, fields(key), source);
   }
 
   void read_key(Element element) {
     PlacedKey placed{{}, element};
+    bool has_content = false;
     for (Node node = element.first_child(); node; node = node.next()) {
       if (!node.element() && node.text().empty()) continue;
-      refuse(node, [&] { return "unexpected content of " + tag(key_element) + "; write it as " + example(); });
+      has_content = true;
+      refuse(node, [&] { return "unexpected content of " + tag(key_element) + "; write it as " + example(element); });
     }
-    fine_ &= read_attributes(element, fields(placed.key), false, diagnostics_);
+    fine_ &= read_attributes(element, fields(placed.key), has_content, diagnostics_);
     keys_.push_back(placed);
   }
 

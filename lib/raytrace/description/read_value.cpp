@@ -26,14 +26,8 @@ std::array<AttributeField, 3> fields_of(const Components& names, const std::arra
   return {{{names[0], values[0], range}, {names[1], values[1], range}, {names[2], values[2], range}}};
 }
 
-/// name="1" name="1" name="1"
-std::string example_of(const Components& components) {
-  return raytrace::example_of(fields_of(components, {}, Range::any));
-}
-
-/// <name x="1" y="1" z="1"/>
 std::string example_of(std::string_view name, const Components& components) {
-  return std::string("<").append(name).append(" ").append(example_of(components)).append("/>");
+  return raytrace::example_of(name, fields_of(components, {}, Range::any));
 }
 
 /// Reads one child into its target. Each function gives false where it has reported an error.
@@ -71,15 +65,7 @@ class ValueReader {
   bool operator()(std::string_view* value) const {
     const bool fine = read_text<Dollars::may_fit>(single_text(), [&](std::string_view text) -> Complaint {
       *value = text;
-      // Schemas take runs of white space for single spaces; to agree with them there must not be any.
-      bool runs = false;
-      char last = 0;
-      for (const char c : text) {
-        runs |= c == '\t' || c == '\n' || c == '\r' || (c == ' ' && last == ' ');
-        last = c;
-      }
-      if (!runs) return std::nullopt;
-      return "has line breaks, tabs or several spaces in a row; write single spaces";
+      return check_label(text);
     });
     // With a variable that is not set it is no label, and nothing more is to be said about it.
     if (!fine && value->find('$') != std::string_view::npos) *value = {};
@@ -111,8 +97,17 @@ class ValueReader {
   /// node: single_text(). parse: text -> Complaint
   template <Dollars dollars = Dollars::never_fit, class Parse>
   bool read_text(Node node, const Parse& parse) const {
-    const bool no_attributes = refuse_attributes(element_, {}, diagnostics_);
     const std::string_view text = node ? node.text() : std::string_view();
+    const Attribute attribute = element_.first_attribute();
+    if (text.empty() && attribute && !attribute.next() && !element_.first_child()) {
+      report_error(diagnostics_, attribute, [&] {
+        return "unexpected attribute " + in_quotes(attribute.name()) + " in " + tag(info_.name) +
+               "; write its value between its tags: " + tag(info_.name) + printable(attribute.value()) +
+               closing_tag(info_.name);
+      });
+      return false;
+    }
+    const bool no_attributes = refuse_attributes(element_, {}, diagnostics_);
     if (text.empty()) {
       report_no_text(element_.first_child());
       return false;
@@ -150,8 +145,8 @@ class ValueReader {
   bool read_components(const Components& names, const std::array<double*, 3>& values) const {
     if (element_.first_child() && has_keys(element_))
       return read_keys(element_, names, values, info_.range, diagnostics_);
-    const bool fine = refuse_content(names);
     const auto fields = fields_of(names, values, range_of_components(info_.range));
+    const bool fine = refuse_content(fields);
     return read_attributes(element_, fields, !fine, diagnostics_) && fine;
   }
 
@@ -161,7 +156,7 @@ class ValueReader {
   }
 
   /// Reports children of an element that takes attributes only.
-  bool refuse_content(const Components& names) const {
+  bool refuse_content(std::span<const AttributeField> fields) const {
     bool fine = true;
     for (Node node = element_.first_child(); node; node = node.next()) {
       if (!node.element() && node.text().empty()) continue;
@@ -169,7 +164,8 @@ class ValueReader {
       report_error(diagnostics_, node, [&] {
         return (node.element() ? "unexpected element " + tag(node.element().name())
                                : "unexpected text " + in_quotes(node.text())) +
-               " in " + tag(info_.name) + "; its value goes into attributes: " + example_of(info_.name, names);
+               " in " + tag(info_.name) +
+               "; its value goes into attributes: " + own_example(info_.name, fields, element_);
       });
     }
     return fine;

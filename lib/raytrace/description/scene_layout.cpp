@@ -29,6 +29,12 @@ void add_groups(std::vector<std::string_view>& groups, List list) {
   });
 }
 
+/// Empty for what the layout does not have.
+std::string_view parent_of(std::string_view element, const std::vector<LayoutEntry>& layout) {
+  const auto entry = std::find_if(layout.begin(), layout.end(), [&](const auto& e) { return e.element == element; });
+  return entry == layout.end() ? std::string_view() : entry->parent;
+}
+
 }  // namespace
 
 std::vector<LayoutEntry> scene_layout() {
@@ -48,28 +54,38 @@ std::vector<std::string_view> group_elements() {
   return groups;
 }
 
-std::string explain_misplaced(std::string_view element, std::string_view parent) {
+std::string_view meant_element(std::string_view element, std::string_view parent) {
   const std::vector<LayoutEntry> layout = scene_layout();
-  const auto find = [&](std::string_view name) {
-    return std::find_if(layout.begin(), layout.end(), [&](const LayoutEntry& entry) { return entry.element == name; });
-  };
-  if (const auto known = find(element); known != layout.end()) {
-    return tag(element) + " does not belong in " + tag(parent) + "; put it into " + tag(known->parent);
-  }
-
-  const std::string start = "unknown element " + tag(element) + " in " + tag(parent) + "; ";
   std::vector<std::string_view> here, all;
   for (const LayoutEntry& entry : layout) {
+    if (entry.element == element) return entry.element;
     if (entry.parent == parent) here.push_back(entry.element);
     all.push_back(entry.element);
   }
-  if (const std::string_view nearest = nearest_name(element, here); !nearest.empty()) {
-    return start + "did you mean " + tag(nearest) + "?";
+  const std::string_view nearest = nearest_name(element, here);
+  return nearest.empty() ? nearest_name(element, all) : nearest;
+}
+
+bool belongs_to_section(std::string_view element, std::string_view section) {
+  const std::vector<LayoutEntry> layout = scene_layout();
+  while (!element.empty() && element != section) element = parent_of(element, layout);
+  return element == section;
+}
+
+std::string explain_misplaced(std::string_view element, std::string_view parent) {
+  const std::vector<LayoutEntry> layout = scene_layout();
+  const std::string_view meant = meant_element(element, parent);
+  const std::string_view place = parent_of(meant, layout);
+  if (meant == element && !meant.empty())
+    return tag(element) + " does not belong in " + tag(parent) + "; put it into " + tag(place);
+  const std::string start = "unknown element " + tag(element) + " in " + tag(parent) + "; ";
+  if (meant.empty()) {
+    std::vector<std::string_view> here;
+    for (const LayoutEntry& entry : layout)
+      if (entry.parent == parent) here.push_back(entry.element);
+    return start + "it takes " + list_of_tags(here);
   }
-  if (const std::string_view nearest = nearest_name(element, all); !nearest.empty()) {
-    return start + "did you mean " + tag(nearest) + ", which belongs in " + tag(find(nearest)->parent) + "?";
-  }
-  return start + "it takes " + list_of_tags(here);
+  return start + "did you mean " + tag(meant) + (place == parent ? "?" : ", which belongs in " + tag(place) + "?");
 }
 
 }  // namespace raytrace

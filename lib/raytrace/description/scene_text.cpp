@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "raytrace/description/file_kind.h"
 #include "raytrace/description/scene_layout.h"
 #include "raytrace/parallel/for_each_index.h"
 
@@ -10,7 +11,10 @@ namespace raytrace {
 
 SceneText::SceneText(TextBuffer text, int threads, Diagnostics& diagnostics) : text_(std::move(text)) {
   if (const auto problem = find_xml_problem(text_.text(), group_elements(), pieces_, threads)) {
-    diagnostics.error(locate(problem->offset), problem->message);
+    if (const auto kind = explain_file_kind(text_.text()))
+      diagnostics.error({1, 1}, *kind);
+    else
+      diagnostics.error(locate(problem->offset), problem->message);
     pieces_.clear();
     return;
   }

@@ -47,17 +47,58 @@ Complaint Variables::replace(std::string_view text, std::string& replaced) const
       text.remove_prefix(1);
       continue;
     }
-    const std::string_view name = text.substr(0, name_length(text));
-    if (name.empty()) return "has a '$' without a name behind it; write $$ for a dollar";
-    const auto variable = variables_.find(name);
-    if (variable == variables_.end()) return explain_unset(name);
-    // Written once only, so that the threads do not take it from each other.
-    if (!variable->second.used.load(std::memory_order_relaxed)) variable->second.used = true;
-    result += variable->second.value;
-    text.remove_prefix(name.size());
+    if (Complaint complaint = text.starts_with('{') ? replace_braced(text, result) : replace_plain(text, result))
+      return complaint;
   }
   replaced = std::move(result);
   return std::nullopt;
+}
+
+Complaint Variables::replace_plain(std::string_view& text, std::string& result) const {
+  const std::string_view name = text.substr(0, name_length(text));
+  if (name.empty()) return "has a '$' without a name behind it; write $$ for a dollar";
+  const std::string* const value = find(name);
+  if (value == nullptr) return explain_unset(name);
+  result += *value;
+  text.remove_prefix(name.size());
+  return std::nullopt;
+}
+
+Complaint Variables::replace_braced(std::string_view& text, std::string& result) const {
+  static constexpr std::string_view default_sign = ":-";
+  const std::size_t end = text.find('}');
+  if (end == std::string_view::npos) return "has a '${' without a '}'; write ${name}, or ${name:-value} with a default";
+  std::string_view inside = text.substr(1, end - 1);
+  text.remove_prefix(end + 1);
+  const std::string_view name = inside.substr(0, name_length(inside));
+  inside.remove_prefix(name.size());
+  const bool has_default = inside.starts_with(default_sign);
+  if (name.empty() || (!has_default && !inside.empty()))
+    return "has a '${' that is no variable; write ${name}, or ${name:-value} with a default";
+  const std::string* const value = find(name);
+  if (value == nullptr && !has_default) return explain_unset(name);
+  if (value != nullptr && (!has_default || !value->empty())) {
+    result += *value;
+    return std::nullopt;
+  }
+  inside.remove_prefix(default_sign.size());
+  for (std::size_t dollar; (dollar = inside.find('$')) != std::string_view::npos;) {
+    if (inside.substr(dollar + 1, 1) != "$")
+      return "has a variable in the default of ${" + printable(name) +
+             "}; a default is a plain value, with $$ for a dollar";
+    result += inside.substr(0, dollar + 1);
+    inside.remove_prefix(dollar + 2);
+  }
+  result += inside;
+  return std::nullopt;
+}
+
+const std::string* Variables::find(std::string_view name) const {
+  const auto variable = variables_.find(name);
+  if (variable == variables_.end()) return nullptr;
+  // Written once only, so that the threads do not take it from each other.
+  if (!variable->second.used.load(std::memory_order_relaxed)) variable->second.used = true;
+  return &variable->second.value;
 }
 
 std::string Variables::explain_unset(std::string_view name) const {

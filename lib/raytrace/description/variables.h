@@ -1,7 +1,8 @@
 // The variables of a scene's values: <radius>$size</radius>, with a value that is given when the scene is read.
 //
-// A name starts with a letter or _, letters, digits and _ follow. $$ is a dollar. A value is put in as it is: a dollar
-// in it starts no variable. $frame is always set.
+// A name starts with a letter or _, letters, digits and _ follow; in ${size} it ends at the brace. ${size:-2} has the
+// default 2, for where the variable is not set or, as in the shell, is empty. $$ is a dollar. A value is put in as it
+// is: a dollar in it starts no variable. $frame is always set.
 #pragma once
 
 #include <atomic>
@@ -43,6 +44,12 @@ class Variables {
     mutable std::atomic<bool> used = false;
   };
 
+  // text: what follows the dollar; they take the variable off its beginning, and append its value.
+  Complaint replace_plain(std::string_view& text, std::string& result) const;
+  Complaint replace_braced(std::string_view& text, std::string& result) const;
+
+  /// The value of a variable, which counts as used from here on; null if it is not set.
+  const std::string* find(std::string_view name) const;
   std::string explain_unset(std::string_view name) const;
 
   int frame_;

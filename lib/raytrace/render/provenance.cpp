@@ -29,6 +29,8 @@ constexpr const char* partial_name = "raytrace:partial";
 constexpr const char* least_samples_name = "raytrace:leastSamples";  // only where it is partial
 constexpr const char* most_samples_name = "raytrace:mostSamples";
 constexpr const char* transparent_name = "raytrace:transparent";  // only where it is
+constexpr const char* frame_name = "raytrace:frame";              // only where one was asked for
+constexpr const char* variables_name = "raytrace:variables";      // only where there are any
 
 template <class Value>
 Value needed(const ExrReader& piece, const char* name) {
@@ -80,7 +82,27 @@ std::string size_text(const PictureExtent& extent) {
   return std::to_string(extent.full_width) + " x " + std::to_string(extent.full_height);
 }
 
+/// "frame 7, size=2": what of it is another in `other`; empty if nothing is.
+std::string settings_apart(const PieceIdentity& identity, const PieceIdentity& other) {
+  std::string text;
+  if (identity.frame != other.frame) text = identity.frame ? "frame " + std::to_string(*identity.frame) : "no frame";
+  if (identity.variables == other.variables) return text;
+  return text + (text.empty() ? "" : ", ") + (identity.variables.empty() ? "no -D" : printable(identity.variables));
+}
+
 }  // namespace
+
+std::string variables_text(const std::map<std::string, std::string>& variables) {
+  std::string text;
+  for (const auto& [name, value] : variables) {
+    text += (text.empty() ? "" : " ") + name + "=";
+    for (const char c : value) {
+      if (c == ' ' || c == '\\') text += '\\';
+      text += c;
+    }
+  }
+  return text;
+}
 
 Provenance provenance_of(const std::string& software, const Scene& scene, const SceneDescription& description,
                          int threads) {
@@ -111,6 +133,8 @@ std::vector<ImageAttribute> identity_attributes(const PieceIdentity& identity) {
   }
   if (identity.film.transparent) attributes.push_back({transparent_name, 1});
   if (identity.partial) attributes.push_back({partial_name, 1});
+  if (identity.frame) attributes.push_back({frame_name, *identity.frame});
+  if (!identity.variables.empty()) attributes.push_back({variables_name, identity.variables});
   return attributes;
 }
 
@@ -125,7 +149,8 @@ std::vector<ImageAttribute> partial_attributes(PieceIdentity identity, const Fil
 
 std::map<std::string, std::string> picture_attributes(const PieceIdentity& identity, bool any_samples) {
   std::map<std::string, std::string> texts = {{seed_name, std::to_string(identity.film.seed)}};
-  for (const char* const name : {scene_name, first_sample_name, centered_name, whole_name, transparent_name}) texts[name];
+  for (const char* const name : {scene_name, first_sample_name, centered_name, whole_name, transparent_name})
+    texts[name];
   for (const ImageAttribute& attribute : identity_attributes(identity)) {
     const auto wanted = texts.find(attribute.name);
     if (wanted == texts.end()) continue;
@@ -156,6 +181,8 @@ PieceIdentity identity_of(const ExrReader& piece) {
   if (const auto names = piece.attribute<std::string>(aovs_name)) film.aovs = aovs_of(piece, *names);
   film.transparent = piece.attribute<int>(transparent_name).value_or(0) != 0;
   identity.partial = piece.attribute<int>(partial_name).value_or(0) != 0;
+  identity.frame = piece.attribute<int>(frame_name);
+  identity.variables = piece.attribute<std::string>(variables_name).value_or("");
   return identity;
 }
 
@@ -165,7 +192,10 @@ std::optional<std::string> difference(const PieceIdentity& wanted, const PieceId
   // Before the scene, whose hash holds it, too.
   if (c.extent.full_width != d.extent.full_width || c.extent.full_height != d.extent.full_height)
     return other("the resolution", size_text(d.extent), size_text(c.extent));
-  if (a.scene != b.scene) return "the scene";
+  if (a.scene != b.scene) {
+    const std::string settings = settings_apart(got, wanted);
+    return settings.empty() ? "the scene" : other("the scene", settings, settings_apart(wanted, got));
+  }
   if (c.seed != d.seed) return other("the seed", std::to_string(d.seed), std::to_string(c.seed));
   if (a.software != b.software) return other("the version", printable(b.software), printable(a.software));
   if (a.embree_version != b.embree_version)

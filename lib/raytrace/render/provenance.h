@@ -25,12 +25,18 @@ struct Provenance {
 Provenance provenance_of(const std::string& software, const Scene& scene, const SceneDescription& description,
                          int threads = 0);
 
+/// What a scene's settings say in a picture's metadata: "D=1e6 size=2". In values, a backslash stands before each space
+/// and backslash.
+std::string variables_text(const std::map<std::string, std::string>& variables);
+
 /// What an EXR file says of itself, so that it can be put together with others, or continued.
 struct PieceIdentity {
   Provenance provenance;
   FilmSettings film;
   Region whole;          ///< the region of the picture that this piece is a part of
   bool partial = false;  ///< stopped before all its samples were taken; pixels may have different numbers of them
+  std::optional<int> frame = std::nullopt;  ///< none: not one of several
+  std::string variables{};                  ///< variables_text()
 };
 
 /// All of it that ImageMetadata has no member for.
@@ -50,7 +56,7 @@ PieceIdentity identity_of(const ExrReader& piece);
 
 /// What must not differ between pictures of which one continues or completes another, and does: "the scene",
 /// "the instruction set (x86-64-v3, not x86-64-v4): pin one with --isa"; none if all is the same. Regions and sample
-/// ranges may differ.
+/// ranges may differ; so may frames and variables, where they make the same scene.
 std::optional<std::string> difference(const PieceIdentity& wanted, const PieceIdentity& got);
 
 }  // namespace raytrace

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "raytrace/aovs/aov_selection.h"
+#include "raytrace/description/check_scene.h"
 #include "raytrace/parallel/for_each_index.h"
 #include "raytrace/parallel/worker_count.h"
 
@@ -101,10 +102,16 @@ SetAsideSamples& SetAsideSamples::operator+=(const SetAsideSamples& other) {
 
 FilmSettings film_settings(const Scene& scene, const SceneDescription& description, const RenderSettings& settings) {
   const ViewPlane& viewplane = description.viewplane;
+  require_good_viewplane(viewplane);
   const auto all = static_cast<std::uint32_t>(viewplane.samples);
   FilmSettings film;
-  film.extent = {viewplane.hres, viewplane.vres, settings.region};
+  const bool whole = settings.region == Region();
+  film.extent = {viewplane.hres, viewplane.vres,
+                 whole ? Region{0, 0, viewplane.hres, viewplane.vres} : settings.region};
+  if (film.extent.region.width() <= 0 || film.extent.region.height() <= 0)
+    throw RenderError("the region to render has no pixel");
   film.samples = settings.samples.value_or(SampleRange{0, all, all == 1});
+  if (film.samples.count == 0) throw RenderError("no samples to render");
   film.seed = settings.seed;
   const std::uint64_t most_samples = std::uint64_t{film.samples.first} + film.samples.count;
   film.unit_exponent = unit_exponent(scene.largest_radiance(), most_samples);

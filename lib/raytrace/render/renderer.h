@@ -24,14 +24,15 @@ class RenderError : public std::runtime_error {
 };
 
 struct BuildSettings {
-  int threads = 0;  ///< 0: all processors
-  std::string isa;  ///< one of isa_names(); empty: the best that this processor has
+  int threads = 0;       ///< 0: all processors
+  std::string isa;       ///< one of isa_names(); empty: the best that this processor has
+  bool checked = false;  ///< the description is as load_scene() gave it, so that check_scene() need not run again
 };
 
 struct RenderSettings {
   int threads = 0;  ///< 0: all processors; at most these work, and at most as many as a living scene was built with
-  std::uint64_t seed = 0;                             ///< another seed gives another, equally good, pattern of samples
-  Region region;                                      ///< the pixels wanted; those outside are not in the film
+  std::uint64_t seed = 0;  ///< another seed gives another, equally good, pattern of samples
+  Region region{};         ///< the pixels wanted, those outside are not in the film; not set: the whole picture
   std::optional<SampleRange> samples = std::nullopt;  ///< none: as many as the scene says, from the first on
   AovSet aovs{};
   bool transparent = false;  ///< FilmSettings::transparent
@@ -116,14 +117,15 @@ std::string best_isa();
 /// The threads that a setting stands for: itself, or all processors for 0.
 int thread_count(int wanted);
 
-/// Makes the scene ready. Throws RenderError, or std::bad_alloc where memory runs out; so does a render, for a BVH that
-/// waited for it.
+/// Makes the scene ready. Throws SceneError where the description breaks the format's rules, RenderError, or
+/// std::bad_alloc where memory runs out; so does a render, for a BVH that waited for it.
 std::unique_ptr<const Scene> build_scene(const SceneDescription& description, const BuildSettings& settings);
 
 /// What a render tells while it runs. Calls come from any thread, one at a time and not often.
 using ProgressFunction = std::function<void(double fraction)>;
 
-/// Of a film for a render of the scene with the settings.
+/// Of a film for a render of the scene with the settings. Throws SceneError if the description's view plane breaks the
+/// rules, and RenderError for a region without pixels or for no samples.
 FilmSettings film_settings(const Scene& scene, const SceneDescription& description, const RenderSettings& settings);
 
 /// Continues the film until each pixel has `samples` (at most the film's own). Returns early once `stop` is set; the

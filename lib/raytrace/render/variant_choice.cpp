@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include "raytrace/description/check_scene.h"
 #include "raytrace/render/variant.h"
 #include "raytrace/render/variant_list.h"
 
@@ -55,6 +56,7 @@ const Variant& choose_variant(const std::string& isa) {
 }
 
 std::unique_ptr<const Scene> build_scene(const SceneDescription& description, const BuildSettings& settings) {
+  if (!settings.checked) require_good_scene(description);
   const int threads = thread_count(settings.threads);
   return choose_variant(settings.isa).build(description, threads);
 }
