@@ -109,4 +109,18 @@ std::vector<int> frame_numbers(const std::string& text) {
   return frames;
 }
 
+std::string frames_text(const std::vector<int>& frames) {
+  std::string text;
+  for (std::size_t first = 0, next = 0; first < frames.size(); first = next) {
+    const auto step_to = [&](std::size_t i) { return std::int64_t{frames[i]} - frames[i - 1]; };
+    next = first + 1;
+    while (next < frames.size() && step_to(next) == step_to(first + 1)) ++next;
+    const std::int64_t step = next == first + 1 ? 0 : step_to(next - 1);
+    if (next == first + 2 && step > 1) --next;  // two make no range
+    text += (text.empty() ? "" : ",") + std::to_string(frames[first]);
+    if (next > first + 1) text += "-" + std::to_string(frames[next - 1]) + (step > 1 ? ":" + std::to_string(step) : "");
+  }
+  return text;
+}
+
 }  // namespace raytrace

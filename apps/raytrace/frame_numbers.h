@@ -14,4 +14,7 @@ namespace raytrace {
 /// One thing differs: by the specification "10-1" is 10 alone, by its reference implementation an error; so it is here.
 std::vector<int> frame_numbers(const std::string& text);
 
+/// The short text of such frames, which are in increasing order: "1-10:3,15".
+std::string frames_text(const std::vector<int>& frames);
+
 }  // namespace raytrace

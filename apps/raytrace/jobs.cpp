@@ -2,25 +2,22 @@
 
 #include <algorithm>
 #include <new>
+#include <system_error>
+#include <typeinfo>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
 #include "exit_code.h"
 #include "file_clash.h"
 #include "file_names.h"
+#include "frame_numbers.h"
 #include "memory_limit.h"
 #include "messages.h"
+#include "raytrace/memory/out_of_memory.h"
 #include "raytrace/output/output_error.h"
 
 namespace raytrace {
-
-namespace {
-
-bool has_statistics_file(const Options& options) {
-  return !options.statistics.empty() && options.statistics != statistics_as_text;
-}
-
-}  // namespace
 
 Jobs::Jobs(Options options) : options_(std::move(options)) {
   std::swap(scenes_, options_.scenes);
@@ -63,7 +60,7 @@ void Jobs::refuse_clashes() const {
     last_scene = job.scene;
     if (!options_.renders()) continue;
     for (std::size_t k = 0; k < job.outputs.size(); ++k) add_written("--output", options_.outputs[k], job.outputs[k]);
-    if (has_statistics_file(job)) add_written("--stats", options_.statistics, job.statistics);
+    if (job.has_statistics_file()) add_written("--stats", options_.statistics, job.statistics);
     if (!job.checkpoint.empty()) add_written("--checkpoint", options_.checkpoint, job.checkpoint);
   }
 }
@@ -89,49 +86,88 @@ Options Jobs::operator[](std::size_t i) const {
   job.job_count = count();
   const NameValues values{frame(i), job.tile ? std::optional(job.tile->index) : std::nullopt, job.scene};
   for (std::string& output : job.outputs) output = file_name(output, values);
-  if (has_statistics_file(job)) job.statistics = file_name(job.statistics, values);
+  if (job.has_statistics_file()) job.statistics = file_name(job.statistics, values);
   if (!job.checkpoint.empty()) job.checkpoint = file_name(job.checkpoint, values);
   return job;
 }
 
+std::vector<std::string> Jobs::names(const std::vector<std::size_t>& some) const {
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < some.size();) {
+    const std::size_t scene_number = some[k] / frame_count();
+    std::vector<int> numbers;
+    const std::size_t first = some[k];
+    for (; k < some.size() && some[k] / frame_count() == scene_number; ++k)
+      numbers.push_back(frame(some[k]).value_or(0));
+    names.push_back(numbers.size() == 1 ? name(first) : scenes_[scene_number] + ", frames " + frames_text(numbers));
+  }
+  return names;
+}
+
 int run_all(const Jobs& jobs, const std::function<int(const Options&)>& run) {
   if (jobs.count() == 1) return run(jobs[0]);
-  std::vector<std::string> failed;
+  std::vector<std::size_t> failed;
   int common_code = exit_code::done;
   for (std::size_t i = 0; i < jobs.count(); ++i) {
     const Options job = jobs[i];
     tell_step(jobs.name(i) + " (" + std::to_string(i + 1) + " of " + std::to_string(jobs.count()) + ")");
+    const std::size_t told_before = message_count();
     const int code = guarded([&] { return run(job); });
     if (code == exit_code::done) continue;
     // All others say that the program was stopped.
-    if (code != exit_code::failed && code != exit_code::usage && code != exit_code::out_of_memory) return code;
-    tell_error(jobs.name(i) + ": failed");
+    if (code != exit_code::failed && code != exit_code::usage && code != exit_code::out_of_memory) {
+      tell_note("stopped at " + jobs.name(i) + ", " + std::to_string(i + 1) + " of " + counted(jobs.count(), "render"));
+      return code;
+    }
+    if (message_count() > told_before) tell_error(jobs.name(i) + ": failed");
     common_code = failed.empty() || code == common_code ? code : exit_code::failed;
-    failed.push_back(jobs.name(i));
+    failed.push_back(i);
   }
   if (failed.empty()) return exit_code::done;
   std::vector<std::string> names;
-  for (const std::string& name : failed) names.push_back("  " + name);
+  for (const std::string& name : jobs.names(failed)) names.push_back("  " + name);
   tell_error(std::to_string(failed.size()) + " of " + counted(jobs.count(), "render") + " failed:", names);
   return common_code;
 }
 
+namespace {
+
+/// What several renders fail of is told once.
+void tell_new_error(const std::string& text, const std::vector<std::string>& more_lines = {}) {
+  static std::unordered_set<std::string> told;
+  if (told.insert(text).second) tell_error(text, more_lines);
+}
+
+}  // namespace
+
 int guarded(const std::function<int()>& action) {
+  const auto tell_no_memory = [](const std::string& more) {
+    tell_new_error("out of memory" + memory_limit_text() + more);
+    return exit_code::out_of_memory;
+  };
   try {
     return action();
   } catch (const UsageError& error) {
     std::vector<std::string> more_lines = error.more_lines();
     more_lines.emplace_back("Try 'raytrace --help'.");
-    tell_error(error.what(), more_lines);
+    tell_new_error(error.what(), more_lines);
     return exit_code::usage;
   } catch (const SizeError& error) {  // what was asked for cannot be, and nothing was rendered for it
-    tell_error(error.what());
+    tell_new_error(error.what());
     return exit_code::usage;
   } catch (const std::bad_alloc&) {
-    tell_error("out of memory" + memory_limit_text());
-    return exit_code::out_of_memory;
+    return tell_no_memory("");
+  } catch (const std::system_error& error) {
+    // Mostly of a thread that could not be started.
+    if (error.code() != std::errc::resource_unavailable_try_again && error.code() != std::errc::not_enough_memory) {
+      tell_new_error(error.what());
+      return exit_code::failed;
+    }
+    return tell_no_memory(std::string(" or of threads, of which -t N takes fewer: ") + error.what());
   } catch (const std::exception& error) {
-    tell_error(error.what());
+    const bool is_library_error = typeid(error) == typeid(std::runtime_error);  // oneTBB's; others bear names of files
+    if (is_library_error && says_out_of_memory(error.what())) return tell_no_memory(std::string(": ") + error.what());
+    tell_new_error(error.what());
     return exit_code::failed;
   }
 }

@@ -26,6 +26,9 @@ class Jobs {
   /// "scene.xml, frame 7"
   std::string name(std::size_t i) const;
 
+  /// The names of some, in their order, those of a scene's frames together: "scene.xml, frames 1-7,9"
+  std::vector<std::string> names(const std::vector<std::size_t>& some) const;
+
  private:
   std::size_t frame_count() const { return frames_.empty() ? 1 : frames_.size(); }
   std::optional<int> frame(std::size_t i) const;
@@ -38,8 +41,8 @@ class Jobs {
 };
 
 /// Renders all jobs by `run`, which gives an exit code or throws. One that fails does not stop the others; in the end
-/// they are named. The exit code is the one that all that failed have in common, or exit_code::failed. A signal stops
-/// them all.
+/// they are named, and what several have in common is told for the first of them. The exit code is the one that all
+/// that failed have in common, or exit_code::failed. A signal stops them all.
 int run_all(const Jobs& jobs, const std::function<int(const Options&)>& run);
 
 /// What `action` gives; if it throws, the exit code for that, and the error is told.

@@ -1,7 +1,5 @@
 // The command: options -> for each frame of each scene: load -> build -> render -> write.
-#include <algorithm>
-#include <filesystem>
-#include <iostream>
+#include <utility>
 #include <vector>
 
 #include "about.h"
@@ -13,28 +11,15 @@
 #include "options.h"
 #include "picture_render.h"
 #include "picture_settings.h"
+#include "process_setup.h"
+#include "run_checks.h"
 #include "signals.h"
 #include "stages.h"
+#include "thread_limit.h"
 
 namespace raytrace {
 
 namespace {
-
-int print(const std::string& text) {
-  std::cout << text << std::flush;
-  if (std::cout) return exit_code::done;
-  tell_error("cannot write to standard output");
-  return exit_code::failed;
-}
-
-/// Whether there is anything that --skip-existing might leave as it is. A checkpoint that is still there tells that
-/// the outputs are not complete, whatever their formats can.
-bool might_be_skipped(const Options& options) {
-  return options.skip_existing && options.renders() &&
-         (options.checkpoint.empty() || !std::filesystem::exists(options.checkpoint)) &&
-         std::all_of(options.outputs.begin(), options.outputs.end(),
-                     [](const std::string& file) { return std::filesystem::exists(file); });
-}
 
 int run(const Options& options, Progress& progress) {
   progress.begin(options.job_index, options.job_count);
@@ -47,8 +32,11 @@ int run(const Options& options, Progress& progress) {
   description->viewplane = asked_viewplane(description->viewplane, options);
   const Region whole = asked_whole(description->viewplane, options);
   const Region region = asked_region(whole, options);
-  if (options.print_scene) return print(print_scene(*description));
-  if (options.validate) return options.quiet ? exit_code::done : print(summary(*description) + "\n");
+  if (options.print_scene || options.validate) {
+    if (options.print_scene) print(print_scene(*description));
+    if (!options.print_scene && !options.quiet) print(summary(*description) + "\n");
+    return exit_code::done;
+  }
   if (might_skip) {
     if (outputs_are_complete(*description, whole, region, options)) {
       tell_note(joined(options.outputs, ", ") + ": there already, skipped");
@@ -60,7 +48,10 @@ int run(const Options& options, Progress& progress) {
   if (options.renders()) check_output_sizes(options, region);
 
   const std::unique_ptr<const Scene> scene = build(*description, options, statistics);
-  if (options.pixel) return print(pixel_text(*scene, *description, region, options));
+  if (options.pixel) {
+    print_pixel(*scene, *description, region, options);
+    return exit_code::done;
+  }
   describe(*description, region, options, statistics);
   const Signals signals;
   const Ending ending =
@@ -78,18 +69,25 @@ int run(const Options& options, Progress& progress) {
 
 int main(int argc, char** argv) {
   using namespace raytrace;
-  return guarded([&] {
+  const auto program = [&] {
     const std::vector<const char*> arguments = with_command_words_read(argc, argv);
     const int count = static_cast<int>(arguments.size());
     if (is_merge_command(count, arguments.data())) return merge_command(count, arguments.data());
-    const Options options = parse_options(count, arguments.data());
+    Options options = parse_options(count, arguments.data());
     set_verbosity(options.verbosity());
     tell_program_in(options.progress);
-    if (const auto answer = about_program(options)) return print(*answer);
+    if (const auto answer = about_program(options)) {
+      print(*answer);
+      return exit_code::done;
+    }
+    const int wanted_threads = std::exchange(options.threads, threads_with_room(options.threads));
     const Jobs jobs(options);  // before the log file is opened, which might be the scene
     if (!options.log_file.empty()) log_to(options.log_file);
-    ignore_picture_requests();
+    tell_missing_threads(wanted_threads, options.threads);
     Progress progress(options.progress);
-    return run_all(jobs, [&](const Options& job) { return run(job, progress); });
-  });
+    const RunChecks checks(jobs);
+    return run_all(jobs,
+                   [&](const Options& job) { return checks.forbid(job) ? exit_code::failed : run(job, progress); });
+  };
+  return run_in_prepared_process([&] { return guarded(program); });
 }

@@ -45,10 +45,12 @@ const Manual render_manual = {
       {std::to_string(exit_code::usage), "The command line makes no sense."},
       {std::to_string(exit_code::out_of_memory), "Out of memory."},
       {std::to_string(exit_code::resumable),
-       "Stopped by SIGINT or SIGTERM with the checkpoint and the picture so far written: --resume goes on."},
+       "Stopped by SIGINT, SIGTERM, SIGHUP, SIGXCPU or SIGUSR2 with the checkpoint and the picture so far written: "
+       "--resume goes on."},
       {"130, 143",
-       "Stopped by SIGINT or SIGTERM without a checkpoint; the picture so far is written, but not over a complete "
-       "one."}}}};
+       "Stopped by SIGINT or SIGTERM without a checkpoint, as 128 + n by any of these signals, of number n; the "
+       "picture "
+       "so far is written, but not over a complete one."}}}};
 
 const Manual merge_manual = {
     "raytrace merge",

@@ -1,6 +1,5 @@
 #include "memory_limit.h"
 
-#include <pthread.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -121,17 +120,6 @@ std::optional<std::uint64_t> group_memory_limit() {
   return least;
 }
 
-/// Those that libraries start reserve 8 MiB each by default, and use a few KiB.
-void reserve_small_stacks() {
-#if defined(__GLIBC__)
-  pthread_attr_t attributes;
-  if (pthread_getattr_default_np(&attributes) != 0) return;
-  pthread_attr_setstacksize(&attributes, std::size_t{1} << 20U);
-  pthread_setattr_default_np(&attributes);
-  pthread_attr_destroy(&attributes);
-#endif
-}
-
 std::uint64_t obeyed_limit = 0;
 
 }  // namespace
@@ -162,7 +150,6 @@ void obey_group_memory_limit(int threads, std::uint64_t untouched_to_come) {
   data.rlim_cur =
       std::min<rlim_t>(asked, *allowed - others + untouched_memory() + stacks_to_come(threads) + untouched_to_come);
   if (setrlimit(RLIMIT_DATA, &data) != 0) return;
-  reserve_small_stacks();
   obeyed_limit = *allowed;
 }
 

@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iostream>
 #include <limits>
 #include <sstream>
 #include <string_view>
@@ -17,6 +16,8 @@
 #include "option_parser.h"
 #include "outputs.h"
 #include "raytrace/render/renderer.h"
+#include "signals.h"
+#include "thread_limit.h"
 
 namespace raytrace {
 
@@ -132,18 +133,27 @@ void define_merge_options(OptionParser& parser, MergeOptions& options) {
 bool is_merge_command(int argc, const char* const* argv) { return argc > 1 && std::string_view(argv[1]) == "merge"; }
 
 int merge_command(int argc, const char* const* argv) {
-  const MergeOptions options = parsed(argc - 1, argv + 1);  // "merge" is the program's name here
+  MergeOptions options = parsed(argc - 1, argv + 1);  // "merge" is the program's name here
   if (options.help) {
     OptionParser parser;
     MergeOptions unused;
     define_merge_options(parser, unused);
-    std::cout << help_text(merge_manual, parser.entries()) << std::flush;
-    return std::cout ? exit_code::done : exit_code::failed;
+    print(help_text(merge_manual, parser.entries()));
+    return exit_code::done;
   }
   set_verbosity(options.quiet ? Verbosity::errors : options.verbose ? Verbosity::steps : Verbosity::warnings);
-  obey_group_memory_limit(thread_count(options.settings.threads));
+  const int wanted_threads = thread_count(options.settings.threads);
+  options.settings.threads = threads_with_room(wanted_threads);
+  tell_missing_threads(wanted_threads, options.settings.threads);
+  obey_group_memory_limit(options.settings.threads);
+  const Signals signals;
   try {
-    tell(merge_pieces(options.settings));
+    const MergeReport report = merge_pieces(options.settings, [&] { return signals.stop_signal() != 0; });
+    if (report.stopped) {
+      tell_note("stopped by " + signals.stop_signal_name() + ": nothing written");
+      return exit_code::stopped + signals.stop_signal();
+    }
+    tell(report);
   } catch (const MergeError& error) {
     std::istringstream problems(error.what());
     for (std::string problem; std::getline(problems, problem);) tell_error(problem);

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <ctime>
@@ -27,6 +26,7 @@ std::string log_name;
 
 std::mutex mutex;  // guards what follows, and the order of what is written
 bool bar_is_shown = false;
+std::size_t messages_told = 0;
 
 std::string utc_time() {
   const std::time_t now = std::time(nullptr);
@@ -63,6 +63,7 @@ void write_message(const std::string& text) {
   const std::lock_guard lock(mutex);
   write_shown(wiped_bar() + text);
   log(text);
+  ++messages_told;
 }
 
 void write_message(const char* weight, const std::string& text, const std::vector<std::string>& more_lines = {}) {
@@ -84,9 +85,12 @@ void log_to(const std::string& file) {
 }
 
 void tell_program_in(ProgressStyle style) {
-  if (!is_for_programs(style)) return;
-  program_style = style;
-  std::signal(SIGPIPE, SIG_IGN);
+  if (is_for_programs(style)) program_style = style;
+}
+
+std::size_t message_count() {
+  const std::lock_guard lock(mutex);
+  return messages_told;
 }
 
 bool tells(Verbosity verbosity) { return verbosity <= told; }
@@ -127,6 +131,13 @@ void tell_program(const std::string& lines) {
   const std::lock_guard lock(mutex);
   std::fwrite(lines.data(), 1, lines.size(), stdout);
   std::fflush(stdout);
+}
+
+void print(const std::string& text) {
+  const std::lock_guard lock(mutex);
+  errno = 0;
+  if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) return;
+  throw OutputError(std::string("cannot write to standard output: ") + std::strerror(errno != 0 ? errno : EIO));
 }
 
 void tell_program_failure(const std::string& text) { tell_program(failure_line(program_style, text)); }

@@ -2,6 +2,7 @@
 // program that reads along on standard output (progress_lines.h). Any thread may tell something at any time.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -24,6 +25,9 @@ void log_to(const std::string& file);
 /// the style is for one. Should that program go away, the run goes on.
 void tell_program_in(ProgressStyle style);
 
+/// How many messages were told so far.
+std::size_t message_count();
+
 /// Whether messages of this weight are told.
 bool tells(Verbosity verbosity);
 
@@ -39,6 +43,9 @@ void tell_lines(const std::string& lines);
 
 /// How far the render is, as a line for people. It is not logged.
 void tell_progress(const std::string& text);
+
+/// What was asked for, on standard output, at once. Throws OutputError if it takes no more.
+void print(const std::string& text);
 
 /// To the program that reads standard output, at once.
 void tell_program(const std::string& lines);

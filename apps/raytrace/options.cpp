@@ -77,6 +77,13 @@ void refuse_incomplete(const Options& options) {
 
 }  // namespace
 
+std::vector<std::string> Options::files() const {
+  std::vector<std::string> files = outputs;
+  if (has_statistics_file()) files.push_back(statistics);
+  if (!checkpoint.empty()) files.push_back(checkpoint);
+  return files;
+}
+
 Verbosity Options::verbosity() const {
   if (quiet) return Verbosity::errors;
   if (verbose == 0) return Verbosity::warnings;

@@ -73,6 +73,8 @@ struct Options {
   bool help = false;
 
   bool renders() const { return !validate && !print_scene && !pixel; }
+  bool has_statistics_file() const { return !statistics.empty() && statistics != statistics_as_text; }
+  std::vector<std::string> files() const;  ///< that a render writes
   Verbosity verbosity() const;
   ImageFileSettings image_file_settings() const {
     return {full_float, bit_depth, true, threads, transparent, exposure.value_or(0)};

@@ -10,6 +10,7 @@
 #include "picture_settings.h"
 #include "raytrace/aovs/aov_selection.h"
 #include "raytrace/film/aov_film.h"
+#include "raytrace/film/samples_done.h"
 #include "raytrace/output/complete_picture.h"
 #include "raytrace/output/film_channels.h"
 #include "raytrace/render/checkpoint.h"
@@ -123,21 +124,33 @@ Ending PictureRender::render_at_once() {
   return Ending::written;
 }
 
-/// After a signal to stop.
+/// After a signal to stop: writes the checkpoint and the picture so far, and tells which of them there are.
 Ending PictureRender::leave_what_there_is(const Film& film) {
-  std::vector<std::string> files = options_.outputs;
+  std::vector<std::string> files = options_.outputs, kept, reasons;
   bool saved = true;
+  statistics_.outputs.clear();
   if (!options_.checkpoint.empty()) {
     saved = save_checkpoint(film);
+    if (saved) kept.push_back("checkpoint " + options_.checkpoint + " written, --resume goes on from it");
   } else {
     // Nothing goes on from here: an earlier picture that is complete is worth more. And where no mark says that this
     // one is not, the next run would skip it.
     std::erase_if(files, [&](const std::string& file) {
-      return is_complete_picture(file) || (options_.skip_existing && !holds_data(file));
+      const bool earlier = is_complete_picture(file), unmarked = options_.skip_existing && !holds_data(file);
+      if (earlier) reasons.push_back(file + " is complete, from an earlier run, and stays");
+      if (unmarked && !earlier) reasons.push_back(file + " could not say that it is partial, and would be skipped");
+      return earlier || unmarked;
     });
   }
   const bool written = files.empty() || write_picture(film, files, identity_.film.samples.count, true);
+  if (!statistics_.outputs.empty()) kept.push_back("picture so far in " + joined(statistics_.outputs, ", "));
+  tell_stopped((kept.empty() ? "nothing kept" : samples_done_text(film) + ": ") + joined(kept, "; ") +
+               (reasons.empty() ? "" : "; ") + joined(reasons, "; "));
   return written && saved ? Ending::stopped : Ending::failed;
+}
+
+void PictureRender::tell_stopped(const std::string& what_is_kept) const {
+  tell_note("stopped by " + signals_.stop_signal_name() + ": " + what_is_kept);
 }
 
 /// The one that this run read or wrote last.
@@ -159,7 +172,7 @@ Ending PictureRender::render_in_bands(int band_rows) {
     Film film(film_settings(scene_, description_, settings_), film_content_);
     const double height = region.height();
     if (!render_pass(film, film.settings().samples.count, (band.y0 - region.y0) / height, band.height() / height)) {
-      tell_warning("stopped: of a picture of this size, only --checkpoint keeps what is done");
+      tell_stopped("nothing kept: of a picture of this size, only --checkpoint keeps what is done");
       return Ending::stopped;
     }
     timer.stop();
@@ -196,7 +209,8 @@ void PictureRender::attend(const Film& film) {
     if (in_bands_) {
       tell_warning("a picture of this size goes to its files band by band: there is none to look at before the end");
     } else {
-      write_picture(film, options_.outputs, film.settings().samples.count, true);
+      if (write_picture(film, options_.outputs, film.settings().samples.count, true))
+        tell_note("picture so far, " + samples_done_text(film) + ", in " + joined(options_.outputs, ", "));
     }
   }
   if (!options_.checkpoint.empty() && Clock::now() >= next_checkpoint_) save_checkpoint(film);
@@ -264,12 +278,10 @@ ImageMetadata PictureRender::metadata() const {
 /// samples: that each pixel has, or is to have if the picture is partial.
 bool PictureRender::write_picture(const Film& film, const std::vector<std::string>& files, std::uint32_t samples,
                                   bool partial) {
-  PieceIdentity identity = identity_;
-  identity.partial = partial;
   ImageMetadata its_metadata = metadata();
   its_metadata.samples = static_cast<int>(samples);
   if (!partial) its_metadata.render_seconds = statistics_.phases.render.seconds;
-  its_metadata.attributes = identity_attributes(identity);
+  its_metadata.attributes = partial ? partial_attributes(identity_, film) : identity_attributes(identity_);
   const bool keeps_sums = film.content() == FilmContent::sums && (partial || options_.sample_offset);
   Outputs outputs(options_, files, film.settings().extent, its_metadata,
                   keeps_sums ? sum_channels(film) : std::vector<Channel>());
@@ -282,6 +294,7 @@ bool PictureRender::save_checkpoint(const Film& film) {
   bool saved = true;
   try {
     checkpoint_ = write_checkpoint(options_.checkpoint, film, identity_, metadata());
+    tell_step("wrote checkpoint " + options_.checkpoint + ": " + samples_done_text(film));
   } catch (const OutputError& error) {
     tell_error(error.what());
     saved = false;

@@ -41,6 +41,7 @@ class PictureRender {
   Ending render_at_once();
   Ending render_in_bands(int band_rows);
   Ending leave_what_there_is(const Film& film);
+  void tell_stopped(const std::string& what_is_kept) const;
   bool render_pass(Film& film, std::uint32_t target, double work_before, double work);
   void attend(const Film& film);
   std::uint32_t next_target(std::uint32_t done, double seconds_a_sample) const;

@@ -7,7 +7,14 @@ namespace raytrace {
 
 namespace {
 
-constexpr std::array<int, 2> stopping_signals = {SIGINT, SIGTERM};
+/// A person, a terminal that is closed, and what batch systems send before they kill: Slurm and LSF any of them, Grid
+/// Engine SIGUSR2, the system SIGXCPU at the limit of `ulimit -t`.
+struct StoppingSignal {
+  int number;
+  const char* name;
+};
+constexpr std::array<StoppingSignal, 5> stopping_signals = {
+    {{SIGINT, "SIGINT"}, {SIGTERM, "SIGTERM"}, {SIGHUP, "SIGHUP"}, {SIGXCPU, "SIGXCPU"}, {SIGUSR2, "SIGUSR2"}}};
 
 // A signal handler reaches nothing but globals.
 std::atomic<bool> pause_flag = false;
@@ -21,28 +28,37 @@ bool is_ignored(int number) {
   return action.sa_handler == SIG_IGN;
 }
 
-void handle(int number, void (*handler)(int)) {
+void handle(int number, void (*handler)(int, siginfo_t*, void*)) {
   struct sigaction action{};
-  action.sa_handler = handler;
+  action.sa_sigaction = handler;
   sigemptyset(&action.sa_mask);
-  action.sa_flags = SA_RESTART;  // a file that is being written gets whole
+  action.sa_flags = SA_RESTART | SA_SIGINFO;  // a file that is being written gets whole
   sigaction(number, &action, nullptr);
 }
 
 void restore_defaults() {
-  for (const int number : stopping_signals) {
+  for (const auto& [number, name] : stopping_signals) {
     if (!is_ignored(number)) std::signal(number, SIG_DFL);
   }
 }
 
+/// Beyond the limit the system sends one for each second that the processors work, also while the checkpoint is
+/// written. A SIGXCPU from anybody else is a second signal.
+void on_later_second(int number, siginfo_t* info, void* /*context*/) {
+  if (info->si_code == SI_KERNEL) return;
+  std::signal(number, SIG_DFL);
+  raise(number);
+}
+
 // What is asked comes before the pause: whoever sees the pause sees why.
-void on_stop(int number) {
+void on_stop(int number, siginfo_t* /*info*/, void* /*context*/) {
   last_signal = number;
   pause_flag = true;
   restore_defaults();
+  if (!is_ignored(SIGXCPU)) handle(SIGXCPU, on_later_second);
 }
 
-void on_picture_request(int) {
+void on_picture_request(int /*number*/, siginfo_t* /*info*/, void* /*context*/) {
   picture_flag = true;
   pause_flag = true;
 }
@@ -53,7 +69,7 @@ Signals::Signals() {
   pause_flag = false;
   picture_flag = false;
   last_signal = 0;
-  for (const int number : stopping_signals) {
+  for (const auto& [number, name] : stopping_signals) {
     if (!is_ignored(number)) handle(number, on_stop);
   }
   handle(SIGUSR1, on_picture_request);
@@ -61,15 +77,29 @@ Signals::Signals() {
 
 Signals::~Signals() {
   restore_defaults();
-  ignore_picture_requests();
+  std::signal(SIGUSR1, SIG_IGN);  // as before
 }
 
 std::atomic<bool>& Signals::pause() const { return pause_flag; }
 
 int Signals::stop_signal() const { return last_signal; }
 
+std::string Signals::stop_signal_name() const {
+  for (const auto& [number, name] : stopping_signals) {
+    if (number == last_signal) return name;
+  }
+  return "";
+}
+
 bool Signals::take_picture_request() const { return picture_flag.exchange(false); }
 
-void ignore_picture_requests() { std::signal(SIGUSR1, SIG_IGN); }
+StopSignalsWait::StopSignalsWait() {
+  sigset_t stops;
+  sigemptyset(&stops);
+  for (const auto& [number, name] : stopping_signals) sigaddset(&stops, number);
+  pthread_sigmask(SIG_BLOCK, &stops, &before_);
+}
+
+StopSignalsWait::~StopSignalsWait() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
 
 }  // namespace raytrace

@@ -1,12 +1,16 @@
-// What signals ask of a render: SIGINT and SIGTERM to stop, SIGUSR1 to write the picture so far.
+// What signals ask of a render: SIGINT, SIGTERM, SIGHUP, SIGXCPU and SIGUSR2 to stop, SIGUSR1 to write the picture so
+// far.
 #pragma once
 
 #include <atomic>
+#include <csignal>
+#include <string>
 
 namespace raytrace {
 
-/// While it lives, the first SIGINT or SIGTERM asks to stop, and a second one ends the program at once; SIGUSR1 asks
-/// for the picture. A signal that whoever started the program wants ignored stays ignored. One object at a time.
+/// While it lives, the first signal to stop asks for that, and a second one, of whichever number, ends the program at
+/// once; SIGUSR1 asks for the picture. A signal that whoever started the program wants ignored (as nohup does SIGHUP)
+/// stays ignored. One object at a time.
 class Signals {
  public:
   Signals();
@@ -20,11 +24,24 @@ class Signals {
   /// The signal that asked to stop; 0 while there was none.
   int stop_signal() const;
 
+  /// "SIGINT"
+  std::string stop_signal_name() const;
+
   /// Whether the picture was asked for since the last call.
   bool take_picture_request() const;
 };
 
-/// SIGUSR1 before and after a render is no reason to end the program, as it would be by default.
-void ignore_picture_requests();
+/// While it lives, signals to stop wait: neither this thread nor those that it starts are ended by them. For moments in
+/// which a temporary file would stay behind.
+class StopSignalsWait {
+ public:
+  StopSignalsWait();
+  ~StopSignalsWait();
+  StopSignalsWait(const StopSignalsWait&) = delete;
+  StopSignalsWait& operator=(const StopSignalsWait&) = delete;
+
+ private:
+  sigset_t before_;
+};
 
 }  // namespace raytrace

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <sstream>
 #include <tuple>
+#include <unordered_set>
 
 #include "about.h"
 #include "memory_limit.h"
@@ -20,6 +21,7 @@
 #include "raytrace/output/film_channels.h"
 #include "raytrace/output/image_file.h"
 #include "raytrace/render/provenance.h"
+#include "signals.h"
 
 namespace raytrace {
 
@@ -49,21 +51,28 @@ void write_statistics(const Statistics& statistics, const std::string& file) {
   atomic.commit();
 }
 
+/// Those that an earlier render of the scene, another frame, had too are not told again.
 void tell_findings(const Diagnostics& diagnostics) {
+  static std::string file;
+  static std::unordered_set<std::string> told;
+  if (file != diagnostics.file()) told.clear();
+  file = diagnostics.file();
   std::stringstream lines;
   diagnostics.print(lines);
-  tell_lines(lines.str());
-  std::string line;
-  while (std::getline(lines, line)) {
-    if (line.find(": error: ") != std::string::npos) return tell_program_failure(line);  // the first one
+  std::string news, first_error;
+  for (std::string line; std::getline(lines, line);) {
+    if (!told.insert(line).second) continue;
+    news += line + "\n";
+    if (first_error.empty() && line.find(": error: ") != std::string::npos) first_error = line;
   }
+  if (!news.empty()) tell_lines(news);
+  if (!first_error.empty()) tell_program_failure(first_error);
 }
 
 }  // namespace
 
-void check_outputs(const Options& options) {
-  if (!options.renders()) return;
-  for (const std::string& file : options.outputs) check_writable(file, options.image_file_settings());
+void check_formats(const Options& options) {
+  for (const std::string& file : options.outputs) check_format(file, options.image_file_settings());
   if (options.full_float && std::none_of(options.outputs.begin(), options.outputs.end(), holds_float)) {
     throw UsageError("--float: none of the outputs can hold floats; .exr and .tif can");
   }
@@ -74,15 +83,29 @@ void check_outputs(const Options& options) {
   if (!options.aovs.empty() && std::none_of(options.outputs.begin(), options.outputs.end(), holds_data)) {
     throw UsageError("--aov: none of the outputs can hold more than colour; .exr can");
   }
-  if (!options.statistics.empty() && options.statistics != statistics_as_text) {
-    const AtomicFile made_and_removed(options.statistics);
+}
+
+void check_checkpoint(const Options& options) {
+  if (options.checkpoint.empty() || options.resume || !std::filesystem::exists(options.checkpoint)) return;
+  throw UsageError("--checkpoint: there is a " + options.checkpoint +
+                   " already; --resume goes on from it, or remove it");
+}
+
+void check_outputs(const Options& options) {
+  if (!options.renders()) return;
+  check_formats(options);
+  check_checkpoint(options);
+  const StopSignalsWait no_temporary_file_stays;
+  for (const std::string& file : options.files()) {
+    const AtomicFile made_and_removed(file);
   }
-  if (options.checkpoint.empty()) return;
-  if (!options.resume && std::filesystem::exists(options.checkpoint)) {
-    throw UsageError("--checkpoint: there is a " + options.checkpoint +
-                     " already; --resume goes on from it, or remove it");
-  }
-  const AtomicFile made_and_removed(options.checkpoint);
+}
+
+bool might_be_skipped(const Options& options) {
+  return options.skip_existing && options.renders() &&
+         (options.checkpoint.empty() || !std::filesystem::exists(options.checkpoint)) &&
+         std::all_of(options.outputs.begin(), options.outputs.end(),
+                     [](const std::string& file) { return std::filesystem::exists(file); });
 }
 
 bool outputs_are_complete(const SceneDescription& description, const Region& whole, const Region& region,
@@ -155,8 +178,7 @@ void describe(const SceneDescription& description, const Region& region, const O
   statistics.threads = options.threads;
 }
 
-std::string pixel_text(const Scene& scene, const SceneDescription& description, const Region& pixel,
-                       const Options& options) {
+void print_pixel(const Scene& scene, const SceneDescription& description, const Region& pixel, const Options& options) {
   const auto values = [&](const Film& film) {
     const Pixel mean = film.pixel(pixel.x0, pixel.y0);
     std::string text;
@@ -166,25 +188,23 @@ std::string pixel_text(const Scene& scene, const SceneDescription& description, 
   RenderSettings settings{1, options.seed, pixel, sample_range(description.viewplane, options)};
   settings.transparent = options.transparent;
   const SampleRange samples = *settings.samples;
-  std::string text;
   for (std::uint32_t i = 0; i < samples.count; ++i) {
     settings.samples = SampleRange{samples.first + i, 1, samples.centered};
     Film film(film_settings(scene, description, settings));
     const RenderReport report = render(scene, film, 1, 1);
-    text += "sample " + std::to_string(samples.first + i) + ":" +
-            (report.set_aside.count > 0 ? " not finite\n" : values(film));
+    print("sample " + std::to_string(samples.first + i) + ":" +
+          (report.set_aside.count > 0 ? " not finite\n" : values(film)));
   }
   settings.samples = samples;
   Film film(film_settings(scene, description, settings));
   render(scene, film, samples.count, 1);
-  return text + "mean:" + values(film);
+  print("mean:" + values(film));
 }
 
 void report(Statistics& statistics, const Options& options) {
   statistics.peak_memory_bytes = peak_memory_bytes();
-  const bool as_text = options.statistics == statistics_as_text;
-  if (as_text || tells(Verbosity::details)) tell_lines(text(statistics));
-  if (!options.statistics.empty() && !as_text) write_statistics(statistics, options.statistics);
+  if (options.statistics == statistics_as_text || tells(Verbosity::details)) tell_lines(text(statistics));
+  if (options.has_statistics_file()) write_statistics(statistics, options.statistics);
 }
 
 std::string summary(const SceneDescription& description) {

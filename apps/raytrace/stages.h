@@ -12,8 +12,16 @@
 
 namespace raytrace {
 
-/// Throws OutputError or UsageError for what would fail at the end of a run.
+/// Throws OutputError or UsageError for what would fail at the end of a render. All of it:
 void check_outputs(const Options& options);
+/// What depends on the outputs' formats alone.
+void check_formats(const Options& options);
+/// A checkpoint that is there without --resume.
+void check_checkpoint(const Options& options);
+
+/// Whether there is anything that --skip-existing might leave as it is. A checkpoint that is still there tells that
+/// the outputs are not complete, whatever their formats can.
+bool might_be_skipped(const Options& options);
 
 /// Whether all outputs are there, whole, and of this picture, as far as their formats can tell.
 bool outputs_are_complete(const SceneDescription& description, const Region& whole, const Region& region,
@@ -31,9 +39,8 @@ std::unique_ptr<const Scene> build(const SceneDescription& description, const Op
 void describe(const SceneDescription& description, const Region& region, const Options& options,
               Statistics& statistics);
 
-/// The pixel's samples, one a line, and their mean.
-std::string pixel_text(const Scene& scene, const SceneDescription& description, const Region& pixel,
-                       const Options& options);
+/// Prints the pixel's samples, each in a line as soon as it is there, and their mean.
+void print_pixel(const Scene& scene, const SceneDescription& description, const Region& pixel, const Options& options);
 
 /// Completes the statistics, and tells or writes them if they were asked for.
 void report(Statistics& statistics, const Options& options);

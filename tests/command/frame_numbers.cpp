@@ -45,6 +45,16 @@ TEST_CASE("frames are in increasing order, however they are given") {
   CHECK(frame_numbers("1--1:-2") == Frames{-1, 1});
 }
 
+TEST_CASE("the short text of frames") {
+  for (const char* const text : {"7", "1-5", "-3--1", "1-2", "1-9:4", "1-9:2,20", "1-3,7-10,20", "5,9", "1-3,9,20-22",
+                                 "-2147483647-2147483647:2147483647"}) {
+    INFO(text);
+    CHECK(frames_text(frame_numbers(text)) == text);
+  }
+  CHECK(frames_text({}) == "");
+  CHECK(frames_text({1, 2, 4, 5, 6}) == "1-2,4-6");
+}
+
 TEST_CASE("frames that overlap are refused") {
   CHECK(refusal("1-10:4,10-15") == "'1-10:4' and '10-15' overlap; each frame is rendered once");
   CHECK(refusal("3,3") == "'3' and '3' overlap; each frame is rendered once");

@@ -127,6 +127,79 @@ class Frames(CommandTest):
         self.assertIn("raytrace:partial", Exr(self.read("a.1.exr")).attributes)
 
 
+class ToldOnce(CommandTest):
+    """What many frames have in common is found before the first, or told for the first of them alone."""
+
+    def told(self, code, *arguments):
+        done = self.run_program(*arguments, "-r", "16x12", "-s", "1", "--progress=none")
+        self.assertEqual(done.returncode, code, done.stderr)
+        return done.stderr
+
+    def test_a_variable(self):
+        keys = "".join(f'<key frame="{frame}" value="$size"/>\n' for frame in range(25))
+        self.write("scene.xml", support.SCENE.replace("<radius>1<", f"<radius>{keys}<"))
+        self.assertRegex(self.told(1, "scene.xml", "--frames", "1-24", "-o", "a.####.exr"),
+                         r"^scene\.xml:27:\d+: error: '\$size' for value in <key> uses \$size, which is not set; set it: "
+                         r"-D size=VALUE \(and at 24 other places\)\n"
+                         r"raytrace: error: scene\.xml, frame 1: failed\n"
+                         r"raytrace: error: 24 of 24 renders failed:\n  scene\.xml, frames 1-24\n$")
+        told = self.told(1, "scene.xml", "-D", "size=1", "-D", "none=1", "--frames", "1-9:2", "-o", "a.####.exr")
+        self.assertEqual(told, "scene.xml: error: no value of the scene uses $none; remove -D none=...\n"
+                               "raytrace: error: scene.xml, frame 1: failed\n"
+                               "raytrace: error: 5 of 5 renders failed:\n  scene.xml, frames 1-9:2\n")
+        self.assertEqual(self.names(), ["scene.xml"])
+
+    def test_what_depends_on_the_frame(self):
+        self.write("scene.xml", support.SCENE.replace("<radius>1<", "<radius>-$frame<").replace("<kd>0.6<", "<kd>-1<"))
+        told = self.told(1, "scene.xml", "--frames", "1-2", "-o", "a.#.exr")
+        self.assertEqual(told.count("'-1' in <kd>"), 2, "of two materials")
+        for frame in (1, 2):
+            self.assertIn(f"'-{frame}' in <radius>", told)
+            self.assertIn(f"scene.xml, frame {frame}: failed", told)
+
+    def test_a_folder(self):
+        """Before any render: the second output is never written."""
+        told = self.told(1, "scene.xml", "--frames", "1-24", "-o", "missing/a.####.exr", "-o", "b.####.exr",
+                         "--checkpoint", "missing/c.####")
+        self.assertEqual(told, "raytrace: error: cannot write missing/a.0001.exr: there is no folder missing\n"
+                               "raytrace: error: 24 of 24 renders failed:\n  scene.xml, frames 1-24\n")
+        self.write("other.xml", support.SCENE)
+        os.mkdir(self.path("scene"))
+        told = self.told(1, "scene.xml", "other.xml", "--frames", "1-3", "-o", "{scene}/a.#.exr", "--stats=s/{scene}.#")
+        self.assertTrue(told.startswith("raytrace: error: cannot write s/scene.1: there is no folder s\n"
+                                        "raytrace: error: cannot write other/a.1.exr: there is no folder other\n"), told)
+        self.assertEqual(self.names(), ["other.xml", "scene", "scene.xml"])
+
+    def test_a_scene(self):
+        told = self.told(1, "missing.xml", "scene.xml", "--frames", "1-3", "-o", "{scene}.#.exr")
+        self.assertEqual(told, "missing.xml: error: cannot read the scene: No such file or directory\n"
+                               "raytrace: error: 3 of 6 renders failed:\n  missing.xml, frames 1-3\n")
+        self.assertEqual(self.names(), ["scene.1.exr", "scene.2.exr", "scene.3.exr", "scene.xml"])
+
+    def test_the_command_line(self):
+        """It is refused before anything is rendered."""
+        for options, reason in ((["-o", "a.#.png", "--float"], "--float"), (["-o", "a.#.png", "--aov", "Z"], "--aov"),
+                                (["-o", "a.#.exr", "--checkpoint", "c.#"], "there is a c.3 already")):
+            self.write("c.3", "")
+            told = self.told(2, "scene.xml", "--frames", "1-4", *options)
+            self.assertEqual(told.count("error: "), 1, told)
+            self.assertIn(reason, told)
+            self.assertEqual(self.names(), ["c.3", "scene.xml"])
+        told = self.told(2, "scene.xml", "--frames", "1-4", "-o", "a.#.exr", "--crop", "0,0,17,1")
+        self.assertEqual(told.count("--crop"), 1, told)
+        self.assertIn("4 of 4 renders failed:\n  scene.xml, frames 1-4\n", told)
+        told = self.told(1, "scene.xml", "--frames", "1-4", "-o", "a.#.nothing")
+        self.assertEqual(told.count("\n"), 1, told)
+
+    def test_pictures_that_are_there_need_no_folder(self):
+        """That nobody may write to, say."""
+        command = ["scene.xml", "--frames", "1-3", "-o", "kept/a.#.exr", "--skip-existing"]
+        os.mkdir(self.path("kept"))
+        self.told(0, *command)
+        os.chmod(self.path("kept"), 0o555)
+        self.assertEqual(self.told(0, *command).count("there already, skipped"), 3)
+
+
 class Turntable(CommandTest):
     scene = os.path.join(support.REPOSITORY, "scenes", "gallery", "turntable.xml")
 

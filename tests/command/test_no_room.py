@@ -213,6 +213,22 @@ class LittleMemory(SafetyTest):
         self.assertIn(0, codes)
         self.assertIn(33, codes)
 
+    def test_more_threads_than_fit(self):
+        """Fewer are used, or it is out of memory, also where a library is what finds no room."""
+        codes = {}
+        for name in ("a.exr", "a.jpg"):
+            for mebibytes in (120, 200, 400, 500, 700, 900, 2000):
+                done = subprocess.run([*limited(mebibytes << 10), "scene.xml", "-q", "-o", name, "-t", "256"],
+                                      cwd=self.folder, capture_output=True, text=True, check=False, timeout=LIMIT)
+                codes[name, mebibytes] = done.returncode
+                self.assertIn(done.returncode, (0, 33), (name, mebibytes, done.stderr))
+                self.assertRegex(done.stderr, OUT_OF_MEMORY if done.returncode == 33 else "^$")
+        self.assertEqual((codes["a.exr", 120], codes["a.exr", 900], codes["a.jpg", 400], codes["a.jpg", 2000]),
+                         (33, 0, 33, 0))
+        done = subprocess.run([*limited(900 << 10), "scene.xml", "-o", "b.exr", "-t", "256", "--progress=none"],
+                              cwd=self.folder, capture_output=True, text=True, check=False, timeout=LIMIT)
+        self.assertRegex(done.stderr, r"^raytrace: warning: there is no room for 256 threads: \d+ threads used\n$")
+
 
 def new_memory_group(mebibytes):
     """The folder of a control group for that much; None where that may not be made."""

@@ -1,6 +1,7 @@
 // $name in the values of a scene.
 #include "raytrace/description/variables.h"
 
+#include <algorithm>
 #include <map>
 #include <sstream>
 #include <string>
@@ -89,6 +90,57 @@ TEST_CASE("a default stands where the variable is not set, and -D overrides it")
   CHECK(findings(sphere("${radius:-x}"), {}) ==
         "s:2:36: error: 'x' in <radius> is not a number; write one such as 1.5\n");
   CHECK(findings(text, {{"radios", "3"}}) == "s: error: no value of the scene uses $radios; remove -D radios=...\n");
+}
+
+TEST_CASE("what a text becomes with the values put in has a limit") {
+  const std::string half(Variables::longest_text / 2, '1');
+  const Variables variables({7, {{"a", half}}});
+  std::string result;
+  CHECK_FALSE(variables.replace("$a$a", result));
+  CHECK(result.size() == Variables::longest_text);
+  CHECK(variables.replace("$a$a${a}", result) ==
+        std::string("is longer than 1 MiB with the variables' values put in; shorten them"));
+  CHECK(variables.replace("$a${b:-" + half + "}1$$", result).has_value());
+  // Millions of them stop at once.
+  std::string many;
+  for (int i = 0; i < 1000000; ++i) many += "$a";
+  CHECK(contains(findings(sphere(many), {{"a", half}}),
+                 "in <radius> is longer than 1 MiB with the variables' values put in; shorten them\n"));
+}
+
+TEST_CASE("what all texts of a scene become has a limit") {
+  const Variables variables({7, {{"a", std::string(Variables::longest_text, '1')}}});
+  std::string result;
+  for (std::size_t length = 0; length <= Variables::longest_scene; length += Variables::longest_text)
+    REQUIRE_FALSE(variables.replace("$a", result));
+  const Complaint complaint = variables.replace("$a", result);
+  REQUIRE(complaint);
+  CHECK(contains(*complaint, "makes the scene longer than 2 GiB"));
+}
+
+TEST_CASE("a variable that is not set is reported for one of its places") {
+  std::string keys;
+  for (int i = 0; i < 25; ++i) keys += "<key frame='" + std::to_string(i) + "' value='$size'/>\n";
+  CHECK(
+      findings(sphere(keys), {}) ==
+      "s:2:51: error: '$size' for value in <key> uses $size, which is not set; set it: -D size=VALUE (and at 24 other "
+      "places)\n");
+  // In the pieces of a large scene, too, however many threads read them; other errors are told beside it.
+  std::string items;
+  for (int i = 0; i < 3000; ++i)
+    items += "<sphere><center x='0' y='$y' z='0'/><radius>" + std::string(i == 2000 ? "-1" : "$r") +
+             "</radius><material>clay</material></sphere>\n";
+  const std::string scene = scene_with("<objects><spheres>\n" + items + "</spheres></objects>");
+  for (const int threads : {1, 4}) {
+    const std::string found = findings(scene, {}, threads);
+    INFO(found);
+    CHECK(contains(found,
+                   "s:3:23: error: '$y' for y in <center> uses $y, which is not set; set it: -D y=VALUE (and at "
+                   "2999 other places)\n"));
+    CHECK(contains(found, "uses $r, which is not set; set it: -D r=VALUE (and at 2998 other places)\n"));
+    CHECK(contains(found, "s:2003:"));
+    CHECK(std::count(found.begin(), found.end(), '\n') == 3);
+  }
 }
 
 TEST_CASE("names of variables") {

@@ -8,6 +8,7 @@
 
 #include "raytrace/memory/large_array.h"
 #include "raytrace/memory/large_pages.h"
+#include "raytrace/memory/out_of_memory.h"
 #include "raytrace/parallel/for_each_index.h"
 #include "raytrace/parallel/handover.h"
 #include "raytrace/render/renderer.h"
@@ -17,7 +18,7 @@ namespace raytrace {
 namespace {
 
 [[noreturn]] void throw_embree_error(RTCError code, const char* message) {
-  if (code == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+  if (code == RTC_ERROR_OUT_OF_MEMORY || (message != nullptr && says_out_of_memory(message))) throw std::bad_alloc();
   throw RenderError(std::string("Embree: ") + (message != nullptr ? message : "unknown error"));
 }
 

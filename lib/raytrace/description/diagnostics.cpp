@@ -27,6 +27,17 @@ void Diagnostics::warning(SourceLocation location, std::string message) {
   ++warning_count_;
 }
 
+bool Diagnostics::repeats(const std::string& cause) {
+  if (const auto known = causes_.find(cause); known != causes_.end()) {
+    ++kept_[known->second].repeats;
+    ++error_count_;
+    ++repeat_count_;
+    return true;
+  }
+  if (keeps_another(Severity::error)) causes_[cause] = kept_.size();
+  return false;
+}
+
 void Diagnostics::print(std::ostream& out) const {
   std::vector<const Diagnostic*> sorted;
   for (const Diagnostic& diagnostic : kept_) sorted.push_back(&diagnostic);
@@ -40,13 +51,15 @@ void Diagnostics::print(std::ostream& out) const {
     out << file_;
     if (diagnostic->location.line > 0) out << ':' << std::to_string(diagnostic->location.line);
     if (diagnostic->location.column > 0) out << ':' << std::to_string(diagnostic->location.column);
-    out << (diagnostic->severity == Severity::error ? ": error: " : ": warning: ") << diagnostic->message << '\n';
+    out << (diagnostic->severity == Severity::error ? ": error: " : ": warning: ") << diagnostic->message;
+    if (diagnostic->repeats > 0) out << " (and at " << std::to_string(diagnostic->repeats) << " other places)";
+    out << '\n';
   }
   const auto count_rest = [&](std::size_t count, const char* what) {
     if (count > most_kept)
       out << file_ << ": " << std::to_string(count - most_kept) << " more " << what << " not shown\n";
   };
-  count_rest(error_count_, "errors");
+  count_rest(error_count_ - repeat_count_, "errors");
   count_rest(warning_count_, "warnings");
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <iosfwd>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +23,7 @@ struct Diagnostic {
   Severity severity;
   SourceLocation location;
   std::string message;
+  std::size_t repeats = 0;  ///< other places with the same cause
 };
 
 /// The findings about one file.
@@ -39,6 +41,9 @@ class Diagnostics {
 
   void error(SourceLocation location, std::string message);
   void warning(SourceLocation location, std::string message);
+  /// Whether an error of this cause, which lies elsewhere than at any of its places, is kept already. It is then
+  /// counted as a repeat; otherwise the next error is the one of this cause.
+  bool repeats(const std::string& cause);
   /// Counts the findings of another, without keeping them.
   void count(const Diagnostics& other);
 
@@ -53,7 +58,7 @@ class Diagnostics {
   /// True while another finding of that severity would be kept: finding a column costs a scan of the file, so callers
   /// may leave out location and message for the rest (description/report.h does).
   bool keeps_another(Severity severity) const {
-    return (severity == Severity::error ? error_count_ : warning_count_) < limit_;
+    return (severity == Severity::error ? error_count_ - repeat_count_ : warning_count_) < limit_;
   }
 
   /// One line each, "file:line:column: error: message", in the order of the file, then the counts of those not kept.
@@ -66,6 +71,8 @@ class Diagnostics {
   std::vector<Diagnostic> kept_;
   std::size_t error_count_ = 0;
   std::size_t warning_count_ = 0;
+  std::map<std::string, std::size_t> causes_;  ///< the finding of each
+  std::size_t repeat_count_ = 0;
 };
 
 }  // namespace raytrace

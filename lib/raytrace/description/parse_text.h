@@ -24,9 +24,11 @@ template <Dollars dollars, class Place, class Parse, class Where>
 bool parse_text(std::string_view text, Element element, const Place& place, const Parse& parse, const Where& where,
                 Diagnostics& diagnostics) {
   Complaint complaint = parse(text);
+  bool once = false;
   if ((complaint || dollars == Dollars::may_fit) && text.find('$') != std::string_view::npos) {
     std::string replaced;
     complaint = element.variables().replace(text, replaced);
+    once = complaint && Variables::is_cause(*complaint);
     if (!complaint && trimmed(replaced).empty()) {
       complaint = "is empty with the variables' values put in";
     } else if (!complaint) {
@@ -35,7 +37,11 @@ bool parse_text(std::string_view text, Element element, const Place& place, cons
     }
   }
   if (!complaint) return true;
-  report_error(diagnostics, place, [&] { return in_quotes(text) + where() + *complaint; });
+  const auto message = [&] { return in_quotes(text) + where() + *complaint; };
+  if (once)
+    report_error_once(diagnostics, *complaint, place, message);
+  else
+    report_error(diagnostics, place, message);
   return false;
 }
 

@@ -8,6 +8,10 @@
 namespace raytrace {
 namespace {
 
+constexpr const char* uses = "uses $";
+constexpr const char* scene_too_long =
+    "makes the scene longer than 2 GiB with the variables' values put in; shorten them";
+
 bool starts_name(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 
 /// How many characters at the start of the text are a variable's name.
@@ -40,6 +44,7 @@ Complaint Variables::replace(std::string_view text, std::string& replaced) const
   while (true) {
     const std::size_t dollar = text.find('$');
     result += text.substr(0, dollar);
+    if (result.size() > longest_text) return "is longer than 1 MiB with the variables' values put in; shorten them";
     if (dollar == std::string_view::npos) break;
     text.remove_prefix(dollar + 1);
     if (text.starts_with('$')) {
@@ -50,8 +55,13 @@ Complaint Variables::replace(std::string_view text, std::string& replaced) const
     if (Complaint complaint = text.starts_with('{') ? replace_braced(text, result) : replace_plain(text, result))
       return complaint;
   }
+  if (scene_length_.fetch_add(result.size(), std::memory_order_relaxed) > longest_scene) return scene_too_long;
   replaced = std::move(result);
   return std::nullopt;
+}
+
+bool Variables::is_cause(std::string_view complaint) {
+  return complaint.starts_with(uses) || complaint == scene_too_long;
 }
 
 Complaint Variables::replace_plain(std::string_view& text, std::string& result) const {
@@ -105,7 +115,7 @@ std::string Variables::explain_unset(std::string_view name) const {
   std::vector<std::string_view> names;
   for (const auto& [known, variable] : variables_) names.push_back(known);
   const std::string_view nearest = nearest_name(name, names);
-  const std::string start = "uses $" + printable(name) + ", which is not set; ";
+  const std::string start = uses + printable(name) + ", which is not set; ";
   if (!nearest.empty()) return start + "did you mean $" + std::string(nearest) + "?";
   return start + "set it: -D " + printable(name) + "=VALUE";
 }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <string>
@@ -32,8 +33,15 @@ class Variables {
 
   int frame() const { return frame_; }
 
+  /// In bytes, with the values put in: of a text, and of all texts together as of a scene's file (text_file.h). A short
+  /// text may have a long value many times.
+  static constexpr std::size_t longest_text = std::size_t{1} << 20U, longest_scene = std::size_t{1} << 31U;
+
   /// replaced: receives the text with the values in place of the variables, unless there is a complaint.
   Complaint replace(std::string_view text, std::string& replaced) const;
+
+  /// Whether a complaint is about a variable, or all of them, and so the same wherever it stands.
+  static bool is_cause(std::string_view complaint);
 
   /// Those that no text had so far.
   std::vector<std::string_view> unused() const;
@@ -53,6 +61,7 @@ class Variables {
   std::string explain_unset(std::string_view name) const;
 
   int frame_;
+  mutable std::atomic<std::size_t> scene_length_ = 0;
   std::map<std::string, Variable, std::less<>> variables_;
 };
 

@@ -22,6 +22,7 @@
 #include <optional>
 #include <system_error>
 
+#include "raytrace/memory/out_of_memory.h"
 #include "raytrace/output/exr_destination.h"
 #include "raytrace/output/picture_date.h"
 #include "raytrace/parallel/for_each_index.h"
@@ -246,6 +247,7 @@ void ExrEncoder::guard(const Action& action) const {
     action();
   } catch (const std::exception& exception) {
     const int error = open_->destination.error();
+    if (error == 0) rethrow_out_of_memory(exception);
     throw OutputError("cannot write " + file_ + ": " +
                       (error != 0 ? std::generic_category().message(error) : std::string(exception.what())));
   }

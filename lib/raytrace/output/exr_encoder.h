@@ -31,7 +31,8 @@ class ExrEncoder final : public ImageEncoder {
   struct OpenFile;
   void convert_values(const ImageBand& band, std::size_t first_plane);
   const Imath::half* storable_colors(const ImageBand& band);
-  /// Runs it, and throws an OutputError with the true reason for whatever it throws.
+  /// Runs it, and throws an OutputError with the true reason for whatever it throws, or std::bad_alloc where that is
+  /// it.
   template <class Action>
   void guard(const Action& action) const;
 

@@ -14,6 +14,7 @@
 #include <algorithm>
 
 #include "raytrace/description/quoted.h"
+#include "raytrace/memory/out_of_memory.h"
 #include "raytrace/output/exr_header.h"
 #include "raytrace/output/file_handle.h"
 
@@ -104,9 +105,8 @@ ExrReader::ExrReader(const std::string& file) : file_(file) {
     copy_matrix(header, "worldToNDC", camera_.world_to_ndc);
   } catch (const InputError& error) {
     refuse(file, error.what());
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception&) {
+  } catch (const std::exception& exception) {
+    rethrow_out_of_memory(exception);
     refuse(file, "it is not an EXR file, or not whole");
   }
 }
@@ -141,9 +141,8 @@ ImageBand ExrReader::read(const std::vector<Channel>& channels, int y0, int y1) 
     Imf::InputPart part(open_->exr, 0);
     part.setFrameBuffer(buffer);
     part.readPixels(y0, y1 - 1);
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception&) {
+  } catch (const std::exception& exception) {
+    rethrow_out_of_memory(exception);
     refuse(file_, "its pixels are damaged");
   }
   return band;

@@ -25,7 +25,7 @@ bool is_for_display(const std::string& file, const ImageFileSettings& settings) 
   return make_image_encoder(file, settings)->is_for_display();
 }
 
-void check_writable(const std::string& file, const ImageFileSettings& settings) {
+void check_format(const std::string& file, const ImageFileSettings& settings) {
   constexpr int edge = 64;  // JPEG 2000 takes none below 32
   const PictureExtent extent{edge, edge, {0, 0, edge, edge}};
   const std::vector<Channel> channels = color_channels(settings.full_float);
@@ -35,6 +35,10 @@ void check_writable(const std::string& file, const ImageFileSettings& settings) 
   encoder->begin(extent, channels, {}, memory.get());
   encoder->write(black);
   encoder->finish();
+}
+
+void check_writable(const std::string& file, const ImageFileSettings& settings) {
+  check_format(file, settings);
   const AtomicFile made_and_removed(file);
 }
 

@@ -32,7 +32,8 @@ struct ImageFileSettings {
   double exposure = 0;       ///< formats for display: the linear colour is multiplied by 2^exposure
 };
 
-/// Something more that a picture says about itself. EXR keeps the type, PNG stores text, and other formats nothing.
+/// Something more that a picture says about itself. EXR keeps the type, PNG stores text, and other formats nothing but
+/// that a picture is partial.
 struct ImageAttribute {
   std::string name;  ///< "raytrace:...", "cryptomatte/..."; at most 79 bytes, which is what PNG takes
   std::variant<std::string, int, float> value;
@@ -80,9 +81,12 @@ bool holds_alpha(const std::string& file);
 /// holds_float() does.
 bool is_for_display(const std::string& file, const ImageFileSettings& settings);
 
-/// Throws OutputError if files of this name cannot be written: no known extension, no such folder, no permission, a bit
-/// depth that the format lacks. Leaves no trace. To be called before the render, so that hours of work do not end in
-/// an error that could be told at once.
+/// Throws OutputError if files of this name cannot be written for their format: no known extension, a bit depth that
+/// the format lacks.
+void check_format(const std::string& file, const ImageFileSettings& settings);
+
+/// Throws OutputError for that, too, and if the file itself cannot be written: no such folder, no permission. Leaves no
+/// trace. To be called before the render, so that hours of work do not end in an error that could be told at once.
 void check_writable(const std::string& file, const ImageFileSettings& settings);
 
 /// Throws SizeError if files of this name cannot hold a picture of the region's size. To be called before the render,

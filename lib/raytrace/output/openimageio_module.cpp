@@ -1,12 +1,24 @@
 #include "raytrace/output/openimageio_module.h"
 
 #include <dlfcn.h>
+#include <sys/mman.h>
 
 #include <filesystem>
+#include <new>
+
+#include "raytrace/memory/out_of_memory.h"
 
 namespace raytrace {
 
 namespace {
+
+/// The module brings so much that some of its libraries crash where there is no room for it, instead of saying so.
+void need_room() {
+  constexpr std::size_t room = std::size_t{512} << 20U;
+  void* const reserved = mmap(nullptr, room, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (reserved == MAP_FAILED) throw std::bad_alloc();
+  munmap(reserved, room);
+}
 
 /// Where the module is beside this program's folder, in the build's tree and where the program is installed; where the
 /// library was configured to be installed; wherever the system looks.
@@ -16,10 +28,13 @@ void* load_module() {
   const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
   const std::string candidates[] = {program.parent_path().parent_path() / RAYTRACE_MODULE_FOLDER / name,
                                     std::filesystem::path(RAYTRACE_INSTALLED_MODULE_FOLDER) / name, name};
+  need_room();
   std::string reasons;
   for (const std::string& candidate : candidates) {
     if (void* const module = dlopen(candidate.c_str(), RTLD_NOW | RTLD_LOCAL)) return module;
-    reasons += std::string(reasons.empty() ? " " : "; ") + dlerror();
+    const std::string reason = dlerror();
+    if (says_out_of_memory(reason) || reason.find("failed to map segment") != std::string::npos) throw std::bad_alloc();
+    reasons += (reasons.empty() ? " " : "; ") + reason;
   }
   throw OutputError("formats other than EXR and PNG need the module raytrace_openimageio.so, which cannot be loaded:" +
                     reasons);

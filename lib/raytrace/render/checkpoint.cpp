@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "raytrace/film/aov_film.h"
+#include "raytrace/film/samples_done.h"
 #include "raytrace/math/content_hash.h"
 #include "raytrace/output/exr_encoder.h"
 #include "raytrace/output/film_channels.h"
@@ -20,20 +21,12 @@ std::string hash_of(const Film& film) {
   return hash.digits();
 }
 
-std::uint32_t most_samples(const Film& film) {
-  std::uint32_t most = 0;
-  for (const PixelSum& sum : film.sums()) most = std::max(most, sum.samples);
-  return most;
-}
-
 }  // namespace
 
 FileIdentity write_checkpoint(const std::string& file, const Film& film, const PieceIdentity& identity,
                               ImageMetadata metadata) {
-  PieceIdentity partial = identity;
-  partial.partial = true;
   metadata.samples = static_cast<int>(film.settings().samples.count);
-  metadata.attributes = identity_attributes(partial);
+  metadata.attributes = partial_attributes(identity, film);
   metadata.attributes.push_back({hash_name, hash_of(film)});
 
   metadata.data_attributes.clear();  // of AOVs, which come when the picture is done
@@ -85,7 +78,7 @@ void read_checkpoint(const std::string& file, const PieceIdentity& identity, Fil
   }
   if (reader.attribute<std::string>(hash_name) != hash_of(film))
     throw InputError("cannot resume from " + file + ": it is damaged");
-  if (most_samples(film) > film.settings().samples.count)
+  if (samples_done(film).most > film.settings().samples.count)
     throw InputError("cannot resume from " + file + ": it has more samples a pixel than are asked for");
 }
 

@@ -67,9 +67,11 @@ std::optional<std::string> misfit(const Piece& first, const Piece& piece) {
   throw MergeError(text);
 }
 
+struct Stopped {};
+
 class Merger {
  public:
-  explicit Merger(const MergeSettings& settings) : settings_(settings) {}
+  Merger(const MergeSettings& settings, const std::function<bool()>& stop) : settings_(settings), stop_(stop) {}
 
   MergeReport merge() {
     read_headers();
@@ -81,6 +83,7 @@ class Merger {
  private:
   void read_headers() {
     for (const std::string& file : settings_.pieces) {
+      heed_stop();
       try {
         const ExrReader reader(file);
         pieces_.push_back(piece_of(reader));
@@ -192,6 +195,7 @@ class Merger {
     for (const Piece& piece : pieces_) most_sums = std::max(most_sums, piece.sums.size());
     const int rows = band_rows(whole.width(), channels_.size() + most_sums);
     for (Region band = whole; band.y0 < whole.y1; band.y0 = band.y1) {
+      heed_stop();
       band.y1 = std::min(band.y0 + rows, whole.y1);
       const ImageBand merged = merged_band(band);
       for (const auto& file : files) file->write(merged);
@@ -311,7 +315,12 @@ class Merger {
       }
   }
 
+  void heed_stop() const {
+    if (stop_ && stop_()) throw Stopped();
+  }
+
   const MergeSettings& settings_;
+  const std::function<bool()>& stop_;
   std::vector<Piece> pieces_;
   std::vector<std::string> problems_;
   std::set<const Piece*> damaged_;  ///< their pixels
@@ -324,6 +333,14 @@ class Merger {
 
 }  // namespace
 
-MergeReport merge_pieces(const MergeSettings& settings) { return Merger(settings).merge(); }
+MergeReport merge_pieces(const MergeSettings& settings, const std::function<bool()>& stop) {
+  try {
+    return Merger(settings, stop).merge();
+  } catch (const Stopped&) {
+    MergeReport report;
+    report.stopped = true;
+    return report;
+  }
+}
 
 }  // namespace raytrace

@@ -1,6 +1,7 @@
 // One picture out of pieces that were rendered apart: tiles, crops and ranges of samples, in any order.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -24,6 +25,7 @@ struct MergeReport {
   std::size_t pieces = 0;
   int samples = 0;             ///< a pixel
   bool missing_parts = false;  ///< only with MergeSettings::partial
+  bool stopped = false;        ///< nothing was written
   std::vector<std::string> outputs;
   Repairs repairs;  ///< of all outputs
 };
@@ -36,7 +38,8 @@ class MergeError : public std::runtime_error {
 
 /// Checks that the pieces are of one scene, with the same settings, version and instruction set, and cover the picture
 /// once, without a gap; then writes it, bit for bit as one render of the whole would have. A band of rows is in memory
-/// at a time, and a piece is open only while it is read. Throws MergeError, InputError or OutputError.
-MergeReport merge_pieces(const MergeSettings& settings);
+/// at a time, and a piece is open only while it is read. Ends early, and leaves all files as they were, once `stop`
+/// says so, which is asked before each piece and band. Throws MergeError, InputError or OutputError.
+MergeReport merge_pieces(const MergeSettings& settings, const std::function<bool()>& stop = {});
 
 }  // namespace raytrace

@@ -9,6 +9,7 @@
 #include "raytrace/aovs/aov_selection.h"
 #include "raytrace/description/quoted.h"
 #include "raytrace/description/scene_hash.h"
+#include "raytrace/film/samples_done.h"
 
 namespace raytrace {
 
@@ -29,6 +30,8 @@ constexpr const char* whole_name = "raytrace:whole";
 constexpr const char* region_name = "raytrace:region";
 constexpr const char* tile_name = "raytrace:tile";  // only of a tile
 constexpr const char* partial_name = "raytrace:partial";
+constexpr const char* least_samples_name = "raytrace:leastSamples";  // only where it is partial
+constexpr const char* most_samples_name = "raytrace:mostSamples";
 constexpr const char* transparent_name = "raytrace:transparent";  // only where it is
 constexpr const char* frame_name = "raytrace:frame";              // only where one was asked for
 constexpr const char* variables_name = "raytrace:variables";      // only where there are any
@@ -203,6 +206,15 @@ std::vector<ImageAttribute> identity_attributes(const PieceIdentity& identity) {
   if (identity.partial) attributes.push_back({partial_name, 1});
   if (identity.frame) attributes.push_back({frame_name, *identity.frame});
   if (!identity.variables.empty()) attributes.push_back({variables_name, identity.variables});
+  return attributes;
+}
+
+std::vector<ImageAttribute> partial_attributes(PieceIdentity identity, const Film& film) {
+  identity.partial = true;
+  std::vector<ImageAttribute> attributes = identity_attributes(identity);
+  const SamplesDone done = samples_done(film);
+  attributes.push_back({least_samples_name, static_cast<int>(done.least)});
+  attributes.push_back({most_samples_name, static_cast<int>(done.most)});
   return attributes;
 }
 

@@ -44,6 +44,10 @@ struct PieceIdentity {
 /// All of it that ImageMetadata has no member for.
 std::vector<ImageAttribute> identity_attributes(const PieceIdentity& identity);
 
+/// Of a picture whose render has not ended: marked as partial, with the fewest and the most samples that its pixels
+/// have so far.
+std::vector<ImageAttribute> partial_attributes(PieceIdentity identity, const Film& film);
+
 /// Of it, what tells one picture from another, as text: neither the program's version nor the machine, and nothing that
 /// is known only when the scene is built. "" for what the picture's file does not have. any_samples: but for their
 /// number.

@@ -14,6 +14,8 @@ void add_metadata(OIIO::ImageSpec& spec, const ImageMetadata& metadata, double e
   description << "scene " << metadata.scene_file << ", " << metadata.samples << " samples a pixel, seed "
               << metadata.seed;
   if (exposure != 0) description << ", exposure " << exposure;
+  for (const ImageAttribute& attribute : metadata.attributes)
+    if (attribute.name == "raytrace:partial") description << ", partial";
   spec.attribute("ImageDescription", description.str());
 }
 

@@ -6,11 +6,13 @@
 #include <array>
 #include <cerrno>
 #include <limits>
+#include <new>
 #include <system_error>
 #include <vector>
 
 #include "raytrace/description/nearest_name.h"
 #include "raytrace/description/quoted.h"
+#include "raytrace/memory/out_of_memory.h"
 #include "raytrace/output/openimageio/edge_limits.h"
 #include "raytrace/output/openimageio/metadata.h"
 #include "raytrace/output/openimageio_module.h"
@@ -117,7 +119,10 @@ OpenImageIOEncoder::OpenImageIOEncoder(std::string file, const std::string& exte
          suggestion(extension));
   }
   choose_pixels(extension);
-  OIIO::attribute("threads", settings.threads);  // a pool of the whole process
+  // A pool of the whole process; where it cannot be started, the process crashes at its end. TIFF alone has work for
+  // it.
+  constexpr int most_threads = 8;
+  OIIO::attribute("threads", std::min(settings.threads, most_threads));
 }
 
 OpenImageIOEncoder::~OpenImageIOEncoder() = default;
@@ -216,6 +221,7 @@ void OpenImageIOEncoder::guard(const Action& action) {
 void OpenImageIOEncoder::check(bool done) const {
   if (done && !writer_->has_error()) return;
   std::string reason = writer_->geterror();
+  if (says_out_of_memory(reason)) throw std::bad_alloc();
   std::replace(reason.begin(), reason.end(), '\n', ' ');
   fail(reason.empty() ? "OpenImageIO's writer failed" : reason);
 }
