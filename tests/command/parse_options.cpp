@@ -156,7 +156,13 @@ TEST_CASE("quiet silences the progress that nobody asked for") {
 
 TEST_CASE("incomplete command lines are refused with what to type") {
   CHECK_REFUSED(parse({}), "raytrace scene.xml -o picture.exr");
-  CHECK_REFUSED(parse({}), "\nUsage: raytrace SCENE.xml... -o FILE [options]\n\nExamples:\n");
+  try {
+    parse({});
+  } catch (const UsageError& error) {
+    const std::vector<std::string>& lines = error.more_lines();
+    CHECK(std::find(lines.begin(), lines.end(), "Usage: raytrace SCENE.xml... -o FILE [options]") != lines.end());
+    CHECK(std::find(lines.begin(), lines.end(), "Examples:") != lines.end());
+  }
   CHECK_REFUSED(parse({"-q"}), "no scene given");
   CHECK_REFUSED(parse({"--list"}), "--list needs a value: one of shapes, materials, lights, ");
   CHECK_REFUSED(parse({"--progress"}), "--progress needs a value: one of auto, bar, ");

@@ -126,7 +126,7 @@ class CutRender {
     if (kind.starts_with("threads")) return same(in_one(crop, chance_.number(1, 8)), whole_);
     if (kind.starts_with("passes")) return same(in_passes(crop), whole_);
     if (kind.starts_with("tiles")) return same(merged(tiles(crop, 6, 1)), whole_);
-    if (kind.starts_with("samples")) return same(merged(ranges(crop, crop, chance_.number(2, 5))), whole_);
+    if (kind.starts_with("samples")) return same(merged(ranges(crop, std::nullopt, chance_.number(2, 5))), whole_);
     return same(merged(tiles(crop, 3, 3)), whole_);
   }
 
@@ -154,27 +154,29 @@ class CutRender {
     return colors_of(film);
   }
 
+  /// Pieces of so many tiles at most, each in so many ranges of samples at most.
   std::vector<std::string> tiles(const Region& whole, int parts, int splits) {
     std::vector<std::string> files;
     const int count = chance_.number(2, parts);
     for (int i = 0; i < count; ++i)
-      for (std::string& file : ranges(whole, tile_of(whole, i, count), chance_.number(1, splits)))
+      for (std::string& file : ranges(whole, Tile{i, count}, chance_.number(1, splits)))
         files.push_back(std::move(file));
     return files;
   }
 
-  /// Pieces of all samples, in so many ranges.
-  std::vector<std::string> ranges(const Region& whole, const Region& region, int parts) {
+  /// Pieces of a tile, or of all, in so many ranges of the samples.
+  std::vector<std::string> ranges(const Region& whole, const std::optional<Tile>& tile, int parts) {
     std::vector<std::string> files;
     const std::vector<int> edges = chance_.edges(samples_, parts);
     for (std::size_t i = 1; i < edges.size(); ++i) {
       const auto first = static_cast<std::uint32_t>(edges[i - 1]), end = static_cast<std::uint32_t>(edges[i]);
-      files.push_back(piece(whole, region, {first, end - first, false}, parts > 1));
+      files.push_back(piece(whole, tile, {first, end - first, false}, parts > 1));
     }
     return files;
   }
 
-  std::string piece(const Region& whole, const Region& region, const SampleRange& samples, bool keeps_sums) {
+  std::string piece(const Region& whole, const std::optional<Tile>& tile, const SampleRange& samples, bool keeps_sums) {
+    const Region region = tile ? tile_of(whole, tile->index, tile->count) : whole;
     *steps_ +=
         " " + text_of(region) + " from " + std::to_string(samples.first) + " on " + std::to_string(samples.count) + ";";
     Film film = empty_film(region, samples);
@@ -183,6 +185,7 @@ class CutRender {
     identity.provenance = provenance_of("raytrace test", *scene_, description_);
     identity.film = film.settings();
     identity.whole = whole;
+    identity.tile = tile;
     ImageMetadata metadata;
     metadata.software = identity.provenance.software;
     metadata.samples = static_cast<int>(samples.count);

@@ -142,10 +142,7 @@ class Merger {
   }
 
   void refuse_problems() const {
-    if (problems_.empty()) return;
-    std::string text;
-    for (const std::string& problem : problems_) text += (text.empty() ? "" : "\n") + problem;
-    throw MergeError(text);
+    if (!problems_.empty()) refuse(problems_);
   }
 
   /// Whether its pixels have all the samples, so that they can be taken as they are.
