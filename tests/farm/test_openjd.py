@@ -2,6 +2,7 @@
 
 import os
 import re
+import shutil
 import subprocess
 import unittest
 
@@ -94,6 +95,25 @@ class Templates(Template):
         self.assertEqual(code, 1)
         self.assertEqual(len(tasks), 1, "tasks that ran")
         self.assertTrue(any(line.startswith("openjd_fail: ") for line in tasks[0]), tasks[0])
+
+
+class Installed(Template):
+    def test_nothing_is_written_beside_the_template(self):
+        """Checkpoints go to where the pictures go, where none was named for them."""
+        shutil.copytree(TEMPLATES, self.path("installed"))
+        self.write("stand-in", '#!/bin/sh\necho "called with $*"\n')
+        os.chmod(self.path("stand-in"), 0o755)
+        before = sorted(os.listdir(self.path("installed")))
+        for template in before:
+            with self.start("run", self.path(f"installed/{template}"), "-p", "Scene=scene.xml", "-p", "OutDir=out", "-p",
+                            f"Raytrace={self.path('stand-in')}", "-p", "Frames=2", "--step", "Render") as running:
+                calls = [line for line in running.stdout.read().splitlines() if "called with" in line]
+            self.assertEqual(running.returncode, 0)
+            self.assertTrue(calls)
+            for call in calls:
+                self.assertRegex(call, f"-o {self.folder}/out/.* --checkpoint {self.folder}/out/checkpoints/picture\\.")
+        self.assertEqual(sorted(os.listdir(self.path("installed"))), before)
+        self.assertEqual(os.listdir(self.path("out/checkpoints")), [])
 
 
 class Cancelled(Template):
