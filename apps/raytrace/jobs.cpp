@@ -124,18 +124,18 @@ int run_all(const Jobs& jobs, const std::function<int(const Options&)>& run) {
     failed.push_back(i);
   }
   if (failed.empty()) return exit_code::done;
-  std::string names;
-  for (const std::string& name : jobs.names(failed)) names += "\n  " + name;
-  tell_error(std::to_string(failed.size()) + " of " + counted(jobs.count(), "render") + " failed:" + names);
+  std::vector<std::string> names;
+  for (const std::string& name : jobs.names(failed)) names.push_back("  " + name);
+  tell_error(std::to_string(failed.size()) + " of " + counted(jobs.count(), "render") + " failed:", names);
   return common_code;
 }
 
 namespace {
 
 /// What several renders fail of is told once.
-void tell_new_error(const std::string& text) {
+void tell_new_error(const std::string& text, const std::vector<std::string>& more_lines = {}) {
   static std::unordered_set<std::string> told;
-  if (told.insert(text).second) tell_error(text);
+  if (told.insert(text).second) tell_error(text, more_lines);
 }
 
 }  // namespace
@@ -148,7 +148,9 @@ int guarded(const std::function<int()>& action) {
   try {
     return action();
   } catch (const UsageError& error) {
-    tell_new_error(std::string(error.what()) + "\nTry 'raytrace --help'.");
+    std::vector<std::string> more_lines = error.more_lines();
+    more_lines.emplace_back("Try 'raytrace --help'.");
+    tell_new_error(error.what(), more_lines);
     return exit_code::usage;
   } catch (const SizeError& error) {  // what was asked for cannot be, and nothing was rendered for it
     tell_new_error(error.what());

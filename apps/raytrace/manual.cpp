@@ -1,6 +1,7 @@
 #include "manual.h"
 
 #include <algorithm>
+#include <sstream>
 #include <string_view>
 #include <vector>
 
@@ -136,8 +137,12 @@ std::string examples_text(const Section& examples) {
 
 }  // namespace
 
-std::string short_help(const Manual& manual) {
-  return "\nUsage: " + manual.synopsis + "\n" + examples_text(manual.examples);
+std::vector<std::string> short_help(const Manual& manual) {
+  std::vector<std::string> lines = {"", "Usage: " + manual.synopsis};
+  std::istringstream examples(examples_text(manual.examples));
+  for (std::string line; std::getline(examples, line);) lines.push_back(line);
+  lines.emplace_back();
+  return lines;
 }
 
 std::string help_text(const Manual& manual, const std::vector<OptionEntry>& options) {

@@ -1,9 +1,12 @@
 #include "merge_command.h"
 
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <sstream>
 #include <string_view>
+#include <system_error>
+#include <utility>
 
 #include "exit_code.h"
 #include "file_clash.h"
@@ -22,6 +25,29 @@ namespace {
 
 bool is_list(const std::string& piece) { return piece.starts_with('@'); }
 
+/// The lines of a list of pieces, without what editors and other systems add: a byte order mark, spaces and carriage
+/// returns at the ends, empty lines.
+std::vector<std::string> lines_of(const std::string& list, const std::string& argument) {
+  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf", spaces = " \t\r";
+  std::error_code unknown;
+  const auto type = std::filesystem::status(list, unknown).type();
+  if (type == std::filesystem::file_type::not_found)
+    throw UsageError("there is no list of pieces " + list + "; a piece of that name is ./" + argument);
+  // A pipe might never say anything.
+  if (type != std::filesystem::file_type::regular)
+    throw UsageError("the list of pieces " + list + " is no regular file");
+  std::ifstream stream(list, std::ios::binary);
+  if (!stream) throw UsageError("cannot read the list of pieces " + list);
+  std::vector<std::string> lines;
+  bool first = true;
+  for (std::string line; std::getline(stream, line); first = false) {
+    if (first && line.starts_with(byte_order_mark)) line.erase(0, byte_order_mark.size());
+    line.erase(line.find_last_not_of(spaces) + 1);
+    if (!line.empty()) lines.push_back(line);
+  }
+  return lines;
+}
+
 /// "@FILE" stands for the names in the file, one a line: there may be more than a command line holds.
 std::vector<std::string> with_lists_read(const std::vector<std::string>& names) {
   std::vector<std::string> all;
@@ -30,11 +56,7 @@ std::vector<std::string> with_lists_read(const std::vector<std::string>& names) 
       all.push_back(name);
       continue;
     }
-    std::ifstream list(name.substr(1));
-    if (!list) throw UsageError("there is no list of pieces " + name.substr(1) + "; a piece of that name is ./" + name);
-    for (std::string line; std::getline(list, line);) {
-      if (!line.empty()) all.push_back(line);
-    }
+    for (std::string& line : lines_of(name.substr(1), name)) all.push_back(std::move(line));
   }
   return all;
 }
@@ -50,7 +72,7 @@ void refuse_clashes(const std::vector<std::string>& names, const MergeSettings& 
 
 MergeOptions parsed(int argc, const char* const* argv) {
   constexpr const char* no_pieces = "no pieces given; for example: raytrace merge tile.*.exr -o whole.exr";
-  if (argc == 1) throw UsageError(no_pieces + ("\n" + short_help(merge_manual)));
+  if (argc == 1) throw UsageError(no_pieces, short_help(merge_manual));
   MergeOptions options;
   OptionParser parser;
   define_merge_options(parser, options);

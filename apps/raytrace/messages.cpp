@@ -8,8 +8,10 @@
 #include <cstring>
 #include <ctime>
 #include <mutex>
+#include <sstream>
 #include <string_view>
 
+#include "raytrace/description/quoted.h"
 #include "raytrace/output/link_target.h"
 #include "raytrace/output/output_error.h"
 
@@ -51,7 +53,7 @@ void log(std::string_view lines) {
     const std::string line = time + std::string(lines.substr(0, length));
     lines.remove_prefix(length);
     if (::write(log_file, line.data(), line.size()) == static_cast<ssize_t>(line.size())) continue;
-    write_shown("raytrace: warning: " + log_name + " takes no more: " + std::strerror(errno) + "\n");
+    write_shown("raytrace: warning: " + on_one_line(log_name) + " takes no more: " + std::strerror(errno) + "\n");
     close(log_file);
     log_file = -1;
   }
@@ -64,8 +66,10 @@ void write_message(const std::string& text) {
   ++messages_told;
 }
 
-void write_message(const char* weight, const std::string& text) {
-  write_message(std::string("raytrace: ") + weight + text + "\n");
+void write_message(const char* weight, const std::string& text, const std::vector<std::string>& more_lines = {}) {
+  std::string message = std::string("raytrace: ") + weight + on_one_line(text) + "\n";
+  for (const std::string& line : more_lines) message += on_one_line(line) + "\n";
+  write_message(message);
 }
 
 }  // namespace
@@ -91,9 +95,11 @@ std::size_t message_count() {
 
 bool tells(Verbosity verbosity) { return verbosity <= told; }
 
-void tell_error(const std::string& text) {
-  write_message("error: ", text);
-  tell_program_failure(text);
+void tell_error(const std::string& text, const std::vector<std::string>& more_lines) {
+  write_message("error: ", text, more_lines);
+  std::string on_line = text;
+  for (const std::string& line : more_lines) on_line += " " + line;
+  tell_program_failure(on_line);
 }
 
 void tell_warning(const std::string& text) {
@@ -109,7 +115,12 @@ void tell_step(const std::string& text) {
   tell_program(status_line(program_style, text));
 }
 
-void tell_lines(const std::string& lines) { write_message(lines); }
+void tell_lines(const std::string& lines) {
+  std::string message;
+  std::istringstream stream(lines);
+  for (std::string line; std::getline(stream, line);) message += on_one_line(line) + "\n";
+  write_message(message);
+}
 
 void tell_progress(const std::string& text) {
   const std::lock_guard lock(mutex);

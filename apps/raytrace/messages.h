@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "progress_lines.h"
 
@@ -30,12 +31,14 @@ std::size_t message_count();
 /// Whether messages of this weight are told.
 bool tells(Verbosity verbosity);
 
-void tell_error(const std::string& text);
+// The text of a message may hold anything that a user or a file says: control characters in it, line ends too, are
+// shown as \xNN, so that none reaches a terminal or a log. What is to stand on lines of its own comes as such.
+void tell_error(const std::string& text, const std::vector<std::string>& more_lines = {});
 void tell_warning(const std::string& text);
 void tell_note(const std::string& text);  ///< with the weight of a warning, but it is none
 void tell_step(const std::string& text);
 
-/// Whole lines as they are: findings about a scene, statistics.
+/// Whole lines: findings about a scene, statistics. Of what they hold, line ends alone stay as they are.
 void tell_lines(const std::string& lines);
 
 /// How far the render is, as a line for people. It is not logged.

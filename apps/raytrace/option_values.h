@@ -4,17 +4,27 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "raytrace/display/display_server.h"
-#include "raytrace/film/film.h"
+#include "raytrace/film/aov_settings.h"
+#include "raytrace/film/region.h"
+#include "raytrace/film/tiles.h"
 
 namespace raytrace {
 
 /// A command line that makes no sense: exit code 2.
 class UsageError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  /// more_lines: what to type instead, where that takes lines of its own.
+  explicit UsageError(const std::string& text, std::vector<std::string> more_lines = {})
+      : std::runtime_error(text), more_lines_(std::move(more_lines)) {}
+
+  const std::vector<std::string>& more_lines() const { return more_lines_; }
+
+ private:
+  std::vector<std::string> more_lines_;
 };
 
 using Names = std::vector<std::string>;
@@ -51,11 +61,6 @@ struct Resolution {
 /// "1920x1080"
 Resolution resolution(const std::string& text);
 
-/// Part `index` of `count`.
-struct Tile {
-  int index = 0, count = 1;
-};
-
 /// "2/8": the third of eight.
 Tile tile(const std::string& text);
 
@@ -63,7 +68,7 @@ struct PixelPlace {
   int x = 0, y = 0;
 };
 
-/// "x,y", from the top left.
+/// "x,y", from the top left; beyond the picture, perhaps.
 PixelPlace pixel_place(const std::string& text);
 
 /// "90", "90s", "10m", "1h30m": in seconds.
@@ -78,7 +83,7 @@ inline constexpr const char* exposure_value_name = "EV";
 inline constexpr const char* exposure_help =
     "Multiply the colour by 2^EV in PNG, JPEG and other sRGB-encoded files (0); EXR and floats stay as they are";
 
-/// "x0,y0,x1,y1", at least one pixel; it may reach outside of the picture.
+/// "x0,y0,x1,y1", at least one pixel; it may reach beyond the picture.
 Region crop(const std::string& text);
 
 /// "host:port", "[::1]:port", or a host alone, for tev's own port

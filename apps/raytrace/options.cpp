@@ -132,7 +132,8 @@ void define_options(OptionParser& parser, Options& options) {
              [&](const std::string& text) { options.scale = scale(text); });
   parser.add(
       "--crop", "x0,y0,x1,y1",
-      "Only these pixels: origin at the top left, x1 and y1 exclusive; an EXR says where in the whole picture they are",
+      "Only these pixels: origin at the top left, x1 and y1 exclusive; they may reach beyond the picture; an EXR says "
+      "where in the whole picture they are",
       [&](const std::string& text) { options.crop = crop(text); });
   parser.add(
       "--tile", "I/N",
@@ -206,7 +207,7 @@ void define_options(OptionParser& parser, Options& options) {
 }
 
 Options parse_options(int argc, const char* const* argv) {
-  if (argc == 1) throw UsageError(no_scene + ("\n" + short_help(render_manual)));
+  if (argc == 1) throw UsageError(no_scene, short_help(render_manual));
   Options options;
   OptionParser parser;
   define_options(parser, options);

@@ -57,6 +57,7 @@ PictureRender::PictureRender(const Scene& scene, const SceneDescription& descrip
   identity_.whole = whole;
   if (options.is_one_of_frames) identity_.frame = options.frame;
   identity_.variables = variables_text(options.variables);
+  identity_.tile = options.tile;
   if (options.display_server) {
     const PictureExtent extent{description.viewplane.hres, description.viewplane.vres, region};
     display_ = std::make_unique<DisplayClient>(*options.display_server, options.outputs.front(), extent, tell_warning);

@@ -24,7 +24,7 @@ ViewPlane asked_viewplane(const ViewPlane& viewplane, const Options& options) {
   const Resolution unscaled = options.resolution.value_or(Resolution{viewplane.hres, viewplane.vres});
   const double width = std::max(1.0, std::round(unscaled.width * options.scale));
   const double height = std::max(1.0, std::round(unscaled.height * options.scale));
-  if (width > largest_edge || height > largest_edge || width * height > most_pixels) {
+  if (!is_allowed_size(width, height)) {
     throw UsageError("a picture of " + size_text(width, height) + " pixels is too large; the most is " +
                      std::to_string(largest_edge) + " along an edge and " +
                      std::to_string(static_cast<long long>(most_pixels)) + " in all");
@@ -48,12 +48,9 @@ SampleRange sample_range(const ViewPlane& viewplane, const Options& options) {
 
 Region asked_whole(const ViewPlane& viewplane, const Options& options) {
   if (!options.crop) return {0, 0, viewplane.hres, viewplane.vres};
-  const Region& crop = *options.crop;
-  if (crop.x0 < 0 || crop.y0 < 0 || crop.x1 > viewplane.hres || crop.y1 > viewplane.vres) {
-    throw UsageError("--crop: the crop reaches outside the picture of " + size_text(viewplane.hres, viewplane.vres) +
-                     " pixels");
-  }
-  return crop;
+  if (const auto problem = crop_problem(*options.crop, viewplane.hres, viewplane.vres))
+    throw UsageError("--crop: " + text_of(*options.crop) + ": " + *problem);
+  return *options.crop;
 }
 
 Region asked_region(const Region& whole, const Options& options) {
@@ -61,7 +58,8 @@ Region asked_region(const Region& whole, const Options& options) {
     const auto [x, y] = *options.pixel;
     if (x < whole.x0 || y < whole.y0 || x >= whole.x1 || y >= whole.y1) {
       throw UsageError("--pixel: there is no pixel " + std::to_string(x) + "," + std::to_string(y) +
-                       " in the picture of " + size_text(whole.width(), whole.height()) + " pixels");
+                       " in the picture of " + size_text(whole.width(), whole.height()) + " pixels" +
+                       (options.crop ? ", " + text_of(whole) : ""));
     }
     return {x, y, x + 1, y + 1};
   }

@@ -14,7 +14,8 @@ ViewPlane asked_viewplane(const ViewPlane& viewplane, const Options& options);
 /// Which of each pixel's samples: --sample-offset makes them a part of the picture's.
 SampleRange sample_range(const ViewPlane& viewplane, const Options& options);
 
-/// What is cut into tiles: the crop, or the whole picture. Throws UsageError if the crop is not inside.
+/// What is cut into tiles: the crop, or the whole picture. Throws UsageError if the crop reaches too far beyond the
+/// picture.
 Region asked_whole(const ViewPlane& viewplane, const Options& options);
 
 /// The tile or pixel of it, or all. Throws UsageError if there are more tiles than pixels, or no such pixel.

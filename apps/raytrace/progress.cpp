@@ -72,7 +72,7 @@ void Progress::update(double fraction) {
 }
 
 void Progress::skip() {
-  // People are not told that what nobody rendered is rendered.
+  // For people, "rendered 100 %" would be wrong.
   if (first_fraction_ || is_for_programs(style_)) finish();
 }
 

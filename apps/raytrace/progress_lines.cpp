@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "raytrace/description/quoted.h"
+
 namespace raytrace {
 
 namespace {
@@ -18,10 +20,10 @@ std::string with_one_decimal(double value) {
   return text;
 }
 
-/// Without control characters: a line end in a file's name must not begin a line that a farm takes for an order.
-std::string one_line(std::string text) {
+/// A line end in a file's name must not begin a line that a farm takes for an order.
+std::string without_controls(std::string text) {
   std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
-  return text;
+  return on_one_line(text);
 }
 
 std::string json_line(const nlohmann::ordered_json& event) {
@@ -31,7 +33,7 @@ std::string json_line(const nlohmann::ordered_json& event) {
 
 /// The line of an event that is told by a text.
 std::string text_line(ProgressStyle style, const char* openjd_name, const char* json_name, const std::string& text) {
-  if (style == ProgressStyle::openjd) return std::string(openjd_name) + ": " + one_line(text) + "\n";
+  if (style == ProgressStyle::openjd) return std::string(openjd_name) + ": " + without_controls(text) + "\n";
   if (style == ProgressStyle::json) return json_line({{"event", json_name}, {"text", text}});
   return {};
 }

@@ -12,15 +12,16 @@
 #include "messages.h"
 #include "outputs.h"
 #include "picture_settings.h"
-#include "signals.h"
 #include "raytrace/aovs/aov_selection.h"
 #include "raytrace/description/parse_value.h"
+#include "raytrace/description/quoted.h"
 #include "raytrace/description/scene_hash.h"
 #include "raytrace/output/atomic_file.h"
 #include "raytrace/output/complete_picture.h"
 #include "raytrace/output/film_channels.h"
 #include "raytrace/output/image_file.h"
 #include "raytrace/render/provenance.h"
+#include "signals.h"
 
 namespace raytrace {
 
@@ -113,10 +114,11 @@ bool outputs_are_complete(const SceneDescription& description, const Region& who
   identity.provenance.scene = scene_hash(description, options.threads);
   identity.film.seed = options.seed;
   identity.film.transparent = options.transparent;
+  identity.film.extent = {description.viewplane.hres, description.viewplane.vres, region};
   identity.film.samples = sample_range(description.viewplane, options);
   identity.whole = whole;
   WantedPicture wanted;
-  wanted.extent = {description.viewplane.hres, description.viewplane.vres, region};
+  wanted.extent = identity.film.extent;
   wanted.channels = color_channels(options.full_float);
   for (Channel& channel : aov_channels(options.aovs)) wanted.channels.push_back(std::move(channel));
   if (options.sample_offset)
@@ -134,7 +136,7 @@ void check_output_sizes(const Options& options, const Region& region) {
 
 std::optional<SceneDescription> load(const Options& options, Statistics& statistics) {
   obey_group_memory_limit(options.threads);
-  Diagnostics diagnostics(shown_name(options.scene));
+  Diagnostics diagnostics(on_one_line(shown_name(options.scene)));
   std::optional<SceneDescription> description;
   {
     const PhaseTimer timer(statistics.phases.load);
@@ -206,7 +208,7 @@ void report(Statistics& statistics, const Options& options) {
 }
 
 std::string summary(const SceneDescription& description) {
-  return shown_name(description.file) + ": ok (" + contents(description) + ")";
+  return on_one_line(shown_name(description.file)) + ": ok (" + contents(description) + ")";
 }
 
 }  // namespace raytrace

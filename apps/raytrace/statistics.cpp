@@ -2,10 +2,12 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "process_status.h"
+#include "raytrace/description/quoted.h"
 
 namespace raytrace {
 
@@ -50,7 +52,10 @@ double Statistics::rays_per_second() const {
 }
 
 std::uint64_t peak_memory_bytes() {
-  if (const std::uint64_t peak = process_status_bytes("VmHWM")) return peak;
+  // Linux counts pages in batches, thread by thread, so that its peak may be a few pages less than it was before.
+  static std::uint64_t highest = 0;
+  highest = std::max(highest, process_status_bytes("VmHWM"));
+  if (highest > 0) return highest;
   // The next best: the peak of whoever started this process is in it, too.
   constexpr std::uint64_t unit = 1024;  // Linux counts kibibytes
   rusage usage{};
@@ -72,7 +77,7 @@ std::string text(const Statistics& s) {
   };
   const std::string by_phase = " (" + peak("load", s.phases.load) + ", " + peak("build", s.phases.build) + ", " +
                                peak("render", s.phases.render) + ", " + peak("write", s.phases.write) + ")";
-  return line("scene", s.scene_file) + line("picture", picture + crop) +
+  return line("scene", on_one_line(s.scene_file)) + line("picture", picture + crop) +
          line("load", seconds_text(s.phases.load.seconds)) + line("build", seconds_text(s.phases.build.seconds)) +
          line("render", seconds_text(s.phases.render.seconds)) + line("write", seconds_text(s.phases.write.seconds)) +
          line("total", seconds_text(s.phases.seconds())) + line("camera rays", amount_text(s.rays.camera, "")) +

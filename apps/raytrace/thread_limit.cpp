@@ -46,8 +46,8 @@ int threads_with_room(int wanted) {
 
 void tell_missing_threads(int wanted, int used) {
   if (used == wanted) return;
-  tell_warning("there is no room for " + std::to_string(wanted) + " threads: " +
-               counted(static_cast<std::uint64_t>(used), "thread") + " used");
+  tell_warning("there is no room for " + std::to_string(wanted) +
+               " threads: " + counted(static_cast<std::uint64_t>(used), "thread") + " used");
 }
 
 }  // namespace raytrace

@@ -111,7 +111,7 @@ TEST_CASE("what AOVs gather does not depend on the order of samples, nor on how 
       for (int y = region.y0; y < region.y1; y += 2) {
         ImageBand band{{region.x0, y, region.x1, std::min(y + 2, region.y1)}, {std::vector<float>{}}};
         fill_aov_sums(band, 1, channels, part);
-        add_aov_sums(band, 1, channels, merged);
+        CHECK(add_aov_sums(band, 1, channels, {0, 2000}, std::vector<std::uint32_t>(14, 2000), merged));
       }
     }
     CHECK(same(merged, wanted));

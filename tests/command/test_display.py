@@ -47,6 +47,15 @@ class Shown(CommandTest):
         for x, y, width, height in image.updates:
             self.assertTrue(x >= 13 and y >= 7 and x + width <= 50 and y + height <= 41)
 
+    def test_pixels_beyond_the_picture(self):
+        """The viewer's image is as large as both, from its own top left."""
+        image = self.shown("--crop=-8,5,80,70")
+        self.assertEqual((image.width, image.height), (88, 70))
+        written = Exr(self.read("a.exr")).pixels()
+        wrong = [(x, y) for y in range(70) for x in range(88)
+                 if image.pixel(x, y) != written.get((x - 8, y), (0, 0, 0, 0))]
+        self.assertEqual(wrong, [])
+
     def test_many_packets(self):
         image = self.shown("-r", "500x333", "-s", "1")
         self.check(image, (500, 333))

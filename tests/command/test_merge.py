@@ -1,5 +1,6 @@
 """`raytrace merge`: what it refuses, and what it keeps."""
 
+import os
 import random
 import signal
 import struct
@@ -97,17 +98,21 @@ class Merge(CommandTest):
         message = self.refused(*pieces, "all.exr")
         for name in pieces:
             self.assertRegex(message, f"all.exr holds what {name} holds|{name} holds what all.exr holds")
-        left, top, right, bottom = Exr(self.read("tile1.exr")).data_window
-        self.assertIn(f"no piece holds samples 0 to 3 of the pixels {left},{top},{right + 1},{bottom + 1}",
-                      self.refused("tile2.exr", "tile0.exr"))
+        self.assertEqual(self.refused("tile2.exr", "tile0.exr"),
+                         "raytrace: error: tile 1/3 is missing: render it with --tile 1/3 -s 4\n")
+        self.render("missing.exr", "--tile", "1/3", "-s", "4")
+        self.merge("tile2.exr", "tile0.exr", "missing.exr")
 
     def test_missing_and_doubled_samples_are_refused(self):
         for first, count in ((0, 3), (3, 2), (5, 4), (4, 1)):
             self.render(f"from{first}.exr", "-s", str(count), "--sample-offset", str(first))
-        self.assertIn("no piece holds samples 3 to 4 of the pixels 0,0,80,60", self.refused("from5.exr", "from0.exr"))
+        self.assertIn("samples 3 to 4 are missing: render them with --sample-offset 3 -s 2\n",
+                      self.refused("from5.exr", "from0.exr"))
         self.assertRegex(self.refused("from0.exr", "from3.exr", "from4.exr", "from5.exr"),
                          "from[34].exr holds what from[34].exr holds, too")
-        self.assertIn("the pieces hold 5 samples a pixel, not 9", self.refused("from0.exr", "from3.exr", "-s", "9"))
+        message = self.refused("from0.exr", "from3.exr", "-s", "9")
+        self.assertIn("the pieces hold 5 samples a pixel, not 9\n", message)
+        self.assertIn("samples 5 to 8 are missing: render them with --sample-offset 5 -s 4\n", message)
         self.merge("from0.exr", "from3.exr", "from5.exr", options=["-s", "9"])
         self.merge("from0.exr", "from3.exr")  # who does not say how many has a picture of 5
 
@@ -124,6 +129,44 @@ class Merge(CommandTest):
             with open(self.path("cut.exr"), "wb") as file:
                 file.write(whole[:size])
             self.assertIn("cannot read cut.exr: ", self.refused("tile0.exr", "cut.exr"), f"{size} bytes")
+
+    def test_what_is_no_regular_file_is_refused_at_once(self):
+        self.tiles(2)
+        os.mkfifo(self.path("pipe"))
+        for piece in ("pipe", "/dev/zero", "."):
+            self.assertIn(f"cannot read {piece}: it is ", self.refused("tile0.exr", piece))
+        for name in ("pipe", "/dev/zero", "."):
+            message = self.fail_with(2, "merge", "@" + name, "-o", "refused.exr")
+            self.assertIn(f"the list of pieces {name} is no regular file", message)
+        message = self.fail_with(1, "scene.xml", "-o", "a.exr", "--checkpoint", "pipe", "--resume")
+        self.assertIn("pipe: it is not a regular file", message)
+        self.assertIn("there is no list of pieces none", self.fail_with(2, "merge", "@none", "-o", "refused.exr"))
+
+    def test_lists_as_other_systems_write_them(self):
+        whole = self.render("all.exr")
+        self.tiles(2)
+        for text in (b"tile0.exr\r\ntile1.exr\r\n", b"\xef\xbb\xbftile0.exr\ntile1.exr",
+                     b"\n\ntile0.exr  \n \t\r\ntile1.exr\t\n\n", b"\xef\xbb\xbf\r\ntile0.exr \r\ntile1.exr"):
+            with open(self.path("list"), "wb") as file:
+                file.write(text)
+            self.assertEqual(self.merge("@list").row_bytes, whole.row_bytes, text)
+        self.write("list", "\r\n")
+        self.assertIn("no pieces given", self.fail_with(2, "merge", "@list", "-o", "refused.exr"))
+
+    def test_windows_that_are_not_a_pieces_own(self):
+        """What render/hostile_pieces_test.cpp tries in many ways, from one end to the other."""
+        self.tiles(2)
+        good = self.read("tile1.exr")
+        window = good.index(b"dataWindow\0box2i\0") + len(b"dataWindow\0box2i\0") + 4
+        left, top, right, bottom = struct.unpack_from("<4i", good, window)
+        for shift in (1, 8, 500, 100000 - left, -left, 2**31 - 1 - right):
+            bad = bytearray(good)
+            struct.pack_into("<4i", bad, window, left + shift, top, right + shift, bottom)
+            with open(self.path("tile1.exr"), "wb") as file:
+                file.write(bad)
+            for options in ([], ["--partial"]):
+                message = self.refused("tile0.exr", "tile1.exr", *options)
+                self.assertRegex(message, "tile1.exr.* data window")
 
     def test_a_piece_that_was_stopped_is_refused_but_with_partial(self):
         self.stopped_piece("tile1.exr", *ENDLESS, "--crop", "0,0,400,400")
@@ -183,6 +226,22 @@ class Merge(CommandTest):
             picture = self.merge("from1.exr", "from0.exr")
             self.assertEqual(picture.channels, dict.fromkeys("ABGR", code))
             self.assertEqual(picture.row_bytes, whole.row_bytes)
+
+    def test_pieces_beyond_the_picture(self):
+        crop = ["--crop", "-13,-9,101,75", "-s", "6", "--aov", "depth,crypto_object"]
+        whole = self.render("all.exr", *crop)
+        self.assertEqual((whole.data_window, whole.display_window), ((-13, -9, 100, 74), (0, 0, 79, 59)))
+        names = self.tiles(3, *crop)
+        self.assertIn("tile 1/3 is missing: render it with --tile 1/3 -s 6 --crop=-13,-9,101,75",
+                      self.refused(names[0], names[2]))
+        self.assertEqual(self.merge(*names).row_bytes, whole.row_bytes)
+        for first in (0, 4):
+            self.render(f"from{first}.exr", *crop, "--tile", "1/3", "--sample-offset", str(first), "-s",
+                        "4" if first == 0 else "2")
+        picture = self.merge(names[2], "from4.exr", names[0], "from0.exr")
+        self.assertEqual(picture.row_bytes, whole.row_bytes)
+        self.assertEqual((picture.data_window, picture.display_window), (whole.data_window, whole.display_window))
+        self.merge(names[0], options=["--partial"])
 
     def test_metadata_is_kept(self):
         whole = self.render("all.exr", "-s", "9", "--seed", "5", "--crop", "3,5,61,50")

@@ -108,6 +108,37 @@ class Pictures(CommandTest):
             for place, values in part.pixels().items():
                 self.assertEqual(values, whole[place], (crop, place))
 
+    def test_pixels_beyond_the_picture(self):
+        whole = self.render()
+        for crop in ("-80,-60,160,120", "-13,-9,83,60", "-5,20,30,61", "3,-7,79,59"):
+            left, top, right, bottom = map(int, crop.split(","))
+            part = self.render("--crop", crop)
+            self.assertEqual(part.data_window, (left, top, right - 1, bottom - 1))
+            self.assertEqual(part.display_window, (0, 0, 79, 59))
+            inside = max(left, 0), max(top, 0), min(right, 80), min(bottom, 60)
+            self.assertEqual(part.bytes_of(*inside), whole.bytes_of(*inside))
+            self.assertEqual(self.render("--crop=" + crop).row_bytes, part.row_bytes)
+        # The larger picture with the same pixels on the view plane.
+        wide = support.SCENE.replace("<hres>80", "<hres>120").replace("<vres>60", "<vres>100")
+        self.write("wide.xml", wide)
+        centered = ["-s", "1"]  # samples are placed by the pixel's coordinates
+        larger = self.render(*centered, scene="wide.xml")
+        over = self.render("--crop", "-20,-20,100,80", *centered)
+        self.assertEqual({(x + 20, y + 20): pixel for (x, y), pixel in over.pixels().items()}, larger.pixels())
+
+    def test_pixels_beyond_the_picture_in_other_ways(self):
+        crop = ["--crop", "-9,-5,40,30"]
+        whole = self.render(*crop)
+        self.assertEqual(self.render(*crop, "--time-limit", "10h").row_bytes, whole.row_bytes)
+        self.assertEqual(self.render(*crop, "-t", "3", "--checkpoint", "c.exr").row_bytes, whole.row_bytes)
+        printed = self.succeed("scene.xml", *crop, "--pixel", "-3,-2").stdout
+        mean = [float(word) for word in printed.splitlines()[-1].split()[1:]]
+        for value, wanted in zip(mean, whole.pixel(-3, -2)):
+            self.assertAlmostEqual(value, wanted, delta=1e-3)
+        self.assertIn("--pixel: there is no pixel -3,-2", self.fail_with(2, "scene.xml", "--pixel", "-3,-2"))
+        self.succeed("scene.xml", "-q", "-o", "b.png", *crop)
+        self.assertEqual((Png(self.read("b.png")).width, Png(self.read("b.png")).height), (49, 35))
+
     def test_crop_of_a_png_is_just_its_pixels(self):
         self.succeed("scene.xml", "-q", "-o", "a.png")
         self.succeed("scene.xml", "-q", "-o", "b.png", "--crop", "13,7,54,41")

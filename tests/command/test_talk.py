@@ -79,6 +79,44 @@ class Messages(CommandTest):
         self.assertRegex(version, r"^raytrace \d+\.\d+\.\d+\nEmbree \d+\.\d+\.\d+\nOpenImageIO \d+\.\d+\.\d+\noneTBB \d+")
 
 
+class NamesWithControlCharacters(CommandTest):
+    # A line end, a terminal's command in both encodings, and a byte that is no UTF-8.
+    EVIL = b"a\nraytrace: error: \x1b[31m\xc2\x9b31m\x07\xff"
+
+    def run_program(self, *arguments, **keywords):
+        done = subprocess.run([os.fsencode(support.PROGRAM), *(a if isinstance(a, bytes) else a.encode() for a in arguments)],
+                              cwd=self.folder, capture_output=True, stdin=subprocess.DEVNULL, check=False, **keywords)
+        for text in (done.stdout, done.stderr, self.read("log") if os.path.exists(self.path("log")) else b""):
+            for line in text.decode().splitlines():  # which must be UTF-8
+                self.assertTrue(line.isprintable(), line)
+                self.assertFalse(line.startswith(r"raytrace: error: \x1b"), line)  # from the name
+        return done.returncode, done.stdout.decode(), done.stderr.decode()
+
+    def test_none_reaches_the_terminal_or_the_log(self):
+        scene, picture = self.EVIL + b".xml", self.EVIL + b".exr"
+        os.rename(os.fsencode(self.path("scene.xml")), os.fsencode(self.folder) + b"/" + scene)
+        shown = r"a\x0araytrace: error: \x1b[31m\xc2\x9b31m\x07\xff"
+        small = ["-r", "8x8", "-s", "1", "--log-file", "log"]
+        code, _, told = self.run_program(scene, *small, "-vv", "-o", picture, b"--stats=" + self.EVIL)
+        self.assertEqual(code, 0, told)
+        self.assertIn(f"wrote {shown}.exr", told)
+        code, _, told = self.run_program(scene, *small, "--skip-existing", "--progress=openjd", "-o", picture)
+        self.assertEqual(code, 0, told)
+        self.assertIn(f"{shown}.exr: there already", told)
+        self.assertIn(shown, self.run_program(scene, "--validate")[1])
+        for code, arguments in ((2, [scene, "-o", picture, "-o", picture]), (1, [b"missing" + scene, "-o", picture]),
+                                (1, [scene, "-o", self.EVIL + b"/" + picture]), (2, [scene, "-o", "b.exr", "--spp", self.EVIL]),
+                                (1, ["merge", picture, b"no" + picture, "-o", "c.exr"]),
+                                (2, [scene, "-o", picture, b"--" + self.EVIL])):
+            got, _, told = self.run_program(*arguments)
+            self.assertEqual(got, code, told)
+            self.assertIn(r"a\x0aray", told)
+
+    def test_our_own_lines_stay(self):
+        _, _, told = self.run_program("x.xml", "y.xml", "-o", "{scene}.exr")
+        self.assertTrue(told.endswith("2 of 2 renders failed:\n  x.xml\n  y.xml\n"), told)
+
+
 def closed(schema):
     """The schema, but with no keys allowed other than those that it has."""
     if isinstance(schema, list):

@@ -35,11 +35,13 @@ class Usage(CommandTest):
         self.assertIn("it is a folder; name a file in it", self.fail_with(1, "scene.xml", "-o", "/"))
 
     def test_crops_outside_the_picture(self):
-        for text in ["0,0,81,60", "0,0,80,61", "-1,0,5,5", "100,100,110,110"]:
+        for text in ["0,0,161,60", "0,0,80,121", "-81,0,5,5", "0,-61,5,5", "-2147483648,0,2147483647,1"]:
             self.assertIn("outside the picture of 80 x 60",
                           self.refused("scene.xml", "-q", "-o", "a.exr", "--crop", text))
         self.assertIn("outside the picture of 40 x 30",
-                      self.refused("scene.xml", "-q", "-o", "a.exr", "--crop", "0,0,41,30", "--scale", "0.5"))
+                      self.refused("scene.xml", "-q", "-o", "a.exr", "--crop", "0,0,81,30", "--scale", "0.5"))
+        self.assertIn("too many", self.refused("scene.xml", "-q", "-o", "a.exr", "-r", "16000x16000", "--crop",
+                                               "-16000,0,32000,16000"))
 
     def test_too_large(self):
         for size in (["-r", "65537x1"], ["-r", "20000x20000"], ["--scale", "1e300"]):

@@ -41,7 +41,7 @@ void check_cover(const Region& region, int count) {
 
 Region random_region(std::mt19937& random, int longest) {
   const auto below = [&](int end) { return static_cast<int>(random() % static_cast<unsigned>(end)); };
-  const int x = below(50), y = below(50);
+  const int x = below(100) - 50, y = below(100) - 50;  // below 0: beyond the picture
   return {x, y, x + 1 + below(longest), y + 1 + below(longest)};
 }
 

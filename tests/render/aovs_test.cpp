@@ -106,7 +106,7 @@ TEST_CASE("AOVs are the same from any split of the samples, in passes or in piec
     const std::vector<Channel> channels = aov_sum_channels(*piece.aovs());
     ImageBand band{everything, {}};
     fill_aov_sums(band, 0, channels, *piece.aovs());
-    add_aov_sums(band, 0, channels, *merged.aovs());
+    CHECK(add_aov_sums(band, 0, channels, {first, count}, std::vector<std::uint32_t>(61 * 43, count), *merged.aovs()));
     for (int y = 0; y < 43; ++y)
       for (int x = 0; x < 61; ++x) merged.sum(x, y) += piece.sum(x, y);
   }

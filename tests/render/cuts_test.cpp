@@ -179,7 +179,10 @@ class CutRender {
         " " + text_of(region) + " from " + std::to_string(samples.first) + " on " + std::to_string(samples.count) + ";";
     Film film = empty_film(region, samples);
     render(*scene_, film, samples.count, chance_.number(1, 4));
-    PieceIdentity identity{provenance_of("raytrace test", *scene_, description_), film.settings(), whole, false};
+    PieceIdentity identity;
+    identity.provenance = provenance_of("raytrace test", *scene_, description_);
+    identity.film = film.settings();
+    identity.whole = whole;
     ImageMetadata metadata;
     metadata.software = identity.provenance.software;
     metadata.samples = static_cast<int>(samples.count);

@@ -44,6 +44,27 @@ TEST_CASE("a crop's bytes are those of the whole picture") {
   }
 }
 
+TEST_CASE("pixels beyond the picture do not depend on what else is rendered, nor those of the picture on them") {
+  for (const int samples : {1, 3, 4, 8, 16}) {  // packets of several shapes
+    const SceneDescription description = parsed_scene(busy_scene(50, 38, samples));
+    for (const std::string& isa : usable_isas()) {
+      const auto scene = build_scene(description, {1, isa});
+      RayCounts rays;
+      const auto all = render(*scene, description, {3, 5, {-50, -38, 100, 76}}, rays);
+      for (const Region& crop :
+           {whole(description), Region{-50, -38, 0, 0}, Region{-1, -1, 1, 1}, Region{-9, 3, 57, 41},
+            Region{-17, -11, -4, 20}, Region{49, 37, 100, 76}, Region{60, -30, 90, -5}}) {
+        const Film part = render(*scene, description, {1, 5, crop}, rays);
+        int wrong = 0;
+        for (int y = crop.y0; y < crop.y1; ++y)
+          for (int x = crop.x0; x < crop.x1; ++x) wrong += !identical(part.pixel(x, y), all.pixel(x, y));
+        INFO(isa << ", " << samples << " samples: " << text_of(crop));
+        CHECK(wrong == 0);
+      }
+    }
+  }
+}
+
 TEST_CASE("another seed gives another picture of the same thing, the same seed the same picture") {
   const SceneDescription description = parsed_scene(busy_scene(64, 48, 64));
   const FloatPicture first = rendered(description, 1, {}, 1), second = rendered(description, 1, {}, 2);

@@ -70,10 +70,6 @@ std::pair<int, int> least_and_most(const std::vector<PieceExtent>& pieces) {
   return {least, most};
 }
 
-bool contains(const std::vector<std::string>& lines, const std::string& line) {
-  return std::find(lines.begin(), lines.end(), line) != lines.end();
-}
-
 }  // namespace
 
 TEST_CASE("overlaps and gaps are found in random layouts, and nowhere else") {
@@ -93,7 +89,7 @@ TEST_CASE("overlaps and gaps are found in random layouts, and nowhere else") {
     const auto [least, most] = least_and_most(pieces);
     INFO("layout " << i);
     REQUIRE(overlaps(pieces).empty() == (most < 2));
-    REQUIRE(gaps(pieces, {0, 0, side, side}, samples).empty() == (least > 0));
+    REQUIRE(missing_parts(pieces, {{0, 0, side, side}, samples}).empty() == (least > 0));
     overlapping += most > 1;
     gaping += least == 0;
     exact += least == 1 && most == 1;
@@ -112,17 +108,48 @@ TEST_CASE("overlaps and gaps are told by their files, pixels and samples") {
   CHECK(twice[0].find("again.exr") != std::string::npos);
   CHECK(overlaps({left, right}).empty());
 
-  const Region whole{0, 0, 8, 8};
-  const std::vector<std::string> missing = gaps({left, right}, whole, 10);
-  CHECK(missing == std::vector<std::string>{"no piece holds samples 6 to 9 of the pixels 4,0,8,8"});
-  CHECK(contains(gaps({right}, whole, 6), "no piece holds samples 0 to 5 of the pixels 0,0,4,8"));
-  CHECK(gaps({left, right}, whole, 6).empty());
+  CHECK(missing_parts({left, right}, {{0, 0, 8, 8}, 6}).empty());
+  const std::vector<std::string> missing = missing_parts({left, right}, {{0, 0, 8, 8}, 10});
+  REQUIRE(missing.size() == 1);
+  CHECK(missing[0].starts_with("no piece holds samples 6 to 9 of the pixels 4,0,8,8"));
+}
+
+TEST_CASE("what is missing is told with the options that render it") {
+  using Lines = std::vector<std::string>;
+  const Region whole{-8, 0, 56, 48};
+  const auto tile = [&](int index, int count, std::uint64_t first, std::uint64_t last) {
+    return PieceExtent{"piece.exr", tile_of(whole, index, count), first, last, raytrace::Tile{index, count}};
+  };
+  const PieceExtent all{"all.exr", whole, 0, 3}, rest{"rest.exr", whole, 5, 9};
+  CHECK(missing_parts({tile(0, 3, 0, 4), tile(1, 3, 0, 4)}, {whole, 4}) ==
+        Lines{"tile 2/3 is missing: render it with --tile 2/3 -s 4"});
+  CHECK(missing_parts({tile(1, 3, 0, 4)}, {whole, 4, false, "-8,0,56,48"}) ==
+        Lines{"tile 0/3 is missing: render it with --tile 0/3 -s 4 --crop=-8,0,56,48",
+              "tile 2/3 is missing: render it with --tile 2/3 -s 4 --crop=-8,0,56,48"});
+  CHECK(missing_parts({tile(0, 2, 0, 1)}, {whole, 1}) ==
+        Lines{"tile 1/2 is missing: render it with --tile 1/2 --sample-offset 0 -s 1"});
+  CHECK(missing_parts({tile(0, 2, 0, 1)}, {whole, 1, true}) ==
+        Lines{"tile 1/2 is missing: render it with --tile 1/2 -s 1"});
+  CHECK(missing_parts({all, rest}, {whole, 9}) ==
+        Lines{"samples 3 to 4 are missing: render them with --sample-offset 3 -s 2"});
+  CHECK(missing_parts({all, rest}, {whole, 10}) ==
+        Lines{"samples 3 to 4 are missing: render them with --sample-offset 3 -s 2",
+              "sample 9 is missing: render it with --sample-offset 9 -s 1"});
+  CHECK(missing_parts({tile(0, 2, 0, 6), tile(1, 2, 0, 2), tile(1, 2, 4, 6)}, {whole, 6}) ==
+        Lines{"samples 2 to 3 of tile 1/2 are missing: render them with --tile 1/2 --sample-offset 2 -s 2"});
+  // A half and a third leave a sixth that is no tile of either cut.
+  const Lines mixed = missing_parts({tile(0, 2, 0, 1), tile(2, 3, 0, 1)}, {whole, 1, true});
+  REQUIRE(!mixed.empty());
+  CHECK(mixed[0].starts_with("no piece holds sample 0 of the pixels "));
+  // Halves of which one is cut again: the quarter is enough.
+  CHECK(missing_parts({tile(0, 2, 0, 1), tile(2, 4, 0, 1)}, {whole, 1, true}) ==
+        Lines{"tile 3/4 is missing: render it with --tile 3/4 -s 1"});
 }
 
 TEST_CASE("a picture of which much is missing is told in a few lines") {
   std::vector<PieceExtent> pieces;
   for (int i = 0; i < 1000; ++i) pieces.push_back({"p", {2 * i, 0, 2 * i + 1, 1}, 0, 1});
-  const std::size_t lines = gaps(pieces, {0, 0, 2000, 1}, 1).size();
+  const std::size_t lines = missing_parts(pieces, {{0, 0, 2000, 1}, 1}).size();
   CHECK(lines > 1);
   CHECK(lines < 50);
 }

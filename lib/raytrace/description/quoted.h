@@ -1,4 +1,4 @@
-// Text from a scene file, made fit to stand in a message.
+// Text from a scene file or a user, made fit to stand in a message.
 #pragma once
 
 #include <span>
@@ -7,8 +7,11 @@
 
 namespace raytrace {
 
-/// The text, cut to a length that a line of a terminal holds; bytes that are no printable ASCII are shown as \xNN,
-/// except for whole UTF-8 characters.
+/// The text on one line, without anything that a terminal takes for a command: control characters and bytes that are no
+/// UTF-8 are shown as \xNN.
+std::string on_one_line(std::string_view text);
+
+/// The same, cut to a length that a line of a terminal holds.
 std::string printable(std::string_view text);
 
 /// 'text', printable.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "raytrace/film/region.h"
+
 namespace raytrace {
 
 Fields<ViewPlane> ViewPlane::fields() {
@@ -11,9 +13,7 @@ Fields<ViewPlane> ViewPlane::fields() {
 }
 
 std::optional<Problem> ViewPlane::check(const ViewPlane& viewplane) {
-  if (viewplane.hres <= largest_edge && viewplane.vres <= largest_edge &&
-      double(viewplane.hres) * double(viewplane.vres) <= most_pixels)
-    return std::nullopt;
+  if (is_allowed_size(viewplane.hres, viewplane.vres)) return std::nullopt;
   return Problem{Problem::Kind::error,
                  "a picture of " + std::to_string(viewplane.hres) + " x " + std::to_string(viewplane.vres) +
                      " pixels is beyond the limit of 65536 pixels an edge and 268435456 (16384 x 16384) in all"};

@@ -10,10 +10,6 @@
 
 namespace raytrace {
 
-/// No image edge above this many pixels, and no image above `most_pixels` (16384 x 16384) in all.
-inline constexpr int largest_edge = 65536;
-inline constexpr double most_pixels = 268435456;
-
 struct ViewPlane {
   int hres = 0;                     ///< pixels across
   int vres = 0;                     ///< pixels down

@@ -55,6 +55,7 @@ struct DisplayClient::Shared {
   const DisplayAddress address;
   const std::string image_name;
   const PictureExtent extent;
+  const Region view;  ///< what the viewer shows: the picture, and what is rendered beyond it
 
   std::mutex mutex;  // guards all that follows but the atomics
   std::condition_variable changed;
@@ -68,7 +69,11 @@ struct DisplayClient::Shared {
   std::atomic<bool> waits_for_more{false};
 
   Shared(const DisplayAddress& to, const std::string& name, const PictureExtent& size, WarningFunction warning)
-      : address(to), image_name(name), extent(size), warn(std::move(warning)) {}
+      : address(to),
+        image_name(name),
+        extent(size),
+        view(around({0, 0, size.full_width, size.full_height}, size.region)),
+        warn(std::move(warning)) {}
 
   void copy(const Film& film, const Region& part) {
     const auto width = static_cast<std::size_t>(extent.region.width());
@@ -85,9 +90,11 @@ struct DisplayClient::Shared {
            static_cast<std::size_t>(x - region.x0);
   }
 
+  /// In the viewer's image, whose origin is the picture's, or that of what is rendered beyond it.
   std::string packet_of(const Region& rectangle) {
+    const Region place{rectangle.x0 - view.x0, rectangle.y0 - view.y0, rectangle.x1 - view.x0, rectangle.y1 - view.y0};
     const std::lock_guard lock(mutex);
-    return update_image_packet(image_name, rectangle, &pixels[index(rectangle.x0, rectangle.y0)],
+    return update_image_packet(image_name, place, &pixels[index(rectangle.x0, rectangle.y0)],
                                static_cast<std::size_t>(extent.region.width()));
   }
 
@@ -134,7 +141,7 @@ struct DisplayClient::Shared {
   /// Until the end, or until the viewer fails.
   void serve() {
     DisplayServer server(address, ending);
-    server.send(create_image_packet(image_name, extent.full_width, extent.full_height));
+    server.send(create_image_packet(image_name, view.width(), view.height()));
     {
       const std::lock_guard lock(mutex);
       unsent = shown;

@@ -38,7 +38,11 @@ class AovFilm {
 
   /// A sample that met a surface. values: settings().nearest_values words.
   void add_nearest(int x, int y, float depth, std::uint32_t sample, const std::uint32_t* values);
-  void add_mean(int x, int y, std::size_t mean, std::int64_t units) { sums_[pixel(x, y) * means() + mean] += units; }
+  /// Whether the sum has room for it.
+  bool add_mean(int x, int y, std::size_t mean, std::int64_t units) {
+    std::int64_t& sum = sums_[pixel(x, y) * means() + mean];
+    return !__builtin_add_overflow(sum, units, &sum);
+  }
   void add_cover(int x, int y, std::size_t cover, const IdCount& more);
 
   struct Nearest {

@@ -21,6 +21,12 @@ int unit_exponent(float largest_radiance, std::uint64_t samples) {
   return exponent - sample_bits + std::max(0, needed_bits - count_bits);
 }
 
+bool is_unit_exponent(int exponent) {
+  constexpr auto most_samples = static_cast<std::uint64_t>(std::numeric_limits<int>::max());
+  return exponent >= unit_exponent(std::numeric_limits<float>::denorm_min(), 1) &&
+         exponent <= unit_exponent(std::numeric_limits<float>::max(), most_samples);
+}
+
 Film::~Film() = default;
 Film::Film(Film&&) noexcept = default;
 Film& Film::operator=(Film&&) noexcept = default;

@@ -9,17 +9,10 @@
 #include <vector>
 
 #include "raytrace/film/aov_settings.h"
+#include "raytrace/film/region.h"
 #include "raytrace/memory/large_array.h"
 
 namespace raytrace {
-
-/// Pixels [x0, x1) x [y0, y1); the origin is the picture's top left corner.
-struct Region {
-  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-  int width() const { return x1 - x0; }
-  int height() const { return y1 - y0; }
-  friend bool operator==(const Region&, const Region&) = default;
-};
 
 /// The whole picture's size, and the part of it that is rendered.
 struct PictureExtent {
@@ -74,6 +67,9 @@ struct FilmSettings {
 /// `samples` radiances up to `largest_radiance` fit: 2^-44 of the next power of two above it, for up to 524,288
 /// samples. It depends on nothing else, so that the parts of a picture agree on it.
 int unit_exponent(float largest_radiance, std::uint64_t samples);
+
+/// Whether unit_exponent() may be that of a picture.
+bool is_unit_exponent(int exponent);
 
 class AovFilm;
 

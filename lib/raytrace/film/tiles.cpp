@@ -49,8 +49,9 @@ Region tile_of(const Region& region, int index, int count) {
   // Fewer blocks than this a part would make parts of too different sizes.
   constexpr std::int64_t least_blocks = 16;
   for (const int edge : {8, 1}) {
-    const int column = region.x0 / edge, row = region.y0 / edge;
-    const Blocks all{column, row, (region.x1 + edge - 1) / edge - column, (region.y1 + edge - 1) / edge - row};
+    const int left = round_down(region.x0, edge), top = round_down(region.y0, edge);
+    const Blocks all{left / edge, top / edge, (region.x1 - left + edge - 1) / edge,
+                     (region.y1 - top + edge - 1) / edge};
     if (edge > 1 && all.count() < least_blocks * count) continue;
     const Blocks part = part_of(all, index, count);
     const auto pixels = [edge](std::int64_t block) { return static_cast<int>(block * edge); };

@@ -1,9 +1,15 @@
 // A picture cut into parts for several machines.
 #pragma once
 
-#include "raytrace/film/film.h"
+#include "raytrace/film/region.h"
 
 namespace raytrace {
+
+/// Part `index` of `count`, as --tile asks for it.
+struct Tile {
+  int index = 0, count = 1;
+  friend bool operator==(const Tile&, const Tile&) = default;
+};
 
 /// Part `index` of `count` of a region: together they cover it exactly, and none is empty. Where the region is large
 /// enough, they are cut along the blocks of 8 x 8 pixels that packets share, and are as equal as that allows.

@@ -17,7 +17,7 @@ namespace {
 constexpr int packets_per_look = 16;
 
 FloatN to_float(const UintN& numbers) { return to_float(same_bits<IntN>(numbers)); }
-FloatN to_float(std::uint32_t number) { return FloatN(static_cast<float>(number)); }
+FloatN to_float(std::uint32_t number) { return FloatN(static_cast<float>(static_cast<std::int32_t>(number))); }
 
 /// The pixels of a part of a film, block by block.
 template <class Integrator, PacketShape shape>
@@ -35,8 +35,8 @@ class BlockRenderer {
 
   /// Continues all pixels to `samples` each; returns early if it is stopped.
   RenderReport render(std::uint32_t samples) {
-    for (int top = region_.y0 / shape.height * shape.height; top < region_.y1; top += shape.height)
-      for (int left = region_.x0 / shape.width * shape.width; left < region_.x1; left += shape.width) {
+    for (int top = round_down(region_.y0, shape.height); top < region_.y1; top += shape.height)
+      for (int left = round_down(region_.x0, shape.width); left < region_.x1; left += shape.width) {
         render({left, top}, samples);
         if (stopped()) return report_;
       }
@@ -94,7 +94,7 @@ class BlockRenderer {
     // The lower left corner of the pixel, from the picture's center; rows of the format count from the bottom.
     const FloatN x = to_float(column) - FloatN(width / 2);
     const FloatN y = FloatN(height / 2 - 1) - to_float(row);
-    const MaskN active = (to_float(column) < FloatN(width)) & (to_float(row) < FloatN(height));
+    const MaskN active = in_view(to_float(column), to_float(row));
 
     // From the group that the first sample is in, with all that belong to it.
     constexpr auto group = static_cast<std::uint32_t>(shape.samples);
@@ -117,6 +117,17 @@ class BlockRenderer {
       if (packets % packets_per_look == 0 && stopped()) break;
     }
     sums.add_to(film_, block, region_);
+  }
+
+  /// Pixels of the picture, and those beyond it that are wanted.
+  MaskN in_view(const FloatN& column, const FloatN& row) const {
+    const ViewPlane& viewplane = scene_.viewplane();
+    const Region& wanted = film_.region();
+    const auto number = [](int edge) { return FloatN(static_cast<float>(edge)); };
+    const MaskN inside =
+        (column < number(std::max(viewplane.hres, wanted.x1))) & (row < number(std::max(viewplane.vres, wanted.y1)));
+    if (wanted.x0 >= 0 && wanted.y0 >= 0) return inside;
+    return inside & (column >= number(std::min(0, wanted.x0))) & (row >= number(std::min(0, wanted.y0)));
   }
 
   /// Of each lane's pixel.

@@ -58,19 +58,11 @@ void for_each_pixel(const Region& region, const Function& f) {
     for (int x = region.x0; x < region.x1; ++x) f(pixel++, x, y);
 }
 
-std::size_t most_ids(const AovFilm& film, std::size_t cover) {
-  std::size_t most = 0;
-  for_each_pixel(film.region(),
-                 [&](std::size_t, int x, int y) { most = std::max(most, film.ranked(x, y, cover).size()); });
-  return most;
-}
-
-}  // namespace
-
-std::vector<Channel> aov_sum_channels(const AovFilm& film) {
+/// ids(cover): how many a cover has.
+template <class Ids>
+std::vector<Channel> channels_of(const AovSettings& settings, const Ids& ids) {
   std::vector<Channel> channels;
   const auto add = [&](const std::string& name) { channels.push_back({name, ChannelType::uint32}); };
-  const AovSettings& settings = film.settings();
   if (settings.nearest_values > 0) {
     add(nearest_sample);
     add(nearest_depth);
@@ -81,8 +73,8 @@ std::vector<Channel> aov_sum_channels(const AovFilm& film) {
     add(mean_half(i, "high"));
   }
   for (std::size_t cover = 0; cover < settings.covers; ++cover) {
-    const std::size_t ids = most_ids(film, cover);
-    for (std::size_t i = 0; i < ids; ++i) {
+    const std::size_t count = ids(cover);
+    for (std::size_t i = 0; i < count; ++i) {
       add(cover_part(cover, "id", i));
       add(cover_part(cover, "count", i));
     }
@@ -90,11 +82,25 @@ std::vector<Channel> aov_sum_channels(const AovFilm& film) {
   return channels;
 }
 
-std::vector<Channel> aov_sum_channels(const std::vector<Channel>& channels) {
-  std::vector<Channel> found;
-  for (const Channel& channel : channels)
-    if (channel.name.starts_with(prefix) && channel.type == ChannelType::uint32) found.push_back(channel);
-  return found;
+std::size_t most_ids(const AovFilm& film, std::size_t cover) {
+  std::size_t most = 0;
+  for_each_pixel(film.region(),
+                 [&](std::size_t, int x, int y) { most = std::max(most, film.ranked(x, y, cover).size()); });
+  return most;
+}
+
+}  // namespace
+
+std::vector<Channel> aov_sum_channels(const AovFilm& film) {
+  return channels_of(film.settings(), [&](std::size_t cover) { return most_ids(film, cover); });
+}
+
+std::vector<Channel> aov_sum_channels(const AovSettings& settings, const std::vector<Channel>& channels) {
+  return channels_of(settings, [&](std::size_t cover) {
+    const std::string ids = prefix + "cover" + std::to_string(cover) + ".id";
+    return static_cast<std::size_t>(std::count_if(
+        channels.begin(), channels.end(), [&](const Channel& channel) { return channel.name.starts_with(ids); }));
+  });
 }
 
 void fill_aov_sums(ImageBand& band, std::size_t first_plane, const std::vector<Channel>& channels,
@@ -143,42 +149,51 @@ void fill_aov_sums(ImageBand& band, std::size_t first_plane, const std::vector<C
   }
 }
 
-void add_aov_sums(const ImageBand& band, std::size_t first_plane, const std::vector<Channel>& channels, AovFilm& film) {
+bool add_aov_sums(const ImageBand& band, std::size_t first_plane, const std::vector<Channel>& channels,
+                  const SampleRange& range, const std::vector<std::uint32_t>& samples, AovFilm& film) {
   const Planes<const std::uint32_t> planes(band, first_plane, channels);
   const AovSettings& settings = film.settings();
-  const std::uint32_t* const sample = planes[nearest_sample];
-  const std::uint32_t* const depth = planes[nearest_depth];
-  std::vector<const std::uint32_t*> values;
-  for (std::size_t i = 0; i < settings.nearest_values; ++i) values.push_back(planes[nearest_value(i)]);
-  const bool has_nearest =
-      !values.empty() && sample != nullptr && depth != nullptr &&
-      std::none_of(values.begin(), values.end(), [](const auto* plane) { return plane == nullptr; });
-  if (has_nearest) {
+  bool sound = true;
+  if (settings.nearest_values > 0) {
+    const std::uint32_t* const sample = planes[nearest_sample];
+    const std::uint32_t* const depth = planes[nearest_depth];
+    std::vector<const std::uint32_t*> values;
+    for (std::size_t i = 0; i < settings.nearest_values; ++i) values.push_back(planes[nearest_value(i)]);
     std::vector<std::uint32_t> words(values.size());
     for_each_pixel(band.region, [&](std::size_t pixel, int x, int y) {
       if (sample[pixel] == 0) return;
+      const std::uint32_t index = sample[pixel] - 1;
+      if (index < range.first || index - range.first >= range.count || samples[pixel] == 0) sound = false;
       for (std::size_t i = 0; i < values.size(); ++i) words[i] = values[i][pixel];
-      film.add_nearest(x, y, std::bit_cast<float>(depth[pixel]), sample[pixel] - 1, words.data());
+      film.add_nearest(x, y, std::bit_cast<float>(depth[pixel]), index, words.data());
     });
   }
   for (std::size_t i = 0; i < settings.mean_units.size(); ++i) {
     const std::uint32_t* const low = planes[mean_half(i, "low")];
     const std::uint32_t* const high = planes[mean_half(i, "high")];
-    if (low == nullptr || high == nullptr) continue;
     for_each_pixel(band.region, [&](std::size_t pixel, int x, int y) {
-      film.add_mean(x, y, i, static_cast<std::int64_t>(low[pixel] | std::uint64_t{high[pixel]} << 32U));
+      const auto sum = static_cast<std::int64_t>(low[pixel] | std::uint64_t{high[pixel]} << 32U);
+      if (!film.add_mean(x, y, i, sum)) sound = false;
     });
   }
   for (std::size_t cover = 0; cover < settings.covers; ++cover) {
+    std::vector<std::uint32_t> left = samples;  // that no id has yet
     for (std::size_t i = 0;; ++i) {
       const std::uint32_t* const id = planes[cover_part(cover, "id", i)];
       const std::uint32_t* const count = planes[cover_part(cover, "count", i)];
       if (id == nullptr || count == nullptr) break;
       for_each_pixel(band.region, [&](std::size_t pixel, int x, int y) {
-        if (count[pixel] != 0) film.add_cover(x, y, cover, {id[pixel], count[pixel]});
+        if (count[pixel] == 0) return;
+        if (count[pixel] > left[pixel]) {
+          sound = false;
+          return;
+        }
+        left[pixel] -= count[pixel];
+        film.add_cover(x, y, cover, {id[pixel], count[pixel]});
       });
     }
   }
+  return sound;
 }
 
 }  // namespace raytrace

@@ -62,9 +62,9 @@ bool is_whole_exr(const std::string& file, const WantedPicture* wanted) {
 bool is_whole_png(const std::string& file, const WantedPicture* wanted) {
   const auto picture = read_png_file(file);
   if (!picture || !fit(picture->texts, wanted)) return false;
-  return wanted == nullptr || (picture->width == wanted->extent.region.width() &&
-                               picture->height == wanted->extent.region.height() && picture->bits == wanted->bit_depth &&
-                               has(picture->texts, exposure_keyword, exposure_text(wanted->exposure)));
+  return wanted == nullptr ||
+         (picture->width == wanted->extent.region.width() && picture->height == wanted->extent.region.height() &&
+          picture->bits == wanted->bit_depth && has(picture->texts, exposure_keyword, exposure_text(wanted->exposure)));
 }
 
 bool is_whole(const std::string& file, const WantedPicture* wanted) {

@@ -5,17 +5,18 @@
 #include <ImfFloatAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
-#include <ImfInputFile.h>
+#include <ImfInputPart.h>
 #include <ImfIntAttribute.h>
 #include <ImfMatrixAttribute.h>
+#include <ImfMultiPartInputFile.h>
 #include <ImfStringAttribute.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <system_error>
 
+#include "raytrace/description/quoted.h"
 #include "raytrace/memory/out_of_memory.h"
+#include "raytrace/output/exr_header.h"
+#include "raytrace/output/file_handle.h"
 
 namespace raytrace {
 
@@ -23,11 +24,6 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& file, const std::string& reason) {
   throw InputError("cannot read " + file + ": " + reason);
-}
-
-/// Before OpenEXR does, whose message would not be the system's.
-void refuse_unreadable(const std::string& file) {
-  if (access(file.c_str(), R_OK) != 0) refuse(file, std::generic_category().message(errno));
 }
 
 Imf::PixelType imf_type(ChannelType type) {
@@ -39,10 +35,25 @@ ChannelType channel_type(Imf::PixelType type) {
   return type == Imf::HALF ? ChannelType::half : type == Imf::FLOAT ? ChannelType::float32 : ChannelType::uint32;
 }
 
-PictureExtent extent_of(const Imf::Header& header) {
-  const Imath::Box2i& display = header.displayWindow();
-  const Imath::Box2i& data = header.dataWindow();
-  return {display.max.x + 1, display.max.y + 1, {data.min.x, data.min.y, data.max.x + 1, data.max.y + 1}};
+std::size_t bytes_of(Imf::PixelType type) { return type == Imf::HALF ? 2 : 4; }
+
+/// What the file's own size says of the header that it has.
+void refuse_impossible(const Imf::Header& header, const Region& region, std::uint64_t file_size) {
+  const bool compressed = header.compression() == Imf::ZIP_COMPRESSION;
+  if (!compressed && header.compression() != Imf::NO_COMPRESSION)
+    throw InputError("it is compressed otherwise than with zip, as this program writes none");
+  if (header.lineOrder() != Imf::INCREASING_Y) throw InputError("its lines are not in the order from top to bottom");
+  std::uint64_t pixel_bytes = 0;
+  for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
+    const Imf::Channel& layout = channel.channel();
+    if (layout.xSampling != 1 || layout.ySampling != 1)
+      throw InputError("its channel " + printable(channel.name()) + " has not a value for each pixel");
+    pixel_bytes += bytes_of(layout.type);
+  }
+  constexpr std::uint64_t most_bytes_of_a_byte = 1032;  // that zip makes
+  const std::uint64_t pixels = static_cast<std::uint64_t>(region.width()) * static_cast<std::uint64_t>(region.height());
+  if (pixels * pixel_bytes > file_size * (compressed ? most_bytes_of_a_byte : 1))
+    throw InputError("it is not whole, or damaged: it is too small for its " + std::to_string(pixels) + " pixels");
 }
 
 template <class Array>
@@ -63,6 +74,8 @@ std::vector<ImageAttribute> attributes_of(const Imf::Header& header) {
       attributes.push_back({name, integer->value()});
     } else if (const auto* number = dynamic_cast<const Imf::FloatAttribute*>(&attribute.attribute())) {
       attributes.push_back({name, number->value()});
+    } else if (name.starts_with("raytrace:")) {
+      throw InputError("its " + printable(name) + " is of another type than this program's");
     }
   }
   return attributes;
@@ -71,29 +84,35 @@ std::vector<ImageAttribute> attributes_of(const Imf::Header& header) {
 }  // namespace
 
 struct ExrReader::OpenFile {
-  // Without threads of its own: a file's rows are few, and many files are open in turn.
-  explicit OpenFile(const std::string& file) : exr(file.c_str(), 0) {}
-  Imf::InputFile exr;
+  // The very file that was checked, whatever has its name by now. Without threads of its own: a file's rows are few,
+  // and many files are open in turn.
+  explicit OpenFile(std::FILE* file) : exr(("/proc/self/fd/" + std::to_string(fileno(file))).c_str(), 0, false) {}
+  Imf::MultiPartInputFile exr;
 };
 
 ExrReader::ExrReader(const std::string& file) : file_(file) {
-  refuse_unreadable(file);
+  const FileHandle checked = open_regular_file(file);
   try {
-    open_ = std::make_unique<OpenFile>(file);
-    if (!open_->exr.isComplete()) refuse(file, "it is not whole");
-  } catch (const InputError&) {
-    throw;
+    extent_ = check_exr_header(checked.get());
+    open_ = std::make_unique<OpenFile>(checked.get());
+    const Imf::Header& header = open_->exr.header(0);
+    refuse_impossible(header, extent_.region, file_size(checked.get()));
+    if (!open_->exr.partComplete(0)) throw InputError("it is not whole");
+    for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel)
+      channels_.push_back({channel.name(), channel_type(channel.channel().type)});
+    attributes_ = attributes_of(header);
+    copy_matrix(header, "worldToCamera", camera_.world_to_camera);
+    copy_matrix(header, "worldToNDC", camera_.world_to_ndc);
+  } catch (const InputError& error) {
+    refuse(file, error.what());
   } catch (const std::exception& exception) {
     rethrow_out_of_memory(exception);
     refuse(file, "it is not an EXR file, or not whole");
   }
-  const Imf::Header& header = open_->exr.header();
-  extent_ = extent_of(header);
-  for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel)
-    channels_.push_back({channel.name(), channel_type(channel.channel().type)});
-  attributes_ = attributes_of(header);
-  copy_matrix(header, "worldToCamera", camera_.world_to_camera);
-  copy_matrix(header, "worldToNDC", camera_.world_to_ndc);
+}
+
+void ExrReader::refuse_type(const std::string& attribute) const {
+  refuse(file_, "its " + attribute + " is of another type than this program's");
 }
 
 ExrReader::~ExrReader() = default;
@@ -119,8 +138,9 @@ ImageBand ExrReader::read(const std::vector<Channel>& channels, int y0, int y1) 
                                                  4 * static_cast<std::size_t>(band.region.width())));
   }
   try {
-    open_->exr.setFrameBuffer(buffer);
-    open_->exr.readPixels(y0, y1 - 1);
+    Imf::InputPart part(open_->exr, 0);
+    part.setFrameBuffer(buffer);
+    part.readPixels(y0, y1 - 1);
   } catch (const std::exception& exception) {
     rethrow_out_of_memory(exception);
     refuse(file_, "its pixels are damaged");

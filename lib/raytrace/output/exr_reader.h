@@ -1,7 +1,6 @@
 // Reads the EXR files that this program writes.
 #pragma once
 
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,18 +11,14 @@
 #include "raytrace/film/film.h"
 #include "raytrace/output/image_band.h"
 #include "raytrace/output/image_file.h"
+#include "raytrace/output/input_error.h"
 
 namespace raytrace {
 
-/// A file that cannot be read, or is not what it should be; what() names it and says why.
-class InputError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
 class ExrReader {
  public:
-  /// Throws InputError, as all of these: no such file, not an EXR, not whole.
+  /// Throws InputError, as all of these: no such file, not an EXR of the kind that this program writes, with windows of
+  /// its sizes, or not whole. Memory and time follow from the file's own size, whatever it claims.
   explicit ExrReader(const std::string& file);
   ~ExrReader();
   ExrReader(ExrReader&&) noexcept;
@@ -41,20 +36,23 @@ class ExrReader {
   const std::vector<ImageAttribute>& attributes() const { return attributes_; }
   const CameraMatrices& camera() const { return camera_; }
 
-  /// The attribute of that name and type, if there is one.
+  /// The attribute of that name, if there is one. Throws if it has another type.
   template <class Value>
   std::optional<Value> attribute(const std::string& name) const {
-    for (const ImageAttribute& attribute : attributes_)
-      if (attribute.name == name)
-        if (const Value* value = std::get_if<Value>(&attribute.value)) return *value;
+    for (const ImageAttribute& attribute : attributes_) {
+      if (attribute.name != name) continue;
+      if (const Value* value = std::get_if<Value>(&attribute.value)) return *value;
+      refuse_type(name);
+    }
     return std::nullopt;
   }
 
-  /// The rows [y0, y1) of these channels, which the file must have.
+  /// The rows [y0, y1) of these channels, which the file must have, as it must have the rows.
   ImageBand read(const std::vector<Channel>& channels, int y0, int y1);
 
  private:
   struct OpenFile;
+  [[noreturn]] void refuse_type(const std::string& attribute) const;
   std::string file_;
   std::unique_ptr<OpenFile> open_;
   PictureExtent extent_;

@@ -1,9 +1,15 @@
 #include "raytrace/output/file_handle.h"
 
+#include <fcntl.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <new>
+#include <system_error>
+
+#include "raytrace/output/input_error.h"
 
 namespace raytrace {
 
@@ -15,6 +21,28 @@ FileHandle open_memory_file() {
     throw std::bad_alloc();
   }
   return file;
+}
+
+FileHandle open_regular_file(const std::string& name) {
+  const auto refuse = [&](const std::string& reason) { throw InputError("cannot read " + name + ": " + reason); };
+  struct stat status{};
+  // Before it is opened, since a device may do something then; and without waiting, should it change meanwhile.
+  if (stat(name.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
+    refuse(S_ISDIR(status.st_mode) ? "it is a folder" : "it is not a regular file");
+  const int number = open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  FileHandle file(number < 0 ? nullptr : fdopen(number, "rb"));
+  if (!file) {
+    const int error = errno;
+    if (number >= 0) close(number);
+    refuse(std::generic_category().message(error));
+  }
+  if (fstat(number, &status) != 0 || !S_ISREG(status.st_mode)) refuse("it is not a regular file");
+  return file;
+}
+
+std::uint64_t file_size(std::FILE* file) {
+  struct stat status{};
+  return fstat(fileno(file), &status) == 0 ? static_cast<std::uint64_t>(status.st_size) : 0;
 }
 
 }  // namespace raytrace

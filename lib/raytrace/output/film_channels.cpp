@@ -33,6 +33,17 @@ PixelSum sum_of(const Words& words) {
   return {total(0), total(2), total(4), words[halves], words[halves + 1]};
 }
 
+/// Whether the sum can be of samples of the range, and the total can hold it, too.
+bool add(const PixelSum& sum, const SampleRange& range, PixelSum& total) {
+  const bool empty = sum.red == 0 && sum.green == 0 && sum.blue == 0;
+  if (sum.samples > range.count || sum.hits > sum.samples || (sum.samples == 0 && !empty)) return false;
+  total.hits += sum.hits;
+  total.samples += sum.samples;
+  return !__builtin_add_overflow(total.red, sum.red, &total.red) &&
+         !__builtin_add_overflow(total.green, sum.green, &total.green) &&
+         !__builtin_add_overflow(total.blue, sum.blue, &total.blue);
+}
+
 std::vector<std::uint32_t>& words_in(ImageBand& band, std::size_t plane) {
   return std::get<std::vector<std::uint32_t>>(band.planes[plane]);
 }
@@ -50,6 +61,8 @@ std::vector<Channel> sum_channels() {
   return channels;
 }
 
+bool is_sum(const Channel& channel) { return channel.name.starts_with("sums."); }
+
 std::vector<Channel> sum_channels(const Film& film) {
   std::vector<Channel> channels = sum_channels();
   if (film.aovs() == nullptr) return channels;
@@ -57,10 +70,10 @@ std::vector<Channel> sum_channels(const Film& film) {
   return channels;
 }
 
-std::vector<Channel> sum_channels(const std::vector<Channel>& channels) {
-  std::vector<Channel> found = sum_channels();
-  for (Channel& channel : aov_sum_channels(channels)) found.push_back(std::move(channel));
-  return found;
+std::vector<Channel> sum_channels(const AovSettings& aovs, const std::vector<Channel>& channels) {
+  std::vector<Channel> wanted = sum_channels();
+  for (Channel& channel : aov_sum_channels(aovs, channels)) wanted.push_back(std::move(channel));
+  return wanted;
 }
 
 void append_sums(ImageBand& band, const std::vector<Channel>& sums, const Film& film) {
@@ -77,17 +90,19 @@ void append_sums(ImageBand& band, const std::vector<Channel>& sums, const Film& 
   if (film.aovs() != nullptr) fill_aov_sums(band, first + planes, {sums.begin() + planes, sums.end()}, *film.aovs());
 }
 
-void add_sums(const ImageBand& band, std::size_t first_plane, const std::vector<Channel>& sums, Film& film) {
+bool add_sums(const ImageBand& band, const std::vector<Channel>& sums, const SampleRange& range, Film& film) {
   const Region& region = band.region;
+  bool sound = true;
   std::size_t pixel = 0;
   for (int y = region.y0; y < region.y1; ++y)
     for (int x = region.x0; x < region.x1; ++x, ++pixel) {
       Words words{};
-      for (std::size_t plane = 0; plane < planes; ++plane) words[plane] = words_in(band, first_plane + plane)[pixel];
-      film.sum(x, y) += sum_of(words);
+      for (std::size_t plane = 0; plane < planes; ++plane) words[plane] = words_in(band, plane)[pixel];
+      sound = add(sum_of(words), range, film.sum(x, y)) && sound;
     }
-  if (film.aovs() != nullptr)
-    add_aov_sums(band, first_plane + planes, {sums.begin() + planes, sums.end()}, *film.aovs());
+  if (!sound || film.aovs() == nullptr) return sound;
+  return add_aov_sums(band, planes, {sums.begin() + planes, sums.end()}, range, words_in(band, planes - 1),
+                      *film.aovs());
 }
 
 }  // namespace raytrace

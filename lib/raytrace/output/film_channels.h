@@ -9,17 +9,22 @@ namespace raytrace {
 /// "sums.red.low", "sums.red.high", ... (the halves of 64 bit numbers), "sums.hits" and "sums.samples", all uint32.
 std::vector<Channel> sum_channels();
 
+/// Whether it is one of them, or of an AOV's sums: by its name.
+bool is_sum(const Channel& channel);
+
 /// These, and then those of what the film gathered for AOVs.
 std::vector<Channel> sum_channels(const Film& film);
 
-/// The same of those that a file has.
-std::vector<Channel> sum_channels(const std::vector<Channel>& channels);
+/// Those that a file must have of a film with these settings. channels: that it has, which say how many ids there are.
+std::vector<Channel> sum_channels(const AovSettings& aovs, const std::vector<Channel>& channels);
 
 /// Appends the film's sums of the band's rows as planes. sums: sum_channels(film).
 void append_sums(ImageBand& band, const std::vector<Channel>& sums, const Film& film);
 
-/// Adds the band's sums to those of the film's pixels that it holds. sums: the channels of the band's planes from
-/// first_plane on, the first of them sum_channels().
-void add_sums(const ImageBand& band, std::size_t first_plane, const std::vector<Channel>& sums, Film& film);
+/// Adds the band's sums to those of the film's pixels that it holds. sums: the channels of the band's planes, the first
+/// of them sum_channels(); range: of the samples that they may hold. False, with some of them added, if they cannot be
+/// sums of such samples.
+[[nodiscard]] bool add_sums(const ImageBand& band, const std::vector<Channel>& sums, const SampleRange& range,
+                            Film& film);
 
 }  // namespace raytrace

@@ -34,7 +34,7 @@ void* load_module() {
     if (void* const module = dlopen(candidate.c_str(), RTLD_NOW | RTLD_LOCAL)) return module;
     const std::string reason = dlerror();
     if (says_out_of_memory(reason) || reason.find("failed to map segment") != std::string::npos) throw std::bad_alloc();
-    reasons += "\n  " + reason;
+    reasons += (reasons.empty() ? " " : "; ") + reason;
   }
   throw OutputError("formats other than EXR and PNG need the module raytrace_openimageio.so, which cannot be loaded:" +
                     reasons);

@@ -21,10 +21,6 @@ std::string hash_of(const Film& film) {
   return hash.digits();
 }
 
-std::string edges_text(const Region& r) {
-  return std::to_string(r.x0) + "," + std::to_string(r.y0) + "," + std::to_string(r.x1) + "," + std::to_string(r.y1);
-}
-
 }  // namespace
 
 FileIdentity write_checkpoint(const std::string& file, const Film& film, const PieceIdentity& identity,
@@ -60,21 +56,24 @@ void read_checkpoint(const std::string& file, const PieceIdentity& identity, Fil
   if (const auto other = difference(identity, got))
     throw InputError("cannot resume from " + file + ": it differs in " + *other);
   if (got.film.extent.region != film.region()) {
-    throw InputError("cannot resume from " + file + ": it holds the crop " + edges_text(got.film.extent.region) +
-                     ", not " + edges_text(film.region()));
+    throw InputError("cannot resume from " + file + ": it holds the crop " + text_of(got.film.extent.region) +
+                     ", not " + text_of(film.region()));
   }
   if (got.film.samples.first != film.settings().samples.first) {
     throw InputError("cannot resume from " + file + ": its samples begin at " + std::to_string(got.film.samples.first) +
                      ", not " + std::to_string(film.settings().samples.first));
   }
-  const std::vector<Channel> channels = sum_channels(reader.channels());
-  for (const Channel& channel : channels)
-    if (std::find(reader.channels().begin(), reader.channels().end(), channel) == reader.channels().end())
-      throw InputError("cannot resume from " + file + ": it is a picture without the sums of its samples");
+  if (std::none_of(reader.channels().begin(), reader.channels().end(), is_sum))
+    throw InputError("cannot resume from " + file + ": it is a picture without the sums of its samples");
+  const std::vector<Channel> sums = sum_channels(got.film.aovs, reader.channels());
+  std::vector<Channel> channels = color_channels(false);
+  channels.insert(channels.end(), sums.begin(), sums.end());
+  refuse_other_channels(reader, channels);
   const Region& region = film.region();
   for (int y = region.y0; y < region.y1;) {
-    const int end = std::min(y + band_rows(region.width(), channels.size()), region.y1);
-    add_sums(reader.read(channels, y, end), 0, channels, film);
+    const int end = std::min(y + band_rows(region.width(), sums.size()), region.y1);
+    if (!add_sums(reader.read(sums, y, end), sums, got.film.samples, film))
+      throw InputError("cannot resume from " + file + ": it is damaged");
     y = end;
   }
   if (reader.attribute<std::string>(hash_name) != hash_of(film))

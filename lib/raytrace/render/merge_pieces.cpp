@@ -1,7 +1,9 @@
 #include "raytrace/render/merge_pieces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
+#include <set>
 
 #include "raytrace/aovs/aov_selection.h"
 #include "raytrace/description/quoted.h"
@@ -16,27 +18,32 @@ namespace {
 struct Piece {
   std::string file;
   PieceIdentity identity;
-  std::vector<Channel> channels;  ///< without those of sums
+  std::vector<Channel> channels;  ///< colour first, then the AOVs, as image files want them
   std::vector<Channel> sums;      ///< empty if it has none
 };
 
-bool is_sum(const Channel& channel) { return channel.name.starts_with("sums."); }
+std::vector<Channel> all_channels(const Piece& piece) {
+  std::vector<Channel> all = piece.channels;
+  all.insert(all.end(), piece.sums.begin(), piece.sums.end());
+  return all;
+}
 
+/// Throws InputError if the file holds what no piece does.
 Piece piece_of(const ExrReader& reader) {
   Piece piece{reader.file(), identity_of(reader), {}, {}};
-  for (const Channel& channel : reader.channels()) {
-    if (is_sum(channel)) {
-      if (piece.sums.empty()) piece.sums = sum_channels(reader.channels());
-    } else {
-      piece.channels.push_back(channel);
-    }
-  }
+  const AovSettings& aovs = piece.identity.film.aovs;
+  const std::vector<Channel>& all = reader.channels();
+  piece.channels = color_channels(std::find(all.begin(), all.end(), Channel{"R", ChannelType::float32}) != all.end());
+  for (Channel& channel : aov_channels(aovs.wanted)) piece.channels.push_back(std::move(channel));
+  if (std::any_of(all.begin(), all.end(), is_sum)) piece.sums = sum_channels(aovs, all);
+  refuse_other_channels(reader, all_channels(piece));
   return piece;
 }
 
 PieceExtent extent_of(const Piece& piece) {
   const FilmSettings& film = piece.identity.film;
-  return {piece.file, film.extent.region, film.samples.first, std::uint64_t{film.samples.first} + film.samples.count};
+  return {piece.file, film.extent.region, film.samples.first, std::uint64_t{film.samples.first} + film.samples.count,
+          piece.identity.tile};
 }
 
 std::string names_of(const std::vector<Channel>& channels) {
@@ -54,20 +61,9 @@ std::optional<std::string> misfit(const Piece& first, const Piece& piece) {
   return std::nullopt;
 }
 
-/// Colour first, then the AOVs, as image files want it. Throws InputError if the piece has others.
-std::vector<Channel> ordered_channels(const Piece& piece) {
-  const bool full_float = std::find(piece.channels.begin(), piece.channels.end(), Channel{"R", ChannelType::float32}) !=
-                          piece.channels.end();
-  std::vector<Channel> channels = color_channels(full_float);
-  for (Channel& channel : aov_channels(piece.identity.film.aovs.wanted)) channels.push_back(std::move(channel));
-  if (!std::is_permutation(channels.begin(), channels.end(), piece.channels.begin(), piece.channels.end()))
-    throw InputError(piece.file + " has the channels " + names_of(piece.channels) + ", not " + names_of(channels));
-  return channels;
-}
-
 [[noreturn]] void refuse(const std::vector<std::string>& problems) {
   std::string text;
-  for (const std::string& problem : problems) text += (text.empty() ? "" : "\n") + problem;
+  for (const std::string& problem : problems) text += (text.empty() ? "" : "\n") + on_one_line(problem);
   throw MergeError(text);
 }
 
@@ -79,60 +75,77 @@ class Merger {
 
   MergeReport merge() {
     read_headers();
-    check();
+    check_layout();
     write();
     return report_;
   }
 
  private:
   void read_headers() {
-    std::vector<std::string> problems;
     for (const std::string& file : settings_.pieces) {
       heed_stop();
       try {
         const ExrReader reader(file);
         pieces_.push_back(piece_of(reader));
-        const auto seconds = reader.attribute<float>("raytrace:renderSeconds");
-        render_seconds_ += double{seconds.value_or(0)};
+        const double seconds{reader.attribute<float>("raytrace:renderSeconds").value_or(0)};
+        if (seconds > 0 && std::isfinite(seconds)) render_seconds_ += seconds;
         if (pieces_.size() == 1) metadata_ = metadata_of(reader);
       } catch (const InputError& error) {
-        problems.emplace_back(error.what());
+        problems_.emplace_back(error.what());
       }
     }
-    if (!problems.empty()) refuse(problems);
+    for (const Piece& piece : pieces_)
+      if (const auto other = misfit(pieces_.front(), piece))
+        problems_.push_back(piece.file + " does not belong to " + pieces_.front().file + ": it differs in " + *other);
+    for (const Piece& piece : pieces_)
+      if (piece.identity.partial && !settings_.partial)
+        problems_.push_back(piece.file + " was stopped before its end: render it to its end with " +
+                            options_of(extent_of(piece)) + "--resume, or use --partial");
+    refuse_problems();
   }
 
-  void check() {
-    const Piece& first = pieces_.front();
-    std::vector<std::string> problems;
+  /// Whether they cover the picture exactly.
+  void check_layout() {
+    const PieceIdentity& first = pieces_.front().identity;
     std::vector<PieceExtent> extents;
     for (const Piece& piece : pieces_) {
-      if (const auto other = misfit(first, piece))
-        problems.push_back(piece.file + " does not belong to " + first.file + ": it differs in " + *other);
-      if (piece.identity.partial && !settings_.partial)
-        problems.push_back(piece.file +
-                           " was stopped before its end: render it to its end with --resume, or use --partial");
       extents.push_back(extent_of(piece));
       samples_ = std::max(samples_, extents.back().last_sample);
+      report_.missing_parts = report_.missing_parts || piece.identity.partial;
     }
-    if (!problems.empty()) refuse(problems);
+    WantedPicture wanted{first.whole, samples_, first.film.samples.centered, {}};
+    const PictureExtent& extent = first.film.extent;
+    if (first.whole != Region{0, 0, extent.full_width, extent.full_height}) wanted.crop = text_of(first.whole);
+    const auto no_sums = [](const Piece& piece) { return piece.sums.empty(); };
     if (settings_.samples && std::uint64_t(*settings_.samples) != samples_ && !settings_.partial) {
-      problems.push_back("the pieces hold " + std::to_string(samples_) + " samples a pixel, not " +
-                         std::to_string(*settings_.samples));
+      problems_.push_back("the pieces hold " + std::to_string(samples_) + " samples a pixel, not " +
+                          std::to_string(*settings_.samples));
+      // To those that keep their sums, more can be added.
+      if (std::none_of(pieces_.begin(), pieces_.end(), no_sums))
+        wanted.samples = std::max(samples_, std::uint64_t(*settings_.samples));
     }
-    const std::vector<std::string> twice = overlaps(extents);
-    problems.insert(problems.end(), twice.begin(), twice.end());
-    const std::vector<std::string> missing = gaps(extents, first.identity.whole, samples_);
-    report_.missing_parts = !missing.empty();
-    for (const Piece& piece : pieces_) report_.missing_parts = report_.missing_parts || piece.identity.partial;
-    if (!settings_.partial) problems.insert(problems.end(), missing.begin(), missing.end());
+    add_problems(overlaps(extents));
+    const std::vector<std::string> missing = missing_parts(extents, wanted);
+    report_.missing_parts = report_.missing_parts || !missing.empty();
+    if (!settings_.partial) add_problems(missing);
     for (const Piece& piece : pieces_)
-      if (!is_finished(piece) && piece.sums.empty())
-        problems.push_back(piece.file +
-                           " holds some of the samples only, without their sums: render it with --sample-offset");
-    if (!problems.empty()) refuse(problems);
+      if (!is_finished(piece) && no_sums(piece))
+        problems_.push_back(piece.file +
+                            " holds some of the samples only, without their sums: render it with --sample-offset");
+    refuse_problems();
     report_.pieces = pieces_.size();
     report_.samples = static_cast<int>(samples_);
+  }
+
+  void add_problems(const std::vector<std::string>& more) {
+    problems_.insert(problems_.end(), more.begin(), more.end());
+  }
+
+  void refuse_problems() const {
+    if (problems_.empty()) return;
+    std::string text;
+    for (const std::string& problem : problems_) text += (text.empty() ? "" : "\n") + problem;
+    throw MergeError(text);
   }
 
   /// Whether its pixels have all the samples, so that they can be taken as they are.
@@ -158,6 +171,7 @@ class Merger {
     const PieceIdentity& first = pieces_.front().identity;
     PieceIdentity identity = first;
     identity.film.extent.region = first.whole;
+    identity.tile.reset();
     identity.film.samples.first = 0;
     identity.partial = report_.missing_parts;
     metadata_.samples = report_.samples;
@@ -165,7 +179,7 @@ class Merger {
     for (ImageAttribute& attribute : identity_attributes(identity))
       metadata_.attributes.push_back(std::move(attribute));
 
-    channels_ = ordered_channels(pieces_.front());
+    channels_ = pieces_.front().channels;
     ImageFileSettings image_settings;
     image_settings.full_float = channels_.front().type == ChannelType::float32;
     image_settings.bit_depth = settings_.bit_depth;
@@ -186,6 +200,7 @@ class Merger {
       const ImageBand merged = merged_band(band);
       for (const auto& file : files) file->write(merged);
     }
+    refuse_problems();
     for (std::size_t i = 0; i < files.size(); ++i) {
       report_.repairs += files[i]->commit();
       report_.outputs.push_back(settings_.outputs[i]);
@@ -213,9 +228,27 @@ class Merger {
     add_up_sums(band);
     for (const Piece& piece : pieces_) {
       const auto [top, bottom] = common_rows(piece, region);
-      if (top < bottom && is_finished(piece)) copy_rows(ExrReader(piece.file).read(channels_, top, bottom), band);
+      if (top < bottom && is_finished(piece))
+        read(piece, channels_, top, bottom, [&](const ImageBand& rows) { copy_rows(rows, band); });
     }
     return band;
+  }
+
+  /// Calls use(band) with the piece's rows [top, bottom). A piece whose pixels are damaged is a problem, and then
+  /// passed over, so that all of them are named in the end.
+  template <class Use>
+  void read(const Piece& piece, const std::vector<Channel>& channels, int top, int bottom, const Use& use) {
+    if (damaged_.contains(&piece)) return;
+    try {
+      ExrReader reader(piece.file);
+      if (reader.extent() != piece.identity.film.extent)
+        throw InputError(piece.file + " has changed while it was read");
+      refuse_other_channels(reader, all_channels(piece));
+      use(reader.read(channels, top, bottom));
+    } catch (const InputError& error) {
+      damaged_.insert(&piece);
+      problems_.emplace_back(error.what());
+    }
   }
 
   static std::pair<int, int> common_rows(const Piece& piece, const Region& region) {
@@ -224,7 +257,7 @@ class Merger {
   }
 
   /// From the pieces that have but some of the samples.
-  void add_up_sums(ImageBand& band) const {
+  void add_up_sums(ImageBand& band) {
     FilmSettings settings = pieces_.front().identity.film;
     settings.extent.region = band.region;
     Film film(settings);
@@ -232,7 +265,10 @@ class Merger {
     for (const Piece& piece : pieces_) {
       const auto [top, bottom] = common_rows(piece, band.region);
       if (top >= bottom || is_finished(piece)) continue;
-      add_sums(ExrReader(piece.file).read(piece.sums, top, bottom), 0, piece.sums, film);
+      read(piece, piece.sums, top, bottom, [&](const ImageBand& rows) {
+        if (!add_sums(rows, piece.sums, piece.identity.film.samples, film))
+          throw InputError(piece.file + " is damaged: its sums cannot be those of its samples");
+      });
       any = true;
     }
     if (any || report_.missing_parts) fill_aovs(band, 4, film);
@@ -245,7 +281,7 @@ class Merger {
     for (int y = band.region.y0; y < band.region.y1; ++y)
       for (int x = band.region.x0; x < band.region.x1; ++x, ++pixel)
         for (std::size_t i = 0; i < 3; ++i)
-          std::get<std::vector<float>>(band.planes[i])[pixel] = (x / 8 + y / 8) % 2 == 0 ? 0.1F : 0.2F;
+          std::get<std::vector<float>>(band.planes[i])[pixel] = ((x ^ y) & 8) == 0 ? 0.1F : 0.2F;
   }
 
   static void copy_rows(const ImageBand& from, ImageBand& to) {
@@ -286,6 +322,8 @@ class Merger {
   const MergeSettings& settings_;
   const std::function<bool()>& stop_;
   std::vector<Piece> pieces_;
+  std::vector<std::string> problems_;
+  std::set<const Piece*> damaged_;  ///< their pixels
   std::vector<Channel> channels_;
   ImageMetadata metadata_;
   std::uint64_t samples_ = 0;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
+#include <map>
 #include <sstream>
 
 #include "raytrace/aovs/aov_selection.h"
@@ -25,6 +27,8 @@ constexpr const char* unit_name = "raytrace:unitExponent";
 constexpr const char* aovs_name = "raytrace:aovs";  // only where there are any
 constexpr const char* aov_units_name = "raytrace:aovUnits";
 constexpr const char* whole_name = "raytrace:whole";
+constexpr const char* region_name = "raytrace:region";
+constexpr const char* tile_name = "raytrace:tile";  // only of a tile
 constexpr const char* partial_name = "raytrace:partial";
 constexpr const char* least_samples_name = "raytrace:leastSamples";  // only where it is partial
 constexpr const char* most_samples_name = "raytrace:mostSamples";
@@ -38,12 +42,80 @@ Value needed(const ExrReader& piece, const char* name) {
   throw InputError(piece.file() + " is not a picture of this program, or of an older version: it has no " + name);
 }
 
+[[noreturn]] void refuse(const ExrReader& piece, const char* name, const std::string& value) {
+  throw InputError(piece.file() + " is damaged: its " + name + " is " + printable(value));
+}
+
+/// The text as this program writes numbers.
 template <class Number>
 Number number(const ExrReader& piece, const char* name, const std::string& text) {
   Number value{};
-  if (std::from_chars(text.data(), text.data() + text.size(), value).ec != std::errc())
-    throw InputError(piece.file() + " is damaged: its " + name + " is no number");
+  if (std::from_chars(text.data(), text.data() + text.size(), value).ec != std::errc() || std::to_string(value) != text)
+    refuse(piece, name, "no number: " + text);
   return value;
+}
+
+bool flag(const ExrReader& piece, const char* name, int value) {
+  if (value != 0 && value != 1) refuse(piece, name, std::to_string(value));
+  return value == 1;
+}
+
+int unit_of(const ExrReader& piece, const char* name, int exponent) {
+  if (!is_unit_exponent(exponent)) refuse(piece, name, std::to_string(exponent));
+  return exponent;
+}
+
+Region region(const ExrReader& piece, const char* name) {
+  const auto text = needed<std::string>(piece, name);
+  const auto region = region_of(text);
+  if (!region) refuse(piece, name, "no region: " + text);
+  return *region;
+}
+
+SampleRange samples_of(const ExrReader& piece) {
+  constexpr std::int64_t most = std::numeric_limits<int>::max();
+  SampleRange samples;
+  samples.first = number<std::uint32_t>(piece, first_sample_name, needed<std::string>(piece, first_sample_name));
+  const int count = needed<int>(piece, samples_name);
+  if (count < 1 || std::int64_t{samples.first} + count > most) refuse(piece, samples_name, std::to_string(count));
+  samples.count = static_cast<std::uint32_t>(count);
+  samples.centered = flag(piece, centered_name, needed<int>(piece, centered_name));
+  if (samples.centered && (samples.first != 0 || count != 1)) refuse(piece, centered_name, "1, with several samples");
+  return samples;
+}
+
+std::string tile_text(const Tile& tile) { return std::to_string(tile.index) + "/" + std::to_string(tile.count); }
+
+std::optional<Tile> read_tile(const ExrReader& piece) {
+  const auto text = piece.attribute<std::string>(tile_name);
+  if (!text) return std::nullopt;
+  const std::size_t slash = std::min(text->find('/'), text->size());
+  const Tile tile{number<int>(piece, tile_name, text->substr(0, slash)),
+                  number<int>(piece, tile_name, text->substr(std::min(slash + 1, text->size())))};
+  return tile;
+}
+
+/// Where the piece lies: all that says so must agree.
+void read_place(const ExrReader& piece, PieceIdentity& identity) {
+  const PictureExtent& extent = identity.film.extent = piece.extent();
+  identity.whole = region(piece, whole_name);
+  if (const auto problem = crop_problem(identity.whole, extent.full_width, extent.full_height))
+    refuse(piece, whole_name, text_of(identity.whole) + ": " + *problem);
+  const Region own = region(piece, region_name);
+  if (own != extent.region)
+    throw InputError(piece.file() + " is damaged: its data window is " + text_of(extent.region) + ", its " +
+                     region_name + " " + text_of(own));
+  identity.tile = read_tile(piece);
+  Region wanted = identity.whole;
+  if (const auto& tile = identity.tile) {
+    const std::int64_t pixels = std::int64_t{wanted.width()} * wanted.height();
+    if (tile->index < 0 || tile->index >= tile->count || tile->count > pixels)
+      refuse(piece, tile_name, tile_text(*tile));
+    wanted = tile_of(wanted, tile->index, tile->count);
+  }
+  if (own != wanted)
+    throw InputError(piece.file() + " is damaged: its " + region_name + " is " + text_of(own) + ", not " +
+                     text_of(wanted) + ", as its " + whole_name + (identity.tile ? " and tile say" : " says"));
 }
 
 std::string other(const std::string& what, const std::string& got, const std::string& wanted) {
@@ -70,8 +142,9 @@ AovSettings aovs_of(const ExrReader& piece, const std::string& names) {
       throw InputError(piece.file() + " has an AOV that this version does not know: " + printable(name));
   std::vector<int> units;
   for (const std::string& unit : split(needed<std::string>(piece, aov_units_name)))
-    units.push_back(number<int>(piece, aov_units_name, unit));
+    units.push_back(unit_of(piece, aov_units_name, number<int>(piece, aov_units_name, unit)));
   AovSettings aovs = aov_settings(aov_set(wanted));
+  if (aovs.wanted.empty() || joined(aov_names(aovs.wanted)) != names) refuse(piece, aovs_name, names);
   if (units.size() != aovs.mean_units.size())
     throw InputError(piece.file() + " is damaged: its " + aov_units_name + " do not fit its AOVs");
   aovs.mean_units = units;
@@ -112,10 +185,6 @@ Provenance provenance_of(const std::string& software, const Scene& scene, const 
 
 std::vector<ImageAttribute> identity_attributes(const PieceIdentity& identity) {
   const SampleRange& samples = identity.film.samples;
-  const Region& whole = identity.whole;
-  std::string edges;
-  for (const int edge : {whole.x0, whole.y0, whole.x1, whole.y1})
-    edges += (edges.empty() ? "" : ",") + std::to_string(edge);
   std::vector<ImageAttribute> attributes = {
       {embree_name, identity.provenance.embree_version},
       {isa_name, identity.provenance.isa},
@@ -123,7 +192,9 @@ std::vector<ImageAttribute> identity_attributes(const PieceIdentity& identity) {
       {first_sample_name, std::to_string(samples.first)},  // EXR's integers have a sign
       {centered_name, samples.centered ? 1 : 0},
       {unit_name, identity.film.unit_exponent},
-      {whole_name, edges}};
+      {whole_name, text_of(identity.whole)},
+      {region_name, text_of(identity.film.extent.region)}};
+  if (identity.tile) attributes.push_back({tile_name, tile_text(*identity.tile)});
   const AovSettings& aovs = identity.film.aovs;
   if (!aovs.wanted.empty()) {
     attributes.push_back({aovs_name, joined(aov_names(aovs.wanted))});
@@ -149,7 +220,8 @@ std::vector<ImageAttribute> partial_attributes(PieceIdentity identity, const Fil
 
 std::map<std::string, std::string> picture_attributes(const PieceIdentity& identity, bool any_samples) {
   std::map<std::string, std::string> texts = {{seed_name, std::to_string(identity.film.seed)}};
-  for (const char* const name : {scene_name, first_sample_name, centered_name, whole_name, transparent_name})
+  for (const char* const name :
+       {scene_name, first_sample_name, centered_name, whole_name, region_name, transparent_name})
     texts[name];
   for (const ImageAttribute& attribute : identity_attributes(identity)) {
     const auto wanted = texts.find(attribute.name);
@@ -166,24 +238,30 @@ PieceIdentity identity_of(const ExrReader& piece) {
   identity.provenance = {needed<std::string>(piece, software_name), needed<std::string>(piece, embree_name),
                          needed<std::string>(piece, isa_name), needed<std::string>(piece, scene_name)};
   FilmSettings& film = identity.film;
-  film.extent = piece.extent();
+  read_place(piece, identity);
   film.seed = number<std::uint64_t>(piece, seed_name, needed<std::string>(piece, seed_name));
-  film.samples.first = number<std::uint32_t>(piece, first_sample_name, needed<std::string>(piece, first_sample_name));
-  film.samples.count = static_cast<std::uint32_t>(needed<int>(piece, samples_name));
-  film.samples.centered = needed<int>(piece, centered_name) != 0;
-  film.unit_exponent = needed<int>(piece, unit_name);
-  std::stringstream edges(needed<std::string>(piece, whole_name));
-  for (int* edge : {&identity.whole.x0, &identity.whole.y0, &identity.whole.x1, &identity.whole.y1}) {
-    std::string text;
-    std::getline(edges, text, ',');
-    *edge = number<int>(piece, whole_name, text);
-  }
+  film.samples = samples_of(piece);
+  film.unit_exponent = unit_of(piece, unit_name, needed<int>(piece, unit_name));
   if (const auto names = piece.attribute<std::string>(aovs_name)) film.aovs = aovs_of(piece, *names);
-  film.transparent = piece.attribute<int>(transparent_name).value_or(0) != 0;
-  identity.partial = piece.attribute<int>(partial_name).value_or(0) != 0;
+  film.transparent = flag(piece, transparent_name, piece.attribute<int>(transparent_name).value_or(0));
+  identity.partial = flag(piece, partial_name, piece.attribute<int>(partial_name).value_or(0));
   identity.frame = piece.attribute<int>(frame_name);
   identity.variables = piece.attribute<std::string>(variables_name).value_or("");
   return identity;
+}
+
+void refuse_other_channels(const ExrReader& piece, const std::vector<Channel>& wanted) {
+  std::map<std::string, ChannelType> left;
+  for (const Channel& channel : piece.channels()) left.emplace(channel.name, channel.type);
+  for (const Channel& channel : wanted) {
+    const auto found = left.find(channel.name);
+    if (found == left.end()) throw InputError(piece.file() + " lacks the channel " + channel.name);
+    if (found->second != channel.type)
+      throw InputError(piece.file() + " is damaged: its channel " + channel.name + " is of another type");
+    left.erase(found);
+  }
+  if (!left.empty())
+    throw InputError(piece.file() + " is damaged: no such piece has a channel " + printable(left.begin()->first));
 }
 
 std::optional<std::string> difference(const PieceIdentity& wanted, const PieceIdentity& got) {

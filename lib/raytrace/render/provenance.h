@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "raytrace/film/film.h"
+#include "raytrace/film/tiles.h"
 #include "raytrace/output/exr_reader.h"
 #include "raytrace/output/image_file.h"
 #include "raytrace/render/renderer.h"
@@ -33,8 +34,9 @@ std::string variables_text(const std::map<std::string, std::string>& variables);
 struct PieceIdentity {
   Provenance provenance;
   FilmSettings film;
-  Region whole;          ///< the region of the picture that this piece is a part of
-  bool partial = false;  ///< stopped before all its samples were taken; pixels may have different numbers of them
+  Region whole;              ///< the region of the picture that this piece is a part of
+  std::optional<Tile> tile;  ///< the part of it; none: all
+  bool partial = false;      ///< stopped before all its samples were taken; pixels may have different numbers of them
   std::optional<int> frame = std::nullopt;  ///< none: not one of several
   std::string variables{};                  ///< variables_text()
 };
@@ -51,8 +53,11 @@ std::vector<ImageAttribute> partial_attributes(PieceIdentity identity, const Fil
 /// number.
 std::map<std::string, std::string> picture_attributes(const PieceIdentity& identity, bool any_samples);
 
-/// Throws InputError if it is no picture of ours.
+/// Throws InputError if it is no picture of ours, or holds what no picture of ours can.
 PieceIdentity identity_of(const ExrReader& piece);
+
+/// Throws InputError if the file has other channels than these, in whatever order; the first of which it names.
+void refuse_other_channels(const ExrReader& piece, const std::vector<Channel>& wanted);
 
 /// What must not differ between pictures of which one continues or completes another, and does: "the scene",
 /// "the instruction set (x86-64-v3, not x86-64-v4): pin one with --isa"; none if all is the same. Regions and sample

@@ -25,24 +25,24 @@ constexpr int tiles_a_thread = 16;
 
 struct TileGrid {
   Region region;
-  int edge, first_column, first_row, columns, rows;
+  int edge, left, top, columns, rows;
 
   TileGrid(const Region& wanted, int tile_edge)
       : region(wanted),
         edge(tile_edge),
-        first_column(wanted.x0 / edge),
-        first_row(wanted.y0 / edge),
-        columns((wanted.x1 + edge - 1) / edge - first_column),
-        rows((wanted.y1 + edge - 1) / edge - first_row) {}
+        left(round_down(wanted.x0, edge)),
+        top(round_down(wanted.y0, edge)),
+        columns((wanted.x1 - left + edge - 1) / edge),
+        rows((wanted.y1 - top + edge - 1) / edge) {}
 
   int count() const { return columns * rows; }
 
   /// The part of tile `index` that lies in the region. Tiles are aligned to the picture, so that they cut no packet's
   /// block.
   Region tile(int index) const {
-    const int column = first_column + index % columns, row = first_row + index / columns;
-    return {std::max(column * edge, region.x0), std::max(row * edge, region.y0),
-            std::min((column + 1) * edge, region.x1), std::min((row + 1) * edge, region.y1)};
+    const int x = left + index % columns * edge, y = top + index / columns * edge;
+    return {std::max(x, region.x0), std::max(y, region.y0), std::min(x + edge, region.x1),
+            std::min(y + edge, region.y1)};
   }
 };
 
@@ -58,7 +58,7 @@ TileGrid tiles_for(const Region& region, int threads) {
 /// looks at the last ones of all tiles of the smallest size.
 bool is_rendered(const Film& film, const Region& tile, std::uint32_t samples) {
   const auto cell_end = [](int start, int end) {
-    return std::min((start / smallest_tile_edge + 1) * smallest_tile_edge, end);
+    return std::min(round_down(start, smallest_tile_edge) + smallest_tile_edge, end);
   };
   for (int top = tile.y0; top < tile.y1; top = cell_end(top, tile.y1))
     for (int left = tile.x0; left < tile.x1; left = cell_end(left, tile.x1))

@@ -220,8 +220,9 @@ void OpenImageIOEncoder::guard(const Action& action) {
 
 void OpenImageIOEncoder::check(bool done) const {
   if (done && !writer_->has_error()) return;
-  const std::string reason = writer_->geterror();
+  std::string reason = writer_->geterror();
   if (says_out_of_memory(reason)) throw std::bad_alloc();
+  std::replace(reason.begin(), reason.end(), '\n', ' ');
   fail(reason.empty() ? "OpenImageIO's writer failed" : reason);
 }
 

@@ -35,7 +35,7 @@ bool is_possible(const OIIO::ImageSpec& spec) {
 
 bool raytrace_openimageio_reads_all_of(const std::string& file, int width, int height) {
   const auto picture = OIIO::ImageInput::create(file);
-  OIIO::geterror();  // that there is none is told by the answer
+  OIIO::geterror();  // the answer is enough
   OIIO::ImageSpec spec;
   if (!picture || picture->format_name() == std::string("ico") || !picture->open(file, spec)) return false;
   const std::string format = picture->format_name();
