@@ -31,8 +31,8 @@ class Random {
   std::mt19937 bits_;
 };
 
-/// `wanted` rays where the environment has RAYTRACE_LONG_TESTS, else a tenth of them; in builds with a sanitizer, a fifth
-/// and a fiftieth. RAYTRACE_TEST_SHARE in the environment is the share itself (0.01: one in a hundred).
+/// `wanted` rays where the environment has RAYTRACE_LONG_TESTS, else a tenth of them; in builds with a sanitizer, a
+/// fifth and a fiftieth. RAYTRACE_TEST_SHARE in the environment is the share itself (0.01: one in a hundred).
 int ray_count(int wanted);
 
 }  // namespace raytrace::test
