@@ -185,7 +185,7 @@ class ToldOnce(CommandTest):
             self.assertEqual(told.count("error: "), 1, told)
             self.assertIn(reason, told)
             self.assertEqual(self.names(), ["c.3", "scene.xml"])
-        told = self.told(2, "scene.xml", "--frames", "1-4", "-o", "a.#.exr", "--crop", "0,0,17,1")
+        told = self.told(2, "scene.xml", "--frames", "1-4", "-o", "a.#.exr", "--crop", "0,0,99,1")
         self.assertEqual(told.count("--crop"), 1, told)
         self.assertIn("4 of 4 renders failed:\n  scene.xml, frames 1-4\n", told)
         told = self.told(1, "scene.xml", "--frames", "1-4", "-o", "a.#.nothing")
