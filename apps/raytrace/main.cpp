@@ -1,4 +1,5 @@
 // The command: options -> for each frame of each scene: load -> build -> render -> write.
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -24,6 +25,8 @@ namespace {
 int run(const Options& options, Progress& progress) {
   progress.begin(options.job_index, options.job_count);
   const auto start = PictureRender::Clock::now();
+  std::optional<StopEndsProgram> no_rays_yet;  // whoever asked for a checkpoint begins again, and loses nothing
+  if (options.renders() && !options.checkpoint.empty()) no_rays_yet.emplace(exit_code::resumable);
   const bool might_skip = might_be_skipped(options);  // if the files are of this picture, which the scene tells
   if (!might_skip) check_outputs(options);
   Statistics statistics;

@@ -1,5 +1,7 @@
 #include "signals.h"
 
+#include <unistd.h>
+
 #include <array>
 #include <csignal>
 
@@ -20,6 +22,7 @@ constexpr std::array<StoppingSignal, 5> stopping_signals = {
 std::atomic<bool> pause_flag = false;
 std::atomic<bool> picture_flag = false;
 std::atomic<int> last_signal = 0;
+std::atomic<int> stop_exit_code = 0;
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
 bool is_ignored(int number) {
@@ -58,6 +61,8 @@ void on_stop(int number, siginfo_t* /*info*/, void* /*context*/) {
   if (!is_ignored(SIGXCPU)) handle(SIGXCPU, on_later_second);
 }
 
+void on_early_stop(int /*number*/, siginfo_t* /*info*/, void* /*context*/) { _exit(stop_exit_code); }
+
 void on_picture_request(int /*number*/, siginfo_t* /*info*/, void* /*context*/) {
   picture_flag = true;
   pause_flag = true;
@@ -92,6 +97,15 @@ std::string Signals::stop_signal_name() const {
 }
 
 bool Signals::take_picture_request() const { return picture_flag.exchange(false); }
+
+StopEndsProgram::StopEndsProgram(int exit_code) {
+  stop_exit_code = exit_code;
+  for (const auto& [number, name] : stopping_signals) {
+    if (!is_ignored(number)) handle(number, on_early_stop);
+  }
+}
+
+StopEndsProgram::~StopEndsProgram() { restore_defaults(); }
 
 StopSignalsWait::StopSignalsWait() {
   sigset_t stops;

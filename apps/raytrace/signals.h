@@ -31,6 +31,16 @@ class Signals {
   bool take_picture_request() const;
 };
 
+/// While it lives, a signal to stop ends the program at once, with this exit code: until there are rays, there is
+/// nothing to write. One that is to be ignored stays ignored. A Signals object that is made meanwhile takes over.
+class StopEndsProgram {
+ public:
+  explicit StopEndsProgram(int exit_code);
+  ~StopEndsProgram();
+  StopEndsProgram(const StopEndsProgram&) = delete;
+  StopEndsProgram& operator=(const StopEndsProgram&) = delete;
+};
+
 /// While it lives, signals to stop wait: neither this thread nor those that it starts are ended by them. For moments in
 /// which a temporary file would stay behind.
 class StopSignalsWait {

@@ -126,6 +126,24 @@ class Stopped(SafetyTest):
             self.assert_same("a.exr", self.read("whole.exr"))
             os.remove(self.path("a.exr"))
 
+    def test_before_there_are_rays(self):
+        """While the scene is read: with a checkpoint, the render is to be begun again; without, the signal ends it."""
+        for number in (signal.SIGTERM, signal.SIGHUP, signal.SIGUSR2):
+            for checkpoint, code in (["--checkpoint", "c.exr"], 75), ([], -number):
+                process = subprocess.Popen([support.PROGRAM, "-", "-q", "-o", "a.exr", *checkpoint], cwd=self.folder,
+                                           stdin=subprocess.PIPE, env=ENVIRONMENT)
+                self.addCleanup(process.kill)
+                process.stdin.write(b"<raytracer>")
+                process.stdin.flush()
+                if checkpoint:
+                    end = time.monotonic() + LIMIT
+                    while not support.catches(process, number) and time.monotonic() < end:
+                        time.sleep(0.01)
+                process.send_signal(number)
+                self.assertEqual(process.wait(timeout=LIMIT), code)
+                process.stdin.close()
+                self.assertEqual(self.names(), ["scene.xml"])
+
     def stop(self, number, *arguments):
         process = self.start("scene.xml", *support.ENDLESS, "--progress=plain", *arguments)
         self.assertIn("rendered", process.stderr.readline())
