@@ -34,7 +34,7 @@ std::size_t count_items(const ItemLists& lists) {
   return std::apply([](const auto&... list) { return (list.size() + ...); }, lists);
 }
 
-std::string in_seconds(double seconds) {
+std::string time_taken(double seconds) {
   char text[32];
   std::snprintf(text, sizeof text, " in %.3f s", seconds);
   return text;
@@ -145,7 +145,7 @@ std::optional<SceneDescription> load(const Options& options, Statistics& statist
   if (diagnostics.has_errors() || tells(Verbosity::warnings)) tell_findings(diagnostics);
   if (description) {
     tell_step(shown_name(options.scene) + ": " + contents(*description) + ", read" +
-              in_seconds(statistics.phases.load.seconds));
+              time_taken(statistics.phases.load.seconds));
   }
   return description;
 }
@@ -162,7 +162,7 @@ std::unique_ptr<const Scene> build(const SceneDescription& description, const Op
   obey_group_memory_limit(options.threads);
   statistics.scene = scene->statistics();
   tell_step("built for " + statistics.scene.isa + " with Embree " + statistics.scene.embree_version +
-            in_seconds(statistics.phases.build.seconds));
+            time_taken(statistics.phases.build.seconds));
   return scene;
 }
 

@@ -46,7 +46,7 @@ std::string problems(const std::function<void(SceneDescription&)>& change) {
   return text.str();
 }
 
-auto& sphere(SceneDescription& scene) { return std::get<ObjectItems<Sphere>>(scene.objects)[0]; }
+auto& first_sphere(SceneDescription& scene) { return std::get<ObjectItems<Sphere>>(scene.objects)[0]; }
 auto& camera(SceneDescription& scene) { return std::get<PinholeCamera::Parameters>(scene.camera); }
 auto& matte(SceneDescription& scene) { return std::get<MaterialItems<Matte>>(scene.materials)[0]; }
 
@@ -71,39 +71,39 @@ TEST_CASE("each rule of the format holds for a description that a program has ma
                  "<camera>: the camera's <eye> and <lookat> are the same point"));
   CHECK(contains(problems([](Scene& s) { camera(s).up = {0, 0, 0}; }), "a <up> of length 0; it is a direction"));
   CHECK(contains(problems([](Scene& s) { camera(s).viewdistance = 0; }), "must be greater than 0"));
-  CHECK(problems([](Scene& s) { sphere(s).parameters.radius = -1; }) ==
+  CHECK(problems([](Scene& s) { first_sphere(s).parameters.radius = -1; }) ==
         "s: error: <sphere> [0] has '-1' as <radius>, which must be greater than 0\n");
-  CHECK(contains(problems([](Scene& s) { sphere(s).parameters.radius = nan; }), "not a finite number"));
-  CHECK(contains(problems([](Scene& s) { sphere(s).parameters.center.y = infinite; }),
+  CHECK(contains(problems([](Scene& s) { first_sphere(s).parameters.radius = nan; }), "not a finite number"));
+  CHECK(contains(problems([](Scene& s) { first_sphere(s).parameters.center.y = infinite; }),
                  "'inf' as <center>, which is not"));
-  CHECK(contains(problems([](Scene& s) { sphere(s).parameters.center.x = 1e18; }), "beyond the largest number"));
-  CHECK(contains(problems([](Scene& s) { sphere(s).parameters.radius = 1e-20; }), "too small"));
+  CHECK(contains(problems([](Scene& s) { first_sphere(s).parameters.center.x = 1e18; }), "beyond the largest number"));
+  CHECK(contains(problems([](Scene& s) { first_sphere(s).parameters.radius = 1e-20; }), "too small"));
   CHECK(contains(problems([](Scene& s) { matte(s).parameters.kd = -1; }),
                  "<matte> [0] has '-1' as <kd>, which must not"));
   CHECK(contains(problems([](Scene& s) { matte(s).name = ""; }), "<matte> [0] has '' as <name>, which is empty"));
   for (const char* const name : {"a  b", "a\nb", " a", "a ", "a\x01", "\xff"})
     CHECK(contains(problems([&](Scene& s) { matte(s).name = name; }), "<matte> [0] has '"));
-  CHECK(contains(problems([](Scene& s) { sphere(s).name = "ball"; }),
+  CHECK(contains(problems([](Scene& s) { first_sphere(s).name = "ball"; }),
                  "<sphere> [1] has the object name 'ball' of <sphere> [0]; choose another"));
   CHECK(contains(problems([](Scene& s) { std::get<MaterialItems<Phong>>(s.materials).push_back({{}, "clay", 0}); }),
                  "<phong> [0] has the material name 'clay' of <matte> [0]"));
-  CHECK(problems([](Scene& s) { sphere(s).material.index = 1; }) ==
+  CHECK(problems([](Scene& s) { first_sphere(s).material.index = 1; }) ==
         "s: error: <sphere> [0] refers to material 1 of kind 0, which is not there\n");
-  CHECK(
-      contains(problems([](Scene& s) { sphere(s).material.kind = 77; }), "material 0 of kind 77, which is not there"));
+  CHECK(contains(problems([](Scene& s) { first_sphere(s).material.kind = 77; }),
+                 "material 0 of kind 77, which is not there"));
   CHECK(contains(problems([](Scene& s) { std::get<LightItems<AmbientLight>>(s.lights).resize(2); }),
                  "<ambientlight> [1] is a second one"));
   CHECK(contains(
       problems([](Scene& s) { std::get<LightItems<DirectionalLight>>(s.lights)[0].parameters.direction = {0, 0, 0}; }),
       "<directionallight> [0] has a <direction> of length 0"));
-  CHECK(problems([](Scene& s) { sphere(s).line = 7, sphere(s).parameters.radius = 0; }) ==
+  CHECK(problems([](Scene& s) { first_sphere(s).line = 7, first_sphere(s).parameters.radius = 0; }) ==
         "s:7: error: <sphere> [0] has '0' as <radius>, which must be greater than 0\n");
 }
 
 TEST_CASE("all problems are reported at once, and warnings alone are none") {
   SceneDescription scene = good_scene();
-  sphere(scene).parameters.radius = 0;
-  sphere(scene).material.index = 9;
+  first_sphere(scene).parameters.radius = 0;
+  first_sphere(scene).material.index = 9;
   try {
     require_good_scene(scene);
     FAIL("nothing was thrown");

@@ -53,7 +53,7 @@ TEST_CASE("PNG and TIFF hold straight alpha: the colour of the covered part, enc
   const ReadPicture picture = read_straight(file);
   REQUIRE(picture.spec.nchannels == 4);
   CHECK(picture.spec.alpha_channel == 3);
-  if (contains(file.c_str(), ".tif")) CHECK(picture.spec.get_int_attribute("oiio:UnassociatedAlpha") == 1);
+  if (contains(file, ".tif")) CHECK(picture.spec.get_int_attribute("oiio:UnassociatedAlpha") == 1);
   for (int x = 0; x < 4; ++x) {
     INFO(file << " column " << x);
     const Pixel& pixel = film.at(x, 0);

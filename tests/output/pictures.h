@@ -97,7 +97,7 @@ inline ReadPicture read_picture(const std::string& file, const OIIO::ImageSpec* 
 
 /// The values as the file has them; straight colour is not multiplied by alpha.
 template <class Integer>
-std::vector<Integer> integers(const std::string& file, OIIO::TypeDesc type) {
+std::vector<Integer> integers(const std::string& file, const OIIO::TypeDesc& type) {
   OIIO::ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", 1);
   const auto input = OIIO::ImageInput::open(file, &config);

@@ -30,7 +30,7 @@ std::string chunk(const std::string& file, const std::string& kind) {
 
 /// The values, as integers, of a file that OpenImageIO makes of the picture's sRGB-encoded values.
 template <class Integer>
-std::vector<Integer> by_openimageio(const std::string& file, const FloatPicture& film, OIIO::TypeDesc type) {
+std::vector<Integer> by_openimageio(const std::string& file, const FloatPicture& film, const OIIO::TypeDesc& type) {
   const int width = film.region().width(), height = film.region().height();
   std::vector<float> values;
   for (const Pixel& pixel : film.pixels())
@@ -85,7 +85,7 @@ TEST_CASE("names beyond ASCII are UTF-8 text of their own kind") {
   ImageMetadata metadata = some_metadata();
   metadata.scene_file = "caf\u00e9/\u4e16.xml";
   write_image(file, distinct_film(8, 8), metadata, {});
-  CHECK(contains(chunk(file, "iTXt").c_str(), "raytrace:scene"));
+  CHECK(contains(chunk(file, "iTXt"), "raytrace:scene"));
   CHECK(read_picture(file).spec.get_string_attribute("raytrace:scene") == metadata.scene_file);
   metadata.scene_file = "no utf-8: \xff";
   write_image(file, distinct_film(8, 8), metadata, {});

@@ -33,7 +33,7 @@ Complaint complaint_about(const std::string& value, Range) {
 std::string text_of(double value) { return number_text(value); }
 std::string text_of(int value) { return std::to_string(value); }
 std::string text_of(bool value) { return value ? "true" : "false"; }
-const std::string& text_of(const std::string& value) { return value; }
+std::string text_of(const std::string& value) { return value; }
 
 class SceneChecker {
  public:

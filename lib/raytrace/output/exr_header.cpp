@@ -111,7 +111,9 @@ PictureExtent extent_of(const Window& display, const Window& data) {
   };
   if (!is_allowed_size(static_cast<double>(display.width()), static_cast<double>(display.height())))
     throw InputError("its display window of " + size_text(display) + " pixels is no size of a picture of this program");
-  const auto fits = [](std::int64_t edge) { return edge >= -2 * largest_edge && edge < 2 * largest_edge; };
+  const auto fits = [](std::int64_t edge) {
+    return edge >= -std::int64_t{2} * largest_edge && edge < std::int64_t{2} * largest_edge;
+  };
   for (const std::int64_t edge : data.edges)
     if (!fits(edge)) throw InputError("its data window reaches too far beyond its display window");
   const auto edge = [&](std::size_t i) { return static_cast<int>(data.edges[i]); };

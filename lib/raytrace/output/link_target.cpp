@@ -18,7 +18,7 @@ namespace {
 
 constexpr int most_links = 40;  // as the kernel's own limit
 
-[[noreturn]] void fail(const std::string& file, const std::string& reason) {
+[[noreturn]] void refuse_link(const std::string& file, const std::string& reason) {
   throw OutputError("cannot write " + file + ": " + reason);
 }
 
@@ -27,7 +27,7 @@ void refuse_trap(const std::string& file, const fs::path& link, const struct sta
   const bool anyone_writes =
       stat(folder_of(link).c_str(), &folder) == 0 && (folder.st_mode & S_ISVTX) != 0 && (folder.st_mode & S_IWOTH) != 0;
   if (anyone_writes && its.st_uid != geteuid() && its.st_uid != folder.st_uid)
-    fail(file, link.string() + " is another user's symbolic link in a folder that everyone can write to");
+    refuse_link(file, link.string() + " is another user's symbolic link in a folder that everyone can write to");
 }
 
 /// The parts of a path, the last one first.
@@ -52,11 +52,11 @@ fs::path link_target(const std::string& file) {
       reached = next;
       continue;
     }
-    if (++links > most_links) fail(file, std::generic_category().message(ELOOP));
+    if (++links > most_links) refuse_link(file, std::generic_category().message(ELOOP));
     refuse_trap(file, next, status);
     std::error_code error;
     const fs::path target = fs::read_symlink(next, error);
-    if (error) fail(file, error.message());
+    if (error) refuse_link(file, error.message());
     for (fs::path& part : reversed(target)) ahead.push_back(std::move(part));  // an absolute one begins anew, at "/"
   }
   return reached;
