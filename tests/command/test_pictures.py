@@ -125,6 +125,12 @@ class Pictures(CommandTest):
         larger = self.render(*centered, scene="wide.xml")
         over = self.render("--crop", "-20,-20,100,80", *centered)
         self.assertEqual({(x + 20, y + 20): pixel for (x, y), pixel in over.pixels().items()}, larger.pixels())
+        for samples in ("2", "4", "8", "16"):  # packets of several shapes
+            larger = self.render("-s", samples, scene="wide.xml").pixels()
+            over = self.render("--crop", "-20,-20,100,80", "-s", samples).pixels()
+            off = [abs(value - other) for (x, y), pixel in over.items()
+                   for value, other in zip(pixel, larger[x + 20, y + 20])]
+            self.assertLess(sum(off) / len(off), 0.02)
 
     def test_pixels_beyond_the_picture_in_other_ways(self):
         crop = ["--crop", "-9,-5,40,30"]
