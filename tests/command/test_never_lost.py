@@ -47,7 +47,8 @@ class SafetyTest(CommandTest):
         self.wait_for(lambda: os.path.exists(self.path(name)), process, name)
 
     def wait_for_rays(self, process):
-        self.wait_for(lambda: support.catches(process, signal.SIGTERM), process, "its handlers")
+        # Of this signal: those to stop are caught before, where there is a checkpoint.
+        self.wait_for(lambda: support.catches(process, signal.SIGUSR1), process, "its handlers")
         before = support.processor_seconds(process)  # handlers come before rays
         self.wait_for(lambda: support.processor_seconds(process) > before + 0.1, process, "rays")
 
