@@ -132,7 +132,7 @@ int run_all(const Jobs& jobs, const std::function<int(const Options&)>& run) {
 
 namespace {
 
-/// What several renders fail of is told once.
+/// An error that several renders have in common is reported once.
 void tell_new_error(const std::string& text, const std::vector<std::string>& more_lines = {}) {
   static std::unordered_set<std::string> told;
   if (told.insert(text).second) tell_error(text, more_lines);

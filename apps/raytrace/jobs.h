@@ -41,11 +41,11 @@ class Jobs {
 };
 
 /// Renders all jobs by `run`, which gives an exit code or throws. One that fails does not stop the others; in the end
-/// they are named, and what several have in common is told for the first of them. The exit code is the one that all
+/// they are named, and what several have in common is reported for the first of them. The exit code is the one that all
 /// that failed have in common, or exit_code::failed. A signal stops them all.
 int run_all(const Jobs& jobs, const std::function<int(const Options&)>& run);
 
-/// What `action` gives; if it throws, the exit code for that, and the error is told.
+/// What `action` gives; if it throws, the exit code for that, and the error is reported.
 int guarded(const std::function<int()>& action);
 
 }  // namespace raytrace

@@ -49,7 +49,7 @@ std::string wiped_bar() {
 void log(std::string_view lines) {
   const std::string time = utc_time();
   while (log_file >= 0 && !lines.empty()) {
-    const std::size_t length = lines.find('\n') + 1;  // all that is told ends with a line end
+    const std::size_t length = lines.find('\n') + 1;  // every message ends with a line end
     const std::string line = time + std::string(lines.substr(0, length));
     lines.remove_prefix(length);
     if (::write(log_file, line.data(), line.size()) == static_cast<ssize_t>(line.size())) continue;

@@ -13,7 +13,7 @@ namespace raytrace {
 
 enum class Verbosity { errors, warnings, steps, details };
 
-/// What is told from here on; before the first call, warnings and errors.
+/// What is reported from here on; before the first call, warnings and errors.
 void set_verbosity(Verbosity verbosity);
 
 /// From here on messages go to this file, too: each line is added at its end after the time in UTC
