@@ -8,7 +8,7 @@
 
 #include "ceiling.h"
 #include "raytrace/accel/embree_packets.h"
-#include "raytrace/integrators/secondary_ray.h"
+#include "raytrace/integrators/ray_origin.h"
 #include "raytrace/sampling/pixel_sampler.h"
 #include "raytrace/scene/traced_scene.h"
 
@@ -162,7 +162,7 @@ class CeilingOfVariant final : public Ceiling {
       xs[lane] = static_cast<float>(column) - static_cast<float>(viewplane.hres) / 2;
       ys[lane] = static_cast<float>(viewplane.vres) / 2 - 1 - static_cast<float>(row);
     }
-    PixelSampler sampler(PixelShift(UintN::load_aligned(columns), UintN::load_aligned(rows), 0),
+    PixelSampler sampler(PixelScramble(UintN::load_aligned(columns), UintN::load_aligned(rows), 0),
                          SampleGroup(UintN(0u), 1), 0, viewplane.samples == 1);
     for (int sample = 0; sample < std::min(first_sample + 16, viewplane.samples); ++sample) {
       const PixelSampler::Point point = sampler.next();
@@ -180,7 +180,7 @@ class CeilingOfVariant final : public Ceiling {
       if (none(hits.hit)) continue;
       const SurfacePoint<FloatN> surface = scene_.accelerator().surface(rays, hits);
       Ray<FloatN> shadow_rays;
-      shadow_rays.origin = leaving_origin(surface);
+      shadow_rays.origin = offset_ray_origin(surface);
       shadow_rays.near = FloatN(0);
       for (const auto& light : scene_.lights()) {
         Rgb<FloatN> radiance;

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "option_values.h"
-#include "raytrace/description/quoted.h"
+#include "raytrace/text/quoted.h"
 
 namespace raytrace {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "option_values.h"
-#include "raytrace/description/quoted.h"
+#include "raytrace/text/quoted.h"
 
 namespace raytrace {
 

@@ -110,39 +110,39 @@ int run_all(const Jobs& jobs, const std::function<int(const Options&)>& run) {
   int common_code = exit_code::done;
   for (std::size_t i = 0; i < jobs.count(); ++i) {
     const Options job = jobs[i];
-    tell_step(jobs.name(i) + " (" + std::to_string(i + 1) + " of " + std::to_string(jobs.count()) + ")");
+    log_step(jobs.name(i) + " (" + std::to_string(i + 1) + " of " + std::to_string(jobs.count()) + ")");
     const std::size_t told_before = message_count();
-    const int code = guarded([&] { return run(job); });
+    const int code = run_reporting_errors([&] { return run(job); });
     if (code == exit_code::done) continue;
     // All others say that the program was stopped.
     if (code != exit_code::failed && code != exit_code::usage && code != exit_code::out_of_memory) {
-      tell_note("stopped at " + jobs.name(i) + ", " + std::to_string(i + 1) + " of " + counted(jobs.count(), "render"));
+      log_note("stopped at " + jobs.name(i) + ", " + std::to_string(i + 1) + " of " + counted(jobs.count(), "render"));
       return code;
     }
-    if (message_count() > told_before) tell_error(jobs.name(i) + ": failed");
+    if (message_count() > told_before) log_error(jobs.name(i) + ": failed");
     common_code = failed.empty() || code == common_code ? code : exit_code::failed;
     failed.push_back(i);
   }
   if (failed.empty()) return exit_code::done;
   std::vector<std::string> names;
   for (const std::string& name : jobs.names(failed)) names.push_back("  " + name);
-  tell_error(std::to_string(failed.size()) + " of " + counted(jobs.count(), "render") + " failed:", names);
+  log_error(std::to_string(failed.size()) + " of " + counted(jobs.count(), "render") + " failed:", names);
   return common_code;
 }
 
 namespace {
 
 /// An error that several renders have in common is reported once.
-void tell_new_error(const std::string& text, const std::vector<std::string>& more_lines = {}) {
+void log_new_error(const std::string& text, const std::vector<std::string>& more_lines = {}) {
   static std::unordered_set<std::string> told;
-  if (told.insert(text).second) tell_error(text, more_lines);
+  if (told.insert(text).second) log_error(text, more_lines);
 }
 
 }  // namespace
 
-int guarded(const std::function<int()>& action) {
-  const auto tell_no_memory = [](const std::string& more) {
-    tell_new_error("out of memory" + memory_limit_text() + more);
+int run_reporting_errors(const std::function<int()>& action) {
+  const auto log_no_memory = [](const std::string& more) {
+    log_new_error("out of memory" + memory_limit_text() + more);
     return exit_code::out_of_memory;
   };
   try {
@@ -150,24 +150,24 @@ int guarded(const std::function<int()>& action) {
   } catch (const UsageError& error) {
     std::vector<std::string> more_lines = error.more_lines();
     more_lines.emplace_back("Try 'raytrace --help'.");
-    tell_new_error(error.what(), more_lines);
+    log_new_error(error.what(), more_lines);
     return exit_code::usage;
   } catch (const SizeError& error) {  // what was asked for cannot be, and nothing was rendered for it
-    tell_new_error(error.what());
+    log_new_error(error.what());
     return exit_code::usage;
   } catch (const std::bad_alloc&) {
-    return tell_no_memory("");
+    return log_no_memory("");
   } catch (const std::system_error& error) {
     // Mostly of a thread that could not be started.
     if (error.code() != std::errc::resource_unavailable_try_again && error.code() != std::errc::not_enough_memory) {
-      tell_new_error(error.what());
+      log_new_error(error.what());
       return exit_code::failed;
     }
-    return tell_no_memory(std::string(" or of threads, of which -t N takes fewer: ") + error.what());
+    return log_no_memory(std::string(" or of threads, of which -t N takes fewer: ") + error.what());
   } catch (const std::exception& error) {
     const bool is_library_error = typeid(error) == typeid(std::runtime_error);  // oneTBB's; others bear names of files
-    if (is_library_error && says_out_of_memory(error.what())) return tell_no_memory(std::string(": ") + error.what());
-    tell_new_error(error.what());
+    if (is_library_error && says_out_of_memory(error.what())) return log_no_memory(std::string(": ") + error.what());
+    log_new_error(error.what());
     return exit_code::failed;
   }
 }

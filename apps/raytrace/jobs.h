@@ -46,6 +46,6 @@ class Jobs {
 int run_all(const Jobs& jobs, const std::function<int(const Options&)>& run);
 
 /// What `action` gives; if it throws, the exit code for that, and the error is reported.
-int guarded(const std::function<int()>& action);
+int run_reporting_errors(const std::function<int()>& action);
 
 }  // namespace raytrace

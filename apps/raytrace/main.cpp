@@ -33,8 +33,8 @@ int run(const Options& options, Progress& progress) {
   std::optional<SceneDescription> description = load(options, statistics);
   if (!description) return exit_code::failed;
   description->viewplane = asked_viewplane(description->viewplane, options);
-  const Region whole = asked_whole(description->viewplane, options);
-  const Region region = asked_region(whole, options);
+  const Region whole = crop_window(description->viewplane, options);
+  const Region region = render_window(whole, options);
   if (options.print_scene || options.validate) {
     if (options.print_scene) print(print_scene(*description));
     if (!options.print_scene && !options.quiet) print(summary(*description) + "\n");
@@ -42,7 +42,7 @@ int run(const Options& options, Progress& progress) {
   }
   if (might_skip) {
     if (outputs_are_complete(*description, whole, region, options)) {
-      tell_note(joined(options.outputs, ", ") + ": there already, skipped");
+      log_note(joined(options.outputs, ", ") + ": there already, skipped");
       progress.skip();
       return exit_code::done;
     }
@@ -57,13 +57,13 @@ int run(const Options& options, Progress& progress) {
   }
   describe(*description, region, options, statistics);
   const Signals signals;
-  const Ending ending =
+  const RenderOutcome ending =
       PictureRender(*scene, *description, options, whole, region, signals, start, progress, statistics).run();
-  if (ending == Ending::stopped) {
+  if (ending == RenderOutcome::stopped) {
     return options.checkpoint.empty() ? exit_code::stopped + signals.stop_signal() : exit_code::resumable;
   }
   report(statistics, options);
-  return ending == Ending::written ? exit_code::done : exit_code::failed;
+  return ending == RenderOutcome::written ? exit_code::done : exit_code::failed;
 }
 
 }  // namespace
@@ -78,7 +78,7 @@ int main(int argc, char** argv) {
     if (is_merge_command(count, arguments.data())) return merge_command(count, arguments.data());
     Options options = parse_options(count, arguments.data());
     set_verbosity(options.verbosity());
-    tell_program_in(options.progress);
+    log_program_in(options.progress);
     if (const auto answer = about_program(options)) {
       print(*answer);
       return exit_code::done;
@@ -86,11 +86,11 @@ int main(int argc, char** argv) {
     const int wanted_threads = std::exchange(options.threads, threads_with_room(options.threads));
     const Jobs jobs(options);  // before the log file is opened, which might be the scene
     if (!options.log_file.empty()) log_to(options.log_file);
-    tell_missing_threads(wanted_threads, options.threads);
+    log_missing_threads(wanted_threads, options.threads);
     Progress progress(options.progress);
     const RunChecks checks(jobs);
     return run_all(jobs,
                    [&](const Options& job) { return checks.forbid(job) ? exit_code::failed : run(job, progress); });
   };
-  return run_in_prepared_process([&] { return guarded(program); });
+  return run_in_prepared_process([&] { return run_reporting_errors(program); });
 }

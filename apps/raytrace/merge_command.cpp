@@ -92,10 +92,10 @@ MergeOptions parsed(int argc, const char* const* argv) {
 
 void tell(const MergeReport& report) {
   for (const std::string& file : report.outputs) {
-    tell_step("wrote " + file + ": " + counted(report.pieces, "piece") + ", " +
-              counted(static_cast<std::uint64_t>(report.samples), "sample") + " a pixel");
+    log_step("wrote " + file + ": " + counted(report.pieces, "piece") + ", " +
+             counted(static_cast<std::uint64_t>(report.samples), "sample") + " a pixel");
   }
-  if (report.missing_parts) tell_warning("the picture is not complete: some pixels, or samples of them, are missing");
+  if (report.missing_parts) log_warning("the picture is not complete: some pixels, or samples of them, are missing");
 }
 
 }  // namespace
@@ -144,19 +144,19 @@ int merge_command(int argc, const char* const* argv) {
   set_verbosity(options.quiet ? Verbosity::errors : options.verbose ? Verbosity::steps : Verbosity::warnings);
   const int wanted_threads = thread_count(options.settings.threads);
   options.settings.threads = threads_with_room(wanted_threads);
-  tell_missing_threads(wanted_threads, options.settings.threads);
+  log_missing_threads(wanted_threads, options.settings.threads);
   obey_group_memory_limit(options.settings.threads);
   const Signals signals;
   try {
     const MergeReport report = merge_pieces(options.settings, [&] { return signals.stop_signal() != 0; });
     if (report.stopped) {
-      tell_note("stopped by " + signals.stop_signal_name() + ": nothing written");
+      log_note("stopped by " + signals.stop_signal_name() + ": nothing written");
       return exit_code::stopped + signals.stop_signal();
     }
     tell(report);
   } catch (const MergeError& error) {
     std::istringstream problems(error.what());
-    for (std::string problem; std::getline(problems, problem);) tell_error(problem);
+    for (std::string problem; std::getline(problems, problem);) log_error(problem);
     return exit_code::failed;
   }
   return exit_code::done;

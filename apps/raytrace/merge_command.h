@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "raytrace/render/merge_pieces.h"
+#include "raytrace/batch/merge_pieces.h"
 
 namespace raytrace {
 

@@ -11,9 +11,9 @@
 #include <sstream>
 #include <string_view>
 
-#include "raytrace/description/quoted.h"
 #include "raytrace/output/link_target.h"
 #include "raytrace/output/output_error.h"
+#include "raytrace/text/quoted.h"
 
 namespace raytrace {
 
@@ -84,7 +84,7 @@ void log_to(const std::string& file) {
   log_name = file;
 }
 
-void tell_program_in(ProgressStyle style) {
+void log_program_in(ProgressStyle style) {
   if (is_for_programs(style)) program_style = style;
 }
 
@@ -95,39 +95,39 @@ std::size_t message_count() {
 
 bool tells(Verbosity verbosity) { return verbosity <= told; }
 
-void tell_error(const std::string& text, const std::vector<std::string>& more_lines) {
+void log_error(const std::string& text, const std::vector<std::string>& more_lines) {
   write_message("error: ", text, more_lines);
   std::string on_line = text;
   for (const std::string& line : more_lines) on_line += " " + line;
-  tell_program_failure(on_line);
+  log_program_failure(on_line);
 }
 
-void tell_warning(const std::string& text) {
+void log_warning(const std::string& text) {
   if (tells(Verbosity::warnings)) write_message("warning: ", text);
 }
 
-void tell_note(const std::string& text) {
+void log_note(const std::string& text) {
   if (tells(Verbosity::warnings)) write_message("", text);
 }
 
-void tell_step(const std::string& text) {
+void log_step(const std::string& text) {
   if (tells(Verbosity::steps)) write_message("", text);
-  tell_program(status_line(program_style, text));
+  log_program(status_line(program_style, text));
 }
 
-void tell_lines(const std::string& lines) {
+void log_lines(const std::string& lines) {
   std::string message;
   std::istringstream stream(lines);
   for (std::string line; std::getline(stream, line);) message += on_one_line(line) + "\n";
   write_message(message);
 }
 
-void tell_progress(const std::string& text) {
+void log_progress(const std::string& text) {
   const std::lock_guard lock(mutex);
   write_shown("raytrace: " + text + "\n");
 }
 
-void tell_program(const std::string& lines) {
+void log_program(const std::string& lines) {
   const std::lock_guard lock(mutex);
   std::fwrite(lines.data(), 1, lines.size(), stdout);
   std::fflush(stdout);
@@ -140,7 +140,7 @@ void print(const std::string& text) {
   throw OutputError(std::string("cannot write to standard output: ") + std::strerror(errno != 0 ? errno : EIO));
 }
 
-void tell_program_failure(const std::string& text) { tell_program(failure_line(program_style, text)); }
+void log_program_failure(const std::string& text) { log_program(failure_line(program_style, text)); }
 
 void show_bar(const std::string& text) {
   const std::lock_guard lock(mutex);

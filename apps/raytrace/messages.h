@@ -23,7 +23,7 @@ void log_to(const std::string& file);
 
 /// From here on, steps and errors are told to the program that reads standard output, too, whatever the verbosity, if
 /// the style is for one. Should that program go away, the run goes on.
-void tell_program_in(ProgressStyle style);
+void log_program_in(ProgressStyle style);
 
 /// How many messages were told so far.
 std::size_t message_count();
@@ -33,25 +33,25 @@ bool tells(Verbosity verbosity);
 
 // The text of a message may hold anything that a user or a file says: control characters in it, line ends too, are
 // shown as \xNN, so that none reaches a terminal or a log. What is to stand on lines of its own comes as such.
-void tell_error(const std::string& text, const std::vector<std::string>& more_lines = {});
-void tell_warning(const std::string& text);
-void tell_note(const std::string& text);  ///< with the weight of a warning, but it is none
-void tell_step(const std::string& text);
+void log_error(const std::string& text, const std::vector<std::string>& more_lines = {});
+void log_warning(const std::string& text);
+void log_note(const std::string& text);  ///< with the weight of a warning, but it is none
+void log_step(const std::string& text);
 
 /// Whole lines: findings about a scene, statistics. Of what they hold, line ends alone stay as they are.
-void tell_lines(const std::string& lines);
+void log_lines(const std::string& lines);
 
 /// How far the render is, as a line for people. It is not logged.
-void tell_progress(const std::string& text);
+void log_progress(const std::string& text);
 
 /// What was asked for, on standard output, at once. Throws OutputError if it takes no more.
 void print(const std::string& text);
 
 /// To the program that reads standard output, at once.
-void tell_program(const std::string& lines);
+void log_program(const std::string& lines);
 
-/// Why the run fails, for the program that reads standard output. tell_error() does that by itself.
-void tell_program_failure(const std::string& text);
+/// Why the run fails, for the program that reads standard output. log_error() does that by itself.
+void log_program_failure(const std::string& text);
 
 /// Draws a terminal's last line over; empty: wipes it out. So does each message, before it.
 void show_bar(const std::string& text);

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "option_synonyms.h"
-#include "raytrace/description/quoted.h"
+#include "raytrace/text/quoted.h"
 
 namespace raytrace {
 

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "raytrace/aovs/aov_selection.h"
-#include "raytrace/description/nearest_name.h"
-#include "raytrace/description/quoted.h"
+#include "raytrace/text/nearest_name.h"
+#include "raytrace/text/quoted.h"
 
 namespace raytrace {
 

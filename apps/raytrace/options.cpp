@@ -11,10 +11,10 @@
 #include "option_parser.h"
 #include "option_values.h"
 #include "raytrace/aovs/aov_selection.h"
-#include "raytrace/description/quoted.h"
-#include "raytrace/description/utf8.h"
 #include "raytrace/description/variables.h"
 #include "raytrace/render/renderer.h"
+#include "raytrace/text/quoted.h"
+#include "raytrace/text/utf8.h"
 
 namespace raytrace {
 

@@ -10,13 +10,13 @@ namespace raytrace {
 
 namespace {
 
-void tell_repairs(const std::string& file, const Repairs& repairs) {
+void log_repairs(const std::string& file, const Repairs& repairs) {
   if (repairs.clamped > 0) {
-    tell_warning(file + ": " + counted(repairs.clamped, "value") +
-                 " beyond what the format holds became its largest; in EXR, --float keeps them");
+    log_warning(file + ": " + counted(repairs.clamped, "value") +
+                " beyond what the format holds became its largest; in EXR, --float keeps them");
   }
   if (repairs.not_finite > 0) {
-    tell_warning(file + ": " + counted(repairs.not_finite, "value") + " not finite; NaN became 0");
+    log_warning(file + ": " + counted(repairs.not_finite, "value") + " not finite; NaN became 0");
   }
 }
 
@@ -27,7 +27,7 @@ bool succeeds(const Action& action) {
     action();
     return true;
   } catch (const OutputError& error) {
-    tell_error(error.what());
+    log_error(error.what());
     return false;
   }
 }
@@ -80,8 +80,8 @@ bool Outputs::commit(Statistics& statistics) {
     succeeds([&] {
       const Repairs repairs = file.image->commit();
       statistics.outputs.push_back(file.name);
-      tell_repairs(file.name, repairs);
-      tell_step("wrote " + file.name);
+      log_repairs(file.name, repairs);
+      log_step("wrote " + file.name);
     });
   }
   return statistics.outputs.size() == wanted_files_;

@@ -9,11 +9,11 @@
 #include "outputs.h"
 #include "picture_settings.h"
 #include "raytrace/aovs/aov_selection.h"
+#include "raytrace/batch/checkpoint.h"
 #include "raytrace/film/aov_film.h"
 #include "raytrace/film/samples_done.h"
 #include "raytrace/output/complete_picture.h"
 #include "raytrace/output/film_channels.h"
-#include "raytrace/render/checkpoint.h"
 
 namespace raytrace {
 
@@ -60,11 +60,11 @@ PictureRender::PictureRender(const Scene& scene, const SceneDescription& descrip
   identity_.tile = options.tile;
   if (options.display_server) {
     const PictureExtent extent{description.viewplane.hres, description.viewplane.vres, region};
-    display_ = std::make_unique<DisplayClient>(*options.display_server, options.outputs.front(), extent, tell_warning);
+    display_ = std::make_unique<DisplayClient>(*options.display_server, options.outputs.front(), extent, log_warning);
   }
 }
 
-Ending PictureRender::run() {
+RenderOutcome PictureRender::run() {
   const AovSettings aovs = aov_settings(options_.aovs);
   const int rows = rows_at_once(settings_.region, sizeof(PixelSum) + AovFilm::pixel_bytes(aovs));
   // What goes on later, or may end at any sample, needs the whole film; so does the number of channels that a piece's
@@ -73,8 +73,8 @@ Ending PictureRender::run() {
       !options_.checkpoint.empty() || options_.time_limit || (options_.sample_offset && aovs.gather());
   film_content_ = film_content();
   in_bands_ = !whole_film && rows < settings_.region.height();
-  const Ending ending = in_bands_ ? render_in_bands(rows) : render_at_once();
-  tell_set_aside();
+  const RenderOutcome ending = in_bands_ ? render_in_bands(rows) : render_at_once();
+  log_invalid_samples();
   return ending;
 }
 
@@ -91,7 +91,7 @@ FilmContent PictureRender::film_content() const {
   return halves ? FilmContent::half_means : FilmContent::means;
 }
 
-Ending PictureRender::render_at_once() {
+RenderOutcome PictureRender::render_at_once() {
   PhaseTimer timer(statistics_.phases.render);
   Film film(film_settings(scene_, description_, settings_), film_content_);
   identity_.film = film.settings();
@@ -100,7 +100,7 @@ Ending PictureRender::render_at_once() {
     checkpoint_ = file_identity(options_.checkpoint);  // first: one that takes its place is not ours to remove
     read_checkpoint(options_.checkpoint, identity_, film);
     done = film.fewest_samples();
-    tell_step("resumed from " + options_.checkpoint);
+    log_step("resumed from " + options_.checkpoint);
   }
   const std::uint32_t all = film.settings().samples.count;
   double seconds_a_sample = 0;
@@ -113,19 +113,19 @@ Ending PictureRender::render_at_once() {
     done = target;
   }
   timer.stop();
-  if (signals_.stop_signal() != 0 && done < all) return leave_what_there_is(film);
+  if (signals_.stop_signal() != 0 && done < all) return write_partial(film);
   if (display_) display_->show(film, film.region());
   progress_.finish();
-  tell_rendered();
+  log_rendered();
   statistics_.samples = static_cast<int>(done);
-  if (done < all) tell_warning("the time limit was reached after " + counted(done, "sample") + " a pixel");
-  if (!write_picture(film, options_.outputs, done, false)) return Ending::failed;
+  if (done < all) log_warning("the time limit was reached after " + counted(done, "sample") + " a pixel");
+  if (!write_picture(film, options_.outputs, done, false)) return RenderOutcome::failed;
   remove_checkpoint();
-  return Ending::written;
+  return RenderOutcome::written;
 }
 
 /// After a signal to stop: writes the checkpoint and the picture so far, and tells which of them there are.
-Ending PictureRender::leave_what_there_is(const Film& film) {
+RenderOutcome PictureRender::write_partial(const Film& film) {
   std::vector<std::string> files = options_.outputs, kept, reasons;
   bool saved = true;
   statistics_.outputs.clear();
@@ -144,23 +144,23 @@ Ending PictureRender::leave_what_there_is(const Film& film) {
   }
   const bool written = files.empty() || write_picture(film, files, identity_.film.samples.count, true);
   if (!statistics_.outputs.empty()) kept.push_back("picture so far in " + joined(statistics_.outputs, ", "));
-  tell_stopped((kept.empty() ? "nothing kept" : samples_done_text(film) + ": ") + joined(kept, "; ") +
-               (reasons.empty() ? "" : "; ") + joined(reasons, "; "));
-  return written && saved ? Ending::stopped : Ending::failed;
+  log_stopped((kept.empty() ? "nothing kept" : samples_done_text(film) + ": ") + joined(kept, "; ") +
+              (reasons.empty() ? "" : "; ") + joined(reasons, "; "));
+  return written && saved ? RenderOutcome::stopped : RenderOutcome::failed;
 }
 
-void PictureRender::tell_stopped(const std::string& what_is_kept) const {
-  tell_note("stopped by " + signals_.stop_signal_name() + ": " + what_is_kept);
+void PictureRender::log_stopped(const std::string& what_is_kept) const {
+  log_note("stopped by " + signals_.stop_signal_name() + ": " + what_is_kept);
 }
 
 /// The one that this run read or wrote last.
 void PictureRender::remove_checkpoint() const {
   if (!checkpoint_ || remove_file(options_.checkpoint, *checkpoint_)) return;
-  tell_warning("the checkpoint " + options_.checkpoint + " is not removed: another file has taken its place");
+  log_warning("the checkpoint " + options_.checkpoint + " is not removed: another file has taken its place");
 }
 
 /// Large pictures go to their files band by band, so that no more than one of them need be in memory.
-Ending PictureRender::render_in_bands(int band_rows) {
+RenderOutcome PictureRender::render_in_bands(int band_rows) {
   const Region region = settings_.region;
   identity_.film = film_settings(scene_, description_, settings_);
   Outputs outputs(options_, options_.outputs, identity_.film.extent, metadata(),
@@ -172,18 +172,18 @@ Ending PictureRender::render_in_bands(int band_rows) {
     Film film(film_settings(scene_, description_, settings_), film_content_);
     const double height = region.height();
     if (!render_pass(film, film.settings().samples.count, (band.y0 - region.y0) / height, band.height() / height)) {
-      tell_stopped("nothing kept: of a picture of this size, only --checkpoint keeps what is done");
-      return Ending::stopped;
+      log_stopped("nothing kept: of a picture of this size, only --checkpoint keeps what is done");
+      return RenderOutcome::stopped;
     }
     timer.stop();
     if (display_) display_->show(film, band);
     if (band.y1 == region.y1) {
       progress_.finish();
-      tell_rendered();
+      log_rendered();
     }
-    if (!outputs.write(film, statistics_)) return Ending::failed;
+    if (!outputs.write(film, statistics_)) return RenderOutcome::failed;
   }
-  return outputs.commit(statistics_) ? Ending::written : Ending::failed;
+  return outputs.commit(statistics_) ? RenderOutcome::written : RenderOutcome::failed;
 }
 
 /// Until each pixel has `target` samples; false if a signal stopped it. work_before, work: fractions of all that there
@@ -193,7 +193,7 @@ bool PictureRender::render_pass(Film& film, std::uint32_t target, double work_be
     // First the flag, then what it stands for: a signal in between pauses once more than it need.
     signals_.pause() = false;
     if (signals_.stop_signal() != 0) return false;
-    attend(film);
+    service_requests(film);
     const auto update = [&](double fraction) {
       progress_.update(std::max(work_before + fraction * work, fraction_of_time()));
       if (is_due()) signals_.pause() = true;
@@ -204,13 +204,13 @@ bool PictureRender::render_pass(Film& film, std::uint32_t target, double work_be
 }
 
 /// Does what is asked for, or due, while the render pauses.
-void PictureRender::attend(const Film& film) {
+void PictureRender::service_requests(const Film& film) {
   if (signals_.take_picture_request()) {
     if (in_bands_) {
-      tell_warning("a picture of this size goes to its files band by band: there is none to look at before the end");
+      log_warning("a picture of this size goes to its files band by band: there is none to look at before the end");
     } else {
       if (write_picture(film, options_.outputs, film.settings().samples.count, true))
-        tell_note("picture so far, " + samples_done_text(film) + ", in " + joined(options_.outputs, ", "));
+        log_note("picture so far, " + samples_done_text(film) + ", in " + joined(options_.outputs, ", "));
     }
   }
   if (!options_.checkpoint.empty() && Clock::now() >= next_checkpoint_) save_checkpoint(film);
@@ -241,17 +241,17 @@ std::uint32_t PictureRender::next_target(std::uint32_t done, double seconds_a_sa
 void PictureRender::count(const RenderReport& report) {
   statistics_.rays += report.rays;
   statistics_.scene.bvh_bytes = scene_.statistics().bvh_bytes;  // rays may have been the first to want it
-  set_aside_ += report.set_aside;
+  set_aside_ += report.invalid_samples;
 }
 
-void PictureRender::tell_rendered() const {
+void PictureRender::log_rendered() const {
   char seconds[32];
   std::snprintf(seconds, sizeof seconds, " in %.3f s", statistics_.phases.render.seconds);
-  tell_step("rendered " + counted(statistics_.total_rays(), "ray") + " on " +
-            counted(static_cast<std::uint64_t>(options_.threads), "thread") + seconds);
+  log_step("rendered " + counted(statistics_.total_rays(), "ray") + " on " +
+           counted(static_cast<std::uint64_t>(options_.threads), "thread") + seconds);
 }
 
-void PictureRender::tell_set_aside() const {
+void PictureRender::log_invalid_samples() const {
   if (set_aside_.count == 0) return;
   std::string text = counted(set_aside_.count, "sample") + " without a finite radiance, counted as black:";
   for (const SampleId& id : set_aside_.told) {
@@ -259,7 +259,7 @@ void PictureRender::tell_set_aside() const {
         " sample " + std::to_string(id.sample) + " of pixel " + std::to_string(id.x) + "," + std::to_string(id.y) + ";";
   }
   const SampleId& first = set_aside_.told.front();
-  tell_warning(text + " to see it again: --pixel " + std::to_string(first.x) + "," + std::to_string(first.y));
+  log_warning(text + " to see it again: --pixel " + std::to_string(first.x) + "," + std::to_string(first.y));
 }
 
 ImageMetadata PictureRender::metadata() const {
@@ -294,9 +294,9 @@ bool PictureRender::save_checkpoint(const Film& film) {
   bool saved = true;
   try {
     checkpoint_ = write_checkpoint(options_.checkpoint, film, identity_, metadata());
-    tell_step("wrote checkpoint " + options_.checkpoint + ": " + samples_done_text(film));
+    log_step("wrote checkpoint " + options_.checkpoint + ": " + samples_done_text(film));
   } catch (const OutputError& error) {
-    tell_error(error.what());
+    log_error(error.what());
     saved = false;
   }
   // However long it took, it takes no more than a hundredth of the time.

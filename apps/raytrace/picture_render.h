@@ -7,17 +7,17 @@
 
 #include "options.h"
 #include "progress.h"
+#include "raytrace/batch/provenance.h"
 #include "raytrace/description/scene_description.h"
 #include "raytrace/display/display_client.h"
 #include "raytrace/output/file_identity.h"
-#include "raytrace/render/provenance.h"
 #include "raytrace/render/renderer.h"
 #include "signals.h"
 #include "statistics.h"
 
 namespace raytrace {
 
-enum class Ending {
+enum class RenderOutcome {
   written,
   failed,   ///< not all files could be written
   stopped,  ///< by a signal. The checkpoint, if there is to be one, and the files as far as the picture is done were
@@ -34,21 +34,21 @@ class PictureRender {
                 Statistics& statistics);
 
   /// Renders the picture and writes its files. Throws InputError if there is a checkpoint that does not fit.
-  Ending run();
+  RenderOutcome run();
 
  private:
   FilmContent film_content() const;
-  Ending render_at_once();
-  Ending render_in_bands(int band_rows);
-  Ending leave_what_there_is(const Film& film);
-  void tell_stopped(const std::string& what_is_kept) const;
+  RenderOutcome render_at_once();
+  RenderOutcome render_in_bands(int band_rows);
+  RenderOutcome write_partial(const Film& film);
+  void log_stopped(const std::string& what_is_kept) const;
   bool render_pass(Film& film, std::uint32_t target, double work_before, double work);
-  void attend(const Film& film);
+  void service_requests(const Film& film);
   std::uint32_t next_target(std::uint32_t done, double seconds_a_sample) const;
   bool is_due() const;
   void count(const RenderReport& report);
-  void tell_rendered() const;
-  void tell_set_aside() const;
+  void log_rendered() const;
+  void log_invalid_samples() const;
   ImageMetadata metadata() const;
   bool write_picture(const Film& film, const std::vector<std::string>& files, std::uint32_t samples, bool partial);
   bool save_checkpoint(const Film& film);
@@ -66,7 +66,7 @@ class PictureRender {
   Clock::time_point start_;
   Clock::time_point next_checkpoint_;
   std::optional<FileIdentity> checkpoint_;  ///< that was read or written last
-  SetAsideSamples set_aside_;
+  InvalidSamples set_aside_;
   std::unique_ptr<DisplayClient> display_;  ///< none if it was not asked for
   bool in_bands_ = false;
   Progress& progress_;

@@ -46,14 +46,14 @@ SampleRange sample_range(const ViewPlane& viewplane, const Options& options) {
   return {0, count, count == 1};
 }
 
-Region asked_whole(const ViewPlane& viewplane, const Options& options) {
+Region crop_window(const ViewPlane& viewplane, const Options& options) {
   if (!options.crop) return {0, 0, viewplane.hres, viewplane.vres};
   if (const auto problem = crop_problem(*options.crop, viewplane.hres, viewplane.vres))
     throw UsageError("--crop: " + text_of(*options.crop) + ": " + *problem);
   return *options.crop;
 }
 
-Region asked_region(const Region& whole, const Options& options) {
+Region render_window(const Region& whole, const Options& options) {
   if (options.pixel) {
     const auto [x, y] = *options.pixel;
     if (x < whole.x0 || y < whole.y0 || x >= whole.x1 || y >= whole.y1) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "options.h"
-#include "raytrace/description/view_plane.h"
+#include "raytrace/cameras/view_plane.h"
 #include "raytrace/film/film.h"
 
 namespace raytrace {
@@ -16,9 +16,9 @@ SampleRange sample_range(const ViewPlane& viewplane, const Options& options);
 
 /// What is cut into tiles: the crop, or the whole picture. Throws UsageError if the crop reaches too far beyond the
 /// picture.
-Region asked_whole(const ViewPlane& viewplane, const Options& options);
+Region crop_window(const ViewPlane& viewplane, const Options& options);
 
 /// The tile or pixel of it, or all. Throws UsageError if there are more tiles than pixels, or no such pixel.
-Region asked_region(const Region& whole, const Options& options);
+Region render_window(const Region& whole, const Options& options);
 
 }  // namespace raytrace

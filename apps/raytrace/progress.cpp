@@ -102,9 +102,9 @@ void Progress::draw_bar(double fraction) {
 
 void Progress::write_line(double fraction) {
   if (is_for_programs(style_)) {
-    tell_program(progress_line(style_, 100 * fraction, seconds(), seconds_left(fraction)));
+    log_program(progress_line(style_, 100 * fraction, seconds(), seconds_left(fraction)));
   } else {
-    tell_progress("rendered " + percentage(fraction) + time_left(fraction));
+    log_progress("rendered " + percentage(fraction) + time_left(fraction));
   }
 }
 

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "raytrace/description/quoted.h"
+#include "raytrace/text/quoted.h"
 
 namespace raytrace {
 

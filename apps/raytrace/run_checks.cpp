@@ -60,7 +60,7 @@ void RunChecks::check_folders(const Options& job) {
     try {
       try_to_write(file);  // its error tells the user's name
     } catch (const OutputError& error) {
-      tell_error(error.what());
+      log_error(error.what());
     }
   }
 }

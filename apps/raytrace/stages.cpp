@@ -13,14 +13,14 @@
 #include "outputs.h"
 #include "picture_settings.h"
 #include "raytrace/aovs/aov_selection.h"
+#include "raytrace/batch/provenance.h"
 #include "raytrace/description/parse_value.h"
-#include "raytrace/description/quoted.h"
 #include "raytrace/description/scene_hash.h"
 #include "raytrace/output/atomic_file.h"
 #include "raytrace/output/complete_picture.h"
 #include "raytrace/output/film_channels.h"
 #include "raytrace/output/image_file.h"
-#include "raytrace/render/provenance.h"
+#include "raytrace/text/quoted.h"
 #include "signals.h"
 
 namespace raytrace {
@@ -52,7 +52,7 @@ void write_statistics(const Statistics& statistics, const std::string& file) {
 }
 
 /// Those that an earlier render of the scene, another frame, had too are not told again.
-void tell_findings(const Diagnostics& diagnostics) {
+void log_findings(const Diagnostics& diagnostics) {
   static std::string file;
   static std::unordered_set<std::string> told;
   if (file != diagnostics.file()) told.clear();
@@ -65,8 +65,8 @@ void tell_findings(const Diagnostics& diagnostics) {
     news += line + "\n";
     if (first_error.empty() && line.find(": error: ") != std::string::npos) first_error = line;
   }
-  if (!news.empty()) tell_lines(news);
-  if (!first_error.empty()) tell_program_failure(first_error);
+  if (!news.empty()) log_lines(news);
+  if (!first_error.empty()) log_program_failure(first_error);
 }
 
 }  // namespace
@@ -142,10 +142,10 @@ std::optional<SceneDescription> load(const Options& options, Statistics& statist
     const PhaseTimer timer(statistics.phases.load);
     description = load_scene(options.scene, diagnostics, options.threads, {options.frame, options.variables});
   }
-  if (diagnostics.has_errors() || tells(Verbosity::warnings)) tell_findings(diagnostics);
+  if (diagnostics.has_errors() || tells(Verbosity::warnings)) log_findings(diagnostics);
   if (description) {
-    tell_step(shown_name(options.scene) + ": " + contents(*description) + ", read" +
-              time_taken(statistics.phases.load.seconds));
+    log_step(shown_name(options.scene) + ": " + contents(*description) + ", read" +
+             time_taken(statistics.phases.load.seconds));
   }
   return description;
 }
@@ -161,8 +161,8 @@ std::unique_ptr<const Scene> build(const SceneDescription& description, const Op
   }
   obey_group_memory_limit(options.threads);
   statistics.scene = scene->statistics();
-  tell_step("built for " + statistics.scene.isa + " with Embree " + statistics.scene.embree_version +
-            time_taken(statistics.phases.build.seconds));
+  log_step("built for " + statistics.scene.isa + " with Embree " + statistics.scene.embree_version +
+           time_taken(statistics.phases.build.seconds));
   return scene;
 }
 
@@ -193,7 +193,7 @@ void print_pixel(const Scene& scene, const SceneDescription& description, const 
     Film film(film_settings(scene, description, settings));
     const RenderReport report = render(scene, film, 1, 1);
     print("sample " + std::to_string(samples.first + i) + ":" +
-          (report.set_aside.count > 0 ? " not finite\n" : values(film)));
+          (report.invalid_samples.count > 0 ? " not finite\n" : values(film)));
   }
   settings.samples = samples;
   Film film(film_settings(scene, description, settings));
@@ -203,7 +203,7 @@ void print_pixel(const Scene& scene, const SceneDescription& description, const 
 
 void report(Statistics& statistics, const Options& options) {
   statistics.peak_memory_bytes = peak_memory_bytes();
-  if (options.statistics == statistics_as_text || tells(Verbosity::details)) tell_lines(text(statistics));
+  if (options.statistics == statistics_as_text || tells(Verbosity::details)) log_lines(text(statistics));
   if (options.has_statistics_file()) write_statistics(statistics, options.statistics);
 }
 

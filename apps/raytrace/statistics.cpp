@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "process_status.h"
-#include "raytrace/description/quoted.h"
+#include "raytrace/text/quoted.h"
 
 namespace raytrace {
 

@@ -44,10 +44,10 @@ int threads_with_room(int wanted) {
   return started == wanted ? wanted : std::max(1, started / 2);
 }
 
-void tell_missing_threads(int wanted, int used) {
+void log_missing_threads(int wanted, int used) {
   if (used == wanted) return;
-  tell_warning("there is no room for " + std::to_string(wanted) +
-               " threads: " + counted(static_cast<std::uint64_t>(used), "thread") + " used");
+  log_warning("there is no room for " + std::to_string(wanted) +
+              " threads: " + counted(static_cast<std::uint64_t>(used), "thread") + " used");
 }
 
 }  // namespace raytrace

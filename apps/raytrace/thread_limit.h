@@ -9,6 +9,6 @@ namespace raytrace {
 int threads_with_room(int wanted);
 
 /// Warns if fewer threads are used than are wanted.
-void tell_missing_threads(int wanted, int used);
+void log_missing_threads(int wanted, int used);
 
 }  // namespace raytrace

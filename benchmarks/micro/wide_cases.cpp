@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "raytrace/render/variant_list.h"
+#include "raytrace/variants/variant_list.h"
 
 #define RAYTRACE_DECLARE(name, isa)                                                              \
   extern "C" void raytrace_micro_##name(std::span<const raytrace::benchmark::ShapeScene> shapes, \

@@ -236,7 +236,7 @@ void add_sampler_case(std::vector<MicroCase>& cases) {
       "sampler/pixel", samples,
       [](std::size_t i) {
         const UintN column(static_cast<std::uint32_t>(i)), row(7);
-        PixelSampler sampler(PixelShift(column, row, 1), SampleGroup(UintN(0u), 1), 0, false);
+        PixelSampler sampler(PixelScramble(column, row, 1), SampleGroup(UintN(0u), 1), 0, false);
         FloatN sum(0);
         for (int sample = 0; sample < samples; ++sample) {
           const PixelSampler::Point point = sampler.next();
@@ -275,7 +275,7 @@ struct FloatBlockSums {
   Rgb<FloatN> radiance{FloatN(0), FloatN(0), FloatN(0)};
   IntN hits = IntN(0), samples = IntN(0);
 
-  MaskN add(const SeenRadiance& seen, const MaskN& wanted) {
+  MaskN add(const RayResult& seen, const MaskN& wanted) {
     const MaskN fine = wanted & (seen.radiance.red + seen.radiance.green + seen.radiance.blue <= FloatN(1e30F));
     radiance = radiance + select(fine, seen.radiance, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
     hits = hits + select_lanes(seen.hit & wanted, IntN(1), IntN(0));
@@ -323,7 +323,7 @@ class FloatFilm {
 template <class AnyFilm>
 void add_sums_case(const std::string& name, std::vector<MicroCase>& cases) {
   RandomLanes random;
-  std::vector<SeenRadiance> seen;
+  std::vector<RayResult> seen;
   for (std::size_t i = 0; i < packet_count + packets_a_block; ++i)
     seen.push_back({random_color(random), random.number() < FloatN(0.9F)});
   add_packet_case(

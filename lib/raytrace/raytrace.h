@@ -2,9 +2,9 @@
 // docs/library.md shows a whole program.
 #pragma once
 
+#include "raytrace/batch/checkpoint.h"
+#include "raytrace/batch/merge_pieces.h"
 #include "raytrace/description/check_scene.h"
 #include "raytrace/description/scene_description.h"
 #include "raytrace/output/image_file.h"
-#include "raytrace/render/checkpoint.h"
-#include "raytrace/render/merge_pieces.h"
 #include "raytrace/render/renderer.h"

@@ -15,7 +15,7 @@ AovSettings some_settings() {
   AovSettings settings;
   settings.nearest_values = 2;
   settings.mean_units = {-40, -41, -42};
-  settings.covers = 2;
+  settings.coverages = 2;
   return settings;
 }
 
@@ -67,7 +67,7 @@ std::vector<Sample> random_samples(const Region& region, int count) {
 void add(AovFilm& film, const Sample& sample) {
   film.add_nearest(sample.x, sample.y, sample.depth, sample.index, sample.values.data());
   film.add_mean(sample.x, sample.y, sample.index % 3, sample.mean);
-  film.add_cover(sample.x, sample.y, sample.index % 2, sample.id);
+  film.add_coverage(sample.x, sample.y, sample.index % 2, sample.id);
 }
 
 }  // namespace
@@ -88,7 +88,7 @@ TEST_CASE("the nearest sample stays, and of equally near ones the first") {
 
 TEST_CASE("ids are ranked by their counts, equal ones by the id") {
   AovFilm film({0, 0, 1, 1}, some_settings());
-  for (const IdCount& one : {IdCount{7, 2}, {5, 1}, {9, 3}, {5, 1}, {1, 1}, {9, 1}}) film.add_cover(0, 0, 1, one);
+  for (const IdCount& one : {IdCount{7, 2}, {5, 1}, {9, 3}, {5, 1}, {1, 1}, {9, 1}}) film.add_coverage(0, 0, 1, one);
   CHECK(film.ranked(0, 0, 1) == std::vector<IdCount>{{9, 4}, {5, 2}, {7, 2}, {1, 1}});
   CHECK(film.ranked(0, 0, 0).empty());
 }

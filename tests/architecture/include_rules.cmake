@@ -1,6 +1,6 @@
 # cmake -D ROOT=tree -P include_rules.cmake: fails, and names every offender, unless
 #   only lib/raytrace/accel/ includes Embree,
-#   only lib/raytrace/description/ includes tinyxml2,
+#   only lib/raytrace/xml/ includes tinyxml2,
 #   only lib/raytrace/display/display_server.cpp includes Asio,
 #   only lib/raytrace/math/simd.h and twin_batch.h include intrinsics or the SIMD library.
 
@@ -26,7 +26,7 @@ function(only place included)
 endfunction()
 
 only("lib/raytrace/accel/" "embree[0-9]*/")
-only("lib/raytrace/description/" "tinyxml2")
+only("lib/raytrace/xml/" "tinyxml2")
 only("lib/raytrace/display/display_server[.]cpp$" "asio[./]")
 only("lib/raytrace/math/(simd|twin_batch)[.]h$" "([a-z0-9]*intrin[.]h|arm_(neon|sve)[.]h|xsimd/)")
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "raytrace/cameras/camera.h"
-#include "raytrace/description/view_plane.h"
+#include "raytrace/cameras/view_plane.h"
 #include "support/catch.h"
 #include "support/lanes.h"
 

@@ -1,5 +1,5 @@
 // Files of other formats, given as a scene.
-#include "raytrace/description/file_kind.h"
+#include "raytrace/xml/file_kind.h"
 
 #include <string>
 
@@ -28,7 +28,7 @@ TEST_CASE("a file of another format is named by what it seems to be") {
   check("\x28\xb5\x2f\xfd\0"s, "packed with zstd, as Blender does with its files", "; unpack it first");
   check("\x1f\x8b\x08\0"s, "packed with gzip", "; unpack it first");
   check("\x89PNG\r\n\x1a\n\0"s, "a PNG picture", "; if it is the picture to write, put -o before it");
-  check("\x76\x2f\x31\x01\2\0"s, "an OpenEXR picture", "; if it is a piece of a picture, use raytrace merge");
+  check("\x76\x2f\x31\x01\2\0"s, "an OpenEXR picture", "; if it is a chunk of a picture, use raytrace merge");
   check("\xff\xd8\xff\xe0", "a JPEG picture", "; if it is the picture to write, put -o before it");
   check("// a sphere\n#include \"colors.inc\"\n", "a POV-Ray scene");
   check("camera { location <0, 2, -3> }", "a POV-Ray scene");

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "findings.h"
-#include "raytrace/description/document.h"
 #include "raytrace/description/read_fields.h"
-#include "raytrace/description/scene_text.h"
 #include "raytrace/description/variables.h"
+#include "raytrace/xml/document.h"
+#include "raytrace/xml/scene_text.h"
 #include "support/catch.h"
 
 namespace raytrace::test {
@@ -176,11 +176,11 @@ TEST_CASE("a pattern reads what is alike, and nothing else") {
   const std::string first = "<sphere><center x='1' y='2' z='3'/>\n<radius>4</radius></sphere>";
   const std::string text = "<raytracer><objects><spheres>" + first + "</spheres></objects></raytracer>";
   Diagnostics diagnostics("s");
-  const SceneText source{TextBuffer(text), 1, diagnostics};
+  const SceneText source{TextBuffer(text), group_elements(), 1, diagnostics};
   const SceneSettings settings;
   const Variables variables(settings);
   Document document(source, variables);
-  document.parse_items(source.piece(0), diagnostics);
+  document.parse_items(source.chunk(0), diagnostics);
 
   FieldsReader<Sphere::Parameters> fields(Sphere::fields());
   Sphere::Parameters parameters;

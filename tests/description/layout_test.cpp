@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "findings.h"
-#include "raytrace/description/quoted.h"
 #include "raytrace/description/scene_layout.h"
+#include "raytrace/text/quoted.h"
 #include "support/catch.h"
 #include "support/contains.h"
 

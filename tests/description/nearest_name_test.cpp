@@ -1,4 +1,4 @@
-#include "raytrace/description/nearest_name.h"
+#include "raytrace/text/nearest_name.h"
 
 #include <array>
 #include <string>

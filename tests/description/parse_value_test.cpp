@@ -13,21 +13,21 @@ namespace {
 
 double number(std::string_view text, Range range = Range::any) {
   double value = -77;
-  const Complaint complaint = parse_number(text, range, value);
+  const DiagnosticText complaint = parse_number(text, range, value);
   if (complaint) FAIL(text << " " << *complaint);
   return value;
 }
 
 std::string complaint_about(std::string_view text, Range range = Range::any) {
   double value = -77;
-  const Complaint complaint = parse_number(text, range, value);
+  const DiagnosticText complaint = parse_number(text, range, value);
   CHECK(value == -77);
   return complaint.value_or("");
 }
 
 std::string integer_complaint(std::string_view text, Range range = Range::any) {
   int value = -77;
-  const Complaint complaint = parse_integer(text, range, value);
+  const DiagnosticText complaint = parse_integer(text, range, value);
   CHECK(value == -77);
   return complaint.value_or("");
 }

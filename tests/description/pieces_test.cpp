@@ -1,12 +1,12 @@
-// Scenes so large that they are read in pieces, by several threads: nobody must be able to tell.
+// Scenes so large that they are read in chunks, by several threads: nobody must be able to tell.
 #include <algorithm>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "findings.h"
-#include "raytrace/description/line_index.h"
-#include "raytrace/description/xml_scanner.h"
+#include "raytrace/xml/line_index.h"
+#include "raytrace/xml/xml_scanner.h"
 #include "support/catch.h"
 #include "support/contains.h"
 
@@ -54,29 +54,29 @@ std::string without_line_ends(std::string text) {
 
 }  // namespace
 
-TEST_CASE("groups are cut into pieces of whole items") {
+TEST_CASE("groups are cut into chunks of whole items") {
   const std::string text = large_scene();
-  std::vector<Piece> pieces;
+  std::vector<TextChunk> chunks;
   const std::string_view groups[] = {"spheres", "disks", "mattes"};
-  REQUIRE_FALSE(find_xml_problem(text, groups, pieces, 1));
-  REQUIRE(pieces.size() > 5);
+  REQUIRE_FALSE(find_xml_error(text, groups, chunks, 1));
+  REQUIRE(chunks.size() > 5);
 
-  CHECK(text.compare(pieces[0].begin, 7, "<matte>") == 0);
-  CHECK(text.compare(pieces[0].end, 9, "</mattes>") == 0);
-  CHECK(pieces[0].items == 1);
+  CHECK(text.compare(chunks[0].begin, 7, "<matte>") == 0);
+  CHECK(text.compare(chunks[0].end, 9, "</mattes>") == 0);
+  CHECK(chunks[0].items == 1);
 
   std::size_t items = 0;
-  for (std::size_t i = 1; i < pieces.size(); ++i) {
-    items += pieces[i].items;
-    CHECK(pieces[i].group == text.find("<spheres>"));
-    CHECK(pieces[i].begin == (i == 1 ? text.find("<sphere>") : pieces[i - 1].end));
-    CHECK(text.compare(pieces[i].begin, 8, "<sphere>") == 0);
+  for (std::size_t i = 1; i < chunks.size(); ++i) {
+    items += chunks[i].items;
+    CHECK(chunks[i].group == text.find("<spheres>"));
+    CHECK(chunks[i].begin == (i == 1 ? text.find("<sphere>") : chunks[i - 1].end));
+    CHECK(text.compare(chunks[i].begin, 8, "<sphere>") == 0);
   }
-  CHECK(pieces.back().end == text.find("</spheres>"));
+  CHECK(chunks.back().end == text.find("</spheres>"));
   CHECK(items == sphere_count);
 }
 
-TEST_CASE("a scene in pieces is read as it stands, by any number of threads") {
+TEST_CASE("a scene in chunks is read as it stands, by any number of threads") {
   const std::string text = large_scene();
   Diagnostics diagnostics("s");
   const auto scene = parse_scene(text, diagnostics, 1);
@@ -94,7 +94,7 @@ TEST_CASE("a scene in pieces is read as it stands, by any number of threads") {
   }
 }
 
-TEST_CASE("findings in pieces have their places") {
+TEST_CASE("findings in chunks have their places") {
   const std::string text = large_scene([](int i) {
     if (i == 0) return "before" + sphere(i, "one");
     if (i == 1500) return sphere(i, "two");
@@ -119,7 +119,7 @@ TEST_CASE("findings in pieces have their places") {
   }
 }
 
-TEST_CASE("a name that is taken in another piece is reported where it stands") {
+TEST_CASE("a name that is taken in another chunk is reported where it stands") {
   const std::string text = large_scene([](int i) { return sphere(i == 3500 ? 17 : i); });
   const std::size_t at = text.rfind("sphere-17</name>");
   const SourceLocation place = LineIndex(text).locate(at);
@@ -139,7 +139,7 @@ TEST_CASE("which findings are shown does not depend on the threads") {
   CHECK(findings(text, 0) == alone);
 }
 
-TEST_CASE("what follows a group in pieces keeps its place") {
+TEST_CASE("what follows a group in chunks keeps its place") {
   std::string text = large_scene();
   text.replace(text.find("<disks/>"), 8, "<discs/>\n <disks>x</disks>");
   CHECK(findings(text) == line_and_column(text, "<discs/>") +

@@ -21,10 +21,10 @@ double random_number(Random& random, Range range) {
 }
 
 std::string random_name(Random& random) {
-  static const char* const pieces[] = {
+  static const char* const chunks[] = {
       "a", "Z", "7", "&", "<", ">", "]]>", "\"", "'", " b", "\xc3\xa4", "\xf0\x9f\x98\x80", "--", ";", "#"};
   std::string name = "n";
-  for (std::size_t i = below(random, 12); i > 0; --i) name += pieces[below(random, std::size(pieces))];
+  for (std::size_t i = below(random, 12); i > 0; --i) name += chunks[below(random, std::size(chunks))];
   return name;
 }
 

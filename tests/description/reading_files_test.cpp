@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "findings.h"
-#include "raytrace/description/text_file.h"
+#include "raytrace/xml/text_file.h"
 #include "support/catch.h"
 #include "support/temporary_folder.h"
 

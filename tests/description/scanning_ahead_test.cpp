@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "raytrace/description/xml_scanner.h"
+#include "raytrace/xml/xml_scanner.h"
 #include "support/catch.h"
 
 namespace raytrace::test {
@@ -14,31 +14,31 @@ const std::string_view groups[] = {"as", "bs"};
 
 struct Scanned {
   std::string problem;  ///< empty if there is none
-  std::vector<Piece> pieces;
+  std::vector<TextChunk> chunks;
 };
 
 Scanned scan(const std::string& text, int threads) {
   Scanned scanned;
-  if (const auto problem = find_xml_problem(text, groups, scanned.pieces, threads))
+  if (const auto problem = find_xml_error(text, groups, scanned.chunks, threads))
     scanned.problem = std::to_string(problem->offset) + ": " + problem->message;
   return scanned;
 }
 
-/// What the pieces of a group have in common however they are cut.
+/// What the chunks of a group have in common however they are cut.
 struct Group {
   std::size_t group, begin, end, items;
   friend bool operator==(const Group&, const Group&) = default;
 };
 
-std::vector<Group> joined(const std::vector<Piece>& pieces) {
+std::vector<Group> joined(const std::vector<TextChunk>& chunks) {
   std::vector<Group> result;
-  for (const Piece& piece : pieces) {
-    if (result.empty() || result.back().group != piece.group) {
-      result.push_back({piece.group, piece.begin, piece.end, piece.items});
+  for (const TextChunk& chunk : chunks) {
+    if (result.empty() || result.back().group != chunk.group) {
+      result.push_back({chunk.group, chunk.begin, chunk.end, chunk.items});
     } else {
-      REQUIRE(piece.begin == result.back().end);
-      result.back().end = piece.end;
-      result.back().items += piece.items;
+      REQUIRE(chunk.begin == result.back().end);
+      result.back().end = chunk.end;
+      result.back().items += chunk.items;
     }
   }
   return result;
@@ -66,14 +66,14 @@ void check_alike(const std::string& text) {
   const Scanned alone = scan(text, 1);
   const Scanned together = scan(text, 4);
   REQUIRE(together.problem == alone.problem);
-  if (alone.problem.empty()) REQUIRE(joined(together.pieces) == joined(alone.pieces));
+  if (alone.problem.empty()) REQUIRE(joined(together.chunks) == joined(alone.chunks));
 }
 
 }  // namespace
 
 TEST_CASE("threads find the items that one finds") {
   const std::string text = text_of(plain_item);
-  const std::vector<Group> found = joined(scan(text, 4).pieces);
+  const std::vector<Group> found = joined(scan(text, 4).chunks);
   REQUIRE(found.size() == 1);
   CHECK(found[0].group == text.find("<as>"));
   CHECK(found[0].begin == text.find("<a>"));

@@ -1,4 +1,4 @@
-#include "raytrace/description/utf8.h"
+#include "raytrace/text/utf8.h"
 
 #include <cstddef>
 #include <string>
@@ -26,10 +26,10 @@ void check_same(const std::string& text) {
   }
 }
 
-// Large texts are looked through in pieces of a power of two.
+// Large texts are looked through in chunks of a power of two.
 constexpr std::size_t seam = std::size_t{1} << 20U;
 
-TEST_CASE("characters across the seams of a large text's pieces are whole", "[description]") {
+TEST_CASE("characters across the seams of a large text's chunks are whole", "[description]") {
   for (const std::string_view character : {"\xc3\xa9", "\xe2\x82\xac", "\xf0\x9f\x8e\xa8"}) {
     for (std::size_t shift = 0; shift < character.size(); ++shift) {
       std::string text(shift, 'a');

@@ -31,7 +31,7 @@ std::string printed(const std::string& text, const Values& values) {
 
 std::string replaced(std::string_view text) {
   std::string result;
-  const Complaint complaint = Variables({7, {{"a", "1"}, {"ab", "2"}, {"_A9", "$a"}}}).replace(text, result);
+  const DiagnosticText complaint = Variables({7, {{"a", "1"}, {"ab", "2"}, {"_A9", "$a"}}}).replace(text, result);
   return complaint ? *complaint : result;
 }
 
@@ -113,7 +113,7 @@ TEST_CASE("what all texts of a scene become has a limit") {
   std::string result;
   for (std::size_t length = 0; length <= Variables::longest_scene; length += Variables::longest_text)
     REQUIRE_FALSE(variables.replace("$a", result));
-  const Complaint complaint = variables.replace("$a", result);
+  const DiagnosticText complaint = variables.replace("$a", result);
   REQUIRE(complaint);
   CHECK(contains(*complaint, "makes the scene longer than 2 GiB"));
 }
@@ -125,7 +125,7 @@ TEST_CASE("a variable that is not set is reported for one of its places") {
       findings(sphere(keys), {}) ==
       "s:2:51: error: '$size' for value in <key> uses $size, which is not set; set it: -D size=VALUE (and at 24 other "
       "places)\n");
-  // In the pieces of a large scene, too, however many threads read them; other errors are told beside it.
+  // In the chunks of a large scene, too, however many threads read them; other errors are told beside it.
   std::string items;
   for (int i = 0; i < 3000; ++i)
     items += "<sphere><center x='0' y='$y' z='0'/><radius>" + std::string(i == 2000 ? "-1" : "$r") +
@@ -199,7 +199,7 @@ TEST_CASE("a variable that nothing uses is an error") {
   CHECK(findings(sphere("$radius"), {{"radius", "2"}}) == "");
 }
 
-TEST_CASE("variables in the pieces of a large scene") {
+TEST_CASE("variables in the chunks of a large scene") {
   const auto scene_of_spheres = [](const std::string& prefix) {
     std::string items;
     for (int i = 0; i < 3000; ++i) {

@@ -2,8 +2,8 @@
 #include <string>
 
 #include "findings.h"
-#include "raytrace/description/document.h"
-#include "raytrace/description/line_index.h"
+#include "raytrace/xml/document.h"
+#include "raytrace/xml/line_index.h"
 #include "support/catch.h"
 #include "support/contains.h"
 

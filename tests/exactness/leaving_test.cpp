@@ -101,7 +101,7 @@ void check_leaving(const std::string& kind) {
         const Vector direction = leaving_direction(exact_vector(left[i].normal), random);
         arriving.push_back(rays[i]);
         arrived.push_back(left[i]);
-        leaving.push_back({left[i].leaving_origin, rounded(direction)});
+        leaving.push_back({left[i].offset_ray_origin, rounded(direction)});
       }
       // Half of the scenes each: leaving a surface is the same for both, and meeting one is the other tests' concern.
       const bool in_packets = scene % 2 == 0;

@@ -17,8 +17,8 @@
 #include <string>
 #include <vector>
 
-#include "raytrace/render/checkpoint.h"
-#include "raytrace/render/merge_pieces.h"
+#include "raytrace/batch/checkpoint.h"
+#include "raytrace/batch/merge_pieces.h"
 #include "support/exr_bytes.h"
 #include "support/sample_pieces.h"
 #include "support/temporary_folder.h"

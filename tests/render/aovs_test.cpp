@@ -144,7 +144,7 @@ TEST_CASE("each AOV alone has the values it has among all") {
   }
 }
 
-TEST_CASE("mattes cover what is hit; normals and albedos are of the same part") {
+TEST_CASE("mattes coverage what is hit; normals and albedos are of the same part") {
   const SceneDescription description = parsed_scene(busy_scene(24, 18, 64));
   const auto scene = build_scene(description, {1, {}});
   const Region everything = whole(description);

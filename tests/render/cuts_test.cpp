@@ -13,13 +13,13 @@
 #include <string>
 #include <vector>
 
+#include "raytrace/batch/merge_pieces.h"
+#include "raytrace/batch/provenance.h"
 #include "raytrace/description/scene_description.h"
 #include "raytrace/film/tiles.h"
 #include "raytrace/output/exr_reader.h"
 #include "raytrace/output/film_channels.h"
 #include "raytrace/output/image_file.h"
-#include "raytrace/render/merge_pieces.h"
-#include "raytrace/render/provenance.h"
 #include "raytrace/render/renderer.h"
 #include "support/catch.h"
 #include "support/temporary_folder.h"

@@ -104,7 +104,7 @@ const std::vector<Situation> situations = {
 };
 
 /// Rays that go to the vantage.
-void check_blocked(const SceneDescription& scene, const Vantage& vantage, const std::vector<ProbeRay>& rays) {
+void check_blocked(const SceneDescription& scene, const BufferOrigin& vantage, const std::vector<ProbeRay>& rays) {
   for (const std::string& isa : usable_isas()) {
     const Probe probe(scene, isa);
     const auto seen = probe.occluded_seen_from(vantage.place, vantage.infinitely_far, rays);

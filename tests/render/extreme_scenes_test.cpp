@@ -97,7 +97,7 @@ TEST_CASE("more light than floats can hold is set aside where it falls, told, an
     const SceneDescription description = parsed_scene(text);
     const auto scene = build_scene(description, {1, isa});
     Film film(film_settings(*scene, description, {1, 0, whole(description), {}}));
-    const SetAsideSamples told = render(*scene, film, 1, 1).set_aside;
+    const InvalidSamples told = render(*scene, film, 1, 1).invalid_samples;
     std::uint64_t lit = 0, hit = 0;
     for (int y = 0; y < 16; ++y)
       for (int x = 0; x < 16; ++x) {
@@ -109,7 +109,7 @@ TEST_CASE("more light than floats can hold is set aside where it falls, told, an
     INFO(isa);
     CHECK(lit > 20);
     CHECK(lit < hit - 20);  // the sphere's far side is dark, and fine
-    REQUIRE(told.told.size() == SetAsideSamples::most_told);
+    REQUIRE(told.told.size() == InvalidSamples::most_listed);
     for (std::size_t i = 1; i < told.told.size(); ++i) {
       const SampleId &a = told.told[i - 1], &b = told.told[i];
       CHECK((a.y < b.y || (a.y == b.y && a.x < b.x)));

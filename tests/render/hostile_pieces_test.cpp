@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "raytrace/render/checkpoint.h"
-#include "raytrace/render/merge_pieces.h"
+#include "raytrace/batch/checkpoint.h"
+#include "raytrace/batch/merge_pieces.h"
 #include "support/catch.h"
 #include "support/contains.h"
 #include "support/exr_bytes.h"

@@ -1,5 +1,5 @@
 // Overlaps and gaps of random layouts, against counting every sample of every pixel.
-#include "raytrace/render/piece_layout.h"
+#include "raytrace/batch/piece_layout.h"
 
 #include <algorithm>
 #include <random>

@@ -18,7 +18,8 @@ UintN columns_from(std::uint32_t first) {
 }
 
 PixelSampler sampler(std::uint32_t first_column, std::uint32_t row, std::uint64_t seed, int samples) {
-  return {PixelShift<UintN>(columns_from(first_column), UintN(row), seed), SampleGroup(UintN(0u), 1), 0, samples == 1};
+  return {PixelScramble<UintN>(columns_from(first_column), UintN(row), seed), SampleGroup(UintN(0u), 1), 0,
+          samples == 1};
 }
 
 using Place = std::pair<float, float>;
@@ -119,12 +120,12 @@ TEST_CASE("lanes that share a pixel's samples have together those of one that ha
   constexpr int count = 64;
   for (const std::uint32_t first : {0u, 32u, 992u}) {
     const auto wanted =
-        places({PixelShift(UintN(77u), UintN(31u), 5), SampleGroup(UintN(0u), 1), first, false}, 0, count);
+        places({PixelScramble(UintN(77u), UintN(31u), 5), SampleGroup(UintN(0u), 1), first, false}, 0, count);
     for (const int group : {1, 2, 4, 8, 16, 32}) {
       const UintN slot = batch_of<UintN>([&](std::size_t i) { return i % static_cast<std::size_t>(group); });
       // Told once, or lane by lane.
-      const PixelSampler shared(PixelShifts(5).at(77, 31), SampleGroup(slot, group), first, false),
-          same(PixelShift(UintN(77u), UintN(31u), 5), SampleGroup(slot, group), first, false);
+      const PixelSampler shared(PixelScrambles(5).at(77, 31), SampleGroup(slot, group), first, false),
+          same(PixelScramble(UintN(77u), UintN(31u), 5), SampleGroup(slot, group), first, false);
       for (std::size_t lane = 0; lane < lanes; ++lane) {
         const auto got = places(shared, lane, count / group);
         CHECK(got == places(same, lane, count / group));

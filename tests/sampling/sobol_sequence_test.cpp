@@ -96,7 +96,7 @@ TEST_CASE("a sequence advances by powers of 2 as it does by ones") {
   SUCCEED();
 }
 
-TEST_CASE("move_on moves the first point of an aligned group to any other of it") {
+TEST_CASE("offset_by moves the first point of an aligned group to any other of it") {
   for (int bits = 0; bits <= 6; ++bits) {
     const std::uint32_t size = 1u << bits;
     for (const std::uint32_t group : {0u, 1u, 2u, 3u, 10u, 12345u, 0xffffffffu >> bits})
@@ -104,7 +104,7 @@ TEST_CASE("move_on moves the first point of an aligned group to any other of it"
         const SobolSequence::Point first = SobolSequence(group * size).point(),
                                    wanted = SobolSequence(group * size + number).point();
         std::uint32_t x = first.x, y = first.y;
-        SobolSequence::move_on(number, bits, x, y);
+        SobolSequence::offset_by(number, bits, x, y);
         if (x != wanted.x || y != wanted.y) FAIL("number " << number << " of group " << group << " of 2^" << bits);
       }
   }

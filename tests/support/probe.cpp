@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "raytrace/render/variant_list.h"
+#include "raytrace/variants/variant_list.h"
 #include "support/probe_backend.h"
 
 #define RAYTRACE_DECLARE(name, isa) \

@@ -28,7 +28,7 @@ struct ProbeHit {
   std::uint32_t index = 0;  ///< among the scene's objects of that type, in their order in the description
   Vec3f position;           ///< the surface point that shading uses
   Vec3f normal;             ///< unit length, turned to face the ray's origin
-  Vec3f leaving_origin;     ///< where a secondary ray that leaves along `normal`'s side would start
+  Vec3f offset_ray_origin;  ///< where a secondary ray that leaves along `normal`'s side would start
 };
 
 /// A scene in the accelerator of one instruction set.

@@ -2,7 +2,7 @@
 #include <array>
 
 #include "raytrace/accel/accelerator.h"
-#include "raytrace/integrators/secondary_ray.h"
+#include "raytrace/integrators/ray_origin.h"
 #include "support/probe_backend.h"
 
 namespace raytrace::test {
@@ -131,7 +131,7 @@ class Backend final : public ProbeBackend {
           ProbeHit& hit = result[first + i];
           hit.hit = true;
           hit.distance = shortened[first + i].far = rays.far.get(i);
-          hit.kind = hits.kind.get(i);
+          hit.kind = hits.shape_type.get(i);
           hit.index = static_cast<std::uint32_t>(hits.primitive.get(i));
         }
     });
@@ -167,12 +167,12 @@ class Backend final : public ProbeBackend {
       const std::uint32_t lanes = bits_of<FloatN>(hits.hit);
       if (lanes == 0) return;
       const SurfacePoint<FloatN> point = accelerator_.surface(rays, hits);
-      const Vec3<FloatN> leaving = leaving_origin(point);
+      const Vec3<FloatN> leaving = offset_ray_origin(point);
       for (std::size_t i = 0; i < count; ++i)
         if ((lanes >> i & 1) != 0)
           result[first + i] = {true,
                                rays.far.get(i),
-                               hits.kind.get(i),
+                               hits.shape_type.get(i),
                                static_cast<std::uint32_t>(hits.primitive.get(i)),
                                lane_of(point.position, i),
                                lane_of(point.normal, i),
@@ -190,8 +190,8 @@ class Backend final : public ProbeBackend {
     return result;
   }
 
-  std::optional<DirectionBuffer> seen_from(const Vantage& vantage) const {
-    return std::move(accelerator_.seen_from(std::array<std::optional<Vantage>, 1>{vantage}, 2).front());
+  std::optional<DirectionBuffer> seen_from(const BufferOrigin& vantage) const {
+    return std::move(accelerator_.seen_from(std::array<std::optional<BufferOrigin>, 1>{vantage}, 2).front());
   }
 
   Accelerator accelerator_;

@@ -39,8 +39,8 @@ Film film_of(const SamplePiece& piece) {
       const std::array<std::uint32_t, 32> values{number};
       if (hits > 0) aovs->add_nearest(x, y, 1.5F, piece.samples.first + number % samples, values.data());
       for (std::size_t i = 0; i < aovs->settings().mean_units.size(); ++i) aovs->add_mean(x, y, i, light);
-      for (std::size_t i = 0; i < aovs->settings().covers; ++i)
-        for (std::uint32_t hit = 0; hit < hits; ++hit) aovs->add_cover(x, y, i, {1000 + (number + hit) % 3, 1});
+      for (std::size_t i = 0; i < aovs->settings().coverages; ++i)
+        for (std::uint32_t hit = 0; hit < hits; ++hit) aovs->add_coverage(x, y, i, {1000 + (number + hit) % 3, 1});
     }
   return film;
 }

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "raytrace/render/provenance.h"
+#include "raytrace/batch/provenance.h"
 
 namespace raytrace::test {
 

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "raytrace/render/variant_list.h"
+#include "raytrace/variants/variant_list.h"
 
 #define RAYTRACE_DECLARE(name, isa) extern "C" const raytrace::test::WideArithmetic* raytrace_arithmetic_##name();
 RAYTRACE_VARIANTS(RAYTRACE_DECLARE)

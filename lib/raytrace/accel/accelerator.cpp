@@ -47,12 +47,12 @@ embree::Geometry make_triangles(RTCDevice device, const ShapeTable<Shape>& table
 }
 
 template <class Shape>
-PlacedObject placed_object(const typename ShapeTable<Shape>::Record& record, std::uint32_t primitive) {
+BoundedObject placed_object(const typename ShapeTable<Shape>::Record& record, std::uint32_t primitive) {
   const Bounds bounds = Shape::bounds(record);
   double radius = length(Vec3d(bounds.upper) - Vec3d(bounds.lower)) / 2;
   if constexpr (requires { Shape::bounding_radius(record); }) radius = std::min(radius, Shape::bounding_radius(record));
   constexpr bool is_sphere = requires { requires Shape::is_its_bounding_sphere; };
-  PlacedObject object{static_cast<std::uint16_t>(index_of<Shape>(Shapes{})), is_sphere, primitive, bounds, radius};
+  BoundedObject object{static_cast<std::uint16_t>(index_of<Shape>(Shapes{})), is_sphere, primitive, bounds, radius};
   if constexpr (EmbreeTriangle<Shape>) object.corners = &record.vertex1;
   return object;
 }
@@ -131,12 +131,12 @@ std::uint64_t Accelerator::bvh_bytes() const {
   return static_cast<std::uint64_t>(std::max<std::int64_t>(report_->bytes, 0));
 }
 
-std::vector<std::optional<DirectionBuffer>> Accelerator::seen_from(std::span<const std::optional<Vantage>> vantages,
+std::vector<std::optional<DirectionBuffer>> Accelerator::seen_from(std::span<const std::optional<BufferOrigin>> origins,
                                                                    int threads) const {
-  std::vector<std::optional<DirectionBuffer>> buffers(vantages.size());
-  if (std::none_of(vantages.begin(), vantages.end(), [](const auto& vantage) { return vantage.has_value(); }))
+  std::vector<std::optional<DirectionBuffer>> buffers(origins.size());
+  if (std::none_of(origins.begin(), origins.end(), [](const auto& origin) { return origin.has_value(); }))
     return buffers;
-  auto objects = LargeArray<PlacedObject>::unset(primitive_count());
+  auto objects = LargeArray<BoundedObject>::unset(primitive_count());
   std::size_t count = 0;
   for_each_type(Shapes{}, [&](auto type) {
     using Shape = typename decltype(type)::type;
@@ -149,8 +149,8 @@ std::vector<std::optional<DirectionBuffer>> Accelerator::seen_from(std::span<con
       count += records.size();
     }
   });
-  for (std::size_t i = 0; i < vantages.size(); ++i)
-    if (vantages[i]) buffers[i] = DirectionBuffer::make(*vantages[i], {objects.data(), count}, threads);
+  for (std::size_t i = 0; i < origins.size(); ++i)
+    if (origins[i]) buffers[i] = DirectionBuffer::make(*origins[i], {objects.data(), count}, threads);
   return buffers;
 }
 

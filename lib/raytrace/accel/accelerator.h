@@ -25,18 +25,18 @@ enum class Coherence {
   incoherent,  ///< they scatter (bounces): one query a ray, up to 4 times faster there (docs/design.md)
 };
 
-/// The nearest hits of a packet. Lanes that hit nothing hold kind == no_hit.
+/// The nearest hits of a packet. Lanes that hit nothing hold shape_type == no_hit.
 struct Hits {
   MaskN hit;
-  UintN kind;      ///< position of the shape's type in the Shapes registry
-  IntN primitive;  ///< index among the objects of that type
-  FloatN u, v;     ///< barycentric coordinates on triangles
+  UintN shape_type;  ///< position of the shape's type in the Shapes registry
+  IntN primitive;    ///< index among the objects of that type
+  FloatN u, v;       ///< barycentric coordinates on triangles
 
-  // Of the first lane with a hit, and whether all others with one have the same kind, and hit the same object, as
+  // Of the first lane with a hit, and whether all others with one have the same shape_type, and hit the same object, as
   // neighbours mostly do.
-  std::uint32_t first_kind = 0;
+  std::uint32_t first_shape_type = 0;
   std::int32_t first_primitive = 0;
-  bool one_kind = false, one_object = false;
+  bool one_shape_type = false, one_object = false;
 };
 
 /// Owns Embree's device and scene, and the tables of all shapes. Embree's BVH is built when it is first asked for, by
@@ -49,8 +49,8 @@ class Accelerator {
   Accelerator(const SceneDescription& description, int threads, const char* isa);
   ~Accelerator();
 
-  /// The objects as seen from each of the vantages, where there is one and it would pay. With `threads` threads.
-  std::vector<std::optional<DirectionBuffer>> seen_from(std::span<const std::optional<Vantage>> vantages,
+  /// The objects as seen from each of the origins, where there is one and it would pay. With `threads` threads.
+  std::vector<std::optional<DirectionBuffer>> seen_from(std::span<const std::optional<BufferOrigin>> origins,
                                                         int threads) const;
 
   /// Nearest hits in the lanes of `active`, which then are where the rays end. Rays that Embree cannot take (a
@@ -97,7 +97,7 @@ class Accelerator {
   void build() const;
   /// Asks for the memory of an object's record, without waiting for it.
   RAYTRACE_INLINE void fetch_record(const DirectionBuffer::Object& object) const {
-    const RecordsInMemory& records = records_in_memory_[object.kind];
+    const RecordsInMemory& records = records_in_memory_[object.shape_type];
     __builtin_prefetch(records.first + object.primitive * records.record_size);
   }
   // Both return the lanes that are left to Embree.

@@ -35,7 +35,7 @@ RTCRay single_ray(const embree::RegisterPacket::Ray& rays, int lane) {
   return ray;
 }
 
-/// Calls f(kind, primitive, record) for each object of the shapes without end.
+/// Calls f(shape_type, primitive, record) for each object of the shapes without end.
 template <class Tables, class Function>
 RAYTRACE_INLINE void for_each_unbounded(const Tables& tables, Function f) {
   for_each_type(Shapes{}, [&](auto type) RAYTRACE_INLINE_LAMBDA {
@@ -51,10 +51,11 @@ RAYTRACE_INLINE void find_first(Hits& hits) {
   const std::uint32_t lanes = bits_of<FloatN>(hits.hit);
   if (lanes == 0) return;
   const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-  hits.first_kind = hits.kind.get(lane);
+  hits.first_shape_type = hits.shape_type.get(lane);
   hits.first_primitive = hits.primitive.get(lane);
-  hits.one_kind = none(hits.hit & float_mask<FloatN>(hits.kind != UintN(hits.first_kind)));
-  hits.one_object = hits.one_kind && none(hits.hit & float_mask<FloatN>(hits.primitive != IntN(hits.first_primitive)));
+  hits.one_shape_type = none(hits.hit & float_mask<FloatN>(hits.shape_type != UintN(hits.first_shape_type)));
+  hits.one_object =
+      hits.one_shape_type && none(hits.hit & float_mask<FloatN>(hits.primitive != IntN(hits.first_primitive)));
 }
 
 /// Shapes that take rays from a point as such.
@@ -80,7 +81,7 @@ RAYTRACE_INLINE void meet(const typename ShapeTable<Shape>::Record& record, std:
   if (none(hit)) return;
   far = select(hit, distance, far);
   hits.hit = hits.hit | hit;
-  hits.kind = select_lanes(hit, UintN(static_cast<std::uint32_t>(index_of<Shape>(Shapes{}))), hits.kind);
+  hits.shape_type = select_lanes(hit, UintN(static_cast<std::uint32_t>(index_of<Shape>(Shapes{}))), hits.shape_type);
   hits.primitive = select_lanes(hit, IntN(static_cast<std::int32_t>(primitive)), hits.primitive);
   if constexpr (EmbreeTriangle<Shape>) {
     hits.u = select(hit, u, hits.u);
@@ -92,7 +93,7 @@ RAYTRACE_INLINE void meet(const typename ShapeTable<Shape>::Record& record, std:
 template <class Tables>
 RAYTRACE_INLINE MaskN is_occluded(const Tables& tables, const DirectionBuffer::Object& object, const Ray<FloatN>& rays,
                                   const MaskN& active) {
-  return with_type(Shapes{}, object.kind, [&](auto type) {
+  return with_type(Shapes{}, object.shape_type, [&](auto type) {
     using Shape = typename decltype(type)::type;
     return occludes<Shape>(std::get<ShapeTable<Shape>>(tables).records[object.primitive], rays, active);
   });
@@ -112,7 +113,7 @@ RAYTRACE_INLINE SurfacePoint<FloatN> facing(const SurfacePoint<FloatN>& point, c
 
 /// The surfaces of one shape, under the wide type of its table's precision.
 template <class Shape>
-SurfacePoint<FloatN> surface_of(const ShapeTable<Shape>& table, const LanePlaces& primitive, const Ray<FloatN>& rays,
+SurfacePoint<FloatN> surface_of(const ShapeTable<Shape>& table, const LaneIndices& primitive, const Ray<FloatN>& rays,
                                 const Hits& hits) {
   if constexpr (SurfaceOfOne<Shape>) {
     SurfacePoint<FloatN> points = facing(Shape::surface(table.records[primitive.first()], rays, rays.far), rays);
@@ -145,7 +146,7 @@ SurfacePoint<FloatN> surface_of(const ShapeTable<Shape>& table, const LanePlaces
 Hits Accelerator::intersect_unbounded(Ray<FloatN>& rays, const MaskN& active) const {
   Hits hits;
   hits.hit = MaskN(false);
-  hits.kind = UintN(RTC_INVALID_GEOMETRY_ID);
+  hits.shape_type = UintN(RTC_INVALID_GEOMETRY_ID);
   hits.primitive = IntN(0);
   hits.u = hits.v = FloatN(0);
   for_each_unbounded(tables_, [&](auto type, std::uint32_t primitive, const auto& record) RAYTRACE_INLINE_LAMBDA {
@@ -170,7 +171,7 @@ MaskN Accelerator::intersect_candidates(const DirectionBuffer& seen, Ray<FloatN>
   };
   const RaysFromPoint<FloatN> from_point{seen.point(), rays.direction, rays.near, rays.far};
   const auto test = [&](const DirectionBuffer::Object& object) {
-    with_type(Shapes{}, object.kind, [&](auto type) {
+    with_type(Shapes{}, object.shape_type, [&](auto type) {
       using Shape = typename decltype(type)::type;
       const auto& record = std::get<ShapeTable<Shape>>(tables_).records[object.primitive];
       if constexpr (TakesRaysFromPoint<Shape>) {
@@ -206,7 +207,7 @@ MaskN Accelerator::occluded_by_candidates(const DirectionBuffer& seen, const Ray
 
 Hits Accelerator::intersect(Ray<FloatN>& rays, const MaskN& active, Coherence coherence,
                             const DirectionBuffer* seen_from_origin) const {
-  // All rays that start where the vantage is can be taken.
+  // All rays that start where the origin is can be taken.
   MaskN valid_lanes = seen_from_origin != nullptr ? active : active & embree_takes(rays);
   // First the shapes without end: what lies behind their hits need not be looked for.
   Hits hits = intersect_unbounded(rays, valid_lanes);
@@ -240,10 +241,10 @@ Hits Accelerator::intersect(Ray<FloatN>& rays, const MaskN& active, Coherence co
       packet.hit.geomID[lane] = single.hit.geomID;
     });
   }
-  const UintN kind = embree::load<UintN>([&](int i) { return packets[i].hit.geomID; });
-  const MaskN in_bvh = valid_lanes & float_mask<FloatN>(kind != UintN(RTC_INVALID_GEOMETRY_ID));
+  const UintN shape_type = embree::load<UintN>([&](int i) { return packets[i].hit.geomID; });
+  const MaskN in_bvh = valid_lanes & float_mask<FloatN>(shape_type != UintN(RTC_INVALID_GEOMETRY_ID));
   hits.hit = hits.hit | in_bvh;
-  hits.kind = select_lanes(in_bvh, kind, hits.kind);
+  hits.shape_type = select_lanes(in_bvh, shape_type, hits.shape_type);
   const UintN primitive = embree::load<UintN>([&](int i) { return packets[i].hit.primID; });
   hits.primitive = select_lanes(in_bvh, same_bits<IntN>(primitive), hits.primitive);
   rays.far = embree::load<FloatN>([&](int i) { return packets[i].ray.tfar; });
@@ -284,21 +285,21 @@ MaskN Accelerator::occluded(const Ray<FloatN>& rays, const MaskN& active, Cohere
 
 SurfacePoint<FloatN> Accelerator::surface(const Ray<FloatN>& rays, const Hits& hits) const {
   if (hits.one_object) {
-    return with_type(Shapes{}, hits.first_kind, [&](auto type) {
+    return with_type(Shapes{}, hits.first_shape_type, [&](auto type) {
       using Shape = typename decltype(type)::type;
-      return surface_of<Shape>(std::get<ShapeTable<Shape>>(tables_), LanePlaces(hits.first_primitive), rays, hits);
+      return surface_of<Shape>(std::get<ShapeTable<Shape>>(tables_), LaneIndices(hits.first_primitive), rays, hits);
     });
   }
   std::uint32_t lanes_left = bits_of<FloatN>(hits.hit);
-  alignas(64) std::uint32_t kinds[packet_lanes];
-  hits.kind.store_aligned(kinds);
+  alignas(64) std::uint32_t shape_types[packet_lanes];
+  hits.shape_type.store_aligned(shape_types);
   SurfacePoint<FloatN> result{};
   for_each_type(Shapes{}, [&](auto type) {
     using Shape = typename decltype(type)::type;
-    const auto kind = static_cast<std::uint32_t>(index_of<Shape>(Shapes{}));
+    const auto shape_type = static_cast<std::uint32_t>(index_of<Shape>(Shapes{}));
     if (lanes_left == 0 || std::get<ShapeTable<Shape>>(tables_).records.empty()) return;
     const MaskN here =
-        hits.hit & float_mask<FloatN>(same_bits<IntN>(hits.kind) == IntN(static_cast<std::int32_t>(kind)));
+        hits.hit & float_mask<FloatN>(same_bits<IntN>(hits.shape_type) == IntN(static_cast<std::int32_t>(shape_type)));
     const std::uint32_t lanes = bits_of<FloatN>(here);
     if (lanes == 0) return;
     lanes_left &= ~lanes;

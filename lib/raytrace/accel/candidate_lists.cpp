@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "raytrace/accel/cell_entry.h"
 #include "raytrace/accel/cell_grid.h"
-#include "raytrace/accel/listing.h"
 #include "raytrace/parallel/for_each_index.h"
 #include "raytrace/parallel/radix_sort.h"
 
@@ -27,7 +27,7 @@ constexpr std::size_t cells_for_each_of_few = 1000;
 constexpr double most_covered_cells = 64;
 
 /// What a thread fills at a time: so few that they stay in its cache.
-constexpr int rows_a_band = Listing::last_row + 1;
+constexpr int rows_a_band = CellEntry::last_row + 1;
 
 /// Nearest first, they lie all over memory: by how many it is asked for earlier.
 constexpr std::size_t objects_ahead = 16, corners_ahead = 8;
@@ -42,9 +42,9 @@ constexpr int face_of_picture = 4;
 
 /// Calls f(face, rectangle) for each face that the object is behind.
 template <class Function>
-void for_each_rectangle(const Perspective& perspective, const View& view, const Function& f) {
-  const int first = perspective.infinitely_far() ? face_of_picture : 0;
-  const int end = perspective.infinitely_far() ? face_of_picture + 1 : faces;
+void for_each_rectangle(const CubeProjection& projection, const ProjectedBounds& view, const Function& f) {
+  const int first = projection.infinitely_far() ? face_of_picture : 0;
+  const int end = projection.infinitely_far() ? face_of_picture + 1 : faces;
   for (int face = first; face < end; ++face)
     if (const auto rectangle = rectangle_on(face, view)) f(face, *rectangle);
 }
@@ -65,7 +65,7 @@ struct Band {
   std::size_t listed = 0, listed_by_crowded = 0;  ///< by the others, and by those
   std::uint32_t most_listed = 0;
   std::size_t first_candidate = 0;
-  /// Of each listing's cells in turn, as for_each_reached() finds them, those that list.
+  /// Of each entry's cells in turn, as for_each_reached() finds them, those that list.
   std::vector<std::uint8_t> seen = {};
 };
 
@@ -76,10 +76,10 @@ class ListsMaker {
   using Lists = DirectionBuffer::Lists;
   using Grid = DirectionBuffer::Grid;
 
-  ListsMaker(Lists& lists, const Perspective& perspective, std::span<const PlacedObject> objects, int threads)
-      : lists_(lists), perspective_(perspective), objects_(objects), threads_(threads) {}
+  ListsMaker(Lists& lists, const CubeProjection& projection, std::span<const BoundedObject> objects, int threads)
+      : lists_(lists), perspective_(projection), objects_(objects), threads_(threads) {}
 
-  /// Sets what the faces' grids are to cover and the order of the objects. False if there is one that the perspective
+  /// Sets what the faces' grids are to cover and the order of the objects. False if there is one that the projection
   /// has no view of.
   bool survey() {
     struct Surveyed {
@@ -91,7 +91,7 @@ class ListsMaker {
     for_each_chunk(objects_.size(), threads_, [&](std::size_t chunk, std::size_t first, std::size_t last) {
       Surveyed here;
       for (std::size_t i = first; i < last && here.all_seen; ++i) {
-        const std::optional<View> view = perspective_.view(objects_[i]);
+        const std::optional<ProjectedBounds> view = perspective_.view(objects_[i]);
         here.all_seen = view.has_value();
         if (!view) continue;
         // Of objects as near as each other, the first comes last: of surfaces at one distance, the last that is tested
@@ -122,7 +122,7 @@ class ListsMaker {
       Grid& grid = lists_.grids[face] = grid_on(covered);
       grid.first_cell = static_cast<std::uint32_t>(cells);
       // Seen from the point, a cell's center and its corners are no further apart than they are on the face, whose
-      // distance is 1. The rest is for a Listing's rounding.
+      // distance is 1. The rest is for a CellEntry's rounding.
       const double half_cell = std::hypot(1.0 / grid.columns_per_unit, 1.0 / grid.rows_per_unit) / 2 + 2e-6;
       half_cell_[face] = {std::cos(half_cell), std::sin(half_cell)};
       for (int row = 0; row < grid.rows; row += rows_a_band) {
@@ -145,14 +145,14 @@ class ListsMaker {
       double cells = 0;
       for (std::size_t i = first; i < last; ++i) {
         if (i + objects_ahead < last) {
-          const PlacedObject& ahead = objects_[order_[i + objects_ahead].object];
+          const BoundedObject& ahead = objects_[order_[i + objects_ahead].object];
           __builtin_prefetch(&ahead);
           __builtin_prefetch(&ahead.radius);
         }
         if (i + corners_ahead < last) __builtin_prefetch(objects_[order_[i + corners_ahead].object].corners);
-        const PlacedObject& object = objects_[order_[i].object];
+        const BoundedObject& object = objects_[order_[i].object];
         const float nearest = std::bit_cast<float>(order_[i].key);
-        const View view = *perspective_.view(object);
+        const ProjectedBounds view = *perspective_.view(object);
         for_each_rectangle(perspective_, view, [&](int face, const Rectangle& rectangle) {
           cells += list(object, nearest, view, face, rectangle, listings_[chunk]);
         });
@@ -171,24 +171,24 @@ class ListsMaker {
       const std::size_t places = cells.size() + CellFloats::size;
       std::vector<std::int32_t> counts(places);
       std::vector<float> depths(places, infinity<float>());  // nothing that is as deep as that is seen through a cell
-      const auto add = [&](const Listing& listing, std::size_t first, const CellMask& reached,
+      const auto add = [&](const CellEntry& entry, std::size_t first, const CellMask& reached,
                            const CellMask& covered) RAYTRACE_INLINE_LAMBDA {
         using Counts = Ints<CellFloats>;
         const CellFloats depth = CellFloats::load_unaligned(&depths[first]);
-        const CellMask seen = reached & (CellFloats(listing.object.nearest) < depth);
+        const CellMask seen = reached & (CellFloats(entry.object.nearest) < depth);
         const auto more = same_bits<Counts>(select(seen, same_bits<CellFloats>(Counts(1)), CellFloats(0)));
         (Counts::load_unaligned(&counts[first]) + more).store_unaligned(&counts[first]);
-        min(depth, select(covered, CellFloats(listing.behind), infinity<CellFloats>())).store_unaligned(&depths[first]);
+        min(depth, select(covered, CellFloats(entry.behind), infinity<CellFloats>())).store_unaligned(&depths[first]);
         band.seen.push_back(static_cast<std::uint8_t>(bits_of<CellFloats>(seen)));
       };
-      for_each_listing(band, [&](const Listing& listing, const Outline* outline) {
+      for_each_listing(band, [&](const CellEntry& entry, const EdgePlanes* edge_planes) {
         const auto add_listing = [&](std::size_t first, const CellMask& reached, const CellMask& covered)
-                                     RAYTRACE_INLINE_LAMBDA { add(listing, first, reached, covered); };
+                                     RAYTRACE_INLINE_LAMBDA { add(entry, first, reached, covered); };
         const Grid& grid = lists_.grids[band.face];
-        if (outline != nullptr)
-          for_each_reached(grid, band.first_row, listing, band.face, *outline, add_listing);
+        if (edge_planes != nullptr)
+          for_each_reached(grid, band.first_row, entry, band.face, *edge_planes, add_listing);
         else
-          for_each_reached(grid, band.first_row, listing, add_listing);
+          for_each_reached(grid, band.first_row, entry, add_listing);
       });
       for (std::size_t i = 0; i < cells.size(); ++i) {
         const std::uint32_t count = cells[i] = static_cast<std::uint32_t>(counts[i]);
@@ -236,12 +236,12 @@ class ListsMaker {
       }
       auto seen = band.seen.begin();
       const auto columns = static_cast<std::size_t>(lists_.grids[band.face].columns);
-      for_each_listing(band, [&](const Listing& listing, const Outline*) {
-        for (std::size_t row = listing.bottom; row <= listing.top; ++row)
-          for (std::size_t column = listing.left; column <= listing.right; column += CellFloats::size)
+      for_each_listing(band, [&](const CellEntry& entry, const EdgePlanes*) {
+        for (std::size_t row = entry.bottom; row <= entry.top; ++row)
+          for (std::size_t column = entry.left; column <= entry.right; column += CellFloats::size)
             for (std::uint32_t lanes = *seen++; lanes != 0; lanes &= lanes - 1) {
               const std::size_t cell = row * columns + column + static_cast<std::size_t>(std::countr_zero(lanes));
-              if ((cells[cell] & DirectionBuffer::crowded) == 0) candidates[next[cell]++] = listing.object;
+              if ((cells[cell] & DirectionBuffer::crowded) == 0) candidates[next[cell]++] = entry.object;
             }
       });
     });
@@ -257,76 +257,77 @@ class ListsMaker {
     });
   }
 
-  /// Calls f(listing, outline) for all of the band, that of the nearest object first; outline: null if it has none.
+  /// Calls f(entry, edge_planes) for all of the band, that of the nearest object first; edge_planes: null if it has
+  /// none.
   template <class Function>
   void for_each_listing(const Band& band, const Function& f) const {
     for (const auto& chunk : listings_) {
-      const Listings& listings = chunk[static_cast<std::size_t>(&band - bands_.data())];
-      auto outline = listings.outlines.begin();
-      for (const Listing& listing : listings.all) f(listing, listing.has_outline ? &*outline++ : nullptr);
+      const CellEntries& entries = chunk[static_cast<std::size_t>(&band - bands_.data())];
+      auto edge_planes = entries.edge_planes.begin();
+      for (const CellEntry& entry : entries.all) f(entry, entry.has_edge_planes ? &*edge_planes++ : nullptr);
     }
   }
 
   /// Adds the object to all bands that the rectangle is in; the result: how many cells it covers.
-  double list(const PlacedObject& object, float nearest, const View& view, int face, const Rectangle& rectangle,
-              std::vector<Listings>& bands) const {
+  double list(const BoundedObject& object, float nearest, const ProjectedBounds& view, int face,
+              const Rectangle& rectangle, std::vector<CellEntries>& bands) const {
     const Grid& grid = lists_.grids[face];
     const CellRange columns(rectangle.across, grid.left, grid.columns_per_unit, grid.columns);
     const CellRange rows(rectangle.up, grid.bottom, grid.rows_per_unit, grid.rows);
-    std::optional<Outline> outline;
-    if (object.corners != nullptr) outline = perspective_.outline(object);
-    Listing listing{};
-    listing.object = {static_cast<std::uint8_t>(object.kind),
-                      object.primitive & DirectionBuffer::Object::last_primitive, nearest};
-    listing.has_outline = outline.has_value();
-    listing.left = static_cast<std::uint32_t>(columns.low) & Listing::last_column;
-    listing.right = static_cast<std::uint32_t>(columns.high) & Listing::last_column;
+    std::optional<EdgePlanes> edge_planes;
+    if (object.corners != nullptr) edge_planes = perspective_.edge_planes(object);
+    CellEntry entry{};
+    entry.object = {static_cast<std::uint8_t>(object.shape_type),
+                    object.primitive & DirectionBuffer::Object::last_primitive, nearest};
+    entry.has_edge_planes = edge_planes.has_value();
+    entry.left = static_cast<std::uint32_t>(columns.low) & CellEntry::last_column;
+    entry.right = static_cast<std::uint32_t>(columns.high) & CellEntry::last_column;
     const int axis = face / 2;
     const Vec3f center(view.center * (1 / view.distance));
-    listing.across = component(center, (axis + 1) % 3);
-    listing.up = component(center, (axis + 2) % 3);
-    listing.normal = face % 2 != 0 ? -component(center, axis) : component(center, axis);
+    entry.across = component(center, (axis + 1) % 3);
+    entry.up = component(center, (axis + 2) % 3);
+    entry.normal = face % 2 != 0 ? -component(center, axis) : component(center, axis);
     const auto& [cosine, sine] = half_cell_[face];
     // Next to the differences between such cosines, the rounding of the axis' length is large.
     const double squared_length = dot(Vec3d(center), Vec3d(center));
     const double least = view.cosine * cosine - view.sine * sine;
-    listing.least = view.in_cone ? least * std::abs(least) * squared_length : -1e300;
-    listing.inner = infinity<float>();
+    entry.least = view.in_cone ? least * std::abs(least) * squared_length : -1e300;
+    entry.inner = infinity<float>();
     if (view.inner_sine > sine) {
       const double inner = view.inner_cosine * cosine + view.inner_sine * sine;
       // Rounded up, as this is to be on the safe side.
-      listing.inner = static_cast<float>((inner * inner * squared_length - listing.least) * (1 + 1e-6));
-      listing.behind = static_cast<float>(view.behind * (1 + 1e-6));
+      entry.inner = static_cast<float>((inner * inner * squared_length - entry.least) * (1 + 1e-6));
+      entry.behind = static_cast<float>(view.behind * (1 + 1e-6));
     }
     for (int first = rows.low / rows_a_band * rows_a_band; first <= rows.high; first += rows_a_band) {
-      listing.bottom = static_cast<std::uint32_t>(std::max(rows.low - first, 0)) & Listing::last_row;
-      listing.top = static_cast<std::uint32_t>(std::min(rows.high - first, rows_a_band - 1)) & Listing::last_row;
-      Listings& band = bands[first_band_[face] + static_cast<std::size_t>(first / rows_a_band)];
-      band.all.push_back(listing);
-      if (outline) band.outlines.push_back(*outline);
+      entry.bottom = static_cast<std::uint32_t>(std::max(rows.low - first, 0)) & CellEntry::last_row;
+      entry.top = static_cast<std::uint32_t>(std::min(rows.high - first, rows_a_band - 1)) & CellEntry::last_row;
+      CellEntries& band = bands[first_band_[face] + static_cast<std::size_t>(first / rows_a_band)];
+      band.all.push_back(entry);
+      if (edge_planes) band.edge_planes.push_back(*edge_planes);
     }
     return 1.0 * columns.count() * rows.count();
   }
 
   Lists& lists_;
-  const Perspective& perspective_;
-  std::span<const PlacedObject> objects_;
+  const CubeProjection& perspective_;
+  std::span<const BoundedObject> objects_;
   int threads_;
   std::vector<ObjectDepth> order_;
   Coverages covered_;
   std::size_t first_band_[faces] = {};
   std::pair<double, double> half_cell_[faces];  ///< cosine and sine of the angle by which cones are to be wider
   std::vector<Band> bands_;
-  std::uint32_t limit_ = most_candidates;        ///< of cells that list more, none is listed
-  std::vector<std::vector<Listings>> listings_;  ///< of each chunk, on each band
+  std::uint32_t limit_ = most_candidates;           ///< of cells that list more, none is listed
+  std::vector<std::vector<CellEntries>> listings_;  ///< of each chunk, on each band
 };
 
 }  // namespace
 
-std::optional<DirectionBuffer::Lists> make_candidate_lists(const Perspective& perspective,
-                                                           std::span<const PlacedObject> objects, int threads) {
+std::optional<DirectionBuffer::Lists> make_candidate_lists(const CubeProjection& projection,
+                                                           std::span<const BoundedObject> objects, int threads) {
   DirectionBuffer::Lists lists;
-  ListsMaker maker(lists, perspective, objects, threads);
+  ListsMaker maker(lists, projection, objects, threads);
   if (!maker.survey()) return std::nullopt;
   maker.lay_grids();
   if (!maker.collect() || !maker.count()) return std::nullopt;

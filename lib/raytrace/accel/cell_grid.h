@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "raytrace/accel/cube_projection.h"
 #include "raytrace/accel/direction_buffer.h"
-#include "raytrace/accel/perspective.h"
 
 namespace raytrace {
 

@@ -11,7 +11,7 @@
 #include <optional>
 #include <span>
 
-#include "raytrace/accel/perspective.h"
+#include "raytrace/accel/cube_projection.h"
 #include "raytrace/math/bounds.h"
 #include "raytrace/math/ray.h"
 #include "raytrace/math/vec3.h"
@@ -21,18 +21,18 @@ namespace raytrace {
 
 /// The directions from a point are those through the six faces of a cube around it. On each face, a grid covers what
 /// the objects cover, and each of its cells lists all objects that directions through it may meet.
-/// From infinitely far, one grid lies across all rays, on a face of the cube (perspective.h).
+/// From infinitely far, one grid lies across all rays, on a face of the cube (projection.h).
 class DirectionBuffer {
  public:
   struct Object {
     static constexpr int primitive_bits = 24;
     static constexpr std::uint32_t last_primitive = (1U << primitive_bits) - 1;
 
-    std::uint32_t kind : 32 - primitive_bits;
+    std::uint32_t shape_type : 32 - primitive_bits;
     std::uint32_t primitive : primitive_bits;
     float nearest;  ///< no part of it has a smaller depth()
 
-    bool is(const Object& other) const { return kind == other.kind && primitive == other.primitive; }
+    bool is(const Object& other) const { return shape_type == other.shape_type && primitive == other.primitive; }
   };
 
   /// The grid on a face, in the directions of Rectangle.
@@ -57,33 +57,33 @@ class DirectionBuffer {
 
   /// None where it would not pay: an object is around the point or next to it, or objects are so close together that
   /// cells list too many, or they are too many for Object.
-  static std::optional<DirectionBuffer> make(const Vantage& vantage, std::span<const PlacedObject> objects,
+  static std::optional<DirectionBuffer> make(const BufferOrigin& origin, std::span<const BoundedObject> objects,
                                              int threads);
 
   bool infinitely_far() const { return infinitely_far_; }
   /// Where all is seen from, if that is not so.
   const Vec3f& point() const { return point_; }
 
-  /// Of the origins of rays that go to the vantage, to_vantage being their directions, which lead right to the point if
+  /// Of the origins of rays that go to the origin, to_origin being their directions, which lead right to the point if
   /// there is one: larger for what is behind it, the squared distance from the point, or the distance from a plane.
   template <class F>
-  RAYTRACE_INLINE F depth(const Vec3<F>& origin, const Vec3<F>& to_vantage) const {
-    return infinitely_far_ ? F(start_.z) - dot(to_vantage, origin) : dot(to_vantage, to_vantage);
+  RAYTRACE_INLINE F depth(const Vec3<F>& origin, const Vec3<F>& to_origin) const {
+    return infinitely_far_ ? F(start_.z) - dot(to_origin, origin) : dot(to_origin, to_origin);
   }
 
   /// From infinitely far, a ray is seen as a point of the picture across all rays, up to rounding: the direction from
-  /// there to the point from which that picture is seen (perspective.h).
+  /// there to the point from which that picture is seen (projection.h).
   template <class F>
   RAYTRACE_INLINE Vec3<F> direction_to_picture(const Vec3<F>& origin) const {
     return {F(start_.x) - dot(Vec3<F>(across_), origin), F(start_.y) - dot(Vec3<F>(up_), origin), F(-1)};
   }
 
   /// Whether its rounding is small enough that cells list all that such a ray may meet. Not if it starts at the
-  /// vantage, nor if a component is not finite.
+  /// origin, nor if a component is not finite.
   template <class F>
-  RAYTRACE_INLINE auto in_reach(const Vec3<F>& origin, const Vec3<F>& to_vantage) const {
+  RAYTRACE_INLINE auto in_reach(const Vec3<F>& origin, const Vec3<F>& to_origin) const {
     if (infinitely_far_) return dot(origin, origin) <= F(reach_ * reach_);
-    const F squared_length = dot(to_vantage, to_vantage);
+    const F squared_length = dot(to_origin, to_origin);
     return (squared_length <= F(reach_ * reach_)) & (squared_length > F(0));
   }
 

@@ -57,7 +57,7 @@ class PlaneWriter {
 
 /// How many values of each rule the AOVs before the current one have.
 struct ValueCounts {
-  std::size_t nearest = 0, means = 0, covers = 0;
+  std::size_t nearest = 0, means = 0, coverages = 0;
 };
 
 template <class Aov>
@@ -91,12 +91,12 @@ void fill_mean(PlaneWriter& planes, std::size_t first_mean, const Film& film) {
   }
 }
 
-void fill_cover(PlaneWriter& planes, std::size_t cover, const Film& film) {
+void fill_coverage(PlaneWriter& planes, std::size_t coverage, const Film& film) {
   float* planes_of_pairs[cryptomatte::pairs][2];
   for (auto& pair : planes_of_pairs)
     for (float*& plane : pair) plane = planes.next<float>();
   planes.for_each_pixel([&](std::size_t pixel, int x, int y) {
-    const std::vector<IdCount> ranked = film.aovs()->ranked(x, y, cover);
+    const std::vector<IdCount> ranked = film.aovs()->ranked(x, y, coverage);
     const auto samples = static_cast<double>(film.sum(x, y).samples);
     for (std::size_t i = 0; i < std::min(ranked.size(), cryptomatte::pairs); ++i) {
       planes_of_pairs[i][0][pixel] = std::bit_cast<float>(ranked[i].id);
@@ -135,7 +135,7 @@ AovSettings aov_settings(const AovSet& aovs) {
     if constexpr (Aov::rule == AovRule::nearest) settings.nearest_values += Aov::channels.size();
     if constexpr (Aov::rule == AovRule::mean)
       settings.mean_units.insert(settings.mean_units.end(), Aov::channels.size(), 0);
-    if constexpr (Aov::rule == AovRule::cover) ++settings.covers;
+    if constexpr (Aov::rule == AovRule::coverage) ++settings.coverages;
   });
   return settings;
 }
@@ -143,18 +143,18 @@ AovSettings aov_settings(const AovSet& aovs) {
 AovSettings aov_settings(const AovSet& aovs, const Scene& scene, const SceneDescription& description,
                          std::uint64_t samples) {
   AovSettings settings = aov_settings(aovs);
-  AovSettings::CoverIds cover_ids;
+  AovSettings::CoverageIds coverage_ids;
   auto next_unit = settings.mean_units.begin();
   for_each_wanted(aovs, [&](auto type) {
     using Aov = typename decltype(type)::type;
     if constexpr (Aov::rule == AovRule::mean)
       next_unit = std::fill_n(next_unit, Aov::channels.size(), unit_exponent(Aov::largest(scene), samples));
-    if constexpr (Aov::rule == AovRule::cover) {
-      std::vector<std::uint32_t>& ids = cover_ids.emplace_back();
+    if constexpr (Aov::rule == AovRule::coverage) {
+      std::vector<std::uint32_t>& ids = coverage_ids.emplace_back();
       for (const std::string& name : Aov::names(description)) ids.push_back(cryptomatte::id_of(name));
     }
   });
-  settings.cover_ids = std::make_shared<const AovSettings::CoverIds>(std::move(cover_ids));
+  settings.coverage_ids = std::make_shared<const AovSettings::CoverageIds>(std::move(coverage_ids));
   return settings;
 }
 
@@ -168,7 +168,7 @@ std::vector<Channel> aov_channels(const AovSet& aovs) {
     if constexpr (Aov::rule == AovRule::nearest) add(Aov::channels, Aov::type);
     if constexpr (Aov::rule == AovRule::mean) add(Aov::channels, ChannelType::float32);
     if constexpr (Aov::rule == AovRule::film) add(Aov::channels, ChannelType::uint32);
-    if constexpr (Aov::rule == AovRule::cover) {
+    if constexpr (Aov::rule == AovRule::coverage) {
       const std::vector<Channel> pairs = cryptomatte::channels(Aov::name);
       channels.insert(channels.end(), pairs.begin(), pairs.end());
     }
@@ -183,7 +183,7 @@ std::vector<ImageAttribute> aov_attributes(const AovSet& aovs, const SceneDescri
   };
   for_each_wanted(aovs, [&](auto type) {
     using Aov = typename decltype(type)::type;
-    if constexpr (Aov::rule == AovRule::cover) add(cryptomatte::attributes(Aov::name, Aov::names(description)));
+    if constexpr (Aov::rule == AovRule::coverage) add(cryptomatte::attributes(Aov::name, Aov::names(description)));
     if constexpr (requires { Aov::attributes(description); }) add(Aov::attributes(description));
   });
   return attributes;
@@ -201,8 +201,8 @@ void fill_aovs(ImageBand& band, std::size_t first_plane, const Film& film) {
     } else if constexpr (Aov::rule == AovRule::mean) {
       fill_mean<Aov>(planes, before.means, film);
       before.means += Aov::channels.size();
-    } else if constexpr (Aov::rule == AovRule::cover) {
-      fill_cover(planes, before.covers++, film);
+    } else if constexpr (Aov::rule == AovRule::coverage) {
+      fill_coverage(planes, before.coverages++, film);
     } else {
       std::uint32_t* const plane = planes.next<std::uint32_t>();
       planes.for_each_pixel([&](std::size_t pixel, int x, int y) { plane[pixel] = Aov::value(film.sum(x, y)); });

@@ -12,7 +12,7 @@ namespace raytrace {
 class CryptoMaterial {
  public:
   static constexpr std::string_view name = "crypto_material";
-  static constexpr AovRule rule = AovRule::cover;
+  static constexpr AovRule rule = AovRule::coverage;
 
   template <class Surface>
   static auto index(const Surface& surface) {

@@ -12,7 +12,7 @@ namespace raytrace {
 class CryptoObject {
  public:
   static constexpr std::string_view name = "crypto_object";
-  static constexpr AovRule rule = AovRule::cover;
+  static constexpr AovRule rule = AovRule::coverage;
 
   template <class Surface>
   static auto index(const Surface& surface) {

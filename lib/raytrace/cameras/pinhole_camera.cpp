@@ -8,9 +8,10 @@ Fields<PinholeCamera::Parameters> PinholeCamera::fields() {
           required("viewdistance", &Parameters::viewdistance, Range::positive)};
 }
 
-std::optional<Problem> PinholeCamera::check(const Parameters& parameters) {
+std::optional<ParameterDiagnostic> PinholeCamera::check(const Parameters& parameters) {
   if (length(parameters.eye - parameters.lookat) >= smallest_size) return std::nullopt;
-  return Problem{Problem::Kind::error, "the camera's <eye> and <lookat> are the same point: it looks nowhere"};
+  return ParameterDiagnostic{ParameterDiagnostic::Effect::error,
+                             "the camera's <eye> and <lookat> are the same point: it looks nowhere"};
 }
 
 PinholeCamera::Frame PinholeCamera::frame(const Parameters& parameters) {

@@ -6,10 +6,10 @@
 #pragma once
 
 #include "raytrace/cameras/camera_matrices.h"
-#include "raytrace/description/fields.h"
-#include "raytrace/description/view_plane.h"
+#include "raytrace/cameras/view_plane.h"
 #include "raytrace/math/ray.h"
 #include "raytrace/math/simd.h"
+#include "raytrace/parameters/fields.h"
 
 namespace raytrace {
 
@@ -23,7 +23,7 @@ class PinholeCamera {
   static constexpr std::string_view name = "pinhole";  ///< as --list cameras shows it
   static constexpr std::string_view element = "camera";
   static Fields<Parameters> fields();
-  static std::optional<Problem> check(const Parameters& parameters);
+  static std::optional<ParameterDiagnostic> check(const Parameters& parameters);
 
   /// pixelsize: edge of a pixel on the view plane, in world units.
   PinholeCamera(const Parameters& parameters, double pixelsize);

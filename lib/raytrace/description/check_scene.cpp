@@ -11,19 +11,19 @@
 #include <variant>
 
 #include "raytrace/description/parse_value.h"
-#include "raytrace/description/quoted.h"
 #include "raytrace/description/read_value.h"
-#include "raytrace/description/utf8.h"
+#include "raytrace/text/quoted.h"
+#include "raytrace/text/utf8.h"
 
 namespace raytrace {
 
 namespace {
 
-Complaint complaint_about(double value, Range range) { return check_number(value, range); }
-Complaint complaint_about(int value, Range range) { return check_integer(value, range); }
-Complaint complaint_about(bool, Range) { return std::nullopt; }
+DiagnosticText complaint_about(double value, Range range) { return check_number(value, range); }
+DiagnosticText complaint_about(int value, Range range) { return check_integer(value, range); }
+DiagnosticText complaint_about(bool, Range) { return std::nullopt; }
 
-Complaint complaint_about(const std::string& value, Range) {
+DiagnosticText complaint_about(const std::string& value, Range) {
   if (value.empty()) return "is empty";
   if (find_invalid_utf8(value, 1) != std::string_view::npos) return "is no text in UTF-8 without control characters";
   if (value.front() == ' ' || value.back() == ' ') return "has a space at an end";
@@ -93,7 +93,7 @@ class SceneChecker {
     return tag(element_) + (index_ == no_index ? "" : " [" + std::to_string(index_) + "]");
   }
 
-  void report(const std::string& problem) { diagnostics_.error({line_, 0}, item_text() + " " + problem); }
+  void report(const std::string& message) { diagnostics_.error({line_, 0}, item_text() + " " + message); }
 
   /// may_skip: whether the item may be left out where its type says so, as the reader does.
   template <class T>
@@ -104,10 +104,10 @@ class SceneChecker {
       std::visit([&](auto member) { check_value(field.name, parameters.*member, field.range); }, field.member);
     if constexpr (requires { T::check(parameters); }) {
       if (diagnostics_.error_count() > errors_before) return;
-      const std::optional<Problem> problem = T::check(parameters);
-      if (!problem) return;
-      const std::string message = item_text() + ": " + problem->message;
-      if (problem->kind == Problem::Kind::skip && may_skip)
+      const std::optional<ParameterDiagnostic> diagnostic = T::check(parameters);
+      if (!diagnostic) return;
+      const std::string message = item_text() + ": " + diagnostic->message;
+      if (diagnostic->effect == ParameterDiagnostic::Effect::skip && may_skip)
         diagnostics_.warning({line_, 0}, message);
       else
         diagnostics_.error({line_, 0}, message);
@@ -116,8 +116,8 @@ class SceneChecker {
 
   template <class Value>
   void check_value(std::string_view name, const Value& value, Range range) {
-    if (const Complaint complaint = complaint_about(value, range))
-      report("has " + in_quotes(text_of(value)) + " as " + tag(name) + ", which " + *complaint);
+    if (const DiagnosticText diagnostic = complaint_about(value, range))
+      report("has " + in_quotes(text_of(value)) + " as " + tag(name) + ", which " + *diagnostic);
   }
 
   void check_value(std::string_view name, const Vec3d& value, Range range) {

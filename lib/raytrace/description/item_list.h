@@ -1,4 +1,4 @@
-// The items of one type that a thread reads from a piece of a scene's text, before they go into the description.
+// The items of one type that a thread reads from a chunk of a scene's text, before they go into the description.
 #pragma once
 
 #include <array>
@@ -9,12 +9,12 @@
 #include <utility>
 #include <vector>
 
-#include "raytrace/description/diagnostics.h"
-#include "raytrace/description/document.h"
-#include "raytrace/description/fields.h"
 #include "raytrace/description/item_pattern.h"
 #include "raytrace/description/read_fields.h"
-#include "raytrace/description/report.h"
+#include "raytrace/parameters/fields.h"
+#include "raytrace/xml/diagnostics.h"
+#include "raytrace/xml/document.h"
+#include "raytrace/xml/report.h"
 
 namespace raytrace {
 
@@ -38,9 +38,9 @@ Item<T> read_item(Element element, FieldsReader<typename T::Parameters>& reader,
   item.usable = reader.read(element, item.parameters, item.labels, diagnostics);
   if constexpr (requires { T::check(item.parameters); }) {
     if (item.usable) {
-      if (const std::optional<Problem> problem = T::check(item.parameters)) {
-        const auto message = [&] { return problem->message; };
-        if (problem->kind == Problem::Kind::skip && may_skip)
+      if (const std::optional<ParameterDiagnostic> diagnostic = T::check(item.parameters)) {
+        const auto message = [&] { return diagnostic->message; };
+        if (diagnostic->effect == ParameterDiagnostic::Effect::skip && may_skip)
           report_warning(diagnostics, element, message);
         else
           report_error(diagnostics, element, message);
@@ -62,7 +62,7 @@ class ItemList {
 
   virtual void clear() = 0;
 
-  // number: of the item among the elements of its piece.
+  // number: of the item among the elements of its chunk.
 
   /// Appends what an element holds.
   virtual void read(Element element, std::uint32_t number, Diagnostics& diagnostics) = 0;

@@ -5,8 +5,8 @@
 #include <variant>
 
 #include "raytrace/description/parse_value.h"
-#include "raytrace/description/xml_characters.h"
-#include "raytrace/description/xml_scanner.h"
+#include "raytrace/xml/xml_characters.h"
+#include "raytrace/xml/xml_scanner.h"
 
 namespace raytrace {
 namespace {

@@ -13,8 +13,8 @@
 #include <string_view>
 #include <vector>
 
-#include "raytrace/description/document.h"
 #include "raytrace/description/read_value.h"
+#include "raytrace/xml/document.h"
 
 namespace raytrace {
 

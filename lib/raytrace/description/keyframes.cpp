@@ -48,7 +48,7 @@ class Curve {
 
 }  // namespace
 
-Complaint parse_interpolation(std::string_view text, Interpolation& interpolation) {
+DiagnosticText parse_interpolation(std::string_view text, Interpolation& interpolation) {
   if (text != "linear" && text != "smooth") return "is neither linear nor smooth; write one of them";
   interpolation = text == "smooth" ? Interpolation::smooth : Interpolation::linear;
   return std::nullopt;

@@ -18,7 +18,7 @@ namespace raytrace {
 enum class Interpolation { linear, smooth };
 
 /// "linear" or "smooth".
-Complaint parse_interpolation(std::string_view text, Interpolation& interpolation);
+DiagnosticText parse_interpolation(std::string_view text, Interpolation& interpolation);
 
 struct Key {
   double frame = 0;

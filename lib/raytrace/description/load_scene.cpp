@@ -12,21 +12,21 @@
 #include <utility>
 #include <vector>
 
-#include "raytrace/description/document.h"
 #include "raytrace/description/item_list.h"
 #include "raytrace/description/name_table.h"
-#include "raytrace/description/nearest_name.h"
-#include "raytrace/description/quoted.h"
 #include "raytrace/description/read_fields.h"
 #include "raytrace/description/read_items.h"
 #include "raytrace/description/refuse_content.h"
-#include "raytrace/description/report.h"
 #include "raytrace/description/scene_description.h"
 #include "raytrace/description/scene_layout.h"
-#include "raytrace/description/scene_text.h"
-#include "raytrace/description/text_file.h"
 #include "raytrace/description/variables.h"
 #include "raytrace/parallel/worker_count.h"
+#include "raytrace/text/nearest_name.h"
+#include "raytrace/text/quoted.h"
+#include "raytrace/xml/document.h"
+#include "raytrace/xml/report.h"
+#include "raytrace/xml/scene_text.h"
+#include "raytrace/xml/text_file.h"
 
 namespace raytrace {
 namespace {
@@ -46,7 +46,7 @@ class SceneReader {
   }
 
   void read() {
-    frame_.parse_frame(diagnostics_);
+    frame_.parse_skeleton(diagnostics_);
     if (const Element root = frame_.root()) read(root);
   }
 
@@ -108,7 +108,7 @@ class SceneReader {
   void read_lights(Element section) {
     const auto convert = []<class T>(Item<T>& item, Diagnostics&) { return LightItem<T>{item.parameters, item.line}; };
     read_section(section, Lights{}, scene_.lights, {}, true, convert,
-                 []<class T>(auto&& light, ItemPlace, auto& items) {
+                 []<class T>(auto&& light, ItemPosition, auto& items) {
                    if (light.usable) items.push_back(std::move(light.item));
                  });
   }
@@ -117,7 +117,7 @@ class SceneReader {
     const auto convert = []<class T>(Item<T>& item, Diagnostics&) {
       return MaterialItem<T>{item.parameters, std::string(item.labels[0]), item.line};
     };
-    const auto accept = [&]<class T>(auto&& material, ItemPlace place, auto& items) {
+    const auto accept = [&]<class T>(auto&& material, ItemPosition place, auto& items) {
       // A faulty material keeps its name, so that the objects that use it are not reported too.
       if (!material.item.name.empty()) {
         material_names_.add(material.item.name, place);
@@ -145,7 +145,7 @@ class SceneReader {
       }
       return object;
     };
-    const auto accept = [&]<class T>(auto&& object, ItemPlace place, auto& items) {
+    const auto accept = [&]<class T>(auto&& object, ItemPosition place, auto& items) {
       if (!object.item.name.empty()) object_names_.add(object.item.name, place);
       if (object.usable) items.push_back(std::move(object.item));
     };
@@ -173,19 +173,19 @@ class SceneReader {
           if (!is_first(T::element, child)) return;
           Typed one(labels, may_skip, convert);
           one.read(child, 0, diagnostics_);
-          accept.template operator()<T>(std::move(one.entries().front()), ItemPlace{}, items);
+          accept.template operator()<T>(std::move(one.entries().front()), ItemPosition{}, items);
         } else {
           refuse_group_content(child);
-          const std::size_t elements = text_.pieces_of(child.offset()).items;
+          const std::size_t elements = text_.chunks_of(child.offset()).items;
           reserve_more(items, elements);
           std::size_t read_elements = 0;
           read_items(
               {text_, variables_, child, T::element}, arena_, diagnostics_,
               [&] { return std::make_unique<Typed>(labels, may_skip, convert); },
-              [&](std::size_t piece, ItemList& read) {
+              [&](std::size_t chunk, ItemList& read) {
                 for (auto& entry : static_cast<Typed&>(read).entries()) {
                   ++read_elements;
-                  const ItemPlace place{static_cast<std::uint32_t>(piece), entry.number};
+                  const ItemPosition place{static_cast<std::uint32_t>(chunk), entry.number};
                   accept.template operator()<T>(std::move(entry), place, items);
                 }
               });
@@ -211,7 +211,7 @@ class SceneReader {
 
   void refuse_group_content(Element group) {
     refuse_attributes(group, {}, diagnostics_);
-    // What stands before the first item; that one and the rest are in the pieces.
+    // What stands before the first item; that one and the rest are in the chunks.
     for (Node node = group.first_child(); node; node = node.next()) refuse_text(node, group, diagnostics_);
   }
 
@@ -250,21 +250,22 @@ class SceneReader {
 
   void report_taken(const char* what, NameTable& names) {
     Document first_document(text_, variables_), other_document(text_, variables_);
-    names.finish(arena_.max_concurrency(), [&](std::string_view name, ItemPlace first_place, ItemPlace other_place) {
-      if (!diagnostics_.keeps_another(Severity::error)) return diagnostics_.error({}, {});
-      const Element first = item_at(first_place, first_document);
-      const Element other = item_at(other_place, other_document);
-      report_error(diagnostics_, label_text(other, "name"), [&] {
-        return "the " + std::string(what) + " name " + in_quotes(name) + " is taken by the " + tag(first.name()) +
-               " in line " + std::to_string(first.line()) + "; choose another";
-      });
-    });
+    names.finish(arena_.max_concurrency(),
+                 [&](std::string_view name, ItemPosition first_place, ItemPosition other_place) {
+                   if (!diagnostics_.keeps_another(Severity::error)) return diagnostics_.error({}, {});
+                   const Element first = item_at(first_place, first_document);
+                   const Element other = item_at(other_place, other_document);
+                   report_error(diagnostics_, label_text(other, "name"), [&] {
+                     return "the " + std::string(what) + " name " + in_quotes(name) + " is taken by the " +
+                            tag(first.name()) + " in line " + std::to_string(first.line()) + "; choose another";
+                   });
+                 });
   }
 
   /// The item once more, parsed by `document`.
-  Element item_at(ItemPlace place, Document& document) const {
+  Element item_at(ItemPosition place, Document& document) const {
     Diagnostics none = Diagnostics::counter();
-    document.parse_items(text_.piece(place.piece), none);
+    document.parse_items(text_.chunk(place.chunk), none);
     std::uint32_t number = 0;
     Node node = document.root().first_child();
     while (!node.element() || number++ < place.number) node = node.next();
@@ -317,7 +318,7 @@ void report_unused(const Variables& variables, Diagnostics& diagnostics) {
 
 std::optional<SceneDescription> read_scene(TextBuffer text, Diagnostics& diagnostics, int threads,
                                            const SceneSettings& settings) {
-  const SceneText scene_text(std::move(text), threads, diagnostics);
+  const SceneText scene_text(std::move(text), group_elements(), threads, diagnostics);
   if (!scene_text.well_formed()) return std::nullopt;
   const Variables variables(settings);
   SceneReader reader(scene_text, variables, threads, diagnostics);

@@ -16,14 +16,15 @@ std::uint32_t NameTable::hash(std::string_view name) {
   return static_cast<std::uint32_t>(std::hash<std::string_view>{}(name));
 }
 
-void NameTable::add(std::string_view name, ItemPlace place) {
+void NameTable::add(std::string_view name, ItemPosition place) {
   keys_.push_back({hash(name), static_cast<std::uint32_t>(bearers_.size())});
   characters_ += name;
   bearers_.push_back({characters_.size(), place});
 }
 
 void NameTable::finish(
-    int threads, const std::function<void(std::string_view name, ItemPlace first, ItemPlace other)>& report_taken) {
+    int threads,
+    const std::function<void(std::string_view name, ItemPosition first, ItemPosition other)>& report_taken) {
   radix_sort(keys_, threads);
   std::vector<std::pair<std::size_t, std::size_t>> taken;  // a name's second and further bearers, each with the first
   for (auto begin = keys_.begin(), end = begin; begin != keys_.end(); begin = end) {

@@ -14,20 +14,20 @@
 namespace raytrace {
 
 /// Where an item stands.
-struct ItemPlace {
-  std::uint32_t piece;   ///< of the SceneText
-  std::uint32_t number;  ///< among the elements of the piece, from 0
+struct ItemPosition {
+  std::uint32_t chunk;   ///< of the SceneText
+  std::uint32_t number;  ///< among the elements of the chunk, from 0
 };
 
 class NameTable {
  public:
   /// Adds the name of an item.
-  void add(std::string_view name, ItemPlace place);
+  void add(std::string_view name, ItemPosition place);
 
   /// To be called once all names are there: reports each item whose name another, its first bearer, has already.
   /// threads: how many may share the work.
   void finish(int threads,
-              const std::function<void(std::string_view name, ItemPlace first, ItemPlace other)>& report_taken);
+              const std::function<void(std::string_view name, ItemPosition first, ItemPosition other)>& report_taken);
 
   /// Which call of add brought the name; after finish.
   std::optional<std::size_t> find(std::string_view name) const;
@@ -38,7 +38,7 @@ class NameTable {
  private:
   struct Bearer {
     std::size_t name_end;  // in characters_; the name starts where the one before ends
-    ItemPlace place;
+    ItemPosition place;
   };
   struct Key {
     std::uint32_t key;       // a hash of the name

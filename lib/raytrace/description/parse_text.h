@@ -5,11 +5,11 @@
 #include <string_view>
 #include <utility>
 
-#include "raytrace/description/diagnostics.h"
-#include "raytrace/description/document.h"
-#include "raytrace/description/quoted.h"
-#include "raytrace/description/report.h"
 #include "raytrace/description/variables.h"
+#include "raytrace/text/quoted.h"
+#include "raytrace/xml/diagnostics.h"
+#include "raytrace/xml/document.h"
+#include "raytrace/xml/report.h"
 
 namespace raytrace {
 
@@ -18,28 +18,28 @@ enum class Dollars {
   may_fit,
 };
 
-/// parse(text): a Complaint; what it is given lives as long as the element does. text: that of `place`, a Node or
-/// Attribute of the element. where(): " in <radius> ". False, with a report, if there is a complaint.
+/// parse(text): a DiagnosticText; what it is given lives as long as the element does. text: that of `place`, a Node or
+/// Attribute of the element. where(): " in <radius> ". False, with a report, if there is a diagnostic.
 template <Dollars dollars, class Place, class Parse, class Where>
 bool parse_text(std::string_view text, Element element, const Place& place, const Parse& parse, const Where& where,
                 Diagnostics& diagnostics) {
-  Complaint complaint = parse(text);
+  DiagnosticText diagnostic = parse(text);
   bool once = false;
-  if ((complaint || dollars == Dollars::may_fit) && text.find('$') != std::string_view::npos) {
+  if ((diagnostic || dollars == Dollars::may_fit) && text.find('$') != std::string_view::npos) {
     std::string replaced;
-    complaint = element.variables().replace(text, replaced);
-    once = complaint && Variables::is_cause(*complaint);
-    if (!complaint && trimmed(replaced).empty()) {
-      complaint = "is empty with the variables' values put in";
-    } else if (!complaint) {
+    diagnostic = element.variables().replace(text, replaced);
+    once = diagnostic && Variables::is_cause(*diagnostic);
+    if (!diagnostic && trimmed(replaced).empty()) {
+      diagnostic = "is empty with the variables' values put in";
+    } else if (!diagnostic) {
       text = trimmed(element.keep(std::move(replaced)));
-      complaint = parse(text);
+      diagnostic = parse(text);
     }
   }
-  if (!complaint) return true;
-  const auto message = [&] { return in_quotes(text) + where() + *complaint; };
+  if (!diagnostic) return true;
+  const auto message = [&] { return in_quotes(text) + where() + *diagnostic; };
   if (once)
-    report_error_once(diagnostics, *complaint, place, message);
+    report_error_once(diagnostics, *diagnostic, place, message);
   else
     report_error(diagnostics, place, message);
   return false;

@@ -6,8 +6,8 @@
 #include <limits>
 #include <system_error>
 
-#include "raytrace/description/document.h"
-#include "raytrace/description/quoted.h"
+#include "raytrace/text/quoted.h"
+#include "raytrace/xml/document.h"
 
 namespace raytrace {
 namespace {
@@ -45,7 +45,7 @@ std::string number_text(double value) {
   return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
 }
 
-Complaint parse_number(std::string_view text, Range range, double& value) {
+DiagnosticText parse_number(std::string_view text, Range range, double& value) {
   text = trimmed(text);
   double number = 0;
   switch (convert(text, number)) {
@@ -59,12 +59,12 @@ Complaint parse_number(std::string_view text, Range range, double& value) {
     case Outcome::whole:
       break;
   }
-  if (Complaint complaint = check_number(number, range)) return complaint;
+  if (DiagnosticText diagnostic = check_number(number, range)) return diagnostic;
   value = number;
   return std::nullopt;
 }
 
-Complaint check_number(double number, Range range) {
+DiagnosticText check_number(double number, Range range) {
   // std::from_chars takes "nan" and "inf" for numbers.
   if (!std::isfinite(number)) return "is not a finite number; write one such as 1.5";
   if (std::abs(number) > largest_number) {
@@ -78,7 +78,7 @@ Complaint check_number(double number, Range range) {
   return std::nullopt;
 }
 
-Complaint parse_integer(std::string_view text, Range range, int& value) {
+DiagnosticText parse_integer(std::string_view text, Range range, int& value) {
   text = trimmed(text);
   int integer = 0;
   switch (convert(text, integer)) {
@@ -98,18 +98,18 @@ Complaint parse_integer(std::string_view text, Range range, int& value) {
     case Outcome::whole:
       break;
   }
-  if (Complaint complaint = check_integer(integer, range)) return complaint;
+  if (DiagnosticText diagnostic = check_integer(integer, range)) return diagnostic;
   value = integer;
   return std::nullopt;
 }
 
-Complaint check_integer(int integer, Range range) {
+DiagnosticText check_integer(int integer, Range range) {
   if (range == Range::not_negative && integer < 0) return "must not be negative";
   if (range == Range::positive && integer < 1) return "must be at least 1";
   return std::nullopt;
 }
 
-Complaint parse_boolean(std::string_view text, bool& value) {
+DiagnosticText parse_boolean(std::string_view text, bool& value) {
   text = trimmed(text);
   const bool yes = text == "true" || text == "1";
   if (!yes && text != "false" && text != "0") return "is neither true nor false; write one of them";
@@ -118,7 +118,7 @@ Complaint parse_boolean(std::string_view text, bool& value) {
 }
 
 // Schemas take runs of white space for single spaces; to agree with them there must not be any.
-Complaint check_label(std::string_view text) {
+DiagnosticText check_label(std::string_view text) {
   bool runs = false;
   char last = 0;
   for (const char c : text) {

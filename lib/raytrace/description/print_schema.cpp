@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "raytrace/cameras/registry.h"
+#include "raytrace/cameras/view_plane.h"
 #include "raytrace/description/parse_value.h"
 #include "raytrace/description/read_keys.h"
 #include "raytrace/description/scene_layout.h"
-#include "raytrace/description/view_plane.h"
 #include "raytrace/lights/registry.h"
 #include "raytrace/materials/registry.h"
 #include "raytrace/math/type_list.h"

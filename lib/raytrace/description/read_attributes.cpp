@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "raytrace/description/nearest_name.h"
 #include "raytrace/description/parse_text.h"
 #include "raytrace/description/parse_value.h"
-#include "raytrace/description/quoted.h"
-#include "raytrace/description/report.h"
 #include "raytrace/description/variables.h"
+#include "raytrace/text/nearest_name.h"
+#include "raytrace/text/quoted.h"
+#include "raytrace/xml/report.h"
 
 namespace raytrace {
 namespace {

@@ -6,10 +6,10 @@
 #include <string_view>
 #include <variant>
 
-#include "raytrace/description/diagnostics.h"
-#include "raytrace/description/document.h"
-#include "raytrace/description/fields.h"
 #include "raytrace/description/keyframes.h"
+#include "raytrace/parameters/fields.h"
+#include "raytrace/xml/diagnostics.h"
+#include "raytrace/xml/document.h"
 
 namespace raytrace {
 

@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <optional>
 
-#include "raytrace/description/nearest_name.h"
-#include "raytrace/description/quoted.h"
 #include "raytrace/description/refuse_content.h"
-#include "raytrace/description/report.h"
+#include "raytrace/text/nearest_name.h"
+#include "raytrace/text/quoted.h"
+#include "raytrace/xml/report.h"
 
 namespace raytrace {
 namespace {

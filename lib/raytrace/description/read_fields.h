@@ -11,10 +11,10 @@
 #include <variant>
 #include <vector>
 
-#include "raytrace/description/diagnostics.h"
-#include "raytrace/description/document.h"
-#include "raytrace/description/fields.h"
 #include "raytrace/description/read_value.h"
+#include "raytrace/parameters/fields.h"
+#include "raytrace/xml/diagnostics.h"
+#include "raytrace/xml/document.h"
 
 namespace raytrace {
 

@@ -6,17 +6,17 @@
 #include <optional>
 
 #include "raytrace/description/refuse_content.h"
-#include "raytrace/description/report.h"
 #include "raytrace/description/scene_layout.h"
-#include "raytrace/description/xml_characters.h"
-#include "raytrace/description/xml_scanner.h"
 #include "raytrace/parallel/in_order.h"
+#include "raytrace/xml/report.h"
+#include "raytrace/xml/xml_characters.h"
+#include "raytrace/xml/xml_scanner.h"
 
 namespace raytrace {
 
 namespace {
 
-/// What one thread reads pieces with.
+/// What one thread reads chunks with.
 class PieceReader {
  public:
   PieceReader(const ItemGroup& group, std::unique_ptr<ItemList> items)
@@ -24,10 +24,10 @@ class PieceReader {
 
   ItemList& items() { return *items_; }
 
-  void read(std::size_t piece, Diagnostics& diagnostics) {
+  void read(std::size_t chunk, Diagnostics& diagnostics) {
     items_->clear();
     number_ = 0;
-    rest_ = group_.text.piece(piece);
+    rest_ = group_.text.chunk(chunk);
     while (true) {
       const std::uint32_t number_before = number_;
       if (pattern_) read_alike();
@@ -101,43 +101,43 @@ class PieceReader {
   std::optional<ItemPattern> pattern_;  // that items had lately
   int patterns_left_ = 8;               // so many may be tried: items may all differ
   std::uint32_t number_ = 0;            // of the next item
-  Span rest_{};                         // of the piece
+  Span rest_{};                         // of the chunk
 };
 
 }  // namespace
 
 void read_items(const ItemGroup& group, tbb::task_arena& arena, Diagnostics& diagnostics,
                 const std::function<std::unique_ptr<ItemList>()>& make,
-                const std::function<void(std::size_t piece, ItemList& items)>& take) {
+                const std::function<void(std::size_t chunk, ItemList& items)>& take) {
   struct Worker {
     Worker(const ItemGroup& group, std::unique_ptr<ItemList> items) : reader(group, std::move(items)) {}
 
     PieceReader reader;
-    Diagnostics findings = Diagnostics::counter();
+    Diagnostics diagnostics = Diagnostics::counter();
   };
-  const SceneText::PieceRange pieces = group.text.pieces_of(group.element.offset());
-  // Pieces are read without a message at first. Where there is something to say, the piece is read once more when all
+  const SceneText::ChunkRange chunks = group.text.chunks_of(group.element.offset());
+  // Pieces are read without a message at first. Where there is something to say, the chunk is read once more when all
   // before it have been taken: so no more messages are composed than are kept, and they do not depend on the threads.
   const auto read_quietly = [&](std::size_t i, Worker& worker) {
-    worker.findings = Diagnostics::counter();
-    worker.reader.read(pieces.first + i, worker.findings);
+    worker.diagnostics = Diagnostics::counter();
+    worker.reader.read(chunks.first + i, worker.diagnostics);
   };
   const auto report_and_take = [&](std::size_t i, Worker& worker) {
-    const Diagnostics& findings = worker.findings;
-    const bool more_errors = findings.error_count() > 0 && diagnostics.keeps_another(Severity::error);
-    const bool more_warnings = findings.warning_count() > 0 && diagnostics.keeps_another(Severity::warning);
+    const Diagnostics& of_chunk = worker.diagnostics;
+    const bool more_errors = of_chunk.error_count() > 0 && diagnostics.keeps_another(Severity::error);
+    const bool more_warnings = of_chunk.warning_count() > 0 && diagnostics.keeps_another(Severity::warning);
     if (more_errors || more_warnings)
-      worker.reader.read(pieces.first + i, diagnostics);
+      worker.reader.read(chunks.first + i, diagnostics);
     else
-      diagnostics.count(findings);
-    take(pieces.first + i, worker.reader.items());
+      diagnostics.count(of_chunk);
+    take(chunks.first + i, worker.reader.items());
   };
 
-  // Enough that no thread waits for one that has a longer piece.
+  // Enough that no thread waits for one that has a longer chunk.
   const std::size_t enough = 4 * static_cast<std::size_t>(arena.max_concurrency());
   std::deque<Worker> workers;  // no vector, since they cannot be moved
-  for (std::size_t i = 0; i < std::min(pieces.count, enough); ++i) workers.emplace_back(group, make());
-  in_order(pieces.count, workers, arena, read_quietly, report_and_take);
+  for (std::size_t i = 0; i < std::min(chunks.count, enough); ++i) workers.emplace_back(group, make());
+  in_order(chunks.count, workers, arena, read_quietly, report_and_take);
 }
 
 void refuse_misplaced(Element element, std::string_view parent, Diagnostics& diagnostics) {

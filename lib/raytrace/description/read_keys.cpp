@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "raytrace/description/keyframes.h"
-#include "raytrace/description/nearest_name.h"
 #include "raytrace/description/parse_value.h"
-#include "raytrace/description/quoted.h"
 #include "raytrace/description/read_attributes.h"
-#include "raytrace/description/report.h"
 #include "raytrace/description/variables.h"
+#include "raytrace/text/nearest_name.h"
+#include "raytrace/text/quoted.h"
+#include "raytrace/xml/report.h"
 
 namespace raytrace {
 namespace {

@@ -6,9 +6,9 @@
 #include <span>
 #include <string_view>
 
-#include "raytrace/description/diagnostics.h"
-#include "raytrace/description/document.h"
-#include "raytrace/description/fields.h"
+#include "raytrace/parameters/fields.h"
+#include "raytrace/xml/diagnostics.h"
+#include "raytrace/xml/document.h"
 
 namespace raytrace {
 

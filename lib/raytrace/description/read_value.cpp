@@ -8,11 +8,11 @@
 
 #include "raytrace/description/parse_text.h"
 #include "raytrace/description/parse_value.h"
-#include "raytrace/description/quoted.h"
 #include "raytrace/description/read_attributes.h"
 #include "raytrace/description/read_keys.h"
 #include "raytrace/description/refuse_content.h"
-#include "raytrace/description/report.h"
+#include "raytrace/text/quoted.h"
+#include "raytrace/xml/report.h"
 
 namespace raytrace {
 namespace {
@@ -51,19 +51,19 @@ class ValueReader {
     return read_text(single_text(), [&](std::string_view text) {
       // The slip of the seed's sample: <shadows>>true</shadows>.
       const bool stray = text.starts_with('>');
-      const Complaint complaint = parse_boolean(stray ? text.substr(1) : text, *value);
-      if (stray && !complaint) {
+      const DiagnosticText diagnostic = parse_boolean(stray ? text.substr(1) : text, *value);
+      if (stray && !diagnostic) {
         report_warning(diagnostics_, element_.first_child(), [&] {
           return "stray '>' before " + in_quotes(trimmed(text.substr(1))) + " in " + tag(info_.name) +
                  " is ignored; remove it";
         });
       }
-      return complaint;
+      return diagnostic;
     });
   }
 
   bool operator()(std::string_view* value) const {
-    const bool fine = read_text<Dollars::may_fit>(single_text(), [&](std::string_view text) -> Complaint {
+    const bool fine = read_text<Dollars::may_fit>(single_text(), [&](std::string_view text) -> DiagnosticText {
       *value = text;
       return check_label(text);
     });
@@ -94,7 +94,7 @@ class ValueReader {
   }
 
  private:
-  /// node: single_text(). parse: text -> Complaint
+  /// node: single_text(). parse: text -> DiagnosticText
   template <Dollars dollars = Dollars::never_fit, class Parse>
   bool read_text(Node node, const Parse& parse) const {
     const std::string_view text = node ? node.text() : std::string_view();
@@ -134,7 +134,7 @@ class ValueReader {
     }
     if (first && first.next()) {
       report_error(diagnostics_, first, [&] {
-        return "the value of " + tag(info_.name) + " is in pieces; write it in one, with no comment in the middle";
+        return "the value of " + tag(info_.name) + " is in chunks; write it in one, with no comment in the middle";
       });
       return;
     }

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <string>
 
-#include "raytrace/description/quoted.h"
-#include "raytrace/description/report.h"
+#include "raytrace/text/quoted.h"
+#include "raytrace/xml/report.h"
 
 namespace raytrace {
 

@@ -3,9 +3,9 @@
 
 #include <span>
 
-#include "raytrace/description/diagnostics.h"
-#include "raytrace/description/document.h"
 #include "raytrace/description/read_value.h"
+#include "raytrace/xml/diagnostics.h"
+#include "raytrace/xml/document.h"
 
 namespace raytrace {
 

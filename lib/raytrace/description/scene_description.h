@@ -12,13 +12,13 @@
 #include <vector>
 
 #include "raytrace/cameras/registry.h"
-#include "raytrace/description/diagnostics.h"
+#include "raytrace/cameras/view_plane.h"
 #include "raytrace/description/scene_settings.h"
-#include "raytrace/description/view_plane.h"
 #include "raytrace/lights/registry.h"
 #include "raytrace/materials/registry.h"
 #include "raytrace/math/type_list.h"
 #include "raytrace/shapes/registry.h"
+#include "raytrace/xml/diagnostics.h"
 
 namespace raytrace {
 

@@ -36,7 +36,7 @@ class SceneHash {
   }
 
  private:
-  /// Hashes of pieces that do not depend on the threads: one of a million objects would take as long as some renders.
+  /// Hashes of chunks that do not depend on the threads: one of a million objects would take as long as some renders.
   template <class List, class Tuple, class AddOthers>
   void add_items(List list, const Tuple& tuple, AddOthers add_others) {
     for_each_type(list, [&]<class T>(std::type_identity<T>) {

@@ -3,12 +3,12 @@
 #include <algorithm>
 
 #include "raytrace/cameras/registry.h"
-#include "raytrace/description/nearest_name.h"
-#include "raytrace/description/quoted.h"
-#include "raytrace/description/view_plane.h"
+#include "raytrace/cameras/view_plane.h"
 #include "raytrace/lights/registry.h"
 #include "raytrace/materials/registry.h"
 #include "raytrace/shapes/registry.h"
+#include "raytrace/text/nearest_name.h"
+#include "raytrace/text/quoted.h"
 
 namespace raytrace {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <cstddef>
 
-#include "raytrace/description/nearest_name.h"
-#include "raytrace/description/quoted.h"
+#include "raytrace/text/nearest_name.h"
+#include "raytrace/text/quoted.h"
 
 namespace raytrace {
 namespace {
@@ -39,7 +39,7 @@ Variables::Variables(const SceneSettings& settings) : frame_(settings.frame) {
   frame.used = true;
 }
 
-Complaint Variables::replace(std::string_view text, std::string& replaced) const {
+DiagnosticText Variables::replace(std::string_view text, std::string& replaced) const {
   std::string result;
   while (true) {
     const std::size_t dollar = text.find('$');
@@ -52,19 +52,19 @@ Complaint Variables::replace(std::string_view text, std::string& replaced) const
       text.remove_prefix(1);
       continue;
     }
-    if (Complaint complaint = text.starts_with('{') ? replace_braced(text, result) : replace_plain(text, result))
-      return complaint;
+    if (DiagnosticText diagnostic = text.starts_with('{') ? replace_braced(text, result) : replace_plain(text, result))
+      return diagnostic;
   }
   if (scene_length_.fetch_add(result.size(), std::memory_order_relaxed) > longest_scene) return scene_too_long;
   replaced = std::move(result);
   return std::nullopt;
 }
 
-bool Variables::is_cause(std::string_view complaint) {
-  return complaint.starts_with(uses) || complaint == scene_too_long;
+bool Variables::is_cause(std::string_view diagnostic) {
+  return diagnostic.starts_with(uses) || diagnostic == scene_too_long;
 }
 
-Complaint Variables::replace_plain(std::string_view& text, std::string& result) const {
+DiagnosticText Variables::replace_plain(std::string_view& text, std::string& result) const {
   const std::string_view name = text.substr(0, name_length(text));
   if (name.empty()) return "has a '$' without a name behind it; write $$ for a dollar";
   const std::string* const value = find(name);
@@ -74,7 +74,7 @@ Complaint Variables::replace_plain(std::string_view& text, std::string& result) 
   return std::nullopt;
 }
 
-Complaint Variables::replace_braced(std::string_view& text, std::string& result) const {
+DiagnosticText Variables::replace_braced(std::string_view& text, std::string& result) const {
   static constexpr std::string_view default_sign = ":-";
   const std::size_t end = text.find('}');
   if (end == std::string_view::npos) return "has a '${' without a '}'; write ${name}, or ${name:-value} with a default";

@@ -37,11 +37,11 @@ class Variables {
   /// text may have a long value many times.
   static constexpr std::size_t longest_text = std::size_t{1} << 20U, longest_scene = std::size_t{1} << 31U;
 
-  /// replaced: receives the text with the values in place of the variables, unless there is a complaint.
-  Complaint replace(std::string_view text, std::string& replaced) const;
+  /// replaced: receives the text with the values in place of the variables, unless there is a diagnostic.
+  DiagnosticText replace(std::string_view text, std::string& replaced) const;
 
-  /// Whether a complaint is about a variable, or all of them, and so the same wherever it stands.
-  static bool is_cause(std::string_view complaint);
+  /// Whether a diagnostic is about a variable, or all of them, and so the same wherever it stands.
+  static bool is_cause(std::string_view diagnostic);
 
   /// Those that no text had so far.
   std::vector<std::string_view> unused() const;
@@ -53,8 +53,8 @@ class Variables {
   };
 
   // text: what follows the dollar; they take the variable off its beginning, and append its value.
-  Complaint replace_plain(std::string_view& text, std::string& result) const;
-  Complaint replace_braced(std::string_view& text, std::string& result) const;
+  DiagnosticText replace_plain(std::string_view& text, std::string& result) const;
+  DiagnosticText replace_braced(std::string_view& text, std::string& result) const;
 
   /// The value of a variable, which counts as used from here on; null if it is not set.
   const std::string* find(std::string_view name) const;

@@ -132,7 +132,7 @@ struct DisplayClient::Shared {
     return is_empty(unsent);
   }
 
-  void tell_once(const std::string& why) {
+  void log_once(const std::string& why) {
     const std::lock_guard lock(mutex);
     if (warn) warn("the picture is not shown on " + shown_name(address) + ": " + why + "; the render goes on");
     warn = nullptr;
@@ -160,7 +160,7 @@ struct DisplayClient::Shared {
       try {
         serve();
       } catch (const std::exception& error) {
-        tell_once(error.what());
+        log_once(error.what());
         pause(between_attempts);
       }
     }
@@ -176,7 +176,7 @@ DisplayClient::DisplayClient(const DisplayAddress& address, const std::string& i
   try {
     thread_ = std::thread([shared = shared_] { shared->run(); });
   } catch (const std::system_error& error) {  // no more threads for this user, say
-    shared_->tell_once(error.what());
+    shared_->log_once(error.what());
   }
 }
 
@@ -192,7 +192,7 @@ DisplayClient::~DisplayClient() {
   if (finished) {
     thread_.join();
   } else {
-    shared_->tell_once("no answer in time");  // from the system, about the host's name
+    shared_->log_once("no answer in time");  // from the system, about the host's name
     thread_.detach();
   }
 }
@@ -210,7 +210,7 @@ void DisplayClient::show(const Film& film, const Region& changed) {
     shared_->waits_for_more = false;
     shared_->changed.notify_all();
   } catch (const std::bad_alloc&) {
-    shared_->tell_once("not enough memory");
+    shared_->log_once("not enough memory");
   }
 }
 

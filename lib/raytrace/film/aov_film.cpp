@@ -11,12 +11,12 @@ AovFilm::AovFilm(const Region& region, const AovSettings& settings) : region_(re
   const auto pixels = static_cast<std::size_t>(region_.width()) * static_cast<std::size_t>(region_.height());
   nearest_.resize(pixels * nearest_words(settings_));
   sums_.resize(pixels * means());
-  covers_.resize(pixels * settings_.covers);
+  coverages_.resize(pixels * settings_.coverages);
 }
 
 std::size_t AovFilm::pixel_bytes(const AovSettings& settings) {
   return nearest_words(settings) * sizeof(std::uint32_t) + settings.mean_units.size() * sizeof(std::int64_t) +
-         settings.covers * sizeof(Cover);
+         settings.coverages * sizeof(Coverage);
 }
 
 void AovFilm::add_nearest(int x, int y, float depth, std::uint32_t sample, const std::uint32_t* values) {
@@ -37,8 +37,8 @@ AovFilm::Nearest AovFilm::nearest(int x, int y) const {
   return {words[index_word] - 1, std::bit_cast<float>(words[depth_word]), words + key_words};
 }
 
-void AovFilm::add_cover(int x, int y, std::size_t cover, const IdCount& more) {
-  Cover& here = covers_[pixel(x, y) * settings_.covers + cover];
+void AovFilm::add_coverage(int x, int y, std::size_t coverage, const IdCount& more) {
+  Coverage& here = coverages_[pixel(x, y) * settings_.coverages + coverage];
   if (here.first.count == 0) here.first.id = more.id;
   if (here.first.id == more.id) {
     here.first.count += more.count;
@@ -54,8 +54,8 @@ void AovFilm::add_cover(int x, int y, std::size_t cover, const IdCount& more) {
   }
 }
 
-std::vector<IdCount> AovFilm::ranked(int x, int y, std::size_t cover) const {
-  const Cover& here = covers_[pixel(x, y) * settings_.covers + cover];
+std::vector<IdCount> AovFilm::ranked(int x, int y, std::size_t coverage) const {
+  const Coverage& here = coverages_[pixel(x, y) * settings_.coverages + coverage];
   std::vector<IdCount> all;
   if (here.first.count != 0) all.push_back(here.first);
   if (here.others) all.insert(all.end(), here.others->begin(), here.others->end());
@@ -67,10 +67,10 @@ std::vector<IdCount> AovFilm::ranked(int x, int y, std::size_t cover) const {
 void AovFilm::add_to(ContentHash& hash) const {
   hash.add(nearest_.data(), nearest_.size() * sizeof nearest_[0]);
   hash.add(sums_.data(), sums_.size() * sizeof sums_[0]);
-  for (std::size_t cover = 0; cover < settings_.covers; ++cover)
+  for (std::size_t coverage = 0; coverage < settings_.coverages; ++coverage)
     for (int y = region_.y0; y < region_.y1; ++y)
       for (int x = region_.x0; x < region_.x1; ++x) {
-        const std::vector<IdCount> ids = ranked(x, y, cover);
+        const std::vector<IdCount> ids = ranked(x, y, coverage);
         const std::size_t count = ids.size();
         hash.add(&count, sizeof count);
         hash.add(ids.data(), count * sizeof(IdCount));

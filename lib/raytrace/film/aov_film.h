@@ -3,7 +3,7 @@
 // Three rules, none of which depends on the order or the grouping of a pixel's samples:
 // - nearest: the values of the sample that met the nearest surface; among equally near ones, that of the lowest index;
 // - mean: sums over all samples in fixed point, which are exact;
-// - cover: how many samples met each thing that has an id. All ids are kept, however many there are.
+// - coverage: how many samples met each thing that has an id. All ids are kept, however many there are.
 #pragma once
 
 #include <cstddef>
@@ -33,7 +33,7 @@ class AovFilm {
   const AovSettings& settings() const { return settings_; }
   const Region& region() const { return region_; }
 
-  /// Bytes that a pixel takes, but for the second and further ids of a cover.
+  /// Bytes that a pixel takes, but for the second and further ids of a coverage.
   static std::size_t pixel_bytes(const AovSettings& settings);
 
   /// A sample that met a surface. values: settings().nearest_values words.
@@ -43,7 +43,7 @@ class AovFilm {
     std::int64_t& sum = sums_[pixel(x, y) * means() + mean];
     return !__builtin_add_overflow(sum, units, &sum);
   }
-  void add_cover(int x, int y, std::size_t cover, const IdCount& more);
+  void add_coverage(int x, int y, std::size_t coverage, const IdCount& more);
 
   struct Nearest {
     std::uint32_t sample = 0;
@@ -56,11 +56,11 @@ class AovFilm {
   void add_to(ContentHash& hash) const;
 
   /// By falling count; equal counts by rising id.
-  std::vector<IdCount> ranked(int x, int y, std::size_t cover) const;
+  std::vector<IdCount> ranked(int x, int y, std::size_t coverage) const;
 
  private:
   /// Most pixels see a single thing, which takes no memory of its own.
-  struct Cover {
+  struct Coverage {
     IdCount first;
     std::unique_ptr<std::vector<IdCount>> others;
   };
@@ -82,7 +82,7 @@ class AovFilm {
   AovSettings settings_;
   std::vector<std::uint32_t> nearest_;  ///< nearest_words for each pixel
   std::vector<std::int64_t> sums_;
-  std::vector<Cover> covers_;
+  std::vector<Coverage> coverages_;
 };
 
 }  // namespace raytrace

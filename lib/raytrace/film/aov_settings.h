@@ -25,20 +25,20 @@ struct AovSettings {
   AovSet wanted;
   std::size_t nearest_values = 0;  ///< of the sample that met the nearest surface: 32 bit words
   std::vector<int> mean_units;     ///< for each mean: its sum counts units of 2^this
-  std::size_t covers = 0;
-  /// For each cover: the ids of the things with indices 0, 1... Things of equal ids count as one. Needed only where
+  std::size_t coverages = 0;
+  /// For each coverage: the ids of the things with indices 0, 1... Things of equal ids count as one. Needed only where
   /// samples are taken.
-  using CoverIds = std::vector<std::vector<std::uint32_t>>;
-  std::shared_ptr<const CoverIds> cover_ids;
+  using CoverageIds = std::vector<std::vector<std::uint32_t>>;
+  std::shared_ptr<const CoverageIds> coverage_ids;
 
   /// Whether values of the one can be added to the other's.
   friend bool operator==(const AovSettings& a, const AovSettings& b) {
     return a.wanted == b.wanted && a.nearest_values == b.nearest_values && a.mean_units == b.mean_units &&
-           a.covers == b.covers;
+           a.coverages == b.coverages;
   }
 
   /// Whether a film must keep anything beside its own sums.
-  bool gather() const { return nearest_values > 0 || !mean_units.empty() || covers > 0; }
+  bool gather() const { return nearest_values > 0 || !mean_units.empty() || coverages > 0; }
 };
 
 }  // namespace raytrace

@@ -17,14 +17,14 @@ void BlockAovs::prepare() {
   }
 }
 
-void BlockAovs::add(const SeenSurface& seen, const MaskN& wanted, const UintN& sample) {
+void BlockAovs::add(const AovInputs& seen, const MaskN& wanted, const UintN& sample) {
   const MaskN hit = seen.hit() & wanted;
   if (none(hit)) return;
   const MaskN nearer = hit & (seen.depth() < depth_);
   depth_ = select(nearer, seen.depth(), depth_);
   sample_ = select_lanes(nearer, same_bits<IntN>(sample), sample_);
 
-  std::size_t next_nearest = 0, next_mean = 0, next_cover = 0;
+  std::size_t next_nearest = 0, next_mean = 0, next_coverage = 0;
   for_each_type(Aovs{}, [&](auto type) {
     using Aov = typename decltype(type)::type;
     if (!film_.settings().wanted.has(index_of<Aov>(Aovs{}))) return;
@@ -39,27 +39,27 @@ void BlockAovs::add(const SeenSurface& seen, const MaskN& wanted, const UintN& s
         const MaskN counts = hit & (abs(value) <= mean.largest);  // false for NaN
         mean.sum.add(select(counts, value, FloatN(0)), mean.units);
       }
-    } else if constexpr (Aov::rule == AovRule::cover) {
-      count(next_cover++, select_lanes(hit, Aov::index(seen), IntN(nothing)));
+    } else if constexpr (Aov::rule == AovRule::coverage) {
+      count(next_coverage++, select_lanes(hit, Aov::index(seen), IntN(nothing)));
     }
   });
 }
 
-void BlockAovs::count(std::size_t cover, const IntN& things) {
-  Run& run = runs_[cover];
+void BlockAovs::count(std::size_t coverage, const IntN& things) {
+  Run& run = runs_[coverage];
   const MaskN same = float_mask<FloatN>(things == run.thing);
   for (std::uint32_t lanes = bits_of<FloatN>(!same); lanes != 0; lanes &= lanes - 1)
-    end_run(cover, static_cast<std::size_t>(std::countr_zero(lanes)));
+    end_run(coverage, static_cast<std::size_t>(std::countr_zero(lanes)));
   run.samples = select_lanes(same, run.samples + IntN(1), IntN(1));
   run.thing = things;
 }
 
-void BlockAovs::end_run(std::size_t cover, std::size_t lane) {
-  const std::int32_t thing = runs_[cover].thing.get(lane);
+void BlockAovs::end_run(std::size_t coverage, std::size_t lane) {
+  const std::int32_t thing = runs_[coverage].thing.get(lane);
   if (thing == nothing || (lanes_ >> lane & 1U) == 0) return;
-  const std::vector<std::uint32_t>& ids = (*film_.settings().cover_ids)[cover];
-  const auto samples = static_cast<std::uint32_t>(runs_[cover].samples.get(lane));
-  film_.add_cover(x_[lane], y_[lane], cover, {ids[static_cast<std::size_t>(thing)], samples});
+  const std::vector<std::uint32_t>& ids = (*film_.settings().coverage_ids)[coverage];
+  const auto samples = static_cast<std::uint32_t>(runs_[coverage].samples.get(lane));
+  film_.add_coverage(x_[lane], y_[lane], coverage, {ids[static_cast<std::size_t>(thing)], samples});
 }
 
 void BlockAovs::finish() {
@@ -67,8 +67,8 @@ void BlockAovs::finish() {
   const auto for_each_lane = [](std::uint32_t lanes, const auto& f) {
     for (; lanes != 0; lanes &= lanes - 1) f(static_cast<std::size_t>(std::countr_zero(lanes)));
   };
-  for (std::size_t cover = 0; cover < settings.covers; ++cover)
-    for_each_lane(lanes_, [&](std::size_t lane) { end_run(cover, lane); });
+  for (std::size_t coverage = 0; coverage < settings.coverages; ++coverage)
+    for_each_lane(lanes_, [&](std::size_t lane) { end_run(coverage, lane); });
 
   for (std::size_t i = 0; i < settings.mean_units.size(); ++i) {
     const auto sums = means_[i].sum.sums();

@@ -7,7 +7,7 @@
 #include "raytrace/aovs/registry.h"
 #include "raytrace/film/aov_film.h"
 #include "raytrace/math/fixed_point_sums.h"
-#include "raytrace/scene/seen_surface.h"
+#include "raytrace/scene/aov_inputs.h"
 
 namespace raytrace {
 
@@ -38,7 +38,7 @@ class BlockAovs {
   }
 
   /// Adds a sample of each lane of `wanted`. sample: its index, above those that the lane added before.
-  void add(const SeenSurface& seen, const MaskN& wanted, const UintN& sample);
+  void add(const AovInputs& seen, const MaskN& wanted, const UintN& sample);
 
   /// After the last sample: the film has it all.
   void finish();
@@ -58,8 +58,8 @@ class BlockAovs {
   };
 
   void prepare();
-  void count(std::size_t cover, const IntN& things);
-  void end_run(std::size_t cover, std::size_t lane);
+  void count(std::size_t coverage, const IntN& things);
+  void end_run(std::size_t coverage, std::size_t lane);
 
   AovFilm& film_;
   std::array<int, packet_lanes> x_{}, y_{};  ///< each lane's pixel
@@ -68,7 +68,7 @@ class BlockAovs {
   IntN sample_ = IntN(0);  ///< of the nearest surface
   std::array<FloatN, all_values(AovRule::nearest, Aovs{})> nearest_;
   std::array<Mean, all_values(AovRule::mean, Aovs{})> means_;
-  std::array<Run, all_values(AovRule::cover, Aovs{})> runs_;
+  std::array<Run, all_values(AovRule::coverage, Aovs{})> runs_;
 };
 
 }  // namespace raytrace

@@ -16,12 +16,12 @@ namespace raytrace {
 
 /// What all sums of a film have in common.
 struct SumScale {
-  double units;  ///< one over the film's unit
-  float most;    ///< the largest radiance that can be added
+  double inverse_unit;  ///< one over the film's unit
+  float most;           ///< the largest radiance that can be added
 
   /// unit_exponent: the film's.
   explicit SumScale(int unit_exponent)
-      : units(std::ldexp(1.0, -unit_exponent)),
+      : inverse_unit(std::ldexp(1.0, -unit_exponent)),
         most(static_cast<float>(std::min(std::ldexp(FixedPointSums<FloatN>::largest_term, unit_exponent),
                                          double{std::numeric_limits<float>::max()}))) {}
 };
@@ -34,13 +34,13 @@ class BlockSums {
 
   /// Adds a sample of each lane of `wanted`. The result: those whose radiance is not finite (or beyond what the sums
   /// can hold), which are counted as black.
-  RAYTRACE_INLINE MaskN add(const SeenRadiance& seen, const MaskN& wanted) {
+  RAYTRACE_INLINE MaskN add(const RayResult& seen, const MaskN& wanted) {
     // Radiances are not negative: the sum is large where one of them is, and NaN compares false.
     const MaskN fine = wanted & (seen.radiance.red + seen.radiance.green + seen.radiance.blue <= FloatN(scale_.most));
     const Rgb<FloatN> radiance = select(fine, seen.radiance, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
-    red_.add(radiance.red, scale_.units);
-    green_.add(radiance.green, scale_.units);
-    blue_.add(radiance.blue, scale_.units);
+    red_.add(radiance.red, scale_.inverse_unit);
+    green_.add(radiance.green, scale_.inverse_unit);
+    blue_.add(radiance.blue, scale_.inverse_unit);
     hits_.add(seen.hit & wanted);
     samples_.add(wanted);
     return wanted & !fine;

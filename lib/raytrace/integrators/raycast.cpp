@@ -3,7 +3,7 @@
 #include <array>
 #include <bit>
 
-#include "raytrace/integrators/secondary_ray.h"
+#include "raytrace/integrators/ray_origin.h"
 
 namespace raytrace {
 
@@ -16,9 +16,9 @@ constexpr std::size_t lights_per_run = 16;
 
 }  // namespace
 
-SeenRadiance Raycast::radiance(const TracedScene& scene, const Rgb<float>& background, Ray<FloatN>& rays,
-                               const MaskN& active, const MaskN& counted, RayCounts& counts, MetSurface* met) {
-  const Hits hits = scene.accelerator().intersect(rays, active, Coherence::coherent, scene.seen_from_camera());
+RayResult Raycast::radiance(const TracedScene& scene, const Rgb<float>& background, Ray<FloatN>& rays,
+                            const MaskN& active, const MaskN& counted, RayCounts& counts, HitSurface* met) {
+  const Hits hits = scene.accelerator().intersect(rays, active, Coherence::coherent, scene.camera_buffer());
   if (met != nullptr) met->hits = hits;
   if (none(hits.hit)) return {Rgb<FloatN>(background), hits.hit};
 
@@ -35,7 +35,7 @@ SeenRadiance Raycast::radiance(const TracedScene& scene, const Rgb<float>& backg
     count = 0;
   };
   Ray<FloatN> shadow_rays;
-  shadow_rays.origin = leaving_origin(point);
+  shadow_rays.origin = offset_ray_origin(point);
   shadow_rays.near = FloatN(0);
   for (std::size_t number = 0; number < scene.lights().size(); ++number) {
     // The first run has the ambient light, whoever sees the others.
@@ -49,7 +49,7 @@ SeenRadiance Raycast::radiance(const TracedScene& scene, const Rgb<float>& backg
     if (shadows && any(lit)) {
       counts.shadow += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(lit & counted)));
       const MaskN occluded =
-          scene.accelerator().occluded(shadow_rays, lit, Coherence::coherent, scene.seen_from_light(number));
+          scene.accelerator().occluded(shadow_rays, lit, Coherence::coherent, scene.light_buffer(number));
       lit = lit & !occluded;
     }
     if (none(lit)) continue;

@@ -7,13 +7,13 @@
 namespace raytrace {
 
 /// What a packet of camera rays sees.
-struct SeenRadiance {
+struct RayResult {
   Rgb<FloatN> radiance;
   MaskN hit;  ///< false: the background was seen
 };
 
 /// What the rays met, for AOVs.
-struct MetSurface {
+struct HitSurface {
   Hits hits;
   SurfacePoint<FloatN> point;  ///< its normal on the side that is seen
 };
@@ -25,8 +25,8 @@ class Raycast {
   /// The radiance that arrives along the rays, whose directions have unit length, in the lanes of `active`, and ends
   /// the rays where it comes from; `background` arrives along those that meet nothing. Adds the shadow rays in the
   /// lanes of `counted` to `counts`, and sets `met` to what was met if it is not null.
-  static SeenRadiance radiance(const TracedScene& scene, const Rgb<float>& background, Ray<FloatN>& rays,
-                               const MaskN& active, const MaskN& counted, RayCounts& counts, MetSurface* met);
+  static RayResult radiance(const TracedScene& scene, const Rgb<float>& background, Ray<FloatN>& rays,
+                            const MaskN& active, const MaskN& counted, RayCounts& counts, HitSurface* met);
 };
 
 }  // namespace raytrace

@@ -31,7 +31,7 @@ class BlockRenderer {
         background_(film.settings().transparent ? Rgb<float>(0, 0, 0) : Rgb<float>(scene.viewplane().background)),
         scale_(film.settings().unit_exponent),
         group_(Block::slots(), shape.samples),
-        shifts_(film.settings().seed) {}
+        scrambles_(film.settings().seed) {}
 
   /// Continues all pixels to `samples` each; returns early if it is stopped.
   RenderReport render(std::uint32_t samples) {
@@ -99,21 +99,21 @@ class BlockRenderer {
     // From the group that the first sample is in, with all that belong to it.
     constexpr auto group = static_cast<std::uint32_t>(shape.samples);
     std::uint32_t base = left.first / group * group;
-    PixelSampler sampler(shift_of(block), group_, base, settings.samples.centered);
+    PixelSampler sampler(scramble_of(block), group_, base, settings.samples.centered);
     BlockSums<Block> sums(scale_);
-    MetSurface met;
+    HitSurface met;
     for (int packets = 1; base < left.last; base += group, ++packets) {
       const UintN sample = UintN(base) + slot;
       const bool all_wanted = base >= left.all_from && left.last - base >= group;
       const MaskN wanted = all_wanted ? active : active & in_range(sample, left.lane_first, UintN(left.last));
       const PixelSampler::Point point = sampler.next();
       Ray<FloatN> rays = scene_.camera().generate(x + point.x, y + point.y);
-      const SeenRadiance seen = Integrator::radiance(scene_, background_, rays, active, wanted, report_.rays,
-                                                     aovs != nullptr ? &met : nullptr);
+      const RayResult seen = Integrator::radiance(scene_, background_, rays, active, wanted, report_.rays,
+                                                  aovs != nullptr ? &met : nullptr);
       const MaskN bad = sums.add(seen, wanted);
-      if (aovs != nullptr) aovs->add(SeenSurface(scene_, rays, met.hits, met.point), wanted, sample);
+      if (aovs != nullptr) aovs->add(AovInputs(scene_, rays, met.hits, met.point), wanted, sample);
       report_.rays.camera += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(wanted)));
-      if (any(bad)) set_aside(bad, block, base);
+      if (any(bad)) invalid_samples(bad, block, base);
       if (packets % packets_per_look == 0 && stopped()) break;
     }
     sums.add_to(film_, block, region_);
@@ -131,17 +131,17 @@ class BlockRenderer {
   }
 
   /// Of each lane's pixel.
-  auto shift_of(const Block& block) {
+  auto scramble_of(const Block& block) {
     const auto left = static_cast<std::uint32_t>(block.left), top = static_cast<std::uint32_t>(block.top);
     if constexpr (Block::pixels == 1) {
-      return shifts_.at(left, top);
+      return scrambles_.at(left, top);
     } else if constexpr (Block::pixels == 2) {
-      const PixelShift<std::uint32_t> even = shifts_.at(left, top), odd = shifts_.at(left + 1, top);
-      return PixelShift<UintN>(alternate(even.x, odd.x), alternate(even.y, odd.y));
+      const PixelScramble<std::uint32_t> even = scrambles_.at(left, top), odd = scrambles_.at(left + 1, top);
+      return PixelScramble<UintN>(alternate(even.x, odd.x), alternate(even.y, odd.y));
     } else if (film_.settings().samples.centered) {
-      return PixelShift<UintN>(UintN(0u), UintN(0u));  // it shifts nothing
+      return PixelScramble<UintN>(UintN(0u), UintN(0u));  // it shifts nothing
     } else {
-      return PixelShift<UintN>(block.columns(), block.rows(), film_.settings().seed);
+      return PixelScramble<UintN>(block.columns(), block.rows(), film_.settings().seed);
     }
   }
 
@@ -152,11 +152,11 @@ class BlockRenderer {
 
   bool stopped() const { return stop_ != nullptr && stop_->load(std::memory_order_relaxed); }
 
-  void set_aside(const MaskN& bad, const Block& block, std::uint32_t base) {
+  void invalid_samples(const MaskN& bad, const Block& block, std::uint32_t base) {
     const std::uint32_t lanes = bits_of<FloatN>(bad);
     block.for_each_lane(region_, [&](int x, int y, std::size_t lane) {
       if ((lanes >> lane & 1U) != 0)
-        report_.set_aside.add({x, y, base + static_cast<std::uint32_t>(Block::slot(static_cast<int>(lane)))});
+        report_.invalid_samples.add({x, y, base + static_cast<std::uint32_t>(Block::slot(static_cast<int>(lane)))});
     });
   }
 
@@ -167,7 +167,7 @@ class BlockRenderer {
   Rgb<float> background_;  ///< what camera rays see where they meet nothing
   SumScale scale_;
   SampleGroup group_;
-  PixelShifts shifts_;
+  PixelScrambles scrambles_;
   RenderReport report_;
 };
 

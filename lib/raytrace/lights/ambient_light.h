@@ -3,8 +3,8 @@
 //   <ambientlight> <scaleradiance>1</scaleradiance> <color red="1" green="1" blue="1"/> </ambientlight>
 #pragma once
 
-#include "raytrace/description/fields.h"
 #include "raytrace/lights/light.h"
+#include "raytrace/parameters/fields.h"
 
 namespace raytrace {
 

@@ -8,8 +8,8 @@
 
 #include <limits>
 
-#include "raytrace/description/fields.h"
 #include "raytrace/lights/light.h"
+#include "raytrace/parameters/fields.h"
 
 namespace raytrace {
 

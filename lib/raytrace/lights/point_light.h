@@ -6,8 +6,8 @@
 //   </pointlight>
 #pragma once
 
-#include "raytrace/description/fields.h"
 #include "raytrace/lights/light.h"
+#include "raytrace/parameters/fields.h"
 
 namespace raytrace {
 

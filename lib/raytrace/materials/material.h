@@ -41,12 +41,12 @@ class MaterialTable {
   virtual Rgb<float> largest_radiance(const Rgb<float>& ambient_radiance, const Rgb<float>& light_radiance) const = 0;
 
   /// The albedo of each lane's material, and the most that any of them has.
-  virtual Rgb<FloatN> albedo(const LanePlaces& places) const = 0;
+  virtual Rgb<FloatN> albedo(const LaneIndices& places) const = 0;
   virtual Rgb<float> largest_albedo() const = 0;
 
   /// The radiance that leaves against `direction`: that of the rays which see it, of unit length. `places`: each lane's
   /// material, for every lane one that exists.
-  virtual Rgb<FloatN> shade(const LanePlaces& places, const Vec3<FloatN>& direction, const Vec3<FloatN>& normal,
+  virtual Rgb<FloatN> shade(const LaneIndices& places, const Vec3<FloatN>& direction, const Vec3<FloatN>& normal,
                             const Rgb<float>& ambient_radiance, std::span<const ArrivingLight> lights) const = 0;
 };
 
@@ -55,7 +55,7 @@ class MaterialTableOf final : public MaterialTable {
  public:
   explicit MaterialTableOf(std::vector<typename Material::template Brdfs<float>> brdfs) : brdfs_(std::move(brdfs)) {}
 
-  Rgb<FloatN> shade(const LanePlaces& places, const Vec3<FloatN>& direction, const Vec3<FloatN>& normal,
+  Rgb<FloatN> shade(const LaneIndices& places, const Vec3<FloatN>& direction, const Vec3<FloatN>& normal,
                     const Rgb<float>& ambient_radiance, std::span<const ArrivingLight> lights) const override {
     const auto brdfs = gather_records<Material::template Brdfs, FloatN>(brdfs_.data(), places);
     Rgb<FloatN> result = Material::template ambient<FloatN>(brdfs, Rgb<FloatN>(ambient_radiance));
@@ -70,7 +70,7 @@ class MaterialTableOf final : public MaterialTable {
     const Vec3<FloatN> normal(Vec3<float>{0, 0, 1});
     Rgb<float> largest(0, 0, 0);
     for (std::size_t i = 0; i < brdfs_.size(); ++i) {
-      const LanePlaces place(static_cast<std::int32_t>(i));
+      const LaneIndices place(static_cast<std::int32_t>(i));
       const auto brdfs = gather_records<Material::template Brdfs, FloatN>(brdfs_.data(), place);
       const Rgb<FloatN> radiance =
           Material::template ambient<FloatN>(brdfs, Rgb<FloatN>(ambient_radiance)) +
@@ -80,7 +80,7 @@ class MaterialTableOf final : public MaterialTable {
     return largest;
   }
 
-  Rgb<FloatN> albedo(const LanePlaces& places) const override {
+  Rgb<FloatN> albedo(const LaneIndices& places) const override {
     return Material::template albedo<FloatN>(gather_records<Material::template Brdfs, FloatN>(brdfs_.data(), places));
   }
 

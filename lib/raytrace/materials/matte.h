@@ -4,8 +4,8 @@
 #pragma once
 
 #include "raytrace/brdfs/lambertian.h"
-#include "raytrace/description/fields.h"
 #include "raytrace/math/vec3.h"
+#include "raytrace/parameters/fields.h"
 
 namespace raytrace {
 

@@ -8,7 +8,7 @@
 
 #include "raytrace/brdfs/glossy_specular.h"
 #include "raytrace/brdfs/lambertian.h"
-#include "raytrace/description/fields.h"
+#include "raytrace/parameters/fields.h"
 
 namespace raytrace {
 

@@ -88,11 +88,11 @@ RAYTRACE_INLINE void gather_four(const float* base, const std::int32_t* offsets,
 }  // namespace detail
 
 /// A place in a table for each lane. It knows where all are the same: neighbours mostly hit the same thing.
-class LanePlaces {
+class LaneIndices {
  public:
-  LanePlaces(const IntN& lanes)  // implicit: it is the same
+  LaneIndices(const IntN& lanes)  // implicit: it is the same
       : lanes_(lanes), first_(lanes.get(0)), all_same_(all(lanes == IntN(first_))) {}
-  explicit LanePlaces(std::int32_t all) : lanes_(all), first_(all), all_same_(true) {}
+  explicit LaneIndices(std::int32_t all) : lanes_(all), first_(all), all_same_(true) {}
 
   const IntN& lanes() const { return lanes_; }
   bool all_same() const { return all_same_; }
@@ -107,7 +107,7 @@ class LanePlaces {
 /// The lanes' records, gathered from a table: Record<T> is a struct template of T members only, and the result holds in
 /// each lane the fields of table[place of that lane]. Wide is FloatN-like for float tables, Doubles for double ones.
 template <template <class> class Record, class Wide, class Scalar>
-Record<Wide> gather_records(const Record<Scalar>* table, const LanePlaces& places) {
+Record<Wide> gather_records(const Record<Scalar>* table, const LaneIndices& places) {
   constexpr std::size_t fields = sizeof(Record<Scalar>) / sizeof(Scalar);
   static_assert(sizeof(Record<Scalar>) == fields * sizeof(Scalar) && sizeof(Record<Wide>) == fields * sizeof(Wide),
                 "a record has members of its template argument's type only");

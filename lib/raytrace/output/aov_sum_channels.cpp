@@ -20,10 +20,10 @@ std::string mean_half(std::size_t mean, const char* half) {
 }
 
 /// part: "id" or "count".
-std::string cover_part(std::size_t cover, const char* part, std::size_t place) {
+std::string cover_part(std::size_t coverage, const char* part, std::size_t place) {
   char digits[24];
   std::snprintf(digits, sizeof digits, "%03zu", place);  // in the order of their names
-  return prefix + "cover" + std::to_string(cover) + '.' + part + digits;
+  return prefix + "coverage" + std::to_string(coverage) + '.' + part + digits;
 }
 
 /// The planes of the channels, by name.
@@ -58,7 +58,7 @@ void for_each_pixel(const Region& region, const Function& f) {
     for (int x = region.x0; x < region.x1; ++x) f(pixel++, x, y);
 }
 
-/// ids(cover): how many a cover has.
+/// ids(coverage): how many a coverage has.
 template <class Ids>
 std::vector<Channel> channels_of(const AovSettings& settings, const Ids& ids) {
   std::vector<Channel> channels;
@@ -72,32 +72,32 @@ std::vector<Channel> channels_of(const AovSettings& settings, const Ids& ids) {
     add(mean_half(i, "low"));
     add(mean_half(i, "high"));
   }
-  for (std::size_t cover = 0; cover < settings.covers; ++cover) {
-    const std::size_t count = ids(cover);
+  for (std::size_t coverage = 0; coverage < settings.coverages; ++coverage) {
+    const std::size_t count = ids(coverage);
     for (std::size_t i = 0; i < count; ++i) {
-      add(cover_part(cover, "id", i));
-      add(cover_part(cover, "count", i));
+      add(cover_part(coverage, "id", i));
+      add(cover_part(coverage, "count", i));
     }
   }
   return channels;
 }
 
-std::size_t most_ids(const AovFilm& film, std::size_t cover) {
+std::size_t most_ids(const AovFilm& film, std::size_t coverage) {
   std::size_t most = 0;
   for_each_pixel(film.region(),
-                 [&](std::size_t, int x, int y) { most = std::max(most, film.ranked(x, y, cover).size()); });
+                 [&](std::size_t, int x, int y) { most = std::max(most, film.ranked(x, y, coverage).size()); });
   return most;
 }
 
 }  // namespace
 
 std::vector<Channel> aov_sum_channels(const AovFilm& film) {
-  return channels_of(film.settings(), [&](std::size_t cover) { return most_ids(film, cover); });
+  return channels_of(film.settings(), [&](std::size_t coverage) { return most_ids(film, coverage); });
 }
 
 std::vector<Channel> aov_sum_channels(const AovSettings& settings, const std::vector<Channel>& channels) {
-  return channels_of(settings, [&](std::size_t cover) {
-    const std::string ids = prefix + "cover" + std::to_string(cover) + ".id";
+  return channels_of(settings, [&](std::size_t coverage) {
+    const std::string ids = prefix + "coverage" + std::to_string(coverage) + ".id";
     return static_cast<std::size_t>(std::count_if(
         channels.begin(), channels.end(), [&](const Channel& channel) { return channel.name.starts_with(ids); }));
   });
@@ -133,14 +133,14 @@ void fill_aov_sums(ImageBand& band, std::size_t first_plane, const std::vector<C
       high[pixel] = static_cast<std::uint32_t>(sum >> 32U);
     });
   }
-  for (std::size_t cover = 0; cover < settings.covers; ++cover) {
+  for (std::size_t coverage = 0; coverage < settings.coverages; ++coverage) {
     std::vector<std::uint32_t*> ids, counts;
-    while (std::uint32_t* const id = planes[cover_part(cover, "id", ids.size())]) {
-      counts.push_back(planes[cover_part(cover, "count", ids.size())]);
+    while (std::uint32_t* const id = planes[cover_part(coverage, "id", ids.size())]) {
+      counts.push_back(planes[cover_part(coverage, "count", ids.size())]);
       ids.push_back(id);
     }
     for_each_pixel(region, [&](std::size_t pixel, int x, int y) {
-      const std::vector<IdCount> ranked = film.ranked(x, y, cover);
+      const std::vector<IdCount> ranked = film.ranked(x, y, coverage);
       for (std::size_t i = 0; i < ranked.size(); ++i) {
         ids[i][pixel] = ranked[i].id;
         counts[i][pixel] = ranked[i].count;
@@ -176,11 +176,11 @@ bool add_aov_sums(const ImageBand& band, std::size_t first_plane, const std::vec
       if (!film.add_mean(x, y, i, sum)) sound = false;
     });
   }
-  for (std::size_t cover = 0; cover < settings.covers; ++cover) {
+  for (std::size_t coverage = 0; coverage < settings.coverages; ++coverage) {
     std::vector<std::uint32_t> left = samples;  // that no id has yet
     for (std::size_t i = 0;; ++i) {
-      const std::uint32_t* const id = planes[cover_part(cover, "id", i)];
-      const std::uint32_t* const count = planes[cover_part(cover, "count", i)];
+      const std::uint32_t* const id = planes[cover_part(coverage, "id", i)];
+      const std::uint32_t* const count = planes[cover_part(coverage, "count", i)];
       if (id == nullptr || count == nullptr) break;
       for_each_pixel(band.region, [&](std::size_t pixel, int x, int y) {
         if (count[pixel] == 0) return;
@@ -189,7 +189,7 @@ bool add_aov_sums(const ImageBand& band, std::size_t first_plane, const std::vec
           return;
         }
         left[pixel] -= count[pixel];
-        film.add_cover(x, y, cover, {id[pixel], count[pixel]});
+        film.add_coverage(x, y, coverage, {id[pixel], count[pixel]});
       });
     }
   }

@@ -8,8 +8,8 @@
 
 namespace raytrace {
 
-/// "sums.aov.nearest.sample", "sums.aov.mean0.low", "sums.aov.cover0.id000"..., all uint32: as many ids of a cover as
-/// the pixel with the most has.
+/// "sums.aov.nearest.sample", "sums.aov.mean0.low", "sums.aov.cover0.id000"..., all uint32: as many ids of a coverage
+/// as the pixel with the most has.
 std::vector<Channel> aov_sum_channels(const AovFilm& film);
 
 /// Those that a file must have of a film with these settings. channels: that it has, which say how many ids there are.

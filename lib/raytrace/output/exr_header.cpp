@@ -7,9 +7,9 @@
 #include <set>
 #include <string>
 
-#include "raytrace/description/quoted.h"
 #include "raytrace/output/file_handle.h"
 #include "raytrace/output/input_error.h"
+#include "raytrace/text/quoted.h"
 
 namespace raytrace {
 

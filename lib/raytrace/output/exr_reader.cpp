@@ -13,10 +13,10 @@
 
 #include <algorithm>
 
-#include "raytrace/description/quoted.h"
 #include "raytrace/memory/out_of_memory.h"
 #include "raytrace/output/exr_header.h"
 #include "raytrace/output/file_handle.h"
+#include "raytrace/text/quoted.h"
 
 namespace raytrace {
 

@@ -10,10 +10,10 @@
 #include <new>
 #include <system_error>
 
-#include "raytrace/description/utf8.h"
 #include "raytrace/output/picture_date.h"
 #include "raytrace/output/png_text.h"
 #include "raytrace/parallel/for_each_index.h"
+#include "raytrace/text/utf8.h"
 
 namespace raytrace {
 

@@ -67,9 +67,9 @@ bool is_rendered(const Film& film, const Region& tile, std::uint32_t samples) {
 }
 
 /// Tells the progress without making any thread wait for another.
-class Teller {
+class ProgressReporter {
  public:
-  Teller(const ProgressFunction& progress, int tiles) : progress_(progress), tiles_(tiles) {}
+  ProgressReporter(const ProgressFunction& progress, int tiles) : progress_(progress), tiles_(tiles) {}
 
   void tell(int done) {
     if (!progress_) return;
@@ -87,16 +87,16 @@ class Teller {
 
 }  // namespace
 
-void SetAsideSamples::add(const SampleId& sample) { *this += SetAsideSamples{1, {sample}}; }
+void InvalidSamples::add(const SampleId& sample) { *this += InvalidSamples{1, {sample}}; }
 
-SetAsideSamples& SetAsideSamples::operator+=(const SetAsideSamples& other) {
+InvalidSamples& InvalidSamples::operator+=(const InvalidSamples& other) {
   if (other.count == 0) return *this;
   count += other.count;
   told.insert(told.end(), other.told.begin(), other.told.end());
   std::sort(told.begin(), told.end(), [](const SampleId& a, const SampleId& b) {
     return std::tie(a.y, a.x, a.sample) < std::tie(b.y, b.x, b.sample);
   });
-  told.resize(std::min(told.size(), most_told));
+  told.resize(std::min(told.size(), most_listed));
   return *this;
 }
 
@@ -124,7 +124,7 @@ RenderReport render(const Scene& scene, Film& film, std::uint32_t samples, int t
                     const ProgressFunction& progress, const std::atomic<bool>* stop) {
   const int workers = worker_count(thread_count(threads));
   const TileGrid grid = tiles_for(film.region(), workers);
-  Teller teller(progress, grid.count());
+  ProgressReporter teller(progress, grid.count());
   std::vector<RenderReport> reports(static_cast<std::size_t>(grid.count()));  // of each tile
   // With the loop's own, all that threads write and others read: once a tile.
   std::atomic<int> done{0};

@@ -1,5 +1,5 @@
 // From a description to pixels: what programs call. No SIMD type appears here; the wide part stands behind Scene,
-// compiled once for each instruction set (render/variant.h).
+// compiled once for each instruction set (variants/variant.h).
 #pragma once
 
 #include <atomic>
@@ -56,21 +56,21 @@ struct SampleId {
 };
 
 /// The samples whose radiance was not finite: counted as black, and told.
-struct SetAsideSamples {
-  static constexpr std::size_t most_told = 10;
+struct InvalidSamples {
+  static constexpr std::size_t most_listed = 10;
   std::uint64_t count = 0;
-  std::vector<SampleId> told;  ///< the first most_told of them, by row, column and index
+  std::vector<SampleId> told;  ///< the first most_listed of them, by row, column and index
   void add(const SampleId& sample);
-  SetAsideSamples& operator+=(const SetAsideSamples& other);
+  InvalidSamples& operator+=(const InvalidSamples& other);
 };
 
 /// What a render did.
 struct RenderReport {
   RayCounts rays;
-  SetAsideSamples set_aside;
+  InvalidSamples invalid_samples;
   RenderReport& operator+=(const RenderReport& other) {
     rays += other.rays;
-    set_aside += other.set_aside;
+    invalid_samples += other.invalid_samples;
     return *this;
   }
 };

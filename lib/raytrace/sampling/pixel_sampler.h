@@ -13,22 +13,22 @@ namespace raytrace {
 
 /// Random digits of pixels, with which each shifts the sequence. Uints: std::uint32_t or a batch of them.
 template <class Uints>
-struct PixelShift {
+struct PixelScramble {
   Uints x, y;
 
-  PixelShift(const Uints& shift_x, const Uints& shift_y) : x(shift_x), y(shift_y) {}
+  PixelScramble(const Uints& shift_x, const Uints& shift_y) : x(shift_x), y(shift_y) {}
   /// column, row: of the pixel, in the whole picture.
-  PixelShift(const Uints& column, const Uints& row, std::uint64_t seed)
+  PixelScramble(const Uints& column, const Uints& row, std::uint64_t seed)
       : x(hash(column, row, Uints(static_cast<std::uint32_t>(seed)), Uints(static_cast<std::uint32_t>(seed >> 32)))),
         y(mix_bits(x + Uints(0x9e3779b9u))) {}
 };
 
 /// Those of one pixel after the other, made for a packet of neighbours at once.
-class PixelShifts {
+class PixelScrambles {
  public:
-  explicit PixelShifts(std::uint64_t seed) : seed_(seed) {}
+  explicit PixelScrambles(std::uint64_t seed) : seed_(seed) {}
 
-  PixelShift<std::uint32_t> at(std::uint32_t column, std::uint32_t row) {
+  PixelScramble<std::uint32_t> at(std::uint32_t column, std::uint32_t row) {
     const std::uint32_t place = column % packet_lanes, first = column - place;
     if (first != first_ || row != row_) make(first, row);
     return {x_[place], y_[place]};
@@ -36,7 +36,7 @@ class PixelShifts {
 
  private:
   void make(std::uint32_t first, std::uint32_t row) {
-    const PixelShift<UintN> shifts(UintN(first) + lane_numbers<UintN>(), UintN(row), seed_);
+    const PixelScramble<UintN> shifts(UintN(first) + lane_numbers<UintN>(), UintN(row), seed_);
     shifts.x.store_aligned(x_.data());
     shifts.y.store_aligned(y_.data());
     first_ = first;
@@ -53,7 +53,7 @@ class PixelShifts {
 class SampleGroup {
  public:
   SampleGroup(const UintN& slot, int size) : size_bits_(std::countr_zero(static_cast<unsigned>(size))) {
-    SobolSequence::move_on(slot, size_bits_, x_, y_);
+    SobolSequence::offset_by(slot, size_bits_, x_, y_);
   }
 
  private:
@@ -74,7 +74,7 @@ class PixelSampler {
   /// index of the first group's first sample, a multiple of the group's size. centered: all samples are the pixel's
   /// center instead, as a picture of a single sample wants it.
   template <class Uints>
-  PixelSampler(const PixelShift<Uints>& shift, const SampleGroup& group, std::uint32_t first, bool centered)
+  PixelSampler(const PixelScramble<Uints>& shift, const SampleGroup& group, std::uint32_t first, bool centered)
       : sequence_(first),
         group_bits_(group.size_bits_),
         shift_x_(UintN(shift.x) ^ group.x_),

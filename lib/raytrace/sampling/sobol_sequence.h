@@ -43,7 +43,7 @@ class SobolSequence {
   /// Points are linear in the bits of their index: point(a ^ b) = point(a) ^ point(b). So this, with exclusive or,
   /// moves the points of indices that are multiples of 2^bits on by `number` < 2^bits, lane by lane.
   template <class Uints>
-  static void move_on(const Uints& number, int bits, Uints& x, Uints& y) {
+  static void offset_by(const Uints& number, int bits, Uints& x, Uints& y) {
     const Uints gray = number ^ (number >> 1);
     for (int bit = 0; bit < bits; ++bit) {
       const Uints has_bit = Uints(0u) - (gray >> bit & Uints(1u));

@@ -10,13 +10,13 @@ namespace raytrace {
 
 TracedScene::TracedScene(const SceneDescription& description, int threads, const char* isa_name, const char* embree_isa)
     : viewplane_(description.viewplane), accelerator_(description, threads, embree_isa), isa_name_(isa_name) {
-  std::vector<std::optional<Vantage>> vantages(1);
+  std::vector<std::optional<BufferOrigin>> vantages(1);
   for_each_type(Cameras{}, [&](auto type) {
     using Type = typename decltype(type)::type;
     if (const auto* parameters = std::get_if<typename Type::Parameters>(&description.camera)) {
       const Type camera(*parameters, viewplane_.pixelsize);
       camera_ = std::make_unique<CameraOf<Type>>(camera);
-      if constexpr (requires { camera.origin(); }) vantages[0] = Vantage{camera.origin()};
+      if constexpr (requires { camera.origin(); }) vantages[0] = BufferOrigin{camera.origin()};
       const CameraMatrices matrices = Type::matrices(*parameters, viewplane_);
       const float* const m = matrices.world_to_camera;  // its third column turns points into -z, behind the camera
       viewing_direction_ = Vec3f(-m[2], -m[6], -m[10]);
@@ -33,8 +33,8 @@ TracedScene::TracedScene(const SceneDescription& description, int threads, const
         lights_.push_back(std::make_unique<LightSourceOf<Light>>(light));
         vantages.emplace_back();
         if (!light.shadows()) continue;
-        if constexpr (requires { light.location(); }) vantages.back() = Vantage{light.location()};
-        if constexpr (requires { light.direction(); }) vantages.back() = Vantage{light.direction(), true};
+        if constexpr (requires { light.location(); }) vantages.back() = BufferOrigin{light.location()};
+        if constexpr (requires { light.direction(); }) vantages.back() = BufferOrigin{light.direction(), true};
       }
     }
   });
@@ -75,7 +75,7 @@ TracedScene::TracedScene(const SceneDescription& description, int threads, const
   });
 }
 
-void TracedScene::look_from(std::vector<std::optional<Vantage>> vantages, int threads) {
+void TracedScene::look_from(std::vector<std::optional<BufferOrigin>> vantages, int threads) {
   // For an object it takes about as long as is saved for the rays of half a pixel, with some samples. It takes memory,
   // too: some 100 bytes. Both by what all pieces of a picture have in common.
   constexpr std::uint64_t objects_a_pixel = 2, most_objects = 1U << 21U;
@@ -103,9 +103,9 @@ float TracedScene::largest_albedo() const {
 IntN TracedScene::object(const Hits& hits) const {
   // Lanes that hit nothing follow the first that did.
   const IntN primitive = select_lanes(hits.hit, hits.primitive, IntN(hits.first_primitive));
-  if (hits.one_kind) return primitive + IntN(first_object_[hits.first_kind]);
+  if (hits.one_shape_type) return primitive + IntN(first_object_[hits.first_shape_type]);
   const IntN kind =
-      select_lanes(hits.hit, same_bits<IntN>(hits.kind), IntN(static_cast<std::int32_t>(hits.first_kind)));
+      select_lanes(hits.hit, same_bits<IntN>(hits.shape_type), IntN(static_cast<std::int32_t>(hits.first_shape_type)));
   return primitive + gather(first_object_.data(), kind);
 }
 
@@ -114,10 +114,10 @@ IntN TracedScene::material(const Hits& hits) const { return gather(object_materi
 template <class Answer>
 Rgb<FloatN> TracedScene::by_material(const Hits& hits, const Answer& answer) const {
   if (hits.one_object) {
-    const std::int32_t object = first_object_[hits.first_kind] + hits.first_primitive;
+    const std::int32_t object = first_object_[hits.first_shape_type] + hits.first_primitive;
     const std::int32_t number = object_materials_[static_cast<std::size_t>(object)];
     const auto kind = std::upper_bound(first_material_.begin(), first_material_.end() - 1, number) - 1;
-    return answer(*materials_[static_cast<std::size_t>(kind - first_material_.begin())], LanePlaces(number - *kind));
+    return answer(*materials_[static_cast<std::size_t>(kind - first_material_.begin())], LaneIndices(number - *kind));
   }
   const IntN number = material(hits);
   Rgb<FloatN> result(FloatN(0), FloatN(0), FloatN(0));
@@ -128,7 +128,7 @@ Rgb<FloatN> TracedScene::by_material(const Hits& hits, const Answer& answer) con
     if (lanes == 0) continue;
     const IntN place = number - first;
     // The other lanes follow the first of these, so that they read a material that exists.
-    const LanePlaces places =
+    const LaneIndices places =
         select_lanes(here, place, IntN(place.get(static_cast<std::size_t>(std::countr_zero(lanes)))));
     result = select(here, answer(*materials_[kind], places), result);
   }
@@ -136,12 +136,12 @@ Rgb<FloatN> TracedScene::by_material(const Hits& hits, const Answer& answer) con
 }
 
 Rgb<FloatN> TracedScene::albedo(const Hits& hits) const {
-  return by_material(hits, [](const MaterialTable& table, const LanePlaces& places) { return table.albedo(places); });
+  return by_material(hits, [](const MaterialTable& table, const LaneIndices& places) { return table.albedo(places); });
 }
 
 Rgb<FloatN> TracedScene::shade(const Hits& hits, const Vec3<FloatN>& direction, const Vec3<FloatN>& normal,
                                const Rgb<float>& ambient_radiance, std::span<const ArrivingLight> lights) const {
-  return by_material(hits, [&](const MaterialTable& table, const LanePlaces& places) {
+  return by_material(hits, [&](const MaterialTable& table, const LaneIndices& places) {
     return table.shade(places, direction, normal, ambient_radiance, lights);
   });
 }

@@ -35,8 +35,8 @@ class TracedScene final : public Scene {
 
   /// What is to be seen from where all camera rays start, and from where all shadow rays to light `number` go. Null if
   /// there is no such place, or it would not pay.
-  const DirectionBuffer* seen_from_camera() const { return seen_from_[0] ? &*seen_from_[0] : nullptr; }
-  const DirectionBuffer* seen_from_light(std::size_t number) const {
+  const DirectionBuffer* camera_buffer() const { return seen_from_[0] ? &*seen_from_[0] : nullptr; }
+  const DirectionBuffer* light_buffer(std::size_t number) const {
     const auto& seen = seen_from_[number + 1];
     return seen ? &*seen : nullptr;
   }
@@ -59,7 +59,7 @@ class TracedScene final : public Scene {
 
  private:
   /// vantages: the camera's, then each light's, where it has one.
-  void look_from(std::vector<std::optional<Vantage>> vantages, int threads);
+  void look_from(std::vector<std::optional<BufferOrigin>> vantages, int threads);
 
   /// answer(table, places) of each material type among the lanes, each lane's of its own.
   template <class Answer>

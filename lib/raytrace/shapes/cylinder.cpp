@@ -7,9 +7,10 @@ Fields<Cylinder::Parameters> Cylinder::fields() {
           required("radius", &Parameters::radius, Range::positive)};
 }
 
-std::optional<Problem> Cylinder::check(const Parameters& parameters) {
+std::optional<ParameterDiagnostic> Cylinder::check(const Parameters& parameters) {
   if (length(parameters.top - parameters.bottom) >= smallest_size) return std::nullopt;
-  return Problem{Problem::Kind::error, "the cylinder's <bottom> and <top> are the same point: it has no length"};
+  return ParameterDiagnostic{ParameterDiagnostic::Effect::error,
+                             "the cylinder's <bottom> and <top> are the same point: it has no length"};
 }
 
 Cylinder::Record<double> Cylinder::record(const Parameters& parameters) {

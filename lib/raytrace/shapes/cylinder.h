@@ -9,10 +9,10 @@
 
 #include <cmath>
 
-#include "raytrace/description/fields.h"
 #include "raytrace/math/bounds.h"
 #include "raytrace/math/doubles.h"
 #include "raytrace/math/ray.h"
+#include "raytrace/parameters/fields.h"
 
 namespace raytrace {
 
@@ -25,7 +25,7 @@ class Cylinder {
   static constexpr std::string_view group = "cylinders";
   static constexpr std::string_view element = "cylinder";
   static Fields<Parameters> fields();
-  static std::optional<Problem> check(const Parameters& parameters);
+  static std::optional<ParameterDiagnostic> check(const Parameters& parameters);
 
   template <class T>
   struct Record {

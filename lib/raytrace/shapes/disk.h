@@ -8,10 +8,10 @@
 
 #include <cmath>
 
-#include "raytrace/description/fields.h"
 #include "raytrace/math/bounds.h"
 #include "raytrace/math/doubles.h"
 #include "raytrace/math/ray.h"
+#include "raytrace/parameters/fields.h"
 
 namespace raytrace {
 

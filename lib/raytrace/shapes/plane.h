@@ -9,9 +9,9 @@
 
 #include <cmath>
 
-#include "raytrace/description/fields.h"
 #include "raytrace/math/doubles.h"
 #include "raytrace/math/ray.h"
+#include "raytrace/parameters/fields.h"
 
 namespace raytrace {
 

@@ -9,13 +9,14 @@ Fields<Triangle::Parameters> Triangle::fields() {
           required("vertexposition3", &Parameters::vertex3)};
 }
 
-std::optional<Problem> Triangle::check(const Parameters& parameters) {
+std::optional<ParameterDiagnostic> Triangle::check(const Parameters& parameters) {
   // The tracer keeps vertices as floats, so that is where the area must not vanish.
   const Vec3d a(Vec3f(parameters.vertex1)), b(Vec3f(parameters.vertex2)), c(Vec3f(parameters.vertex3));
   const double area = length(cross(b - a, c - a));
   const double collinear = 1e-12 * length(b - a) * length(c - a);
   if (area > collinear && area > smallest_size * smallest_size) return std::nullopt;
-  return Problem{Problem::Kind::skip, "the triangle is degenerate (its corners lie on a line) and is left out"};
+  return ParameterDiagnostic{ParameterDiagnostic::Effect::skip,
+                             "the triangle is degenerate (its corners lie on a line) and is left out"};
 }
 
 Triangle::Record<float> Triangle::record(const Parameters& parameters) {

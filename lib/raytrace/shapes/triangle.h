@@ -11,10 +11,10 @@
 #include <cmath>
 #include <type_traits>
 
-#include "raytrace/description/fields.h"
 #include "raytrace/math/bounds.h"
 #include "raytrace/math/ray.h"
 #include "raytrace/math/simd.h"
+#include "raytrace/parameters/fields.h"
 
 namespace raytrace {
 
@@ -27,7 +27,7 @@ class Triangle {
   static constexpr std::string_view element = "triangle";
   static Fields<Parameters> fields();
   /// A triangle without area is skipped with a warning.
-  static std::optional<Problem> check(const Parameters& parameters);
+  static std::optional<ParameterDiagnostic> check(const Parameters& parameters);
 
   /// Also the layout of Embree's vertex buffer.
   template <class T>

@@ -10,12 +10,12 @@
 #include <system_error>
 #include <vector>
 
-#include "raytrace/description/nearest_name.h"
-#include "raytrace/description/quoted.h"
 #include "raytrace/memory/out_of_memory.h"
 #include "raytrace/output/openimageio/edge_limits.h"
 #include "raytrace/output/openimageio/metadata.h"
 #include "raytrace/output/openimageio_module.h"
+#include "raytrace/text/nearest_name.h"
+#include "raytrace/text/quoted.h"
 
 namespace raytrace {
 

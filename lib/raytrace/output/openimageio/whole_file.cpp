@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "raytrace/description/view_plane.h"
+#include "raytrace/cameras/view_plane.h"
 #include "raytrace/output/file_handle.h"
 #include "raytrace/output/openimageio_module.h"
 

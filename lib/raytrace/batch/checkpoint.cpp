@@ -1,0 +1,85 @@
+#include "raytrace/batch/checkpoint.h"
+
+#include <algorithm>
+
+#include "raytrace/film/aov_film.h"
+#include "raytrace/film/samples_done.h"
+#include "raytrace/math/content_hash.h"
+#include "raytrace/output/exr_encoder.h"
+#include "raytrace/output/film_channels.h"
+
+namespace raytrace {
+
+namespace {
+
+constexpr const char* hash_name = "raytrace:sumsHash";
+
+std::string hash_of(const Film& film) {
+  ContentHash hash;
+  hash.add(film.sums().data(), film.sums().size_bytes());
+  if (film.aovs() != nullptr) film.aovs()->add_to(hash);
+  return hash.digits();
+}
+
+}  // namespace
+
+FileIdentity write_checkpoint(const std::string& file, const Film& film, const PieceIdentity& identity,
+                              ImageMetadata metadata) {
+  metadata.samples = static_cast<int>(film.settings().samples.count);
+  metadata.attributes = partial_attributes(identity, film);
+  metadata.attributes.push_back({hash_name, hash_of(film)});
+
+  metadata.data_attributes.clear();  // of AOVs, which come when the picture is done
+
+  std::vector<Channel> channels = color_channels(false);
+  const std::vector<Channel> sums = sum_channels(film);
+  channels.insert(channels.end(), sums.begin(), sums.end());
+  ImageFileSettings settings;
+  settings.compressed = false;
+  ImageFile image(file, std::make_unique<ExrEncoder>(file, settings), film.settings().extent, channels, metadata);
+  const Region& region = film.region();
+  for (int y = region.y0; y < region.y1;) {
+    const int end = std::min(y + band_rows(region.width(), channels.size()), region.y1);
+    ImageBand band;
+    fill_color(band, film, y, end);
+    append_sums(band, sums, film);
+    image.write(band);
+    y = end;
+  }
+  image.commit();
+  return image.identity();
+}
+
+void read_checkpoint(const std::string& file, const PieceIdentity& identity, Film& film) {
+  ExrReader reader(file);
+  const PieceIdentity got = identity_of(reader);
+  if (const auto other = difference(identity, got))
+    throw InputError("cannot resume from " + file + ": it differs in " + *other);
+  if (got.film.extent.region != film.region()) {
+    throw InputError("cannot resume from " + file + ": it holds the crop " + text_of(got.film.extent.region) +
+                     ", not " + text_of(film.region()));
+  }
+  if (got.film.samples.first != film.settings().samples.first) {
+    throw InputError("cannot resume from " + file + ": its samples begin at " + std::to_string(got.film.samples.first) +
+                     ", not " + std::to_string(film.settings().samples.first));
+  }
+  if (std::none_of(reader.channels().begin(), reader.channels().end(), is_sum))
+    throw InputError("cannot resume from " + file + ": it is a picture without the sums of its samples");
+  const std::vector<Channel> sums = sum_channels(got.film.aovs, reader.channels());
+  std::vector<Channel> channels = color_channels(false);
+  channels.insert(channels.end(), sums.begin(), sums.end());
+  refuse_other_channels(reader, channels);
+  const Region& region = film.region();
+  for (int y = region.y0; y < region.y1;) {
+    const int end = std::min(y + band_rows(region.width(), sums.size()), region.y1);
+    if (!add_sums(reader.read(sums, y, end), sums, got.film.samples, film))
+      throw InputError("cannot resume from " + file + ": it is damaged");
+    y = end;
+  }
+  if (reader.attribute<std::string>(hash_name) != hash_of(film))
+    throw InputError("cannot resume from " + file + ": it is damaged");
+  if (samples_done(film).most > film.settings().samples.count)
+    throw InputError("cannot resume from " + file + ": it has more samples a pixel than are asked for");
+}
+
+}  // namespace raytrace

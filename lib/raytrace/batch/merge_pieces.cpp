@@ -1,0 +1,343 @@
+#include "raytrace/batch/merge_pieces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <set>
+
+#include "raytrace/aovs/aov_selection.h"
+#include "raytrace/batch/piece_layout.h"
+#include "raytrace/batch/provenance.h"
+#include "raytrace/output/film_channels.h"
+#include "raytrace/text/quoted.h"
+
+namespace raytrace {
+
+namespace {
+
+struct Piece {
+  std::string file;
+  PieceIdentity identity;
+  std::vector<Channel> channels;  ///< colour first, then the AOVs, as image files want them
+  std::vector<Channel> sums;      ///< empty if it has none
+};
+
+std::vector<Channel> all_channels(const Piece& piece) {
+  std::vector<Channel> all = piece.channels;
+  all.insert(all.end(), piece.sums.begin(), piece.sums.end());
+  return all;
+}
+
+/// Throws InputError if the file holds what no piece does.
+Piece piece_of(const ExrReader& reader) {
+  Piece piece{reader.file(), identity_of(reader), {}, {}};
+  const AovSettings& aovs = piece.identity.film.aovs;
+  const std::vector<Channel>& all = reader.channels();
+  piece.channels = color_channels(std::find(all.begin(), all.end(), Channel{"R", ChannelType::float32}) != all.end());
+  for (Channel& channel : aov_channels(aovs.wanted)) piece.channels.push_back(std::move(channel));
+  if (std::any_of(all.begin(), all.end(), is_sum)) piece.sums = sum_channels(aovs, all);
+  refuse_other_channels(reader, all_channels(piece));
+  return piece;
+}
+
+PieceExtent extent_of(const Piece& piece) {
+  const FilmSettings& film = piece.identity.film;
+  return {piece.file, film.extent.region, film.samples.first, std::uint64_t{film.samples.first} + film.samples.count,
+          piece.identity.tile};
+}
+
+std::string names_of(const std::vector<Channel>& channels) {
+  std::string names;
+  for (const Channel& channel : channels) names += (names.empty() ? "" : " ") + printable(channel.name);
+  return names;
+}
+
+/// What does not let a piece be put together with the first.
+std::optional<std::string> misfit(const Piece& first, const Piece& piece) {
+  if (auto other = difference(first.identity, piece.identity)) return other;
+  if (piece.identity.whole != first.identity.whole) return "the crop that it is a part of";
+  if (piece.channels != first.channels)
+    return "its channels (" + names_of(piece.channels) + ", not " + names_of(first.channels) + ")";
+  return std::nullopt;
+}
+
+[[noreturn]] void refuse(const std::vector<std::string>& problems) {
+  std::string text;
+  for (const std::string& problem : problems) text += (text.empty() ? "" : "\n") + on_one_line(problem);
+  throw MergeError(text);
+}
+
+struct Stopped {};
+
+class Merger {
+ public:
+  Merger(const MergeSettings& settings, const std::function<bool()>& stop) : settings_(settings), stop_(stop) {}
+
+  MergeReport merge() {
+    read_headers();
+    check_layout();
+    write();
+    return report_;
+  }
+
+ private:
+  void read_headers() {
+    for (const std::string& file : settings_.pieces) {
+      heed_stop();
+      try {
+        const ExrReader reader(file);
+        pieces_.push_back(piece_of(reader));
+        const double seconds{reader.attribute<float>("raytrace:renderSeconds").value_or(0)};
+        if (seconds > 0 && std::isfinite(seconds)) render_seconds_ += seconds;
+        if (pieces_.size() == 1) metadata_ = metadata_of(reader);
+      } catch (const InputError& error) {
+        problems_.emplace_back(error.what());
+      }
+    }
+    for (const Piece& piece : pieces_)
+      if (const auto other = misfit(pieces_.front(), piece))
+        problems_.push_back(piece.file + " does not belong to " + pieces_.front().file + ": it differs in " + *other);
+    for (const Piece& piece : pieces_)
+      if (piece.identity.partial && !settings_.partial)
+        problems_.push_back(piece.file + " was stopped before its end: render it to its end with " +
+                            options_of(extent_of(piece)) + "--resume, or use --partial");
+    refuse_problems();
+  }
+
+  /// Whether they coverage the picture exactly.
+  void check_layout() {
+    const PieceIdentity& first = pieces_.front().identity;
+    std::vector<PieceExtent> extents;
+    for (const Piece& piece : pieces_) {
+      extents.push_back(extent_of(piece));
+      samples_ = std::max(samples_, extents.back().last_sample);
+      report_.missing_parts = report_.missing_parts || piece.identity.partial;
+    }
+    WantedPicture wanted{first.whole, samples_, first.film.samples.centered, {}};
+    const PictureExtent& extent = first.film.extent;
+    if (first.whole != Region{0, 0, extent.full_width, extent.full_height}) wanted.crop = text_of(first.whole);
+    const auto no_sums = [](const Piece& piece) { return piece.sums.empty(); };
+    if (settings_.samples && std::uint64_t(*settings_.samples) != samples_ && !settings_.partial) {
+      problems_.push_back("the pieces hold " + std::to_string(samples_) + " samples a pixel, not " +
+                          std::to_string(*settings_.samples));
+      // To those that keep their sums, more can be added.
+      if (std::none_of(pieces_.begin(), pieces_.end(), no_sums))
+        wanted.samples = std::max(samples_, std::uint64_t(*settings_.samples));
+    }
+    add_problems(overlaps(extents));
+    const std::vector<std::string> missing = missing_parts(extents, wanted);
+    report_.missing_parts = report_.missing_parts || !missing.empty();
+    if (!settings_.partial) add_problems(missing);
+    for (const Piece& piece : pieces_)
+      if (!is_finished(piece) && no_sums(piece))
+        problems_.push_back(piece.file +
+                            " holds some of the samples only, without their sums: render it with --sample-offset");
+    refuse_problems();
+    report_.pieces = pieces_.size();
+    report_.samples = static_cast<int>(samples_);
+  }
+
+  void add_problems(const std::vector<std::string>& more) {
+    problems_.insert(problems_.end(), more.begin(), more.end());
+  }
+
+  void refuse_problems() const {
+    if (!problems_.empty()) refuse(problems_);
+  }
+
+  /// Whether its pixels have all the samples, so that they can be taken as they are.
+  bool is_finished(const Piece& piece) const {
+    const SampleRange& samples = piece.identity.film.samples;
+    return samples.first == 0 && samples.count == samples_ && !piece.identity.partial;
+  }
+
+  ImageMetadata metadata_of(const ExrReader& reader) const {
+    ImageMetadata metadata;
+    metadata.software = pieces_.front().identity.provenance.software;
+    metadata.scene_file = reader.attribute<std::string>("raytrace:scene").value_or("");
+    metadata.seed = pieces_.front().identity.film.seed;
+    metadata.threads = reader.attribute<int>("raytrace:threads").value_or(1);
+    metadata.camera = reader.camera();
+    for (const ImageAttribute& attribute : reader.attributes())
+      if (attribute.name.starts_with("cryptomatte/") || attribute.name.starts_with("raytrace:manifest/"))
+        metadata.data_attributes.push_back(attribute);
+    return metadata;
+  }
+
+  void write() {
+    const PieceIdentity& first = pieces_.front().identity;
+    PieceIdentity identity = first;
+    identity.film.extent.region = first.whole;
+    identity.tile.reset();
+    identity.film.samples.first = 0;
+    identity.partial = report_.missing_parts;
+    metadata_.samples = report_.samples;
+    if (render_seconds_ > 0) metadata_.render_seconds = render_seconds_;
+    for (ImageAttribute& attribute : identity_attributes(identity))
+      metadata_.attributes.push_back(std::move(attribute));
+
+    channels_ = pieces_.front().channels;
+    ImageFileSettings image_settings;
+    image_settings.full_float = channels_.front().type == ChannelType::float32;
+    image_settings.bit_depth = settings_.bit_depth;
+    image_settings.threads = settings_.threads;
+    image_settings.transparent = identity.film.transparent;
+    image_settings.exposure = settings_.exposure.value_or(0);
+    refuse_useless_exposure(image_settings);
+    std::vector<std::unique_ptr<ImageFile>> files;
+    for (const std::string& file : settings_.outputs)
+      files.push_back(std::make_unique<ImageFile>(file, identity.film.extent, channels_, metadata_, image_settings));
+    const Region& whole = first.whole;
+    std::size_t most_sums = 0;
+    for (const Piece& piece : pieces_) most_sums = std::max(most_sums, piece.sums.size());
+    const int rows = band_rows(whole.width(), channels_.size() + most_sums);
+    for (Region band = whole; band.y0 < whole.y1; band.y0 = band.y1) {
+      heed_stop();
+      band.y1 = std::min(band.y0 + rows, whole.y1);
+      const ImageBand merged = merged_band(band);
+      for (const auto& file : files) file->write(merged);
+    }
+    refuse_problems();
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      report_.repairs += files[i]->commit();
+      report_.outputs.push_back(settings_.outputs[i]);
+    }
+  }
+
+  void refuse_useless_exposure(const ImageFileSettings& image_settings) const {
+    const auto uses_it = [&](const std::string& file) { return is_for_display(file, image_settings); };
+    if (settings_.exposure && std::none_of(settings_.outputs.begin(), settings_.outputs.end(), uses_it))
+      refuse({"--exposure: all outputs hold linear colour, which it does not change, for the pieces hold floats"});
+  }
+
+  ImageBand merged_band(const Region& region) {
+    ImageBand band;
+    band.region = region;
+    const auto pixels = static_cast<std::size_t>(region.width()) * static_cast<std::size_t>(region.height());
+    for (const Channel& channel : channels_) {
+      if (channel.type == ChannelType::uint32) {
+        band.planes.emplace_back(std::vector<std::uint32_t>(pixels));
+      } else {
+        band.planes.emplace_back(std::vector<float>(pixels));
+      }
+    }
+    if (report_.missing_parts) fill_background(band);
+    add_up_sums(band);
+    for (const Piece& piece : pieces_) {
+      const auto [top, bottom] = common_rows(piece, region);
+      if (top < bottom && is_finished(piece))
+        read(piece, channels_, top, bottom, [&](const ImageBand& rows) { copy_rows(rows, band); });
+    }
+    return band;
+  }
+
+  /// Calls use(band) with the piece's rows [top, bottom). A piece whose pixels are damaged is a problem, and then
+  /// passed over, so that all of them are named in the end.
+  template <class Use>
+  void read(const Piece& piece, const std::vector<Channel>& channels, int top, int bottom, const Use& use) {
+    if (damaged_.contains(&piece)) return;
+    try {
+      ExrReader reader(piece.file);
+      if (reader.extent() != piece.identity.film.extent)
+        throw InputError(piece.file + " has changed while it was read");
+      refuse_other_channels(reader, all_channels(piece));
+      use(reader.read(channels, top, bottom));
+    } catch (const InputError& error) {
+      damaged_.insert(&piece);
+      problems_.emplace_back(error.what());
+    }
+  }
+
+  static std::pair<int, int> common_rows(const Piece& piece, const Region& region) {
+    const Region& its = piece.identity.film.extent.region;
+    return {std::max(its.y0, region.y0), std::min(its.y1, region.y1)};
+  }
+
+  /// From the pieces that have but some of the samples.
+  void add_up_sums(ImageBand& band) {
+    FilmSettings settings = pieces_.front().identity.film;
+    settings.extent.region = band.region;
+    Film film(settings);
+    bool any = false;
+    for (const Piece& piece : pieces_) {
+      const auto [top, bottom] = common_rows(piece, band.region);
+      if (top >= bottom || is_finished(piece)) continue;
+      read(piece, piece.sums, top, bottom, [&](const ImageBand& rows) {
+        if (!add_sums(rows, piece.sums, piece.identity.film.samples, film))
+          throw InputError(piece.file + " is damaged: its sums cannot be those of its samples");
+      });
+      any = true;
+    }
+    if (any || report_.missing_parts) fill_aovs(band, 4, film);
+    if (any) develop(film, band);
+  }
+
+  /// Checks of 8 x 8 pixels in two greys that coverage nothing: nobody takes them for a part of the picture.
+  void fill_background(ImageBand& band) const {
+    std::size_t pixel = 0;
+    for (int y = band.region.y0; y < band.region.y1; ++y)
+      for (int x = band.region.x0; x < band.region.x1; ++x, ++pixel)
+        for (std::size_t i = 0; i < 3; ++i)
+          std::get<std::vector<float>>(band.planes[i])[pixel] = ((x ^ y) & 8) == 0 ? 0.1F : 0.2F;
+  }
+
+  static void copy_rows(const ImageBand& from, ImageBand& to) {
+    const auto width = static_cast<std::size_t>(from.region.width());
+    for (std::size_t plane = 0; plane < from.planes.size(); ++plane)
+      std::visit(
+          [&](const auto& source) {
+            auto& target = std::get<std::decay_t<decltype(source)>>(to.planes[plane]);
+            for (int y = from.region.y0; y < from.region.y1; ++y) {
+              const auto row = static_cast<std::size_t>(y - from.region.y0) * width;
+              const auto place =
+                  static_cast<std::size_t>(y - to.region.y0) * static_cast<std::size_t>(to.region.width()) +
+                  static_cast<std::size_t>(from.region.x0 - to.region.x0);
+              std::copy_n(source.begin() + static_cast<std::ptrdiff_t>(row), width,
+                          target.begin() + static_cast<std::ptrdiff_t>(place));
+            }
+          },
+          from.planes[plane]);
+  }
+
+  /// The means of all pixels that have sums.
+  static void develop(const Film& sums, ImageBand& band) {
+    std::size_t pixel = 0;
+    for (int y = band.region.y0; y < band.region.y1; ++y)
+      for (int x = band.region.x0; x < band.region.x1; ++x, ++pixel) {
+        if (sums.sum(x, y).samples == 0) continue;
+        const Pixel mean = sums.pixel(x, y);
+        std::size_t plane = 0;
+        for (const float value : {mean.red, mean.green, mean.blue, mean.alpha})
+          std::get<std::vector<float>>(band.planes[plane++])[pixel] = value;
+      }
+  }
+
+  void heed_stop() const {
+    if (stop_ && stop_()) throw Stopped();
+  }
+
+  const MergeSettings& settings_;
+  const std::function<bool()>& stop_;
+  std::vector<Piece> pieces_;
+  std::vector<std::string> problems_;
+  std::set<const Piece*> damaged_;  ///< their pixels
+  std::vector<Channel> channels_;
+  ImageMetadata metadata_;
+  std::uint64_t samples_ = 0;
+  double render_seconds_ = 0;
+  MergeReport report_;
+};
+
+}  // namespace
+
+MergeReport merge_pieces(const MergeSettings& settings, const std::function<bool()>& stop) {
+  try {
+    return Merger(settings, stop).merge();
+  } catch (const Stopped&) {
+    MergeReport report;
+    report.stopped = true;
+    return report;
+  }
+}
+
+}  // namespace raytrace

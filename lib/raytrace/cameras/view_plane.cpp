@@ -1,0 +1,30 @@
+#include "raytrace/cameras/view_plane.h"
+
+#include <algorithm>
+
+#include "raytrace/film/region.h"
+
+namespace raytrace {
+
+Fields<ViewPlane> ViewPlane::fields() {
+  return {required("hres", &ViewPlane::hres, Range::positive), required("vres", &ViewPlane::vres, Range::positive),
+          optional("pixelsize", &ViewPlane::pixelsize, Range::positive),
+          optional("samples", &ViewPlane::samples, Range::positive), optional("background", &ViewPlane::background)};
+}
+
+std::optional<ParameterDiagnostic> ViewPlane::check(const ViewPlane& viewplane) {
+  if (is_allowed_size(viewplane.hres, viewplane.vres)) return std::nullopt;
+  return ParameterDiagnostic{
+      ParameterDiagnostic::Effect::error,
+      "a picture of " + std::to_string(viewplane.hres) + " x " + std::to_string(viewplane.vres) +
+          " pixels is beyond the limit of 65536 pixels an edge and 268435456 (16384 x 16384) in all"};
+}
+
+ViewPlane with_resolution(ViewPlane viewplane, int hres, int vres) {
+  viewplane.pixelsize *= std::max(double(viewplane.hres) / hres, double(viewplane.vres) / vres);
+  viewplane.hres = hres;
+  viewplane.vres = vres;
+  return viewplane;
+}
+
+}  // namespace raytrace

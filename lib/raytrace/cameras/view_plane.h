@@ -1,0 +1,30 @@
+// The view plane: image size, sampling and background.
+//
+//   <viewplane>
+//     <hres>400</hres> <vres>400</vres> <pixelsize>1</pixelsize> <samples>16</samples>
+//     <background red="0" green="0" blue="0"/>
+//   </viewplane>
+#pragma once
+
+#include "raytrace/parameters/fields.h"
+
+namespace raytrace {
+
+struct ViewPlane {
+  int hres = 0;                     ///< pixels across
+  int vres = 0;                     ///< pixels down
+  double pixelsize = 1;             ///< edge of a pixel in world units, on the view plane at the camera's viewdistance
+  int samples = 1;                  ///< samples a pixel
+  Rgb<double> background{0, 0, 0};  ///< radiance where nothing is hit
+
+  using Parameters = ViewPlane;
+  static constexpr std::string_view element = "viewplane";
+  static Fields<ViewPlane> fields();
+  static std::optional<ParameterDiagnostic> check(const ViewPlane& viewplane);
+};
+
+/// The same framing at another resolution: the pixel size is scaled so that the whole of the former picture stays in
+/// view, and fits the new one's tighter edge.
+ViewPlane with_resolution(ViewPlane viewplane, int hres, int vres);
+
+}  // namespace raytrace

@@ -1,0 +1,25 @@
+#include "raytrace/variants/variant.h"
+
+#include "raytrace/scene/traced_scene.h"
+
+#define RAYTRACE_JOIN_NAMES(a, b) a##b
+#define RAYTRACE_JOIN(a, b) RAYTRACE_JOIN_NAMES(a, b)
+
+namespace raytrace {
+
+namespace {
+
+constexpr const char* widest_embree_isa = register_lanes == 16 ? "avx512" : register_lanes == 8 ? "avx2" : "sse4.2";
+
+std::unique_ptr<const Scene> build(const SceneDescription& description, int threads) {
+  return std::make_unique<TracedScene>(description, threads, RAYTRACE_ISA, widest_embree_isa);
+}
+
+}  // namespace
+
+}  // namespace raytrace
+
+extern "C" const raytrace::Variant& RAYTRACE_JOIN(raytrace_variant_, RAYTRACE_VARIANT)() {
+  static constexpr raytrace::Variant variant{RAYTRACE_ISA, raytrace::widest_embree_isa, &raytrace::build};
+  return variant;
+}
