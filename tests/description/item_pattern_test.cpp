@@ -7,10 +7,9 @@
 #include <type_traits>
 #include <vector>
 
-#include "findings.h"
+#include "reported.h"
 #include "raytrace/description/read_fields.h"
 #include "raytrace/description/scene_layout.h"
-#include "raytrace/description/variables.h"
 #include "raytrace/xml/document.h"
 #include "raytrace/xml/scene_text.h"
 #include "support/catch.h"
@@ -20,7 +19,7 @@ namespace {
 
 /// What comes of a text.
 struct ReadText {
-  std::string findings, scene;
+  std::string reported, scene;
   std::vector<std::uint32_t> lines;  ///< of the objects
 };
 
@@ -71,7 +70,7 @@ void check_among(const std::string& section, const std::string& group, const std
       mixed.contents.insert(mixed.contents.begin() + static_cast<std::ptrdiff_t>(place), odd);
       INFO(odd << " in place " << place);
       const ReadText alike = read_text(mixed.scene(false)), parsed = read_text(mixed.scene(true));
-      CHECK(alike.findings == parsed.findings);
+      CHECK(alike.reported == parsed.reported);
       CHECK(alike.scene == parsed.scene);
       CHECK(alike.lines == parsed.lines);
     }
@@ -168,7 +167,7 @@ TEST_CASE("items that change their pattern again and again are read as they stan
                              "<radius>1</radius>" + (i % 3 == 0 ? "" : clay_end));
   }
   const ReadText alike = read_text(mixed.scene(false)), parsed = read_text(mixed.scene(true));
-  CHECK(alike.findings == "");
+  CHECK(alike.reported == "");
   CHECK(alike.scene == parsed.scene);
   CHECK(alike.lines == parsed.lines);
 }
@@ -178,12 +177,10 @@ TEST_CASE("a pattern reads what is alike, and nothing else") {
   const std::string text = "<raytracer><objects><spheres>" + first + "</spheres></objects></raytracer>";
   Diagnostics diagnostics("s");
   const SceneText source{TextBuffer(text), group_elements(), 1, diagnostics};
-  const SceneSettings settings;
-  const Variables variables(settings);
-  Document document(source, variables);
+  Document document(source);
   document.parse_items(source.chunk(0), diagnostics);
 
-  FieldsReader<Sphere::Parameters> fields(Sphere::fields());
+  FieldsReader<Sphere> fields;
   Sphere::Parameters parameters;
   const auto targets = [&] { return fields.targets(parameters, {}); };
   const auto pattern = ItemPattern::of(first, document.root().first_child().element(), fields.infos(), targets());

@@ -1,4 +1,4 @@
-#include "findings.h"
+#include "reported.h"
 #include "random_description.h"
 #include "support/catch.h"
 
@@ -12,7 +12,7 @@ TEST_CASE("what is printed is read back as the same scene") {
     const std::string text = print_scene(scene);
     const SceneDescription again = accepted(text);
     REQUIRE(same_scene(scene, again));
-    REQUIRE(findings(text) == "");
+    REQUIRE(reported(text) == "");
     REQUIRE(print_scene(again) == text);
     objects += std::get<ObjectItems<Sphere>>(scene.objects).size();
   }

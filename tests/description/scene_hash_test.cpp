@@ -5,7 +5,7 @@
 #include <string>
 #include <type_traits>
 
-#include "findings.h"
+#include "reported.h"
 #include "random_description.h"
 #include "support/catch.h"
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "findings.h"
+#include "reported.h"
 #include "random_description.h"
 #include "raytrace/description/print_schema.h"
 #include "raytrace/description/scene_layout.h"

@@ -13,7 +13,7 @@
 
 #include "raytrace/cameras/registry.h"
 #include "raytrace/cameras/view_plane.h"
-#include "raytrace/description/scene_settings.h"
+#include "raytrace/description/variables.h"
 #include "raytrace/lights/registry.h"
 #include "raytrace/materials/registry.h"
 #include "raytrace/math/type_list.h"
@@ -74,8 +74,8 @@ struct SceneDescription {
   TupleOf<Shapes, ObjectItems>::type objects;         ///< std::get<ObjectItems<Sphere>>(objects)
 };
 
-/// Reads and validates a scene file ("-": standard input). All problems go to `diagnostics`; no value if one of them
-/// is an error. Warnings alone still give a scene. A file that cannot be read is an error at line 0.
+/// Reads and validates a scene file ("-": standard input). All errors and warnings go to `diagnostics`; no value if
+/// there is an error. A file that cannot be read is an error at line 0.
 /// threads: so many at most share the work; 0: all that the machine has. The result does not depend on it.
 /// settings: variables that are not used are errors, as those that are not set.
 std::optional<SceneDescription> load_scene(const std::string& file, Diagnostics& diagnostics, int threads = 0,

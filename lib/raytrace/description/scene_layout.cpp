@@ -2,32 +2,11 @@
 
 #include <algorithm>
 
-#include "raytrace/cameras/registry.h"
-#include "raytrace/cameras/view_plane.h"
-#include "raytrace/lights/registry.h"
-#include "raytrace/materials/registry.h"
-#include "raytrace/shapes/registry.h"
 #include "raytrace/text/nearest_name.h"
 #include "raytrace/text/quoted.h"
 
 namespace raytrace {
 namespace {
-
-template <class List>
-void add_section(std::vector<LayoutEntry>& layout, std::string_view section, List list) {
-  layout.push_back({section, root_element});
-  for_each_type(list, [&]<class T>(std::type_identity<T>) {
-    if (!T::group.empty()) layout.push_back({T::group, section});
-    layout.push_back({T::element, T::group.empty() ? section : T::group});
-  });
-}
-
-template <class List>
-void add_groups(std::vector<std::string_view>& groups, List list) {
-  for_each_type(list, [&]<class T>(std::type_identity<T>) {
-    if (!T::group.empty()) groups.push_back(T::group);
-  });
-}
 
 /// Empty for what the layout does not have.
 std::string_view parent_of(std::string_view element, const std::vector<LayoutEntry>& layout) {
@@ -40,17 +19,21 @@ std::string_view parent_of(std::string_view element, const std::vector<LayoutEnt
 std::vector<LayoutEntry> scene_layout() {
   std::vector<LayoutEntry> layout{{ViewPlane::element, root_element}};
   for_each_type(Cameras{}, [&]<class T>(std::type_identity<T>) { layout.push_back({T::element, root_element}); });
-  add_section(layout, lights_element, Lights{});
-  add_section(layout, materials_element, Materials{});
-  add_section(layout, objects_element, Shapes{});
+  for_each_type(Sections{}, [&]<class Section>(std::type_identity<Section>) {
+    layout.push_back({Section::element, root_element});
+    for_each_type(typename Section::Types{}, [&]<class T>(std::type_identity<T>) {
+      if (!T::group.empty()) layout.push_back({T::group, Section::element});
+      layout.push_back({T::element, T::group.empty() ? Section::element : T::group});
+    });
+  });
   return layout;
 }
 
 std::vector<std::string_view> group_elements() {
   std::vector<std::string_view> groups;
-  add_groups(groups, Lights{});
-  add_groups(groups, Materials{});
-  add_groups(groups, Shapes{});
+  for_each_item_type([&]<class T>(auto, std::type_identity<T>) {
+    if (!T::group.empty()) groups.push_back(T::group);
+  });
   return groups;
 }
 
@@ -75,9 +58,9 @@ bool belongs_to_section(std::string_view element, std::string_view section) {
 std::string explain_misplaced(std::string_view element, std::string_view parent) {
   const std::vector<LayoutEntry> layout = scene_layout();
   const std::string_view meant = meant_element(element, parent);
-  const std::string_view place = parent_of(meant, layout);
+  const std::string_view home = parent_of(meant, layout);
   if (meant == element && !meant.empty())
-    return tag(element) + " does not belong in " + tag(parent) + "; put it into " + tag(place);
+    return tag(element) + " does not belong in " + tag(parent) + "; put it into " + tag(home);
   const std::string start = "unknown element " + tag(element) + " in " + tag(parent) + "; ";
   if (meant.empty()) {
     std::vector<std::string_view> here;
@@ -85,7 +68,7 @@ std::string explain_misplaced(std::string_view element, std::string_view parent)
       if (entry.parent == parent) here.push_back(entry.element);
     return start + "it takes " + list_of_tags(here);
   }
-  return start + "did you mean " + tag(meant) + (place == parent ? "?" : ", which belongs in " + tag(place) + "?");
+  return start + "did you mean " + tag(meant) + (home == parent ? "?" : ", which belongs in " + tag(home) + "?");
 }
 
 }  // namespace raytrace

@@ -7,9 +7,7 @@
 #include "raytrace/text/nearest_name.h"
 #include "raytrace/text/quoted.h"
 #include "raytrace/text/utf8.h"
-#include "raytrace/xml/encoding_check.h"
-#include "raytrace/xml/items_ahead.h"
-#include "raytrace/xml/line_index.h"
+#include "raytrace/xml/item_chunks.h"
 #include "raytrace/xml/xml_characters.h"
 #include "raytrace/xml/xml_cursor.h"
 
@@ -22,7 +20,7 @@ constexpr std::size_t most_open = 64;
 constexpr std::size_t most_attributes = 64;
 constexpr std::size_t group_depth = 3;
 
-/// Walks over a whole text. Throws XmlDiagnostic.
+/// Walks over a whole text. Throws TextError.
 class Scanner : private XmlCursor {
  public:
   explicit Scanner(std::string_view text) : XmlCursor(text) {
@@ -36,9 +34,9 @@ class Scanner : private XmlCursor {
   /// values: receives what find_values returns.
   void collect_values(std::vector<std::string_view>& values) { values_ = &values; }
 
-  void cut_pieces(ChunkCutter& cutter) { cutter_ = &cutter; }
+  void cut_groups(ChunkCutter& cutter) { cutter_ = &cutter; }
 
-  /// Has up to so many threads look ahead in the groups that are cut: behind cut_pieces().
+  /// Has up to so many threads look ahead in the groups that are cut: behind cut_groups().
   void look_ahead(int threads) {
     const auto scan = [this](const char* from, const char* to, const char* limit, std::vector<TextChunk>& chunks) {
       return scan_items(from, to, limit, chunks);
@@ -126,10 +124,10 @@ class Scanner : private XmlCursor {
     scanner.root_seen_ = scanner.guessing_ = true;
     scanner.here_ = from;
     ChunkCutter cutter(*cutter_, chunks);
-    scanner.cut_pieces(cutter);
+    scanner.cut_groups(cutter);
     try {
       if (!scanner.scan_items(to)) return nullptr;
-    } catch (const XmlDiagnostic&) {
+    } catch (const TextError&) {
       return nullptr;
     }
     chunks.back().end = offset(scanner.here_);
@@ -148,7 +146,7 @@ class Scanner : private XmlCursor {
   }
 
   std::string opened_in(const OpenElement& element) const {
-    const SourceLocation location = LineIndex({begin_, offset(here_)}).locate(offset(element.begin));
+    const SourceLocation location = locate({begin_, offset(here_)}, offset(element.begin));
     return "opened in line " + std::to_string(location.line) + ", column " + std::to_string(location.column);
   }
 
@@ -314,19 +312,33 @@ class Scanner : private XmlCursor {
   std::optional<ItemsAhead> ahead_;
 };
 
+/// The first byte of `text` that XML in UTF-8 cannot have there, or its first byte if all of it is UTF-16 or UTF-32.
+std::optional<TextError> find_encoding_error(std::string_view text, int threads) {
+  using namespace std::string_view_literals;
+  for (const std::string_view start : {"\xff\xfe"sv, "\xfe\xff"sv, "<\0"sv, "\0<"sv})
+    if (text.starts_with(start)) return TextError{0, "the file is encoded as UTF-16 or UTF-32; save it as UTF-8"};
+  const std::size_t invalid = find_invalid_utf8(text, threads);
+  if (invalid == std::string_view::npos) return std::nullopt;
+  const bool control = static_cast<unsigned char>(text[invalid]) < 0x20;
+  return TextError{invalid,
+                   "the byte " + in_quotes(text.substr(invalid, 1)) +
+                       (control ? " is no text: is this a scene file?"
+                                : " is no UTF-8 text; save the file as UTF-8 (is it one of another program?)")};
+}
+
 }  // namespace
 
-std::optional<XmlDiagnostic> find_xml_error(std::string_view text, std::span<const std::string_view> groups,
-                                            std::vector<TextChunk>& chunks, int threads) {
-  if (auto diagnostic = find_encoding_error(text, threads)) return diagnostic;
+std::optional<TextError> find_xml_error(std::string_view text, std::span<const std::string_view> groups,
+                                        std::vector<TextChunk>& chunks, int threads) {
+  if (auto error = find_encoding_error(text, threads)) return error;
   try {
     Scanner scanner(text);
     ChunkCutter cutter(groups, chunks);
-    scanner.cut_pieces(cutter);
+    scanner.cut_groups(cutter);
     scanner.look_ahead(worker_count(threads));
     scanner.scan();
-  } catch (XmlDiagnostic& diagnostic) {
-    return std::move(diagnostic);
+  } catch (TextError& error) {
+    return std::move(error);
   }
   return std::nullopt;
 }
