@@ -10,7 +10,7 @@
 #include "raytrace/film/film.h"
 #include "raytrace/output/image_band.h"
 #include "raytrace/output/image_file.h"
-#include "raytrace/render/renderer.h"
+#include "raytrace/scene/scene.h"
 
 namespace raytrace {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "raytrace/aovs/aov.h"
-#include "raytrace/render/renderer.h"
+#include "raytrace/scene/scene.h"
 
 namespace raytrace {
 
