@@ -9,7 +9,6 @@
 #include "raytrace/memory/large_array.h"
 #include "raytrace/memory/out_of_memory.h"
 #include "raytrace/parallel/for_each_index.h"
-#include "raytrace/parallel/handover.h"
 #include "raytrace/scene/scene.h"
 
 namespace raytrace {
@@ -20,9 +19,6 @@ namespace {
   if (code == RTC_ERROR_OUT_OF_MEMORY || (message != nullptr && says_out_of_memory(message))) throw std::bad_alloc();
   throw RenderError(std::string("Embree: ") + (message != nullptr ? message : "unknown error"));
 }
-
-/// Embree's builder threads see the report that the constructor made.
-constinit Handover report_made;
 
 /// Embree's triangles, straight from the table.
 template <class Shape>
@@ -68,7 +64,6 @@ struct Accelerator::Report {
   }
 
   static bool on_memory(void* user, ssize_t bytes, bool) {
-    report_made.take();
     static_cast<Report*>(user)->bytes += bytes;
     return true;
   }
@@ -81,7 +76,6 @@ struct Accelerator::Report {
 
 Accelerator::Accelerator(const GeometryTable& table, int threads, const char* isa)
     : report_(std::make_unique<Report>()), table_(table) {
-  report_made.give();
   const std::string configuration = "threads=" + std::to_string(threads) + ",set_affinity=0,isa=" + isa;
   device_.reset(rtcNewDevice(configuration.c_str()));
   if (!device_) throw_embree_error(rtcGetDeviceError(nullptr), "no device could be created");
@@ -115,7 +109,7 @@ Accelerator::Accelerator(const GeometryTable& table, int threads, const char* is
 Accelerator::~Accelerator() = default;
 
 void Accelerator::build() const {
-  commit_scene(scene_.get());
+  rtcCommitScene(scene_.get());
   report_->throw_error();
   is_built_.store(true, std::memory_order_release);
 }

@@ -13,7 +13,6 @@
 #include "raytrace/math/bounds.h"
 #include "raytrace/math/ray.h"
 #include "raytrace/math/simd.h"
-#include "raytrace/parallel/handover.h"
 #include "raytrace/scene/geometry_table.h"
 
 namespace raytrace {
@@ -46,10 +45,6 @@ RAYTRACE_INLINE Mask<F> occludes(const Record& record, const Ray<F>& ray, const 
 }
 
 namespace detail {
-
-/// From the thread that fills the tables to Embree's builder threads, and back once they are done. Static: they must
-/// find it before they read anything.
-inline constinit Handover tables_filled, tables_read;
 
 // Embree's packets are arrays of `size` floats for each field. F covers lanes [first, first + lane_count<F>) of them,
 // or, where the packet is narrower than F, all of them: `count` says how many there are.
@@ -143,7 +138,6 @@ void occluded_packet(const RTCOccludedFunctionNArguments* arguments) {
 
 template <class Shape>
 void bounds_callback(const RTCBoundsFunctionArguments* arguments) {
-  tables_filled.take();
   const auto* records = static_cast<const typename ShapeTable<Shape>::Record*>(arguments->geometryUserPtr);
   const Bounds bounds = Kernel<Shape>::bounds(records[arguments->primID]);
   RTCBounds& box = *arguments->bounds_o;
@@ -153,7 +147,6 @@ void bounds_callback(const RTCBoundsFunctionArguments* arguments) {
   box.upper_x = bounds.upper.x;
   box.upper_y = bounds.upper.y;
   box.upper_z = bounds.upper.z;
-  if constexpr (thread_sanitized) tables_read.give();  // all threads, an object each time, at one place in memory
 }
 
 // Each packet size by as many lanes as it has; single rays by the fewest there are.
@@ -195,13 +188,6 @@ embree::Geometry make_user_geometry(RTCDevice device, std::span<const typename S
   rtcSetGeometryIntersectFunction(geometry.get(), &detail::intersect_callback<Shape>);
   rtcSetGeometryOccludedFunction(geometry.get(), &detail::occluded_callback<Shape>);
   return geometry;
-}
-
-/// Builds a scene of such geometries, whose tables are full by now.
-inline void commit_scene(RTCScene scene) {
-  detail::tables_filled.give();
-  rtcCommitScene(scene);
-  detail::tables_read.take();
 }
 
 }  // namespace raytrace

@@ -100,7 +100,7 @@ FilmSettings film_settings(const Scene& scene, const SceneDescription& descripti
   film.seed = settings.seed;
   const std::uint64_t most_samples = std::uint64_t{film.samples.first} + film.samples.count;
   film.unit_exponent = unit_exponent(scene.largest_radiance(), most_samples);
-  film.aovs = aov_settings(settings.aovs, scene, description, most_samples);
+  film.aovs = aov_settings(settings.aovs, {scene.largest_albedo()}, description, most_samples);
   film.transparent = settings.transparent;
   return film;
 }
