@@ -9,7 +9,7 @@
 
 #include "raytrace/film/film_means.h"
 #include "raytrace/integrators/lane_counts.h"
-#include "raytrace/integrators/raycast.h"
+#include "raytrace/integrators/ray_result.h"
 #include "raytrace/math/fixed_point_sums.h"
 
 namespace raytrace {
@@ -34,14 +34,15 @@ class BlockSums {
 
   /// Adds a sample of each lane of `wanted`. The result: those whose radiance is not finite (or beyond what the sums
   /// can hold), which are counted as black.
-  RAYTRACE_INLINE MaskN add(const RayResult& seen, const MaskN& wanted) {
+  RAYTRACE_INLINE MaskN add(const RayResult& result, const MaskN& wanted) {
     // Radiances are not negative: the sum is large where one of them is, and NaN compares false.
-    const MaskN fine = wanted & (seen.radiance.red + seen.radiance.green + seen.radiance.blue <= FloatN(scale_.most));
-    const Rgb<FloatN> radiance = select(fine, seen.radiance, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
+    const MaskN fine =
+        wanted & (result.radiance.red + result.radiance.green + result.radiance.blue <= FloatN(scale_.most));
+    const Rgb<FloatN> radiance = select(fine, result.radiance, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
     red_.add(radiance.red, scale_.inverse_unit);
     green_.add(radiance.green, scale_.inverse_unit);
     blue_.add(radiance.blue, scale_.inverse_unit);
-    hits_.add(seen.hit & wanted);
+    hits_.add(result.hit & wanted);
     samples_.add(wanted);
     return wanted & !fine;
   }
