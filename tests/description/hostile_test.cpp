@@ -65,10 +65,10 @@ TEST_CASE("50,000 materials and objects with errors are answered") {
     objects += "<sphere><name>same</name><center x='0' y='0' z='0'/><radius>1</radius><material>materiall" +
                std::to_string(i) + "</material></sphere>";
   }
-  CHECK(contains(
-      bounded_report(scene_with("<materials><mattes>" + materials + "</mattes></materials><objects><spheres>" +
-                                  objects + "</spheres></objects>")),
-      "more errors not shown"));
+  CHECK(
+      contains(bounded_report(scene_with("<materials><mattes>" + materials + "</mattes></materials><objects><spheres>" +
+                                         objects + "</spheres></objects>")),
+               "more errors not shown"));
 }
 
 TEST_CASE("200,000 groups and sections of nothing are nothing") {

@@ -1,4 +1,4 @@
-// Items that are written like the ones before them are read without being parsed: nobody must be able to tell.
+// Items that are written like the ones before them are read without being parsed, with the same result.
 #include "raytrace/description/item_pattern.h"
 
 #include <sstream>
@@ -7,11 +7,11 @@
 #include <type_traits>
 #include <vector>
 
-#include "reported.h"
 #include "raytrace/description/read_fields.h"
 #include "raytrace/description/scene_layout.h"
 #include "raytrace/xml/document.h"
 #include "raytrace/xml/scene_text.h"
+#include "reported.h"
 #include "support/catch.h"
 
 namespace raytrace::test {
@@ -38,7 +38,7 @@ ReadText read_text(const std::string& text) {
 }
 
 /// A group of which each item ends with a comment, or none: a comment has no part in a pattern. Comments stand where
-/// no place that a message names comes after them in their line.
+/// nothing that a message locates comes after them in their line.
 struct AlikeGroup {
   std::string section, group, item;
   std::vector<std::string> contents;
@@ -65,10 +65,10 @@ std::string numbered_sphere(int number, const std::string& rest = clay_end) {
 void check_among(const std::string& section, const std::string& group, const std::string& item,
                  const std::vector<std::string>& others, const std::vector<std::string>& odd_ones) {
   for (const std::string& odd : odd_ones)
-    for (const std::size_t place : {std::size_t{0}, std::size_t{1}, others.size() / 2, others.size()}) {
+    for (const std::size_t index : {std::size_t{0}, std::size_t{1}, others.size() / 2, others.size()}) {
       AlikeGroup mixed{section, group, item, others};
-      mixed.contents.insert(mixed.contents.begin() + static_cast<std::ptrdiff_t>(place), odd);
-      INFO(odd << " in place " << place);
+      mixed.contents.insert(mixed.contents.begin() + static_cast<std::ptrdiff_t>(index), odd);
+      INFO(odd << " at index " << index);
       const ReadText alike = read_text(mixed.scene(false)), parsed = read_text(mixed.scene(true));
       CHECK(alike.reported == parsed.reported);
       CHECK(alike.scene == parsed.scene);

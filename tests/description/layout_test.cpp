@@ -1,10 +1,10 @@
-// The frame of a scene: sections, groups and names.
+// The layout of a scene: sections, groups and names.
 #include <string>
 #include <vector>
 
-#include "reported.h"
 #include "raytrace/description/scene_layout.h"
 #include "raytrace/text/quoted.h"
+#include "reported.h"
 #include "support/catch.h"
 #include "support/contains.h"
 
@@ -47,7 +47,7 @@ TEST_CASE("order is free: objects may come before their materials") {
   CHECK(std::get<ObjectItems<Sphere>>(scene.objects)[0].material.index == 0);
 }
 
-TEST_CASE("objects refer to materials by kind and index") {
+TEST_CASE("objects refer to materials by type and index") {
   const SceneDescription scene = accepted(scene_with(
       "<materials><phongs><phong><name>gold</name><ka>0</ka><kd>1</kd><ks>1</ks><cd red='1' green='1' blue='1'/>"
       "<cs red='1' green='1' blue='1'/></phong></phongs></materials><objects><spheres><sphere><material>gold</material>"
@@ -73,7 +73,18 @@ TEST_CASE("defaults stand where nothing is said") {
   CHECK(std::get<MaterialItems<Phong>>(scene.materials).at(0).parameters.exp == 20);
 }
 
-TEST_CASE("every element of the frame is told where it belongs when it stands elsewhere") {
+TEST_CASE("a scene may name its integrator, anywhere at its root") {
+  CHECK_FALSE(accepted(scene_with("")).integrator);
+  for_each_type(Integrators{}, [&]<class T>(std::type_identity<T>) {
+    const std::string element = "<integrator> <!-- --> <" + std::string(T::element) + "/> </integrator>";
+    const auto scene = accepted(scene_with("<objects/>" + element + "<lights/>"));
+    REQUIRE(scene.integrator);
+    CHECK(scene.integrator->index() == index_of<T>(Integrators{}));
+  });
+  CHECK(contains(reported(scene_with("<integrator name='raycast'/>")), "unexpected attribute 'name' in <integrator>"));
+}
+
+TEST_CASE("the message for an element that stands elsewhere says where it belongs") {
   const std::vector<LayoutEntry> layout = scene_layout();
   for (const LayoutEntry& entry : layout) {
     for (const LayoutEntry& other : layout) {

@@ -1,12 +1,12 @@
-// Scenes so large that they are read in chunks, by several threads: nobody must be able to tell.
+// Scenes so large that they are read in chunks, by several threads, with the same result.
 #include <algorithm>
 #include <sstream>
 #include <string>
 #include <vector>
 
-#include "reported.h"
 #include "raytrace/xml/diagnostics.h"
 #include "raytrace/xml/xml_scanner.h"
+#include "reported.h"
 #include "support/catch.h"
 #include "support/contains.h"
 
@@ -21,7 +21,7 @@ std::string sphere(int i, const std::string& material = "clay") {
          "\" y=\"0\" z=\"0\"/>\n    <radius>1</radius>\n    <material>" + material + "</material>\n  </sphere>\n";
 }
 
-/// Some 500 kB. at(i): what stands in place of sphere i.
+/// Some 500 kB. at(i): what stands for sphere i.
 template <class At>
 std::string large_scene(At&& at) {
   std::string items;

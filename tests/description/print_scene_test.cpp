@@ -1,5 +1,5 @@
-#include "reported.h"
 #include "random_description.h"
+#include "reported.h"
 #include "support/catch.h"
 
 namespace raytrace::test {
@@ -19,7 +19,7 @@ TEST_CASE("what is printed is read back as the same scene") {
   CHECK(objects > 300);
 }
 
-TEST_CASE("scenes that differ are told apart") {
+TEST_CASE("scenes that differ are printed differently") {
   std::mt19937_64 random(7);
   SceneDescription a;
   do a = random_description(random);

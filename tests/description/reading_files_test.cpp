@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <sstream>
 
-#include "reported.h"
 #include "raytrace/xml/text_file.h"
+#include "reported.h"
 #include "support/catch.h"
 #include "support/temporary_folder.h"
 
@@ -90,7 +90,7 @@ TEST_CASE("a large file is read by several threads as by one") {
   }
 }
 
-TEST_CASE("reported are printed in the order of the file, at most 100 of a kind, and the rest counted") {
+TEST_CASE("diagnostics are printed in the order of the file, at most 100 of a severity, and the rest counted") {
   Diagnostics diagnostics("scene.xml");
   diagnostics.error({3, 1}, "third");
   diagnostics.warning({2, 7}, "second");

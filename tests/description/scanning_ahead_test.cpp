@@ -1,4 +1,4 @@
-// Large groups are scanned by several threads that guess where items start: nobody must be able to tell.
+// Large groups are scanned by several threads that guess where items start, with the same result.
 #include <functional>
 #include <random>
 #include <string>
@@ -55,7 +55,7 @@ std::string repeated(const std::string& what, std::size_t bytes) {
   return text;
 }
 
-/// Of some megabytes. item(i): what stands in place of item i.
+/// Of some megabytes. item(i): what stands for item i.
 std::string text_of(const std::function<std::string(int)>& item, const std::string& behind = "</as></s></root>") {
   std::string text = "<root><s><as>";
   for (int i = 0; text.size() < (std::size_t{3} << 20U); ++i) text += item(i);

@@ -118,14 +118,14 @@ TEST_CASE("what all texts of a scene become has a limit") {
   CHECK(contains(*message, "makes the scene longer than 2 GiB"));
 }
 
-TEST_CASE("a variable that is not set is reported for one of its places") {
+TEST_CASE("a variable that is not set is reported once") {
   std::string keys;
   for (int i = 0; i < 25; ++i) keys += "<key frame='" + std::to_string(i) + "' value='$size'/>\n";
   CHECK(
       reported(sphere(keys), {}) ==
       "s:2:51: error: '$size' for value in <key> uses $size, which is not set; set it: -D size=VALUE (and at 24 other "
       "places)\n");
-  // In the chunks of a large scene, too, however many threads read them; other errors are told beside it.
+  // In the chunks of a large scene, too, however many threads read them; other errors are reported beside it.
   std::string items;
   for (int i = 0; i < 3000; ++i)
     items += "<sphere><center x='0' y='$y' z='0'/><radius>" + std::string(i == 2000 ? "-1" : "$r") +
@@ -148,7 +148,7 @@ TEST_CASE("names of variables") {
   for (const char* const name : {"", "9", "a-b", "a ", "$a", "\xc3\xa4"}) CHECK_FALSE(is_variable_name(name));
 }
 
-TEST_CASE("a variable can stand in every kind of value") {
+TEST_CASE("a variable can stand in a value of every type") {
   const std::string text = R"(<raytracer><viewplane><hres>$w</hres><vres>1$w</vres></viewplane>
     <camera><eye x="0" y="-$y" z="9"/><lookat x="0" y="0" z="0"/><viewdistance>$frame</viewdistance></camera>
     <lights><pointlights><pointlight><location x="0" y="1" z="$frame"/><color red="$y" green="1" blue="1"/>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -36,7 +37,7 @@ class SceneReader {
   SceneDescription take() { return std::move(scene_); }
 
  private:
-  static constexpr std::string_view camera_key = "camera";
+  static constexpr std::string_view camera_key = "camera", integrator_key = "integrator type";
 
   void read(Element root) {
     if (root.name() != root_element) {
@@ -57,18 +58,22 @@ class SceneReader {
         object_sections.push_back(child);
       else if (child.name() == ViewPlane::element)
         read_single<ViewPlane>(ViewPlane::element, child, scene_.viewplane);
-      else if (!read_camera(child))
+      else if (child.name() == integrator_element)
+        read_integrator(child);
+      else if (!read_one_of(Cameras{}, camera_key, child, scene_.camera))
         refuse_unknown(child, root_element);
     }
     // Objects name materials, which may come after them.
     report_taken(MaterialsSection::item, materials_.names);
     for (const Element section : object_sections) read_section<ObjectsSection>(section);
     report_taken(ObjectsSection::item, object_names_);
-    if (!has(ViewPlane::element)) report_missing(root, ViewPlane::element);
-    if (!has(camera_key)) report_missing(root, camera_key);
+    for (const std::string_view key : {ViewPlane::element, camera_key}) {
+      if (firsts_.contains(key)) continue;
+      diagnostics_.error(root, [&] { return "the scene has no " + tag(key) + "; add one"; });
+    }
   }
 
-  /// An element that a scene has once. key: the same for all of which it has one.
+  /// An element that a scene has once. key: the same for all of which it has one together.
   template <class T, class Target>
   void read_single(std::string_view key, Element element, Target& target) {
     if (!is_first(key, element)) return;
@@ -77,15 +82,32 @@ class SceneReader {
     target = parameters;
   }
 
-  /// False if the element is no camera.
-  bool read_camera(Element element) {
+  /// False if the element is of no type in the list.
+  template <class List, class Target>
+  bool read_one_of(List list, std::string_view key, Element element, Target& target) {
     bool found = false;
-    for_each_type(Cameras{}, [&]<class Camera>(std::type_identity<Camera>) {
-      if (found || element.name() != Camera::element) return;
+    for_each_type(list, [&]<class T>(std::type_identity<T>) {
+      if (found || element.name() != T::element) return;
       found = true;
-      read_single<Camera>(camera_key, element, scene_.camera);
+      read_single<T>(key, element, target);
     });
     return found;
+  }
+
+  void read_integrator(Element element) {
+    if (!is_first(integrator_element, element)) return;
+    refuse_attributes(element, {}, diagnostics_);
+    const std::size_t errors_before = diagnostics_.error_count();
+    for (Node node = element.first_child(); node; node = node.next()) {
+      if (refuse_text(node, element, diagnostics_)) continue;
+      if (!read_one_of(Integrators{}, integrator_key, node.element(), scene_.integrator))
+        refuse_unknown(node.element(), integrator_element);
+    }
+    if (scene_.integrator || diagnostics_.error_count() > errors_before) return;
+    diagnostics_.error(element, [&] {
+      return tag(integrator_element) +
+             " is empty; write one of its elements into it: " + list_of_tags(elements_in(integrator_element));
+    });
   }
 
   template <class Section>
@@ -154,14 +176,13 @@ class SceneReader {
     if (entry.usable) items.push_back(std::move(entry.item));
   }
 
-  /// One slip, one message: what was only misspelt, or stands in the wrong place, is not reported as missing, too.
+  /// One slip, one message: what was only misspelt, or is in the wrong element, is not reported as missing, too.
   void refuse_unknown(Element child, std::string_view parent) {
     if (diagnostics_.keeps_another(Severity::error)) {
       const std::string_view meant = meant_element(child.name(), parent);
-      for_each_type(Cameras{}, [&]<class Camera>(std::type_identity<Camera>) {
-        if (meant == Camera::element) meant_.push_back(camera_key);
-      });
-      meant_.push_back(meant);
+      bool is_camera = false;
+      for_each_type(Cameras{}, [&]<class T>(std::type_identity<T>) { is_camera |= meant == T::element; });
+      firsts_.try_emplace(is_camera ? camera_key : meant);
       if (parent == MaterialsSection::element || belongs_to_section(meant, MaterialsSection::element))
         materials_.complete = false;
     }
@@ -177,9 +198,9 @@ class SceneReader {
 
   /// For elements that a scene has once: remembers the first and reports the others.
   bool is_first(std::string_view key, Element element) {
-    const Element first = first_of(key);
+    Element& first = firsts_[key];
     if (!first) {
-      firsts_.emplace_back(key, element);
+      first = element;
       return true;
     }
     diagnostics_.error(element, [&] {
@@ -187,18 +208,6 @@ class SceneReader {
              std::to_string(first.line());
     });
     return false;
-  }
-
-  /// Whether the scene has that element, or what was meant for it.
-  bool has(std::string_view key) const {
-    return first_of(key) || std::find(meant_.begin(), meant_.end(), key) != meant_.end();
-  }
-
-  Element first_of(std::string_view key) const {
-    for (const auto& [first_key, element] : firsts_) {
-      if (first_key == key) return element;
-    }
-    return Element();
   }
 
   void report_taken(std::string_view what, NameTable& names) {
@@ -237,18 +246,13 @@ class SceneReader {
     }
   }
 
-  void report_missing(Element root, std::string_view section) {
-    diagnostics_.error(root, [&] { return "the scene has no " + tag(section) + "; add one"; });
-  }
-
   const SceneText& text_;
   const ReadContext& context_;
   Diagnostics& diagnostics_;
   Document skeleton_;
   tbb::task_arena arena_;
   SceneDescription scene_;
-  std::vector<std::pair<std::string_view, Element>> firsts_;
-  std::vector<std::string_view> meant_;  // of the layout, for elements that were refused
+  std::map<std::string_view, Element> firsts_;  // by key; false for what was meant by an element that was refused
   NamedMaterials materials_;
   NameTable object_names_;
 };

@@ -38,7 +38,11 @@ class ScenePrinter : private XmlWriter {
   std::string print(const SceneDescription& scene) {
     element(root_element, [&] {
       for_each_single(scene, [&]<class T>(std::type_identity<T>, const auto& parameters) {
-        element(T::element, [&] { print_parameters<T>(parameters); });
+        const auto print = [&] { element(T::element, [&] { print_parameters<T>(parameters); }); };
+        if constexpr (has_type<T>(Integrators{}))
+          element(integrator_element, print);
+        else
+          print();
       });
       for_each_type(Sections{}, [&]<class Section>(std::type_identity<Section>) {
         element(Section::element, [&] {

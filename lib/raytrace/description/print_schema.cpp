@@ -56,6 +56,8 @@ class SchemaPrinter : private XmlWriter {
       for_each_type(Sections{}, [&]<class Section>(std::type_identity<Section>) { print_section<Section>(); });
       print_item<ViewPlane>({});
       for_each_type(Cameras{}, [&]<class T>(std::type_identity<T>) { print_item<T>({}); });
+      element(named("complexType", integrator_element), [&] { print_one_of(Integrators{}); });
+      for_each_type(Integrators{}, [&]<class T>(std::type_identity<T>) { print_item<T>({}); });
       print_value_types();
     });
     return take();
@@ -66,12 +68,13 @@ class SchemaPrinter : private XmlWriter {
 
   void print_root() {
     element("xs:complexType", [&] {
-      // Sections in any order and number, but one view plane and one camera.
+      // Sections in any order and number, but one view plane and one camera. That there is one integrator at most
+      // would take as many sequences again.
       element("xs:sequence", [&] {
         print_sections();
         element("xs:choice", [&] {
-          print_pair([&] { child(ViewPlane::element); }, [&] { print_cameras(); });
-          print_pair([&] { print_cameras(); }, [&] { child(ViewPlane::element); });
+          print_pair([&] { child(ViewPlane::element); }, [&] { print_one_of(Cameras{}); });
+          print_pair([&] { print_one_of(Cameras{}); }, [&] { child(ViewPlane::element); });
         });
       });
     });
@@ -93,11 +96,13 @@ class SchemaPrinter : private XmlWriter {
   void print_sections() {
     element(any_number_of, [&] {
       for_each_type(Sections{}, [&]<class Section>(std::type_identity<Section>) { child(Section::element); });
+      child(integrator_element);
     });
   }
 
-  void print_cameras() {
-    element("xs:choice", [&] { for_each_type(Cameras{}, [&]<class T>(std::type_identity<T>) { child(T::element); }); });
+  template <class List>
+  void print_one_of(List list) {
+    element("xs:choice", [&] { for_each_type(list, [&]<class T>(std::type_identity<T>) { child(T::element); }); });
   }
 
   void print_constraint(std::string_view tag, const std::string& selector, const std::string& field) {

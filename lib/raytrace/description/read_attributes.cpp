@@ -90,7 +90,7 @@ bool read_attribute(Element element, Attribute attribute, const AttributeField& 
                   : parse_interpolation(xml::trimmed(text), *std::get<Interpolation*>(field.target));
   };
   const auto where = [&] { return " for " + std::string(field.name) + " in " + tag(element.name()) + " "; };
-  return parse_text<Dollars::never_fit>(attribute.value(), element, attribute, parse, where, context);
+  return parse_text(attribute.value(), element, attribute, parse, where, context);
 }
 
 /// Reports the required fields that are missing, if any: then it is false. present: bit i for fields[i].

@@ -48,36 +48,28 @@ bool refuse_attributes(Element element, std::span<const FieldInfo> children, Dia
 /// Reports a text among the children of an element that takes only elements. True if `node` is one.
 bool refuse_text(Node node, Element parent, Diagnostics& diagnostics);
 
-enum class Dollars {
-  never_fit,  ///< parse refuses every text that has one, so only such texts are searched for variables
-  may_fit,
-};
-
 /// Parses a text with its variables replaced. parse(text): an OptionalMessage; the text lives as long as the element.
 /// text: that of `at`, a Node or Attribute of the element. where(): " in <radius> ". False, with an error, if there is
 /// a message.
-template <Dollars dollars, class At, class Parse, class Where>
+template <class At, class Parse, class Where>
 bool parse_text(std::string_view text, Element element, const At& at, const Parse& parse, const Where& where,
                 const ReadContext& context) {
-  OptionalMessage message = parse(text);
-  bool once = false;
-  if ((message || dollars == Dollars::may_fit) && text.find('$') != std::string_view::npos) {
+  OptionalMessage message;
+  if (text.find('$') != std::string_view::npos) {
     std::string replaced;
     message = context.variables.replace(text, replaced);
-    once = message && Variables::is_cause(*message);
-    if (!message && xml::trimmed(replaced).empty()) {
-      message = "is empty with the variables' values put in";
-    } else if (!message) {
-      text = xml::trimmed(element.keep(std::move(replaced)));
-      message = parse(text);
+    if (message && Variables::is_cause(*message)) {
+      context.diagnostics.error_once(*message, at, [&] { return in_quotes(text) + where() + *message; });
+      return false;
     }
+    if (!message && xml::trimmed(replaced).empty())
+      message = "is empty with the variables' values put in";
+    else if (!message)
+      text = xml::trimmed(element.keep(std::move(replaced)));
   }
+  if (!message) message = parse(text);
   if (!message) return true;
-  const auto make_message = [&] { return in_quotes(text) + where() + *message; };
-  if (once)
-    context.diagnostics.error_once(*message, at, make_message);
-  else
-    context.diagnostics.error(at, make_message);
+  context.diagnostics.error(at, [&] { return in_quotes(text) + where() + *message; });
   return false;
 }
 

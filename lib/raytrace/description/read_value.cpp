@@ -52,13 +52,10 @@ class ValueReader {
   }
 
   bool operator()(std::string_view* value) const {
-    const bool fine = read_text<Dollars::may_fit>(single_text(), [&](std::string_view text) {
+    return read_text(single_text(), [&](std::string_view text) {
       *value = text;
       return check_label(text);
     });
-    // With a variable that is not set it is no label, and nothing more is to be said about it.
-    if (!fine && value->find('$') != std::string_view::npos) *value = {};
-    return fine;
   }
 
   bool operator()(std::string* value) const {
@@ -82,7 +79,7 @@ class ValueReader {
 
  private:
   /// node: single_text(). parse: text -> OptionalMessage
-  template <Dollars dollars = Dollars::never_fit, class Parse>
+  template <class Parse>
   bool read_text(Node node, const Parse& parse) const {
     const std::string_view text = node ? node.text() : std::string_view();
     const Attribute attribute = element_.first_attribute();
@@ -100,7 +97,7 @@ class ValueReader {
       return false;
     }
     const auto where = [&] { return " in " + tag(info_.name) + " "; };
-    return parse_text<dollars>(text, element_, node, parse, where, context_) && no_attributes;
+    return parse_text(text, element_, node, parse, where, context_) && no_attributes;
   }
 
   /// The text of an element that has nothing else; false if it has.

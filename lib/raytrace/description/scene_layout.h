@@ -13,6 +13,7 @@
 namespace raytrace {
 
 inline constexpr std::string_view root_element = "raytracer";
+inline constexpr std::string_view integrator_element = "integrator";  ///< holds one of Integrators
 
 // The sections: elements at the root that hold any number of items of the types in a registry. labels: the children
 // that items have beside their parameters, which go to the members of these names. may_skip: whether items may be left
@@ -59,13 +60,20 @@ void for_each_item_type(const Visit& visit) {
   });
 }
 
-/// visit(std::type_identity<T>, parameters): of the view plane and the camera.
+/// visit(std::type_identity<T>, parameters) of the type whose parameters the variant has.
+template <class List, class Variant, class Visit>
+void visit_one_of(List list, const Variant& parameters, const Visit& visit) {
+  with_type(list, parameters.index(),
+            [&]<class T>(std::type_identity<T> type) { visit(type, *std::get_if<index_of<T>(List{})>(&parameters)); });
+}
+
+/// visit(std::type_identity<T>, parameters) of what a scene has one of: the view plane, the camera and, if there is
+/// one, the integrator.
 template <class Visit>
 void for_each_single(const SceneDescription& scene, const Visit& visit) {
   visit(std::type_identity<ViewPlane>{}, scene.viewplane);
-  with_type(Cameras{}, scene.camera.index(), [&]<class Camera>(std::type_identity<Camera> type) {
-    visit(type, *std::get_if<index_of<Camera>(Cameras{})>(&scene.camera));
-  });
+  visit_one_of(Cameras{}, scene.camera, visit);
+  if (scene.integrator) visit_one_of(Integrators{}, *scene.integrator, visit);
 }
 
 struct LayoutEntry {
@@ -78,6 +86,9 @@ std::vector<LayoutEntry> scene_layout();
 
 /// The elements that hold any number of one type's items, such as <spheres>.
 std::vector<std::string_view> group_elements();
+
+/// The elements that stand in that one.
+std::vector<std::string_view> elements_in(std::string_view parent);
 
 /// The element of the layout that one in `parent` was most likely meant for: itself, or that of the nearest name; empty
 /// if there is none.

@@ -82,8 +82,8 @@ Field<Parameters> optional(std::string_view name, Value Parameters::* member, Ra
   return {{name, false, range}, member};
 }
 
-/// What a type finds wrong with a combination of its parameters, each of which is fine alone. A type that has such
-/// conditions declares `static std::optional<ParameterDiagnostic> check(const Parameters&)`.
+/// Why a combination of a type's parameters, each of which is fine alone, is refused. A type that has such conditions
+/// declares `static std::optional<ParameterDiagnostic> check(const Parameters&)`.
 struct ParameterDiagnostic {
   enum class Effect {
     error,  ///< the scene is refused

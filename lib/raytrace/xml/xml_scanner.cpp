@@ -28,15 +28,11 @@ class Scanner : private XmlCursor {
     attributes_.reserve(most_attributes);
   }
 
-  /// nodes: receives what find_nodes returns.
-  void collect_nodes(std::vector<std::size_t>& nodes) { nodes_ = &nodes; }
+  std::vector<std::size_t>* nodes = nullptr;        ///< receives what find_nodes returns
+  std::vector<std::string_view>* values = nullptr;  ///< receives what find_values returns
+  ChunkCutter* cutter = nullptr;                    ///< is called for the items of groups
 
-  /// values: receives what find_values returns.
-  void collect_values(std::vector<std::string_view>& values) { values_ = &values; }
-
-  void cut_groups(ChunkCutter& cutter) { cutter_ = &cutter; }
-
-  /// Has up to so many threads look ahead in the groups that are cut: behind cut_groups().
+  /// Has up to so many threads look ahead in the groups that are cut.
   void look_ahead(int threads) {
     const auto scan = [this](const char* from, const char* to, const char* limit, std::vector<TextChunk>& chunks) {
       return scan_items(from, to, limit, chunks);
@@ -49,7 +45,7 @@ class Scanner : private XmlCursor {
     if (starts_with("<?xml") && !is(here_[5], name_part)) declaration();
     while (true) {
       skip_space();
-      if (ahead_ && at_item() && cutter_->cuts(open_.back().name)) pass_scanned_items();
+      if (ahead_ && at_item() && cutter->cuts(open_.back().name)) pass_scanned_items();
       if (*here_ == '\0') break;
       scan_next();
     }
@@ -112,7 +108,7 @@ class Scanner : private XmlCursor {
     while (at_item()) {
       const ItemsAhead::ScannedRange* const range = ahead_->from(open_.back().begin, here_);
       if (range == nullptr) return;
-      cutter_->add(offset(open_.back().begin), open_.back().name, range->chunks);
+      cutter->add(offset(open_.back().begin), open_.back().name, range->chunks);
       here_ = range->end;
     }
   }
@@ -123,8 +119,8 @@ class Scanner : private XmlCursor {
     scanner.open_ = open_;
     scanner.root_seen_ = scanner.guessing_ = true;
     scanner.here_ = from;
-    ChunkCutter cutter(*cutter_, chunks);
-    scanner.cut_groups(cutter);
+    ChunkCutter group_cutter(*cutter, chunks);
+    scanner.cutter = &group_cutter;
     try {
       if (!scanner.scan_items(to)) return nullptr;
     } catch (const TextError&) {
@@ -151,11 +147,11 @@ class Scanner : private XmlCursor {
   }
 
   void note_node(const char* at) {
-    if (nodes_) nodes_->push_back(offset(at));
+    if (nodes) nodes->push_back(offset(at));
   }
 
   void note_value(std::string_view value) {
-    if (values_) values_->push_back(value);
+    if (values) values->push_back(value);
   }
 
   void declaration() {
@@ -210,8 +206,8 @@ class Scanner : private XmlCursor {
     if (open_.size() == most_open) fail(start, "elements are nested more than 64 deep here; is a closing tag missing?");
     root_seen_ = true;
     note_node(start);
-    if (cutter_ && open_.size() == group_depth)
-      cutter_->item(offset(open_.back().begin), open_.back().name, offset(start));
+    if (cutter && open_.size() == group_depth)
+      cutter->item(offset(open_.back().begin), open_.back().name, offset(start));
     attributes_.clear();
     while (true) {
       const char* const before = here_;
@@ -252,7 +248,7 @@ class Scanner : private XmlCursor {
     skip_space();
     if (*here_ != '>') fail(start, "the tag </" + printable(found) + " never ends; add '>'");
     ++here_;
-    if (cutter_ && open_.size() == group_depth) cutter_->end(offset(last.begin), offset(start));
+    if (cutter && open_.size() == group_depth) cutter->end(offset(last.begin), offset(start));
     open_.pop_back();
   }
 
@@ -300,9 +296,6 @@ class Scanner : private XmlCursor {
     fail(start, "processing instructions (<?...?>) are not part of the scene format; remove this one");
   }
 
-  std::vector<std::size_t>* nodes_ = nullptr;
-  std::vector<std::string_view>* values_ = nullptr;
-  ChunkCutter* cutter_ = nullptr;
   std::vector<OpenElement> open_;
   std::vector<std::string_view> attributes_;  // of the tag at hand
   bool root_seen_ = false;
@@ -334,7 +327,7 @@ std::optional<TextError> find_xml_error(std::string_view text, std::span<const s
   try {
     Scanner scanner(text);
     ChunkCutter cutter(groups, chunks);
-    scanner.cut_groups(cutter);
+    scanner.cutter = &cutter;
     scanner.look_ahead(worker_count(threads));
     scanner.scan();
   } catch (TextError& error) {
@@ -346,7 +339,7 @@ std::optional<TextError> find_xml_error(std::string_view text, std::span<const s
 std::vector<std::size_t> find_nodes(std::string_view text) {
   std::vector<std::size_t> nodes;
   Scanner scanner(text);
-  scanner.collect_nodes(nodes);
+  scanner.nodes = &nodes;
   scanner.scan();
   return nodes;
 }
@@ -356,7 +349,7 @@ std::size_t element_length(std::string_view text) { return Scanner(text).scan_el
 std::vector<std::string_view> find_values(std::string_view text) {
   std::vector<std::string_view> values;
   Scanner scanner(text);
-  scanner.collect_values(values);
+  scanner.values = &values;
   scanner.scan_element();
   return values;
 }
