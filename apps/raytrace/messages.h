@@ -3,11 +3,11 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "progress_lines.h"
+#include "raytrace/xml/diagnostics.h"
 
 namespace raytrace {
 
@@ -29,7 +29,7 @@ void log_program_in(ProgressStyle style);
 std::size_t message_count();
 
 /// Whether messages of this weight are told.
-bool tells(Verbosity verbosity);
+bool is_logged(Verbosity verbosity);
 
 // The text of a message may hold anything that a user or a file says: control characters in it, line ends too, are
 // shown as \xNN, so that none reaches a terminal or a log. What is to stand on lines of its own comes as such.
@@ -40,6 +40,9 @@ void log_step(const std::string& text);
 
 /// Whole lines: findings about a scene, statistics. Of what they hold, line ends alone stay as they are.
 void log_lines(const std::string& lines);
+
+/// What is wrong or doubtful in a scene. What an earlier render of it, another frame, had too is not repeated.
+void log_diagnostics(const Diagnostics& diagnostics);
 
 /// How far the render is, as a line for people. It is not logged.
 void log_progress(const std::string& text);
@@ -55,8 +58,5 @@ void log_program_failure(const std::string& text);
 
 /// Draws a terminal's last line over; empty: wipes it out. So does each message, before it.
 void show_bar(const std::string& text);
-
-/// "1 object", "2 objects"
-std::string counted(std::uint64_t count, const std::string& thing);
 
 }  // namespace raytrace

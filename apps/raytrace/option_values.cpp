@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "raytrace/aovs/aov_selection.h"
+#include "raytrace/batch/message_text.h"
 #include "raytrace/text/nearest_name.h"
 #include "raytrace/text/quoted.h"
 
@@ -36,12 +37,6 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 }
 
 }  // namespace
-
-std::string joined(const Names& names, const char* separator) {
-  std::string all;
-  for (const std::string& name : names) all += (all.empty() ? "" : separator) + name;
-  return all;
-}
 
 std::string nearest(const std::string& wrong, const Names& names) {
   const std::vector<std::string_view> candidates(names.begin(), names.end());
@@ -133,7 +128,7 @@ Tile tile(const std::string& text) {
   return {*index, *count};
 }
 
-PixelPlace pixel_place(const std::string& text) {
+PixelIndex pixel_index(const std::string& text) {
   const auto parts = split(text, ',');
   const auto x = number<int>(parts.front());
   const auto y = number<int>(parts.back());

@@ -22,9 +22,11 @@ struct Provenance {
   std::string scene;  ///< scene_hash()
 };
 
-/// threads: as scene_hash() takes them.
-Provenance provenance_of(const std::string& software, const Scene& scene, const SceneDescription& description,
-                         int threads = 0);
+/// "raytrace 1.2.3": this library.
+std::string software_name();
+
+/// Of pictures that this library renders. threads: as scene_hash() takes them.
+Provenance provenance_of(const Scene& scene, const SceneDescription& description, int threads = 0);
 
 /// What a scene's settings say in a picture's metadata: "D=1e6 size=2". In values, a backslash stands before each space
 /// and backslash.
