@@ -170,7 +170,7 @@ int print_instead(const Options& options, const RenderJob& job) {
   if (options.print_scene) {
     print(print_scene(*description));
   } else if (!options.quiet) {
-    print(on_one_line(job.scene == "-" ? "<stdin>" : job.scene) + ": ok (" + contents_text(*description) + ")\n");
+    print(on_one_line(job.scene_name()) + ": ok (" + contents_text(*description) + ")\n");
   }
   return exit_code::done;
 }

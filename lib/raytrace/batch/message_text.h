@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,13 @@ inline std::string joined(const std::vector<std::string>& texts, const char* sep
   std::string all;
   for (const std::string& text : texts) all += (all.empty() ? "" : separator) + text;
   return all;
+}
+
+/// " in 1.250 s"
+inline std::string time_taken(double seconds) {
+  char text[64];
+  std::snprintf(text, sizeof text, " in %.3f s", seconds);
+  return text;
 }
 
 }  // namespace raytrace

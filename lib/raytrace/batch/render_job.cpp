@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "raytrace/batch/file_names.h"
 #include "raytrace/batch/frame_numbers.h"
+#include "raytrace/batch/message_text.h"
 #include "raytrace/batch/settings_error.h"
+#include "raytrace/text/quoted.h"
 
 namespace raytrace {
 
@@ -57,6 +60,29 @@ Region render_window(const Region& crop_window, const RenderJob& job) {
   if (job.tile->count > pixels)
     throw SettingsError("--tile: the picture has only " + std::to_string(pixels) + " pixels");
   return tile_of(crop_window, job.tile->index, job.tile->count);
+}
+
+std::optional<SceneDescription> load_picture(const RenderJob& job, RenderObserver& observer, Phase& phase) {
+  observer.on_stage(RenderStage::load);
+  Diagnostics diagnostics(on_one_line(job.scene_name()));
+  std::optional<SceneDescription> description;
+  {
+    const PhaseTimer timer(phase);
+    description = load_scene(job.scene, diagnostics, job.threads, {job.frame, job.variables});
+  }
+  observer.on_diagnostics(diagnostics);
+  if (!description) return std::nullopt;
+  observer.on_message(MessageLevel::step,
+                      job.scene_name() + ": " + contents_text(*description) + ", read" + time_taken(phase.seconds));
+  description->viewplane = requested_view_plane(description->viewplane, job);
+  return description;
+}
+
+std::string contents_text(const SceneDescription& description) {
+  const auto count = [](const auto& lists) {
+    return std::apply([](const auto&... list) { return (list.size() + ...); }, lists);
+  };
+  return counted(count(description.objects), "object") + ", " + counted(count(description.lights), "light");
 }
 
 RenderBatch::RenderBatch(std::vector<std::string> scenes, std::vector<int> frames, RenderJob each,

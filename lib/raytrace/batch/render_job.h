@@ -8,8 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "raytrace/batch/render_observer.h"
+#include "raytrace/batch/render_statistics.h"
 #include "raytrace/batch/used_files.h"
-#include "raytrace/cameras/view_plane.h"
+#include "raytrace/description/scene_description.h"
 #include "raytrace/display/display_server.h"
 #include "raytrace/film/film.h"
 #include "raytrace/film/tiles.h"
@@ -54,7 +56,10 @@ struct RenderJob {
   int threads = 0;  ///< 0: all processors
   std::string isa;  ///< empty: the best
 
-  std::vector<std::string> files() const;  ///< that the render writes
+  /// As messages show it: "<stdin>" for "-".
+  std::string scene_name() const { return scene == "-" ? "<stdin>" : scene; }
+  /// All that the render writes.
+  std::vector<std::string> files() const;
   ImageFileSettings image_file_settings() const {
     return {full_float, bit_depth, true, threads, transparent, exposure.value_or(0)};
   }
@@ -73,6 +78,12 @@ Region crop_window(const ViewPlane& viewplane, const RenderJob& job);
 
 /// The tile of it, or all. Throws SettingsError if there are more tiles than pixels.
 Region render_window(const Region& crop_window, const RenderJob& job);
+
+/// The job's scene with the view plane that the job wants. None if it has errors, which the observer knows.
+std::optional<SceneDescription> load_picture(const RenderJob& job, RenderObserver& observer, Phase& phase);
+
+/// "3 objects, 2 lights"
+std::string contents_text(const SceneDescription& description);
 
 class RenderBatch {
  public:

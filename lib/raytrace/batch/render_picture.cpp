@@ -6,7 +6,6 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
-#include <tuple>
 #include <utility>
 
 #include "raytrace/aovs/aov_selection.h"
@@ -22,7 +21,6 @@
 #include "raytrace/output/complete_picture.h"
 #include "raytrace/output/film_channels.h"
 #include "raytrace/render/renderer.h"
-#include "raytrace/text/quoted.h"
 
 namespace raytrace {
 
@@ -46,19 +44,15 @@ int rows_at_once(const Region& region, std::size_t pixel_bytes) {
 
 double seconds_since(Clock::time_point start) { return Seconds(Clock::now() - start).count(); }
 
-std::string time_taken(double seconds) {
-  char text[32];
-  std::snprintf(text, sizeof text, " in %.3f s", seconds);
-  return text;
-}
-
-std::string displayed_name(const std::string& scene_file) { return scene_file == "-" ? "<stdin>" : scene_file; }
-
 class PictureRender {
  public:
   PictureRender(const RenderJob& job, RenderObserver& observer, RenderControl& control,
                 std::optional<SceneDescription> description)
-      : job_(job), observer_(observer), control_(control), description_(std::move(description)) {}
+      : job_(job),
+        observer_(observer),
+        control_(control),
+        description_(std::move(description)),
+        checkpoint_(job.checkpoint, job.checkpoint_interval) {}
 
   RenderResult run();
 
@@ -76,7 +70,6 @@ class PictureRender {
   void finish_render();
   RenderOutcome write_partial(const Film& film);
   bool write_picture(const Film& film, const std::vector<std::string>& files, std::uint32_t samples, bool partial);
-  bool save_checkpoint(const Film& film);
   ImageMetadata metadata() const;
   void report_invalid_samples() const;
   void write_statistics();
@@ -92,8 +85,7 @@ class PictureRender {
   FilmContent film_content_ = FilmContent::sums;
   PieceIdentity identity_;
   bool in_bands_ = false;
-  Clock::time_point next_checkpoint_;
-  std::optional<FileIdentity> checkpoint_;  ///< that was read or written last
+  CheckpointFile checkpoint_;
   InvalidSamples invalid_samples_;
   std::unique_ptr<DisplayClient> display_;  ///< none if it was not asked for
   RenderResult result_;
@@ -150,7 +142,7 @@ void PictureRender::build() {
   report(MessageLevel::step, "built for " + statistics.scene.isa + " with Embree " + statistics.scene.embree_version +
                                  time_taken(statistics.phases.build.seconds));
   statistics.software = software_name();
-  statistics.scene_file = displayed_name(job_.scene);
+  statistics.scene_file = job_.scene_name();
   statistics.width = description_->viewplane.hres;
   statistics.height = description_->viewplane.vres;
   statistics.region = settings_.region;
@@ -171,7 +163,6 @@ void PictureRender::begin_film() {
   identity_.tile = job_.tile;
   if (job_.is_one_of_frames) identity_.frame = job_.frame;
   identity_.variables = variables_text(job_.variables);
-  next_checkpoint_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(Seconds(job_.checkpoint_interval));
   if (job_.display_server) {
     const PictureExtent extent{description_->viewplane.hres, description_->viewplane.vres, settings_.region};
     display_ = std::make_unique<DisplayClient>(*job_.display_server, job_.outputs.front(), extent,
@@ -198,8 +189,7 @@ RenderOutcome PictureRender::render_at_once() {
   identity_.film = film.settings();
   std::uint32_t done = 0;
   if (job_.resume && std::filesystem::exists(job_.checkpoint)) {
-    checkpoint_ = file_identity(job_.checkpoint);  // first: one that replaces it is not ours to remove
-    read_checkpoint(job_.checkpoint, identity_, film);
+    checkpoint_.read(identity_, film);
     done = film.fewest_samples();
     report(MessageLevel::step, "resumed from " + job_.checkpoint);
   }
@@ -221,9 +211,7 @@ RenderOutcome PictureRender::render_at_once() {
   if (done < all)
     report(MessageLevel::warning, "the time limit was reached after " + counted(done, "sample") + " a pixel");
   if (!write_picture(film, job_.outputs, done, false)) return RenderOutcome::failed;
-  if (checkpoint_ && !remove_file(job_.checkpoint, *checkpoint_))
-    report(MessageLevel::warning,
-           "the checkpoint " + job_.checkpoint + " is not removed: another file has taken its place");
+  checkpoint_.remove(observer_);
   return RenderOutcome::written;
 }
 
@@ -286,14 +274,12 @@ void PictureRender::service_requests(const Film& film) {
       report(MessageLevel::note, "picture so far, " + samples_done_text(film) + ", in " + joined(job_.outputs, ", "));
     }
   }
-  if (!job_.checkpoint.empty() && Clock::now() >= next_checkpoint_) save_checkpoint(film);
+  if (checkpoint_.is_due()) checkpoint_.write(film, identity_, metadata(), observer_);
   if (display_ && display_->is_due()) display_->show(film, film.region());
 }
 
 /// Whether something is to be done that wants the render to pause.
-bool PictureRender::is_due() const {
-  return (!job_.checkpoint.empty() && Clock::now() >= next_checkpoint_) || (display_ && display_->is_due());
-}
+bool PictureRender::is_due() const { return checkpoint_.is_due() || (display_ && display_->is_due()); }
 
 /// The samples a pixel after the next pass: early passes are short, so that there is a whole picture soon. With a time
 /// limit, no pass is begun that would not end in time.
@@ -324,7 +310,7 @@ RenderOutcome PictureRender::write_partial(const Film& film) {
   std::vector<std::string> files = job_.outputs, kept, reasons;
   bool saved = true;
   if (!job_.checkpoint.empty()) {
-    saved = save_checkpoint(film);
+    saved = checkpoint_.write(film, identity_, metadata(), observer_);
     if (saved) kept.push_back("checkpoint " + job_.checkpoint + " written, --resume goes on from it");
   } else {
     // Nothing goes on from here: an earlier picture that is complete is worth more. And where no mark says that this
@@ -361,24 +347,6 @@ bool PictureRender::write_picture(const Film& film, const std::vector<std::strin
   if (!outputs.write(film)) return false;
   result_.statistics.outputs = outputs.commit();
   return result_.statistics.outputs.size() == files.size();
-}
-
-/// False if it could not be written, which is reported: the render goes on, and an earlier one is as it was.
-bool PictureRender::save_checkpoint(const Film& film) {
-  const Clock::time_point begin = Clock::now();
-  bool saved = true;
-  try {
-    checkpoint_ = write_checkpoint(job_.checkpoint, film, identity_, metadata());
-    report(MessageLevel::step, "wrote checkpoint " + job_.checkpoint + ": " + samples_done_text(film));
-  } catch (const OutputError& error) {
-    report(MessageLevel::error, error.what());
-    saved = false;
-  }
-  // However long it took, it takes no more than a hundredth of the time.
-  const Clock::time_point end = Clock::now();
-  const auto interval = std::chrono::duration_cast<Clock::duration>(Seconds(job_.checkpoint_interval));
-  next_checkpoint_ = end + std::max(interval, 100 * (end - begin));
-  return saved;
 }
 
 ImageMetadata PictureRender::metadata() const {
@@ -427,29 +395,6 @@ RenderResult render_picture(const RenderJob& job, SceneDescription description, 
   require_good_scene(description);
   description.viewplane = requested_view_plane(description.viewplane, job);
   return PictureRender(job, observer, control, std::move(description)).run();
-}
-
-std::optional<SceneDescription> load_picture(const RenderJob& job, RenderObserver& observer, Phase& phase) {
-  observer.on_stage(RenderStage::load);
-  Diagnostics diagnostics(on_one_line(displayed_name(job.scene)));
-  std::optional<SceneDescription> description;
-  {
-    const PhaseTimer timer(phase);
-    description = load_scene(job.scene, diagnostics, job.threads, {job.frame, job.variables});
-  }
-  observer.on_diagnostics(diagnostics);
-  if (!description) return std::nullopt;
-  observer.on_message(MessageLevel::step, displayed_name(job.scene) + ": " + contents_text(*description) + ", read" +
-                                              time_taken(phase.seconds));
-  description->viewplane = requested_view_plane(description->viewplane, job);
-  return description;
-}
-
-std::string contents_text(const SceneDescription& description) {
-  const auto count = [](const auto& lists) {
-    return std::apply([](const auto&... list) { return (list.size() + ...); }, lists);
-  };
-  return counted(count(description.objects), "object") + ", " + counted(count(description.lights), "light");
 }
 
 }  // namespace raytrace

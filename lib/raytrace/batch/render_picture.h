@@ -4,7 +4,6 @@
 //   for (std::size_t i = 0; i < batch.size(); ++i) render_picture(batch[i], observer, control);
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "raytrace/batch/render_job.h"
@@ -42,11 +41,5 @@ RenderResult render_picture(const RenderJob& job, RenderObserver& observer, Rend
 /// The same for a scene that is made by hand, which is checked: throws SceneError.
 RenderResult render_picture(const RenderJob& job, SceneDescription description, RenderObserver& observer,
                             RenderControl& control);
-
-/// The job's scene with the view plane that the job wants. None if it has errors, which the observer knows.
-std::optional<SceneDescription> load_picture(const RenderJob& job, RenderObserver& observer, Phase& phase);
-
-/// "3 objects, 2 lights"
-std::string contents_text(const SceneDescription& description);
 
 }  // namespace raytrace
