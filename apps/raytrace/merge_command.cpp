@@ -93,7 +93,7 @@ MergeOptions parsed(int argc, const char* const* argv) {
 void log_report(const MergeReport& report) {
   for (const std::string& file : report.outputs) {
     log_step("wrote " + file + ": " + counted(report.pieces, "piece") + ", " +
-             counted(static_cast<std::uint64_t>(report.samples), "sample") + " a pixel");
+             counted(static_cast<std::uint64_t>(report.samples), "sample") + " per pixel");
   }
   if (report.missing_parts) log_warning("the picture is not complete: some pixels, or samples of them, are missing");
 }
@@ -112,12 +112,12 @@ void define_merge_options(OptionParser& parser, MergeOptions& options) {
   parser.add_switch("--partial", settings.partial,
                     "Pieces may be missing or unfinished: a pixel gets the samples that there are, or else a checked "
                     "background with alpha 0");
-  parser.add("-s,--spp", "N", "Refuse pieces that have other than N samples a pixel together (as many as there are)",
+  parser.add("-s,--spp", "N", "Refuse pieces that have other than N samples per pixel together (as many as there are)",
              [&](const std::string& text) { settings.samples = integer(text, 1, largest); });
   parser.group("Output");
   parser.add_repeatable("-o,--output", "FILE", "Write the picture to FILE; repeatable",
                         [&](const std::string& text) { settings.outputs.push_back(text); });
-  parser.add("--bit-depth", "8|16", "Bits a channel in PNG, TIFF and other sRGB-encoded files (8)",
+  parser.add("--bit-depth", "8|16", "Bits per channel in PNG, TIFF and other sRGB-encoded files (8)",
              [&](const std::string& text) { settings.bit_depth = bit_depth(text); }, {"8", "16"});
   parser.add("--exposure", exposure_value_name, exposure_help,
              [&](const std::string& text) { settings.exposure = exposure(text); });

@@ -20,14 +20,14 @@ namespace raytrace {
 
 namespace {
 
-Verbosity told = Verbosity::warnings;
+Verbosity logged_verbosity = Verbosity::warnings;
 ProgressStyle program_style = ProgressStyle::none;
 int log_file = -1;
 std::string log_name;
 
 std::mutex mutex;  // guards what follows, and the order of what is written
 bool bar_is_shown = false;
-std::size_t messages_told = 0;
+std::size_t messages_logged = 0;
 
 std::string utc_time() {
   const std::time_t now = std::time(nullptr);
@@ -64,7 +64,7 @@ void write_message(const std::string& text) {
   const std::lock_guard lock(mutex);
   write_shown(wiped_bar() + text);
   log(text);
-  ++messages_told;
+  ++messages_logged;
 }
 
 void write_message(const char* weight, const std::string& text, const std::vector<std::string>& more_lines = {}) {
@@ -75,7 +75,7 @@ void write_message(const char* weight, const std::string& text, const std::vecto
 
 }  // namespace
 
-void set_verbosity(Verbosity verbosity) { told = verbosity; }
+void set_verbosity(Verbosity verbosity) { logged_verbosity = verbosity; }
 
 void log_to(const std::string& file) {
   constexpr mode_t by_umask = 0666;
@@ -91,10 +91,10 @@ void log_program_in(ProgressStyle style) {
 
 std::size_t message_count() {
   const std::lock_guard lock(mutex);
-  return messages_told;
+  return messages_logged;
 }
 
-bool is_logged(Verbosity verbosity) { return verbosity <= told; }
+bool is_logged(Verbosity verbosity) { return verbosity <= logged_verbosity; }
 
 void log_error(const std::string& text, const std::vector<std::string>& more_lines) {
   write_message("error: ", text, more_lines);

@@ -1,5 +1,5 @@
-// What the program tells while it runs: a person on standard error ("raytrace: error: ..."), the log file, and a
-// program that reads along on standard output (progress_lines.h). Any thread may tell something at any time.
+// The messages of the program while it runs, for a person on standard error ("raytrace: error: ..."), the log file, and
+// a program that reads along on standard output (progress_lines.h). Any thread may log something at any time.
 #pragma once
 
 #include <cstddef>
@@ -18,17 +18,17 @@ void set_verbosity(Verbosity verbosity);
 
 /// From here on messages go to this file, too: each line is added at its end after the time in UTC
 /// ("2026-01-31T23:59:59Z raytrace: warning: ..."). Throws OutputError if it cannot be opened; should it take no more
-/// later (a full disk), that is told once and the run goes on.
+/// later (a full disk), that is reported once and the run goes on.
 void log_to(const std::string& file);
 
-/// From here on, steps and errors are told to the program that reads standard output, too, whatever the verbosity, if
-/// the style is for one. Should that program go away, the run goes on.
+/// From here on, steps and errors are reported to the program that reads standard output, too, whatever the verbosity,
+/// if the style is for one. Should that program go away, the run goes on.
 void log_program_in(ProgressStyle style);
 
-/// How many messages were told so far.
+/// How many messages were logged so far.
 std::size_t message_count();
 
-/// Whether messages of this weight are told.
+/// Whether messages of this weight are logged.
 bool is_logged(Verbosity verbosity);
 
 // The text of a message may hold anything that a user or a file says: control characters in it, line ends too, are

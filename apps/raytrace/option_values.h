@@ -15,7 +15,7 @@
 
 namespace raytrace {
 
-/// A command line that makes no sense: exit code 2.
+/// An invalid command line: exit code 2.
 class UsageError : public SettingsError {
  public:
   /// more_lines: what to type instead, where that takes lines of its own.

@@ -123,7 +123,7 @@ void define_options(OptionParser& parser, Options& options) {
       "--aov", "LIST",
       "What EXR files hold besides the colour, separated by commas: " + joined(aov_names(), ", ") + "; or all",
       [&](const std::string& text) { options.aovs = aovs(text); }, aov_choices());
-  parser.add("--bit-depth", "8|16", "Bits a channel in PNG, TIFF and other sRGB-encoded files (8)",
+  parser.add("--bit-depth", "8|16", "Bits per channel in PNG, TIFF and other sRGB-encoded files (8)",
              [&](const std::string& text) { options.bit_depth = bit_depth(text); }, {"8", "16"});
 
   parser.group("Picture");
@@ -142,7 +142,7 @@ void define_options(OptionParser& parser, Options& options) {
       "merge` "
       "puts them together",
       [&](const std::string& text) { options.tile = tile(text); });
-  parser.add("-s,--spp", "N", "Samples a pixel instead of the scene's; 1 goes through the pixel's centre",
+  parser.add("-s,--spp", "N", "Samples per pixel instead of the scene's; 1 goes through the pixel's centre",
              [&](const std::string& text) { options.samples = integer(text, 1, largest); });
   parser.add(
       "--sample-offset", "K",
@@ -176,7 +176,7 @@ void define_options(OptionParser& parser, Options& options) {
   parser.group("Messages");
   parser.add_switch("-q,--quiet", options.quiet,
                     "Errors only: no warnings, and no progress but what --progress asks for");
-  parser.add_switch("-v,--verbose", options.verbose, "Tell what is done; twice: all that --stats tells, too");
+  parser.add_switch("-v,--verbose", options.verbose, "Report what is done; twice: all that --stats reports, too");
   parser.add(
       "--progress", "STYLE",
       "How far the render is: auto, bar and plain on standard error (auto: a bar on a terminal, plain lines "

@@ -80,7 +80,7 @@ void read_checkpoint(const std::string& file, const PieceIdentity& identity, Fil
   if (reader.attribute<std::string>(hash_name) != hash_of(film))
     throw InputError("cannot resume from " + file + ": it is damaged");
   if (samples_done(film).most > film.settings().samples.count)
-    throw InputError("cannot resume from " + file + ": it has more samples a pixel than are asked for");
+    throw InputError("cannot resume from " + file + ": it has more samples per pixel than are asked for");
 }
 
 CheckpointFile::CheckpointFile(std::string file, double interval)

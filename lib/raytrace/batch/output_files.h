@@ -26,7 +26,7 @@ void refuse_useless_exposure(const std::vector<std::string>& files, const ImageF
 /// there says that they are not complete, whatever their formats can.
 bool may_be_skipped(const RenderJob& job);
 
-/// Whether all outputs are whole, and of this picture, as far as their formats can tell.
+/// Whether all outputs are whole, and of this picture, as far as their formats say.
 bool outputs_are_complete(const RenderJob& job, const SceneDescription& description);
 
 /// Writes the outputs of a job. One that fails is reported, and the others go on.

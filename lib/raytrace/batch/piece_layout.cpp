@@ -142,9 +142,9 @@ std::vector<std::string> overlaps(const std::vector<PieceExtent>& pieces) {
     top = std::min(top, piece.region.y0);
     bottom = std::max(bottom, piece.region.y1);
   }
-  std::set<std::pair<const PieceExtent*, const PieceExtent*>> told;
+  std::set<std::pair<const PieceExtent*, const PieceExtent*>> reported;
   for_each_strip(pieces, top, bottom, [&](int, int, std::vector<const PieceExtent*> present) {
-    // Along a strip, or along the samples: whichever way tells more pieces apart.
+    // Along a strip, or along the samples: whichever way separates more pieces.
     std::sort(present.begin(), present.end(), [](const auto* a, const auto* b) {
       return std::tie(a->first_sample, a->region.x0) < std::tie(b->first_sample, b->region.x0);
     });
@@ -157,7 +157,7 @@ std::vector<std::string> overlaps(const std::vector<PieceExtent>& pieces) {
                                [](std::uint64_t sample, const auto* piece) { return sample < piece->first_sample; });
           continue;
         }
-        if (overlap(*present[i], **k) && told.insert(std::minmax(present[i], *k)).second)
+        if (overlap(*present[i], **k) && reported.insert(std::minmax(present[i], *k)).second)
           problems.push_back((*k)->file + " holds what " + present[i]->file + " holds, too");
         ++k;
       }
@@ -171,15 +171,15 @@ std::vector<std::string> missing_parts(const std::vector<PieceExtent>& pieces, c
   for_each_gap(pieces, picture, [&](const PieceExtent&) { return complete = false; });
   if (complete) return problems;
   const Cuts cuts(pieces, picture.region);
-  std::vector<PieceExtent> all = cuts.edges(), told;
+  std::vector<PieceExtent> all = cuts.edges(), reported;
   all.insert(all.end(), pieces.begin(), pieces.end());
   for_each_gap(all, picture, [&](const PieceExtent& gap) {
-    const bool is_told = std::any_of(told.begin(), told.end(), [&](const PieceExtent& part) {
+    const bool is_reported = std::any_of(reported.begin(), reported.end(), [&](const PieceExtent& part) {
       return contains(part.region, gap.region) && part.first_sample == gap.first_sample;
     });
-    if (is_told) return true;
+    if (is_reported) return true;
     if (const auto part = cuts.tile_around(gap)) {
-      told.push_back(*part);
+      reported.push_back(*part);
       problems.push_back(problem_of(*part, picture));
     } else {
       problems.push_back("no piece holds " + samples_text(gap.first_sample, gap.last_sample) + " of the pixels " +

@@ -1,4 +1,4 @@
-// Whether pieces of a picture coverage it exactly.
+// Whether pieces of a picture cover it exactly.
 #pragma once
 
 #include <cstdint>
@@ -19,10 +19,10 @@ struct PieceExtent {
   std::optional<Tile> tile = std::nullopt;          ///< of the picture, that the region is
 };
 
-/// What pieces are to coverage.
+/// What pieces are to cover.
 struct WantedPicture {
   Region region;
-  std::uint64_t samples = 1;  ///< a pixel
+  std::uint64_t samples = 1;  ///< per pixel
   bool centered = false;      ///< SampleRange::centered
   std::string crop{};         ///< as --crop has it; empty: the whole picture
 };

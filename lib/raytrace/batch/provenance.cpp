@@ -276,7 +276,8 @@ std::optional<std::string> difference(const PieceIdentity& wanted, const PieceId
     return other("Embree's version", printable(b.embree_version), printable(a.embree_version));
   if (a.isa != b.isa) return other("the instruction set", printable(b.isa), printable(a.isa)) + ": pin one with --isa";
   if (c.samples.centered != d.samples.centered)
-    return "the place of the samples: one has a single sample in each pixel's center; render it with --sample-offset 0";
+    return "the position of the samples: one has a single sample in each pixel's center; render it with "
+           "--sample-offset 0";
   if (c.transparent != d.transparent) {
     const auto text = [](const FilmSettings& film) { return film.transparent ? "transparent" : "opaque"; };
     return other("the background", text(d), text(c)) + ": use --transparent for all of them, or none";
@@ -288,7 +289,7 @@ std::optional<std::string> difference(const PieceIdentity& wanted, const PieceId
     return other("the AOVs", text(d.aovs), text(c.aovs));
   }
   if (c.unit_exponent != d.unit_exponent || c.aovs != d.aovs)
-    return "the precision of the sums: too many samples a pixel";
+    return "the precision of the sums: too many samples per pixel";
   return std::nullopt;
 }
 

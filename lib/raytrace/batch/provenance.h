@@ -50,7 +50,7 @@ std::vector<ImageAttribute> identity_attributes(const PieceIdentity& identity);
 /// have so far.
 std::vector<ImageAttribute> partial_attributes(PieceIdentity identity, const Film& film);
 
-/// Of it, what tells one picture from another, as text: neither the program's version nor the machine, and nothing that
+/// Of it, what differs between pictures, as text: neither the program's version nor the machine, and nothing that
 /// is known only when the scene is built. "" for what the picture's file does not have. any_samples: but for their
 /// number.
 std::map<std::string, std::string> picture_attributes(const PieceIdentity& identity, bool any_samples);

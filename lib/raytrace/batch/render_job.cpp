@@ -37,7 +37,7 @@ ViewPlane requested_view_plane(const ViewPlane& viewplane, const RenderJob& job)
     requested = with_resolution(viewplane, static_cast<int>(width), static_cast<int>(height));
   requested.samples = job.samples.value_or(viewplane.samples);
   if (std::int64_t{job.sample_offset.value_or(0)} + requested.samples > std::numeric_limits<int>::max())
-    throw SettingsError("--sample-offset: a picture has at most 2147483647 samples a pixel");
+    throw SettingsError("--sample-offset: a picture has at most 2147483647 samples per pixel");
   return requested;
 }
 

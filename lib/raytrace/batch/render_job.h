@@ -34,7 +34,7 @@ struct RenderJob {
   double scale = 1;                            ///< of the resolution
   std::optional<Region> crop;                  ///< none: the whole picture
   std::optional<Tile> tile;                    ///< none: all of the picture, or of the crop
-  std::optional<int> samples;                  ///< a pixel; none: the scene's
+  std::optional<int> samples;                  ///< per pixel; none: the scene's
   std::optional<std::uint32_t> sample_offset;  ///< none: all samples of the picture, not a part of them
   std::uint64_t seed = 0;
   AovSet aovs;

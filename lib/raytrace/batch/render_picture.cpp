@@ -209,7 +209,7 @@ RenderOutcome PictureRender::render_at_once() {
   finish_render();
   result_.statistics.samples = static_cast<int>(done);
   if (done < all)
-    report(MessageLevel::warning, "the time limit was reached after " + counted(done, "sample") + " a pixel");
+    report(MessageLevel::warning, "the time limit was reached after " + counted(done, "sample") + " per pixel");
   if (!write_picture(film, job_.outputs, done, false)) return RenderOutcome::failed;
   checkpoint_.remove(observer_);
   return RenderOutcome::written;
@@ -281,8 +281,8 @@ void PictureRender::service_requests(const Film& film) {
 /// Whether something is to be done that wants the render to pause.
 bool PictureRender::is_due() const { return checkpoint_.is_due() || (display_ && display_->is_due()); }
 
-/// The samples a pixel after the next pass: early passes are short, so that there is a whole picture soon. With a time
-/// limit, no pass is begun that would not end in time.
+/// The samples per pixel after the next pass: early passes are short, so that there is a whole picture soon. With a
+/// time limit, no pass is begun that would not end in time.
 std::uint32_t PictureRender::next_target(std::uint32_t done, double seconds_a_sample) const {
   const std::uint32_t all = identity_.film.samples.count;
   if (!job_.time_limit && job_.checkpoint.empty() && !display_) return all;

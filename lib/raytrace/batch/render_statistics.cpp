@@ -66,7 +66,7 @@ std::uint64_t peak_memory_bytes() {
 
 std::string statistics_text(const RenderStatistics& s) {
   const std::string picture = std::to_string(s.width) + " x " + std::to_string(s.height) + ", " +
-                              counted(static_cast<std::uint64_t>(s.samples), "sample") + " a pixel";
+                              counted(static_cast<std::uint64_t>(s.samples), "sample") + " per pixel";
   const std::string crop = s.region == Region{0, 0, s.width, s.height} ? "" : ", crop " + text_of(s.region);
   const auto peak = [](const char* phase, const Phase& its) {
     const std::string amount = amount_text(its.peak_memory_bytes, "B");
@@ -82,7 +82,7 @@ std::string statistics_text(const RenderStatistics& s) {
          aligned_line("total", seconds_text(s.phases.seconds())) +
          aligned_line("camera rays", amount_text(s.rays.camera, "")) +
          aligned_line("shadow rays", amount_text(s.rays.shadow, "")) +
-         aligned_line("rays a second", amount_text(s.rays_per_second(), "")) +
+         aligned_line("rays per second", amount_text(s.rays_per_second(), "")) +
          aligned_line("primitives", amount_text(s.scene.primitives, "")) +
          aligned_line("BVH", amount_text(s.scene.bvh_bytes, "B")) +
          aligned_line("peak memory", amount_text(s.peak_memory_bytes, "B") + by_phase) +

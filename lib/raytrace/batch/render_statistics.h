@@ -31,7 +31,7 @@ struct RenderStatistics {
   std::vector<std::string> outputs;
   int width = 0, height = 0;  ///< of the whole picture
   Region region;              ///< rendered
-  int samples = 0;            ///< a pixel
+  int samples = 0;            ///< per pixel
   std::uint64_t seed = 0;
   int threads = 0;
   Phases phases;
