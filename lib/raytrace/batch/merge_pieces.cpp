@@ -113,7 +113,7 @@ class Merger {
       samples_ = std::max(samples_, extents.back().last_sample);
       report_.missing_parts = report_.missing_parts || piece.identity.partial;
     }
-    WantedPicture wanted{first.whole, samples_, first.film.samples.centered, {}};
+    WantedExtent wanted{first.whole, samples_, first.film.samples.centered, {}};
     const PictureExtent& extent = first.film.extent;
     if (first.whole != Region{0, 0, extent.full_width, extent.full_height}) wanted.crop = text_of(first.whole);
     const auto no_sums = [](const Piece& piece) { return piece.sums.empty(); };
@@ -199,7 +199,7 @@ class Merger {
     }
     refuse_problems();
     for (std::size_t i = 0; i < files.size(); ++i) {
-      report_.repairs += files[i]->commit();
+      files[i]->commit();
       report_.outputs.push_back(settings_.outputs[i]);
     }
   }

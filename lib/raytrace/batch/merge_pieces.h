@@ -27,7 +27,6 @@ struct MergeReport {
   bool missing_parts = false;  ///< only with MergeSettings::partial
   bool stopped = false;        ///< nothing was written
   std::vector<std::string> outputs;
-  Repairs repairs;  ///< of all outputs
 };
 
 /// Pieces that do not fit together; what() holds all the problems, a line each, each naming its file.

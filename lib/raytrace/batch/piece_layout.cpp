@@ -45,7 +45,7 @@ void for_each_strip(const std::vector<PieceExtent>& pieces, int top, int bottom,
 
 /// Calls visit(gap) for boxes of pixels and samples that no piece holds, until it returns false.
 template <class Visit>
-void for_each_gap(const std::vector<PieceExtent>& pieces, const WantedPicture& picture, const Visit& visit) {
+void for_each_gap(const std::vector<PieceExtent>& pieces, const WantedExtent& picture, const Visit& visit) {
   const Region& whole = picture.region;
   bool more = true;
   for_each_strip(pieces, whole.y0, whole.y1, [&](int top, int bottom, const std::vector<const PieceExtent*>& present) {
@@ -107,7 +107,7 @@ class Cuts {
 };
 
 /// "tile 2/4 is missing: render it with --tile 2/4 -s 16"
-std::string problem_of(const PieceExtent& part, const WantedPicture& picture) {
+std::string problem_of(const PieceExtent& part, const WantedExtent& picture) {
   const Tile& tile = *part.tile;
   const bool all_samples = part.first_sample == 0 && part.last_sample == picture.samples;
   const std::string name = "tile " + std::to_string(tile.index) + "/" + std::to_string(tile.count);
@@ -165,7 +165,7 @@ std::vector<std::string> overlaps(const std::vector<PieceExtent>& pieces) {
   return problems;
 }
 
-std::vector<std::string> missing_parts(const std::vector<PieceExtent>& pieces, const WantedPicture& picture) {
+std::vector<std::string> missing_parts(const std::vector<PieceExtent>& pieces, const WantedExtent& picture) {
   std::vector<std::string> problems;
   bool complete = true;
   for_each_gap(pieces, picture, [&](const PieceExtent&) { return complete = false; });

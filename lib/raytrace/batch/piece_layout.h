@@ -20,7 +20,7 @@ struct PieceExtent {
 };
 
 /// What pieces are to cover.
-struct WantedPicture {
+struct WantedExtent {
   Region region;
   std::uint64_t samples = 1;  ///< per pixel
   bool centered = false;      ///< SampleRange::centered
@@ -35,6 +35,6 @@ std::vector<std::string> overlaps(const std::vector<PieceExtent>& pieces);
 
 /// What no piece holds, a line each: with the options that render it, where it is a tile, or samples, such as the
 /// pieces are; else by its pixels. Empty if each pixel has each sample.
-std::vector<std::string> missing_parts(const std::vector<PieceExtent>& pieces, const WantedPicture& picture);
+std::vector<std::string> missing_parts(const std::vector<PieceExtent>& pieces, const WantedExtent& picture);
 
 }  // namespace raytrace
