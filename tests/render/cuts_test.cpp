@@ -182,7 +182,7 @@ class CutRender {
     Film film = empty_film(region, samples);
     render(*scene_, film, samples.count, chance_.number(1, 4));
     PieceIdentity identity;
-    identity.provenance = provenance_of("raytrace test", *scene_, description_);
+    identity.provenance = provenance_of(*scene_, description_);
     identity.film = film.settings();
     identity.whole = whole;
     identity.tile = tile;

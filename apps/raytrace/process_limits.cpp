@@ -1,15 +1,20 @@
-#include "memory_limit.h"
+#include "process_limits.h"
 
+#include <pthread.h>
 #include <sys/resource.h>
+#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <mutex>
 #include <optional>
 #include <sstream>
 
-#include "process_status.h"
+#include "messages.h"
+#include "raytrace/batch/message_text.h"
+#include "raytrace/memory/process_status.h"
 
 #if defined(__GLIBC__)
 #include <malloc.h>
@@ -18,6 +23,12 @@
 namespace raytrace {
 
 namespace {
+
+/// Until whoever holds it lets it go.
+void* wait_at(void* gate) {
+  const std::lock_guard passing(*static_cast<std::mutex*>(gate));
+  return nullptr;
+}
 
 /// A file's text; empty if there is none.
 std::string text_of(const std::string& file) {
@@ -124,6 +135,35 @@ std::uint64_t obeyed_limit = 0;
 
 }  // namespace
 
+int threads_with_room(int wanted) {
+  if (wanted == 1) return 1;  // there already
+  // Of one that traces rays, and of those of OpenEXR and OpenImageIO.
+  constexpr std::size_t library_stacks = std::size_t{2} << 20U;
+  const std::size_t stack = tbb::global_control::active_value(tbb::global_control::thread_stack_size) + library_stacks;
+  pthread_attr_t attributes;
+  pthread_attr_init(&attributes);
+  pthread_attr_setstacksize(&attributes, stack);
+  std::vector<pthread_t> threads;
+  {
+    std::mutex gate;
+    std::unique_lock closed(gate);
+    pthread_t thread{};
+    while (static_cast<int>(threads.size()) < wanted && pthread_create(&thread, &attributes, wait_at, &gate) == 0)
+      threads.push_back(thread);
+    closed.unlock();
+    for (const pthread_t started : threads) pthread_join(started, nullptr);
+  }
+  pthread_attr_destroy(&attributes);
+  const int started = static_cast<int>(threads.size());
+  return started == wanted ? wanted : std::max(1, started / 2);
+}
+
+void log_missing_threads(int wanted, int used) {
+  if (used == wanted) return;
+  log_warning("there is no room for " + std::to_string(wanted) +
+              " threads: " + counted(static_cast<std::uint64_t>(used), "thread") + " used");
+}
+
 std::vector<std::string> memory_group_folders(const std::string& cgroups, const std::string& mountinfo) {
   const std::optional<GroupPath> group = group_path(cgroups);
   if (!group) return {};
@@ -149,8 +189,7 @@ void obey_group_memory_limit(int threads, std::uint64_t untouched_to_come) {
   const std::uint64_t others = *allowed / 16;
   data.rlim_cur =
       std::min<rlim_t>(asked, *allowed - others + untouched_memory() + stacks_to_come(threads) + untouched_to_come);
-  if (setrlimit(RLIMIT_DATA, &data) != 0) return;
-  obeyed_limit = *allowed;
+  if (setrlimit(RLIMIT_DATA, &data) == 0) obeyed_limit = *allowed;
 }
 
 std::string memory_limit_text() {

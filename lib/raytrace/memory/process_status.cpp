@@ -1,4 +1,4 @@
-#include "process_status.h"
+#include "raytrace/memory/process_status.h"
 
 #include <fstream>
 

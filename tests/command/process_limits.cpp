@@ -1,5 +1,5 @@
 // Where the limits of a process' control groups stand.
-#include "memory_limit.h"
+#include "process_limits.h"
 
 #include "support/catch.h"
 

@@ -1,4 +1,4 @@
-// What Linux tells a process about itself.
+// What Linux says about this process.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace raytrace {
 /// kB". 0 where there is none. https://docs.kernel.org/filesystems/proc.html
 std::uint64_t process_status(const std::string& field);
 
-/// The same for memory, which is told in KiB, in bytes.
+/// The same for memory, which is in KiB there, in bytes.
 inline std::uint64_t process_status_bytes(const std::string& field) { return process_status(field) << 10U; }
 
 }  // namespace raytrace

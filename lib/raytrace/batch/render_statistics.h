@@ -1,4 +1,4 @@
-// What a run took and how much it did: for people as text, for programs as JSON, whose keys stand in
+// What a render took and how much it did: for people as text, for programs as JSON, whose keys stand in
 // share/statistics.schema.json and docs/command-line.md; it says when its schema_version must grow.
 #pragma once
 
@@ -25,13 +25,13 @@ struct Phases {
   double seconds() const { return load.seconds + build.seconds + render.seconds + write.seconds; }
 };
 
-struct Statistics {
+struct RenderStatistics {
   std::string software;
   std::string scene_file;
   std::vector<std::string> outputs;
   int width = 0, height = 0;  ///< of the whole picture
   Region region;              ///< rendered
-  int samples = 0;            ///< a pixel
+  int samples = 0;            ///< per pixel
   std::uint64_t seed = 0;
   int threads = 0;
   Phases phases;
@@ -47,9 +47,9 @@ struct Statistics {
 std::uint64_t peak_memory_bytes();
 
 /// Aligned lines, each with its end.
-std::string text(const Statistics& statistics);
+std::string statistics_text(const RenderStatistics& statistics);
 
-std::string json(const Statistics& statistics);
+std::string statistics_json(const RenderStatistics& statistics);
 
 /// Adds the time from its making to its end, or to stop(), to a phase, and notes the memory then.
 class PhaseTimer {

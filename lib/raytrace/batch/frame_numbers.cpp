@@ -1,4 +1,4 @@
-#include "frame_numbers.h"
+#include "raytrace/batch/frame_numbers.h"
 
 #include <algorithm>
 #include <charconv>
@@ -6,26 +6,26 @@
 #include <cstdint>
 #include <string_view>
 
-#include "option_values.h"
+#include "raytrace/batch/settings_error.h"
 #include "raytrace/text/quoted.h"
 
 namespace raytrace {
 
 namespace {
 
-constexpr std::size_t most_frames = 100000;
+constexpr std::size_t most_frame_numbers = 100000;
 
-struct Part {
+struct FramePart {
   std::int64_t first, last, step;  ///< first <= last, step > 0, or all frames in between are left out
   std::string text;
 };
 
-class Parser {
+class FrameParser {
  public:
-  explicit Parser(const std::string& text) : whole_(text), rest_(text) {}
+  explicit FrameParser(const std::string& text) : whole_(text), rest_(text) {}
 
-  std::vector<Part> parts() {
-    std::vector<Part> parts;
+  std::vector<FramePart> parts() {
+    std::vector<FramePart> parts;
     do parts.push_back(part());
     while (take(','));
     if (!rest_.empty()) refuse();
@@ -34,8 +34,8 @@ class Parser {
 
  private:
   [[noreturn]] void refuse() const {
-    throw UsageError(in_quotes(whole_) +
-                     " is no list of frames; use numbers, ranges and ranges with a step, e.g. 1-10:2,15");
+    throw SettingsError(in_quotes(whole_) +
+                        " is no list of frames; use numbers, ranges and ranges with a step, e.g. 1-10:2,15");
   }
 
   void skip_space() { rest_.remove_prefix(std::min(rest_.find_first_not_of(" \t"), rest_.size())); }
@@ -54,12 +54,12 @@ class Parser {
     if (rest_.empty() || rest_.front() < '0' || rest_.front() > '9') refuse();
     int value = 0;
     const auto [stop, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
-    if (error != std::errc()) throw UsageError(in_quotes(whole_) + " has a number beyond 2147483647");
+    if (error != std::errc()) throw SettingsError(in_quotes(whole_) + " has a number beyond 2147483647");
     rest_.remove_prefix(static_cast<std::size_t>(stop - rest_.data()));
     return negative ? -value : value;
   }
 
-  Part part() {
+  FramePart part() {
     skip_space();
     const char* const start = rest_.data();
     const std::int64_t first = number();
@@ -69,14 +69,14 @@ class Parser {
     skip_space();
     std::string text(start, static_cast<std::size_t>(rest_.data() - start));
     text.erase(text.find_last_not_of(" \t") + 1);
-    if (step == 0) throw UsageError(in_quotes(text) + " has the step 0; leave it out for all frames");
+    if (step == 0) throw SettingsError(in_quotes(text) + " has the step 0; leave it out for all frames");
     if (step > 0 && first > last) {
-      throw UsageError(in_quotes(text) + " goes down; write " + std::to_string(last) + "-" + std::to_string(first) +
-                       (step == 1 ? "" : ":" + std::to_string(step)));
+      throw SettingsError(in_quotes(text) + " goes down; write " + std::to_string(last) + "-" + std::to_string(first) +
+                          (step == 1 ? "" : ":" + std::to_string(step)));
     }
     if (step < 0 && first < last) {
-      throw UsageError(in_quotes(text) + " goes up, its step down; write " + std::to_string(first) + "-" +
-                       std::to_string(last) + ":" + std::to_string(-step));
+      throw SettingsError(in_quotes(text) + " goes up, its step down; write " + std::to_string(first) + "-" +
+                          std::to_string(last) + ":" + std::to_string(-step));
     }
     if (step > 0) return {first, last, step, text};
     return {first - (first - last) / -step * -step, first, -step, text};
@@ -89,19 +89,19 @@ class Parser {
 }  // namespace
 
 std::vector<int> frame_numbers(const std::string& text) {
-  std::vector<Part> parts = Parser(text).parts();
-  std::sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.first < b.first; });
+  std::vector<FramePart> parts = FrameParser(text).parts();
+  std::sort(parts.begin(), parts.end(), [](const FramePart& a, const FramePart& b) { return a.first < b.first; });
   std::vector<int> frames;
-  const Part* before = nullptr;
-  for (const Part& part : parts) {
+  const FramePart* before = nullptr;
+  for (const FramePart& part : parts) {
     if (before && part.first <= before->last) {
-      throw UsageError(in_quotes(before->text) + " and " + in_quotes(part.text) +
-                       " overlap; each frame is rendered once");
+      throw SettingsError(in_quotes(before->text) + " and " + in_quotes(part.text) +
+                          " overlap; each frame is rendered once");
     }
     before = &part;
-    if (static_cast<std::size_t>((part.last - part.first) / part.step) + 1 > most_frames - frames.size()) {
-      throw UsageError(in_quotes(text) + " is more than " + std::to_string(most_frames) +
-                       " frames; split them into several runs");
+    if (static_cast<std::size_t>((part.last - part.first) / part.step) + 1 > most_frame_numbers - frames.size()) {
+      throw SettingsError(in_quotes(text) + " is more than " + std::to_string(most_frame_numbers) +
+                          " frames; split them into several runs");
     }
     for (std::int64_t frame = part.first; frame <= part.last; frame += part.step)
       frames.push_back(static_cast<int>(frame));

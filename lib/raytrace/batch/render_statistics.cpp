@@ -1,4 +1,4 @@
-#include "statistics.h"
+#include "raytrace/batch/render_statistics.h"
 
 #include <sys/resource.h>
 
@@ -6,14 +6,15 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "process_status.h"
+#include "raytrace/batch/message_text.h"
+#include "raytrace/memory/process_status.h"
 #include "raytrace/text/quoted.h"
 
 namespace raytrace {
 
 namespace {
 
-std::string line(const char* name, const std::string& value) {
+std::string aligned_line(const char* name, const std::string& value) {
   char start[32];
   std::snprintf(start, sizeof start, "%-16s", name);
   return start + value + "\n";
@@ -47,7 +48,7 @@ std::string amount_text(std::uint64_t amount, const char* unit) {
 
 }  // namespace
 
-double Statistics::rays_per_second() const {
+double RenderStatistics::rays_per_second() const {
   return phases.render.seconds > 0 ? static_cast<double>(total_rays()) / phases.render.seconds : 0;
 }
 
@@ -63,34 +64,34 @@ std::uint64_t peak_memory_bytes() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * unit;
 }
 
-std::string text(const Statistics& s) {
+std::string statistics_text(const RenderStatistics& s) {
   const std::string picture = std::to_string(s.width) + " x " + std::to_string(s.height) + ", " +
-                              std::to_string(s.samples) + (s.samples == 1 ? " sample" : " samples") + " a pixel";
-  const Region whole{0, 0, s.width, s.height};
-  const Region& r = s.region;
-  const std::string crop = r == whole ? ""
-                                      : ", crop " + std::to_string(r.x0) + "," + std::to_string(r.y0) + "," +
-                                            std::to_string(r.x1) + "," + std::to_string(r.y1);
+                              counted(static_cast<std::uint64_t>(s.samples), "sample") + " per pixel";
+  const std::string crop = s.region == Region{0, 0, s.width, s.height} ? "" : ", crop " + text_of(s.region);
   const auto peak = [](const char* phase, const Phase& its) {
     const std::string amount = amount_text(its.peak_memory_bytes, "B");
     return std::string(phase) + " " + amount.substr(amount.find_first_not_of(' '));
   };
   const std::string by_phase = " (" + peak("load", s.phases.load) + ", " + peak("build", s.phases.build) + ", " +
                                peak("render", s.phases.render) + ", " + peak("write", s.phases.write) + ")";
-  return line("scene", on_one_line(s.scene_file)) + line("picture", picture + crop) +
-         line("load", seconds_text(s.phases.load.seconds)) + line("build", seconds_text(s.phases.build.seconds)) +
-         line("render", seconds_text(s.phases.render.seconds)) + line("write", seconds_text(s.phases.write.seconds)) +
-         line("total", seconds_text(s.phases.seconds())) + line("camera rays", amount_text(s.rays.camera, "")) +
-         line("shadow rays", amount_text(s.rays.shadow, "")) +
-         line("rays a second", amount_text(s.rays_per_second(), "")) +
-         line("primitives", amount_text(s.scene.primitives, "")) + line("BVH", amount_text(s.scene.bvh_bytes, "B")) +
-         line("peak memory", amount_text(s.peak_memory_bytes, "B") + by_phase) +
-         line("threads", std::to_string(s.threads)) +
-         line("instructions", s.scene.isa + ", " + std::to_string(s.scene.lanes) + " lanes") +
-         line("Embree", s.scene.embree_version);
+  return aligned_line("scene", on_one_line(s.scene_file)) + aligned_line("picture", picture + crop) +
+         aligned_line("load", seconds_text(s.phases.load.seconds)) +
+         aligned_line("build", seconds_text(s.phases.build.seconds)) +
+         aligned_line("render", seconds_text(s.phases.render.seconds)) +
+         aligned_line("write", seconds_text(s.phases.write.seconds)) +
+         aligned_line("total", seconds_text(s.phases.seconds())) +
+         aligned_line("camera rays", amount_text(s.rays.camera, "")) +
+         aligned_line("shadow rays", amount_text(s.rays.shadow, "")) +
+         aligned_line("rays per second", amount_text(s.rays_per_second(), "")) +
+         aligned_line("primitives", amount_text(s.scene.primitives, "")) +
+         aligned_line("BVH", amount_text(s.scene.bvh_bytes, "B")) +
+         aligned_line("peak memory", amount_text(s.peak_memory_bytes, "B") + by_phase) +
+         aligned_line("threads", std::to_string(s.threads)) +
+         aligned_line("instructions", s.scene.isa + ", " + std::to_string(s.scene.lanes) + " lanes") +
+         aligned_line("Embree", s.scene.embree_version);
 }
 
-std::string json(const Statistics& s) {
+std::string statistics_json(const RenderStatistics& s) {
   const nlohmann::ordered_json report = {
       {"schema_version", 1},
       {"software", s.software},

@@ -1,4 +1,4 @@
-// What stands in a file's name for what differs from one render of a run to the next.
+// What stands in a file's name for what differs from one picture of a batch to the next.
 //
 //   ####, %04d   the frame's number with at least so many digits; any number of #, %d for no zeros
 //   {#}, %%      a # and a % as such
@@ -17,7 +17,7 @@ struct NameValues {
   std::string scene;         ///< the scene's file
 };
 
-/// The name with the values put in. Throws UsageError for {tile} without a tile, and for {scene} without a name.
+/// The name with the values put in. Throws SettingsError for {tile} without a tile, and for {scene} without a name.
 std::string file_name(const std::string& name, const NameValues& values);
 
 /// The same for the name of a scene, which has frames only.
@@ -27,10 +27,11 @@ std::string scene_file_name(const std::string& name, std::optional<int> frame);
 /// for itself. "C#/a.#.exr" is "C{#}/a.#.exr" where there is a folder C#, and "out/####/a.exr" stays what it is.
 std::string with_folders_kept(const std::string& name);
 
-/// Whether the name has a place for the frame's number.
+/// Whether something in the name stands for the frame's number.
 bool has_frame_token(const std::string& name);
 
-/// The name with places for the frame and for the scene before its extension, where it has none and they are asked for.
+/// The name with what stands for the frame and for the scene before its extension, where it lacks that and it is asked
+/// for.
 std::string with_tokens(const std::string& name, bool frame, bool scene);
 
 }  // namespace raytrace

@@ -21,8 +21,14 @@ class UsedFiles {
   /// use or the other writes. Changes nothing on the disk.
   const UsedFile* add(const UsedFile& file);
 
+  /// The same, but throws SettingsError if there is a clash.
+  void add_or_refuse(const UsedFile& file);
+
  private:
   std::unordered_map<FileIdentity, UsedFile> files_;
 };
+
+/// Throws the SettingsError of a clash, which names both files.
+[[noreturn]] void refuse_clash(const UsedFile& file, const UsedFile& other);
 
 }  // namespace raytrace
