@@ -7,6 +7,7 @@
 #include <ImfFloatAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
+#include <ImfIO.h>
 #include <ImfIntAttribute.h>
 #include <ImfMatrixAttribute.h>
 #include <ImfOutputFile.h>
@@ -20,16 +21,41 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <system_error>
 
 #include "raytrace/memory/out_of_memory.h"
-#include "raytrace/output/exr_destination.h"
+#include "raytrace/output/file_handle.h"
 #include "raytrace/output/picture_date.h"
 #include "raytrace/parallel/for_each_index.h"
 
 namespace raytrace {
 
 namespace {
+
+/// Throws OutputError where it fails, as OpenEXR wants it.
+class ExrDestination final : public Imf::OStream {
+ public:
+  explicit ExrDestination(std::FILE* file) : OStream("picture"), file_(file) {}
+
+  void write(const char data[], int size) override {
+    require(file_.write(data, static_cast<std::size_t>(size)));
+    position_ += static_cast<std::uint64_t>(size);
+  }
+  std::uint64_t tellp() override { return position_; }
+  void seekp(std::uint64_t position) override {
+    require(file_.seek(position));
+    position_ = position;
+  }
+  void finish() { require(file_.flush()); }
+  int error() const { return file_.error(); }
+
+ private:
+  static void require(bool done) {
+    if (!done) throw OutputError("the destination failed");
+  }
+
+  CheckedFile file_;
+  std::uint64_t position_ = 0;
+};
 
 Imath::M44f matrix_of(const float (&values)[16]) {
   Imath::M44f matrix;
@@ -137,8 +163,7 @@ struct ExrEncoder::OpenFile {
   std::vector<Imath::half> half_colors;
 };
 
-ExrEncoder::ExrEncoder(std::string file, const ImageFileSettings& settings)
-    : file_(std::move(file)), settings_(settings) {
+ExrEncoder::ExrEncoder(std::string file, const ImageFileSettings& settings) : ImageEncoder(std::move(file), settings) {
   if (settings_.threads <= 0) settings_.threads = tbb::this_task_arena::max_concurrency();
 }
 
@@ -235,7 +260,7 @@ void ExrEncoder::convert_values(const ImageBand& band, std::size_t first_plane) 
 
 Repairs ExrEncoder::finish() {
   guard([&] {
-    open_->exr.reset();  // writes the table of where rows begin, and tells of no failure
+    open_->exr.reset();  // writes the table of where rows begin, and reports no failure
     open_->destination.finish();
   });
   return repairs_;
@@ -248,8 +273,8 @@ void ExrEncoder::guard(const Action& action) const {
   } catch (const std::exception& exception) {
     const int error = open_->destination.error();
     if (error == 0) rethrow_out_of_memory(exception);
-    throw OutputError("cannot write " + file_ + ": " +
-                      (error != 0 ? std::generic_category().message(error) : std::string(exception.what())));
+    if (error != 0) fail(error);
+    fail(exception.what());
   }
 }
 

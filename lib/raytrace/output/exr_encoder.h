@@ -4,6 +4,7 @@
 #include <half.h>
 
 #include <cstddef>
+#include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,7 +15,6 @@ namespace raytrace {
 
 class ExrEncoder final : public ImageEncoder {
  public:
-  /// file: for messages.
   ExrEncoder(std::string file, const ImageFileSettings& settings);
   ~ExrEncoder() override;
 
@@ -36,9 +36,6 @@ class ExrEncoder final : public ImageEncoder {
   template <class Action>
   void guard(const Action& action) const;
 
-  std::string file_;
-  ImageFileSettings settings_;
-  Repairs repairs_;
   std::unique_ptr<OpenFile> open_;
 };
 

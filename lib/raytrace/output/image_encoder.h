@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 #include "raytrace/output/image_band.h"
@@ -15,16 +17,17 @@ namespace raytrace {
 /// and the encoder is of no more use then. The destination may be destroyed only after the encoder.
 class ImageEncoder {
  public:
-  ImageEncoder() = default;
+  /// file: for messages.
+  ImageEncoder(std::string file, const ImageFileSettings& settings) : file_(std::move(file)), settings_(settings) {}
   virtual ~ImageEncoder() = default;
   ImageEncoder(const ImageEncoder&) = delete;
   ImageEncoder& operator=(const ImageEncoder&) = delete;
 
   /// Whether it stores 32 bit floats.
-  virtual bool holds_float() const = 0;
+  virtual bool holds_float() const { return false; }
 
   /// Whether it stores other channels than color_channels(), and ImageMetadata::data_attributes.
-  virtual bool holds_data() const = 0;
+  virtual bool holds_data() const { return false; }
 
   /// Whether it stores alpha, where ImageFileSettings::transparent asks for it.
   virtual bool holds_alpha() const = 0;
@@ -45,6 +48,17 @@ class ImageEncoder {
 
   /// After the last row; empties the destination's buffer.
   virtual Repairs finish() = 0;
+
+ protected:
+  [[noreturn]] void fail(const std::string& reason) const {
+    throw OutputError("cannot write " + file_ + ": " + reason);
+  }
+  /// Of the destination.
+  [[noreturn]] void fail(int error_number) const { fail(std::generic_category().message(error_number)); }
+
+  std::string file_;
+  ImageFileSettings settings_;
+  Repairs repairs_;
 };
 
 /// ".exr", in lower case; empty if the name has none.

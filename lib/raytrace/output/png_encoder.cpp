@@ -4,14 +4,14 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <csetjmp>
 #include <cstdlib>
 #include <new>
-#include <system_error>
+#include <sstream>
 
+#include "raytrace/output/file_handle.h"
 #include "raytrace/output/picture_date.h"
-#include "raytrace/output/png_text.h"
+#include "raytrace/output/png_file.h"
 #include "raytrace/parallel/for_each_index.h"
 #include "raytrace/text/utf8.h"
 
@@ -38,8 +38,47 @@ void quantize(const std::vector<float>& values, int bit_depth, std::uint8_t* byt
   }
 }
 
+struct PngText {
+  std::string keyword, text;
+};
+
+std::string matrix_text(const float (&matrix)[16]) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(9);  // every float survives
+  for (int i = 0; i < 16; ++i) text << (i == 0 ? "" : " ") << matrix[i];
+  return text.str();
+}
+
+template <class Value>
+std::string attribute_text(const Value& value) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << value;
+  return text.str();
+}
+
+/// All as text, for PNG has no numbers.
+std::vector<PngText> png_texts(const ImageMetadata& metadata, const ImageFileSettings& settings) {
+  std::vector<PngText> all;
+  if (!metadata.software.empty()) all.push_back({"Software", metadata.software});
+  all.push_back({"worldToCamera", matrix_text(metadata.camera.world_to_camera)});
+  all.push_back({"worldToNDC", matrix_text(metadata.camera.world_to_ndc)});
+  all.push_back({"raytrace:scene", metadata.scene_file});
+  all.push_back({"raytrace:samples", std::to_string(metadata.samples)});
+  all.push_back({"raytrace:seed", std::to_string(metadata.seed)});
+  if (!picture_date().fixed) {
+    all.push_back({"raytrace:threads", std::to_string(metadata.threads)});
+    if (metadata.render_seconds) all.push_back({"raytrace:renderSeconds", attribute_text(*metadata.render_seconds)});
+  }
+  if (settings.exposure != 0) all.push_back({exposure_keyword, exposure_text(settings.exposure)});
+  for (const ImageAttribute& attribute : metadata.attributes)
+    all.push_back({attribute.name, std::visit([](const auto& value) { return attribute_text(value); }, attribute.value)});
+  return all;
+}
+
 /// tEXt holds Latin-1, of which ASCII is a part; iTXt holds UTF-8.
-int text_kind(const std::string& text) {
+int text_format(const std::string& text) {
   const bool ascii = std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
   return ascii || find_invalid_utf8(text, 1) != std::string_view::npos ? PNG_TEXT_COMPRESSION_NONE
                                                                        : PNG_ITXT_COMPRESSION_NONE;
@@ -65,10 +104,7 @@ struct PngEncoder::OpenFile {
 
   static void write_bytes(png_structp png, png_bytep data, std::size_t size) {
     auto* const file = static_cast<OpenFile*>(png_get_io_ptr(png));
-    errno = 0;
-    if (std::fwrite(data, 1, size, file->destination) == size) return;
-    file->error = errno != 0 ? errno : EIO;
-    png_error(png, "the destination failed");
+    if (!file->destination.write(data, size)) png_error(png, "the destination failed");
   }
   static void flush_nothing(png_structp) {}
 
@@ -86,16 +122,15 @@ struct PngEncoder::OpenFile {
   }
   static void release(png_structp, void* memory) { std::free(memory); }
 
-  std::FILE* destination;
+  CheckedFile destination;
   png_structp png;
   png_infop info;
-  int error = 0;  ///< of the destination
   bool out_of_memory = false;
   char message[128] = {};  ///< libpng's
 };
 
 PngEncoder::PngEncoder(std::string file, const ImageFileSettings& settings)
-    : file_(std::move(file)), settings_(settings), pixels_(display_format(settings)) {}
+    : ImageEncoder(std::move(file), settings), pixels_(display_format(settings)) {}
 
 PngEncoder::~PngEncoder() = default;
 
@@ -104,7 +139,7 @@ void PngEncoder::begin(const PictureExtent& extent, const std::vector<Channel>& 
   std::vector<PngText> texts = png_texts(metadata, settings_);
   std::vector<png_text_struct> chunks(texts.size());
   for (std::size_t i = 0; i < texts.size(); ++i) {
-    chunks[i].compression = text_kind(texts[i].text);
+    chunks[i].compression = text_format(texts[i].text);
     chunks[i].key = texts[i].keyword.data();
     chunks[i].text = texts[i].text.data();
     chunks[i].text_length = texts[i].text.size();
@@ -139,11 +174,11 @@ void PngEncoder::write(const ImageBand& band) {
   const auto rows = static_cast<std::size_t>(band.region.height());
   bytes_.resize(rows * row_bytes);
   std::vector<Repairs> repairs(rows);
-  for_each_index(band.region.height(), settings_.threads, [&](int row) {
-    const auto place = static_cast<std::size_t>(row);
+  for_each_index(band.region.height(), settings_.threads, [&](int index) {
+    const auto row = static_cast<std::size_t>(index);
     std::vector<float> values(row_values);
-    repairs[place] = stored_row(band, row, pixels_, values.data());
-    quantize(values, settings_.bit_depth, bytes_.data() + place * row_bytes);
+    repairs[row] = stored_row(band, index, pixels_, values.data());
+    quantize(values, settings_.bit_depth, bytes_.data() + row * row_bytes);
   });
   for (const Repairs& of_row : repairs) repairs_ += of_row;
   guard([&] {
@@ -153,8 +188,7 @@ void PngEncoder::write(const ImageBand& band) {
 
 Repairs PngEncoder::finish() {
   guard([&] { png_write_end(open_->png, nullptr); });
-  errno = 0;
-  if (std::fflush(open_->destination) != 0) fail(std::generic_category().message(errno != 0 ? errno : EIO));
+  if (!open_->destination.flush()) fail(open_->destination.error());
   return repairs_;
 }
 
@@ -164,11 +198,9 @@ void PngEncoder::guard(const Calls& calls) {
     calls();
     return;
   }
-  if (open_->error != 0) fail(std::generic_category().message(open_->error));
+  if (open_->destination.error() != 0) fail(open_->destination.error());
   if (open_->out_of_memory) throw std::bad_alloc();
   fail(open_->message);
 }
-
-void PngEncoder::fail(const std::string& reason) const { throw OutputError("cannot write " + file_ + ": " + reason); }
 
 }  // namespace raytrace

@@ -13,12 +13,9 @@ namespace raytrace {
 
 class PngEncoder final : public ImageEncoder {
  public:
-  /// file: for messages.
   PngEncoder(std::string file, const ImageFileSettings& settings);
   ~PngEncoder() override;
 
-  bool holds_float() const override { return false; }
-  bool holds_data() const override { return false; }
   bool holds_alpha() const override { return true; }
   bool is_for_display() const override { return true; }
   void begin(const PictureExtent& extent, const std::vector<Channel>& channels, const ImageMetadata& metadata,
@@ -32,12 +29,8 @@ class PngEncoder final : public ImageEncoder {
   /// OutputError with the true reason of a failure, or std::bad_alloc.
   template <class Calls>
   void guard(const Calls& calls);
-  [[noreturn]] void fail(const std::string& reason) const;
 
-  std::string file_;
-  ImageFileSettings settings_;
   PixelFormat pixels_;
-  Repairs repairs_;
   std::vector<std::uint8_t> bytes_;  ///< of a band; kept from band to band
   std::unique_ptr<OpenFile> open_;
 };

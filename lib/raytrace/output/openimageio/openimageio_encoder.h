@@ -15,12 +15,11 @@ namespace raytrace {
 
 class OpenImageIOEncoder final : public ImageEncoder {
  public:
-  /// file: for messages; extension: in lower case, with its dot. Throws OutputError.
+  /// extension: in lower case, with its dot. Throws OutputError.
   OpenImageIOEncoder(std::string file, const std::string& extension, const ImageFileSettings& settings);
   ~OpenImageIOEncoder() override;
 
   bool holds_float() const override { return type_ == OIIO::TypeFloat; }
-  bool holds_data() const override { return false; }
   bool holds_alpha() const override { return is_tiff(); }
   bool is_for_display() const override { return pixels_.srgb; }
   void check_size(int width, int height) const override;
@@ -30,7 +29,7 @@ class OpenImageIOEncoder final : public ImageEncoder {
   Repairs finish() override;
 
  private:
-  class CheckedFile;
+  class Proxy;
 
   bool is_tiff() const { return writer_->format_name() == std::string_view("tiff"); }
   void choose_pixels(const std::string& extension);
@@ -39,18 +38,15 @@ class OpenImageIOEncoder final : public ImageEncoder {
   template <class Action>
   void guard(const Action& action);
   void check(bool done) const;
-  [[noreturn]] void fail(const std::string& reason) const;
 
-  std::string file_, extension_;
-  ImageFileSettings settings_;
+  std::string extension_;
   PictureExtent extent_;
   std::FILE* destination_ = nullptr;
-  std::unique_ptr<CheckedFile> checked_;  ///< the destination, for writers that take such a thing
-  FileHandle memory_;                     ///< to be copied there, for the others
+  std::unique_ptr<Proxy> proxy_;  ///< the destination, for writers that take such a thing
+  FileHandle memory_;             ///< to be copied there, for the others
   std::unique_ptr<OIIO::ImageOutput> writer_;
   OIIO::TypeDesc type_;  ///< of a stored channel
   PixelFormat pixels_;
-  Repairs repairs_;
 };
 
 }  // namespace raytrace
