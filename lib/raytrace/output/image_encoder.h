@@ -5,7 +5,6 @@
 #include <memory>
 #include <string>
 #include <system_error>
-#include <utility>
 #include <vector>
 
 #include "raytrace/output/image_band.h"
@@ -18,7 +17,7 @@ namespace raytrace {
 class ImageEncoder {
  public:
   /// file: for messages.
-  ImageEncoder(std::string file, const ImageFileSettings& settings) : file_(std::move(file)), settings_(settings) {}
+  ImageEncoder(const std::string& file, const ImageFileSettings& settings) : file_(file), settings_(settings) {}
   virtual ~ImageEncoder() = default;
   ImageEncoder(const ImageEncoder&) = delete;
   ImageEncoder& operator=(const ImageEncoder&) = delete;
@@ -67,5 +66,9 @@ std::string lower_extension(const std::string& file);
 /// For the format that the extension of `file` names; the name itself is only for messages. Throws OutputError if there
 /// is none, or if it cannot hold what the settings ask for.
 std::unique_ptr<ImageEncoder> make_image_encoder(const std::string& file, const ImageFileSettings& settings);
+
+/// Whatever the name. (exr_encoder.cpp, png_encoder.cpp)
+std::unique_ptr<ImageEncoder> make_exr_encoder(const std::string& file, const ImageFileSettings& settings);
+std::unique_ptr<ImageEncoder> make_png_encoder(const std::string& file, const ImageFileSettings& settings);
 
 }  // namespace raytrace

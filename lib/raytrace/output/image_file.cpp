@@ -4,9 +4,8 @@
 #include <cctype>
 #include <filesystem>
 
-#include "raytrace/output/exr_encoder.h"
+#include "raytrace/output/image_encoder.h"
 #include "raytrace/output/openimageio_module.h"
-#include "raytrace/output/png_encoder.h"
 
 namespace raytrace {
 
@@ -37,10 +36,10 @@ std::unique_ptr<ImageEncoder> make_image_encoder(const std::string& file, const 
       throw OutputError("cannot write " + file + ": it is a folder; name a file in it, such as " +
                         (std::filesystem::path(file) / "picture.exr").string());
     throw OutputError("cannot write " + file +
-                      ": the name has no extension to tell the format; .exr and .png are usual");
+                      ": the name has no extension that says which format it is; .exr and .png are usual");
   }
-  if (extension == ".exr") return std::make_unique<ExrEncoder>(file, settings);
-  if (extension == ".png") return std::make_unique<PngEncoder>(file, settings);
+  if (extension == ".exr") return make_exr_encoder(file, settings);
+  if (extension == ".png") return make_png_encoder(file, settings);
   return make_openimageio_encoder(file, extension, settings);
 }
 

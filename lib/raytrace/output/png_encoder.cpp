@@ -1,16 +1,19 @@
-#include "raytrace/output/png_encoder.h"
-
+// PNG files: RGB or RGBA of 8 or 16 bits, compressed row by row as bands come.
 #include <png.h>
 #include <zlib.h>
 
 #include <algorithm>
 #include <csetjmp>
+#include <cstdint>
 #include <cstdlib>
+#include <memory>
 #include <new>
 #include <sstream>
 
 #include "raytrace/output/file_handle.h"
+#include "raytrace/output/image_encoder.h"
 #include "raytrace/output/picture_date.h"
+#include "raytrace/output/pixel_format.h"
 #include "raytrace/output/png_file.h"
 #include "raytrace/parallel/for_each_index.h"
 #include "raytrace/text/utf8.h"
@@ -73,7 +76,8 @@ std::vector<PngText> png_texts(const ImageMetadata& metadata, const ImageFileSet
   }
   if (settings.exposure != 0) all.push_back({exposure_keyword, exposure_text(settings.exposure)});
   for (const ImageAttribute& attribute : metadata.attributes)
-    all.push_back({attribute.name, std::visit([](const auto& value) { return attribute_text(value); }, attribute.value)});
+    all.push_back(
+        {attribute.name, std::visit([](const auto& value) { return attribute_text(value); }, attribute.value)});
   return all;
 }
 
@@ -84,10 +88,9 @@ int text_format(const std::string& text) {
                                                                        : PNG_ITXT_COMPRESSION_NONE;
 }
 
-}  // namespace
-
-struct PngEncoder::OpenFile {
-  explicit OpenFile(std::FILE* file)
+/// What libpng writes, and its callbacks.
+struct OpenPng {
+  explicit OpenPng(std::FILE* file)
       : destination(file),
         png(png_create_write_struct_2(PNG_LIBPNG_VER_STRING, this, note_error, ignore_warning, this, allocate,
                                       release)),
@@ -98,18 +101,18 @@ struct PngEncoder::OpenFile {
     }
     png_set_write_fn(png, this, write_bytes, flush_nothing);
   }
-  ~OpenFile() { png_destroy_write_struct(&png, &info); }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
+  ~OpenPng() { png_destroy_write_struct(&png, &info); }
+  OpenPng(const OpenPng&) = delete;
+  OpenPng& operator=(const OpenPng&) = delete;
 
   static void write_bytes(png_structp png, png_bytep data, std::size_t size) {
-    auto* const file = static_cast<OpenFile*>(png_get_io_ptr(png));
+    auto* const file = static_cast<OpenPng*>(png_get_io_ptr(png));
     if (!file->destination.write(data, size)) png_error(png, "the destination failed");
   }
   static void flush_nothing(png_structp) {}
 
   static void note_error(png_structp png, const char* message) {
-    auto* const file = static_cast<OpenFile*>(png_get_error_ptr(png));
+    auto* const file = static_cast<OpenPng*>(png_get_error_ptr(png));
     std::snprintf(file->message, sizeof file->message, "%s", message);
     png_longjmp(png, 1);
   }
@@ -117,7 +120,7 @@ struct PngEncoder::OpenFile {
 
   static void* allocate(png_structp png, png_alloc_size_t size) {
     void* const memory = std::malloc(size);
-    if (memory == nullptr) static_cast<OpenFile*>(png_get_mem_ptr(png))->out_of_memory = true;
+    if (memory == nullptr) static_cast<OpenPng*>(png_get_mem_ptr(png))->out_of_memory = true;
     return memory;
   }
   static void release(png_structp, void* memory) { std::free(memory); }
@@ -129,10 +132,30 @@ struct PngEncoder::OpenFile {
   char message[128] = {};  ///< libpng's
 };
 
-PngEncoder::PngEncoder(std::string file, const ImageFileSettings& settings)
-    : ImageEncoder(std::move(file), settings), pixels_(display_format(settings)) {}
+class PngEncoder final : public ImageEncoder {
+ public:
+  PngEncoder(const std::string& file, const ImageFileSettings& settings)
+      : ImageEncoder(file, settings), pixels_(display_format(settings)) {}
 
-PngEncoder::~PngEncoder() = default;
+  bool holds_alpha() const override { return true; }
+  bool is_for_display() const override { return true; }
+  void begin(const PictureExtent& extent, const std::vector<Channel>& channels, const ImageMetadata& metadata,
+             std::FILE* destination) override;
+  void write(const ImageBand& band) override;
+  Repairs finish() override;
+
+ private:
+  /// Runs calls of libpng, whose errors are jumps: `calls` must make no object that has a destructor. Throws an
+  /// OutputError with the true reason of a failure, or std::bad_alloc.
+  template <class Calls>
+  void guard(const Calls& calls);
+
+  PixelFormat pixels_;
+  std::vector<std::uint8_t> bytes_;  ///< of a band; kept from band to band
+  std::unique_ptr<OpenPng> open_;
+};
+
+}  // namespace
 
 void PngEncoder::begin(const PictureExtent& extent, const std::vector<Channel>& /*only the first are stored*/,
                        const ImageMetadata& metadata, std::FILE* destination) {
@@ -148,7 +171,7 @@ void PngEncoder::begin(const PictureExtent& extent, const std::vector<Channel>& 
   const auto width = static_cast<png_uint_32>(extent.region.width());
   const auto height = static_cast<png_uint_32>(extent.region.height());
   const int color = pixels_.alpha ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB;
-  open_ = std::make_unique<OpenFile>(destination);
+  open_ = std::make_unique<OpenPng>(destination);
   const png_structp png = open_->png;
   const png_infop info = open_->info;
   guard([&] {
@@ -201,6 +224,10 @@ void PngEncoder::guard(const Calls& calls) {
   if (open_->destination.error() != 0) fail(open_->destination.error());
   if (open_->out_of_memory) throw std::bad_alloc();
   fail(open_->message);
+}
+
+std::unique_ptr<ImageEncoder> make_png_encoder(const std::string& file, const ImageFileSettings& settings) {
+  return std::make_unique<PngEncoder>(file, settings);
 }
 
 }  // namespace raytrace

@@ -1,19 +1,23 @@
-#include "raytrace/output/openimageio/openimageio_encoder.h"
-
+// The formats that OpenImageIO writes, but for EXR and PNG.
 #include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <limits>
 #include <map>
+#include <memory>
 #include <new>
 #include <sstream>
 #include <vector>
 
 #include "raytrace/memory/out_of_memory.h"
+#include "raytrace/output/file_handle.h"
+#include "raytrace/output/image_encoder.h"
 #include "raytrace/output/openimageio_module.h"
 #include "raytrace/output/picture_date.h"
+#include "raytrace/output/pixel_format.h"
 #include "raytrace/text/nearest_name.h"
 #include "raytrace/text/quoted.h"
 
@@ -106,11 +110,9 @@ int copy(std::FILE* from, CheckedFile& to) {
   return to.error();
 }
 
-}  // namespace
-
 /// Pretends to go on after a failure, which the file remembers: some of OpenImageIO's writers do not report one, and
 /// the JPEG writer ends the process.
-class OpenImageIOEncoder::Proxy final : public OIIO::Filesystem::IOFile {
+class Proxy final : public OIIO::Filesystem::IOFile {
  public:
   explicit Proxy(std::FILE* file) : IOFile(file, Write), file_(file) {}
 
@@ -138,9 +140,44 @@ class OpenImageIOEncoder::Proxy final : public OIIO::Filesystem::IOFile {
   CheckedFile file_;
 };
 
-OpenImageIOEncoder::OpenImageIOEncoder(std::string file, const std::string& extension,
+class OpenImageIOEncoder final : public ImageEncoder {
+ public:
+  /// extension: in lower case, with its dot. Throws OutputError.
+  OpenImageIOEncoder(const std::string& file, const std::string& extension, const ImageFileSettings& settings);
+
+  bool holds_float() const override { return type_ == OIIO::TypeFloat; }
+  bool holds_alpha() const override { return is_tiff(); }
+  bool is_for_display() const override { return pixels_.srgb; }
+  void check_size(int width, int height) const override;
+  void begin(const PictureExtent& extent, const std::vector<Channel>& channels, const ImageMetadata& metadata,
+             std::FILE* destination) override;
+  void write(const ImageBand& band) override;
+  Repairs finish() override;
+
+ private:
+  bool is_tiff() const { return writer_->format_name() == std::string_view("tiff"); }
+  void choose_pixels(const std::string& extension);
+  OIIO::ImageSpec image_spec(const ImageMetadata& metadata) const;
+  /// Runs it; where a failed write is the cause of its error, throws that instead.
+  template <class Action>
+  void guard(const Action& action);
+  void check(bool done) const;
+
+  std::string extension_;
+  PictureExtent extent_;
+  std::FILE* destination_ = nullptr;
+  std::unique_ptr<Proxy> proxy_;  ///< the destination, for writers that take such a thing
+  FileHandle memory_;             ///< to be copied there, for the others
+  std::unique_ptr<OIIO::ImageOutput> writer_;
+  OIIO::TypeDesc type_;  ///< of a stored channel
+  PixelFormat pixels_;
+};
+
+}  // namespace
+
+OpenImageIOEncoder::OpenImageIOEncoder(const std::string& file, const std::string& extension,
                                        const ImageFileSettings& settings)
-    : ImageEncoder(std::move(file), settings), extension_(extension), writer_(create_writer(extension)) {
+    : ImageEncoder(file, settings), extension_(extension), writer_(create_writer(extension)) {
   if (!writer_) {
     fail((is_known(extension) ? in_quotes(extension) + " is a format that can be read but not written"
                               : "no picture format has the extension " + in_quotes(extension)) +
@@ -152,8 +189,6 @@ OpenImageIOEncoder::OpenImageIOEncoder(std::string file, const std::string& exte
   constexpr int most_threads = 8;
   OIIO::attribute("threads", std::min(settings.threads, most_threads));
 }
-
-OpenImageIOEncoder::~OpenImageIOEncoder() = default;
 
 void OpenImageIOEncoder::choose_pixels(const std::string& extension) {
   constexpr float largest_float = std::numeric_limits<float>::max();
