@@ -6,8 +6,8 @@
 #include "raytrace/film/aov_film.h"
 #include "raytrace/film/samples_done.h"
 #include "raytrace/math/content_hash.h"
-#include "raytrace/output/exr_encoder.h"
 #include "raytrace/output/film_channels.h"
+#include "raytrace/output/image_encoder.h"
 
 namespace raytrace {
 
@@ -37,7 +37,7 @@ FileIdentity write_checkpoint(const std::string& file, const Film& film, const P
   channels.insert(channels.end(), sums.begin(), sums.end());
   ImageFileSettings settings;
   settings.compressed = false;
-  ImageFile image(file, std::make_unique<ExrEncoder>(file, settings), film.settings().extent, channels, metadata);
+  ImageFile image(file, make_exr_encoder(file, settings), film.settings().extent, channels, metadata);
   const Region& region = film.region();
   for (int y = region.y0; y < region.y1;) {
     const int end = std::min(y + band_rows(region.width(), channels.size()), region.y1);
