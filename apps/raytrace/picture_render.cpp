@@ -164,7 +164,7 @@ RenderOutcome PictureRender::render_in_bands(int band_rows) {
   const Region region = settings_.region;
   identity_.film = film_settings(scene_, description_, settings_);
   Outputs outputs(options_, options_.outputs, identity_.film.extent, metadata(),
-                  options_.sample_offset ? sum_channels() : std::vector<Channel>());
+                  options_.sample_offset ? all_sum_channels() : std::vector<Channel>());
   for (Region band = region; band.y0 < region.y1; band.y0 = band.y1) {
     band.y1 = std::min(band.y0 + band_rows, region.y1);
     settings_.region = band;

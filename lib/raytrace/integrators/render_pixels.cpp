@@ -110,11 +110,14 @@ class BlockRenderer {
       Ray<FloatN> rays = scene_.camera().generate(x + point.x, y + point.y);
       const RayResult seen = Integrator::radiance(scene_, background_, rays, active, wanted, report_.rays,
                                                   aovs != nullptr ? &met : nullptr);
-      const MaskN bad = sums.add(seen, wanted);
+      const MaskN large = sums.add(seen, wanted);
       if (aovs != nullptr) aovs->add(AovInputs(scene_, rays, met.hits, met.point), wanted, sample);
       report_.rays.camera += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(wanted)));
-      if (any(bad)) invalid_samples(bad, block, base);
-      if (packets % packets_per_look == 0 && stopped()) break;
+      if (any(large)) invalid_samples(sums.add_large(seen, large), block, base);
+      if (packets % packets_per_look == 0) {
+        if (stopped()) break;
+        if (packets % (sums.most_packets / packets_per_look * packets_per_look) == 0) sums.carry();
+      }
     }
     sums.add_to(film_, block, region_);
   }
@@ -152,8 +155,7 @@ class BlockRenderer {
 
   bool stopped() const { return stop_ != nullptr && stop_->load(std::memory_order_relaxed); }
 
-  void invalid_samples(const MaskN& bad, const Block& block, std::uint32_t base) {
-    const std::uint32_t lanes = bits_of<FloatN>(bad);
+  void invalid_samples(std::uint32_t lanes, const Block& block, std::uint32_t base) {
     block.for_each_lane(region_, [&](int x, int y, std::size_t lane) {
       if ((lanes >> lane & 1U) != 0)
         report_.invalid_samples.add({x, y, base + static_cast<std::uint32_t>(Block::slot(static_cast<int>(lane)))});
