@@ -8,9 +8,8 @@
 
 #include "ceiling.h"
 #include "raytrace/accel/embree_packets.h"
-#include "raytrace/integrators/ray_origin.h"
+#include "raytrace/accel/traced_scene.h"
 #include "raytrace/sampling/pixel_sampler.h"
-#include "raytrace/scene/traced_scene.h"
 
 namespace raytrace::benchmark {
 
@@ -38,9 +37,21 @@ struct ShadowPacket {
 };
 
 /// A plane in a box as large as Embree takes.
-struct BoxedPlane : Plane {
+struct BoxedPlane : Plane {};
+
+}  // namespace
+
+}  // namespace raytrace::benchmark
+
+template <>
+class raytrace::Kernel<raytrace::benchmark::BoxedPlane> : public raytrace::Kernel<raytrace::Plane> {
+ public:
   static Bounds bounds(const Record&) { return {{-1e18F, -1e18F, -1e18F}, {1e18F, 1e18F, 1e18F}}; }
 };
+
+namespace raytrace::benchmark {
+
+namespace {
 
 /// Everything in one scene of Embree's, spheres as its own geometry.
 class EmbreeSpheres {
@@ -52,7 +63,7 @@ class EmbreeSpheres {
     auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0,
                                                                  RTC_FORMAT_FLOAT4, 4 * sizeof(float), spheres.size()));
     for (const auto& item : spheres) {
-      const auto record = Sphere::record(item.parameters);
+      const auto record = Kernel<Sphere>::record(item.parameters);
       for (const float value : {record.center.x, record.center.y, record.center.z, record.radius}) *vertices++ = value;
     }
     rtcCommitGeometry(geometry.get());
@@ -79,8 +90,8 @@ class CeilingOfVariant final : public Ceiling {
   }
 
   CeilingResult trace(int threads) const override {
-    const int columns = (scene_.viewplane().hres + tile_edge - 1) / tile_edge;
-    const int rows = (scene_.viewplane().vres + tile_edge - 1) / tile_edge;
+    const int columns = (scene_.tables().viewplane().hres + tile_edge - 1) / tile_edge;
+    const int rows = (scene_.tables().viewplane().vres + tile_edge - 1) / tile_edge;
     tbb::enumerable_thread_specific<CeilingResult> results;
     tbb::task_arena arena(threads);
     arena.execute([&] {
@@ -100,7 +111,7 @@ class CeilingOfVariant final : public Ceiling {
   void trace_tile(int left, int top, CeilingResult& result) const {
     thread_local std::vector<CameraPacket> camera;
     thread_local std::vector<ShadowPacket> shadow;
-    for (int first = 0; first < scene_.viewplane().samples; first += 16) {
+    for (int first = 0; first < scene_.tables().viewplane().samples; first += 16) {
       camera.clear();
       shadow.clear();
       for (int y = top; y < top + tile_edge; y += block_height)
@@ -142,8 +153,8 @@ class CeilingOfVariant final : public Ceiling {
   /// To Embree's scene, where the renderer has none.
   void add_planes(const SceneDescription& description) {
     for (const auto& item : std::get<ObjectItems<Plane>>(description.objects))
-      planes_.records.push_back(Plane::record(item.parameters));
-    const embree::Geometry planes = make_user_geometry(rtcGetSceneDevice(embree_scene()), planes_);
+      planes_.records.push_back(Kernel<Plane>::record(item.parameters));
+    const embree::Geometry planes = make_user_geometry<BoxedPlane>(rtcGetSceneDevice(embree_scene()), planes_.records);
     rtcCommitGeometry(planes.get());
     rtcAttachGeometry(embree_scene(), planes.get());
     rtcCommitScene(embree_scene());
@@ -152,7 +163,7 @@ class CeilingOfVariant final : public Ceiling {
   /// The rays of up to 16 samples of a block, as the renderer makes them.
   void make_rays(int left, int top, int first_sample, std::vector<CameraPacket>& camera,
                  std::vector<ShadowPacket>& shadow, RayCounts& counts) const {
-    const ViewPlane& viewplane = scene_.viewplane();
+    const ViewPlane& viewplane = scene_.tables().viewplane();
     alignas(64) std::uint32_t columns[packet_lanes], rows[packet_lanes];
     alignas(64) float xs[packet_lanes], ys[packet_lanes];
     for (int lane = 0; lane < packet_lanes; ++lane) {
@@ -169,7 +180,7 @@ class CeilingOfVariant final : public Ceiling {
       if (sample < first_sample) continue;
       const MaskN all(true);
       Ray<FloatN> rays =
-          scene_.camera().generate(FloatN::load_aligned(xs) + point.x, FloatN::load_aligned(ys) + point.y);
+          scene_.tables().camera().generate(FloatN::load_aligned(xs) + point.x, FloatN::load_aligned(ys) + point.y);
       CameraPacket& packet = camera.emplace_back();
       embree::store_rays(rays, packet.ray());
       embree::store(UintN(RTC_INVALID_GEOMETRY_ID), [&](int i) { return packet.rays[i].hit.geomID; });
@@ -178,14 +189,14 @@ class CeilingOfVariant final : public Ceiling {
 
       const Hits hits = scene_.accelerator().intersect(rays, all, Coherence::coherent);
       if (none(hits.hit)) continue;
-      const SurfacePoint<FloatN> surface = scene_.accelerator().surface(rays, hits);
+      const SurfaceInteraction<FloatN> surface = scene_.accelerator().surface(rays, hits);
       Ray<FloatN> shadow_rays;
       shadow_rays.origin = offset_ray_origin(surface);
       shadow_rays.near = FloatN(0);
-      for (const auto& light : scene_.lights()) {
+      for (const auto& light : scene_.tables().lights()) {
         Rgb<FloatN> radiance;
         light->sample(shadow_rays, radiance);
-        const MaskN lit = hits.hit & (dot(surface.normal, shadow_rays.direction) > FloatN(0));
+        const MaskN lit = hits.hit & (dot(surface.ng, shadow_rays.direction) > FloatN(0));
         if (none(lit)) continue;
         ShadowPacket& shadow_packet = shadow.emplace_back();
         embree::store_rays(shadow_rays, shadow_packet.ray());

@@ -6,7 +6,6 @@
 #include <charconv>
 #include <chrono>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 #include "ceiling.h"
 #include "raytrace/film/film.h"
@@ -27,7 +26,6 @@ struct Options {
   int resolution = 1024, samples = 16, runs = 5;
   std::string isa = best_isa();
   std::vector<std::string> bare{"embree", "parts"};
-  bool json = false;
 };
 
 /// The count of a scene's name, "kind:count"; 0 if it is no such name.
@@ -67,7 +65,6 @@ Options parse(int argc, char** argv) {
                   "scene; or one scene with Embree's built-in sphere, where spheres are alone with planes")
       ->check(CLI::IsMember(bare_loop_names))
       ->capture_default_str();
-  parser.add_flag("--json", options.json, "Print JSON instead of a table, times in seconds");
   try {
     parser.parse(argc, argv);
     for (const std::string& scene : options.scenes)
@@ -141,30 +138,13 @@ void print_row(const std::string& scene, int threads, const Timing& timing) {
   std::fflush(stdout);
 }
 
-nlohmann::json to_json(const std::string& scene, int threads, const Timing& timing, const Options& options) {
-  nlohmann::json result = {{"scene", scene}, {"threads", threads}, {"render", timing.render_seconds}};
-  for (std::size_t i = 0; i < timing.bare.size(); ++i) {
-    result[options.bare[i]] = timing.bare[i].seconds;
-    result[options.bare[i] + " ratio"] = timing.bare[i].ratio;
-  }
-  return result;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
   const Options options = parse(argc, argv);
-  nlohmann::json results = nlohmann::json::array();
-  if (!options.json) print_heads(options);
+  print_heads(options);
   for (const std::string& name : options.scenes) {
     const SceneDescription description = make_scene(name, options);
-    for (const int threads : options.threads) {
-      const Timing timing = time_scene(description, threads, options);
-      if (options.json)
-        results.push_back(to_json(name, threads, timing, options));
-      else
-        print_row(name, threads, timing);
-    }
+    for (const int threads : options.threads) print_row(name, threads, time_scene(description, threads, options));
   }
-  if (options.json) std::printf("%s\n", results.dump(2).c_str());
 }

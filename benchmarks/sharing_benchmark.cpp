@@ -63,8 +63,9 @@ class Pictures {
       for (std::uint32_t pass = 1; pass <= passes; ++pass)
         for (int top = 0; top < resolution; top += tile_edge)
           for (int left = i * tile_edge; left < resolution; left += threads * tile_edge)
-            scenes_[mine]->render_region({left, top, std::min(left + tile_edge, resolution), top + tile_edge},
-                                         (1 + pass) * pass_samples, films[mine], nullptr);
+            choose_variant(scenes_[mine]->isa())
+                .render(*scenes_[mine], {left, top, std::min(left + tile_edge, resolution), top + tile_edge},
+                        (1 + pass) * pass_samples, films[mine], nullptr);
     });
   }
 

@@ -24,6 +24,10 @@ if(RAYTRACE_SANITIZERS)
     $<IF:$<BOOL:$<TARGET_PROPERTY:RAYTRACE_WIDE>>,-O2,-O1> -g1)
   target_link_options(raytrace_options INTERFACE -fsanitize=${RAYTRACE_SANITIZERS})
 endif()
+if(RAYTRACE_SANITIZERS MATCHES "thread")
+  # Headers in which our loops run on threads that the sanitizer knows, before the library's of the same names.
+  include_directories(BEFORE ${PROJECT_SOURCE_DIR}/tests/sanitizers/threads)
+endif()
 
 if(RAYTRACE_FUZZERS)
   if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")

@@ -1,6 +1,6 @@
 #include "listing.h"
 
-#include "raytrace/aovs/registry.h"
+#include "raytrace/aovs/aov_table.h"
 #include "raytrace/cameras/registry.h"
 #include "raytrace/integrators/registry.h"
 #include "raytrace/lights/registry.h"
@@ -32,9 +32,15 @@ Kind kind_of(const std::string& name, List list) {
   return kind;
 }
 
+Kind kind_of_aovs() {
+  Kind kind{"aovs", {}};
+  for (const Aov& aov : aov_table) kind.members += std::string(aov.name) + '\n';
+  return kind;
+}
+
 std::vector<Kind> kinds() {
   return {kind_of("shapes", Shapes()),   kind_of("materials", Materials()),     kind_of("lights", Lights()),
-          kind_of("cameras", Cameras()), kind_of("integrators", Integrators()), kind_of("aovs", Aovs())};
+          kind_of("cameras", Cameras()), kind_of("integrators", Integrators()), kind_of_aovs()};
 }
 
 }  // namespace

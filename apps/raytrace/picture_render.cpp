@@ -254,11 +254,11 @@ void PictureRender::log_rendered() const {
 void PictureRender::log_invalid_samples() const {
   if (set_aside_.count == 0) return;
   std::string text = counted(set_aside_.count, "sample") + " without a finite radiance, counted as black:";
-  for (const SampleId& id : set_aside_.told) {
+  for (const SampleId& id : set_aside_.listed) {
     text +=
         " sample " + std::to_string(id.sample) + " of pixel " + std::to_string(id.x) + "," + std::to_string(id.y) + ";";
   }
-  const SampleId& first = set_aside_.told.front();
+  const SampleId& first = set_aside_.listed.front();
   log_warning(text + " to see it again: --pixel " + std::to_string(first.x) + "," + std::to_string(first.y));
 }
 

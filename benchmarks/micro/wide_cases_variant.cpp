@@ -1,14 +1,14 @@
 #include <memory>
 #include <random>
 
-#include "raytrace/accel/accelerator.h"
-#include "raytrace/brdfs/glossy_specular.h"
-#include "raytrace/brdfs/lambertian.h"
-#include "raytrace/cameras/camera.h"
+#include "raytrace/accel/traced_scene.h"
+#include "raytrace/bsdfs/glossy_specular.h"
+#include "raytrace/bsdfs/lambertian.h"
 #include "raytrace/film/film.h"
 #include "raytrace/integrators/block_sums.h"
 #include "raytrace/integrators/packet_block.h"
 #include "raytrace/sampling/pixel_sampler.h"
+#include "raytrace/scene/camera.h"
 #include "wide_cases.h"
 
 namespace raytrace::benchmark {
@@ -115,13 +115,13 @@ class RayPackets {
 };
 
 template <int size>
-void add_shape_cases(const std::string& shape, const std::shared_ptr<const Accelerator>& accelerator,
+void add_shape_cases(const std::string& shape, const std::shared_ptr<const TracedScene>& scene,
                      std::vector<MicroCase>& cases) {
   const std::string what = shape + "/" + std::to_string(size) + "/" RAYTRACE_ISA;
-  const auto packets = std::make_shared<RayPackets<size>>(*accelerator);
+  const auto packets = std::make_shared<RayPackets<size>>(scene->accelerator());
   constexpr int rays = picture_edge * picture_edge;
-  cases.push_back({"intersect/" + what, rays, 0, [packets, accelerator] { return packets->intersect(); }});
-  cases.push_back({"occluded/" + what, rays, 0, [packets, accelerator] { return packets->occluded(); }});
+  cases.push_back({"intersect/" + what, rays, 0, [packets, scene] { return packets->intersect(); }});
+  cases.push_back({"occluded/" + what, rays, 0, [packets, scene] { return packets->occluded(); }});
 }
 
 // ---- The others: functions of one packet, called for these many.
@@ -205,11 +205,11 @@ void add_plane_case(std::vector<MicroCase>& cases) {
   std::vector<Ray<FloatN>> rays;
   for (std::size_t i = 0; i < packet_count; ++i)
     rays.push_back({random.direction(), random.direction(), FloatN(0), infinity<FloatN>()});
-  const auto plane = Plane::record({{0, 0, 1}, {0.3, 0.4, 1}});
+  const auto plane = Kernel<Plane>::record({{0, 0, 1}, {0.3, 0.4, 1}});
   add_packet_case(
       "intersect/plane", 1,
       [plane, rays](std::size_t i) {
-        const FloatN t = Plane::intersect(plane, rays[i], MaskN(true));
+        const FloatN t = Kernel<Plane>::intersect(plane, rays[i], MaskN(true));
         return select(t < infinity<FloatN>(), t, FloatN(0));
       },
       cases);
@@ -219,8 +219,8 @@ void add_camera_case(std::vector<MicroCase>& cases) {
   RandomLanes random;
   std::vector<FloatN> points;
   for (std::size_t i = 0; i < packet_count; ++i) points.push_back(random.number() * FloatN(512));
-  const PinholeCamera pinhole({{0, 8, 30}, {0, 0, 0}, {0, 1, 0}, 1500}, 1);
-  const std::shared_ptr<const Camera> camera = std::make_shared<CameraOf<PinholeCamera>>(pinhole);
+  const Kernel<PinholeCamera> pinhole({{0, 8, 30}, {0, 0, 0}, {0, 1, 0}, 1500}, ViewPlane{});
+  const std::shared_ptr<const Camera> camera = std::make_shared<CameraOf<Kernel<PinholeCamera>>>(pinhole);
   add_packet_case(
       "camera/pinhole", 1,
       [camera, points](std::size_t i) {
@@ -354,11 +354,11 @@ extern "C" void RAYTRACE_JOIN(raytrace_micro_,
   using namespace raytrace::benchmark;
   constexpr const char* embree_isa = register_lanes == 16 ? "avx512" : register_lanes == 8 ? "avx2" : "sse4.2";
   for (const ShapeScene& scene : shapes) {
-    const auto accelerator = std::make_shared<const Accelerator>(scene.description, 1, embree_isa);
-    add_shape_cases<1>(scene.shape, accelerator, cases);
-    add_shape_cases<4>(scene.shape, accelerator, cases);
-    add_shape_cases<8>(scene.shape, accelerator, cases);
-    add_shape_cases<16>(scene.shape, accelerator, cases);
+    const auto traced = std::make_shared<const TracedScene>(scene.description, 1, RAYTRACE_ISA, embree_isa);
+    add_shape_cases<1>(scene.shape, traced, cases);
+    add_shape_cases<4>(scene.shape, traced, cases);
+    add_shape_cases<8>(scene.shape, traced, cases);
+    add_shape_cases<16>(scene.shape, traced, cases);
   }
   add_brdf_cases<Lambertian<FloatN>>(
       "lambertian", [](RandomLanes& random) { return Lambertian<FloatN>{random_color(random)}; }, cases);

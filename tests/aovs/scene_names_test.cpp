@@ -2,7 +2,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "raytrace/aovs/id_manifest.h"
 #include "render/scenes.h"
 #include "support/catch.h"
 
@@ -28,7 +27,7 @@ const std::string parts = R"(
 
 }  // namespace
 
-TEST_CASE("objects without a name are called by their type and place") {
+TEST_CASE("objects without a name are called by their type and number") {
   const SceneDescription description = parsed_scene(scene_text(8, 8, 1, parts));
   CHECK(object_names(description) == std::vector<std::string>{"plane#1", "sphere#1", "the \"big\" one", "sphere#3"});
   CHECK(material_names(description) == std::vector<std::string>{"dull", "shiny"});

@@ -1,11 +1,10 @@
 // Rays through known points of the picture.
-#include "raytrace/cameras/pinhole_camera.h"
-
 #include <cmath>
 #include <vector>
 
-#include "raytrace/cameras/camera.h"
+#include "raytrace/cameras/kernels.h"
 #include "raytrace/cameras/view_plane.h"
+#include "raytrace/scene/camera.h"
 #include "support/catch.h"
 #include "support/lanes.h"
 
@@ -22,9 +21,9 @@ PinholeCamera::Parameters parameters(Vec3d eye, Vec3d lookat, Vec3d up, double v
   return result;
 }
 
-Vec3d direction(const PinholeCamera& camera, double x, double y) {
+Vec3d direction(const Kernel<PinholeCamera>& camera, double x, double y) {
   const Ray<FloatN> rays =
-      CameraOf<PinholeCamera>(camera).generate(FloatN(static_cast<float>(x)), FloatN(static_cast<float>(y)));
+      CameraOf<Kernel<PinholeCamera>>(camera).generate(FloatN(static_cast<float>(x)), FloatN(static_cast<float>(y)));
   return lane_of(rays.direction, lanes - 1);
 }
 
@@ -36,7 +35,7 @@ void check_same(const Vec3d& got, const Vec3d& wanted) {
 }  // namespace
 
 TEST_CASE("a camera on the z axis sees x to the right and y up, as far off as its pixels are large") {
-  const PinholeCamera camera(parameters({0, 0, 10}, {0, 0, 0}, {0, 1, 0}, 500), 2);
+  const Kernel<PinholeCamera> camera(parameters({0, 0, 10}, {0, 0, 0}, {0, 1, 0}, 500), ViewPlane{.pixelsize = 2});
   check_same(direction(camera, 0, 0), {0, 0, -1});
   check_same(direction(camera, 200, 0), normalize(Vec3d{400, 0, -500}));
   check_same(direction(camera, -200, 0), normalize(Vec3d{-400, 0, -500}));
@@ -46,7 +45,8 @@ TEST_CASE("a camera on the z axis sees x to the right and y up, as far off as it
 }
 
 TEST_CASE("rays start at the eye, have unit length and no end") {
-  const PinholeCamera camera(parameters({25, 200, 100}, {-0.5, 0, 0}, {0, 1, 0}, 8000), 1);
+  const Kernel<PinholeCamera> camera(parameters({25, 200, 100}, {-0.5, 0, 0}, {0, 1, 0}, 8000),
+                                     ViewPlane{.pixelsize = 1});
   const FloatN x = batch_of<FloatN>([](std::size_t i) { return 40.0 * static_cast<double>(i) - 100; });
   const Ray<FloatN> rays = camera.generate<FloatN>(x, FloatN(33));
   CHECK(all(rays.near == FloatN(0)));
@@ -60,7 +60,7 @@ TEST_CASE("rays start at the eye, have unit length and no end") {
 TEST_CASE("a tilted camera sees what the formulas of the scene format say") {
   const Vec3d eye{25, 200, 100}, lookat{-0.5, 3, 7}, up{0.2, 1, -0.3};
   const Vec3d w = normalize(eye - lookat), u = normalize(cross(up, w)), v = cross(w, u);
-  const PinholeCamera camera(parameters(eye, lookat, up, 700), 0.8);
+  const Kernel<PinholeCamera> camera(parameters(eye, lookat, up, 700), ViewPlane{.pixelsize = 0.8});
   for (const double x : {-320.0, -0.5, 0.0, 77.25, 320.0})
     for (const double y : {-240.0, 0.0, 240.0})
       check_same(direction(camera, x, y), normalize(u * (0.8 * x) + v * (0.8 * y) - w * 700.0));
@@ -70,7 +70,7 @@ TEST_CASE("looking along `up` still gives a frame, upright and of unit lengths")
   const std::vector<Vec3d> views{{0, 1, 0}, {0, -1, 0}, {1, 0, 0}, {0, 0, -1}, {0.6, 0.8, 0}, {1, 1, 1}, {1e-12, 5, 0}};
   for (const Vec3d& view : views) {
     for (const double scale : {1.0, -2.0}) {
-      const auto [u, v, w] = PinholeCamera::frame(parameters(view, {0, 0, 0}, view * scale, 100));
+      const auto [u, v, w] = ViewFrame(view, {0, 0, 0}, view * scale);
       INFO("view " << view.x << " " << view.y << " " << view.z);
       CHECK(length(u) == Approx(1));
       CHECK(length(v) == Approx(1));
@@ -100,8 +100,8 @@ TEST_CASE("another resolution keeps the framing") {
 
   const PinholeCamera::Parameters camera = parameters({1, 2, 3}, {0, 0, 0}, {0, 1, 0}, 100);
   const ViewPlane larger = with_resolution(viewplane, 1000, 750);
-  check_same(direction(PinholeCamera(camera, larger.pixelsize), 500, 375),
-             direction(PinholeCamera(camera, viewplane.pixelsize), 200, 150));
+  check_same(direction(Kernel<PinholeCamera>(camera, larger), 500, 375),
+             direction(Kernel<PinholeCamera>(camera, viewplane), 200, 150));
 }
 
 }  // namespace raytrace::test

@@ -9,6 +9,7 @@
 
 #include "findings.h"
 #include "raytrace/description/read_fields.h"
+#include "raytrace/description/scene_layout.h"
 #include "raytrace/description/variables.h"
 #include "raytrace/xml/document.h"
 #include "raytrace/xml/scene_text.h"

@@ -1,8 +1,8 @@
 // The way from points to lights, and what they send.
 #include <limits>
 
-#include "raytrace/lights/light_source.h"
-#include "raytrace/lights/registry.h"
+#include "raytrace/lights/kernels.h"
+#include "raytrace/scene/light_source.h"
 #include "support/catch.h"
 #include "support/lanes.h"
 
@@ -30,7 +30,7 @@ Arriving arriving_at(const Vec3<FloatN>& points, const LightSource& light) {
 }  // namespace
 
 TEST_CASE("a point light is reached from each point along the difference, and ends there") {
-  const LightSourceOf<PointLight> light(PointLight({{2, 30, -4}, 3, {1, 0.5, 0.25}, true}));
+  const LightSourceOf<Kernel<PointLight>> light(Kernel<PointLight>({{2, 30, -4}, 3, {1, 0.5, 0.25}, true}));
   const Ray<FloatN> rays = arriving_at(positions, light).rays;
   CHECK(all(rays.far == FloatN(1)));
   for (std::size_t lane = 0; lane < lanes; ++lane) {
@@ -41,7 +41,8 @@ TEST_CASE("a point light is reached from each point along the difference, and en
 
 TEST_CASE("a directional light lies in the same direction from everywhere, infinitely far") {
   for (const double scale : {1e-9, 1.0, 1e9}) {
-    const LightSourceOf<DirectionalLight> light(DirectionalLight({Vec3d{3, -4, 12} * scale, 1, {1, 1, 1}, true}));
+    const LightSourceOf<Kernel<DirectionalLight>> light(
+        Kernel<DirectionalLight>({Vec3d{3, -4, 12} * scale, 1, {1, 1, 1}, true}));
     const Ray<FloatN> rays = arriving_at(positions, light).rays;
     CHECK(all(rays.far == FloatN(std::numeric_limits<float>::infinity())));
     for (std::size_t lane = 0; lane < lanes; ++lane)
@@ -59,24 +60,25 @@ TEST_CASE("a light's radiance is its color times its scale, and shadows are cast
     const Rgb<FloatN> radiance = arriving_at({FloatN(1), FloatN(2), FloatN(3)}, light).radiance;
     return Rgb<float>(radiance.red.get(1), radiance.green.get(1), radiance.blue.get(1));
   };
-  check(AmbientLight({3, {1, 0.5, 0.25}}).radiance());
+  check(Kernel<AmbientLight>({3, {1, 0.5, 0.25}}).radiance());
   for (const bool shadows : {true, false}) {
-    const PointLight point({{0, 0, 0}, 3, {1, 0.5, 0.25}, shadows});
-    const DirectionalLight directional({{0, 1, 0}, 3, {1, 0.5, 0.25}, shadows});
-    check(sampled(LightSourceOf<PointLight>(point)));
-    check(sampled(LightSourceOf<DirectionalLight>(directional)));
-    CHECK(LightSourceOf<PointLight>(point).shadows() == shadows);
-    CHECK(LightSourceOf<DirectionalLight>(directional).shadows() == shadows);
+    const Kernel<PointLight> point({{0, 0, 0}, 3, {1, 0.5, 0.25}, shadows});
+    const Kernel<DirectionalLight> directional({{0, 1, 0}, 3, {1, 0.5, 0.25}, shadows});
+    check(sampled(LightSourceOf<Kernel<PointLight>>(point)));
+    check(sampled(LightSourceOf<Kernel<DirectionalLight>>(directional)));
+    CHECK(LightSourceOf<Kernel<PointLight>>(point).shadows() == shadows);
+    CHECK(LightSourceOf<Kernel<DirectionalLight>>(directional).shadows() == shadows);
   }
 }
 
 TEST_CASE("a light that a scene says nothing more about is white, of radiance 1, and casts shadows") {
   const PointLight::Parameters point;
   const DirectionalLight::Parameters directional;
-  CHECK(PointLight(point).sample(Vec3f(0, 0, 0)).radiance.green == 1.0f);
-  CHECK(PointLight(point).shadows());
-  CHECK(DirectionalLight({{0, 1, 0}, directional.scaleradiance, directional.color, directional.shadows}).shadows());
-  CHECK(AmbientLight(AmbientLight::Parameters{}).radiance().blue == 1.0f);
+  CHECK(Kernel<PointLight>(point).sample(Vec3f(0, 0, 0)).radiance.green == 1.0f);
+  CHECK(Kernel<PointLight>(point).shadows());
+  CHECK(Kernel<DirectionalLight>({{0, 1, 0}, directional.scaleradiance, directional.color, directional.shadows})
+            .shadows());
+  CHECK(Kernel<AmbientLight>(AmbientLight::Parameters{}).radiance().blue == 1.0f);
 }
 
 }  // namespace raytrace::test

@@ -1,11 +1,12 @@
 // Packets whose lanes hit different materials, against the formulas of the scene format in double precision.
+#include "raytrace/scene/material_table.h"
+
 #include <cmath>
 #include <numbers>
 #include <random>
 #include <vector>
 
-#include "raytrace/materials/material.h"
-#include "raytrace/materials/registry.h"
+#include "raytrace/materials/kernels.h"
 #include "support/catch.h"
 #include "support/lanes.h"
 
@@ -42,7 +43,7 @@ struct Packet {
   std::array<std::size_t, lanes> material{};
   std::array<Vec3d, lanes> wo, normal;
   std::array<std::vector<Light>, lanes> lights;
-  std::vector<ArrivingLight> arriving;
+  std::vector<IncidentLight> incident;
 };
 
 Packet random_packet(Random& random, bool one_material) {
@@ -64,7 +65,7 @@ Packet random_packet(Random& random, bool one_material) {
       cosine[lane] = random.unit() < 0.3 ? 0 : std::max(0.0, dot(n, wi[lane]));
       if (cosine[lane] > 0) packet.lights[lane].push_back({wi[lane], Rgb<double>(radiance)});
     }
-    packet.arriving.push_back({vectors_of([&](std::size_t lane) { return wi[lane]; }),
+    packet.incident.push_back({vectors_of([&](std::size_t lane) { return wi[lane]; }),
                                batch_of<FloatN>([&](std::size_t lane) { return cosine[lane]; }),
                                Rgb<FloatN>(radiance)});
   }
@@ -93,17 +94,17 @@ Rgb<double> formula(const Phong::Parameters& m, const Vec3d& wo, const Vec3d& no
 
 template <class Material>
 void check_table(const std::vector<typename Material::Parameters>& parameters, double tolerance) {
-  std::vector<typename Material::template Brdfs<float>> brdfs;
-  for (const auto& p : parameters) brdfs.push_back(Material::brdfs(p));
-  const MaterialTableOf<Material> table(brdfs);
+  std::vector<typename Kernel<Material>::template Bsdf<float>> bsdfs;
+  for (const auto& p : parameters) bsdfs.push_back(Kernel<Material>::bsdf(p));
+  const MaterialTableOf<Kernel<Material>> table(bsdfs);
   Random random(77);
   double worst = 0;
   for (int i = 0; i < 5000; ++i) {
     const Packet packet = random_packet(random, i % 4 == 0);
     const Rgb<FloatN> shaded = table.shade(batch_of<IntN>([&](std::size_t lane) { return packet.material[lane]; }),
-                                           vectors_of([&](std::size_t lane) { return -packet.wo[lane]; }),
+                                           vectors_of([&](std::size_t lane) { return packet.wo[lane]; }),
                                            vectors_of([&](std::size_t lane) { return packet.normal[lane]; }),
-                                           Rgb<float>(ambient), packet.arriving);
+                                           Rgb<float>(ambient), packet.incident);
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       const Rgb<double> wanted =
           formula(parameters[packet.material[lane]], packet.wo[lane], packet.normal[lane], packet.lights[lane]);
@@ -134,9 +135,9 @@ TEST_CASE("each lane of a packet has the radiance of its own phong") {
 }
 
 TEST_CASE("without lights, materials reflect the ambient light alone") {
-  const MaterialTableOf<Phong> table({Phong::brdfs({0.5, 1, 1, {0.2, 0.4, 0.6}, {1, 1, 1}, 20})});
+  const MaterialTableOf<Kernel<Phong>> table({Kernel<Phong>::bsdf({0.5, 1, 1, {0.2, 0.4, 0.6}, {1, 1, 1}, 20})});
   const Vec3<FloatN> up = spread({0, 0, 1});
-  const Rgb<FloatN> shaded = table.shade(IntN(0), -up, up, {1, 1, 2}, {});
+  const Rgb<FloatN> shaded = table.shade(IntN(0), up, up, {1, 1, 2}, {});
   CHECK(all(shaded.red == FloatN(0.1f)));
   CHECK(all(shaded.green == FloatN(0.2f)));
   CHECK(static_cast<double>(shaded.blue.get(0)) == Approx(0.6).epsilon(1e-6));

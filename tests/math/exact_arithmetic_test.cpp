@@ -4,7 +4,7 @@
 #include <random>
 
 #include "raytrace/math/doubles.h"
-#include "raytrace/shapes/sphere.h"
+#include "raytrace/shapes/sphere_kernel.h"
 #include "support/catch.h"
 #include "support/lanes.h"
 

@@ -107,7 +107,7 @@ const std::vector<Situation> situations = {
 void check_blocked(const SceneDescription& scene, const BufferOrigin& vantage, const std::vector<ProbeRay>& rays) {
   for (const std::string& isa : usable_isas()) {
     const Probe probe(scene, isa);
-    const auto seen = probe.occluded_seen_from(vantage.place, vantage.infinitely_far, rays);
+    const auto seen = probe.occluded_seen_from(vantage.position, vantage.infinitely_far, rays);
     INFO(isa);
     REQUIRE(seen.has_value());
     const std::vector<bool> wanted = probe.occluded_packet(rays);

@@ -109,12 +109,12 @@ TEST_CASE("more light than floats can hold is set aside where it falls, told, an
     INFO(isa);
     CHECK(lit > 20);
     CHECK(lit < hit - 20);  // the sphere's far side is dark, and fine
-    REQUIRE(told.told.size() == InvalidSamples::most_listed);
-    for (std::size_t i = 1; i < told.told.size(); ++i) {
-      const SampleId &a = told.told[i - 1], &b = told.told[i];
+    REQUIRE(told.listed.size() == InvalidSamples::most_listed);
+    for (std::size_t i = 1; i < told.listed.size(); ++i) {
+      const SampleId &a = told.listed[i - 1], &b = told.listed[i];
       CHECK((a.y < b.y || (a.y == b.y && a.x < b.x)));
     }
-    for (const SampleId& id : told.told) CHECK(film.sum(id.x, id.y).hits == 1);
+    for (const SampleId& id : told.listed) CHECK(film.sum(id.x, id.y).hits == 1);
   }
 }
 

@@ -147,7 +147,7 @@ TEST_CASE("a render that was stopped goes on with packets of any shape") {
   for (const std::uint32_t step : {32U, 16U, 8U, 4U, 1U, 16U, 1U, 8U, 2U, 8U}) {
     target += step;
     std::atomic<bool> stop{true};  // after a block
-    for (int i = 0; i < 5; ++i) scene->render_region(region, target, often, &stop);
+    for (int i = 0; i < 5; ++i) choose_variant(scene->isa()).render(*scene, region, target, often, &stop);
     uneven += often.sum(region.x0, region.y0).samples != often.sum(region.x1 - 1, region.y1 - 1).samples;
   }
   CHECK(target == 96);

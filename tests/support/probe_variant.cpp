@@ -2,7 +2,6 @@
 #include <array>
 
 #include "raytrace/accel/accelerator.h"
-#include "raytrace/integrators/ray_origin.h"
 #include "support/probe_backend.h"
 
 namespace raytrace::test {
@@ -93,7 +92,8 @@ class EmbreePackets {
 class Backend final : public ProbeBackend {
  public:
   explicit Backend(const SceneDescription& description)
-      : accelerator_(description, 1,
+      : tables_(description, 1),
+        accelerator_(tables_.geometry(), 1,
                      register_lanes == 16  ? "avx512"
                      : register_lanes == 8 ? "avx2"
                                            : "sse4.2") {}
@@ -131,7 +131,7 @@ class Backend final : public ProbeBackend {
           ProbeHit& hit = result[first + i];
           hit.hit = true;
           hit.distance = shortened[first + i].far = rays.far.get(i);
-          hit.kind = hits.shape_type.get(i);
+          hit.kind = hits.geometry.get(i);
           hit.index = static_cast<std::uint32_t>(hits.primitive.get(i));
         }
     });
@@ -166,16 +166,16 @@ class Backend final : public ProbeBackend {
       const Hits hits = accelerator_.intersect(rays, active, coherence, seen);
       const std::uint32_t lanes = bits_of<FloatN>(hits.hit);
       if (lanes == 0) return;
-      const SurfacePoint<FloatN> point = accelerator_.surface(rays, hits);
-      const Vec3<FloatN> leaving = offset_ray_origin(point);
+      const SurfaceInteraction<FloatN> surface = accelerator_.surface(rays, hits);
+      const Vec3<FloatN> leaving = offset_ray_origin(surface);
       for (std::size_t i = 0; i < count; ++i)
         if ((lanes >> i & 1) != 0)
           result[first + i] = {true,
                                rays.far.get(i),
-                               hits.shape_type.get(i),
+                               hits.geometry.get(i),
                                static_cast<std::uint32_t>(hits.primitive.get(i)),
-                               lane_of(point.position, i),
-                               lane_of(point.normal, i),
+                               lane_of(surface.p, i),
+                               lane_of(surface.ng, i),
                                lane_of(leaving, i)};
     });
     return result;
@@ -190,10 +190,11 @@ class Backend final : public ProbeBackend {
     return result;
   }
 
-  std::optional<DirectionBuffer> seen_from(const BufferOrigin& vantage) const {
-    return std::move(accelerator_.seen_from(std::array<std::optional<BufferOrigin>, 1>{vantage}, 2).front());
+  std::optional<DirectionBuffer> seen_from(const BufferOrigin& origin) const {
+    return std::move(accelerator_.direction_buffers(std::array<std::optional<BufferOrigin>, 1>{origin}, 2).front());
   }
 
+  SceneTables tables_;
   Accelerator accelerator_;
 };
 

@@ -7,11 +7,9 @@
 #include <string>
 
 #include "raytrace/memory/large_array.h"
-#include "raytrace/memory/large_pages.h"
 #include "raytrace/memory/out_of_memory.h"
 #include "raytrace/parallel/for_each_index.h"
-#include "raytrace/parallel/handover.h"
-#include "raytrace/render/renderer.h"
+#include "raytrace/scene/scene.h"
 
 namespace raytrace {
 
@@ -22,22 +20,12 @@ namespace {
   throw RenderError(std::string("Embree: ") + (message != nullptr ? message : "unknown error"));
 }
 
-/// Embree's builder threads see the report that the constructor made.
-constinit Handover report_made;
-
-template <class Shape>
-void fill_table(const SceneDescription& description, ShapeTable<Shape>& table) {
-  const auto& items = std::get<ObjectItems<Shape>>(description.objects);
-  reserve_large(table.records, items.size() + 1);  // Embree reads whole 16 byte words of the last vertex
-  for (const auto& item : items) table.records.push_back(Shape::record(item.parameters));
-}
-
 /// Embree's triangles, straight from the table.
 template <class Shape>
-embree::Geometry make_triangles(RTCDevice device, const ShapeTable<Shape>& table) {
-  const auto count = static_cast<unsigned>(table.records.size());
+embree::Geometry make_triangles(RTCDevice device, std::span<const typename ShapeTable<Shape>::Record> records) {
+  const auto count = static_cast<unsigned>(records.size());
   embree::Geometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
-  rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, table.records.data(), 0,
+  rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, records.data(), 0,
                              sizeof(Vec3f), 3 * static_cast<std::size_t>(count));
   auto* index = static_cast<unsigned*>(
       rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), count));
@@ -48,10 +36,11 @@ embree::Geometry make_triangles(RTCDevice device, const ShapeTable<Shape>& table
 
 template <class Shape>
 BoundedObject placed_object(const typename ShapeTable<Shape>::Record& record, std::uint32_t primitive) {
-  const Bounds bounds = Shape::bounds(record);
+  const Bounds bounds = Kernel<Shape>::bounds(record);
   double radius = length(Vec3d(bounds.upper) - Vec3d(bounds.lower)) / 2;
-  if constexpr (requires { Shape::bounding_radius(record); }) radius = std::min(radius, Shape::bounding_radius(record));
-  constexpr bool is_sphere = requires { requires Shape::is_its_bounding_sphere; };
+  if constexpr (requires { Kernel<Shape>::bounding_radius(record); })
+    radius = std::min(radius, Kernel<Shape>::bounding_radius(record));
+  constexpr bool is_sphere = requires { requires Kernel<Shape>::is_its_bounding_sphere; };
   BoundedObject object{static_cast<std::uint16_t>(index_of<Shape>(Shapes{})), is_sphere, primitive, bounds, radius};
   if constexpr (EmbreeTriangle<Shape>) object.corners = &record.vertex1;
   return object;
@@ -75,7 +64,6 @@ struct Accelerator::Report {
   }
 
   static bool on_memory(void* user, ssize_t bytes, bool) {
-    report_made.take();
     static_cast<Report*>(user)->bytes += bytes;
     return true;
   }
@@ -86,9 +74,8 @@ struct Accelerator::Report {
   }
 };
 
-Accelerator::Accelerator(const SceneDescription& description, int threads, const char* isa)
-    : report_(std::make_unique<Report>()) {
-  report_made.give();
+Accelerator::Accelerator(const GeometryTable& table, int threads, const char* isa)
+    : report_(std::make_unique<Report>()), table_(table) {
   const std::string configuration = "threads=" + std::to_string(threads) + ",set_affinity=0,isa=" + isa;
   device_.reset(rtcNewDevice(configuration.c_str()));
   if (!device_) throw_embree_error(rtcGetDeviceError(nullptr), "no device could be created");
@@ -100,20 +87,20 @@ Accelerator::Accelerator(const SceneDescription& description, int threads, const
   rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);  // no misses at box borders far from the origin
   for_each_type(Shapes{}, [&](auto type) {
     using Shape = typename decltype(type)::type;
-    auto& table = std::get<ShapeTable<Shape>>(tables_);
-    fill_table(description, table);
-    records_in_memory_[index_of<Shape>(Shapes{})] = {std::as_bytes(std::span(table.records)).data(),
-                                                     sizeof(typename ShapeTable<Shape>::Record)};
+    constexpr std::size_t index = index_of<Shape>(Shapes{});
+    const Geometry& entry = table.geometry(index);
+    const std::span records = std::span(table.table<Shape>().records).subspan(entry.first_record, entry.primitives);
+    records_in_memory_[index] = {std::as_bytes(records).data(), sizeof(typename ShapeTable<Shape>::Record)};
     if constexpr (!UnboundedShape<Shape>) {
-      if (table.records.empty()) return;
+      if (records.empty()) return;
       embree::Geometry geometry;
       if constexpr (UserGeometry<Shape>) {
-        geometry = make_user_geometry(device_.get(), table);
+        geometry = make_user_geometry<Shape>(device_.get(), records);
       } else {
-        geometry = make_triangles(device_.get(), table);
+        geometry = make_triangles<Shape>(device_.get(), records);
       }
       rtcCommitGeometry(geometry.get());
-      rtcAttachGeometryByID(scene_.get(), geometry.get(), static_cast<unsigned>(index_of<Shape>(Shapes{})));
+      rtcAttachGeometryByID(scene_.get(), geometry.get(), static_cast<unsigned>(index));
     }
   });
   report_->throw_error();
@@ -122,7 +109,7 @@ Accelerator::Accelerator(const SceneDescription& description, int threads, const
 Accelerator::~Accelerator() = default;
 
 void Accelerator::build() const {
-  commit_scene(scene_.get());
+  rtcCommitScene(scene_.get());
   report_->throw_error();
   is_built_.store(true, std::memory_order_release);
 }
@@ -131,17 +118,17 @@ std::uint64_t Accelerator::bvh_bytes() const {
   return static_cast<std::uint64_t>(std::max<std::int64_t>(report_->bytes, 0));
 }
 
-std::vector<std::optional<DirectionBuffer>> Accelerator::seen_from(std::span<const std::optional<BufferOrigin>> origins,
-                                                                   int threads) const {
+std::vector<std::optional<DirectionBuffer>> Accelerator::direction_buffers(
+    std::span<const std::optional<BufferOrigin>> origins, int threads) const {
   std::vector<std::optional<DirectionBuffer>> buffers(origins.size());
   if (std::none_of(origins.begin(), origins.end(), [](const auto& origin) { return origin.has_value(); }))
     return buffers;
-  auto objects = LargeArray<BoundedObject>::unset(primitive_count());
+  auto objects = LargeArray<BoundedObject>::unset(table_.object_count());
   std::size_t count = 0;
   for_each_type(Shapes{}, [&](auto type) {
     using Shape = typename decltype(type)::type;
     if constexpr (!UnboundedShape<Shape>) {
-      const auto& records = std::get<ShapeTable<Shape>>(tables_).records;
+      const auto& records = table_.table<Shape>().records;
       for_each_chunk(records.size(), threads, [&](std::size_t, std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
           objects[count + i] = placed_object<Shape>(records[i], static_cast<std::uint32_t>(i));
@@ -152,10 +139,6 @@ std::vector<std::optional<DirectionBuffer>> Accelerator::seen_from(std::span<con
   for (std::size_t i = 0; i < origins.size(); ++i)
     if (origins[i]) buffers[i] = DirectionBuffer::make(*origins[i], {objects.data(), count}, threads);
   return buffers;
-}
-
-std::uint64_t Accelerator::primitive_count() const {
-  return std::apply([](const auto&... table) { return (std::uint64_t{table.records.size()} + ...); }, tables_);
 }
 
 std::string Accelerator::embree_version() const {

@@ -15,7 +15,7 @@
 #include "raytrace/accel/direction_buffer.h"
 #include "raytrace/accel/embree.h"
 #include "raytrace/accel/user_geometry.h"
-#include "raytrace/description/scene_description.h"
+#include "raytrace/scene/scene_tables.h"
 
 namespace raytrace {
 
@@ -25,52 +25,37 @@ enum class Coherence {
   incoherent,  ///< they scatter (bounces): one query a ray, up to 4 times faster there (docs/design.md)
 };
 
-/// The nearest hits of a packet. Lanes that hit nothing hold shape_type == no_hit.
-struct Hits {
-  MaskN hit;
-  UintN shape_type;  ///< position of the shape's type in the Shapes registry
-  IntN primitive;    ///< index among the objects of that type
-  FloatN u, v;       ///< barycentric coordinates on triangles
-
-  // Of the first lane with a hit, and whether all others with one have the same shape_type, and hit the same object, as
-  // neighbours mostly do.
-  std::uint32_t first_shape_type = 0;
-  std::int32_t first_primitive = 0;
-  bool one_shape_type = false, one_object = false;
-};
-
-/// Owns Embree's device and scene, and the tables of all shapes. Embree's BVH is built when it is first asked for, by
+/// Owns Embree's device and scene of a geometry table's objects. Embree's BVH is built when it is first asked for, by
 /// the threads that ask: direction buffers may answer all rays. What builds it throws RenderError with Embree's
 /// message, std::bad_alloc where memory runs out.
 class Accelerator {
  public:
-  /// For up to `threads` threads; isa is Embree's name of the best instruction set that it may use. Throws as building
-  /// does.
-  Accelerator(const SceneDescription& description, int threads, const char* isa);
+  /// For up to `threads` threads; isa is Embree's name of the best instruction set that it may use. The table must
+  /// outlive it. Throws as building does.
+  Accelerator(const GeometryTable& table, int threads, const char* isa);
   ~Accelerator();
 
-  /// The objects as seen from each of the origins, where there is one and it would pay. With `threads` threads.
-  std::vector<std::optional<DirectionBuffer>> seen_from(std::span<const std::optional<BufferOrigin>> origins,
-                                                        int threads) const;
+  /// A direction buffer around each of the origins, where there is one and it would pay. With `threads` threads.
+  std::vector<std::optional<DirectionBuffer>> direction_buffers(std::span<const std::optional<BufferOrigin>> origins,
+                                                                int threads) const;
 
   /// Nearest hits in the lanes of `active`, which then are where the rays end. Rays that Embree cannot take (a
-  /// component that is NaN, infinite or beyond 1.8e18, or a direction of length 0) hit nothing. seen_from_origin: from
+  /// component that is NaN, infinite or beyond 1.8e18, or a direction of length 0) hit nothing. origin_buffer: from
   /// the point that all rays start at, their directions being of unit length; null if there is none. The same answer,
   /// sooner.
   Hits intersect(Ray<FloatN>& rays, const MaskN& active, Coherence coherence,
-                 const DirectionBuffer* seen_from_origin = nullptr) const;
+                 const DirectionBuffer* origin_buffer = nullptr) const;
 
-  /// The lanes of `active` in which anything lies between near and far. seen_from_end: from where all rays go, which is
+  /// The lanes of `active` in which anything lies between near and far. end_buffer: from where all rays go, which is
   /// the point origin + direction, where they end, the same for all but for the rounding of their directions; or
   /// infinitely far, with the same direction for all. Null if there is no such place. The same answer, sooner.
   MaskN occluded(const Ray<FloatN>& rays, const MaskN& active, Coherence coherence,
-                 const DirectionBuffer* seen_from_end = nullptr) const;
+                 const DirectionBuffer* end_buffer = nullptr) const;
 
   /// The surfaces that were hit, where the rays end, with their normals on the side that the rays come from; lanes
   /// without a hit hold anything.
-  SurfacePoint<FloatN> surface(const Ray<FloatN>& rays, const Hits& hits) const;
+  SurfaceInteraction<FloatN> surface(const Ray<FloatN>& rays, const Hits& hits) const;
 
-  std::uint64_t primitive_count() const;
   /// What Embree holds by now.
   std::uint64_t bvh_bytes() const;
 
@@ -106,7 +91,7 @@ class Accelerator {
                                const MaskN& in_reach, MaskN& occluded) const;
 
   std::unique_ptr<Report> report_;  ///< before device_, which still reports while it ends
-  TupleOf<Shapes, ShapeTable>::type tables_;
+  const GeometryTable& table_;
   std::array<RecordsInMemory, Shapes::size> records_in_memory_;  ///< of each table
   embree::Device device_;
   embree::Scene scene_;

@@ -42,7 +42,7 @@ RAYTRACE_INLINE void for_each_unbounded(const Tables& tables, Function f) {
     using Shape = typename decltype(type)::type;
     if constexpr (UnboundedShape<Shape>) {
       std::uint32_t primitive = 0;
-      for (const auto& record : std::get<ShapeTable<Shape>>(tables).records) f(type, primitive++, record);
+      for (const auto& record : tables.template table<Shape>().records) f(type, primitive++, record);
     }
   });
 }
@@ -51,20 +51,20 @@ RAYTRACE_INLINE void find_first(Hits& hits) {
   const std::uint32_t lanes = bits_of<FloatN>(hits.hit);
   if (lanes == 0) return;
   const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-  hits.first_shape_type = hits.shape_type.get(lane);
+  hits.first_geometry = hits.geometry.get(lane);
   hits.first_primitive = hits.primitive.get(lane);
-  hits.one_shape_type = none(hits.hit & float_mask<FloatN>(hits.shape_type != UintN(hits.first_shape_type)));
-  hits.one_object =
-      hits.one_shape_type && none(hits.hit & float_mask<FloatN>(hits.primitive != IntN(hits.first_primitive)));
+  hits.one_geometry = none(hits.hit & float_mask<FloatN>(hits.geometry != UintN(hits.first_geometry)));
+  hits.one_primitive =
+      hits.one_geometry && none(hits.hit & float_mask<FloatN>(hits.primitive != IntN(hits.first_primitive)));
 }
 
 /// Shapes that take rays from a point as such.
 template <class Shape>
 concept TakesRaysFromPoint =
     requires(typename ShapeTable<Shape>::Record record, RaysFromPoint<FloatN> rays, MaskN active, FloatN u) {
-      Shape::template intersect<FloatN>(record, rays, active);
+      Kernel<Shape>::template intersect<FloatN>(record, rays, active);
     } || requires(typename ShapeTable<Shape>::Record record, RaysFromPoint<FloatN> rays, MaskN active, FloatN u) {
-      Shape::template intersect<FloatN>(record, rays, active, u, u);
+      Kernel<Shape>::template intersect<FloatN>(record, rays, active, u, u);
     };
 
 /// Ends the rays where they meet an object. far: where they end, whatever Rays is.
@@ -73,15 +73,15 @@ RAYTRACE_INLINE void meet(const typename ShapeTable<Shape>::Record& record, std:
                           FloatN& far, const MaskN& active, Hits& hits) {
   FloatN distance, u(0), v(0);  // a triangle that no ray meets leaves u and v as they are
   if constexpr (EmbreeTriangle<Shape>) {
-    distance = Shape::template intersect<FloatN>(record, rays, active, u, v);
+    distance = Kernel<Shape>::template intersect<FloatN>(record, rays, active, u, v);
   } else {
-    distance = Shape::template intersect<FloatN>(record, rays, active);
+    distance = Kernel<Shape>::template intersect<FloatN>(record, rays, active);
   }
   const MaskN hit = distance < infinity<FloatN>();  // in float it may be the same as the one before
   if (none(hit)) return;
   far = select(hit, distance, far);
   hits.hit = hits.hit | hit;
-  hits.shape_type = select_lanes(hit, UintN(static_cast<std::uint32_t>(index_of<Shape>(Shapes{}))), hits.shape_type);
+  hits.geometry = select_lanes(hit, UintN(static_cast<std::uint32_t>(index_of<Shape>(Shapes{}))), hits.geometry);
   hits.primitive = select_lanes(hit, IntN(static_cast<std::int32_t>(primitive)), hits.primitive);
   if constexpr (EmbreeTriangle<Shape>) {
     hits.u = select(hit, u, hits.u);
@@ -95,14 +95,14 @@ RAYTRACE_INLINE MaskN is_occluded(const Tables& tables, const DirectionBuffer::O
                                   const MaskN& active) {
   return with_type(Shapes{}, object.shape_type, [&](auto type) {
     using Shape = typename decltype(type)::type;
-    return occludes<Shape>(std::get<ShapeTable<Shape>>(tables).records[object.primitive], rays, active);
+    return occludes<Shape>(tables.template table<Shape>().records[object.primitive], rays, active);
   });
 }
 
 /// Shapes whose objects are few and large: their surface() takes one, so that it can be of the plain numbers.
 template <class Shape>
 concept SurfaceOfOne = requires(typename ShapeTable<Shape>::Record record, Ray<FloatN> rays, FloatN distance) {
-  Shape::surface(record, rays, distance);
+  Kernel<Shape>::surface(record, rays, distance);
 };
 
 /// With the normal on the side that the rays come from.
@@ -116,7 +116,8 @@ template <class Shape>
 SurfacePoint<FloatN> surface_of(const ShapeTable<Shape>& table, const LaneIndices& primitive, const Ray<FloatN>& rays,
                                 const Hits& hits) {
   if constexpr (SurfaceOfOne<Shape>) {
-    SurfacePoint<FloatN> points = facing(Shape::surface(table.records[primitive.first()], rays, rays.far), rays);
+    SurfacePoint<FloatN> points =
+        facing(Kernel<Shape>::surface(table.records[primitive.first()], rays, rays.far), rays);
     if (primitive.all_same()) return points;
     MaskN left = float_mask<FloatN>(primitive.lanes() != IntN(static_cast<std::int32_t>(primitive.first())));
     while (any(left)) {
@@ -124,19 +125,19 @@ SurfacePoint<FloatN> surface_of(const ShapeTable<Shape>& table, const LaneIndice
           primitive.lanes().get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(left))));
       const MaskN here = left & float_mask<FloatN>(primitive.lanes() == IntN(next));
       const auto& record = table.records[static_cast<std::size_t>(next)];
-      points = select(here, facing(Shape::surface(record, rays, rays.far), rays), points);
+      points = select(here, facing(Kernel<Shape>::surface(record, rays, rays.far), rays), points);
       left = left & !here;
     }
     return points;
   } else {
     constexpr bool in_float =
-        std::is_same_v<typename ShapeTable<Shape>::Record, typename Shape::template Record<float>>;
+        std::is_same_v<typename ShapeTable<Shape>::Record, typename Kernel<Shape>::template Record<float>>;
     using Wide = std::conditional_t<in_float, FloatN, Doubles<FloatN>>;
-    const auto records = gather_records<Shape::template Record, Wide>(table.records.data(), primitive);
+    const auto records = gather_records<Kernel<Shape>::template Record, Wide>(table.records.data(), primitive);
     if constexpr (EmbreeTriangle<Shape>) {
-      return facing(Shape::template surface<FloatN>(records, hits.u, hits.v), rays);
+      return facing(Kernel<Shape>::template surface<FloatN>(records, hits.u, hits.v), rays);
     } else {
-      return facing(Shape::template surface<FloatN>(records, rays, rays.far), rays);
+      return facing(Kernel<Shape>::template surface<FloatN>(records, rays, rays.far), rays);
     }
   }
 }
@@ -146,10 +147,11 @@ SurfacePoint<FloatN> surface_of(const ShapeTable<Shape>& table, const LaneIndice
 Hits Accelerator::intersect_unbounded(Ray<FloatN>& rays, const MaskN& active) const {
   Hits hits;
   hits.hit = MaskN(false);
-  hits.shape_type = UintN(RTC_INVALID_GEOMETRY_ID);
+  hits.instance = UintN(Hits::no_instance);
+  hits.geometry = UintN(RTC_INVALID_GEOMETRY_ID);
   hits.primitive = IntN(0);
   hits.u = hits.v = FloatN(0);
-  for_each_unbounded(tables_, [&](auto type, std::uint32_t primitive, const auto& record) RAYTRACE_INLINE_LAMBDA {
+  for_each_unbounded(table_, [&](auto type, std::uint32_t primitive, const auto& record) RAYTRACE_INLINE_LAMBDA {
     meet<typename decltype(type)::type>(record, primitive, rays, rays.far, active, hits);
   });
   return hits;
@@ -157,7 +159,7 @@ Hits Accelerator::intersect_unbounded(Ray<FloatN>& rays, const MaskN& active) co
 
 MaskN Accelerator::occluded_unbounded(const Ray<FloatN>& rays, const MaskN& active) const {
   MaskN occluded(false);
-  for_each_unbounded(tables_, [&](auto type, std::uint32_t, const auto& record) RAYTRACE_INLINE_LAMBDA {
+  for_each_unbounded(table_, [&](auto type, std::uint32_t, const auto& record) RAYTRACE_INLINE_LAMBDA {
     using Shape = typename decltype(type)::type;
     occluded = occluded | occludes<Shape>(record, rays, active);
   });
@@ -173,7 +175,7 @@ MaskN Accelerator::intersect_candidates(const DirectionBuffer& seen, Ray<FloatN>
   const auto test = [&](const DirectionBuffer::Object& object) {
     with_type(Shapes{}, object.shape_type, [&](auto type) {
       using Shape = typename decltype(type)::type;
-      const auto& record = std::get<ShapeTable<Shape>>(tables_).records[object.primitive];
+      const auto& record = table_.table<Shape>().records[object.primitive];
       if constexpr (TakesRaysFromPoint<Shape>) {
         meet<Shape>(record, object.primitive, from_point, rays.far, active, hits);
       } else {
@@ -193,7 +195,7 @@ MaskN Accelerator::occluded_by_candidates(const DirectionBuffer& seen, const Ray
     return any(lanes & open & (depth >= FloatN(object.nearest)));
   };
   const auto test = [&](const DirectionBuffer::Object& object) {
-    open = open & !is_occluded(tables_, object, rays, open);
+    open = open & !is_occluded(table_, object, rays, open);
   };
   const auto fetch = [&](const DirectionBuffer::Object& object) RAYTRACE_INLINE_LAMBDA { fetch_record(object); };
   const auto test_all = [&](const Vec3<FloatN>& direction) RAYTRACE_INLINE_LAMBDA {
@@ -206,13 +208,13 @@ MaskN Accelerator::occluded_by_candidates(const DirectionBuffer& seen, const Ray
 }
 
 Hits Accelerator::intersect(Ray<FloatN>& rays, const MaskN& active, Coherence coherence,
-                            const DirectionBuffer* seen_from_origin) const {
+                            const DirectionBuffer* origin_buffer) const {
   // All rays that start where the origin is can be taken.
-  MaskN valid_lanes = seen_from_origin != nullptr ? active : active & embree_takes(rays);
+  MaskN valid_lanes = origin_buffer != nullptr ? active : active & embree_takes(rays);
   // First the shapes without end: what lies behind their hits need not be looked for.
   Hits hits = intersect_unbounded(rays, valid_lanes);
-  if (seen_from_origin != nullptr) {
-    valid_lanes = intersect_candidates(*seen_from_origin, rays, valid_lanes, hits);
+  if (origin_buffer != nullptr) {
+    valid_lanes = intersect_candidates(*origin_buffer, rays, valid_lanes, hits);
     find_first(hits);
   }
   if (none(valid_lanes)) return hits;
@@ -241,10 +243,10 @@ Hits Accelerator::intersect(Ray<FloatN>& rays, const MaskN& active, Coherence co
       packet.hit.geomID[lane] = single.hit.geomID;
     });
   }
-  const UintN shape_type = embree::load<UintN>([&](int i) { return packets[i].hit.geomID; });
-  const MaskN in_bvh = valid_lanes & float_mask<FloatN>(shape_type != UintN(RTC_INVALID_GEOMETRY_ID));
+  const UintN geometry = embree::load<UintN>([&](int i) { return packets[i].hit.geomID; });
+  const MaskN in_bvh = valid_lanes & float_mask<FloatN>(geometry != UintN(RTC_INVALID_GEOMETRY_ID));
   hits.hit = hits.hit | in_bvh;
-  hits.shape_type = select_lanes(in_bvh, shape_type, hits.shape_type);
+  hits.geometry = select_lanes(in_bvh, geometry, hits.geometry);
   const UintN primitive = embree::load<UintN>([&](int i) { return packets[i].hit.primID; });
   hits.primitive = select_lanes(in_bvh, same_bits<IntN>(primitive), hits.primitive);
   rays.far = embree::load<FloatN>([&](int i) { return packets[i].ray.tfar; });
@@ -255,14 +257,13 @@ Hits Accelerator::intersect(Ray<FloatN>& rays, const MaskN& active, Coherence co
 }
 
 MaskN Accelerator::occluded(const Ray<FloatN>& rays, const MaskN& active, Coherence coherence,
-                            const DirectionBuffer* seen_from_end) const {
+                            const DirectionBuffer* end_buffer) const {
   MaskN in_reach(false), takeable = active;  // those in reach can be taken
-  if (seen_from_end != nullptr) in_reach = seen_from_end->in_reach(rays.origin, rays.direction);
+  if (end_buffer != nullptr) in_reach = end_buffer->in_reach(rays.origin, rays.direction);
   if (any(active & !in_reach)) takeable = active & (in_reach | embree_takes(rays));
   MaskN found = occluded_unbounded(rays, takeable);
   MaskN valid_lanes = takeable & !found;
-  if (seen_from_end != nullptr)
-    valid_lanes = occluded_by_candidates(*seen_from_end, rays, valid_lanes, in_reach, found);
+  if (end_buffer != nullptr) valid_lanes = occluded_by_candidates(*end_buffer, rays, valid_lanes, in_reach, found);
   if (none(valid_lanes)) return found;
 
   const RTCScene scene = embree_scene();
@@ -283,32 +284,27 @@ MaskN Accelerator::occluded(const Ray<FloatN>& rays, const MaskN& active, Cohere
   return found | (valid_lanes & (embree::load<FloatN>([&](int i) { return packets[i].tfar; }) < FloatN(0)));
 }
 
-SurfacePoint<FloatN> Accelerator::surface(const Ray<FloatN>& rays, const Hits& hits) const {
-  if (hits.one_object) {
-    return with_type(Shapes{}, hits.first_shape_type, [&](auto type) {
-      using Shape = typename decltype(type)::type;
-      return surface_of<Shape>(std::get<ShapeTable<Shape>>(tables_), LaneIndices(hits.first_primitive), rays, hits);
+SurfaceInteraction<FloatN> Accelerator::surface(const Ray<FloatN>& rays, const Hits& hits) const {
+  const auto points_of = [&](std::uint32_t geometry, const LaneIndices& primitive) {
+    return with_type(Shapes{}, table_.geometry(geometry).shape_type, [&]<class Shape>(std::type_identity<Shape>) {
+      return surface_of<Shape>(table_.table<Shape>(), primitive, rays, hits);
     });
-  }
-  std::uint32_t lanes_left = bits_of<FloatN>(hits.hit);
-  alignas(64) std::uint32_t shape_types[packet_lanes];
-  hits.shape_type.store_aligned(shape_types);
+  };
+  const auto interaction = [&](const SurfacePoint<FloatN>& point) {
+    return SurfaceInteraction<FloatN>{point.position, point.normal, point.normal, -rays.direction, point.error};
+  };
+  if (hits.one_primitive) return interaction(points_of(hits.first_geometry, LaneIndices(hits.first_primitive)));
   SurfacePoint<FloatN> result{};
-  for_each_type(Shapes{}, [&](auto type) {
-    using Shape = typename decltype(type)::type;
-    const auto shape_type = static_cast<std::uint32_t>(index_of<Shape>(Shapes{}));
-    if (lanes_left == 0 || std::get<ShapeTable<Shape>>(tables_).records.empty()) return;
-    const MaskN here =
-        hits.hit & float_mask<FloatN>(same_bits<IntN>(hits.shape_type) == IntN(static_cast<std::int32_t>(shape_type)));
-    const std::uint32_t lanes = bits_of<FloatN>(here);
-    if (lanes == 0) return;
-    lanes_left &= ~lanes;
+  for (MaskN left = hits.hit; any(left);) {
+    const auto first = static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(left)));
+    const std::uint32_t geometry = hits.geometry.get(first);
+    const MaskN here = left & float_mask<FloatN>(hits.geometry == UintN(geometry));
+    left = left & !here;
     // The other lanes follow the first of these, so that they read a record that exists, and no further ones.
-    const IntN primitive =
-        select_lanes(here, hits.primitive, IntN(hits.primitive.get(static_cast<std::size_t>(std::countr_zero(lanes)))));
-    result = select(here, surface_of<Shape>(std::get<ShapeTable<Shape>>(tables_), primitive, rays, hits), result);
-  });
-  return result;
+    const IntN primitive = select_lanes(here, hits.primitive, IntN(hits.primitive.get(first)));
+    result = select(here, points_of(geometry, primitive), result);
+  }
+  return interaction(result);
 }
 
 }  // namespace raytrace

@@ -51,7 +51,7 @@ Sum sum_of(std::span<const BoundedObject> objects, int threads, const Sum& nothi
 }  // namespace
 
 CubeProjection::CubeProjection(const BufferOrigin& origin, std::span<const BoundedObject> objects, int threads)
-    : infinitely_far_(origin.infinitely_far), place_(origin.place) {
+    : infinitely_far_(origin.infinitely_far), place_(origin.position) {
   const Vec3d from = infinitely_far_ ? Vec3d(0, 0, 0) : place_;
   struct Reach {
     double farthest = 0;

@@ -1,4 +1,4 @@
-// Objects as seen from a origin: the parts of a cube's faces around it that they are behind.
+// Objects projected from a direction buffer's origin: the parts of a cube's faces around it that they are behind.
 #pragma once
 
 #include <array>
@@ -8,6 +8,7 @@
 
 #include "raytrace/math/bounds.h"
 #include "raytrace/math/vec3.h"
+#include "raytrace/scene/scene_tables.h"
 
 namespace raytrace {
 
@@ -19,12 +20,6 @@ struct BoundedObject {
   Bounds bounds;
   double radius;                   ///< of a sphere around it, whose center is that of the bounds
   const Vec3f* corners = nullptr;  ///< of a triangle, three; it must stay where it is
-};
-
-/// Where it is all seen from.
-struct BufferOrigin {
-  Vec3f place;                  ///< a point, or
-  bool infinitely_far = false;  ///< the unit direction towards one that is infinitely far
 };
 
 struct Interval {

@@ -12,7 +12,7 @@ std::optional<DirectionBuffer> DirectionBuffer::make(const BufferOrigin& origin,
   const CubeProjection projection(origin, objects, threads);
   if (!projection.is_within_floats()) return std::nullopt;
   DirectionBuffer buffer;
-  buffer.point_ = origin.place;
+  buffer.point_ = origin.position;
   buffer.infinitely_far_ = projection.infinitely_far();
   buffer.surroundings_ = projection.surroundings();
   buffer.reach_ = static_cast<float>(projection.reach());

@@ -13,49 +13,38 @@
 #include "raytrace/math/bounds.h"
 #include "raytrace/math/ray.h"
 #include "raytrace/math/simd.h"
-#include "raytrace/parallel/handover.h"
+#include "raytrace/scene/geometry_table.h"
 
 namespace raytrace {
 
 /// Shapes whose records are Embree's triangles.
 template <class Shape>
-concept EmbreeTriangle = requires { &Shape::template Record<float>::vertex1; };
+concept EmbreeTriangle = requires { &Kernel<Shape>::template Record<float>::vertex1; };
 
 /// Shapes without end: every ray is tested against them, and they stay out of the BVH. There all boxes on the way to
 /// them would be without end.
 template <class Shape>
-concept UnboundedShape = !requires { &Shape::bounds; };
+concept UnboundedShape = !requires { &Kernel<Shape>::bounds; };
 
 /// All others: they bring their own intersection, and bounds for a BVH to keep them in.
 template <class Shape>
 concept UserGeometry = !EmbreeTriangle<Shape> && !UnboundedShape<Shape>;
 
-/// Whether the object lies on the rays, in the lanes of `active`. Shape::occludes(), where there is one, need not find
+/// Whether the object lies on the rays, in the lanes of `active`. Kernel::occludes(), where there is one, need not find
 /// out where.
 template <class Shape, class Record, class F>
 RAYTRACE_INLINE Mask<F> occludes(const Record& record, const Ray<F>& ray, const Mask<F>& active) {
-  if constexpr (requires { Shape::template occludes<F>(record, ray, active); }) {
-    return Shape::template occludes<F>(record, ray, active);
+  if constexpr (requires { Kernel<Shape>::template occludes<F>(record, ray, active); }) {
+    return Kernel<Shape>::template occludes<F>(record, ray, active);
   } else if constexpr (EmbreeTriangle<Shape>) {
     F u, v;
-    return Shape::template intersect<F>(record, ray, active, u, v) < infinity<F>();
+    return Kernel<Shape>::template intersect<F>(record, ray, active, u, v) < infinity<F>();
   } else {
-    return Shape::template intersect<F>(record, ray, active) < infinity<F>();
+    return Kernel<Shape>::template intersect<F>(record, ray, active) < infinity<F>();
   }
 }
 
-/// The records of all objects of one shape: what an Embree geometry points at.
-template <class Shape>
-struct ShapeTable {
-  using Record = decltype(Shape::record(std::declval<typename Shape::Parameters>()));
-  std::vector<Record> records;
-};
-
 namespace detail {
-
-/// From the thread that fills the tables to Embree's builder threads, and back once they are done. Static: they must
-/// find it before they read anything.
-inline constinit Handover tables_filled, tables_read;
 
 // Embree's packets are arrays of `size` floats for each field. F covers lanes [first, first + lane_count<F>) of them,
 // or, where the packet is narrower than F, all of them: `count` says how many there are.
@@ -115,13 +104,14 @@ RAYTRACE_INLINE Ray<F> load_rays(RTCRayN* rays, unsigned size, unsigned first, i
 template <class Shape, class F>
 void intersect_packet(const RTCIntersectFunctionNArguments* arguments) {
   const unsigned size = arguments->N;
-  const auto& record = static_cast<const ShapeTable<Shape>*>(arguments->geometryUserPtr)->records[arguments->primID];
+  const auto& record =
+      static_cast<const typename ShapeTable<Shape>::Record*>(arguments->geometryUserPtr)[arguments->primID];
   RTCRayN* rays = RTCRayHitN_RayN(arguments->rayhit, size);
   RTCHitN* hits = RTCRayHitN_HitN(arguments->rayhit, size);
   for (unsigned first = 0; first < size; first += static_cast<unsigned>(lane_count<F>)) {
     const int count = static_cast<int>(size - first);
     const Mask<F> active = load_mask<F>(arguments->valid + first, count);
-    const F t = Shape::template intersect<F>(record, load_rays<F>(rays, size, first, count), active);
+    const F t = Kernel<Shape>::template intersect<F>(record, load_rays<F>(rays, size, first, count), active);
     const Mask<F> hit = t < infinity<F>();
     if (any(hit)) {
       store_lanes<F>(&RTCRayN_tfar(rays, size, first), count, hit, t);
@@ -135,7 +125,8 @@ void intersect_packet(const RTCIntersectFunctionNArguments* arguments) {
 template <class Shape, class F>
 void occluded_packet(const RTCOccludedFunctionNArguments* arguments) {
   const unsigned size = arguments->N;
-  const auto& record = static_cast<const ShapeTable<Shape>*>(arguments->geometryUserPtr)->records[arguments->primID];
+  const auto& record =
+      static_cast<const typename ShapeTable<Shape>::Record*>(arguments->geometryUserPtr)[arguments->primID];
   for (unsigned first = 0; first < size; first += static_cast<unsigned>(lane_count<F>)) {
     const int count = static_cast<int>(size - first);
     const Mask<F> active = load_mask<F>(arguments->valid + first, count);
@@ -147,9 +138,8 @@ void occluded_packet(const RTCOccludedFunctionNArguments* arguments) {
 
 template <class Shape>
 void bounds_callback(const RTCBoundsFunctionArguments* arguments) {
-  tables_filled.take();
-  const auto& table = *static_cast<const ShapeTable<Shape>*>(arguments->geometryUserPtr);
-  const Bounds bounds = Shape::bounds(table.records[arguments->primID]);
+  const auto* records = static_cast<const typename ShapeTable<Shape>::Record*>(arguments->geometryUserPtr);
+  const Bounds bounds = Kernel<Shape>::bounds(records[arguments->primID]);
   RTCBounds& box = *arguments->bounds_o;
   box.lower_x = bounds.lower.x;
   box.lower_y = bounds.lower.y;
@@ -157,7 +147,6 @@ void bounds_callback(const RTCBoundsFunctionArguments* arguments) {
   box.upper_x = bounds.upper.x;
   box.upper_y = bounds.upper.y;
   box.upper_z = bounds.upper.z;
-  if constexpr (thread_sanitized) tables_read.give();  // all threads, an object each time, at one place in memory
 }
 
 // Each packet size by as many lanes as it has; single rays by the fewest there are.
@@ -188,23 +177,17 @@ void occluded_callback(const RTCOccludedFunctionNArguments* arguments) {
 
 }  // namespace detail
 
-/// An Embree user geometry of the table's objects; the table must outlive it.
+/// An Embree user geometry of these objects, which must outlive it.
 template <UserGeometry Shape>
-embree::Geometry make_user_geometry(RTCDevice device, ShapeTable<Shape>& table) {
+embree::Geometry make_user_geometry(RTCDevice device, std::span<const typename ShapeTable<Shape>::Record> records) {
   embree::Geometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER));
-  rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(table.records.size()));
-  rtcSetGeometryUserData(geometry.get(), &table);
+  rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(records.size()));
+  // Embree hands it to the callbacks, which only read.
+  rtcSetGeometryUserData(geometry.get(), const_cast<typename ShapeTable<Shape>::Record*>(records.data()));
   rtcSetGeometryBoundsFunction(geometry.get(), &detail::bounds_callback<Shape>, nullptr);
   rtcSetGeometryIntersectFunction(geometry.get(), &detail::intersect_callback<Shape>);
   rtcSetGeometryOccludedFunction(geometry.get(), &detail::occluded_callback<Shape>);
   return geometry;
-}
-
-/// Builds a scene of such geometries, whose tables are full by now.
-inline void commit_scene(RTCScene scene) {
-  detail::tables_filled.give();
-  rtcCommitScene(scene);
-  detail::tables_read.take();
 }
 
 }  // namespace raytrace

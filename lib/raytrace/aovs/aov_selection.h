@@ -5,16 +5,16 @@
 #include <string>
 #include <vector>
 
+#include "raytrace/aovs/aov_table.h"
 #include "raytrace/description/scene_description.h"
 #include "raytrace/film/aov_settings.h"
 #include "raytrace/film/film.h"
 #include "raytrace/output/image_band.h"
 #include "raytrace/output/image_file.h"
-#include "raytrace/render/renderer.h"
 
 namespace raytrace {
 
-/// All there are, in the registry's order.
+/// All there are, in the table's order.
 std::vector<std::string> aov_names();
 std::vector<std::string> aov_names(const AovSet& aovs);
 
@@ -26,12 +26,12 @@ AovSettings aov_settings(const AovSet& aovs);
 
 /// For a film that takes samples of the scene. samples: the most that a pixel will have, with those of other parts of
 /// the picture.
-AovSettings aov_settings(const AovSet& aovs, const Scene& scene, const SceneDescription& description,
+AovSettings aov_settings(const AovSet& aovs, const AovBounds& bounds, const SceneDescription& description,
                          std::uint64_t samples);
 
 std::vector<Channel> aov_channels(const AovSet& aovs);
 
-/// Whose ids the channels have, and how Cryptomatte's are made.
+/// The names of the ids that the channels have, and how Cryptomatte's are made.
 std::vector<ImageAttribute> aov_attributes(const AovSet& aovs, const SceneDescription& description);
 
 /// Sets the planes of aov_channels() from `first_plane` on to the values of the rows of band.region.

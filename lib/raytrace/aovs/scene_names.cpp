@@ -1,15 +1,17 @@
 #include "raytrace/aovs/scene_names.h"
 
+#include <nlohmann/json.hpp>
+
 namespace raytrace {
 
 std::vector<std::string> object_names(const SceneDescription& description) {
   std::vector<std::string> names;
   for_each_type(Shapes{}, [&](auto type) {
     using Shape = typename decltype(type)::type;
-    std::size_t place = 0;
+    std::size_t number = 0;
     for (const auto& item : std::get<ObjectItems<Shape>>(description.objects)) {
-      ++place;
-      names.push_back(item.name.empty() ? std::string(Shape::element) + '#' + std::to_string(place) : item.name);
+      ++number;
+      names.push_back(item.name.empty() ? std::string(Shape::element) + '#' + std::to_string(number) : item.name);
     }
   });
   return names;
@@ -22,6 +24,11 @@ std::vector<std::string> material_names(const SceneDescription& description) {
     for (const auto& item : std::get<MaterialItems<Material>>(description.materials)) names.push_back(item.name);
   });
   return names;
+}
+
+ImageAttribute id_manifest(std::string_view channel, const std::vector<std::string>& names) {
+  return {"raytrace:manifest/" + std::string(channel),
+          nlohmann::json(names).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
 }
 
 }  // namespace raytrace

@@ -5,11 +5,8 @@
 //   </camera>
 #pragma once
 
-#include "raytrace/cameras/camera_matrices.h"
+#include "raytrace/cameras/view_frame.h"
 #include "raytrace/cameras/view_plane.h"
-#include "raytrace/math/ray.h"
-#include "raytrace/math/simd.h"
-#include "raytrace/parameters/fields.h"
 
 namespace raytrace {
 
@@ -22,35 +19,22 @@ class PinholeCamera {
   };
   static constexpr std::string_view name = "pinhole";  ///< as --list cameras shows it
   static constexpr std::string_view element = "camera";
-  static Fields<Parameters> fields();
-  static std::optional<ParameterDiagnostic> check(const Parameters& parameters);
-
-  /// pixelsize: edge of a pixel on the view plane, in world units.
-  PinholeCamera(const Parameters& parameters, double pixelsize);
-
-  Vec3f origin() const { return eye_; }
-
-  /// Rays through points of the view plane: x to the right and y upwards from its center, in pixels. Unit directions.
-  template <class F>
-  Ray<F> generate(const F& x, const F& y) const {
-    const Vec3<F> direction{multiply_add(F(right_.x), x, multiply_add(F(up_.x), y, F(forward_.x))),
-                            multiply_add(F(right_.y), x, multiply_add(F(up_.y), y, F(forward_.y))),
-                            multiply_add(F(right_.z), x, multiply_add(F(up_.z), y, F(forward_.z)))};
-    return {Vec3<F>(eye_), normalize(direction), F(0), infinity<F>()};
+  static Fields<Parameters> fields() {
+    return {required("eye", &Parameters::eye), required("lookat", &Parameters::lookat),
+            optional("up", &Parameters::up, Range::nonzero),
+            required("viewdistance", &Parameters::viewdistance, Range::positive)};
+  }
+  static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {
+    return check_view(parameters.eye, parameters.lookat);
   }
 
-  /// The camera's orthonormal frame: u to the right, v up, w towards the eye from what it looks at.
-  struct Frame {
-    Vec3d u, v, w;
-  };
-  static Frame frame(const Parameters& parameters);
-
-  static CameraMatrices matrices(const Parameters& parameters, const ViewPlane& viewplane);
-
- private:
-  Vec3f eye_;
-  Vec3f right_, up_,
-      forward_;  ///< one pixel to the right, one up, and to the view plane's center; divided by viewdistance
+  static CameraMatrices matrices(const Parameters& parameters, const ViewPlane& viewplane) {
+    // The picture spans +-half on the view plane, and -z of camera space divides: x' = x * d / (width * -z) + 1/2.
+    const double x_scale = parameters.viewdistance / (viewplane.pixelsize * viewplane.hres);
+    const double y_scale = parameters.viewdistance / (viewplane.pixelsize * viewplane.vres);
+    return make_camera_matrices(parameters.eye, ViewFrame(parameters.eye, parameters.lookat, parameters.up),
+                                {{x_scale, 0, 0, 0}, {0, y_scale, 0, 0}, {-0.5, -0.5, -1, -1}, {0, 0, 0, 0}});
+  }
 };
 
 }  // namespace raytrace

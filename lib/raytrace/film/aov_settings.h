@@ -8,7 +8,7 @@
 
 namespace raytrace {
 
-/// Some of the AOVs of the registry (aovs/registry.h), by their positions in it.
+/// Some of the AOVs of aov_table (aovs/aov_table.h), by their indices in it.
 class AovSet {
  public:
   void add(std::size_t aov) { bits_ |= std::uint32_t{1} << aov; }
@@ -20,7 +20,7 @@ class AovSet {
   std::uint32_t bits_ = 0;
 };
 
-/// The wanted AOVs' values follow each other in the registry's order, rule by rule. (aovs/aov.h)
+/// The wanted AOVs' values follow each other in the table's order, rule by rule.
 struct AovSettings {
   AovSet wanted;
   std::size_t nearest_values = 0;  ///< of the sample that met the nearest surface: 32 bit words

@@ -4,6 +4,9 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "raytrace/integrators/aov_values.h"
 
 namespace raytrace {
 
@@ -24,25 +27,30 @@ void BlockAovs::add(const AovInputs& seen, const MaskN& wanted, const UintN& sam
   depth_ = select(nearer, seen.depth(), depth_);
   sample_ = select_lanes(nearer, same_bits<IntN>(sample), sample_);
 
-  std::size_t next_nearest = 0, next_mean = 0, next_coverage = 0;
-  for_each_type(Aovs{}, [&](auto type) {
-    using Aov = typename decltype(type)::type;
-    if (!film_.settings().wanted.has(index_of<Aov>(Aovs{}))) return;
-    if constexpr (Aov::rule == AovRule::nearest) {
-      for (const FloatN& value : Aov::values(seen)) {
-        FloatN& kept = nearest_[next_nearest++];
-        kept = select(nearer, value, kept);
-      }
-    } else if constexpr (Aov::rule == AovRule::mean) {
-      for (const FloatN& value : Aov::values(seen)) {
-        Mean& mean = means_[next_mean++];
-        const MaskN counts = hit & (abs(value) <= mean.largest);  // false for NaN
-        mean.sum.add(select(counts, value, FloatN(0)), mean.units);
-      }
-    } else if constexpr (Aov::rule == AovRule::coverage) {
-      count(next_coverage++, select_lanes(hit, Aov::index(seen), IntN(nothing)));
+  NextValues next;
+  [&]<std::size_t... aov>(std::index_sequence<aov...>) {
+    (add_values<aov>(seen, hit, nearer, next), ...);
+  }(std::make_index_sequence<std::size(aov_table)>());
+}
+
+template <std::size_t aov>
+void BlockAovs::add_values(const AovInputs& seen, const MaskN& hit, const MaskN& nearer, NextValues& next) {
+  if (!film_.settings().wanted.has(aov)) return;
+  constexpr AovRule rule = aov_table[aov].rule;
+  if constexpr (rule == AovRule::nearest) {
+    for (const FloatN& value : aov_values<aov>(seen)) {
+      FloatN& kept = nearest_[next.nearest++];
+      kept = select(nearer, value, kept);
     }
-  });
+  } else if constexpr (rule == AovRule::mean) {
+    for (const FloatN& value : aov_values<aov>(seen)) {
+      Mean& mean = means_[next.mean++];
+      const MaskN counts = hit & (abs(value) <= mean.largest);  // false for NaN
+      mean.sum.add(select(counts, value, FloatN(0)), mean.units);
+    }
+  } else if constexpr (rule == AovRule::coverage) {
+    count(next.coverage++, select_lanes(hit, aov_values<aov>(seen), IntN(nothing)));
+  }
 }
 
 void BlockAovs::count(std::size_t coverage, const IntN& things) {
@@ -77,7 +85,7 @@ void BlockAovs::finish() {
 
   if (settings.nearest_values == 0) return;
   alignas(64) std::array<float, packet_lanes> lanes;
-  std::array<std::array<std::uint32_t, all_values(AovRule::nearest, Aovs{})>, packet_lanes> values{};
+  std::array<std::array<std::uint32_t, all_values(AovRule::nearest)>, packet_lanes> values{};
   for (std::size_t i = 0; i < settings.nearest_values; ++i) {
     nearest_[i].store_aligned(lanes.data());
     for (std::size_t lane = 0; lane < packet_lanes; ++lane) values[lane][i] = std::bit_cast<std::uint32_t>(lanes[lane]);

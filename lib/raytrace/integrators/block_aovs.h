@@ -4,23 +4,12 @@
 #include <array>
 #include <cstdint>
 
-#include "raytrace/aovs/registry.h"
+#include "raytrace/aovs/aov_table.h"
 #include "raytrace/film/aov_film.h"
 #include "raytrace/math/fixed_point_sums.h"
 #include "raytrace/scene/aov_inputs.h"
 
 namespace raytrace {
-
-/// How many values all AOVs of a rule have together.
-template <class... Types>
-constexpr std::size_t all_values(AovRule rule, TypeList<Types...>) {
-  const auto values = [rule]<class Aov>(std::type_identity<Aov>) -> std::size_t {
-    if (Aov::rule != rule) return 0;
-    if constexpr (requires { Aov::channels; }) return Aov::channels.size();
-    return 1;
-  };
-  return (values(std::type_identity<Types>{}) + ...);
-}
 
 /// What the lanes of a packet gather, some of which may be of one pixel. The wanted AOVs' values follow each other as
 /// in AovSettings.
@@ -57,7 +46,15 @@ class BlockAovs {
     FixedPointSums<FloatN> sum;
   };
 
+  /// Of each rule: how many values the AOVs before have.
+  struct NextValues {
+    std::size_t nearest = 0, mean = 0, coverage = 0;
+  };
+
   void prepare();
+  /// Of aov_table[aov], which counts in `next` what it has of each rule.
+  template <std::size_t aov>
+  void add_values(const AovInputs& seen, const MaskN& hit, const MaskN& nearer, NextValues& next);
   void count(std::size_t coverage, const IntN& things);
   void end_run(std::size_t coverage, std::size_t lane);
 
@@ -66,9 +63,9 @@ class BlockAovs {
   std::uint32_t lanes_ = 0;                  ///< those whose pixels are wanted, as bits
   FloatN depth_ = infinity<FloatN>();
   IntN sample_ = IntN(0);  ///< of the nearest surface
-  std::array<FloatN, all_values(AovRule::nearest, Aovs{})> nearest_;
-  std::array<Mean, all_values(AovRule::mean, Aovs{})> means_;
-  std::array<Run, all_values(AovRule::coverage, Aovs{})> runs_;
+  std::array<FloatN, all_values(AovRule::nearest)> nearest_;
+  std::array<Mean, all_values(AovRule::mean)> means_;
+  std::array<Run, all_values(AovRule::coverage)> runs_;
 };
 
 }  // namespace raytrace

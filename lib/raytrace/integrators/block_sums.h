@@ -11,7 +11,7 @@
 
 #include "raytrace/film/film_means.h"
 #include "raytrace/integrators/lane_counts.h"
-#include "raytrace/integrators/raycast.h"
+#include "raytrace/integrators/ray_result.h"
 #include "raytrace/math/fixed_point_sums.h"
 #include "raytrace/math/limbs.h"
 
@@ -81,23 +81,23 @@ class BlockSums {
   static constexpr int most_packets = 4096 / packet_lanes - 1;
 
   /// Adds a sample of each lane of `wanted`. The result: those whose radiance is still to be added, with add_large().
-  RAYTRACE_INLINE MaskN add(const RayResult& seen, const MaskN& wanted) {
+  RAYTRACE_INLINE MaskN add(const RayResult& result, const MaskN& wanted) {
     // The sum is large where one of them is, and NaN compares false.
-    const MaskN fine = wanted & (abs(seen.radiance.red) + abs(seen.radiance.green) + abs(seen.radiance.blue) <=
+    const MaskN fine = wanted & (abs(result.radiance.red) + abs(result.radiance.green) + abs(result.radiance.blue) <=
                                  FloatN(scale_.most_at_once));
-    const Rgb<FloatN> radiance = select(fine, seen.radiance, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
+    const Rgb<FloatN> radiance = select(fine, result.radiance, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
     red_.add(radiance.red, scale_.inverse_unit);
     green_.add(radiance.green, scale_.inverse_unit);
     blue_.add(radiance.blue, scale_.inverse_unit);
-    hits_.add(seen.hit & wanted);
+    hits_.add(result.hit & wanted);
     samples_.add(wanted);
     return wanted & !fine;
   }
 
   /// The same for large radiances, of few lanes. The result: those whose radiance is not finite, or beyond what the
   /// sums can hold, which are counted as black.
-  std::uint32_t add_large(const RayResult& seen, const MaskN& lanes) {
-    return large_.add(seen.radiance, bits_of<FloatN>(lanes), scale_);
+  std::uint32_t add_large(const RayResult& result, const MaskN& lanes) {
+    return large_.add(result.radiance, bits_of<FloatN>(lanes), scale_);
   }
 
   /// Makes room for most_packets more.

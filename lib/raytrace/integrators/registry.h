@@ -1,4 +1,5 @@
-// All integrators. A new integrator: its own pair of files, one include and one name here. (docs/how-to-add-a-type.md)
+// All integrators. A new integrator: its own pair of files, one include and one name here, one include in kernels.h.
+// (docs/how-to-add-a-type.md)
 #pragma once
 
 #include "raytrace/integrators/raycast.h"

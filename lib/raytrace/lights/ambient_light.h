@@ -3,7 +3,6 @@
 //   <ambientlight> <scaleradiance>1</scaleradiance> <color red="1" green="1" blue="1"/> </ambientlight>
 #pragma once
 
-#include "raytrace/lights/light.h"
 #include "raytrace/parameters/fields.h"
 
 namespace raytrace {
@@ -16,15 +15,9 @@ class AmbientLight {
   };
   static constexpr std::string_view group = "";  ///< stands in <lights> itself, at most once
   static constexpr std::string_view element = "ambientlight";
-  static Fields<Parameters> fields();
-
-  explicit AmbientLight(const Parameters& parameters) : radiance_(parameters.color * parameters.scaleradiance) {}
-
-  static constexpr bool ambient = true;
-  Rgb<float> radiance() const { return radiance_; }
-
- private:
-  Rgb<float> radiance_;
+  static Fields<Parameters> fields() {
+    return {optional("scaleradiance", &Parameters::scaleradiance), optional("color", &Parameters::color)};
+  }
 };
 
 }  // namespace raytrace

@@ -6,9 +6,6 @@
 //   </directionallight>
 #pragma once
 
-#include <limits>
-
-#include "raytrace/lights/light.h"
 #include "raytrace/parameters/fields.h"
 
 namespace raytrace {
@@ -23,27 +20,11 @@ class DirectionalLight {
   };
   static constexpr std::string_view group = "directionallights";
   static constexpr std::string_view element = "directionallight";
-  static Fields<Parameters> fields();
-
-  explicit DirectionalLight(const Parameters& parameters)
-      : direction_(normalize(parameters.direction)),
-        radiance_(parameters.color * parameters.scaleradiance),
-        shadows_(parameters.shadows) {}
-
-  static constexpr bool ambient = false;
-  bool shadows() const { return shadows_; }
-  Vec3f direction() const { return direction_; }
-  Rgb<float> largest_radiance() const { return radiance_; }
-
-  template <class F>
-  LightSample<F> sample(const Vec3<F>&) const {
-    return {Vec3<F>(direction_), F(std::numeric_limits<float>::infinity()), Rgb<F>(radiance_)};
+  static Fields<Parameters> fields() {
+    return {required("direction", &Parameters::direction, Range::nonzero),
+            optional("scaleradiance", &Parameters::scaleradiance), optional("color", &Parameters::color),
+            optional("shadows", &Parameters::shadows)};
   }
-
- private:
-  Vec3f direction_;
-  Rgb<float> radiance_;
-  bool shadows_;
 };
 
 }  // namespace raytrace

@@ -6,7 +6,6 @@
 //   </pointlight>
 #pragma once
 
-#include "raytrace/lights/light.h"
 #include "raytrace/parameters/fields.h"
 
 namespace raytrace {
@@ -21,27 +20,10 @@ class PointLight {
   };
   static constexpr std::string_view group = "pointlights";
   static constexpr std::string_view element = "pointlight";
-  static Fields<Parameters> fields();
-
-  explicit PointLight(const Parameters& parameters)
-      : location_(parameters.location),
-        radiance_(parameters.color * parameters.scaleradiance),
-        shadows_(parameters.shadows) {}
-
-  static constexpr bool ambient = false;
-  bool shadows() const { return shadows_; }
-  Vec3f location() const { return location_; }
-  Rgb<float> largest_radiance() const { return radiance_; }
-
-  template <class F>
-  LightSample<F> sample(const Vec3<F>& position) const {
-    return {Vec3<F>(location_) - position, F(1), Rgb<F>(radiance_)};
+  static Fields<Parameters> fields() {
+    return {required("location", &Parameters::location), optional("scaleradiance", &Parameters::scaleradiance),
+            optional("color", &Parameters::color), optional("shadows", &Parameters::shadows)};
   }
-
- private:
-  Vec3f location_;
-  Rgb<float> radiance_;
-  bool shadows_;
 };
 
 }  // namespace raytrace

@@ -6,8 +6,6 @@
 //   </phong>
 #pragma once
 
-#include "raytrace/brdfs/glossy_specular.h"
-#include "raytrace/brdfs/lambertian.h"
 #include "raytrace/parameters/fields.h"
 
 namespace raytrace {
@@ -24,28 +22,13 @@ class Phong {
   };
   static constexpr std::string_view group = "phongs";
   static constexpr std::string_view element = "phong";
-  static Fields<Parameters> fields();
-
-  template <class T>
-  struct Brdfs {
-    Lambertian<T> ambient, diffuse;
-    GlossySpecular<T> specular;
-  };
-  static Brdfs<float> brdfs(const Parameters& parameters);
-
-  template <class T>
-  static Rgb<T> ambient(const Brdfs<T>& brdfs, const Rgb<T>& radiance) {
-    return brdfs.ambient.rho() * radiance;
-  }
-
-  template <class T>
-  static Rgb<T> albedo(const Brdfs<T>& brdfs) {
-    return brdfs.diffuse.rho();
-  }
-
-  template <class T>
-  static Rgb<T> reflect(const Brdfs<T>& brdfs, const Vec3<T>& wo, const Vec3<T>& wi, const Vec3<T>& normal) {
-    return brdfs.diffuse.f() + brdfs.specular.f(wo, wi, normal);
+  static Fields<Parameters> fields() {
+    return {required("ka", &Parameters::ka, Range::not_negative),
+            required("kd", &Parameters::kd, Range::not_negative),
+            required("ks", &Parameters::ks, Range::not_negative),
+            required("cd", &Parameters::cd),
+            required("cs", &Parameters::cs),
+            optional("exp", &Parameters::exp, Range::not_negative)};
   }
 };
 

@@ -122,20 +122,13 @@ ExrReader& ExrReader::operator=(ExrReader&&) noexcept = default;
 ImageBand ExrReader::read(const std::vector<Channel>& channels, int y0, int y1) {
   ImageBand band;
   band.region = {extent_.region.x0, y0, extent_.region.x1, y1};
-  const auto pixels = static_cast<std::size_t>(band.region.width()) * static_cast<std::size_t>(band.region.height());
+  make_planes(band, 0, channels);
   const Imath::Box2i window({band.region.x0, y0}, {band.region.x1 - 1, y1 - 1});
   Imf::FrameBuffer buffer;
-  for (const Channel& channel : channels) {
-    char* values = nullptr;
-    if (channel.type == ChannelType::uint32) {
-      band.planes.emplace_back(std::vector<std::uint32_t>(pixels));
-      values = reinterpret_cast<char*>(std::get<std::vector<std::uint32_t>>(band.planes.back()).data());
-    } else {
-      band.planes.emplace_back(std::vector<float>(pixels));
-      values = reinterpret_cast<char*>(std::get<std::vector<float>>(band.planes.back()).data());
-    }
-    buffer.insert(channel.name, Imf::Slice::Make(imf_type(channel.type), values, window, 4,
-                                                 4 * static_cast<std::size_t>(band.region.width())));
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    void* const values = std::visit([](auto& plane) -> void* { return plane.data(); }, band.planes[i]);
+    buffer.insert(channels[i].name, Imf::Slice::Make(imf_type(channels[i].type), values, window, 4,
+                                                     4 * static_cast<std::size_t>(band.region.width())));
   }
   try {
     Imf::InputPart part(open_->exr, 0);

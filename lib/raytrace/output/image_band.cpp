@@ -12,6 +12,18 @@ std::vector<Channel> color_channels(bool full_float) {
   return {{"R", type}, {"G", type}, {"B", type}, {"A", type}};
 }
 
+void make_planes(ImageBand& band, std::size_t first_plane, const std::vector<Channel>& channels) {
+  const auto pixels = static_cast<std::size_t>(band.region.width()) * static_cast<std::size_t>(band.region.height());
+  band.planes.resize(std::max(band.planes.size(), first_plane + channels.size()));
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    if (channels[i].type == ChannelType::uint32) {
+      band.planes[first_plane + i] = std::vector<std::uint32_t>(pixels);
+    } else {
+      band.planes[first_plane + i] = std::vector<float>(pixels);
+    }
+  }
+}
+
 int band_rows(int width, std::size_t channels) {
   constexpr std::size_t most_values = 4U << 20U;
   constexpr std::size_t block_rows = 16, most_blocks = 16;

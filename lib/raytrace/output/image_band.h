@@ -27,15 +27,17 @@ struct ImageBand {
   /// The first channels of every picture: red, green, blue and alpha.
   static constexpr std::size_t colors = 4;
 
-  Region region;  ///< whole rows of a picture's region
-  std::vector<ChannelValues>
-      planes;  ///< one for each channel of the picture, in its order, each with a value for each pixel
+  Region region;                      ///< whole rows of a picture's region
+  std::vector<ChannelValues> planes;  ///< of the picture's channels, in their order: a value for each pixel
   /// Where it is not null, the first four planes are empty, and their values stand here: Film::half_means().
   const std::uint16_t* half_colors = nullptr;
 };
 
 /// R, G, B and A: 16 bits each, or 32.
 std::vector<Channel> color_channels(bool full_float);
+
+/// Makes the planes from `first_plane` on, of these channels and with a 0 for each pixel of band.region.
+void make_planes(ImageBand& band, std::size_t first_plane, const std::vector<Channel>& channels);
 
 /// Rows of a band of the picture whose planes together take a few megabytes: a multiple of 16, since EXR compresses
 /// that many rows together, and 16 times 16 at most, which is enough for the threads that compress them. Larger bands

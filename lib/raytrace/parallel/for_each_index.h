@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "raytrace/parallel/handover.h"
 #include "raytrace/parallel/worker_count.h"
 
 namespace raytrace {
@@ -22,18 +21,7 @@ void for_each_index(int count, int threads, const Function& f) {
     for (int i = 0; i < count; ++i) f(i);
     return;
   }
-  // Static: a worker must find it before it reads any argument of the loop.
-  static constinit Handover to_workers, from_workers;
-  // A function of its own, so that what the sanitizer finds in it is not taken for oneTBB's.
-  const auto call = [&](int i) __attribute__((noinline)) {
-    to_workers.take();
-    f(i);
-    from_workers.give();
-  };
-  to_workers.give();
-  run_loop(
-      [&] { tbb::task_arena(workers).execute([&] { tbb::parallel_for(0, count, call, tbb::simple_partitioner()); }); });
-  from_workers.take();
+  tbb::task_arena(workers).execute([&] { tbb::parallel_for(0, count, f, tbb::simple_partitioner()); });
 }
 
 /// How many pieces for_each_chunk() cuts `count` items into: not by the number of threads, so that what is made of a

@@ -6,50 +6,36 @@
 
 #include <cstddef>
 
-#include "raytrace/parallel/handover.h"
-
 namespace raytrace {
 
-/// For each i in [0, count): make(i, workplace) on any thread, and then take(i, workplace), which comes after that of
-/// i - 1 and never runs twice at once. workplaces: a container with random access. A workplace holds what make leaves
-/// for take, and is used again for another i; if there is but one, nothing runs at once.
-template <class Workplaces, class Make, class Take>
-void in_order(std::size_t count, Workplaces& workplaces, tbb::task_arena& arena, Make&& make, Take&& take) {
-  if (count == 1 || workplaces.size() == 1) {
+/// For each i in [0, count): make(i, slot) on any thread, and then take(i, slot), which comes after that of i - 1 and
+/// never runs twice at once. slots: a container with random access. A slot holds what make hands to take, and is used
+/// again for another i; if there is but one, nothing runs at once.
+template <class Slots, class Make, class Take>
+void in_order(std::size_t count, Slots& slots, tbb::task_arena& arena, Make&& make, Take&& take) {
+  if (count == 1 || slots.size() == 1) {
     for (std::size_t i = 0; i < count; ++i) {
-      make(i, workplaces[0]);
-      take(i, workplaces[0]);
+      make(i, slots[0]);
+      take(i, slots[0]);
     }
     return;
   }
 
-  // Static: a worker must find it before it reads anything of the loop.
-  static constinit Handover handover;
-  // As i leaves the pipeline before i + 1 does, those inside follow each other, and each has a workplace of its own.
-  const auto workplace = [&](std::size_t i) -> auto& { return workplaces[i % workplaces.size()]; };
+  // As i leaves the pipeline before i + 1 does, those inside follow each other, and each has a slot of its own.
+  const auto slot = [&](std::size_t i) -> auto& { return slots[i % slots.size()]; };
   std::size_t next = 0;
   const auto number =
       tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, [&](tbb::flow_control& end) {
-        handover.take();
         if (next == count) end.stop();
-        const std::size_t i = next++;
-        handover.give();
-        return i;
+        return next++;
       });
   const auto parallel = tbb::make_filter<std::size_t, std::size_t>(tbb::filter_mode::parallel, [&](std::size_t i) {
-    handover.take();
-    make(i, workplace(i));
-    handover.give();
+    make(i, slot(i));
     return i;
   });
-  const auto ordered = tbb::make_filter<std::size_t, void>(tbb::filter_mode::serial_in_order, [&](std::size_t i) {
-    handover.take();
-    take(i, workplace(i));
-    handover.give();
-  });
-  handover.give();
-  run_loop([&] { arena.execute([&] { tbb::parallel_pipeline(workplaces.size(), number & parallel & ordered); }); });
-  handover.take();
+  const auto ordered =
+      tbb::make_filter<std::size_t, void>(tbb::filter_mode::serial_in_order, [&](std::size_t i) { take(i, slot(i)); });
+  arena.execute([&] { tbb::parallel_pipeline(slots.size(), number & parallel & ordered); });
 }
 
 }  // namespace raytrace

@@ -1,7 +1,5 @@
 #include "raytrace/render/renderer.h"
 
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <mutex>
 #include <tuple>
@@ -87,19 +85,6 @@ class ProgressReporter {
 
 }  // namespace
 
-void InvalidSamples::add(const SampleId& sample) { *this += InvalidSamples{1, {sample}}; }
-
-InvalidSamples& InvalidSamples::operator+=(const InvalidSamples& other) {
-  if (other.count == 0) return *this;
-  count += other.count;
-  told.insert(told.end(), other.told.begin(), other.told.end());
-  std::sort(told.begin(), told.end(), [](const SampleId& a, const SampleId& b) {
-    return std::tie(a.y, a.x, a.sample) < std::tie(b.y, b.x, b.sample);
-  });
-  told.resize(std::min(told.size(), most_listed));
-  return *this;
-}
-
 FilmSettings film_settings(const Scene& scene, const SceneDescription& description, const RenderSettings& settings) {
   const ViewPlane& viewplane = description.viewplane;
   require_good_viewplane(viewplane);
@@ -115,7 +100,7 @@ FilmSettings film_settings(const Scene& scene, const SceneDescription& descripti
   film.seed = settings.seed;
   const std::uint64_t most_samples = std::uint64_t{film.samples.first} + film.samples.count;
   film.unit_exponent = unit_exponent(scene.largest_radiance(), most_samples);
-  film.aovs = aov_settings(settings.aovs, scene, description, most_samples);
+  film.aovs = aov_settings(settings.aovs, {scene.largest_albedo()}, description, most_samples);
   film.transparent = settings.transparent;
   return film;
 }
@@ -124,6 +109,7 @@ RenderReport render(const Scene& scene, Film& film, std::uint32_t samples, int t
                     const ProgressFunction& progress, const std::atomic<bool>* stop) {
   const int workers = worker_count(thread_count(threads));
   const TileGrid grid = tiles_for(film.region(), workers);
+  const Variant& variant = choose_variant(scene.isa());
   ProgressReporter teller(progress, grid.count());
   std::vector<RenderReport> reports(static_cast<std::size_t>(grid.count()));  // of each tile
   // With the loop's own, all that threads write and others read: once a tile.
@@ -132,7 +118,7 @@ RenderReport render(const Scene& scene, Film& film, std::uint32_t samples, int t
     if (stop != nullptr && stop->load(std::memory_order_relaxed)) return;
     const Region tile = grid.tile(index);
     if (film.content() != FilmContent::sums || !is_rendered(film, tile, samples))
-      reports[static_cast<std::size_t>(index)] = scene.render_region(tile, samples, film, stop);
+      reports[static_cast<std::size_t>(index)] = variant.render(scene, tile, samples, film, stop);
     teller.tell(done.fetch_add(1, std::memory_order_relaxed) + 1);
   });
   teller.tell(done.load(std::memory_order_relaxed));  // the last may have found another thread telling
@@ -147,8 +133,6 @@ Film render(const Scene& scene, const SceneDescription& description, const Rende
   rays = render(scene, film, film.settings().samples.count, settings.threads, progress, stop).rays;
   return film;
 }
-
-int thread_count(int wanted) { return wanted > 0 ? wanted : tbb::this_task_arena::max_concurrency(); }
 
 CameraMatrices camera_matrices(const SceneDescription& description) {
   CameraMatrices matrices;

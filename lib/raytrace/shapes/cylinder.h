@@ -3,15 +3,8 @@
 //   <cylinder>
 //     <bottom x="0" y="0" z="0"/> <top x="0" y="2" z="0"/> <radius>0.5</radius> <material>red</material>
 //   </cylinder>
-//
-// Solved in double: the part of the ray along the axis cancels, and the axis may be long and thin.
 #pragma once
 
-#include <cmath>
-
-#include "raytrace/math/bounds.h"
-#include "raytrace/math/doubles.h"
-#include "raytrace/math/ray.h"
 #include "raytrace/parameters/fields.h"
 
 namespace raytrace {
@@ -24,72 +17,16 @@ class Cylinder {
   };
   static constexpr std::string_view group = "cylinders";
   static constexpr std::string_view element = "cylinder";
-  static Fields<Parameters> fields();
-  static std::optional<ParameterDiagnostic> check(const Parameters& parameters);
+  static Fields<Parameters> fields() {
+    return {required("bottom", &Parameters::bottom), required("top", &Parameters::top),
+            required("radius", &Parameters::radius, Range::positive)};
+  }
 
-  template <class T>
-  struct Record {
-    Vec3<T> bottom;
-    Vec3<T> axis;  ///< unit length, from bottom to top
-    T height;
-    T radius;
-  };
-  static Record<double> record(const Parameters& parameters);
-  static Bounds bounds(const Record<double>& cylinder);
-  static double bounding_radius(const Record<double>& cylinder);
-
-  /// The nearest distance inside (ray.near, ray.far) in each lane of `active`; infinity elsewhere.
-  template <class F>
-  static F intersect(const Record<double>& cylinder, const Ray<F>& ray, const Mask<F>& active);
-
-  /// The surface at a distance that intersect() gave.
-  template <class F>
-  static SurfacePoint<F> surface(const Record<Doubles<F>>& cylinder, const Ray<F>& ray, const F& distance);
+  static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {
+    if (length(parameters.top - parameters.bottom) >= smallest_size) return std::nullopt;
+    return ParameterDiagnostic{ParameterDiagnostic::Effect::error,
+                               "the cylinder's <bottom> and <top> are the same point: it has no length"};
+  }
 };
-
-template <class F>
-RAYTRACE_INLINE F Cylinder::intersect(const Record<double>& cylinder, const Ray<F>& ray, const Mask<F>& active) {
-  using D = Doubles<F>;
-  const Vec3<D> axis(cylinder.axis);
-  const Vec3<D> from_bottom = Vec3<D>(ray.origin) - Vec3<D>(cylinder.bottom);
-  const Vec3<D> d(ray.direction);
-  // Along the axis, and across it, where the cylinder is a circle.
-  const D height_at_origin = dot(from_bottom, axis);
-  const D climb = dot(d, axis);
-  const Vec3<D> across = from_bottom - axis * height_at_origin;
-  const Vec3<D> d_across = d - axis * climb;
-  const D a = dot(d_across, d_across);
-  const D inverse_a = D(1.0) / a;  // infinite for a ray along the axis: the comparisons below then fail
-  const D to_closest = -dot(across, d_across) * inverse_a;
-  const Vec3<D> closest = across + d_across * to_closest;
-  const D radius(cylinder.radius);
-  const D discriminant = radius * radius - dot(closest, closest);
-  Mask<D> possible = discriminant >= D(0.0);
-  if (none(active & D::float_mask(possible))) return infinity<F>();
-
-  const D half_chord = sqrt(max(discriminant, D(0.0)) * inverse_a);
-  const D entry = to_closest - half_chord, exit = to_closest + half_chord;
-  const D near(ray.near), far(ray.far), zero(0.0), height(cylinder.height);
-  const auto inside = [&](const D& t) {
-    const D h = multiply_add(climb, t, height_at_origin);
-    return (h >= zero) & (h <= height) & (t > near) & (t < far);
-  };
-  const auto hit_entry = possible & inside(entry);
-  const auto hit_exit = possible & inside(exit);
-  const D miss(std::numeric_limits<double>::infinity());
-  const F t = select(hit_entry, entry, select(hit_exit, exit, miss)).to_float();
-  return select(active, t, infinity<F>());
-}
-
-template <class F>
-SurfacePoint<F> Cylinder::surface(const Record<Doubles<F>>& cylinder, const Ray<F>& ray, const F& distance) {
-  using D = Doubles<F>;
-  const Vec3<D> from_bottom = Vec3<D>(ray.origin) - cylinder.bottom + Vec3<D>(ray.direction) * D(distance);
-  const D height = dot(from_bottom, cylinder.axis);
-  const Vec3<D> normal = normalize(from_bottom - cylinder.axis * height);
-  const Vec3<D> on_surface = cylinder.bottom + cylinder.axis * height + normal * cylinder.radius;
-  const Vec3<F> position = to_float(on_surface);
-  return {position, to_float(normal), rounding_error(position, F(0))};
-}
 
 }  // namespace raytrace

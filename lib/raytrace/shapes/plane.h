@@ -1,16 +1,8 @@
 // Infinite plane (Suffern, chapter 3).
 //
 //   <plane> <point x="0" y="0" z="0"/> <normal x="0" y="1" z="0"/> <material>floor</material> </plane>
-//
-// It has no bounds(), and so stays out of the BVH. Distances are computed in double: far from the origin, or at the
-// horizon, both terms of the quotient cancel. Not so where the plane faces along an axis, as floors and walls do: there
-// is one difference of two floats to take.
 #pragma once
 
-#include <cmath>
-
-#include "raytrace/math/doubles.h"
-#include "raytrace/math/ray.h"
 #include "raytrace/parameters/fields.h"
 
 namespace raytrace {
@@ -23,54 +15,9 @@ class Plane {
   };
   static constexpr std::string_view group = "planes";
   static constexpr std::string_view element = "plane";
-  static Fields<Parameters> fields();
-
-  struct Record {
-    Vec3d normal;   ///< unit length
-    double offset;  ///< dot(normal, any point of the plane)
-    int axis;       ///< that the normal lies along: 0, 1 or 2; 3 if it lies along none
-    float place;    ///< on that axis, rounded,
-    float rest;     ///< and what is missing
-  };
-  static Record record(const Parameters& parameters);
-
-  /// The distance if it is inside (ray.near, ray.far), in each lane of `active`; infinity elsewhere.
-  template <class F>
-  static F intersect(const Record& plane, const Ray<F>& ray, const Mask<F>& active);
-
-  /// The surface at a distance that intersect() gave.
-  template <class F>
-  static SurfacePoint<F> surface(const Record& plane, const Ray<F>& ray, const F& distance);
+  static Fields<Parameters> fields() {
+    return {required("point", &Parameters::point), required("normal", &Parameters::normal, Range::nonzero)};
+  }
 };
-
-template <class F>
-RAYTRACE_INLINE F Plane::intersect(const Record& plane, const Ray<F>& ray, const Mask<F>& active) {
-  F height, speed;
-  if (plane.axis < 3) {
-    height = (F(plane.place) - component(ray.origin, plane.axis)) + F(plane.rest);
-    speed = component(ray.direction, plane.axis);
-  } else {
-    using D = Doubles<F>;
-    const Vec3<D> normal(plane.normal);
-    height = (D(plane.offset) - dot(normal, Vec3<D>(ray.origin))).to_float();
-    speed = dot(normal, Vec3<D>(ray.direction)).to_float();
-  }
-  const F t = height / speed;  // a ray in the plane gives infinity or NaN: no hit
-  return select(active & (t > ray.near) & (t < ray.far), t, infinity<F>());
-}
-
-template <class F>
-RAYTRACE_INLINE SurfacePoint<F> Plane::surface(const Record& plane, const Ray<F>& ray, const F& distance) {
-  if (plane.axis == 3) {
-    using D = Doubles<F>;
-    const Vec3<D> normal(plane.normal);
-    const Vec3<D> on_ray = Vec3<D>(ray.origin) + Vec3<D>(ray.direction) * D(distance);
-    const Vec3<F> position = to_float(on_ray + normal * (D(plane.offset) - dot(normal, on_ray)));
-    return {position, Vec3<F>(Vec3f(plane.normal)), rounding_error(position, F(0))};
-  }
-  Vec3<F> position = ray.at(distance);
-  component(position, plane.axis) = F(plane.place);
-  return {position, Vec3<F>(Vec3f(plane.normal)), rounding_error(position, F(0))};
-}
 
 }  // namespace raytrace

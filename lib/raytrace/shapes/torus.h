@@ -4,17 +4,9 @@
 //     <center x="0" y="1" z="0"/> <axis x="0" y="1" z="0"/>
 //     <sweptradius>2</sweptradius> <tuberadius>0.5</tuberadius> <material>red</material>
 //   </torus>
-//
-// How it is met: torus_ray.h.
 #pragma once
 
-#include <cmath>
-
-#include "raytrace/math/bounds.h"
-#include "raytrace/math/doubles.h"
-#include "raytrace/math/ray.h"
 #include "raytrace/parameters/fields.h"
-#include "raytrace/shapes/torus_ray.h"
 
 namespace raytrace {
 
@@ -28,62 +20,11 @@ class Torus {
   };
   static constexpr std::string_view group = "toruses";
   static constexpr std::string_view element = "torus";
-  static Fields<Parameters> fields();
-
-  template <class T>
-  struct Record {
-    Vec3<T> center;
-    Vec3<T> axis;  ///< unit length
-    T swept, tube;
-  };
-  static Record<double> record(const Parameters& parameters);
-  static Bounds bounds(const Record<double>& torus);
-  static double bounding_radius(const Record<double>& torus);
-
-  /// The nearest distance inside (ray.near, ray.far) in each lane of `active`; infinity elsewhere.
-  template <class F>
-  static F intersect(const Record<double>& torus, const Ray<F>& ray, const Mask<F>& active);
-
-  /// Whether anything lies inside (ray.near, ray.far): where it is takes no part of the answer.
-  template <class F>
-  static Mask<F> occludes(const Record<double>& torus, const Ray<F>& ray, const Mask<F>& active);
-
-  /// The surface at a distance that intersect() gave.
-  template <class F>
-  static SurfacePoint<F> surface(const Record<Doubles<F>>& torus, const Ray<F>& ray, const F& distance);
+  static Fields<Parameters> fields() {
+    return {optional("center", &Parameters::center), optional("axis", &Parameters::axis, Range::nonzero),
+            required("sweptradius", &Parameters::sweptradius, Range::positive),
+            required("tuberadius", &Parameters::tuberadius, Range::positive)};
+  }
 };
-
-template <class F>
-F Torus::intersect(const Record<double>& torus, const Ray<F>& ray, const Mask<F>& active) {
-  if (none(active & comes_near(torus, ray))) return infinity<F>();
-  const TorusRay<F> places(torus, ray);
-  const auto bracket = places.first_root(active);
-  if (none(bracket.found)) return infinity<F>();
-  const F t = places.distance(bracket);
-  return select(bracket.found & (t > ray.near) & (t < ray.far), t, infinity<F>());
-}
-
-template <class F>
-Mask<F> Torus::occludes(const Record<double>& torus, const Ray<F>& ray, const Mask<F>& active) {
-  if (none(active & comes_near(torus, ray))) return Mask<F>(false);
-  return TorusRay<F>(torus, ray).first_root(active).found;
-}
-
-template <class F>
-SurfacePoint<F> Torus::surface(const Record<Doubles<F>>& torus, const Ray<F>& ray, const F& distance) {
-  using D = Doubles<F>;
-  const Vec3<D> p = Vec3<D>(ray.origin) - torus.center + Vec3<D>(ray.direction) * D(distance);
-  const D y = dot(p, torus.axis);
-  const Vec3<D> across = p - torus.axis * y;
-  const D rho = max(length(across), D(1e-300));
-  const auto off_sheet = [&](const D& swept) {
-    return abs((rho - swept) * (rho - swept) + (y - torus.tube) * (y + torus.tube));
-  };
-  const D swept = select(off_sheet(torus.swept) <= off_sheet(-torus.swept), torus.swept, -torus.swept);
-  const Vec3<D> tube_center = across * (swept / rho);
-  const Vec3<D> normal = normalize(p - tube_center);
-  const Vec3<F> position = to_float(torus.center + tube_center + normal * torus.tube);
-  return {position, to_float(normal), rounding_error(position, F(0))};
-}
 
 }  // namespace raytrace

@@ -44,7 +44,7 @@ class TorusRay {
     F left_sign, right_sign;  ///< the quartic's there
   };
 
-  /// Record: Torus::Record<double>.
+  /// Record: Kernel<Torus>::Record<double>.
   template <class Record>
   TorusRay(const Record& torus, const Ray<F>& ray);
 

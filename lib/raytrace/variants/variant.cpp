@@ -1,6 +1,6 @@
 #include "raytrace/variants/variant.h"
 
-#include "raytrace/scene/traced_scene.h"
+#include "raytrace/integrators/render_tile.h"
 
 #define RAYTRACE_JOIN_NAMES(a, b) a##b
 #define RAYTRACE_JOIN(a, b) RAYTRACE_JOIN_NAMES(a, b)
@@ -15,11 +15,17 @@ std::unique_ptr<const Scene> build(const SceneDescription& description, int thre
   return std::make_unique<TracedScene>(description, threads, RAYTRACE_ISA, widest_embree_isa);
 }
 
+RenderReport render(const Scene& scene, const Region& tile, std::uint32_t samples, Film& film,
+                    const std::atomic<bool>* stop) {
+  return render_tile(static_cast<const TracedScene&>(scene), tile, samples, film, stop);
+}
+
 }  // namespace
 
 }  // namespace raytrace
 
 extern "C" const raytrace::Variant& RAYTRACE_JOIN(raytrace_variant_, RAYTRACE_VARIANT)() {
-  static constexpr raytrace::Variant variant{RAYTRACE_ISA, raytrace::widest_embree_isa, &raytrace::build};
+  static constexpr raytrace::Variant variant{RAYTRACE_ISA, raytrace::widest_embree_isa, &raytrace::build,
+                                             &raytrace::render};
   return variant;
 }

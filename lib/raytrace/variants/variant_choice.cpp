@@ -1,3 +1,5 @@
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <array>
 
@@ -54,6 +56,8 @@ const Variant& choose_variant(const std::string& isa) {
     }
   throw RenderError("unknown instruction set " + name);
 }
+
+int thread_count(int wanted) { return wanted > 0 ? wanted : tbb::this_task_arena::max_concurrency(); }
 
 std::unique_ptr<const Scene> build_scene(const SceneDescription& description, const BuildSettings& settings) {
   if (!settings.checked) require_good_scene(description);

@@ -1,0 +1,48 @@
+#include "raytrace/accel/traced_scene.h"
+
+#include <algorithm>
+
+namespace raytrace {
+
+TracedScene::TracedScene(const SceneDescription& description, int threads, const char* isa_name, const char* embree_isa)
+    : tables_(description, threads),
+      accelerator_(tables_.geometry(), threads, embree_isa),
+      largest_radiance_(tables_.largest_radiance()),
+      isa_name_(isa_name) {
+  make_buffers(threads);
+  // Embree's BVH of few objects takes no time. That of many waits for a ray that wants it: there may be none.
+  constexpr std::uint64_t few_objects = 1U << 14U;
+  if (tables_.geometry().object_count() <= few_objects) accelerator_.embree_scene();
+}
+
+void TracedScene::make_buffers(int threads) {
+  // For an object it takes about as long as is saved for the rays of half a pixel, with some samples. It takes memory,
+  // too: some 100 bytes. Both by what all pieces of a picture have in common.
+  constexpr std::uint64_t objects_a_pixel = 2, most_objects = 1U << 21U;
+  const ViewPlane& viewplane = tables_.viewplane();
+  const auto pixels = static_cast<std::uint64_t>(viewplane.hres) * static_cast<std::uint64_t>(viewplane.vres);
+  const std::uint64_t affordable = std::min(objects_a_pixel * pixels, most_objects);
+  std::vector<std::optional<BufferOrigin>> origins{tables_.camera_origin()};
+  origins.insert(origins.end(), tables_.light_origins().begin(), tables_.light_origins().end());
+  std::uint64_t objects = 0;
+  for (auto& origin : origins) {
+    if (!origin) continue;
+    objects += tables_.geometry().object_count();
+    if (objects > affordable) origin.reset();
+  }
+  light_buffers_ = accelerator_.direction_buffers(origins, threads);
+  camera_buffer_ = std::move(light_buffers_.front());
+  light_buffers_.erase(light_buffers_.begin());
+}
+
+SceneStatistics TracedScene::statistics() const {
+  SceneStatistics statistics;
+  statistics.primitives = tables_.geometry().object_count();
+  statistics.bvh_bytes = accelerator_.bvh_bytes();
+  statistics.isa = isa_name_;
+  statistics.lanes = packet_lanes;
+  statistics.embree_version = accelerator_.embree_version();
+  return statistics;
+}
+
+}  // namespace raytrace

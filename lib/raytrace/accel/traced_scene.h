@@ -1,0 +1,46 @@
+// A scene's tables with what finds hits in them: Embree's scene, and direction buffers. What integrators trace.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "raytrace/accel/accelerator.h"
+#include "raytrace/scene/scene.h"
+#include "raytrace/scene/scene_tables.h"
+
+namespace raytrace {
+
+class TracedScene final : public Scene {
+ public:
+  /// isa_name: of the variant; embree_isa: Embree's name of the best instruction set that it may use. Throws
+  /// RenderError and std::bad_alloc.
+  TracedScene(const SceneDescription& description, int threads, const char* isa_name, const char* embree_isa);
+
+  float largest_radiance() const override { return largest_radiance_; }
+  float largest_albedo() const override { return tables_.largest_albedo(); }
+  const char* isa() const override { return isa_name_; }
+  SceneStatistics statistics() const override;
+
+  const SceneTables& tables() const { return tables_; }
+  const Accelerator& accelerator() const { return accelerator_; }
+
+  /// The objects as met from where all camera rays start, and from where all shadow rays to light `number` go. Null if
+  /// there is no such point, or it would not pay.
+  const DirectionBuffer* camera_buffer() const { return camera_buffer_ ? &*camera_buffer_ : nullptr; }
+  const DirectionBuffer* light_buffer(std::size_t number) const {
+    const auto& buffer = light_buffers_[number];
+    return buffer ? &*buffer : nullptr;
+  }
+
+ private:
+  void make_buffers(int threads);
+
+  SceneTables tables_;
+  Accelerator accelerator_;
+  std::optional<DirectionBuffer> camera_buffer_;
+  std::vector<std::optional<DirectionBuffer>> light_buffers_;
+  float largest_radiance_;
+  const char* isa_name_;
+};
+
+}  // namespace raytrace

@@ -1,0 +1,13 @@
+// The kernels of all integrators.
+//
+// An integrator's Kernel provides:
+//   static float largest_radiance(const SceneTables& scene);   it scales the film's unit: most samples stay below it
+//   static RayResult radiance(const TracedScene& scene, const Rgb<float>& background, Ray<FloatN>& rays,
+//                             const MaskN& active, const MaskN& counted, RayCounts& counts, FirstHits* first);
+//       the radiance that arrives along camera rays, whose directions have unit length, in the lanes of `active`; it
+//       ends the rays where they meet something, and `background` arrives along those that meet nothing. Adds the
+//       further rays in the lanes of `counted` to `counts`, and sets `first` to what was met if it is not null.
+#pragma once
+
+#include "raytrace/integrators/raycast_kernel.h"
+#include "raytrace/integrators/registry.h"

@@ -1,0 +1,59 @@
+// What a render did.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <tuple>
+#include <vector>
+
+namespace raytrace {
+
+/// The rays of a render, by their purpose.
+struct RayCounts {
+  std::uint64_t camera = 0;
+  std::uint64_t shadow = 0;
+  RayCounts& operator+=(const RayCounts& other) {
+    camera += other.camera;
+    shadow += other.shadow;
+    return *this;
+  }
+};
+
+/// A sample of a pixel, by its index in the pixel's sequence.
+struct SampleId {
+  int x = 0, y = 0;
+  std::uint32_t sample = 0;
+};
+
+/// The samples whose radiance was not finite: counted as black, and reported.
+struct InvalidSamples {
+  static constexpr std::size_t most_listed = 10;
+  std::uint64_t count = 0;
+  std::vector<SampleId> listed;  ///< the first most_listed of them, by row, column and index
+
+  void add(const SampleId& sample) { *this += InvalidSamples{1, {sample}}; }
+
+  InvalidSamples& operator+=(const InvalidSamples& other) {
+    if (other.count == 0) return *this;
+    count += other.count;
+    listed.insert(listed.end(), other.listed.begin(), other.listed.end());
+    std::sort(listed.begin(), listed.end(), [](const SampleId& a, const SampleId& b) {
+      return std::tie(a.y, a.x, a.sample) < std::tie(b.y, b.x, b.sample);
+    });
+    listed.resize(std::min(listed.size(), most_listed));
+    return *this;
+  }
+};
+
+struct RenderReport {
+  RayCounts rays;
+  InvalidSamples invalid_samples;
+  RenderReport& operator+=(const RenderReport& other) {
+    rays += other.rays;
+    invalid_samples += other.invalid_samples;
+    return *this;
+  }
+};
+
+}  // namespace raytrace

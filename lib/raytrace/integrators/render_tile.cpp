@@ -1,0 +1,206 @@
+#include "raytrace/integrators/render_tile.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "raytrace/integrators/block_aovs.h"
+#include "raytrace/integrators/block_sums.h"
+#include "raytrace/integrators/kernels.h"
+#include "raytrace/integrators/packet_block.h"
+#include "raytrace/sampling/pixel_sampler.h"
+
+namespace raytrace {
+
+namespace {
+
+/// The stop flag is looked at every so many packets.
+constexpr int packets_per_look = 16;
+
+FloatN to_float(const UintN& numbers) { return to_float(same_bits<IntN>(numbers)); }
+FloatN to_float(std::uint32_t number) { return FloatN(static_cast<float>(static_cast<std::int32_t>(number))); }
+
+/// The pixels of a part of a film, block by block.
+template <class Integrator, PacketShape shape>
+class BlockRenderer {
+ public:
+  BlockRenderer(const TracedScene& scene, const Region& region, Film& film, const std::atomic<bool>* stop)
+      : scene_(scene),
+        region_(region),
+        film_(film),
+        stop_(stop),
+        background_(film.settings().transparent ? Rgb<float>(0, 0, 0)
+                                                : Rgb<float>(scene.tables().viewplane().background)),
+        scale_(film.settings().unit_exponent),
+        group_(Block::slots(), shape.samples),
+        scrambles_(film.settings().seed) {}
+
+  /// Continues all pixels to `samples` each; returns early if it is stopped.
+  RenderReport render(std::uint32_t samples) {
+    for (int top = round_down(region_.y0, shape.height); top < region_.y1; top += shape.height)
+      for (int left = round_down(region_.x0, shape.width); left < region_.x1; left += shape.width) {
+        render({left, top}, samples);
+        if (stopped()) return report_;
+      }
+    return report_;
+  }
+
+ private:
+  using Block = PacketBlock<shape>;
+
+  void render(const Block& block, std::uint32_t samples) {
+    const SamplesLeft left(film_, block, region_, samples);
+    if (left.first >= left.last) return;
+    if (film_.aovs() == nullptr) return render(block, left, nullptr);
+    BlockAovs aovs(*film_.aovs(), block, region_);
+    render(block, left, &aovs);
+    aovs.finish();
+  }
+
+  /// What a block's pixels want of their sequences: [first, last) of those that have the fewest samples. A render of
+  /// packets of another shape that was stopped here leaves some with more.
+  struct SamplesLeft {
+    std::uint32_t first, last;
+    std::uint32_t all_from;  ///< from here on, all pixels want all
+    UintN lane_first;        ///< each lane's own first
+
+    SamplesLeft(const Film& film, const Block& block, const Region& region, std::uint32_t samples) {
+      const std::uint32_t begin = film.settings().samples.first;
+      std::uint32_t least = 0, most = 0;
+      if (film.content() == FilmContent::sums) {
+        least = samples;
+        block.for_each_pixel(region, [&](int x, int y, std::size_t) {
+          const std::uint32_t before = film.sum(x, y).samples;
+          least = std::min(least, before);
+          most = std::max(most, before);
+        });
+      }
+      first = begin + least;
+      all_from = begin + most;
+      last = begin + samples;
+      lane_first = UintN(first);
+      if (least == most) return;
+      alignas(64) std::array<std::uint32_t, packet_lanes> firsts{};
+      block.for_each_lane(region,
+                          [&](int x, int y, std::size_t lane) { firsts[lane] = begin + film.sum(x, y).samples; });
+      lane_first = UintN::load_aligned(firsts.data());
+    }
+  };
+
+  void render(const Block& block, const SamplesLeft& left, BlockAovs* aovs) {
+    const FilmSettings& settings = film_.settings();
+    const ViewPlane& viewplane = scene_.tables().viewplane();
+    const auto column = block.columns(), row = block.rows();
+    const UintN slot = Block::slots();
+    const auto width = static_cast<float>(viewplane.hres), height = static_cast<float>(viewplane.vres);
+    // The lower left corner of the pixel, from the picture's center; rows of the format count from the bottom.
+    const FloatN x = to_float(column) - FloatN(width / 2);
+    const FloatN y = FloatN(height / 2 - 1) - to_float(row);
+    const MaskN active = in_view(to_float(column), to_float(row));
+
+    // From the group that the first sample is in, with all that belong to it.
+    constexpr auto group = static_cast<std::uint32_t>(shape.samples);
+    std::uint32_t base = left.first / group * group;
+    PixelSampler sampler(scramble_of(block), group_, base, settings.samples.centered);
+    BlockSums<Block> sums(scale_);
+    FirstHits first;
+    for (int packets = 1; base < left.last; base += group, ++packets) {
+      const UintN sample = UintN(base) + slot;
+      const bool all_wanted = base >= left.all_from && left.last - base >= group;
+      const MaskN wanted = all_wanted ? active : active & in_range(sample, left.lane_first, UintN(left.last));
+      const PixelSampler::Point point = sampler.next();
+      Ray<FloatN> rays = scene_.tables().camera().generate(x + point.x, y + point.y);
+      const RayResult result = Kernel<Integrator>::radiance(scene_, background_, rays, active, wanted, report_.rays,
+                                                            aovs != nullptr ? &first : nullptr);
+      const MaskN large = sums.add(result, wanted);
+      if (aovs != nullptr) aovs->add(AovInputs(scene_.tables(), rays, first.hits, first.surface), wanted, sample);
+      report_.rays.camera += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(wanted)));
+      if (any(large)) add_invalid(sums.add_large(result, large), block, base);
+      if (packets % packets_per_look == 0) {
+        if (stopped()) break;
+        if (packets % (sums.most_packets / packets_per_look * packets_per_look) == 0) sums.carry();
+      }
+    }
+    sums.add_to(film_, block, region_);
+  }
+
+  /// Pixels of the picture, and those beyond it that are wanted.
+  MaskN in_view(const FloatN& column, const FloatN& row) const {
+    const ViewPlane& viewplane = scene_.tables().viewplane();
+    const Region& wanted = film_.region();
+    const auto number = [](int edge) { return FloatN(static_cast<float>(edge)); };
+    const MaskN inside =
+        (column < number(std::max(viewplane.hres, wanted.x1))) & (row < number(std::max(viewplane.vres, wanted.y1)));
+    if (wanted.x0 >= 0 && wanted.y0 >= 0) return inside;
+    return inside & (column >= number(std::min(0, wanted.x0))) & (row >= number(std::min(0, wanted.y0)));
+  }
+
+  /// Of each lane's pixel.
+  auto scramble_of(const Block& block) {
+    const auto left = static_cast<std::uint32_t>(block.left), top = static_cast<std::uint32_t>(block.top);
+    if constexpr (Block::pixels == 1) {
+      return scrambles_.at(left, top);
+    } else if constexpr (Block::pixels == 2) {
+      const PixelScramble<std::uint32_t> even = scrambles_.at(left, top), odd = scrambles_.at(left + 1, top);
+      return PixelScramble<UintN>(alternate(even.x, odd.x), alternate(even.y, odd.y));
+    } else if (film_.settings().samples.centered) {
+      return PixelScramble<UintN>(UintN(0u), UintN(0u));  // it shifts nothing
+    } else {
+      return PixelScramble<UintN>(block.columns(), block.rows(), film_.settings().seed);
+    }
+  }
+
+  static MaskN in_range(const UintN& number, const UintN& first, const UintN& last) {
+    return float_mask<FloatN>(same_bits<IntN>(number - first) >= IntN(0)) &
+           float_mask<FloatN>(same_bits<IntN>(number - last) < IntN(0));
+  }
+
+  bool stopped() const { return stop_ != nullptr && stop_->load(std::memory_order_relaxed); }
+
+  void add_invalid(std::uint32_t lanes, const Block& block, std::uint32_t base) {
+    block.for_each_lane(region_, [&](int x, int y, std::size_t lane) {
+      if ((lanes >> lane & 1U) != 0)
+        report_.invalid_samples.add({x, y, base + static_cast<std::uint32_t>(Block::slot(static_cast<int>(lane)))});
+    });
+  }
+
+  const TracedScene& scene_;
+  const Region& region_;
+  Film& film_;
+  const std::atomic<bool>* stop_;
+  Rgb<float> background_;  ///< what camera rays see where they meet nothing
+  SumScale scale_;
+  SampleGroup group_;
+  PixelScrambles scrambles_;
+  RenderReport report_;
+};
+
+}  // namespace
+
+RenderReport render_tile(const TracedScene& scene, const Region& region, std::uint32_t samples, Film& film,
+                         const std::atomic<bool>* stop) {
+  const auto in_groups_of = [&]<int group>(std::integral_constant<int, group>) {
+    return BlockRenderer<Raycast, shape_of_samples(group)>(scene, region, film, stop).render(samples);
+  };
+  // As many samples of as few pixels as there are samples at hand: such rays are closer together than those of one
+  // sample of many pixels. Samples 0, 1, ... of a pixel belong to groups, and lanes may be left without work in the
+  // first and the last of them.
+  const std::uint32_t begin = film.settings().samples.first, last = begin + samples;
+  std::uint32_t first = begin;
+  if (film.content() == FilmContent::sums) first += film.sum(region.x1 - 1, region.y1 - 1).samples;  // none has fewer
+  const auto few_are_idle = [&](std::uint64_t group) {
+    const std::uint64_t wanted = last - first, lanes = (last + group - 1) / group * group - first / group * group;
+    return lanes - wanted <= wanted / 8;
+  };
+  if (first < last) {
+    if (film.aovs() == nullptr) {  // they take too much for each block: one should have several packets
+      if (few_are_idle(packet_lanes)) return in_groups_of(std::integral_constant<int, packet_lanes>());
+      if (few_are_idle(packet_lanes / 2)) return in_groups_of(std::integral_constant<int, packet_lanes / 2>());
+      if constexpr (packet_lanes > 16)
+        if (few_are_idle(packet_lanes / 4)) return in_groups_of(std::integral_constant<int, packet_lanes / 4>());
+    }
+    if (few_are_idle(4)) return in_groups_of(std::integral_constant<int, 4>());
+  }
+  return in_groups_of(std::integral_constant<int, 1>());
+}
+
+}  // namespace raytrace

@@ -1,0 +1,20 @@
+// The kernels of all lights.
+//
+// A light's Kernel provides:
+//   explicit Kernel(const Parameters&);
+//   static constexpr bool ambient;         true: light from everywhere, never shadowed
+// and, if it is ambient:
+//   Rgb<float> radiance() const;
+// else:
+//   bool shadows() const;
+//   Rgb<float> largest_radiance() const;   no point gets more; of a light without such a bound, at distance 1
+//   template <class F> LightSample<F> sample(const Vec3<F>& p) const;
+// and, so that shadows are found sooner, one of these, where it holds:
+//   Vec3f location() const;    to_light is location() - p, and t_max is 1
+//   Vec3f direction() const;   to_light is direction(), of unit length, and t_max is infinity
+#pragma once
+
+#include "raytrace/lights/ambient_light_kernel.h"
+#include "raytrace/lights/directional_light_kernel.h"
+#include "raytrace/lights/point_light_kernel.h"
+#include "raytrace/lights/registry.h"

@@ -1,0 +1,34 @@
+// What a point light sends to a point.
+#pragma once
+
+#include "raytrace/lights/light_sample.h"
+#include "raytrace/lights/point_light.h"
+#include "raytrace/math/kernel.h"
+
+namespace raytrace {
+
+template <>
+class Kernel<PointLight> {
+ public:
+  explicit Kernel(const PointLight::Parameters& parameters)
+      : location_(parameters.location),
+        radiance_(parameters.color * parameters.scaleradiance),
+        shadows_(parameters.shadows) {}
+
+  static constexpr bool ambient = false;
+  bool shadows() const { return shadows_; }
+  Vec3f location() const { return location_; }
+  Rgb<float> largest_radiance() const { return radiance_; }
+
+  template <class F>
+  LightSample<F> sample(const Vec3<F>& p) const {
+    return {Vec3<F>(location_) - p, F(1), Rgb<F>(radiance_)};
+  }
+
+ private:
+  Vec3f location_;
+  Rgb<float> radiance_;
+  bool shadows_;
+};
+
+}  // namespace raytrace

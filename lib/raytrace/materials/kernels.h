@@ -1,0 +1,21 @@
+// The kernels of all materials.
+//
+// A material's Kernel provides:
+//   template <class T> struct Bsdf { ... };   what the tracer keeps of a material: members of type T only
+//   static Bsdf<float> bsdf(const Parameters&);
+// and of Bsdf<T>, where T is a batch:
+//   Rgb<T> ambient_radiance(const Rgb<T>& radiance) const;   what leaves under ambient light of that radiance
+//   Rgb<T> albedo() const;       the share of light from all sides that it scatters evenly to all sides, without
+//                                highlights
+//   Rgb<T> evaluate(const Vec3<T>& wo, const Vec3<T>& wi, const Vec3<T>& normal) const;
+//                                f in 1/steradian, without the cosine; world space, unit vectors away from the surface
+//   BsdfSample<T> sample(const Vec3<T>& wo, const T& u, const T& u1, const T& u2) const;
+//                                draws wi in the local frame (bsdfs/bsdf_sample.h) out of numbers in [0, 1): u chooses
+//                                a lobe, u1 and u2 a direction in it
+//   T pdf(const Vec3<T>& wo, const Vec3<T>& wi) const;
+//                                the density at which sample() draws wi, per solid angle, in the local frame
+#pragma once
+
+#include "raytrace/materials/matte_kernel.h"
+#include "raytrace/materials/phong_kernel.h"
+#include "raytrace/materials/registry.h"

@@ -1,0 +1,89 @@
+// A scene as data: what a description says, in the form that integrators read.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "raytrace/cameras/kernels.h"
+#include "raytrace/description/scene_description.h"
+#include "raytrace/lights/kernels.h"
+#include "raytrace/materials/kernels.h"
+#include "raytrace/scene/camera.h"
+#include "raytrace/scene/geometry_table.h"
+#include "raytrace/scene/light_source.h"
+#include "raytrace/scene/material_table.h"
+#include "raytrace/scene/surface_interaction.h"
+
+namespace raytrace {
+
+/// Where many rays start or go to: a direction buffer may be made around it.
+struct BufferOrigin {
+  Vec3f position;               ///< a point, or
+  bool infinitely_far = false;  ///< the unit direction towards one that is infinitely far
+};
+
+/// Immutable.
+class SceneTables {
+ public:
+  /// threads: so many at most share the work. Throws std::bad_alloc.
+  SceneTables(const SceneDescription& description, int threads);
+
+  const ViewPlane& viewplane() const { return viewplane_; }
+  const Camera& camera() const { return *camera_; }
+  /// Unit length.
+  const Vec3f& viewing_direction() const { return viewing_direction_; }
+  /// The point that all camera rays start at; none if there is none.
+  const std::optional<BufferOrigin>& camera_origin() const { return camera_origin_; }
+
+  /// The sum of all ambient lights.
+  const Rgb<float>& ambient_radiance() const { return ambient_radiance_; }
+  /// All others.
+  const std::vector<std::unique_ptr<LightSource>>& lights() const { return lights_; }
+  /// For each of them, where its shadow rays go to; none if it has none, or they go to many places.
+  const std::vector<std::optional<BufferOrigin>>& light_origins() const { return light_origins_; }
+
+  const GeometryTable& geometry() const { return *geometry_; }
+
+  /// The most that a sample of direct light can have, and a material's albedo, in any channel.
+  float largest_radiance() const;
+  float largest_albedo() const;
+
+  // Of what was hit; at least one lane must have a hit, and lanes without one get anything.
+
+  /// Each object's number, counted from 0: type by type as in the Shapes registry, each type's in their order.
+  IntN object(const Hits& hits) const { return geometry_->object(hits); }
+  /// Each material's number, likewise.
+  IntN material(const Hits& hits) const { return geometry_->material(hits); }
+  Rgb<FloatN> albedo(const Hits& hits) const;
+
+  /// The radiance that leaves the surface along wo, each lane's by its own material: one call for each material type
+  /// among the lanes.
+  Rgb<FloatN> shade(const Hits& hits, const SurfaceInteraction<FloatN>& surface, const Rgb<float>& ambient_radiance,
+                    std::span<const IncidentLight> lights) const;
+
+ private:
+  void set_camera(const SceneDescription& description);
+  void add_lights(const SceneDescription& description);
+  void add_materials(const SceneDescription& description);
+
+  /// answer(table, materials) of each material type among the lanes, each lane's of its own.
+  template <class Answer>
+  Rgb<FloatN> by_material(const Hits& hits, const Answer& answer) const;
+
+  ViewPlane viewplane_;
+  std::unique_ptr<Camera> camera_;
+  Vec3f viewing_direction_{};
+  std::optional<BufferOrigin> camera_origin_;
+  Rgb<float> ambient_radiance_{0, 0, 0};
+  std::vector<std::unique_ptr<LightSource>> lights_;
+  std::vector<std::optional<BufferOrigin>> light_origins_;
+  std::array<std::unique_ptr<MaterialTable>, Materials::size> materials_;
+  std::array<std::int32_t, Materials::size + 1>
+      first_material_{};  ///< of each type, all counted together; their number
+  std::unique_ptr<const GeometryTable> geometry_;
+};
+
+}  // namespace raytrace

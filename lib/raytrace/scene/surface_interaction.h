@@ -1,0 +1,28 @@
+// What a ray met, as shading wants it.
+#pragma once
+
+#include "raytrace/math/ray.h"
+
+namespace raytrace {
+
+/// In world space. Lanes without a hit hold anything.
+template <class F>
+struct SurfaceInteraction {
+  Vec3<F> p;   ///< on the surface as closely as floats allow
+  Vec3<F> ng;  ///< the surface's normal, of unit length, on the side that the ray came from
+  Vec3<F> ns;  ///< the normal for shading, likewise
+  Vec3<F> wo;  ///< unit length, to where the ray came from
+  F error;     ///< bound of the distance between p and the true surface
+};
+
+/// Where rays that leave the surface on ng's side start: p moved along ng just so far that neither its own rounding nor
+/// that of an intersection with the surface it lies on can put it on the other side: a few units in the last place of
+/// its largest coordinate. This is the one place that decides it; no other code has an epsilon for this. Wächter and
+/// Binder, "A Fast and Robust Method for Avoiding Self-Intersection", Ray Tracing Gems chapter 6, argue why the
+/// distance must scale so.
+template <class F>
+RAYTRACE_INLINE Vec3<F> offset_ray_origin(const SurfaceInteraction<F>& surface) {
+  return surface.p + surface.ng * (surface.error * F(4));
+}
+
+}  // namespace raytrace

@@ -1,0 +1,106 @@
+// Where rays meet cylinders: solved in double, since the part of the ray along the axis cancels, and the axis may be
+// long and thin.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "raytrace/math/bounds.h"
+#include "raytrace/math/doubles.h"
+#include "raytrace/math/kernel.h"
+#include "raytrace/math/ray.h"
+#include "raytrace/shapes/cylinder.h"
+
+namespace raytrace {
+
+template <>
+class Kernel<Cylinder> {
+ public:
+  using Parameters = Cylinder::Parameters;
+
+  template <class T>
+  struct Record {
+    Vec3<T> bottom;
+    Vec3<T> axis;  ///< unit length, from bottom to top
+    T height;
+    T radius;
+  };
+  static Record<double> record(const Parameters& parameters);
+  static Bounds bounds(const Record<double>& cylinder);
+  static double bounding_radius(const Record<double>& cylinder);
+
+  /// The nearest distance inside (ray.near, ray.far) in each lane of `active`; infinity elsewhere.
+  template <class F>
+  static F intersect(const Record<double>& cylinder, const Ray<F>& ray, const Mask<F>& active);
+
+  /// The surface at a distance that intersect() gave.
+  template <class F>
+  static SurfacePoint<F> surface(const Record<Doubles<F>>& cylinder, const Ray<F>& ray, const F& distance);
+};
+
+template <class F>
+RAYTRACE_INLINE F Kernel<Cylinder>::intersect(const Record<double>& cylinder, const Ray<F>& ray,
+                                              const Mask<F>& active) {
+  using D = Doubles<F>;
+  const Vec3<D> axis(cylinder.axis);
+  const Vec3<D> from_bottom = Vec3<D>(ray.origin) - Vec3<D>(cylinder.bottom);
+  const Vec3<D> d(ray.direction);
+  // Along the axis, and across it, where the cylinder is a circle.
+  const D height_at_origin = dot(from_bottom, axis);
+  const D climb = dot(d, axis);
+  const Vec3<D> across = from_bottom - axis * height_at_origin;
+  const Vec3<D> d_across = d - axis * climb;
+  const D a = dot(d_across, d_across);
+  const D inverse_a = D(1.0) / a;  // infinite for a ray along the axis: the comparisons below then fail
+  const D to_closest = -dot(across, d_across) * inverse_a;
+  const Vec3<D> closest = across + d_across * to_closest;
+  const D radius(cylinder.radius);
+  const D discriminant = radius * radius - dot(closest, closest);
+  Mask<D> possible = discriminant >= D(0.0);
+  if (none(active & D::float_mask(possible))) return infinity<F>();
+
+  const D half_chord = sqrt(max(discriminant, D(0.0)) * inverse_a);
+  const D entry = to_closest - half_chord, exit = to_closest + half_chord;
+  const D near(ray.near), far(ray.far), zero(0.0), height(cylinder.height);
+  const auto inside = [&](const D& t) {
+    const D h = multiply_add(climb, t, height_at_origin);
+    return (h >= zero) & (h <= height) & (t > near) & (t < far);
+  };
+  const auto hit_entry = possible & inside(entry);
+  const auto hit_exit = possible & inside(exit);
+  const D miss(std::numeric_limits<double>::infinity());
+  const F t = select(hit_entry, entry, select(hit_exit, exit, miss)).to_float();
+  return select(active, t, infinity<F>());
+}
+
+template <class F>
+SurfacePoint<F> Kernel<Cylinder>::surface(const Record<Doubles<F>>& cylinder, const Ray<F>& ray, const F& distance) {
+  using D = Doubles<F>;
+  const Vec3<D> from_bottom = Vec3<D>(ray.origin) - cylinder.bottom + Vec3<D>(ray.direction) * D(distance);
+  const D height = dot(from_bottom, cylinder.axis);
+  const Vec3<D> normal = normalize(from_bottom - cylinder.axis * height);
+  const Vec3<D> on_surface = cylinder.bottom + cylinder.axis * height + normal * cylinder.radius;
+  const Vec3<F> position = to_float(on_surface);
+  return {position, to_float(normal), rounding_error(position, F(0))};
+}
+
+inline Kernel<Cylinder>::Record<double> Kernel<Cylinder>::record(const Parameters& parameters) {
+  const Vec3d span = parameters.top - parameters.bottom;
+  return {parameters.bottom, normalize(span), length(span), parameters.radius};
+}
+
+inline Bounds Kernel<Cylinder>::bounds(const Record<double>& cylinder) {
+  // The box of the two rims: a circle around `axis` reaches radius * sqrt(1 - axis_i^2) along axis i.
+  const Vec3d& axis = cylinder.axis;
+  const double half_height = cylinder.height / 2;
+  const auto reach = [&](double axis_i) {
+    return std::abs(axis_i) * half_height + cylinder.radius * std::sqrt(std::max(0.0, 1 - axis_i * axis_i));
+  };
+  return bounds_around(cylinder.bottom + axis * half_height, {reach(axis.x), reach(axis.y), reach(axis.z)});
+}
+
+inline double Kernel<Cylinder>::bounding_radius(const Record<double>& cylinder) {
+  return std::hypot(cylinder.height / 2, cylinder.radius);
+}
+
+}  // namespace raytrace

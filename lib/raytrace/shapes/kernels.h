@@ -1,0 +1,20 @@
+// The kernels of all shapes.
+//
+// A shape's Kernel provides:
+//   template <class T> struct Record { ... };      what the tracer keeps of an object: members of type T only
+//   static Record<float or double> record(const Parameters&);
+//   static Bounds bounds(const Record<...>&);      none: the shape has no end, and stays out of the BVH
+//   static double bounding_radius(const Record<...>&);   perhaps: of a sphere around it with the center of its bounds
+//   template <class F> static F intersect(const Record<...>&, const Ray<F>&, const Mask<F>& active);
+//   template <class F> static Mask<F> occludes(const Record<...>&, const Ray<F>&, const Mask<F>& active);   perhaps
+//   template <class F> static SurfacePoint<F> surface(const Record<Wide>&, const Ray<F>&, const F& distance);
+// A Record that is no template is of a shape whose objects are few: surface() then takes one of them.
+#pragma once
+
+#include "raytrace/shapes/cylinder_kernel.h"
+#include "raytrace/shapes/disk_kernel.h"
+#include "raytrace/shapes/plane_kernel.h"
+#include "raytrace/shapes/registry.h"
+#include "raytrace/shapes/sphere_kernel.h"
+#include "raytrace/shapes/torus_kernel.h"
+#include "raytrace/shapes/triangle_kernel.h"
