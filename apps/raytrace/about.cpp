@@ -8,7 +8,7 @@
 
 #include "manual.h"
 #include "option_parser.h"
-#include "raytrace/aovs/registry.h"
+#include "raytrace/aovs/aov_table.h"
 #include "raytrace/batch/provenance.h"
 #include "raytrace/cameras/registry.h"
 #include "raytrace/integrators/registry.h"
@@ -56,9 +56,15 @@ std::string names_in(List list) {
   return names;
 }
 
+std::string names_of_aovs() {
+  std::string names;
+  for (const Aov& aov : aov_table) names += std::string(aov.name) + '\n';
+  return names;
+}
+
 std::vector<std::pair<std::string, std::string>> listings() {
   return {{"shapes", names_in(Shapes())},   {"materials", names_in(Materials())},     {"lights", names_in(Lights())},
-          {"cameras", names_in(Cameras())}, {"integrators", names_in(Integrators())}, {"aovs", names_in(Aovs())}};
+          {"cameras", names_in(Cameras())}, {"integrators", names_in(Integrators())}, {"aovs", names_of_aovs()}};
 }
 
 struct OptionForWord {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "raytrace/film/aov_film.h"
 #include "raytrace/film/samples_done.h"
 #include "raytrace/math/content_hash.h"
 #include "raytrace/output/film_channels.h"
@@ -17,8 +16,7 @@ constexpr const char* hash_name = "raytrace:sumsHash";
 
 std::string hash_of(const Film& film) {
   ContentHash hash;
-  hash.add(film.sums().data(), film.sums().size_bytes());
-  if (film.aovs() != nullptr) film.aovs()->add_to(hash);
+  film.add_to(hash);
   return hash.digits();
 }
 

@@ -366,10 +366,10 @@ ImageMetadata PictureRender::metadata() const {
 void PictureRender::report_invalid_samples() const {
   if (invalid_samples_.count == 0) return;
   std::string text = counted(invalid_samples_.count, "sample") + " without a finite radiance, counted as black:";
-  for (const SampleId& id : invalid_samples_.told)
+  for (const SampleId& id : invalid_samples_.listed)
     text +=
         " sample " + std::to_string(id.sample) + " of pixel " + std::to_string(id.x) + "," + std::to_string(id.y) + ";";
-  const SampleId& first = invalid_samples_.told.front();
+  const SampleId& first = invalid_samples_.listed.front();
   report(MessageLevel::warning,
          text + " to see it again: --pixel " + std::to_string(first.x) + "," + std::to_string(first.y));
 }
