@@ -161,6 +161,22 @@ shape(
     </disks>
 """,
 )
+shape(
+    "rectangle",
+    "Rectangles: a wall, and a leaning parallelogram in front of it.",
+    """\
+    <rectangles>
+      <rectangle>
+        <corner x="-2.2" y="0" z="-1"/> <edge1 x="3" y="0" z="0"/> <edge2 x="0" y="1.8" z="0"/>
+        <material>glossy</material>
+      </rectangle>
+      <rectangle>
+        <corner x="0.2" y="0" z="0.8"/> <edge1 x="1.4" y="0" z="-0.4"/> <edge2 x="0.5" y="1.5" z="-0.5"/>
+        <material>glossy</material>
+      </rectangle>
+    </rectangles>
+""",
+)
 
 # Lights
 light(

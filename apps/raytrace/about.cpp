@@ -2,10 +2,22 @@
 
 #include <tbb/version.h>
 
-#include "listing.h"
+#include <filesystem>
+#include <string_view>
+#include <utility>
+
 #include "manual.h"
 #include "option_parser.h"
+#include "raytrace/aovs/aov_table.h"
+#include "raytrace/batch/provenance.h"
+#include "raytrace/cameras/registry.h"
+#include "raytrace/integrators/registry.h"
+#include "raytrace/lights/registry.h"
+#include "raytrace/materials/registry.h"
+#include "raytrace/math/type_list.h"
 #include "raytrace/render/renderer.h"
+#include "raytrace/shapes/registry.h"
+#include "raytrace/text/quoted.h"
 
 namespace raytrace {
 
@@ -28,15 +40,84 @@ std::string version() {
          TBB_runtime_version() + "\ninstruction sets: " + isas + " (best here: " + best_isa() + ")\n";
 }
 
+/// The names in a registry, one a line.
+template <class List>
+std::string names_in(List list) {
+  std::string names;
+  for_each_type(list, [&](auto type) {
+    using T = typename decltype(type)::type;
+    if constexpr (requires { T::name; }) {
+      names += T::name;
+    } else {
+      names += T::element;
+    }
+    names += '\n';
+  });
+  return names;
+}
+
+std::string names_of_aovs() {
+  std::string names;
+  for (const Aov& aov : aov_table) names += std::string(aov.name) + '\n';
+  return names;
+}
+
+std::vector<std::pair<std::string, std::string>> listings() {
+  return {{"shapes", names_in(Shapes())},   {"materials", names_in(Materials())},     {"lights", names_in(Lights())},
+          {"cameras", names_in(Cameras())}, {"integrators", names_in(Integrators())}, {"aovs", names_of_aovs()}};
+}
+
+struct OptionForWord {
+  std::string_view word;
+  const char* instead;
+};
+
+constexpr OptionForWord option_words[] = {{"render", "raytrace scene.xml -o picture.exr"},
+                                          {"validate", "raytrace scene.xml --validate"},
+                                          {"check", "raytrace scene.xml --validate"},
+                                          {"print", "raytrace scene.xml --print-scene"},
+                                          {"list", "raytrace --list shapes"},
+                                          {"version", "raytrace --version"},
+                                          {"resume", "raytrace scene.xml -o picture.exr --checkpoint FILE --resume"}};
+
+void refuse_wrong_word(const std::string& word) {
+  if (word.empty() || word.find_first_of("./-") != std::string::npos || std::filesystem::exists(word)) return;
+  const std::string start = "there is no scene and no command " + in_quotes(word) + "; ";
+  for (const OptionForWord& option : option_words)
+    if (word == option.word) throw UsageError(start + "use " + option.instead);
+  const std::string meant = nearest(word, {"merge", "help"});
+  if (!meant.empty()) throw UsageError(start + "did you mean 'raytrace " + meant + "'?");
+}
+
 }  // namespace
 
-std::string software_name() { return "raytrace " RAYTRACE_VERSION; }
+std::vector<std::string> listing_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, members] : listings()) names.push_back(name);
+  return names;
+}
 
 std::optional<std::string> about_program(const Options& options) {
   if (options.help) return help();
   if (options.version) return version();
-  if (!options.list.empty()) return listing(options.list);
+  for (const auto& [name, members] : listings())
+    if (name == options.list) return members;
   return std::nullopt;
+}
+
+std::vector<const char*> with_command_words_read(int argc, const char* const* argv) {
+  std::vector<const char*> arguments(argv, argv + argc);
+  if (argc < 2) return arguments;
+  const std::string_view first(argv[1]), second(argc > 2 ? argv[2] : "");
+  if (first == "help" && argc <= 3) {
+    if (second == "merge") return {argv[0], argv[2], "--help"};
+    if (second.empty() || second.starts_with('-') || second == "help") return {argv[0], "--help"};
+    throw UsageError("there is no help about " + in_quotes(second) +
+                     "; there is raytrace help and raytrace help merge");
+  }
+  if (first == "merge" && second == "help" && argc == 3) return {argv[0], argv[1], "--help"};
+  if (first != "merge") refuse_wrong_word(std::string(first));
+  return arguments;
 }
 
 }  // namespace raytrace

@@ -2,6 +2,8 @@
 
 #include <string_view>
 
+#include "raytrace/batch/message_text.h"
+
 namespace raytrace {
 
 namespace {

@@ -8,6 +8,7 @@
 #include "manual.h"
 #include "merge_command.h"
 #include "options.h"
+#include "raytrace/batch/provenance.h"
 
 int main(int argc, char** argv) {
   using namespace raytrace;

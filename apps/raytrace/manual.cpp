@@ -42,7 +42,7 @@ const Manual render_manual = {
     {"Exit codes",
      {{std::to_string(exit_code::done), "Done."},
       {std::to_string(exit_code::failed), "The scene has errors, the render failed, or a file could not be written."},
-      {std::to_string(exit_code::usage), "The command line makes no sense."},
+      {std::to_string(exit_code::usage), "Invalid command line."},
       {std::to_string(exit_code::out_of_memory), "Out of memory."},
       {std::to_string(exit_code::resumable),
        "Stopped by SIGINT, SIGTERM, SIGHUP, SIGXCPU or SIGUSR2 with the checkpoint and the picture so far written: "
@@ -63,7 +63,7 @@ const Manual merge_manual = {
      {{std::to_string(exit_code::done), "Done."},
       {std::to_string(exit_code::failed),
        "The pieces do not fit together, or do not cover the picture; a file could not be read or written."},
-      {std::to_string(exit_code::usage), "The command line makes no sense."},
+      {std::to_string(exit_code::usage), "Invalid command line."},
       {std::to_string(exit_code::out_of_memory), "Out of memory."}}}};
 
 namespace {

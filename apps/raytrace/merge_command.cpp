@@ -9,15 +9,15 @@
 #include <utility>
 
 #include "exit_code.h"
-#include "file_clash.h"
 #include "manual.h"
-#include "memory_limit.h"
 #include "messages.h"
 #include "option_parser.h"
-#include "outputs.h"
+#include "process_limits.h"
+#include "raytrace/batch/message_text.h"
+#include "raytrace/batch/output_files.h"
+#include "raytrace/batch/used_files.h"
 #include "raytrace/render/renderer.h"
 #include "signals.h"
-#include "thread_limit.h"
 
 namespace raytrace {
 
@@ -65,9 +65,9 @@ std::vector<std::string> with_lists_read(const std::vector<std::string>& names) 
 void refuse_clashes(const std::vector<std::string>& names, const MergeSettings& settings) {
   UsedFiles files;
   for (const std::string& name : names)
-    if (is_list(name)) add_file(files, {"the list", name.substr(1), false});
-  for (const std::string& piece : settings.pieces) add_file(files, {"the piece", piece, false});
-  for (const std::string& output : settings.outputs) add_file(files, {"--output", output, true});
+    if (is_list(name)) files.add_or_refuse({"the list", name.substr(1), false});
+  for (const std::string& piece : settings.pieces) files.add_or_refuse({"the piece", piece, false});
+  for (const std::string& output : settings.outputs) files.add_or_refuse({"--output", output, true});
 }
 
 MergeOptions parsed(int argc, const char* const* argv) {
@@ -90,10 +90,10 @@ MergeOptions parsed(int argc, const char* const* argv) {
   return options;
 }
 
-void tell(const MergeReport& report) {
+void log_report(const MergeReport& report) {
   for (const std::string& file : report.outputs) {
     log_step("wrote " + file + ": " + counted(report.pieces, "piece") + ", " +
-             counted(static_cast<std::uint64_t>(report.samples), "sample") + " a pixel");
+             counted(static_cast<std::uint64_t>(report.samples), "sample") + " per pixel");
   }
   if (report.missing_parts) log_warning("the picture is not complete: some pixels, or samples of them, are missing");
 }
@@ -112,12 +112,12 @@ void define_merge_options(OptionParser& parser, MergeOptions& options) {
   parser.add_switch("--partial", settings.partial,
                     "Pieces may be missing or unfinished: a pixel gets the samples that there are, or else a checked "
                     "background with alpha 0");
-  parser.add("-s,--spp", "N", "Refuse pieces that have other than N samples a pixel together (as many as there are)",
+  parser.add("-s,--spp", "N", "Refuse pieces that have other than N samples per pixel together (as many as there are)",
              [&](const std::string& text) { settings.samples = integer(text, 1, largest); });
   parser.group("Output");
   parser.add_repeatable("-o,--output", "FILE", "Write the picture to FILE; repeatable",
                         [&](const std::string& text) { settings.outputs.push_back(text); });
-  parser.add("--bit-depth", "8|16", "Bits a channel in PNG, TIFF and other sRGB-encoded files (8)",
+  parser.add("--bit-depth", "8|16", "Bits per channel in PNG, TIFF and other sRGB-encoded files (8)",
              [&](const std::string& text) { settings.bit_depth = bit_depth(text); }, {"8", "16"});
   parser.add("--exposure", exposure_value_name, exposure_help,
              [&](const std::string& text) { settings.exposure = exposure(text); });
@@ -126,7 +126,7 @@ void define_merge_options(OptionParser& parser, MergeOptions& options) {
              [&](const std::string& text) { settings.threads = integer(text, 1, most_threads); });
   parser.group("Messages");
   parser.add_switch("-q,--quiet", options.quiet, "Errors only");
-  parser.add_switch("-v,--verbose", options.verbose, "Tell what is done");
+  parser.add_switch("-v,--verbose", options.verbose, "Report what is done");
   parser.add_switch("-h,--help", options.help, "Print this");
 }
 
@@ -148,12 +148,12 @@ int merge_command(int argc, const char* const* argv) {
   obey_group_memory_limit(options.settings.threads);
   const Signals signals;
   try {
-    const MergeReport report = merge_pieces(options.settings, [&] { return signals.stop_signal() != 0; });
+    const MergeReport report = merge_pieces(options.settings, [] { return signal_control().is_stopped(); });
     if (report.stopped) {
-      log_note("stopped by " + signals.stop_signal_name() + ": nothing written");
-      return exit_code::stopped + signals.stop_signal();
+      log_note("stopped by " + stop_signal_name() + ": nothing written");
+      return exit_code::stopped + stop_signal();
     }
-    tell(report);
+    log_report(report);
   } catch (const MergeError& error) {
     std::istringstream problems(error.what());
     for (std::string problem; std::getline(problems, problem);) log_error(problem);

@@ -10,6 +10,7 @@
 #include <mutex>
 #include <sstream>
 #include <string_view>
+#include <unordered_set>
 
 #include "raytrace/output/link_target.h"
 #include "raytrace/output/output_error.h"
@@ -19,14 +20,14 @@ namespace raytrace {
 
 namespace {
 
-Verbosity told = Verbosity::warnings;
+Verbosity logged_verbosity = Verbosity::warnings;
 ProgressStyle program_style = ProgressStyle::none;
 int log_file = -1;
 std::string log_name;
 
 std::mutex mutex;  // guards what follows, and the order of what is written
 bool bar_is_shown = false;
-std::size_t messages_told = 0;
+std::size_t messages_logged = 0;
 
 std::string utc_time() {
   const std::time_t now = std::time(nullptr);
@@ -63,7 +64,7 @@ void write_message(const std::string& text) {
   const std::lock_guard lock(mutex);
   write_shown(wiped_bar() + text);
   log(text);
-  ++messages_told;
+  ++messages_logged;
 }
 
 void write_message(const char* weight, const std::string& text, const std::vector<std::string>& more_lines = {}) {
@@ -74,7 +75,7 @@ void write_message(const char* weight, const std::string& text, const std::vecto
 
 }  // namespace
 
-void set_verbosity(Verbosity verbosity) { told = verbosity; }
+void set_verbosity(Verbosity verbosity) { logged_verbosity = verbosity; }
 
 void log_to(const std::string& file) {
   constexpr mode_t by_umask = 0666;
@@ -90,10 +91,10 @@ void log_program_in(ProgressStyle style) {
 
 std::size_t message_count() {
   const std::lock_guard lock(mutex);
-  return messages_told;
+  return messages_logged;
 }
 
-bool tells(Verbosity verbosity) { return verbosity <= told; }
+bool is_logged(Verbosity verbosity) { return verbosity <= logged_verbosity; }
 
 void log_error(const std::string& text, const std::vector<std::string>& more_lines) {
   write_message("error: ", text, more_lines);
@@ -103,15 +104,15 @@ void log_error(const std::string& text, const std::vector<std::string>& more_lin
 }
 
 void log_warning(const std::string& text) {
-  if (tells(Verbosity::warnings)) write_message("warning: ", text);
+  if (is_logged(Verbosity::warnings)) write_message("warning: ", text);
 }
 
 void log_note(const std::string& text) {
-  if (tells(Verbosity::warnings)) write_message("", text);
+  if (is_logged(Verbosity::warnings)) write_message("", text);
 }
 
 void log_step(const std::string& text) {
-  if (tells(Verbosity::steps)) write_message("", text);
+  if (is_logged(Verbosity::steps)) write_message("", text);
   log_program(status_line(program_style, text));
 }
 
@@ -120,6 +121,24 @@ void log_lines(const std::string& lines) {
   std::istringstream stream(lines);
   for (std::string line; std::getline(stream, line);) message += on_one_line(line) + "\n";
   write_message(message);
+}
+
+void log_diagnostics(const Diagnostics& diagnostics) {
+  static std::string file;
+  static std::unordered_set<std::string> logged;
+  if (!diagnostics.has_errors() && !is_logged(Verbosity::warnings)) return;
+  if (file != diagnostics.file()) logged.clear();
+  file = diagnostics.file();
+  std::stringstream lines;
+  diagnostics.print(lines);
+  std::string news, first_error;
+  for (std::string line; std::getline(lines, line);) {
+    if (!logged.insert(line).second) continue;
+    news += line + "\n";
+    if (first_error.empty() && line.find(": error: ") != std::string::npos) first_error = line;
+  }
+  if (!news.empty()) log_lines(news);
+  if (!first_error.empty()) log_program_failure(first_error);
 }
 
 void log_progress(const std::string& text) {
@@ -150,10 +169,6 @@ void show_bar(const std::string& text) {
     write_shown("\r" + text + "\033[K");
     bar_is_shown = true;
   }
-}
-
-std::string counted(std::uint64_t count, const std::string& thing) {
-  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
 }
 
 }  // namespace raytrace

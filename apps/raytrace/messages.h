@@ -1,13 +1,13 @@
-// What the program tells while it runs: a person on standard error ("raytrace: error: ..."), the log file, and a
-// program that reads along on standard output (progress_lines.h). Any thread may tell something at any time.
+// The messages of the program while it runs, for a person on standard error ("raytrace: error: ..."), the log file, and
+// a program that reads along on standard output (progress_lines.h). Any thread may log something at any time.
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "progress_lines.h"
+#include "raytrace/xml/diagnostics.h"
 
 namespace raytrace {
 
@@ -18,18 +18,18 @@ void set_verbosity(Verbosity verbosity);
 
 /// From here on messages go to this file, too: each line is added at its end after the time in UTC
 /// ("2026-01-31T23:59:59Z raytrace: warning: ..."). Throws OutputError if it cannot be opened; should it take no more
-/// later (a full disk), that is told once and the run goes on.
+/// later (a full disk), that is reported once and the run goes on.
 void log_to(const std::string& file);
 
-/// From here on, steps and errors are told to the program that reads standard output, too, whatever the verbosity, if
-/// the style is for one. Should that program go away, the run goes on.
+/// From here on, steps and errors are reported to the program that reads standard output, too, whatever the verbosity,
+/// if the style is for one. Should that program go away, the run goes on.
 void log_program_in(ProgressStyle style);
 
-/// How many messages were told so far.
+/// How many messages were logged so far.
 std::size_t message_count();
 
-/// Whether messages of this weight are told.
-bool tells(Verbosity verbosity);
+/// Whether messages of this weight are logged.
+bool is_logged(Verbosity verbosity);
 
 // The text of a message may hold anything that a user or a file says: control characters in it, line ends too, are
 // shown as \xNN, so that none reaches a terminal or a log. What is to stand on lines of its own comes as such.
@@ -40,6 +40,9 @@ void log_step(const std::string& text);
 
 /// Whole lines: findings about a scene, statistics. Of what they hold, line ends alone stay as they are.
 void log_lines(const std::string& lines);
+
+/// What is wrong or doubtful in a scene. What an earlier render of it, another frame, had too is not repeated.
+void log_diagnostics(const Diagnostics& diagnostics);
 
 /// How far the render is, as a line for people. It is not logged.
 void log_progress(const std::string& text);
@@ -55,8 +58,5 @@ void log_program_failure(const std::string& text);
 
 /// Draws a terminal's last line over; empty: wipes it out. So does each message, before it.
 void show_bar(const std::string& text);
-
-/// "1 object", "2 objects"
-std::string counted(std::uint64_t count, const std::string& thing);
 
 }  // namespace raytrace

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "option_synonyms.h"
+#include "raytrace/batch/message_text.h"
 #include "raytrace/text/quoted.h"
 
 namespace raytrace {
@@ -24,7 +25,7 @@ OptionParser::Take named(const OptionParser::Take& take, const std::string& name
   return [take, name = names.substr(names.rfind(',') + 1)](const std::string& text) {
     try {
       take(text);
-    } catch (const UsageError& error) {
+    } catch (const SettingsError& error) {
       throw UsageError(name + ": " + error.what());
     }
   };

@@ -60,7 +60,7 @@ class OptionParser {
   void add_switch(const std::string& names, bool& flag, const std::string& help);
   void add_switch(const std::string& names, int& count, const std::string& help);
 
-  /// Throws UsageError, which tells what is wrong and, where an option is not known, the nearest one.
+  /// Throws UsageError, which says what is wrong and, where an option is not known, the nearest one.
   void parse(int argc, const char* const* argv);
 
   const std::vector<OptionEntry>& entries() const { return entries_; }

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "raytrace/aovs/aov_selection.h"
+#include "raytrace/batch/message_text.h"
 #include "raytrace/text/nearest_name.h"
 #include "raytrace/text/quoted.h"
 
@@ -35,13 +36,17 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
   }
 }
 
-}  // namespace
-
-std::string joined(const Names& names, const char* separator) {
-  std::string all;
-  for (const std::string& name : names) all += (all.empty() ? "" : separator) + name;
-  return all;
+/// So many whole numbers; empty if the text is anything else.
+std::vector<int> integers(const std::string& text, char separator, std::size_t count) {
+  std::vector<int> values;
+  for (const std::string_view part : split(text, separator))
+    if (const auto value = number<int>(part)) values.push_back(*value);
+  const auto separators = static_cast<std::size_t>(std::count(text.begin(), text.end(), separator));
+  if (values.size() != count || separators + 1 != count) values.clear();
+  return values;
 }
+
+}  // namespace
 
 std::string nearest(const std::string& wrong, const Names& names) {
   const std::vector<std::string_view> candidates(names.begin(), names.end());
@@ -92,13 +97,10 @@ AovSet aovs(const std::string& text) {
 }
 
 Resolution resolution(const std::string& text) {
-  const auto parts = split(text, 'x');
-  const auto width = number<int>(parts.front());
-  const auto height = number<int>(parts.back());
-  if (parts.size() != 2 || !width || !height || *width < 1 || *height < 1) {
+  const std::vector<int> edges = integers(text, 'x', 2);
+  if (edges.empty() || edges[0] < 1 || edges[1] < 1)
     throw UsageError(in_quotes(text) + " is not a resolution; use WIDTHxHEIGHT, e.g. 1920x1080");
-  }
-  return {*width, *height};
+  return {edges[0], edges[1]};
 }
 
 double scale(const std::string& text) {
@@ -121,26 +123,18 @@ double exposure(const std::string& text) {
 }
 
 Tile tile(const std::string& text) {
-  const auto parts = split(text, '/');
-  const auto index = number<int>(parts.front());
-  const auto count = number<int>(parts.back());
-  if (parts.size() != 2 || !index || !count || *count < 1) {
+  const std::vector<int> parts = integers(text, '/', 2);
+  if (parts.empty() || parts[1] < 1)
     throw UsageError(in_quotes(text) + " is not a tile; use I/N, e.g. 0/4 for the first of four");
-  }
-  if (*index < 0 || *index >= *count) {
-    throw UsageError("there is no tile " + in_quotes(text) + ": they count from 0 to " + std::to_string(*count - 1));
-  }
-  return {*index, *count};
+  if (parts[0] < 0 || parts[0] >= parts[1])
+    throw UsageError("there is no tile " + in_quotes(text) + ": they count from 0 to " + std::to_string(parts[1] - 1));
+  return {parts[0], parts[1]};
 }
 
-PixelPlace pixel_place(const std::string& text) {
-  const auto parts = split(text, ',');
-  const auto x = number<int>(parts.front());
-  const auto y = number<int>(parts.back());
-  if (parts.size() != 2 || !x || !y) {
-    throw UsageError(in_quotes(text) + " is not a pixel; use x,y from the top left, e.g. 12,40");
-  }
-  return {*x, *y};
+PixelIndex pixel_index(const std::string& text) {
+  const std::vector<int> parts = integers(text, ',', 2);
+  if (parts.empty()) throw UsageError(in_quotes(text) + " is not a pixel; use x,y from the top left, e.g. 12,40");
+  return {parts[0], parts[1]};
 }
 
 double duration(const std::string& text) {
@@ -166,22 +160,14 @@ double duration(const std::string& text) {
 }
 
 Region crop(const std::string& text) {
-  int edges[4] = {};
-  const auto parts = split(text, ',');
-  bool whole = parts.size() == 4;
-  for (std::size_t i = 0; whole && i < 4; ++i) {
-    const auto edge = number<int>(parts[i]);
-    whole = edge.has_value();
-    edges[i] = edge.value_or(0);
-  }
-  if (!whole) {
+  const std::vector<int> edges = integers(text, ',', 4);
+  if (edges.empty()) {
     throw UsageError(
         in_quotes(text) +
         " is not a crop; use x0,y0,x1,y1 in pixels from the top left, x1 and y1 exclusive, e.g. 0,0,64,64");
   }
-  if (edges[0] >= edges[2] || edges[1] >= edges[3]) {
+  if (edges[0] >= edges[2] || edges[1] >= edges[3])
     throw UsageError(in_quotes(text) + " holds no pixel: x1 must be above x0, and y1 above y0");
-  }
   return {edges[0], edges[1], edges[2], edges[3]};
 }
 

@@ -2,11 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "raytrace/batch/render_job.h"
+#include "raytrace/batch/settings_error.h"
 #include "raytrace/display/display_server.h"
 #include "raytrace/film/aov_settings.h"
 #include "raytrace/film/region.h"
@@ -14,12 +15,12 @@
 
 namespace raytrace {
 
-/// A command line that makes no sense: exit code 2.
-class UsageError : public std::runtime_error {
+/// An invalid command line: exit code 2.
+class UsageError : public SettingsError {
  public:
   /// more_lines: what to type instead, where that takes lines of its own.
   explicit UsageError(const std::string& text, std::vector<std::string> more_lines = {})
-      : std::runtime_error(text), more_lines_(std::move(more_lines)) {}
+      : SettingsError(text), more_lines_(std::move(more_lines)) {}
 
   const std::vector<std::string>& more_lines() const { return more_lines_; }
 
@@ -28,8 +29,6 @@ class UsageError : public std::runtime_error {
 };
 
 using Names = std::vector<std::string>;
-
-std::string joined(const Names& names, const char* separator);
 
 /// The name that is most like the wrong one; empty if none is.
 std::string nearest(const std::string& wrong, const Names& names);
@@ -54,22 +53,18 @@ Names aov_choices();
 /// "depth,normal", or "all" of them.
 AovSet aovs(const std::string& text);
 
-struct Resolution {
-  int width = 0, height = 0;
-};
-
 /// "1920x1080"
 Resolution resolution(const std::string& text);
 
 /// "2/8": the third of eight.
 Tile tile(const std::string& text);
 
-struct PixelPlace {
+struct PixelIndex {
   int x = 0, y = 0;
 };
 
 /// "x,y", from the top left; beyond the picture, perhaps.
-PixelPlace pixel_place(const std::string& text);
+PixelIndex pixel_index(const std::string& text);
 
 /// "90", "90s", "10m", "1h30m": in seconds.
 double duration(const std::string& text);

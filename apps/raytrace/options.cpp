@@ -1,16 +1,16 @@
 #include "options.h"
 
 #include <algorithm>
-#include <functional>
 #include <limits>
 #include <string_view>
 
-#include "frame_numbers.h"
-#include "listing.h"
+#include "about.h"
 #include "manual.h"
 #include "option_parser.h"
 #include "option_values.h"
 #include "raytrace/aovs/aov_selection.h"
+#include "raytrace/batch/frame_numbers.h"
+#include "raytrace/batch/message_text.h"
 #include "raytrace/description/variables.h"
 #include "raytrace/render/renderer.h"
 #include "raytrace/text/quoted.h"
@@ -43,7 +43,7 @@ void define(const std::string& text, std::map<std::string, std::string>& variabl
   const std::size_t equals = text.find('=');
   const std::string name = text.substr(0, equals);
   if (equals == std::string::npos || !is_variable_name(name)) {
-    throw UsageError("" + in_quotes(text) + " sets no variable; use NAME=VALUE, e.g. -D radius=2 for $radius");
+    throw UsageError(in_quotes(text) + " sets no variable; use NAME=VALUE, e.g. -D radius=2 for $radius");
   }
   if (name == frame_variable) throw UsageError("$frame is the frame's number; use --frames");
   const std::string value = text.substr(equals + 1);
@@ -53,6 +53,9 @@ void define(const std::string& text, std::map<std::string, std::string>& variabl
   }
   variables[name] = value;
 }
+
+/// What --stats is without a file.
+constexpr const char* statistics_as_text = "text";
 
 constexpr const char* no_scene = "no scene given; for example: raytrace scene.xml -o picture.exr";
 
@@ -67,6 +70,11 @@ void refuse_incomplete(const Options& options) {
   if (options.resume && options.checkpoint.empty()) {
     throw UsageError("--resume goes on from a checkpoint: say which with --checkpoint FILE");
   }
+  if (options.print_scene && (options.scenes.size() > 1 || options.frames.size() > 1)) {
+    throw UsageError(
+        "--print-scene prints one scene; give one" +
+        (options.frames.size() > 1 ? ", and one frame, e.g. --frames " + std::to_string(options.frames.front()) : ""));
+  }
   for (auto output = options.outputs.begin(); output != options.outputs.end(); ++output) {
     if (output->empty()) throw UsageError("--output: the file name is empty");
     if (std::find(options.outputs.begin(), output, *output) != output) {
@@ -76,13 +84,6 @@ void refuse_incomplete(const Options& options) {
 }
 
 }  // namespace
-
-std::vector<std::string> Options::files() const {
-  std::vector<std::string> files = outputs;
-  if (has_statistics_file()) files.push_back(statistics);
-  if (!checkpoint.empty()) files.push_back(checkpoint);
-  return files;
-}
 
 Verbosity Options::verbosity() const {
   if (quiet) return Verbosity::errors;
@@ -122,7 +123,7 @@ void define_options(OptionParser& parser, Options& options) {
       "--aov", "LIST",
       "What EXR files hold besides the colour, separated by commas: " + joined(aov_names(), ", ") + "; or all",
       [&](const std::string& text) { options.aovs = aovs(text); }, aov_choices());
-  parser.add("--bit-depth", "8|16", "Bits a channel in PNG, TIFF and other sRGB-encoded files (8)",
+  parser.add("--bit-depth", "8|16", "Bits per channel in PNG, TIFF and other sRGB-encoded files (8)",
              [&](const std::string& text) { options.bit_depth = bit_depth(text); }, {"8", "16"});
 
   parser.group("Picture");
@@ -141,14 +142,14 @@ void define_options(OptionParser& parser, Options& options) {
       "merge` "
       "puts them together",
       [&](const std::string& text) { options.tile = tile(text); });
-  parser.add("-s,--spp", "N", "Samples a pixel instead of the scene's; 1 goes through the pixel's centre",
+  parser.add("-s,--spp", "N", "Samples per pixel instead of the scene's; 1 goes through the pixel's centre",
              [&](const std::string& text) { options.samples = integer(text, 1, largest); });
   parser.add(
       "--sample-offset", "K",
       "These --spp samples are the picture's from number K on; the EXR keeps their sums for `raytrace merge`",
       [&](const std::string& text) { options.sample_offset = static_cast<std::uint32_t>(integer(text, 0, largest)); });
   parser.add("--pixel", "x,y", "Print the samples of one pixel, from the top left, instead of rendering a picture",
-             [&](const std::string& text) { options.pixel = pixel_place(text); });
+             [&](const std::string& text) { options.pixel = pixel_index(text); });
   parser.add("--seed", "N", "Another, equally good, pattern of samples (0)",
              [&](const std::string& text) { options.seed = natural_number(text); });
 
@@ -175,7 +176,7 @@ void define_options(OptionParser& parser, Options& options) {
   parser.group("Messages");
   parser.add_switch("-q,--quiet", options.quiet,
                     "Errors only: no warnings, and no progress but what --progress asks for");
-  parser.add_switch("-v,--verbose", options.verbose, "Tell what is done; twice: all that --stats tells, too");
+  parser.add_switch("-v,--verbose", options.verbose, "Report what is done; twice: all that --stats reports, too");
   parser.add(
       "--progress", "STYLE",
       "How far the render is: auto, bar and plain on standard error (auto: a bar on a terminal, plain lines "
@@ -188,7 +189,7 @@ void define_options(OptionParser& parser, Options& options) {
   });
   parser.add_with_optional_value("--stats", "FILE.json",
                                  "Times, rays, memory: as text on standard error, or as JSON in a file",
-                                 options.statistics, std::string(statistics_as_text));
+                                 options.statistics, statistics_as_text);
 
   parser.add(
       "--display-server", "HOST:PORT",
@@ -200,8 +201,8 @@ void define_options(OptionParser& parser, Options& options) {
   parser.add_switch("--print-scene", options.print_scene,
                     "Print the scene with every value spelled out, as it would be rendered, and render nothing");
   parser.add(
-      "--list", "KIND", "Print the " + joined(listing_kinds(), ", ") + " that there are",
-      [&](const std::string& text) { options.list = one_of(text, listing_kinds()); }, listing_kinds());
+      "--list", "KIND", "Print the " + joined(listing_names(), ", ") + " that there are",
+      [&](const std::string& text) { options.list = one_of(text, listing_names()); }, listing_names());
   parser.add_switch("--version", options.version, "Print the version, the libraries' and the instruction sets");
   parser.add_switch("-h,--help", options.help, "Print this");
 }
@@ -217,6 +218,12 @@ Options parse_options(int argc, const char* const* argv) {
   if (options.quiet && options.verbose > 0) throw UsageError("--quiet excludes --verbose");
   if (options.quiet && options.progress == ProgressStyle::automatic) options.progress = ProgressStyle::none;
   if (!options.help && !options.version && options.list.empty()) refuse_incomplete(options);
+  options.shows_statistics = options.statistics == statistics_as_text;
+  if (options.shows_statistics || !options.renders()) options.statistics.clear();
+  if (!options.renders()) {
+    options.outputs.clear();
+    options.checkpoint.clear();
+  }
   return options;
 }
 

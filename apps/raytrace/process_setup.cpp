@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t main_stack = std::size_t{8} << 20U;     // as Linux gives it by default
 constexpr std::size_t library_stack = std::size_t{1} << 20U;  // of which a few KiB are used
 
-/// In their place stands a file that they cannot be used with: it is opened the other way round, so that reading and
+/// Each is replaced by a file that it cannot be used with: one that is opened the other way round, so that reading and
 /// writing fail as they would have.
 void occupy_standard_files() {
   for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {

@@ -16,8 +16,8 @@ namespace raytrace {
 namespace {
 
 bool is_terminal() {
-  const char* const kind = std::getenv("TERM");
-  return isatty(STDERR_FILENO) == 1 && kind != nullptr && std::string_view(kind) != "dumb";
+  const char* const terminal = std::getenv("TERM");
+  return isatty(STDERR_FILENO) == 1 && terminal != nullptr && std::string_view(terminal) != "dumb";
 }
 
 int terminal_columns() {
@@ -113,7 +113,7 @@ double Progress::seconds() const { return std::chrono::duration<double>(Clock::n
 std::optional<double> Progress::seconds_left(double fraction) const {
   if (fraction >= 1) return 0;
   const double elapsed = seconds(), done = fraction - first_fraction_.value_or(0);
-  // The first moments tell nothing about the rest.
+  // The first moments say nothing about the rest.
   if (done < 0.01 || elapsed < 0.2) return std::nullopt;
   return elapsed / done * (1 - fraction);
 }

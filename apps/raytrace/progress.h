@@ -42,7 +42,7 @@ class Progress {
   ProgressStyle style_;
   Clock::time_point start_ = Clock::now();
   std::size_t index_ = 0, count_ = 1;
-  /// Where the first update found it: what an earlier run had done tells nothing about this one's speed.
+  /// Where the first update found it: what an earlier run had done says nothing about this one's speed.
   std::optional<double> first_fraction_;
   Clock::time_point next_;  ///< nothing is shown before
 };

@@ -31,7 +31,7 @@ std::string json_line(const nlohmann::ordered_json& event) {
   return event.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-/// The line of an event that is told by a text.
+/// The line of an event that is a text.
 std::string text_line(ProgressStyle style, const char* openjd_name, const char* json_name, const std::string& text) {
   if (style == ProgressStyle::openjd) return std::string(openjd_name) + ": " + without_controls(text) + "\n";
   if (style == ProgressStyle::json) return json_line({{"event", json_name}, {"text", text}});

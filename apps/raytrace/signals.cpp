@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <csignal>
 
 namespace raytrace {
@@ -19,11 +20,10 @@ constexpr std::array<StoppingSignal, 5> stopping_signals = {
     {{SIGINT, "SIGINT"}, {SIGTERM, "SIGTERM"}, {SIGHUP, "SIGHUP"}, {SIGXCPU, "SIGXCPU"}, {SIGUSR2, "SIGUSR2"}}};
 
 // A signal handler reaches nothing but globals.
-std::atomic<bool> pause_flag = false;
-std::atomic<bool> picture_flag = false;
+RenderControl control;
 std::atomic<int> last_signal = 0;
 std::atomic<int> stop_exit_code = 0;
-static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
+static_assert(std::atomic<int>::is_always_lock_free);
 
 bool is_ignored(int number) {
   struct sigaction action{};
@@ -53,27 +53,21 @@ void on_later_second(int number, siginfo_t* info, void* /*context*/) {
   raise(number);
 }
 
-// What is asked comes before the pause: whoever sees the pause sees why.
 void on_stop(int number, siginfo_t* /*info*/, void* /*context*/) {
   last_signal = number;
-  pause_flag = true;
+  control.stop();
   restore_defaults();
   if (!is_ignored(SIGXCPU)) handle(SIGXCPU, on_later_second);
 }
 
 void on_early_stop(int /*number*/, siginfo_t* /*info*/, void* /*context*/) { _exit(stop_exit_code); }
 
-void on_picture_request(int /*number*/, siginfo_t* /*info*/, void* /*context*/) {
-  picture_flag = true;
-  pause_flag = true;
-}
+void on_picture_request(int /*number*/, siginfo_t* /*info*/, void* /*context*/) { control.request_picture(); }
 
 }  // namespace
 
 Signals::Signals() {
-  pause_flag = false;
-  picture_flag = false;
-  last_signal = 0;
+  control.take_picture_request();  // one that came too late for the last render
   for (const auto& [number, name] : stopping_signals) {
     if (!is_ignored(number)) handle(number, on_stop);
   }
@@ -85,18 +79,16 @@ Signals::~Signals() {
   std::signal(SIGUSR1, SIG_IGN);  // as before
 }
 
-std::atomic<bool>& Signals::pause() const { return pause_flag; }
+RenderControl& signal_control() { return control; }
 
-int Signals::stop_signal() const { return last_signal; }
+int stop_signal() { return last_signal; }
 
-std::string Signals::stop_signal_name() const {
+std::string stop_signal_name() {
   for (const auto& [number, name] : stopping_signals) {
     if (number == last_signal) return name;
   }
   return "";
 }
-
-bool Signals::take_picture_request() const { return picture_flag.exchange(false); }
 
 StopEndsProgram::StopEndsProgram(int exit_code) {
   stop_exit_code = exit_code;

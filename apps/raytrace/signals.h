@@ -2,9 +2,10 @@
 // far.
 #pragma once
 
-#include <atomic>
 #include <csignal>
 #include <string>
+
+#include "raytrace/batch/render_observer.h"
 
 namespace raytrace {
 
@@ -17,19 +18,16 @@ class Signals {
   ~Signals();
   Signals(const Signals&) = delete;
   Signals& operator=(const Signals&) = delete;
-
-  /// Set by each signal, and by whoever else wants the render to pause: its stop flag.
-  std::atomic<bool>& pause() const;
-
-  /// The signal that asked to stop; 0 while there was none.
-  int stop_signal() const;
-
-  /// "SIGINT"
-  std::string stop_signal_name() const;
-
-  /// Whether the picture was asked for since the last call.
-  bool take_picture_request() const;
 };
+
+/// What signals ask of the render that runs.
+RenderControl& signal_control();
+
+/// The signal that asked to stop; 0 while there was none.
+int stop_signal();
+
+/// "SIGINT"
+std::string stop_signal_name();
 
 /// While it lives, a signal to stop ends the program at once, with this exit code: until there are rays, there is
 /// nothing to write. One that is to be ignored stays ignored. A Signals object that is made meanwhile takes over.

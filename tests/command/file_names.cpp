@@ -1,9 +1,9 @@
 // What is put into the names of files.
-#include "file_names.h"
+#include "raytrace/batch/file_names.h"
 
 #include <filesystem>
 
-#include "option_values.h"
+#include "raytrace/batch/settings_error.h"
 #include "support/catch.h"
 #include "support/temporary_folder.h"
 
@@ -62,8 +62,8 @@ TEST_CASE("the scene and the tile stand in for their tokens") {
   for (const char* const scene : {"...xml", "..xml", "a/...xml", ".xml", "..a"})
     CHECK(file_name("{scene}", {{}, {}, scene}) == std::filesystem::path(scene).filename());
   for (const char* const scene : {"..", ".", "....", "a/..", "a/"})
-    CHECK_THROWS_AS(file_name("{scene}/a", {{}, {}, scene}), UsageError);
-  CHECK_THROWS_AS(file_name("a.{tile}.exr", {7, {}, "s.xml"}), UsageError);
+    CHECK_THROWS_AS(file_name("{scene}/a", {{}, {}, scene}), SettingsError);
+  CHECK_THROWS_AS(file_name("a.{tile}.exr", {7, {}, "s.xml"}), SettingsError);
 }
 
 TEST_CASE("names of scenes have frames only") {

@@ -1,7 +1,7 @@
 // The texts of --frames.
-#include "frame_numbers.h"
+#include "raytrace/batch/frame_numbers.h"
 
-#include "option_values.h"
+#include "raytrace/batch/settings_error.h"
 #include "support/catch.h"
 
 namespace raytrace::test {
@@ -13,7 +13,7 @@ using Frames = std::vector<int>;
 std::string refusal(const std::string& text) {
   try {
     frame_numbers(text);
-  } catch (const UsageError& error) {
+  } catch (const SettingsError& error) {
     return error.what();
   }
   return "";

@@ -1,23 +1,24 @@
 // The renders that a command line asks for.
-#include "jobs.h"
-
 #include "exit_code.h"
 #include "messages.h"
+#include "options.h"
+#include "run_all.h"
 #include "support/catch.h"
 
 namespace raytrace::test {
 
 namespace {
 
-Jobs jobs(std::vector<const char*> arguments) {
+RenderBatch jobs(std::vector<const char*> arguments) {
   arguments.insert(arguments.begin(), "raytrace");
-  return Jobs(parse_options(static_cast<int>(arguments.size()), arguments.data()));
+  const Options options = parse_options(static_cast<int>(arguments.size()), arguments.data());
+  return RenderBatch(options.scenes, options.frames, options);
 }
 
 std::string refusal(const std::vector<const char*>& arguments) {
   try {
     jobs(arguments);
-  } catch (const UsageError& error) {
+  } catch (const SettingsError& error) {
     return error.what();
   }
   return "";
@@ -26,8 +27,8 @@ std::string refusal(const std::vector<const char*>& arguments) {
 }  // namespace
 
 TEST_CASE("a run of one render") {
-  const Jobs one = jobs({"s.xml", "-o", "take#1.exr"});
-  REQUIRE(one.count() == 1);
+  const RenderBatch one = jobs({"s.xml", "-o", "take#1.exr"});
+  REQUIRE(one.size() == 1);
   CHECK(one[0].scene == "s.xml");
   CHECK(one[0].frame == 1);
   CHECK(one[0].outputs == std::vector<std::string>{"take#1.exr"});
@@ -37,9 +38,9 @@ TEST_CASE("a run of one render") {
 }
 
 TEST_CASE("each frame of each scene") {
-  const Jobs all = jobs({"a.##.xml", "b.xml", "-o", "{scene}.####.exr", "-o", "p/{scene}.%d.png", "--frames", "3-5:2",
-                         "-s7", "--stats={scene}.#.json"});
-  REQUIRE(all.count() == 4);
+  const RenderBatch all = jobs({"a.##.xml", "b.xml", "-o", "{scene}.####.exr", "-o", "p/{scene}.%d.png", "--frames",
+                                "3-5:2", "-s7", "--stats={scene}.#.json"});
+  REQUIRE(all.size() == 4);
   CHECK(all[0].scene == "a.03.xml");
   CHECK(all[1].scene == "a.05.xml");
   CHECK(all[1].frame == 5);
@@ -80,18 +81,18 @@ TEST_CASE("one scene is printed, any number validated") {
   CHECK(refusal({"s.xml", "t.xml", "--print-scene"}) == "--print-scene prints one scene; give one");
   CHECK(refusal({"s.xml", "--print-scene", "--frames=3-4"}) ==
         "--print-scene prints one scene; give one, and one frame, e.g. --frames 3");
-  CHECK(jobs({"s.xml", "t.xml", "--validate", "--frames=1-3"}).count() == 6);
+  CHECK(jobs({"s.xml", "t.xml", "--validate", "--frames=1-3"}).size() == 6);
 }
 
 TEST_CASE("a render that fails does not stop the others, a signal does") {
   set_verbosity(Verbosity::errors);
-  const Jobs all = jobs({"s.xml", "-o", "#.exr", "--frames=1-5"});
+  const RenderBatch all = jobs({"s.xml", "-o", "#.exr", "--frames=1-5"});
   std::vector<int> seen;
   const auto run = [&](int failing, int code) {
     seen.clear();
-    return run_all(all, [&, failing, code](const Options& options) {
-      seen.push_back(options.frame);
-      return options.frame % failing == 0 ? code : exit_code::done;
+    return run_all(all, [&, failing, code](const RenderJob& job, std::size_t) {
+      seen.push_back(job.frame);
+      return job.frame % failing == 0 ? code : exit_code::done;
     });
   };
   const std::vector<int> everyone = {1, 2, 3, 4, 5};
@@ -104,10 +105,10 @@ TEST_CASE("a render that fails does not stop the others, a signal does") {
   CHECK(seen == std::vector<int>{1, 2, 3});
 
   seen.clear();
-  CHECK(run_all(all, [&](const Options& options) -> int {
-          seen.push_back(options.frame);
-          if (options.frame == 2) throw UsageError("x");
-          if (options.frame == 4) throw std::runtime_error("y");
+  CHECK(run_all(all, [&](const RenderJob& job, std::size_t) -> int {
+          seen.push_back(job.frame);
+          if (job.frame == 2) throw UsageError("x");
+          if (job.frame == 4) throw std::runtime_error("y");
           return exit_code::done;
         }) == exit_code::failed);
   CHECK(seen == everyone);

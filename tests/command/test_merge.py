@@ -61,7 +61,7 @@ class Merge(CommandTest):
                   ["--tile", "1/2", "--transparent"], "scene.xml"),
                  ("its channels", ["--tile", "1/2", "--float"], "scene.xml"),
                  ("the AOVs (depth, not none)", ["--tile", "1/2", "--aov", "depth"], "scene.xml"),
-                 ("the place of the samples", ["--tile", "1/2", "-s", "1"], "scene.xml")]
+                 ("the position of the samples", ["--tile", "1/2", "-s", "1"], "scene.xml")]
         if names.index(best) > 0:
             cases.append((f"the instruction set ({names[0]}, not {best})", ["--tile", "1/2", "--isa", names[0]],
                           "scene.xml"))
@@ -111,7 +111,7 @@ class Merge(CommandTest):
         self.assertRegex(self.refused("from0.exr", "from3.exr", "from4.exr", "from5.exr"),
                          "from[34].exr holds what from[34].exr holds, too")
         message = self.refused("from0.exr", "from3.exr", "-s", "9")
-        self.assertIn("the pieces hold 5 samples a pixel, not 9\n", message)
+        self.assertIn("the pieces hold 5 samples per pixel, not 9\n", message)
         self.assertIn("samples 5 to 8 are missing: render them with --sample-offset 5 -s 4\n", message)
         self.merge("from0.exr", "from3.exr", "from5.exr", options=["-s", "9"])
         self.merge("from0.exr", "from3.exr")  # who does not say how many has a picture of 5

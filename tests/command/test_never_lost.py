@@ -262,7 +262,7 @@ class ForeignCheckpoints(SafetyTest):
                                   *([(["--isa", sets[0]], "the instruction set")] if sets else [])]:
             with self.subTest(arguments):
                 self.assertIn(reason, self.refused(*LONG_RENDER, *arguments))
-        self.assertIn("more samples a pixel than are asked for", self.refused("-s", "3"))
+        self.assertIn("more samples per pixel than are asked for", self.refused("-s", "3"))
         # It is not resumed by chance, either.
         message = self.fail_with(2, "scene.xml", "-q", "-o", "b.exr", "--checkpoint", "checkpoint.exr", timeout=LIMIT)
         self.assertIn("--resume", message)
@@ -327,7 +327,7 @@ class TimeLimit(SafetyTest):
         # No timed test: what passed is only a sign that there is a limit.
         self.assertLess(time.monotonic() - begin, LIMIT)
         samples = json.loads(self.read("stats.json"))["picture"]["samples"]
-        self.assertIn(f"the time limit was reached after {samples} samples a pixel", done.stderr)
+        self.assertIn(f"the time limit was reached after {samples} samples per pixel", done.stderr)
         picture = self.exr("a.exr")
         self.assertEqual(picture.attributes["raytrace:samples"], ("int", struct.pack("<i", samples)))
         self.assertNotIn("raytrace:partial", picture.attributes)

@@ -133,7 +133,7 @@ class Statistics(CommandTest):
         self.assertEqual(done.stdout, "")
         names = [line[:16].strip() for line in done.stderr.splitlines()]
         self.assertEqual(names, ["scene", "picture", "load", "build", "render", "write", "total", "camera rays",
-                                 "shadow rays", "rays a second", "primitives", "BVH", "peak memory", "threads",
+                                 "shadow rays", "rays per second", "primitives", "BVH", "peak memory", "threads",
                                  "instructions", "Embree"])
 
     def test_json(self):

@@ -133,6 +133,7 @@ TEST_CASE("rays that leave a plane") { check_leaving("plane"); }
 TEST_CASE("rays that leave a sphere") { check_leaving("sphere"); }
 TEST_CASE("rays that leave a triangle") { check_leaving("triangle"); }
 TEST_CASE("rays that leave a disk") { check_leaving("disk"); }
+TEST_CASE("rays that leave a rectangle") { check_leaving("rectangle"); }
 TEST_CASE("rays that leave a cylinder") { check_leaving("cylinder"); }
 TEST_CASE("rays that leave a torus") { check_leaving("torus"); }
 

@@ -78,6 +78,21 @@ ShapeCase disk_case(Random& random, const Vector& place, double size) {
           [=](Random& r) { return place + radius * frame.circle(random_angle(r)); }};
 }
 
+ShapeCase rectangle_case(Random& random, const Vector& place, double size) {
+  // Squares, slabs and parallelograms.
+  const Vector first = random.direction();
+  const Frame frame(first);
+  const Vector across = frame.circle(random_angle(random));
+  const Vector edge1 = in_float(size * first);
+  const Vector edge2 = in_float(size * random.log_between(0.01, 1) * (random.chance(0.7) ? across : across + first));
+  return {std::make_shared<reference::Rectangle>(place, edge1, edge2), place, size,
+          [=](Random& r) { return place + r.unit() * edge1 + r.unit() * edge2; },
+          [=](Random& r) {
+            const Real along = r.unit(), end = r.below(2);
+            return r.chance(0.5) ? place + along * edge1 + end * edge2 : place + end * edge1 + along * edge2;
+          }};
+}
+
 ShapeCase cylinder_case(Random& random, const Vector& place, double size) {
   // Thick rings and thin wires.
   const bool tall = random.chance(0.7);
@@ -120,6 +135,7 @@ ShapeCase random_shape_case(const std::string& kind, Random& random) {
   if (kind == "sphere") return sphere_case(random, place, size);
   if (kind == "triangle") return triangle_case(random, place, size);
   if (kind == "disk") return disk_case(random, place, size);
+  if (kind == "rectangle") return rectangle_case(random, place, size);
   if (kind == "cylinder") return cylinder_case(random, place, size);
   if (kind == "torus") return torus_case(random, place, size, 1e-4, 1);
   return torus_case(random, place, size, 1, 10);

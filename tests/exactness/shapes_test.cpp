@@ -191,6 +191,7 @@ void check_shape(const std::string& kind, const Exactness& exactness, const Surf
 TEST_CASE("exactness of planes") { check_shape("plane", {}, {}); }
 TEST_CASE("exactness of spheres") { check_shape("sphere", {}, {}); }
 TEST_CASE("exactness of disks") { check_shape("disk", {}, {}); }
+TEST_CASE("exactness of rectangles") { check_shape("rectangle", {}, {}); }
 TEST_CASE("exactness of cylinders") { check_shape("cylinder", {}, {}); }
 TEST_CASE("exactness of toruses") { check_shape("torus", {}, {}); }
 TEST_CASE("exactness of toruses that meet themselves") { check_shape("spindle", {}, {}); }

@@ -1,8 +1,15 @@
 // What the film keeps, and what it makes of it.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <random>
+#include <thread>
+#include <vector>
 
 #include "raytrace/film/film_means.h"
+#include "raytrace/math/content_hash.h"
+#include "raytrace/math/limbs.h"
 #include "support/catch.h"
 
 namespace raytrace::test {
@@ -14,6 +21,21 @@ FilmSettings settings_of(const Region& region, int unit_exponent) {
   settings.extent = {640, 480, region};
   settings.unit_exponent = unit_exponent;
   return settings;
+}
+
+/// Adds a sample of red light and its opposite in green.
+void add_term(Film& film, int x, int y, Int128 units) {
+  const Limbs red = limbs_of(units), green = limbs_of(-units);
+  film.add(x, y, {red.low, green.low, 0, 1, 1}, {red.high, green.high, 0});
+}
+
+Int128 red_of(const Film& film, int x, int y) { return from_limbs({film.sum(x, y).red, film.high(x, y).red}); }
+Int128 green_of(const Film& film, int x, int y) { return from_limbs({film.sum(x, y).green, film.high(x, y).green}); }
+
+std::string hash_of(const Film& film) {
+  ContentHash hash;
+  film.add_to(hash);
+  return hash.digits();
 }
 
 }  // namespace
@@ -47,6 +69,75 @@ TEST_CASE("a pixel is the mean of its samples in the film's units, and black and
   CHECK(film.fewest_samples() == 0);
   film.sum(0, 0).samples = 7;
   CHECK(film.fewest_samples() == 4);
+}
+
+TEST_CASE("sums of large terms and small ones are exact, in any order and in any groups") {
+  std::mt19937_64 bits(5);
+  std::vector<Int128> terms;
+  for (int i = 0; i < 300; ++i) {
+    const auto small = static_cast<std::int64_t>(bits()) >> 20U;  // up to 2^43, either sign
+    terms.insert(terms.end(), {Int128{1} << 60, small, Int128{small} << (bits() % 40)});
+  }
+  Int128 wanted = 0;
+  for (const Int128 term : terms) wanted += term;
+  for (int i = 0; i < 5; ++i) {
+    Film whole(settings_of({0, 0, 3, 2}, 0));
+    std::vector<Film> parts;
+    for (int part = 0; part < 4; ++part) parts.emplace_back(whole.settings());
+    for (const Int128 term : terms) add_term(parts[bits() % parts.size()], 2, 1, term);
+    for (const Film& part : parts) whole.add(2, 1, part.sum(2, 1), part.high(2, 1));
+    CHECK((red_of(whole, 2, 1) == wanted));
+    CHECK((green_of(whole, 2, 1) == -wanted));
+    CHECK(whole.sum(2, 1).samples == terms.size());
+    CHECK(whole.sum(1, 1) == PixelSum{});
+    CHECK(whole.high(1, 1) == PixelSumHigh{});
+    std::shuffle(terms.begin(), terms.end(), bits);
+  }
+}
+
+TEST_CASE("a sum that leaves 64 bits takes a second limb") {
+  constexpr std::int64_t large = std::int64_t{1} << 62;
+  Film film(settings_of({0, 0, 2, 1}, 0));
+  film.add(1, 0, {large, -large, large, 1, 1});
+  film.add(1, 0, {large - 1, -large, -large, 1, 1});
+  CHECK(!film.has_high());
+  CHECK(film.sum(1, 0) == PixelSum{std::numeric_limits<std::int64_t>::max(), -large - large, 0, 2, 2});
+  const std::string before = hash_of(film);
+  film.add(1, 0, {1, -1, 1, 0, 0});
+  CHECK(film.has_high());
+  CHECK((red_of(film, 1, 0) == Int128{1} << 63));
+  CHECK((green_of(film, 1, 0) == -(Int128{1} << 63) - 1));
+  CHECK(film.high(1, 0).blue == 0);
+  CHECK(hash_of(film) != before);
+  film.add(1, 0, {-1, 1, -1, 0, 0});
+  CHECK(!film.has_high());
+  CHECK(hash_of(film) == before);  // whether it ever had one
+  Film taken = std::move(film);
+  CHECK((green_of(taken, 1, 0) == -(Int128{1} << 63)));
+}
+
+TEST_CASE("means are of both limbs") {
+  Film film(settings_of({0, 0, 1, 1}, -70));
+  for (int i = 0; i < 3; ++i) add_term(film, 0, 0, Int128{3} << 80);
+  add_term(film, 0, 0, Int128{-1} << 80);
+  CHECK(film.pixel(0, 0).red == 2048);
+  CHECK(film.pixel(0, 0).green == -2048);
+}
+
+TEST_CASE("threads may be the first to need a second limb at the same time") {
+  constexpr int threads = 4, width = 64;
+  for (int round = 0; round < 20; ++round) {
+    Film film(settings_of({0, 0, width, 1}, 0));
+    std::vector<std::thread> workers;
+    for (int thread = 0; thread < threads; ++thread)
+      workers.emplace_back([&film, thread] {
+        for (int x = thread; x < width; x += threads) add_term(film, x, 0, Int128{x + 1} << 70);
+      });
+    for (std::thread& worker : workers) worker.join();
+    int wrong = 0;
+    for (int x = 0; x < width; ++x) wrong += red_of(film, x, 0) != Int128{x + 1} << 70;
+    CHECK(wrong == 0);
+  }
 }
 
 TEST_CASE("alpha is coverage in a transparent picture") {

@@ -45,6 +45,7 @@ std::vector<SamplePiece> kinds() {
   all[7] = {overscan, Tile{2, 4}, {0, 3}, false, true, false, true};
   all[8].samples = {0, 1, true};
   all[9] = {whole, std::nullopt, {0, 5}, true, false, true, false};
+  all[4].large = all[7].large = true;
   return all;
 }
 

@@ -193,7 +193,7 @@ TEST_CASE("a symbolic link stays, and what it points to is written") {
   CHECK(bytes_of(target) == "new");
 }
 
-TEST_CASE("a folder that is gone at the commit is told") {
+TEST_CASE("a folder that is gone at the commit is reported") {
   const TemporaryFolder folder;
   fs::create_directory(folder.path() / "removed");
   AtomicFile atomic(folder.file("removed/a.exr"));
@@ -277,20 +277,20 @@ TEST_CASE("whoever reads while pictures are written sees whole ones only") {
     for (int i = 0; i < 40; ++i) write_image(file, i % 2 == 0 ? white : black, {}, settings);
     done = true;
   });
-  int read = 0, torn = 0;
+  int read = 0, mixed = 0;
   do {
     try {
       const ReadPicture picture = read_picture(file);
       const float first = picture.values.front();
-      for (const float value : picture.values) torn += value != first;
+      for (const float value : picture.values) mixed += value != first;
     } catch (const std::runtime_error&) {
-      ++torn;
+      ++mixed;
     }
     ++read;
   } while (!done);
   writer.join();
   CHECK(read > 0);
-  CHECK(torn == 0);
+  CHECK(mixed == 0);
   CHECK(folder.names() == std::vector<std::string>{"a.exr"});
 }
 

@@ -112,7 +112,7 @@ TEST_CASE("other formats work by their extension, in any case") {
   CHECK(error / (48 * 40) < 0.01);  // JPEG loses some
 }
 
-TEST_CASE("an extension or a bit depth that no file can have is told before the render") {
+TEST_CASE("an extension or a bit depth that no file can have is reported before the render") {
   const TemporaryFolder folder;
   const auto message = [&](const std::string& name, int bits) {
     ImageFileSettings settings;

@@ -1,4 +1,4 @@
-// Disks that take no more: the error is told, and an earlier picture stays.
+// Disks that take no more: the error is reported, and an earlier picture stays.
 #include <sys/mount.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -81,7 +81,7 @@ TEST_CASE("a write that fails in the middle leaves the earlier picture and nothi
   CHECK(bytes_of(file).size() > 40000);
 }
 
-TEST_CASE("a full disk is told as such, in every format") {
+TEST_CASE("a full disk is reported as such, in every format") {
   const TinyDisk disk;
   if (!disk.mounted()) {
     WARN("not run: this process may not mount a file system");
@@ -98,7 +98,7 @@ TEST_CASE("a full disk is told as such, in every format") {
   CHECK(disk.folder().names() == std::vector<std::string>{name});
 }
 
-TEST_CASE("a disk without a free byte is told as such, too") {
+TEST_CASE("a disk without a free byte is reported as such, too") {
   const TinyDisk disk;
   if (!disk.mounted()) {
     WARN("not run: this process may not mount a file system");

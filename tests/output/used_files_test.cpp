@@ -1,5 +1,5 @@
 // Files of a run that are one file.
-#include "raytrace/output/used_files.h"
+#include "raytrace/batch/used_files.h"
 
 #include <filesystem>
 

@@ -1,4 +1,4 @@
-// Plane, disk, triangle.
+// Plane, disk, rectangle, triangle.
 #include <algorithm>
 
 #include "shapes.h"
@@ -63,6 +63,33 @@ Vector Disk::normal(Vector) const { return normal_; }
 std::string Disk::parameters() const {
   return vector_element("center", center_) + vector_element("normal", given_normal_) +
          number_element("radius", radius_);
+}
+
+Rectangle::Rectangle(Vector corner, Vector edge1, Vector edge2)
+    : corner_(corner), edge1_(edge1), edge2_(edge2), normal_(unit(cross(edge1, edge2))) {}
+
+Crossings Rectangle::crossings(const Ray& ray) const {
+  Crossings result;
+  const Vector direction = unit(ray.direction);
+  const Vector corners[] = {corner_, corner_ + edge1_, corner_ + edge1_ + edge2_, corner_ + edge2_};
+  int left = 0, right = 0;
+  for (unsigned i = 0; i < 4; ++i) {
+    const Vector a = corners[i], b = corners[(i + 1) % 4];
+    const Real volume = dot(direction, cross(a - ray.origin, b - ray.origin));
+    left += volume >= 0;
+    right += volume <= 0;
+    result.limit_clearance(line_to_segment(ray.origin, direction, a, b));
+  }
+  const Real t = plane_distance(ray, corner_, normal_);
+  if ((left == 4 || right == 4) && std::isfinite(t)) result.add(t);
+  return result;
+}
+
+Real Rectangle::distance(Vector point) const { return dot(point - corner_, normal_); }
+Vector Rectangle::normal(Vector) const { return normal_; }
+Real Rectangle::smallest_extent() const { return length(cross(edge1_, edge2_)) / largest_extent(); }
+std::string Rectangle::parameters() const {
+  return vector_element("corner", corner_) + vector_element("edge1", edge1_) + vector_element("edge2", edge2_);
 }
 
 Triangle::Triangle(Vector a, Vector b, Vector c) : vertices_{a, b, c}, normal_(unit(cross(b - a, c - a))) {}

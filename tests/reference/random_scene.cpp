@@ -39,6 +39,9 @@ ShapePointer random_shape(Random& random, int kind, Vector place, Real size) {
       return std::make_shared<Torus>(exact(place), axis, number(0.4L, 1),
                                      number(0.05L, random.chance(0.1L) ? 1.2L : 0.4L));
     }
+    case 4:
+      return std::make_shared<Rectangle>(near_place(1), exact(size * random.direction()),
+                                         exact(size * random.direction()));
     default:
       return std::make_shared<Disk>(exact(place), exact(random.direction()), number(0.3L, 1));
   }
@@ -86,7 +89,7 @@ Scene random_scene(unsigned seed) {
   };
   for (int i = 8 + random.below(12); i > 0; --i) {
     const Vector place = middle + 2.5L * scale * random.in_cube(1);
-    add(random_shape(random, random.below(5), place, scale * random.log_between(0.3L, 1)));
+    add(random_shape(random, random.below(6), place, scale * random.log_between(0.3L, 1)));
   }
   for (int i = random.below(3); i > 0; --i) {
     add(std::make_shared<Plane>(exact(middle + random.between(2, 5) * scale * random.direction()),

@@ -90,6 +90,22 @@ class Disk : public Shape {
   Real radius_;
 };
 
+class Rectangle : public Shape {
+ public:
+  Rectangle(Vector corner, Vector edge1, Vector edge2);
+  Crossings crossings(const Ray& ray) const override;
+  Real distance(Vector point) const override;
+  Vector normal(Vector point) const override;
+  Real smallest_extent() const override;
+  Real largest_extent() const override { return std::fmax(length(edge1_), length(edge2_)); }
+  std::string element() const override { return "rectangle"; }
+  std::string group() const override { return "rectangles"; }
+  std::string parameters() const override;
+
+ private:
+  Vector corner_, edge1_, edge2_, normal_;
+};
+
 class Sphere : public Shape {
  public:
   Sphere(Vector center, Real radius) : center_(center), radius_(radius) {}

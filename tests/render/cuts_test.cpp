@@ -110,8 +110,10 @@ struct Colors {
 /// One gallery scene, and the ways to render it.
 class CutRender {
  public:
-  CutRender(const std::string& file, unsigned seed)
+  /// finer: the film's unit is 2^finer times smaller than the scene's.
+  CutRender(const std::string& file, unsigned seed, int finer = 0)
       : chance_(seed),
+        finer_(finer),
         samples_(chance_.number(8, 12)),
         description_(small_scene(file, samples_)),
         scene_(build_scene(description_, {8, {}})),
@@ -130,6 +132,9 @@ class CutRender {
     return same(merged(tiles(crop, 3, 3)), whole_);
   }
 
+  /// Whether some pieces had sums beyond 64 bits, and others none.
+  bool had_both() const { return with_high_ > 0 && without_high_ > 0; }
+
  private:
   static std::string text_of(const Region& r) {
     std::ostringstream text;
@@ -138,7 +143,9 @@ class CutRender {
   }
 
   Film empty_film(const Region& region, const SampleRange& samples) const {
-    return Film(film_settings(*scene_, description_, {1, 0, region, samples, {}}));
+    FilmSettings settings = film_settings(*scene_, description_, {1, 0, region, samples, {}});
+    settings.unit_exponent -= finer_;
+    return Film(settings);
   }
 
   Colors in_one(const Region& region, int threads) {
@@ -182,7 +189,7 @@ class CutRender {
     Film film = empty_film(region, samples);
     render(*scene_, film, samples.count, chance_.number(1, 4));
     PieceIdentity identity;
-    identity.provenance = provenance_of("raytrace test", *scene_, description_);
+    identity.provenance = provenance_of(*scene_, description_);
     identity.film = film.settings();
     identity.whole = whole;
     identity.tile = tile;
@@ -192,6 +199,7 @@ class CutRender {
     metadata.attributes = identity_attributes(identity);
     std::vector<Channel> channels = color_channels(true);
     const std::vector<Channel> sums = keeps_sums ? sum_channels(film) : std::vector<Channel>();
+    ++(film.has_high() ? with_high_ : without_high_);
     channels.insert(channels.end(), sums.begin(), sums.end());
     const std::string file = folder_.file("piece" + std::to_string(pieces_++) + ".exr");
     ImageFile image(file, film.settings().extent, channels, metadata, {.full_float = true, .threads = 1});
@@ -231,10 +239,10 @@ class CutRender {
 
   TemporaryFolder folder_;
   Chance chance_;
-  int samples_;
+  int finer_, samples_;
   SceneDescription description_;
   std::unique_ptr<const Scene> scene_;
-  int pieces_ = 0;
+  int pieces_ = 0, with_high_ = 0, without_high_ = 0;
   std::string* steps_ = nullptr;
   Colors whole_;
 };
@@ -266,6 +274,17 @@ TEST_CASE("the gallery's scenes have the same bits however they are cut") {
       CHECK(same);
     }
   }
+}
+
+TEST_CASE("pieces with sums beyond 64 bits are merged with others") {
+  CutRender cut(gallery().front(), 5, 22);
+  for (int i = 0; i < 12; ++i) {
+    std::string steps;
+    const bool same = cut.same_after(i % 2 == 0 ? "samples" : "mixed of a crop", steps);
+    INFO(steps);
+    CHECK(same);
+  }
+  CHECK(cut.had_both());
 }
 
 }  // namespace raytrace::test

@@ -198,6 +198,8 @@ TEST_CASE("a piece with other channels than its own is refused by the channel's 
   check([](auto& channels) { channel(channels, "A").layout.replace(0, 1, 1, '\7'); }, "");
   for (const char* const name : {"sums.depth", "sums.aov.mean9.low", "sums.aov.cover9.id000", "Y", "sums."})
     check([&](auto& channels) { channels.push_back({name, channel(channels, "sums.hits").layout}); }, "channel");
+  check([](auto& channels) { channels.push_back({"sums.limb2.red.low", channel(channels, "sums.hits").layout}); },
+        "lacks the channel sums.limb2.");
   check([](auto& channels) { channels.push_back(channel(channels, "sums.hits")); }, "the channel sums.hits twice");
   check([](auto& channels) { std::erase_if(channels, [](const auto& one) { return one.name == "sums.hits"; }); },
         "lacks the channel sums.hits");
@@ -281,6 +283,7 @@ TEST_CASE("sums that no samples can have are refused") {
   };
   const auto check = [&](const Edit& edit, const Edit& edit_before) {
     const std::string message = refusal_of(edit, edit_before);
+    INFO(message);
     CHECK(contains(message, "b.exr is damaged: its sums"));
   };
   check(value("sums.samples", 6), none);
@@ -290,10 +293,19 @@ TEST_CASE("sums that no samples can have are refused") {
   for (const std::uint32_t index : {3U, 9U, 0xffffffffU}) check(value("sums.aov.nearest.sample", index), none);
   CHECK(refusal_of(value("sums.aov.nearest.sample", 8), none) == "");
   for (const std::uint32_t count : {6U, 0xffffffffU}) check(value("sums.aov.cover1.count000", count), none);
-  for (const char* const sum : {"sums.red.high", "sums.blue.high", "sums.aov.mean2.high"}) {
-    check(value(sum, 0x7fffffff), value(sum, 0x7fffffff));
-    check(value(sum, 0x80000000), value(sum, 0x80000000));
-  }
+  check(value("sums.aov.mean2.high", 0x7fffffff), value("sums.aov.mean2.high", 0x7fffffff));
+  check(value("sums.aov.mean2.high", 0x80000000), value("sums.aov.mean2.high", 0x80000000));
+  CHECK(refusal_of(value("sums.red.high", 0x7fffffff), value("sums.red.high", 0x7fffffff)) == "");  // carried
+  kind.large = true;
+  REQUIRE(refusal_of(none, none) == "");
+  for (const char* const sum : {"sums.limb2.red.high", "sums.limb2.green.high", "sums.limb2.blue.high"})
+    for (const std::uint32_t word : {1U, 0x7fffffffU, 0x80000000U, 0xfffffffeU}) check(value(sum, word), none);
+  check(
+      [](ExrBytes& exr) {
+        exr.set_first_value("sums.samples", 0);
+        exr.set_first_value("sums.hits", 0);
+      },
+      none);
   // All that are damaged, in one run.
   const std::string both = refusal_of(value("sums.hits", 6), value("sums.hits", 4));
   CHECK(contains(both, "a.exr is damaged"));

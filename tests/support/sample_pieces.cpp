@@ -33,7 +33,8 @@ Film film_of(const SamplePiece& piece) {
       const std::uint32_t samples = piece.partial ? number % (count + 1) : count, hits = number % (samples + 1);
       if (samples == 0) continue;
       const std::int64_t light = std::int64_t{number} << 36;
-      film.sum(x, y) = {light, light / 2, light / 3, hits, samples};
+      const std::int64_t high = piece.large ? std::int64_t{samples} * 1000 : 0;
+      film.add(x, y, {light, light / 2, light / 3, hits, samples}, {high, -high, high});
       AovFilm* const aovs = film.aovs();
       if (aovs == nullptr) continue;
       const std::array<std::uint32_t, 32> values{number};

@@ -18,6 +18,7 @@ struct SamplePiece {
   bool sums = false;
   bool compressed = true;
   bool partial = false;
+  bool large = false;  ///< its sums need two limbs
 };
 
 PieceIdentity identity_of(const SamplePiece& piece);

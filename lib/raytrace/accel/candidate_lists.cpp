@@ -46,7 +46,7 @@ void for_each_rectangle(const CubeProjection& projection, const ProjectedBounds&
   const int first = projection.infinitely_far() ? face_of_picture : 0;
   const int end = projection.infinitely_far() ? face_of_picture + 1 : faces;
   for (int face = first; face < end; ++face)
-    if (const auto rectangle = rectangle_on(face, view)) f(face, *rectangle);
+    if (const auto rectangle = face_rectangle(face, view)) f(face, *rectangle);
 }
 
 using Coverages = std::array<Coverage, faces>;
@@ -99,7 +99,7 @@ class ListsMaker {
         order_[objects_.size() - 1 - i] = {
             std::bit_cast<std::uint32_t>(static_cast<float>(view->nearest * a_little_less)),
             static_cast<std::uint32_t>(i)};
-        for_each_rectangle(perspective_, *view, [&](int face, const Rectangle& rectangle) {
+        for_each_rectangle(perspective_, *view, [&](int face, const FaceRectangle& rectangle) {
           here.covered[static_cast<std::size_t>(face)].add(rectangle);
         });
       }
@@ -153,7 +153,7 @@ class ListsMaker {
         const BoundedObject& object = objects_[order_[i].object];
         const float nearest = std::bit_cast<float>(order_[i].key);
         const ProjectedBounds view = *perspective_.view(object);
-        for_each_rectangle(perspective_, view, [&](int face, const Rectangle& rectangle) {
+        for_each_rectangle(perspective_, view, [&](int face, const FaceRectangle& rectangle) {
           cells += list(object, nearest, view, face, rectangle, listings_[chunk]);
         });
       }
@@ -270,7 +270,7 @@ class ListsMaker {
 
   /// Adds the object to all bands that the rectangle is in; the result: how many cells it covers.
   double list(const BoundedObject& object, float nearest, const ProjectedBounds& view, int face,
-              const Rectangle& rectangle, std::vector<CellEntries>& bands) const {
+              const FaceRectangle& rectangle, std::vector<CellEntries>& bands) const {
     const Grid& grid = lists_.grids[face];
     const CellRange columns(rectangle.across, grid.left, grid.columns_per_unit, grid.columns);
     const CellRange rows(rectangle.up, grid.bottom, grid.rows_per_unit, grid.rows);

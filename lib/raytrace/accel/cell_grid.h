@@ -23,7 +23,7 @@ struct Coverage {
     objects += more.objects;
     area += more.area;
   }
-  void add(const Rectangle& r) {
+  void add(const FaceRectangle& r) {
     add(Coverage{r.across, r.up, 1, (r.across.high - r.across.low) * (r.up.high - r.up.low)});
   }
 };

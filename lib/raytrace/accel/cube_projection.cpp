@@ -183,7 +183,7 @@ EdgePlanes CubeProjection::edge_planes(const BoundedObject& object) const {
   return edge_planes;
 }
 
-std::optional<Rectangle> rectangle_on(int face, const ProjectedBounds& view) {
+std::optional<FaceRectangle> face_rectangle(int face, const ProjectedBounds& view) {
   // Of the angle between a face's corners and its normal, and more.
   constexpr double corner_sine = 0.8166, corner_cosine = 0.5772;
   const int axis = face / 2;
@@ -193,8 +193,8 @@ std::optional<Rectangle> rectangle_on(int face, const ProjectedBounds& view) {
     return std::nullopt;
   const auto along = [&](int which) { return view.along[static_cast<std::size_t>(which % 3)]; };
   const Interval depth = negative ? Interval{-along(axis).high, -along(axis).low} : along(axis);
-  if (depth.low <= 0) return Rectangle{whole_face, whole_face};
-  const Rectangle rectangle{on_face(along(axis + 1), depth), on_face(along(axis + 2), depth)};
+  if (depth.low <= 0) return FaceRectangle{whole_face, whole_face};
+  const FaceRectangle rectangle{on_face(along(axis + 1), depth), on_face(along(axis + 2), depth)};
   if (rectangle.across.low > rectangle.across.high || rectangle.up.low > rectangle.up.high) return std::nullopt;
   return rectangle;
 }

@@ -28,7 +28,7 @@ struct Interval {
 
 /// A part of a face: of a direction, `across` is the component along the axis after the normal's (x, y, z, x, ...) and
 /// `up` that along the one after it, divided by the size of the component along the normal.
-struct Rectangle {
+struct FaceRectangle {
   Interval across, up;
 };
 
@@ -96,6 +96,6 @@ class CubeProjection {
 
 /// The part of a face that the object is behind; none if it is behind others only. face: twice the axis of its normal,
 /// and one more on the negative side. As large as the rounding of a quotient of floats may make it.
-std::optional<Rectangle> rectangle_on(int face, const ProjectedBounds& view);
+std::optional<FaceRectangle> face_rectangle(int face, const ProjectedBounds& view);
 
 }  // namespace raytrace

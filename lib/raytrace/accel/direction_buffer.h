@@ -35,7 +35,7 @@ class DirectionBuffer {
     bool is(const Object& other) const { return shape_type == other.shape_type && primitive == other.primitive; }
   };
 
-  /// The grid on a face, in the directions of Rectangle.
+  /// The grid on a face, in the directions of FaceRectangle.
   struct Grid {
     int columns = 0, rows = 0;  ///< 0: nothing is to be met through this face
     float left = 0, bottom = 0;

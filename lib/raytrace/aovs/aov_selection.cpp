@@ -20,7 +20,7 @@ std::vector<Aov> selected(const AovSet& aovs) {
 
 /// Calls f(pixel, x, y) for each pixel of the region; `pixel` counts them.
 template <class Function>
-void for_each_pixel(const Region& region, const Function& f) {
+void for_each_pixel_of(const Region& region, const Function& f) {
   std::size_t pixel = 0;
   for (int y = region.y0; y < region.y1; ++y)
     for (int x = region.x0; x < region.x1; ++x) f(pixel++, x, y);
@@ -29,7 +29,7 @@ void for_each_pixel(const Region& region, const Function& f) {
 /// value: the first of the AOV's among those of the nearest samples.
 template <class Value>
 void fill_nearest(Value* plane, const Region& rows, std::size_t value, Value without_hit, const AovFilm& film) {
-  for_each_pixel(rows, [&](std::size_t pixel, int x, int y) {
+  for_each_pixel_of(rows, [&](std::size_t pixel, int x, int y) {
     const std::uint32_t* const values = film.nearest(x, y).values;
     plane[pixel] = values == nullptr ? without_hit : std::bit_cast<Value>(values[value]);
   });
@@ -37,7 +37,7 @@ void fill_nearest(Value* plane, const Region& rows, std::size_t value, Value wit
 
 void fill_mean(float* plane, const Region& rows, std::size_t mean, const Film& film) {
   const double unit = std::ldexp(1.0, film.settings().aovs.mean_units[mean]);
-  for_each_pixel(rows, [&](std::size_t pixel, int x, int y) {
+  for_each_pixel_of(rows, [&](std::size_t pixel, int x, int y) {
     const std::uint32_t samples = film.sum(x, y).samples;
     if (samples == 0) return;
     plane[pixel] = static_cast<float>(static_cast<double>(film.aovs()->sum(x, y, mean)) / samples * unit);
@@ -46,7 +46,7 @@ void fill_mean(float* plane, const Region& rows, std::size_t mean, const Film& f
 
 /// planes: the id of each pair, and its share.
 void fill_coverage(ChannelValues* planes, const Region& rows, std::size_t coverage, const Film& film) {
-  for_each_pixel(rows, [&](std::size_t pixel, int x, int y) {
+  for_each_pixel_of(rows, [&](std::size_t pixel, int x, int y) {
     const std::vector<IdCount> ranked = film.aovs()->ranked(x, y, coverage);
     const auto samples = static_cast<double>(film.sum(x, y).samples);
     for (std::size_t i = 0; i < std::min(ranked.size(), cryptomatte::pairs); ++i) {
@@ -56,7 +56,7 @@ void fill_coverage(ChannelValues* planes, const Region& rows, std::size_t covera
   });
 }
 
-std::vector<Channel> channels_of(const Aov& aov) {
+std::vector<Channel> file_channels(const Aov& aov) {
   if (aov.rule == AovRule::coverage) return cryptomatte::channels(aov.name);
   std::vector<Channel> channels;
   for (std::size_t i = 0; i < aov.values(); ++i) channels.push_back({aov.channel_names[i], aov.type});
@@ -115,7 +115,7 @@ AovSettings aov_settings(const AovSet& aovs, const AovBounds& bounds, const Scen
 std::vector<Channel> aov_channels(const AovSet& aovs) {
   std::vector<Channel> channels;
   for (const Aov& aov : selected(aovs))
-    for (Channel& channel : channels_of(aov)) channels.push_back(std::move(channel));
+    for (Channel& channel : file_channels(aov)) channels.push_back(std::move(channel));
   return channels;
 }
 
@@ -152,7 +152,7 @@ void fill_aovs(ImageBand& band, std::size_t first_plane, const Film& film) {
       if (aov.rule == AovRule::mean) {
         fill_mean(floats->data(), rows, next_mean++, film);
       } else if (aov.rule == AovRule::samples) {
-        for_each_pixel(rows, [&](std::size_t pixel, int x, int y) { (*integers)[pixel] = film.sum(x, y).samples; });
+        for_each_pixel_of(rows, [&](std::size_t pixel, int x, int y) { (*integers)[pixel] = film.sum(x, y).samples; });
       } else if (integers != nullptr) {
         fill_nearest(integers->data(), rows, next_nearest++, std::uint32_t{0}, *film.aovs());
       } else {

@@ -1,12 +1,12 @@
 #include "raytrace/batch/checkpoint.h"
 
 #include <algorithm>
+#include <utility>
 
-#include "raytrace/film/aov_film.h"
 #include "raytrace/film/samples_done.h"
 #include "raytrace/math/content_hash.h"
-#include "raytrace/output/exr_encoder.h"
 #include "raytrace/output/film_channels.h"
+#include "raytrace/output/image_encoder.h"
 
 namespace raytrace {
 
@@ -16,8 +16,7 @@ constexpr const char* hash_name = "raytrace:sumsHash";
 
 std::string hash_of(const Film& film) {
   ContentHash hash;
-  hash.add(film.sums().data(), film.sums().size_bytes());
-  if (film.aovs() != nullptr) film.aovs()->add_to(hash);
+  film.add_to(hash);
   return hash.digits();
 }
 
@@ -36,7 +35,7 @@ FileIdentity write_checkpoint(const std::string& file, const Film& film, const P
   channels.insert(channels.end(), sums.begin(), sums.end());
   ImageFileSettings settings;
   settings.compressed = false;
-  ImageFile image(file, std::make_unique<ExrEncoder>(file, settings), film.settings().extent, channels, metadata);
+  ImageFile image(file, make_exr_encoder(file, settings), film.settings().extent, channels, metadata);
   const Region& region = film.region();
   for (int y = region.y0; y < region.y1;) {
     const int end = std::min(y + band_rows(region.width(), channels.size()), region.y1);
@@ -79,7 +78,39 @@ void read_checkpoint(const std::string& file, const PieceIdentity& identity, Fil
   if (reader.attribute<std::string>(hash_name) != hash_of(film))
     throw InputError("cannot resume from " + file + ": it is damaged");
   if (samples_done(film).most > film.settings().samples.count)
-    throw InputError("cannot resume from " + file + ": it has more samples a pixel than are asked for");
+    throw InputError("cannot resume from " + file + ": it has more samples per pixel than are asked for");
+}
+
+CheckpointFile::CheckpointFile(std::string file, double interval)
+    : file_(std::move(file)),
+      interval_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(interval))) {}
+
+void CheckpointFile::read(const PieceIdentity& identity, Film& film) {
+  last_ = file_identity(file_);  // first: a file that replaces it meanwhile is not ours to remove
+  read_checkpoint(file_, identity, film);
+}
+
+bool CheckpointFile::write(const Film& film, const PieceIdentity& identity, const ImageMetadata& metadata,
+                           RenderObserver& observer) {
+  const Clock::time_point begin = Clock::now();
+  bool written = true;
+  try {
+    last_ = write_checkpoint(file_, film, identity, metadata);
+    observer.on_message(MessageLevel::step, "wrote checkpoint " + file_ + ": " + samples_done_text(film));
+  } catch (const OutputError& error) {
+    observer.on_message(MessageLevel::error, error.what());
+    written = false;
+  }
+  // However long it took, it takes no more than a hundredth of the time.
+  const Clock::time_point end = Clock::now();
+  next_ = end + std::max(interval_, 100 * (end - begin));
+  return written;
+}
+
+void CheckpointFile::remove(RenderObserver& observer) const {
+  if (!last_ || remove_file(file_, *last_)) return;
+  observer.on_message(MessageLevel::warning,
+                      "the checkpoint " + file_ + " is not removed: another file has replaced it");
 }
 
 }  // namespace raytrace

@@ -4,9 +4,12 @@
 // at all, and carries a hash of the sums.
 #pragma once
 
+#include <chrono>
+#include <optional>
 #include <string>
 
 #include "raytrace/batch/provenance.h"
+#include "raytrace/batch/render_observer.h"
 #include "raytrace/film/film.h"
 
 namespace raytrace {
@@ -20,5 +23,31 @@ FileIdentity write_checkpoint(const std::string& file, const Film& film, const P
 /// region, which it names. The checkpoint may be of fewer or more samples than the film's settings ask for, but not
 /// have more.
 void read_checkpoint(const std::string& file, const PieceIdentity& identity, Film& film);
+
+/// When a render writes its checkpoint, and whether the file is still this render's.
+class CheckpointFile {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// file: empty if there is to be none. interval: in seconds, between two checkpoints.
+  CheckpointFile(std::string file, double interval);
+
+  bool is_due() const { return !file_.empty() && Clock::now() >= next_; }
+
+  /// Throws as read_checkpoint() does.
+  void read(const PieceIdentity& identity, Film& film);
+
+  /// False if it could not be written, which is reported: the render can go on, and an earlier one is as it was.
+  bool write(const Film& film, const PieceIdentity& identity, const ImageMetadata& metadata, RenderObserver& observer);
+
+  /// Removes what was read or written last, if it is still there.
+  void remove(RenderObserver& observer) const;
+
+ private:
+  std::string file_;
+  Clock::duration interval_;
+  Clock::time_point next_ = Clock::now() + interval_;
+  std::optional<FileIdentity> last_;  ///< that was read or written
+};
 
 }  // namespace raytrace

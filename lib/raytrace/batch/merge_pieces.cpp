@@ -104,7 +104,7 @@ class Merger {
     refuse_problems();
   }
 
-  /// Whether they coverage the picture exactly.
+  /// Whether they cover the picture exactly.
   void check_layout() {
     const PieceIdentity& first = pieces_.front().identity;
     std::vector<PieceExtent> extents;
@@ -113,12 +113,12 @@ class Merger {
       samples_ = std::max(samples_, extents.back().last_sample);
       report_.missing_parts = report_.missing_parts || piece.identity.partial;
     }
-    WantedPicture wanted{first.whole, samples_, first.film.samples.centered, {}};
+    WantedExtent wanted{first.whole, samples_, first.film.samples.centered, {}};
     const PictureExtent& extent = first.film.extent;
     if (first.whole != Region{0, 0, extent.full_width, extent.full_height}) wanted.crop = text_of(first.whole);
     const auto no_sums = [](const Piece& piece) { return piece.sums.empty(); };
     if (settings_.samples && std::uint64_t(*settings_.samples) != samples_ && !settings_.partial) {
-      problems_.push_back("the pieces hold " + std::to_string(samples_) + " samples a pixel, not " +
+      problems_.push_back("the pieces hold " + std::to_string(samples_) + " samples per pixel, not " +
                           std::to_string(*settings_.samples));
       // To those that keep their sums, more can be added.
       if (std::none_of(pieces_.begin(), pieces_.end(), no_sums))
@@ -199,7 +199,7 @@ class Merger {
     }
     refuse_problems();
     for (std::size_t i = 0; i < files.size(); ++i) {
-      report_.repairs += files[i]->commit();
+      files[i]->commit();
       report_.outputs.push_back(settings_.outputs[i]);
     }
   }
@@ -272,7 +272,7 @@ class Merger {
     if (any) develop(film, band);
   }
 
-  /// Checks of 8 x 8 pixels in two greys that coverage nothing: nobody takes them for a part of the picture.
+  /// Checks of 8 x 8 pixels in two greys with alpha 0: nobody takes them for a part of the picture.
   void fill_background(ImageBand& band) const {
     std::size_t pixel = 0;
     for (int y = band.region.y0; y < band.region.y1; ++y)
@@ -289,11 +289,11 @@ class Merger {
             auto& target = std::get<std::decay_t<decltype(source)>>(to.planes[plane]);
             for (int y = from.region.y0; y < from.region.y1; ++y) {
               const auto row = static_cast<std::size_t>(y - from.region.y0) * width;
-              const auto place =
+              const auto target_row =
                   static_cast<std::size_t>(y - to.region.y0) * static_cast<std::size_t>(to.region.width()) +
                   static_cast<std::size_t>(from.region.x0 - to.region.x0);
               std::copy_n(source.begin() + static_cast<std::ptrdiff_t>(row), width,
-                          target.begin() + static_cast<std::ptrdiff_t>(place));
+                          target.begin() + static_cast<std::ptrdiff_t>(target_row));
             }
           },
           from.planes[plane]);

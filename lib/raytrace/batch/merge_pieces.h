@@ -14,7 +14,7 @@ namespace raytrace {
 struct MergeSettings {
   std::vector<std::string> pieces;   ///< EXR files of this program
   std::vector<std::string> outputs;  ///< colour in the pieces' type: ImageFileSettings::full_float is theirs
-  std::optional<int> samples;        ///< a pixel that the picture must get; none: as many as the pieces have
+  std::optional<int> samples;        ///< per pixel that the picture must get; none: as many as the pieces have
   bool partial = false;  ///< what is missing is filled with a checked, empty background, or has fewer samples
   int bit_depth = 8;
   std::optional<double> exposure;  ///< ImageFileSettings::exposure; some output must be for display. None: 0
@@ -23,11 +23,10 @@ struct MergeSettings {
 
 struct MergeReport {
   std::size_t pieces = 0;
-  int samples = 0;             ///< a pixel
+  int samples = 0;             ///< per pixel
   bool missing_parts = false;  ///< only with MergeSettings::partial
   bool stopped = false;        ///< nothing was written
   std::vector<std::string> outputs;
-  Repairs repairs;  ///< of all outputs
 };
 
 /// Pieces that do not fit together; what() holds all the problems, a line each, each naming its file.
@@ -36,7 +35,7 @@ class MergeError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Checks that the pieces are of one scene, with the same settings, version and instruction set, and coverage the
+/// Checks that the pieces are of one scene, with the same settings, version and instruction set, and cover the
 /// picture once, without a gap; then writes it, bit for bit as one render of the whole would have. A band of rows is in
 /// memory at a time, and a piece is open only while it is read. Ends early, and leaves all files as they were, once
 /// `stop` says so, which is asked before each piece and band. Throws MergeError, InputError or OutputError.

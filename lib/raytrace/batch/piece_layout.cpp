@@ -45,7 +45,7 @@ void for_each_strip(const std::vector<PieceExtent>& pieces, int top, int bottom,
 
 /// Calls visit(gap) for boxes of pixels and samples that no piece holds, until it returns false.
 template <class Visit>
-void for_each_gap(const std::vector<PieceExtent>& pieces, const WantedPicture& picture, const Visit& visit) {
+void for_each_gap(const std::vector<PieceExtent>& pieces, const WantedExtent& picture, const Visit& visit) {
   const Region& whole = picture.region;
   bool more = true;
   for_each_strip(pieces, whole.y0, whole.y1, [&](int top, int bottom, const std::vector<const PieceExtent*>& present) {
@@ -107,7 +107,7 @@ class Cuts {
 };
 
 /// "tile 2/4 is missing: render it with --tile 2/4 -s 16"
-std::string problem_of(const PieceExtent& part, const WantedPicture& picture) {
+std::string problem_of(const PieceExtent& part, const WantedExtent& picture) {
   const Tile& tile = *part.tile;
   const bool all_samples = part.first_sample == 0 && part.last_sample == picture.samples;
   const std::string name = "tile " + std::to_string(tile.index) + "/" + std::to_string(tile.count);
@@ -142,9 +142,9 @@ std::vector<std::string> overlaps(const std::vector<PieceExtent>& pieces) {
     top = std::min(top, piece.region.y0);
     bottom = std::max(bottom, piece.region.y1);
   }
-  std::set<std::pair<const PieceExtent*, const PieceExtent*>> told;
+  std::set<std::pair<const PieceExtent*, const PieceExtent*>> reported;
   for_each_strip(pieces, top, bottom, [&](int, int, std::vector<const PieceExtent*> present) {
-    // Along a strip, or along the samples: whichever way tells more pieces apart.
+    // Along a strip, or along the samples: whichever way separates more pieces.
     std::sort(present.begin(), present.end(), [](const auto* a, const auto* b) {
       return std::tie(a->first_sample, a->region.x0) < std::tie(b->first_sample, b->region.x0);
     });
@@ -157,7 +157,7 @@ std::vector<std::string> overlaps(const std::vector<PieceExtent>& pieces) {
                                [](std::uint64_t sample, const auto* piece) { return sample < piece->first_sample; });
           continue;
         }
-        if (overlap(*present[i], **k) && told.insert(std::minmax(present[i], *k)).second)
+        if (overlap(*present[i], **k) && reported.insert(std::minmax(present[i], *k)).second)
           problems.push_back((*k)->file + " holds what " + present[i]->file + " holds, too");
         ++k;
       }
@@ -165,21 +165,21 @@ std::vector<std::string> overlaps(const std::vector<PieceExtent>& pieces) {
   return problems;
 }
 
-std::vector<std::string> missing_parts(const std::vector<PieceExtent>& pieces, const WantedPicture& picture) {
+std::vector<std::string> missing_parts(const std::vector<PieceExtent>& pieces, const WantedExtent& picture) {
   std::vector<std::string> problems;
   bool complete = true;
   for_each_gap(pieces, picture, [&](const PieceExtent&) { return complete = false; });
   if (complete) return problems;
   const Cuts cuts(pieces, picture.region);
-  std::vector<PieceExtent> all = cuts.edges(), told;
+  std::vector<PieceExtent> all = cuts.edges(), reported;
   all.insert(all.end(), pieces.begin(), pieces.end());
   for_each_gap(all, picture, [&](const PieceExtent& gap) {
-    const bool is_told = std::any_of(told.begin(), told.end(), [&](const PieceExtent& part) {
+    const bool is_reported = std::any_of(reported.begin(), reported.end(), [&](const PieceExtent& part) {
       return contains(part.region, gap.region) && part.first_sample == gap.first_sample;
     });
-    if (is_told) return true;
+    if (is_reported) return true;
     if (const auto part = cuts.tile_around(gap)) {
-      told.push_back(*part);
+      reported.push_back(*part);
       problems.push_back(problem_of(*part, picture));
     } else {
       problems.push_back("no piece holds " + samples_text(gap.first_sample, gap.last_sample) + " of the pixels " +

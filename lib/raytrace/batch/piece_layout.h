@@ -1,4 +1,4 @@
-// Whether pieces of a picture coverage it exactly.
+// Whether pieces of a picture cover it exactly.
 #pragma once
 
 #include <cstdint>
@@ -19,10 +19,10 @@ struct PieceExtent {
   std::optional<Tile> tile = std::nullopt;          ///< of the picture, that the region is
 };
 
-/// What pieces are to coverage.
-struct WantedPicture {
+/// What pieces are to cover.
+struct WantedExtent {
   Region region;
-  std::uint64_t samples = 1;  ///< a pixel
+  std::uint64_t samples = 1;  ///< per pixel
   bool centered = false;      ///< SampleRange::centered
   std::string crop{};         ///< as --crop has it; empty: the whole picture
 };
@@ -35,6 +35,6 @@ std::vector<std::string> overlaps(const std::vector<PieceExtent>& pieces);
 
 /// What no piece holds, a line each: with the options that render it, where it is a tile, or samples, such as the
 /// pieces are; else by its pixels. Empty if each pixel has each sample.
-std::vector<std::string> missing_parts(const std::vector<PieceExtent>& pieces, const WantedPicture& picture);
+std::vector<std::string> missing_parts(const std::vector<PieceExtent>& pieces, const WantedExtent& picture);
 
 }  // namespace raytrace

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "raytrace/aovs/aov_selection.h"
+#include "raytrace/batch/message_text.h"
 #include "raytrace/description/scene_hash.h"
 #include "raytrace/film/samples_done.h"
 #include "raytrace/text/quoted.h"
@@ -15,7 +16,7 @@ namespace raytrace {
 
 namespace {
 
-constexpr const char* software_name = "Software";
+constexpr const char* creator_name = "Software";
 constexpr const char* embree_name = "raytrace:embree";
 constexpr const char* isa_name = "raytrace:isa";
 constexpr const char* scene_name = "raytrace:sceneHash";
@@ -122,12 +123,6 @@ std::string other(const std::string& what, const std::string& got, const std::st
   return what + " (" + got + ", not " + wanted + ")";
 }
 
-std::string joined(const std::vector<std::string>& names) {
-  std::string all;
-  for (const std::string& name : names) all += (all.empty() ? "" : ",") + name;
-  return all;
-}
-
 std::vector<std::string> split(const std::string& text) {
   std::vector<std::string> parts;
   std::istringstream stream(text);
@@ -144,7 +139,7 @@ AovSettings aovs_of(const ExrReader& piece, const std::string& names) {
   for (const std::string& unit : split(needed<std::string>(piece, aov_units_name)))
     units.push_back(unit_of(piece, aov_units_name, number<int>(piece, aov_units_name, unit)));
   AovSettings aovs = aov_settings(aov_set(wanted));
-  if (aovs.wanted.empty() || joined(aov_names(aovs.wanted)) != names) refuse(piece, aovs_name, names);
+  if (aovs.wanted.empty() || joined(aov_names(aovs.wanted), ",") != names) refuse(piece, aovs_name, names);
   if (units.size() != aovs.mean_units.size())
     throw InputError(piece.file() + " is damaged: its " + aov_units_name + " do not fit its AOVs");
   aovs.mean_units = units;
@@ -177,10 +172,11 @@ std::string variables_text(const std::map<std::string, std::string>& variables) 
   return text;
 }
 
-Provenance provenance_of(const std::string& software, const Scene& scene, const SceneDescription& description,
-                         int threads) {
+std::string software_name() { return "raytrace " RAYTRACE_VERSION; }
+
+Provenance provenance_of(const Scene& scene, const SceneDescription& description, int threads) {
   const SceneStatistics statistics = scene.statistics();
-  return {software, statistics.embree_version, statistics.isa, scene_hash(description, threads)};
+  return {software_name(), statistics.embree_version, statistics.isa, scene_hash(description, threads)};
 }
 
 std::vector<ImageAttribute> identity_attributes(const PieceIdentity& identity) {
@@ -197,10 +193,10 @@ std::vector<ImageAttribute> identity_attributes(const PieceIdentity& identity) {
   if (identity.tile) attributes.push_back({tile_name, tile_text(*identity.tile)});
   const AovSettings& aovs = identity.film.aovs;
   if (!aovs.wanted.empty()) {
-    attributes.push_back({aovs_name, joined(aov_names(aovs.wanted))});
+    attributes.push_back({aovs_name, joined(aov_names(aovs.wanted), ",")});
     std::vector<std::string> units;
     for (const int unit : aovs.mean_units) units.push_back(std::to_string(unit));
-    attributes.push_back({aov_units_name, joined(units)});
+    attributes.push_back({aov_units_name, joined(units, ",")});
   }
   if (identity.film.transparent) attributes.push_back({transparent_name, 1});
   if (identity.partial) attributes.push_back({partial_name, 1});
@@ -235,7 +231,7 @@ std::map<std::string, std::string> picture_attributes(const PieceIdentity& ident
 
 PieceIdentity identity_of(const ExrReader& piece) {
   PieceIdentity identity;
-  identity.provenance = {needed<std::string>(piece, software_name), needed<std::string>(piece, embree_name),
+  identity.provenance = {needed<std::string>(piece, creator_name), needed<std::string>(piece, embree_name),
                          needed<std::string>(piece, isa_name), needed<std::string>(piece, scene_name)};
   FilmSettings& film = identity.film;
   read_place(piece, identity);
@@ -280,19 +276,20 @@ std::optional<std::string> difference(const PieceIdentity& wanted, const PieceId
     return other("Embree's version", printable(b.embree_version), printable(a.embree_version));
   if (a.isa != b.isa) return other("the instruction set", printable(b.isa), printable(a.isa)) + ": pin one with --isa";
   if (c.samples.centered != d.samples.centered)
-    return "the place of the samples: one has a single sample in each pixel's center; render it with --sample-offset 0";
+    return "the position of the samples: one has a single sample in each pixel's center; render it with "
+           "--sample-offset 0";
   if (c.transparent != d.transparent) {
     const auto text = [](const FilmSettings& film) { return film.transparent ? "transparent" : "opaque"; };
     return other("the background", text(d), text(c)) + ": use --transparent for all of them, or none";
   }
   if (c.aovs.wanted != d.aovs.wanted) {
     const auto text = [](const AovSettings& aovs) {
-      return aovs.wanted.empty() ? "none" : joined(aov_names(aovs.wanted));
+      return aovs.wanted.empty() ? "none" : joined(aov_names(aovs.wanted), ",");
     };
     return other("the AOVs", text(d.aovs), text(c.aovs));
   }
   if (c.unit_exponent != d.unit_exponent || c.aovs != d.aovs)
-    return "the precision of the sums: too many samples a pixel";
+    return "the precision of the sums: too many samples per pixel";
   return std::nullopt;
 }
 

@@ -22,9 +22,11 @@ struct Provenance {
   std::string scene;  ///< scene_hash()
 };
 
-/// threads: as scene_hash() takes them.
-Provenance provenance_of(const std::string& software, const Scene& scene, const SceneDescription& description,
-                         int threads = 0);
+/// "raytrace 1.2.3": this library.
+std::string software_name();
+
+/// Of pictures that this library renders. threads: as scene_hash() takes them.
+Provenance provenance_of(const Scene& scene, const SceneDescription& description, int threads = 0);
 
 /// What a scene's settings say in a picture's metadata: "D=1e6 size=2". In values, a backslash stands before each space
 /// and backslash.
@@ -48,7 +50,7 @@ std::vector<ImageAttribute> identity_attributes(const PieceIdentity& identity);
 /// have so far.
 std::vector<ImageAttribute> partial_attributes(PieceIdentity identity, const Film& film);
 
-/// Of it, what tells one picture from another, as text: neither the program's version nor the machine, and nothing that
+/// Of it, what differs between pictures, as text: neither the program's version nor the machine, and nothing that
 /// is known only when the scene is built. "" for what the picture's file does not have. any_samples: but for their
 /// number.
 std::map<std::string, std::string> picture_attributes(const PieceIdentity& identity, bool any_samples);

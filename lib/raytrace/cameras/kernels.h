@@ -8,5 +8,6 @@
 //   Vec3f origin() const;      if all rays start there
 #pragma once
 
+#include "raytrace/cameras/orthographic_camera_kernel.h"
 #include "raytrace/cameras/pinhole_camera_kernel.h"
 #include "raytrace/cameras/registry.h"

@@ -17,7 +17,6 @@ namespace raytrace {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 using std::chrono::seconds;
@@ -92,9 +91,10 @@ struct DisplayClient::Shared {
 
   /// In the viewer's image, whose origin is the picture's, or that of what is rendered beyond it.
   std::string packet_of(const Region& rectangle) {
-    const Region place{rectangle.x0 - view.x0, rectangle.y0 - view.y0, rectangle.x1 - view.x0, rectangle.y1 - view.y0};
+    const Region shifted{rectangle.x0 - view.x0, rectangle.y0 - view.y0, rectangle.x1 - view.x0,
+                         rectangle.y1 - view.y0};
     const std::lock_guard lock(mutex);
-    return update_image_packet(image_name, place, &pixels[index(rectangle.x0, rectangle.y0)],
+    return update_image_packet(image_name, shifted, &pixels[index(rectangle.x0, rectangle.y0)],
                                static_cast<std::size_t>(extent.region.width()));
   }
 

@@ -2,7 +2,7 @@
 //
 // A thread of its own holds the connection. It sends the newest state of what has changed, not every state, and pauses
 // 100 times as long as it has worked, at least a fifth of a second: it takes 1 % of a processor. A viewer that is
-// absent, slow, gone or none at all is told once, as a warning, and tried again every 5 seconds, so that one can be
+// absent, slow, gone or none at all is reported once, as a warning, and tried again every 5 seconds, so that one can be
 // opened (again) during a long render.
 #pragma once
 

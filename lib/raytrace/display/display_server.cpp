@@ -107,7 +107,7 @@ void DisplayServer::finish() {
   connection_->context.poll();
   if (!connection_->fault.empty()) throw DisplayError(connection_->fault);
   connection_->finishing = true;
-  asio::error_code gone;  // is told by the reading side
+  asio::error_code gone;  // the reading side reports it
   connection_->socket.shutdown(tcp::socket::shutdown_send, gone);
   connection_->wait_for(connection_->closed);
 }

@@ -1,4 +1,4 @@
-// What the image viewer tev is told over TCP, port 14158 by default: a picture of a name is made, and rectangles of it
+// What the image viewer tev receives over TCP, port 14158 by default: a picture of a name is made, and rectangles of it
 // are replaced. tev answers nothing.
 //
 // A packet is its length in bytes (uint32, itself included), an operation (uint8) and its fields. Numbers are little

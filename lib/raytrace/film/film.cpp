@@ -9,6 +9,7 @@
 
 #include "raytrace/film/aov_film.h"
 #include "raytrace/film/film_means.h"
+#include "raytrace/math/content_hash.h"
 
 namespace raytrace {
 
@@ -50,7 +51,7 @@ Film::Film(const FilmSettings& settings, FilmContent content)
 Pixel Film::pixel(int x, int y) const {
   switch (content_) {
     case FilmContent::sums:
-      return mean(sums_[index(x, y)], unit_, settings_.transparent);
+      return mean(sums_[index(x, y)], high(x, y), unit_, settings_.transparent);
     case FilmContent::means:
       return means_[index(x, y)];
     case FilmContent::half_means:
@@ -58,6 +59,38 @@ Pixel Film::pixel(int x, int y) const {
   }
   const auto& [red, green, blue, alpha] = half_means_[index(x, y)];
   return {imath_half_to_float(red), imath_half_to_float(green), imath_half_to_float(blue), imath_half_to_float(alpha)};
+}
+
+void Film::add(int x, int y, const PixelSum& more, const PixelSumHigh& more_high) {
+  add(x, y, more);
+  if (more_high == PixelSumHigh()) return;
+  PixelSumHigh& high = highs_.make(count())[index(x, y)];
+  high.red += more_high.red;
+  high.green += more_high.green;
+  high.blue += more_high.blue;
+}
+
+void Film::carry(int x, int y, const PixelSum& before, const PixelSum& more) {
+  PixelSumHigh& high = highs_.make(count())[index(x, y)];
+  const auto carried = [](std::int64_t a, std::int64_t b) {
+    std::int64_t sum = 0;
+    return !__builtin_add_overflow(a, b, &sum) ? 0 : a < 0 ? -1 : 1;
+  };
+  high.red += carried(before.red, more.red);
+  high.green += carried(before.green, more.green);
+  high.blue += carried(before.blue, more.blue);
+}
+
+bool Film::has_high() const {
+  const PixelSumHigh* const highs = highs_.data();
+  return highs != nullptr &&
+         std::any_of(highs, highs + count(), [](const PixelSumHigh& high) { return high != PixelSumHigh(); });
+}
+
+void Film::add_to(ContentHash& hash) const {
+  hash.add(sums_.data(), sums().size_bytes());
+  if (has_high()) hash.add(highs_.data(), count() * sizeof(PixelSumHigh));
+  if (aovs_) aovs_->add_to(hash);
 }
 
 std::vector<Pixel> Film::pixels() const {

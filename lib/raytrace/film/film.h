@@ -11,6 +11,7 @@
 #include "raytrace/film/aov_settings.h"
 #include "raytrace/film/region.h"
 #include "raytrace/memory/large_array.h"
+#include "raytrace/memory/late_array.h"
 
 namespace raytrace {
 
@@ -43,6 +44,13 @@ struct PixelSum {
   friend bool operator==(const PixelSum&, const PixelSum&) = default;
 };
 
+/// What the numbers of a PixelSum cannot hold, in units 2^64 times theirs: zeros for nearly all pixels, since no sum of
+/// samples within the bound that the unit is made from leaves 64 bits.
+struct PixelSumHigh {
+  std::int64_t red = 0, green = 0, blue = 0;
+  friend bool operator==(const PixelSumHigh&, const PixelSumHigh&) = default;
+};
+
 /// Which samples a film takes: indices of each pixel's sequence.
 struct SampleRange {
   std::uint32_t first = 0;
@@ -72,6 +80,7 @@ int unit_exponent(float largest_radiance, std::uint64_t samples);
 bool is_unit_exponent(int exponent);
 
 class AovFilm;
+class ContentHash;
 
 /// A Pixel's four numbers as IEEE 754 binary16.
 using HalfPixel = std::array<std::uint16_t, 4>;
@@ -79,7 +88,7 @@ using HalfPixel = std::array<std::uint16_t, 4>;
 /// What a film holds of each pixel. Memory that is fresh from the system takes time, so a picture that is rendered in
 /// one go, keeps no more than its files want.
 enum class FilmContent {
-  sums,        ///< PixelSum, 32 bytes: samples can be added at any time, and in any order
+  sums,        ///< PixelSum, 32 bytes: samples can be added at any time, and in any order; PixelSumHigh where needed
   means,       ///< Pixel, 16 bytes
   half_means,  ///< HalfPixel, 8 bytes; infinity beyond its range
 };
@@ -107,9 +116,37 @@ class Film {
 
   // Of films of sums.
 
+  /// Adds to the pixel's sums, exactly: what 64 bits cannot hold goes to high(), which takes memory, 24 bytes for every
+  /// pixel, from then on. Throws std::bad_alloc.
+  void add(int x, int y, const PixelSum& more) {
+    PixelSum& sum = sums_[index(x, y)];
+    const PixelSum before = sum;
+    sum.red = wrapped_sum(before.red, more.red);
+    sum.green = wrapped_sum(before.green, more.green);
+    sum.blue = wrapped_sum(before.blue, more.blue);
+    sum.hits += more.hits;
+    sum.samples += more.samples;
+    // Negative where the terms have one sign, and the sum the other.
+    const std::int64_t wrapped = ((before.red ^ sum.red) & (more.red ^ sum.red)) |
+                                 ((before.green ^ sum.green) & (more.green ^ sum.green)) |
+                                 ((before.blue ^ sum.blue) & (more.blue ^ sum.blue));
+    if (wrapped < 0) [[unlikely]]
+      carry(x, y, before, more);
+  }
+  void add(int x, int y, const PixelSum& more, const PixelSumHigh& more_high);
+
   PixelSum& sum(int x, int y) { return sums_[index(x, y)]; }
   const PixelSum& sum(int x, int y) const { return sums_[index(x, y)]; }
   std::span<const PixelSum> sums() const { return {sums_.data(), content_ == FilmContent::sums ? count() : 0}; }
+
+  PixelSumHigh high(int x, int y) const {
+    return highs_.data() == nullptr ? PixelSumHigh() : highs_.data()[index(x, y)];
+  }
+  /// Whether that of any pixel is not zero.
+  bool has_high() const;
+
+  /// All sums, whatever the order in which they came to be.
+  void add_to(ContentHash& hash) const;
 
   /// What the AOVs gather; null if they need nothing beside the sums.
   AovFilm* aovs() { return aovs_.get(); }
@@ -134,6 +171,11 @@ class Film {
     return static_cast<std::size_t>(y - region().y0) * static_cast<std::size_t>(region().width()) +
            static_cast<std::size_t>(x - region().x0);
   }
+  static std::int64_t wrapped_sum(std::int64_t a, std::int64_t b) {
+    return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
+  }
+  void carry(int x, int y, const PixelSum& before, const PixelSum& more);
+
   FilmSettings settings_;
   FilmContent content_;
   double unit_;  ///< of radiance
@@ -141,6 +183,7 @@ class Film {
   LargeArray<PixelSum> sums_;
   LargeArray<Pixel> means_;
   LargeArray<HalfPixel> half_means_;
+  LateArray<PixelSumHigh> highs_;  ///< of the sums
   std::unique_ptr<AovFilm> aovs_;
 };
 

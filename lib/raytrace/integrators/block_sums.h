@@ -3,27 +3,72 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
 
 #include "raytrace/film/film_means.h"
 #include "raytrace/integrators/lane_counts.h"
 #include "raytrace/integrators/ray_result.h"
 #include "raytrace/math/fixed_point_sums.h"
+#include "raytrace/math/limbs.h"
 
 namespace raytrace {
 
 /// What all sums of a film have in common.
 struct SumScale {
   double inverse_unit;  ///< one over the film's unit
-  float most;           ///< the largest radiance that can be added
+  float most_at_once;   ///< the largest radiance, either sign, that FixedPointSums take
+  float most;           ///< that can be added
 
   /// unit_exponent: the film's.
   explicit SumScale(int unit_exponent)
       : inverse_unit(std::ldexp(1.0, -unit_exponent)),
-        most(static_cast<float>(std::min(std::ldexp(FixedPointSums<FloatN>::largest_term, unit_exponent),
-                                         double{std::numeric_limits<float>::max()}))) {}
+        most_at_once(in_units(FixedPointSums<FloatN>::largest_term, unit_exponent)),
+        most(in_units(largest_units, unit_exponent)) {}
+
+ private:
+  static float in_units(double units, int unit_exponent) {
+    return static_cast<float>(std::min(std::ldexp(units, unit_exponent), double{std::numeric_limits<float>::max()}));
+  }
+};
+
+/// Those parts of the sums of so many pixels that are added one by one. They take memory only where there are any.
+template <int pixels>
+class LargeSums {
+ public:
+  using Channels = std::array<Int128, 3>;
+
+  bool empty() const { return sums_ == nullptr; }
+  /// Of the pixel.
+  Channels& operator[](std::size_t pixel) {
+    if (sums_ == nullptr) sums_ = std::make_unique<std::array<Channels, pixels>>();
+    return (*sums_)[pixel];
+  }
+  const Channels& operator[](std::size_t pixel) const { return (*sums_)[pixel]; }
+
+  /// Adds the radiance of these lanes, given as bits. The result: those of them of which a channel is beyond
+  /// scale.most, or not a number; they add nothing.
+  [[gnu::noinline, gnu::cold]] std::uint32_t add(const Rgb<FloatN>& radiance, std::uint32_t lanes,
+                                                 const SumScale& scale) {
+    std::uint32_t refused = 0;
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+      const std::array<float, 3> terms{radiance.red.get(lane), radiance.green.get(lane), radiance.blue.get(lane)};
+      if (!std::all_of(terms.begin(), terms.end(), [&](float term) { return std::abs(term) <= scale.most; })) {
+        refused |= std::uint32_t{1} << lane;
+        continue;
+      }
+      Channels& sums = (*this)[lane % pixels];
+      for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += whole_units(terms[i], scale.inverse_unit);
+    }
+    return refused;
+  }
+
+ private:
+  std::unique_ptr<std::array<Channels, pixels>> sums_;
 };
 
 /// Of a PacketBlock's pixels, exact.
@@ -32,12 +77,14 @@ class BlockSums {
  public:
   explicit BlockSums(const SumScale& scale) : scale_(scale) {}
 
-  /// Adds a sample of each lane of `wanted`. The result: those whose radiance is not finite (or beyond what the sums
-  /// can hold), which are counted as black.
+  /// So many packets may be added between calls of carry().
+  static constexpr int most_packets = 4096 / packet_lanes - 1;
+
+  /// Adds a sample of each lane of `wanted`. The result: those whose radiance is still to be added, with add_large().
   RAYTRACE_INLINE MaskN add(const RayResult& result, const MaskN& wanted) {
-    // Radiances are not negative: the sum is large where one of them is, and NaN compares false.
-    const MaskN fine =
-        wanted & (result.radiance.red + result.radiance.green + result.radiance.blue <= FloatN(scale_.most));
+    // The sum is large where one of them is, and NaN compares false.
+    const MaskN fine = wanted & (abs(result.radiance.red) + abs(result.radiance.green) + abs(result.radiance.blue) <=
+                                 FloatN(scale_.most_at_once));
     const Rgb<FloatN> radiance = select(fine, result.radiance, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
     red_.add(radiance.red, scale_.inverse_unit);
     green_.add(radiance.green, scale_.inverse_unit);
@@ -47,13 +94,31 @@ class BlockSums {
     return wanted & !fine;
   }
 
+  /// The same for large radiances, of few lanes. The result: those whose radiance is not finite, or beyond what the
+  /// sums can hold, which are counted as black.
+  std::uint32_t add_large(const RayResult& result, const MaskN& lanes) {
+    return large_.add(result.radiance, bits_of<FloatN>(lanes), scale_);
+  }
+
+  /// Makes room for most_packets more.
+  void carry() {
+    const auto red = red_.sums(), green = green_.sums(), blue = blue_.sums();
+    for (std::size_t i = 0; i < red.size(); ++i) {
+      auto& sums = large_[i];
+      sums = {sums[0] + red[i], sums[1] + green[i], sums[2] + blue[i]};
+    }
+    red_ = green_ = blue_ = {};
+  }
+
   /// Adds them to the pixels of the block that lie in the region; to a film of means, they are all there is to come.
   RAYTRACE_INLINE void add_to(Film& film, const Block& block, const Region& region) const {
     const auto hits = hits_.by_pixel(), samples = samples_.by_pixel();
-    if (film.content() == FilmContent::sums) {
+    if (!large_.empty()) [[unlikely]] {
+      add_all_to(film, block, region);
+    } else if (film.content() == FilmContent::sums) {
       const auto red = red_.sums(), green = green_.sums(), blue = blue_.sums();
       block.for_each_pixel(region, [&](int x, int y, std::size_t i) {
-        film.sum(x, y) += {red[i], green[i], blue[i], hits[i], samples[i]};
+        film.add(x, y, {red[i], green[i], blue[i], hits[i], samples[i]});
       });
     } else {
       const auto& covered = film.settings().transparent ? hits : samples;
@@ -68,9 +133,27 @@ class BlockSums {
   }
 
  private:
+  /// add_to() where some of the sums are in large_.
+  [[gnu::noinline, gnu::cold]] void add_all_to(Film& film, const Block& block, const Region& region) const {
+    const auto hits = hits_.by_pixel(), samples = samples_.by_pixel();
+    const auto red = red_.sums(), green = green_.sums(), blue = blue_.sums();
+    block.for_each_pixel(region, [&](int x, int y, std::size_t i) {
+      const auto& large = large_[i];
+      const Limbs r = limbs_of(large[0] + red[i]), g = limbs_of(large[1] + green[i]), b = limbs_of(large[2] + blue[i]);
+      const PixelSum sum{r.low, g.low, b.low, hits[i], samples[i]};
+      const PixelSumHigh high{r.high, g.high, b.high};
+      if (film.content() == FilmContent::sums) {
+        film.add(x, y, sum, high);
+      } else {
+        set_means(film, x, y, 1, [&](int) { return mean(sum, high, film.unit(), film.settings().transparent); });
+      }
+    });
+  }
+
   SumScale scale_;
   FixedPointSums<FloatN, Block::pixels> red_, green_, blue_;
   LaneCounts<Block::pixels> hits_, samples_;
+  LargeSums<Block::pixels> large_;
 };
 
 }  // namespace raytrace

@@ -111,11 +111,14 @@ class BlockRenderer {
       Ray<FloatN> rays = scene_.tables().camera().generate(x + point.x, y + point.y);
       const RayResult result = Kernel<Integrator>::radiance(scene_, background_, rays, active, wanted, report_.rays,
                                                             aovs != nullptr ? &first : nullptr);
-      const MaskN bad = sums.add(result, wanted);
+      const MaskN large = sums.add(result, wanted);
       if (aovs != nullptr) aovs->add(AovInputs(scene_.tables(), rays, first.hits, first.surface), wanted, sample);
       report_.rays.camera += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(wanted)));
-      if (any(bad)) add_invalid(bad, block, base);
-      if (packets % packets_per_look == 0 && stopped()) break;
+      if (any(large)) add_invalid(sums.add_large(result, large), block, base);
+      if (packets % packets_per_look == 0) {
+        if (stopped()) break;
+        if (packets % (sums.most_packets / packets_per_look * packets_per_look) == 0) sums.carry();
+      }
     }
     sums.add_to(film_, block, region_);
   }
@@ -153,8 +156,7 @@ class BlockRenderer {
 
   bool stopped() const { return stop_ != nullptr && stop_->load(std::memory_order_relaxed); }
 
-  void add_invalid(const MaskN& bad, const Block& block, std::uint32_t base) {
-    const std::uint32_t lanes = bits_of<FloatN>(bad);
+  void add_invalid(std::uint32_t lanes, const Block& block, std::uint32_t base) {
     block.for_each_lane(region_, [&](int x, int y, std::size_t lane) {
       if ((lanes >> lane & 1U) != 0)
         report_.invalid_samples.add({x, y, base + static_cast<std::uint32_t>(Block::slot(static_cast<int>(lane)))});

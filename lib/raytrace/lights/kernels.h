@@ -18,3 +18,4 @@
 #include "raytrace/lights/directional_light_kernel.h"
 #include "raytrace/lights/point_light_kernel.h"
 #include "raytrace/lights/registry.h"
+#include "raytrace/lights/spot_light_kernel.h"

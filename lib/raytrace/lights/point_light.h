@@ -1,12 +1,12 @@
-// Point light without fall-off: the same radiance at every distance, as in the seed (Suffern, chapter 14).
+// Point light (Suffern, chapter 14).
 //
 //   <pointlight>
 //     <location x="1" y="5" z="0"/> <scaleradiance>3</scaleradiance> <color red="1" green="1" blue="1"/>
-//     <shadows>true</shadows>
+//     <shadows>true</shadows> <falloff>none</falloff>
 //   </pointlight>
 #pragma once
 
-#include "raytrace/parameters/fields.h"
+#include "raytrace/lights/falloff.h"
 
 namespace raytrace {
 
@@ -17,12 +17,17 @@ class PointLight {
     double scaleradiance = 1;
     Rgb<double> color{1, 1, 1};
     bool shadows = true;
+    std::string falloff{falloff_none};
   };
   static constexpr std::string_view group = "pointlights";
   static constexpr std::string_view element = "pointlight";
   static Fields<Parameters> fields() {
     return {required("location", &Parameters::location), optional("scaleradiance", &Parameters::scaleradiance),
-            optional("color", &Parameters::color), optional("shadows", &Parameters::shadows)};
+            optional("color", &Parameters::color), optional("shadows", &Parameters::shadows),
+            optional("falloff", &Parameters::falloff)};
+  }
+  static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {
+    return check_falloff(parameters.falloff);
   }
 };
 

@@ -3,6 +3,7 @@
 
 #include "raytrace/lights/light_sample.h"
 #include "raytrace/lights/point_light.h"
+#include "raytrace/lights/point_radiance.h"
 #include "raytrace/math/kernel.h"
 
 namespace raytrace {
@@ -12,22 +13,23 @@ class Kernel<PointLight> {
  public:
   explicit Kernel(const PointLight::Parameters& parameters)
       : location_(parameters.location),
-        radiance_(parameters.color * parameters.scaleradiance),
+        radiance_(parameters.color * parameters.scaleradiance, parameters.falloff),
         shadows_(parameters.shadows) {}
 
   static constexpr bool ambient = false;
   bool shadows() const { return shadows_; }
   Vec3f location() const { return location_; }
-  Rgb<float> largest_radiance() const { return radiance_; }
+  Rgb<float> largest_radiance() const { return radiance_.at_distance_1(); }
 
   template <class F>
   LightSample<F> sample(const Vec3<F>& p) const {
-    return {Vec3<F>(location_) - p, F(1), Rgb<F>(radiance_)};
+    const Vec3<F> to_light = Vec3<F>(location_) - p;
+    return {to_light, F(1), radiance_.at(to_light)};
   }
 
  private:
   Vec3f location_;
-  Rgb<float> radiance_;
+  PointRadiance radiance_;
   bool shadows_;
 };
 

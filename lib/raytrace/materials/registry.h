@@ -1,4 +1,5 @@
-// All materials. A new material: its own pair of files, one include and one name here. (docs/how-to-add-a-type.md)
+// All materials. A new material: its own pair of files, one include and one name here, and one
+// include in kernels.h. (docs/how-to-add-a-type.md)
 #pragma once
 
 #include "raytrace/materials/matte.h"

@@ -17,7 +17,7 @@ namespace raytrace {
 template <class F, std::size_t count = F::size>
 class FixedPointSums {
  public:
-  /// The most units that a term may stand for, either sign.
+  /// The most units that a term may stand for, either sign. What is larger goes by whole_units().
   static constexpr double largest_term = 0x1p51;
 
   /// units: one over the unit, a power of two.
@@ -30,7 +30,8 @@ class FixedPointSums {
     ++batches_;
   }
 
-  /// The sums of all terms so far. They wrap where they leave the range of 64 bits.
+  /// The sums of all terms so far. They wrap where they leave the range of 64 bits: with terms as large as may be, 4096
+  /// of one sum do.
   RAYTRACE_INLINE std::array<std::int64_t, count> sums() const {
     alignas(64) std::array<std::uint64_t, registers * Counts::size> totals;
     for (std::size_t i = 0; i < registers; ++i) totals_[i].store_aligned(totals.data() + i * Counts::size);

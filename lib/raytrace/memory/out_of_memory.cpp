@@ -15,7 +15,7 @@ bool says_out_of_memory(std::string_view message) {
       "unable to allocate",
       "Unable to allocate",              // OpenEXR 3.3
       "Data compression (zlib) failed",  // OpenEXR 3.1, which gives zlib all the room that it may want but memory
-      "File output failed",  // OpenEXR's of its streams in memory; those of a disk are told otherwise (ExrDestination)
+      "File output failed",  // OpenEXR's of its streams in memory; a disk's failures have another text (ExrDestination)
       "pthread_create has failed"};  // oneTBB
   return std::any_of(phrases.begin(), phrases.end(),
                      [&](std::string_view phrase) { return message.find(phrase) != std::string_view::npos; });

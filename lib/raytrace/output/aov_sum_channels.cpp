@@ -23,7 +23,7 @@ std::string mean_half(std::size_t mean, const char* half) {
 std::string cover_part(std::size_t coverage, const char* part, std::size_t place) {
   char digits[24];
   std::snprintf(digits, sizeof digits, "%03zu", place);  // in the order of their names
-  return prefix + "coverage" + std::to_string(coverage) + '.' + part + digits;
+  return prefix + "cover" + std::to_string(coverage) + '.' + part + digits;
 }
 
 /// The planes of the channels, by name.
@@ -97,7 +97,7 @@ std::vector<Channel> aov_sum_channels(const AovFilm& film) {
 
 std::vector<Channel> aov_sum_channels(const AovSettings& settings, const std::vector<Channel>& channels) {
   return channels_of(settings, [&](std::size_t coverage) {
-    const std::string ids = prefix + "coverage" + std::to_string(coverage) + ".id";
+    const std::string ids = prefix + "cover" + std::to_string(coverage) + ".id";
     return static_cast<std::size_t>(std::count_if(
         channels.begin(), channels.end(), [&](const Channel& channel) { return channel.name.starts_with(ids); }));
   });

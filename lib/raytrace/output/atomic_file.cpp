@@ -44,7 +44,7 @@ std::string protection(const fs::path& target, const struct stat& its, const str
   if ((extended.stx_attributes & (STATX_ATTR_IMMUTABLE | STATX_ATTR_APPEND)) != 0)
     return "it has an attribute against changes (chattr)";
   if ((extended.stx_attributes & STATX_ATTR_MOUNT_ROOT) != 0)
-    return "it is mounted by itself, so that no other file can take its place; mount its folder";
+    return "it is mounted by itself, so that no other file can replace it; mount its folder";
   return {};
 }
 

@@ -10,7 +10,6 @@
 #include "raytrace/output/image_encoder.h"
 #include "raytrace/output/openimageio_module.h"
 #include "raytrace/output/png_file.h"
-#include "raytrace/output/png_text.h"
 
 namespace raytrace {
 namespace {

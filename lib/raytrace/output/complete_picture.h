@@ -10,7 +10,7 @@
 
 namespace raytrace {
 
-/// What a file must hold to be the picture that is wanted. Each format is asked for what it can tell.
+/// What a file must hold to be the picture that is wanted. Of each format, what it keeps is compared.
 struct WantedPicture {
   PictureExtent extent;           ///< EXR: where in the picture; all others: the size
   std::vector<Channel> channels;  ///< EXR: these, or more

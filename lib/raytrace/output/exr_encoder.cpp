@@ -1,5 +1,4 @@
-#include "raytrace/output/exr_encoder.h"
-
+// OpenEXR files: scanlines of any channels, each of its own type, compressed in zip blocks.
 #include <ImathBox.h>
 #include <ImathMatrix.h>
 #include <ImfChannelList.h>
@@ -7,6 +6,7 @@
 #include <ImfFloatAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
+#include <ImfIO.h>
 #include <ImfIntAttribute.h>
 #include <ImfMatrixAttribute.h>
 #include <ImfOutputFile.h>
@@ -18,18 +18,46 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <memory>
 #include <optional>
-#include <system_error>
 
 #include "raytrace/memory/out_of_memory.h"
-#include "raytrace/output/exr_destination.h"
+#include "raytrace/output/file_handle.h"
+#include "raytrace/output/image_encoder.h"
 #include "raytrace/output/picture_date.h"
 #include "raytrace/parallel/for_each_index.h"
 
 namespace raytrace {
 
 namespace {
+
+/// Throws OutputError where it fails, as OpenEXR wants it.
+class ExrDestination final : public Imf::OStream {
+ public:
+  explicit ExrDestination(std::FILE* file) : OStream("picture"), file_(file) {}
+
+  void write(const char data[], int size) override {
+    require(file_.write(data, static_cast<std::size_t>(size)));
+    position_ += static_cast<std::uint64_t>(size);
+  }
+  std::uint64_t tellp() override { return position_; }
+  void seekp(std::uint64_t position) override {
+    require(file_.seek(position));
+    position_ = position;
+  }
+  void finish() { require(file_.flush()); }
+  int error() const { return file_.error(); }
+
+ private:
+  static void require(bool done) {
+    if (!done) throw OutputError("the destination failed");
+  }
+
+  CheckedFile file_;
+  std::uint64_t position_ = 0;
+};
 
 Imath::M44f matrix_of(const float (&values)[16]) {
   Imath::M44f matrix;
@@ -98,19 +126,21 @@ Value storable(float value, Repairs& repairs) {
   return Value(std::isnan(value) ? 0.0F : std::copysign(largest<Value>, value));
 }
 
-/// A row of a plane's values, of so many.
+/// A row of a plane of so many values, to the same row of what is stored.
 template <class Value>
-void convert_row(const ChannelValues& plane, std::size_t row, std::size_t width, std::vector<Value>& converted,
+void convert_row(const ChannelValues& plane, std::size_t row, std::size_t width, std::vector<std::byte>& stored,
                  Repairs& repairs) {
-  const auto& values = std::get<std::vector<float>>(plane);
-  for (std::size_t i = row * width; i < (row + 1) * width; ++i) converted[i] = storable<Value>(values[i], repairs);
+  const float* const values = std::get<std::vector<float>>(plane).data() + row * width;
+  auto* const converted = reinterpret_cast<Value*>(stored.data()) + row * width;
+  for (std::size_t i = 0; i < width; ++i) converted[i] = storable<Value>(values[i], repairs);
 }
 
-/// A plane's values where OpenEXR finds them: row by row within the window, with so many from one to the next.
-template <class Value>
-Imf::Slice slice(Imf::PixelType type, const Value* values, const Imath::Box2i& window, std::size_t step = 1) {
+std::size_t value_bytes(Imf::PixelType type) { return type == Imf::HALF ? sizeof(Imath::half) : sizeof(float); }
+
+/// Values where OpenEXR finds them: row by row within the window, with so many from one of a channel to its next.
+Imf::Slice slice(Imf::PixelType type, const void* values, const Imath::Box2i& window, std::size_t step = 1) {
   const auto width = static_cast<std::size_t>(window.max.x - window.min.x) + 1;
-  return Imf::Slice::Make(type, values, window, step * sizeof(Value), width * step * sizeof(Value));
+  return Imf::Slice::Make(type, values, window, step * value_bytes(type), width * step * value_bytes(type));
 }
 
 /// OpenEXR's pool is one for the whole process, and must not change while a file is written: the first to ask decides.
@@ -122,27 +152,44 @@ void make_thread_pool(int threads) {
   static_cast<void>(made);
 }
 
-}  // namespace
-
-struct ExrEncoder::OpenFile {
-  OpenFile(std::FILE* file, const std::vector<Channel>& its_channels)
-      : destination(file), channels(its_channels), halves(channels.size()), floats(channels.size()) {}
+struct OpenExr {
+  OpenExr(std::FILE* file, const std::vector<Channel>& its_channels)
+      : destination(file), channels(its_channels), stored(channels.size()) {}
 
   ExrDestination destination;
   std::optional<Imf::OutputFile> exr;
   std::vector<Channel> channels;
-  /// What is written of each channel; kept from band to band.
-  std::vector<std::vector<Imath::half>> halves;
-  std::vector<std::vector<float>> floats;
+  std::vector<std::vector<std::byte>> stored;  ///< halves or floats of each channel; kept from band to band
   std::vector<Imath::half> half_colors;
 };
 
-ExrEncoder::ExrEncoder(std::string file, const ImageFileSettings& settings)
-    : file_(std::move(file)), settings_(settings) {
-  if (settings_.threads <= 0) settings_.threads = tbb::this_task_arena::max_concurrency();
-}
+class ExrEncoder final : public ImageEncoder {
+ public:
+  ExrEncoder(const std::string& file, const ImageFileSettings& settings) : ImageEncoder(file, settings) {
+    if (settings_.threads <= 0) settings_.threads = tbb::this_task_arena::max_concurrency();
+  }
 
-ExrEncoder::~ExrEncoder() = default;
+  bool holds_float() const override { return settings_.full_float; }
+  bool holds_data() const override { return true; }
+  bool holds_alpha() const override { return true; }
+  bool is_for_display() const override { return false; }
+  void begin(const PictureExtent& extent, const std::vector<Channel>& channels, const ImageMetadata& metadata,
+             std::FILE* destination) override;
+  void write(const ImageBand& band) override;
+  Repairs finish() override;
+
+ private:
+  void convert_values(const ImageBand& band, std::size_t first_plane);
+  const Imath::half* storable_colors(const ImageBand& band);
+  /// Runs it, and throws an OutputError with the true reason for whatever it throws, or std::bad_alloc where that is
+  /// it.
+  template <class Action>
+  void guard(const Action& action) const;
+
+  std::unique_ptr<OpenExr> open_;
+};
+
+}  // namespace
 
 void ExrEncoder::begin(const PictureExtent& extent, const std::vector<Channel>& channels, const ImageMetadata& metadata,
                        std::FILE* destination) {
@@ -152,7 +199,7 @@ void ExrEncoder::begin(const PictureExtent& extent, const std::vector<Channel>& 
   const int helpers = threads == 1 ? 0 : threads;  // 0: the calling thread does it
   make_thread_pool(settings_.threads);
   const Imf::Header header = header_of(extent, channels, metadata, settings_.compressed);
-  open_ = std::make_unique<OpenFile>(destination, channels);
+  open_ = std::make_unique<OpenExr>(destination, channels);
   guard([&] { open_->exr.emplace(open_->destination, header, helpers); });
 }
 
@@ -170,19 +217,10 @@ void ExrEncoder::write(const ImageBand& band) {
   convert_values(band, first_plane);
   for (std::size_t i = first_plane; i < open_->channels.size(); ++i) {
     const Channel& channel = open_->channels[i];
-    const ChannelValues& plane = band.planes[i];
-    const Imf::PixelType type = pixel_type(channel.type);
-    switch (channel.type) {
-      case ChannelType::half:
-        frame.insert(channel.name, slice(type, open_->halves[i].data(), window));
-        break;
-      case ChannelType::float32:
-        frame.insert(channel.name, slice(type, open_->floats[i].data(), window));
-        break;
-      case ChannelType::uint32:
-        frame.insert(channel.name, slice(type, std::get<std::vector<std::uint32_t>>(plane).data(), window));
-        break;
-    }
+    const auto* const integers = std::get_if<std::vector<std::uint32_t>>(&band.planes[i]);
+    const void* const values =
+        integers != nullptr ? static_cast<const void*>(integers->data()) : open_->stored[i].data();
+    frame.insert(channel.name, slice(pixel_type(channel.type), values, window));
   }
   guard([&] {
     open_->exr->setFrameBuffer(frame);
@@ -217,17 +255,17 @@ void ExrEncoder::convert_values(const ImageBand& band, std::size_t first_plane) 
   if (first_plane == open_->channels.size()) return;
   const auto width = static_cast<std::size_t>(band.region.width());
   const auto rows = static_cast<std::size_t>(band.region.height());
-  for (std::size_t i = first_plane; i < open_->channels.size(); ++i) {
-    if (open_->channels[i].type == ChannelType::half) open_->halves[i].resize(width * rows);
-    if (open_->channels[i].type == ChannelType::float32) open_->floats[i].resize(width * rows);
-  }
+  for (std::size_t i = first_plane; i < open_->channels.size(); ++i)
+    if (open_->channels[i].type != ChannelType::uint32)
+      open_->stored[i].resize(width * rows * value_bytes(pixel_type(open_->channels[i].type)));
   std::vector<Repairs> repairs(rows);
   for_each_index(band.region.height(), settings_.threads, [&](int index) {
     const auto row = static_cast<std::size_t>(index);
     for (std::size_t i = first_plane; i < open_->channels.size(); ++i) {
       const ChannelType type = open_->channels[i].type;
-      if (type == ChannelType::half) convert_row(band.planes[i], row, width, open_->halves[i], repairs[row]);
-      if (type == ChannelType::float32) convert_row(band.planes[i], row, width, open_->floats[i], repairs[row]);
+      if (type == ChannelType::half)
+        convert_row<Imath::half>(band.planes[i], row, width, open_->stored[i], repairs[row]);
+      if (type == ChannelType::float32) convert_row<float>(band.planes[i], row, width, open_->stored[i], repairs[row]);
     }
   });
   for (const Repairs& of_row : repairs) repairs_ += of_row;
@@ -235,7 +273,7 @@ void ExrEncoder::convert_values(const ImageBand& band, std::size_t first_plane) 
 
 Repairs ExrEncoder::finish() {
   guard([&] {
-    open_->exr.reset();  // writes the table of where rows begin, and tells of no failure
+    open_->exr.reset();  // writes the table of where rows begin, and reports no failure
     open_->destination.finish();
   });
   return repairs_;
@@ -248,9 +286,13 @@ void ExrEncoder::guard(const Action& action) const {
   } catch (const std::exception& exception) {
     const int error = open_->destination.error();
     if (error == 0) rethrow_out_of_memory(exception);
-    throw OutputError("cannot write " + file_ + ": " +
-                      (error != 0 ? std::generic_category().message(error) : std::string(exception.what())));
+    if (error != 0) fail(error);
+    fail(exception.what());
   }
+}
+
+std::unique_ptr<ImageEncoder> make_exr_encoder(const std::string& file, const ImageFileSettings& settings) {
+  return std::make_unique<ExrEncoder>(file, settings);
 }
 
 }  // namespace raytrace

@@ -8,7 +8,6 @@
 #include <string>
 
 #include "raytrace/output/file_handle.h"
-#include "raytrace/output/input_error.h"
 #include "raytrace/text/quoted.h"
 
 namespace raytrace {

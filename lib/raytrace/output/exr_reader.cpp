@@ -15,7 +15,6 @@
 
 #include "raytrace/memory/out_of_memory.h"
 #include "raytrace/output/exr_header.h"
-#include "raytrace/output/file_handle.h"
 #include "raytrace/text/quoted.h"
 
 namespace raytrace {

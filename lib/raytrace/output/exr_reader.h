@@ -9,15 +9,15 @@
 
 #include "raytrace/cameras/camera_matrices.h"
 #include "raytrace/film/film.h"
+#include "raytrace/output/file_handle.h"
 #include "raytrace/output/image_band.h"
 #include "raytrace/output/image_file.h"
-#include "raytrace/output/input_error.h"
 
 namespace raytrace {
 
 class ExrReader {
  public:
-  /// Throws InputError, as all of these: no such file, not an EXR of the kind that this program writes, with windows of
+  /// Throws InputError, as all of these: no such file, not an EXR such as this program writes, with windows of
   /// its sizes, or not whole. Memory and time follow from the file's own size, whatever it claims.
   explicit ExrReader(const std::string& file);
   ~ExrReader();

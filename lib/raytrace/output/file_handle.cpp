@@ -9,8 +9,6 @@
 #include <new>
 #include <system_error>
 
-#include "raytrace/output/input_error.h"
-
 namespace raytrace {
 
 FileHandle open_memory_file() {
@@ -43,6 +41,23 @@ FileHandle open_regular_file(const std::string& name) {
 std::uint64_t file_size(std::FILE* file) {
   struct stat status{};
   return fstat(fileno(file), &status) == 0 ? static_cast<std::uint64_t>(status.st_size) : 0;
+}
+
+bool CheckedFile::write(const void* data, std::size_t size) {
+  errno = 0;
+  if (error_ == 0 && std::fwrite(data, 1, size, file_) != size) error_ = errno != 0 ? errno : EIO;
+  return error_ == 0;
+}
+
+bool CheckedFile::seek(std::uint64_t position) {
+  if (error_ == 0 && fseeko(file_, static_cast<off_t>(position), SEEK_SET) != 0) error_ = errno;
+  return error_ == 0;
+}
+
+bool CheckedFile::flush() {
+  errno = 0;
+  if (error_ == 0 && (std::fflush(file_) != 0 || std::ferror(file_) != 0)) error_ = errno != 0 ? errno : EIO;
+  return error_ == 0;
 }
 
 }  // namespace raytrace

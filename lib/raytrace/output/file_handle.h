@@ -4,9 +4,16 @@
 #include <cstdint>
 #include <cstdio>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 namespace raytrace {
+
+/// A file that cannot be read, or is not what it should be; what() names it and says why.
+class InputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
@@ -20,5 +27,25 @@ FileHandle open_memory_file();
 FileHandle open_regular_file(const std::string& file);
 
 std::uint64_t file_size(std::FILE* file);
+
+/// A file that remembers why it first failed, since libraries report no more than that it did. After that it is not
+/// written to. The calls return whether none has failed so far.
+class CheckedFile {
+ public:
+  /// file: open for writing; it stays open.
+  explicit CheckedFile(std::FILE* file) : file_(file) {}
+
+  bool write(const void* data, std::size_t size);
+  bool seek(std::uint64_t position);
+  /// Empties the file's buffer.
+  bool flush();
+
+  /// 0, or the error number of the first failure.
+  int error() const { return error_; }
+
+ private:
+  std::FILE* file_;
+  int error_ = 0;
+};
 
 }  // namespace raytrace

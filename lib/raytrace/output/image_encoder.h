@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "raytrace/output/image_band.h"
@@ -15,16 +16,17 @@ namespace raytrace {
 /// and the encoder is of no more use then. The destination may be destroyed only after the encoder.
 class ImageEncoder {
  public:
-  ImageEncoder() = default;
+  /// file: for messages.
+  ImageEncoder(const std::string& file, const ImageFileSettings& settings) : file_(file), settings_(settings) {}
   virtual ~ImageEncoder() = default;
   ImageEncoder(const ImageEncoder&) = delete;
   ImageEncoder& operator=(const ImageEncoder&) = delete;
 
   /// Whether it stores 32 bit floats.
-  virtual bool holds_float() const = 0;
+  virtual bool holds_float() const { return false; }
 
   /// Whether it stores other channels than color_channels(), and ImageMetadata::data_attributes.
-  virtual bool holds_data() const = 0;
+  virtual bool holds_data() const { return false; }
 
   /// Whether it stores alpha, where ImageFileSettings::transparent asks for it.
   virtual bool holds_alpha() const = 0;
@@ -45,6 +47,17 @@ class ImageEncoder {
 
   /// After the last row; empties the destination's buffer.
   virtual Repairs finish() = 0;
+
+ protected:
+  [[noreturn]] void fail(const std::string& reason) const {
+    throw OutputError("cannot write " + file_ + ": " + reason);
+  }
+  /// Of the destination.
+  [[noreturn]] void fail(int error_number) const { fail(std::generic_category().message(error_number)); }
+
+  std::string file_;
+  ImageFileSettings settings_;
+  Repairs repairs_;
 };
 
 /// ".exr", in lower case; empty if the name has none.
@@ -53,5 +66,9 @@ std::string lower_extension(const std::string& file);
 /// For the format that the extension of `file` names; the name itself is only for messages. Throws OutputError if there
 /// is none, or if it cannot hold what the settings ask for.
 std::unique_ptr<ImageEncoder> make_image_encoder(const std::string& file, const ImageFileSettings& settings);
+
+/// Whatever the name. (exr_encoder.cpp, png_encoder.cpp)
+std::unique_ptr<ImageEncoder> make_exr_encoder(const std::string& file, const ImageFileSettings& settings);
+std::unique_ptr<ImageEncoder> make_png_encoder(const std::string& file, const ImageFileSettings& settings);
 
 }  // namespace raytrace

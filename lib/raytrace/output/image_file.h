@@ -86,7 +86,7 @@ bool is_for_display(const std::string& file, const ImageFileSettings& settings);
 void check_format(const std::string& file, const ImageFileSettings& settings);
 
 /// Throws OutputError for that, too, and if the file itself cannot be written: no such folder, no permission. Leaves no
-/// trace. To be called before the render, so that hours of work do not end in an error that could be told at once.
+/// trace. To be called before the render, so that hours of work do not end in an error that was there before.
 void check_writable(const std::string& file, const ImageFileSettings& settings);
 
 /// Throws SizeError if files of this name cannot hold a picture of the region's size. To be called before the render,

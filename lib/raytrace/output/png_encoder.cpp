@@ -1,17 +1,20 @@
-#include "raytrace/output/png_encoder.h"
-
+// PNG files: RGB or RGBA of 8 or 16 bits, compressed row by row as bands come.
 #include <png.h>
 #include <zlib.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <csetjmp>
+#include <cstdint>
 #include <cstdlib>
+#include <memory>
 #include <new>
-#include <system_error>
+#include <sstream>
 
+#include "raytrace/output/file_handle.h"
+#include "raytrace/output/image_encoder.h"
 #include "raytrace/output/picture_date.h"
-#include "raytrace/output/png_text.h"
+#include "raytrace/output/pixel_format.h"
+#include "raytrace/output/png_file.h"
 #include "raytrace/parallel/for_each_index.h"
 #include "raytrace/text/utf8.h"
 
@@ -38,17 +41,56 @@ void quantize(const std::vector<float>& values, int bit_depth, std::uint8_t* byt
   }
 }
 
+struct PngText {
+  std::string keyword, text;
+};
+
+std::string matrix_text(const float (&matrix)[16]) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(9);  // every float survives
+  for (int i = 0; i < 16; ++i) text << (i == 0 ? "" : " ") << matrix[i];
+  return text.str();
+}
+
+template <class Value>
+std::string attribute_text(const Value& value) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << value;
+  return text.str();
+}
+
+/// All as text, for PNG has no numbers.
+std::vector<PngText> png_texts(const ImageMetadata& metadata, const ImageFileSettings& settings) {
+  std::vector<PngText> all;
+  if (!metadata.software.empty()) all.push_back({"Software", metadata.software});
+  all.push_back({"worldToCamera", matrix_text(metadata.camera.world_to_camera)});
+  all.push_back({"worldToNDC", matrix_text(metadata.camera.world_to_ndc)});
+  all.push_back({"raytrace:scene", metadata.scene_file});
+  all.push_back({"raytrace:samples", std::to_string(metadata.samples)});
+  all.push_back({"raytrace:seed", std::to_string(metadata.seed)});
+  if (!picture_date().fixed) {
+    all.push_back({"raytrace:threads", std::to_string(metadata.threads)});
+    if (metadata.render_seconds) all.push_back({"raytrace:renderSeconds", attribute_text(*metadata.render_seconds)});
+  }
+  if (settings.exposure != 0) all.push_back({exposure_keyword, exposure_text(settings.exposure)});
+  for (const ImageAttribute& attribute : metadata.attributes)
+    all.push_back(
+        {attribute.name, std::visit([](const auto& value) { return attribute_text(value); }, attribute.value)});
+  return all;
+}
+
 /// tEXt holds Latin-1, of which ASCII is a part; iTXt holds UTF-8.
-int text_kind(const std::string& text) {
+int text_format(const std::string& text) {
   const bool ascii = std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
   return ascii || find_invalid_utf8(text, 1) != std::string_view::npos ? PNG_TEXT_COMPRESSION_NONE
                                                                        : PNG_ITXT_COMPRESSION_NONE;
 }
 
-}  // namespace
-
-struct PngEncoder::OpenFile {
-  explicit OpenFile(std::FILE* file)
+/// What libpng writes, and its callbacks.
+struct OpenPng {
+  explicit OpenPng(std::FILE* file)
       : destination(file),
         png(png_create_write_struct_2(PNG_LIBPNG_VER_STRING, this, note_error, ignore_warning, this, allocate,
                                       release)),
@@ -59,21 +101,18 @@ struct PngEncoder::OpenFile {
     }
     png_set_write_fn(png, this, write_bytes, flush_nothing);
   }
-  ~OpenFile() { png_destroy_write_struct(&png, &info); }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
+  ~OpenPng() { png_destroy_write_struct(&png, &info); }
+  OpenPng(const OpenPng&) = delete;
+  OpenPng& operator=(const OpenPng&) = delete;
 
   static void write_bytes(png_structp png, png_bytep data, std::size_t size) {
-    auto* const file = static_cast<OpenFile*>(png_get_io_ptr(png));
-    errno = 0;
-    if (std::fwrite(data, 1, size, file->destination) == size) return;
-    file->error = errno != 0 ? errno : EIO;
-    png_error(png, "the destination failed");
+    auto* const file = static_cast<OpenPng*>(png_get_io_ptr(png));
+    if (!file->destination.write(data, size)) png_error(png, "the destination failed");
   }
   static void flush_nothing(png_structp) {}
 
   static void note_error(png_structp png, const char* message) {
-    auto* const file = static_cast<OpenFile*>(png_get_error_ptr(png));
+    auto* const file = static_cast<OpenPng*>(png_get_error_ptr(png));
     std::snprintf(file->message, sizeof file->message, "%s", message);
     png_longjmp(png, 1);
   }
@@ -81,30 +120,49 @@ struct PngEncoder::OpenFile {
 
   static void* allocate(png_structp png, png_alloc_size_t size) {
     void* const memory = std::malloc(size);
-    if (memory == nullptr) static_cast<OpenFile*>(png_get_mem_ptr(png))->out_of_memory = true;
+    if (memory == nullptr) static_cast<OpenPng*>(png_get_mem_ptr(png))->out_of_memory = true;
     return memory;
   }
   static void release(png_structp, void* memory) { std::free(memory); }
 
-  std::FILE* destination;
+  CheckedFile destination;
   png_structp png;
   png_infop info;
-  int error = 0;  ///< of the destination
   bool out_of_memory = false;
   char message[128] = {};  ///< libpng's
 };
 
-PngEncoder::PngEncoder(std::string file, const ImageFileSettings& settings)
-    : file_(std::move(file)), settings_(settings), pixels_(display_format(settings)) {}
+class PngEncoder final : public ImageEncoder {
+ public:
+  PngEncoder(const std::string& file, const ImageFileSettings& settings)
+      : ImageEncoder(file, settings), pixels_(display_format(settings)) {}
 
-PngEncoder::~PngEncoder() = default;
+  bool holds_alpha() const override { return true; }
+  bool is_for_display() const override { return true; }
+  void begin(const PictureExtent& extent, const std::vector<Channel>& channels, const ImageMetadata& metadata,
+             std::FILE* destination) override;
+  void write(const ImageBand& band) override;
+  Repairs finish() override;
+
+ private:
+  /// Runs calls of libpng, whose errors are jumps: `calls` must make no object that has a destructor. Throws an
+  /// OutputError with the true reason of a failure, or std::bad_alloc.
+  template <class Calls>
+  void guard(const Calls& calls);
+
+  PixelFormat pixels_;
+  std::vector<std::uint8_t> bytes_;  ///< of a band; kept from band to band
+  std::unique_ptr<OpenPng> open_;
+};
+
+}  // namespace
 
 void PngEncoder::begin(const PictureExtent& extent, const std::vector<Channel>& /*only the first are stored*/,
                        const ImageMetadata& metadata, std::FILE* destination) {
   std::vector<PngText> texts = png_texts(metadata, settings_);
   std::vector<png_text_struct> chunks(texts.size());
   for (std::size_t i = 0; i < texts.size(); ++i) {
-    chunks[i].compression = text_kind(texts[i].text);
+    chunks[i].compression = text_format(texts[i].text);
     chunks[i].key = texts[i].keyword.data();
     chunks[i].text = texts[i].text.data();
     chunks[i].text_length = texts[i].text.size();
@@ -113,7 +171,7 @@ void PngEncoder::begin(const PictureExtent& extent, const std::vector<Channel>& 
   const auto width = static_cast<png_uint_32>(extent.region.width());
   const auto height = static_cast<png_uint_32>(extent.region.height());
   const int color = pixels_.alpha ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB;
-  open_ = std::make_unique<OpenFile>(destination);
+  open_ = std::make_unique<OpenPng>(destination);
   const png_structp png = open_->png;
   const png_infop info = open_->info;
   guard([&] {
@@ -139,11 +197,11 @@ void PngEncoder::write(const ImageBand& band) {
   const auto rows = static_cast<std::size_t>(band.region.height());
   bytes_.resize(rows * row_bytes);
   std::vector<Repairs> repairs(rows);
-  for_each_index(band.region.height(), settings_.threads, [&](int row) {
-    const auto place = static_cast<std::size_t>(row);
+  for_each_index(band.region.height(), settings_.threads, [&](int index) {
+    const auto row = static_cast<std::size_t>(index);
     std::vector<float> values(row_values);
-    repairs[place] = stored_row(band, row, pixels_, values.data());
-    quantize(values, settings_.bit_depth, bytes_.data() + place * row_bytes);
+    repairs[row] = stored_row(band, index, pixels_, values.data());
+    quantize(values, settings_.bit_depth, bytes_.data() + row * row_bytes);
   });
   for (const Repairs& of_row : repairs) repairs_ += of_row;
   guard([&] {
@@ -153,8 +211,7 @@ void PngEncoder::write(const ImageBand& band) {
 
 Repairs PngEncoder::finish() {
   guard([&] { png_write_end(open_->png, nullptr); });
-  errno = 0;
-  if (std::fflush(open_->destination) != 0) fail(std::generic_category().message(errno != 0 ? errno : EIO));
+  if (!open_->destination.flush()) fail(open_->destination.error());
   return repairs_;
 }
 
@@ -164,11 +221,13 @@ void PngEncoder::guard(const Calls& calls) {
     calls();
     return;
   }
-  if (open_->error != 0) fail(std::generic_category().message(open_->error));
+  if (open_->destination.error() != 0) fail(open_->destination.error());
   if (open_->out_of_memory) throw std::bad_alloc();
   fail(open_->message);
 }
 
-void PngEncoder::fail(const std::string& reason) const { throw OutputError("cannot write " + file_ + ": " + reason); }
+std::unique_ptr<ImageEncoder> make_png_encoder(const std::string& file, const ImageFileSettings& settings) {
+  return std::make_unique<PngEncoder>(file, settings);
+}
 
 }  // namespace raytrace

@@ -1,8 +1,7 @@
 #include "raytrace/output/png_file.h"
 
-#include <sys/stat.h>
-
 #include <cstdint>
+#include <sstream>
 #include <string_view>
 
 #include "raytrace/output/file_handle.h"
@@ -30,11 +29,11 @@ std::string read(std::FILE* file, std::size_t size) {
 
 /// Of a tEXt chunk "keyword, 0, text"; of an iTXt chunk "keyword, 0, is compressed, method, language, 0, translated
 /// keyword, 0, text".
-void add_text(const std::string& kind, const std::string& content, std::map<std::string, std::string>& texts) {
+void add_text(const std::string& type, const std::string& content, std::map<std::string, std::string>& texts) {
   std::size_t end = content.find('\0');
   if (end == std::string::npos) return;
   const std::string keyword = content.substr(0, end);
-  if (kind == "iTXt") {
+  if (type == "iTXt") {
     if (content.size() < end + 3 || content[end + 1] != 0) return;
     end = content.find('\0', end + 3);
     if (end != std::string::npos) end = content.find('\0', end + 1);
@@ -53,14 +52,14 @@ std::optional<PngFile> read_png_file(const std::string& file) {
     const std::string head = read(stream.get(), 8);
     if (head.size() < 8) return std::nullopt;
     std::uint64_t left = std::uint64_t{number(head, 0)} + checksum_size;
-    const std::string kind = head.substr(4);
-    const bool is_header = kind == "IHDR", is_text = kind == "tEXt" || kind == "iTXt";
+    const std::string type = head.substr(4);
+    const bool is_header = type == "IHDR", is_text = type == "tEXt" || type == "iTXt";
     if (is_header != (png.width == 0) || (is_header && left != header_size + checksum_size)) return std::nullopt;
     if (is_header || (is_text && left < longest_text)) {
       const std::string content = read(stream.get(), left - checksum_size);
       if (content.size() < left - checksum_size) return std::nullopt;
       left = checksum_size;
-      if (is_text) add_text(kind, content, png.texts);
+      if (is_text) add_text(type, content, png.texts);
       if (is_header) {
         png.width = static_cast<int>(number(content, 0));
         png.height = static_cast<int>(number(content, 4));
@@ -68,10 +67,17 @@ std::optional<PngFile> read_png_file(const std::string& file) {
         if (png.width <= 0 || png.height <= 0) return std::nullopt;
       }
     }
-    if (kind == "IEND") return read(stream.get(), left).size() == left ? std::optional(png) : std::nullopt;
+    if (type == "IEND") return read(stream.get(), left).size() == left ? std::optional(png) : std::nullopt;
     // Past what is not looked at; behind the file's end, the next head is not there.
     if (fseeko(stream.get(), static_cast<off_t>(left), SEEK_CUR) != 0) return std::nullopt;
   }
+}
+
+std::string exposure_text(double exposure) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  if (exposure != 0) text << exposure;
+  return text.str();
 }
 
 }  // namespace raytrace

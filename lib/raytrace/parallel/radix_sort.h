@@ -18,22 +18,22 @@ void radix_sort(std::vector<Item>& items, int threads) {
   constexpr unsigned digit_bits = 11;
   constexpr std::size_t digits = std::size_t{1} << digit_bits;
   std::vector<Item> sorted(items.size());
-  std::vector<std::array<std::uint32_t, digits>> places(chunk_count(items.size()));  // of each chunk's, by digit
+  std::vector<std::array<std::uint32_t, digits>> starts(chunk_count(items.size()));  // of each chunk's, by digit
   for (unsigned shift = 0; shift < 32; shift += digit_bits) {
     const auto digit = [shift](const Item& item) { return item.key >> shift & (digits - 1); };
     for_each_chunk(items.size(), threads, [&](std::size_t chunk, std::size_t first, std::size_t last) {
-      places[chunk].fill(0);
-      for (std::size_t i = first; i < last; ++i) ++places[chunk][digit(items[i])];
+      starts[chunk].fill(0);
+      for (std::size_t i = first; i < last; ++i) ++starts[chunk][digit(items[i])];
     });
-    std::uint32_t place = 0;
+    std::uint32_t start = 0;
     for (std::size_t value = 0; value < digits; ++value)
-      for (auto& of_chunk : places) {
+      for (auto& of_chunk : starts) {
         const std::uint32_t count = of_chunk[value];
-        of_chunk[value] = place;
-        place += count;
+        of_chunk[value] = start;
+        start += count;
       }
     for_each_chunk(items.size(), threads, [&](std::size_t chunk, std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) sorted[places[chunk][digit(items[i])]++] = items[i];
+      for (std::size_t i = first; i < last; ++i) sorted[starts[chunk][digit(items[i])]++] = items[i];
     });
     items.swap(sorted);
   }

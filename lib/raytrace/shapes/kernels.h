@@ -14,6 +14,7 @@
 #include "raytrace/shapes/cylinder_kernel.h"
 #include "raytrace/shapes/disk_kernel.h"
 #include "raytrace/shapes/plane_kernel.h"
+#include "raytrace/shapes/rectangle_kernel.h"
 #include "raytrace/shapes/registry.h"
 #include "raytrace/shapes/sphere_kernel.h"
 #include "raytrace/shapes/torus_kernel.h"

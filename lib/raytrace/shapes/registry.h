@@ -1,16 +1,18 @@
-// All shapes. A new shape: its own pair of files, one include and one name here. (docs/how-to-add-a-type.md)
+// All shapes. A new shape: its own pair of files, one include and one name here, and one
+// include in kernels.h. (docs/how-to-add-a-type.md)
 #pragma once
 
 #include "raytrace/math/type_list.h"
 #include "raytrace/shapes/cylinder.h"
 #include "raytrace/shapes/disk.h"
 #include "raytrace/shapes/plane.h"
+#include "raytrace/shapes/rectangle.h"
 #include "raytrace/shapes/sphere.h"
 #include "raytrace/shapes/torus.h"
 #include "raytrace/shapes/triangle.h"
 
 namespace raytrace {
 
-using Shapes = TypeList<Plane, Sphere, Triangle, Cylinder, Torus, Disk>;
+using Shapes = TypeList<Plane, Sphere, Triangle, Cylinder, Torus, Disk, Rectangle>;
 
 }  // namespace raytrace

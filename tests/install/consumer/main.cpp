@@ -1,6 +1,9 @@
-// example PICTURE: a red sphere on a floor, made, rendered and written by the library.
+// example FRAMES WHOLE, such as: example ball.####.exr whole.jpg
+// Makes a scene, renders it frame by frame, and then one picture in two parts, which it merges.
+#include <csignal>
 #include <exception>
 #include <iostream>
+#include <string>
 
 #include "raytrace/raytrace.h"
 
@@ -8,7 +11,8 @@ namespace {
 
 using namespace raytrace;
 
-SceneDescription sphere_on_floor() {
+/// A red ball that falls to the floor.
+SceneDescription ball_at(double height) {
   SceneDescription scene;
   scene.viewplane.hres = 320;
   scene.viewplane.vres = 200;
@@ -34,24 +38,56 @@ SceneDescription sphere_on_floor() {
   const MaterialReference floor{matte, 0}, red{matte, 1};
 
   std::get<ObjectItems<Plane>>(scene.objects).push_back({{{0, 0, 0}, {0, 1, 0}}, "", floor});
-  std::get<ObjectItems<Sphere>>(scene.objects).push_back({{{0, 1, 0}, 1}, "ball", red});
+  std::get<ObjectItems<Sphere>>(scene.objects).push_back({{{0, height, 0}, 1}, "ball", red});
   return scene;
+}
+
+/// Prints what a render says.
+class Printer : public RenderObserver {
+  void on_message(MessageLevel level, const std::string& text) override {
+    (level == MessageLevel::step ? std::cout : std::cerr) << text << '\n';
+  }
+};
+
+RenderControl control;
+
+bool render_all(const std::string& frames, const std::string& whole) {
+  Printer printer;
+
+  // An animation: three frames, each in passes, with a checkpoint once a minute from which the next run goes on.
+  RenderJob job;
+  job.outputs = {frames};
+  job.checkpoint = frames + ".checkpoint.exr";
+  job.resume = true;
+  job.skip_existing = true;
+  job.time_limit = 600;
+  const RenderBatch batch({"ball"}, frame_numbers("1-3"), job);
+  for (std::size_t i = 0; i < batch.size(); ++i) {
+    const RenderResult result = render_picture(batch[i], ball_at(4.0 - batch[i].frame), printer, control);
+    if (result.outcome != RenderOutcome::written && result.outcome != RenderOutcome::skipped) return false;
+  }
+
+  // One picture in two parts, as two machines would render them.
+  MergeSettings merge;
+  for (int index = 0; index < 2; ++index) {
+    RenderJob part;
+    part.tile = Tile{index, 2};
+    part.outputs = {whole + ".tile" + std::to_string(index) + ".exr"};
+    if (render_picture(part, ball_at(1), printer, control).outcome != RenderOutcome::written) return false;
+    merge.pieces.push_back(part.outputs.front());
+  }
+  merge.outputs = {whole};
+  merge_pieces(merge, [] { return control.is_stopped(); });
+  return !control.is_stopped();
 }
 
 }  // namespace
 
 int main(int argument_count, char** arguments) {
-  if (argument_count != 2) return 2;
+  if (argument_count != 3) return 2;
+  std::signal(SIGINT, [](int) { control.stop(); });  // the checkpoint and the picture so far are written
   try {
-    const SceneDescription description = sphere_on_floor();
-    const auto scene = build_scene(description, {});  // throws SceneError, with all that is wrong with it
-    RayCounts rays;
-    const Film film = render(*scene, description, {}, rays);
-    ImageMetadata metadata;
-    metadata.samples = description.viewplane.samples;
-    metadata.camera = camera_matrices(description);
-    write_image(arguments[1], film, metadata, {});
-    std::cout << rays.camera + rays.shadow << " rays\n";
+    return render_all(arguments[1], arguments[2]) ? 0 : 1;
   } catch (const std::exception& error) {
     std::cerr << "example: " << error.what() << '\n';
     return 1;

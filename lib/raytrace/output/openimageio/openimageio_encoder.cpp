@@ -1,19 +1,23 @@
-#include "raytrace/output/openimageio/openimageio_encoder.h"
-
+// The formats that OpenImageIO writes, but for EXR and PNG.
 #include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <limits>
+#include <map>
+#include <memory>
 #include <new>
-#include <system_error>
+#include <sstream>
 #include <vector>
 
 #include "raytrace/memory/out_of_memory.h"
-#include "raytrace/output/openimageio/edge_limits.h"
-#include "raytrace/output/openimageio/metadata.h"
+#include "raytrace/output/file_handle.h"
+#include "raytrace/output/image_encoder.h"
 #include "raytrace/output/openimageio_module.h"
+#include "raytrace/output/picture_date.h"
+#include "raytrace/output/pixel_format.h"
 #include "raytrace/text/nearest_name.h"
 #include "raytrace/text/quoted.h"
 
@@ -25,7 +29,7 @@ using Names = std::vector<std::string>;
 
 std::unique_ptr<OIIO::ImageOutput> create_writer(const std::string& extension) {
   auto writer = OIIO::ImageOutput::create("picture" + extension);
-  OIIO::geterror();  // told better by the caller
+  OIIO::geterror();  // the caller's message is better
   if (!writer) return writer;
   // Two of OpenImageIO's writers make no file: a text terminal and a bin. EXR and PNG files are written elsewhere.
   const std::string_view format = writer->format_name();
@@ -54,65 +58,126 @@ bool is_known(const std::string& extension) {
   });
 }
 
+/// How large and how small pictures of a format can be: each edge, in pixels.
+struct EdgeLimits {
+  int least, most;
+};
+
+/// What OpenImageIO's writers take, and its readers give back, in all versions from 2.4 on. Not all of them say so
+/// themselves: libjpeg ends the process, and a GIF gets the width modulo 65536. oiio_name: "jpeg", "targa".
+EdgeLimits edge_limits(const std::string& oiio_name) {
+  constexpr int unlimited = std::numeric_limits<int>::max();
+  constexpr int sixteen_bits = 65535;
+  static const std::map<std::string, EdgeLimits> limits = {
+      {"bmp", {1, sixteen_bits}},                        // OpenImageIO's own limit from 2.5 on, as for pnm
+      {"gif", {1, sixteen_bits}}, {"heif", {1, 32768}},  // beyond it libheif reads nothing
+      {"ico", {1, 256}},          {"iff", {1, 8192}},
+      {"jpeg", {1, 65500}},       {"jpeg2000", {32, unlimited}},  // five times halved, it still has a pixel
+      {"pnm", {1, sixteen_bits}}, {"rla", {1, sixteen_bits}},
+      {"sgi", {1, sixteen_bits}}, {"targa", {1, sixteen_bits}},
+      {"webp", {1, 16383}},
+  };
+  const auto found = limits.find(oiio_name);
+  return found == limits.end() ? EdgeLimits{1, unlimited} : found->second;
+}
+
+/// Adds the metadata as standard attributes, which are all that these formats keep: one line of description holds most
+/// of it. exposure: of a picture for display, else 0. Throws OutputError if SOURCE_DATE_EPOCH is not a time.
+void add_metadata(OIIO::ImageSpec& spec, const ImageMetadata& metadata, double exposure) {
+  spec.attribute("DateTime", picture_date().text);
+  if (!metadata.software.empty()) spec.attribute("Software", metadata.software);  // JPEG's IPTC aborts on empty text
+  std::ostringstream description;
+  description.imbue(std::locale::classic());
+  description << "scene " << metadata.scene_file << ", " << metadata.samples << " samples a pixel, seed "
+              << metadata.seed;
+  if (exposure != 0) description << ", exposure " << exposure;
+  for (const ImageAttribute& attribute : metadata.attributes)
+    if (attribute.name == "raytrace:partial") description << ", partial";
+  spec.attribute("ImageDescription", description.str());
+}
+
 /// 0, or an error number.
-int copy(std::FILE* from, std::FILE* to) {
+int copy(std::FILE* from, CheckedFile& to) {
   if (std::fseek(from, 0, SEEK_SET) != 0) return errno;
   std::array<char, 65536> buffer;
   std::size_t size = buffer.size();
   while (size == buffer.size()) {
     size = std::fread(buffer.data(), 1, buffer.size(), from);
     if (std::ferror(from) != 0) return EIO;
-    if (std::fwrite(buffer.data(), 1, size, to) != size) return errno;
+    if (!to.write(buffer.data(), size)) break;
   }
-  return std::fflush(to) == 0 ? 0 : errno;
+  to.flush();
+  return to.error();
 }
 
-}  // namespace
-
-/// A file that remembers why a write failed and pretends to go on: some of OpenImageIO's writers do not tell of a
-/// failure, and the JPEG writer ends the process.
-class OpenImageIOEncoder::CheckedFile final : public OIIO::Filesystem::IOFile {
+/// Pretends to go on after a failure, which the file remembers: some of OpenImageIO's writers do not report one, and
+/// the JPEG writer ends the process.
+class Proxy final : public OIIO::Filesystem::IOFile {
  public:
-  explicit CheckedFile(std::FILE* file) : IOFile(file, Write) {}
+  explicit Proxy(std::FILE* file) : IOFile(file, Write), file_(file) {}
 
   const char* proxytype() const override { return "checked"; }  // were it "file", libjpeg would write past us
 
   std::size_t write(const void* data, std::size_t size) override {
-    if (error_ == 0) {
-      errno = 0;
-      if (IOFile::write(data, size) == size) return size;
-      note_failure();
-    }
+    file_.write(data, size);
     m_pos += static_cast<std::int64_t>(size);
     return size;
   }
 
   bool seek(std::int64_t offset) override {
-    if (error_ == 0) {
-      errno = 0;
-      if (IOFile::seek(offset)) return true;
-      note_failure();
-    }
+    file_.seek(static_cast<std::uint64_t>(offset));
     m_pos = offset;
     return true;
   }
 
   /// Empties the buffer; 0, or the error number of the first failure.
   int finish() {
-    errno = 0;
-    if (error_ == 0 && (std::fflush(handle()) != 0 || std::ferror(handle()) != 0)) note_failure();
-    return error_;
+    file_.flush();
+    return file_.error();
   }
 
  private:
-  void note_failure() { error_ = errno != 0 ? errno : EIO; }
-
-  int error_ = 0;
+  CheckedFile file_;
 };
 
-OpenImageIOEncoder::OpenImageIOEncoder(std::string file, const std::string& extension,
+class OpenImageIOEncoder final : public ImageEncoder {
+ public:
+  /// extension: in lower case, with its dot. Throws OutputError.
+  OpenImageIOEncoder(const std::string& file, const std::string& extension, const ImageFileSettings& settings);
+
+  bool holds_float() const override { return type_ == OIIO::TypeFloat; }
+  bool holds_alpha() const override { return is_tiff(); }
+  bool is_for_display() const override { return pixels_.srgb; }
+  void check_size(int width, int height) const override;
+  void begin(const PictureExtent& extent, const std::vector<Channel>& channels, const ImageMetadata& metadata,
+             std::FILE* destination) override;
+  void write(const ImageBand& band) override;
+  Repairs finish() override;
+
+ private:
+  bool is_tiff() const { return writer_->format_name() == std::string_view("tiff"); }
+  void choose_pixels(const std::string& extension);
+  OIIO::ImageSpec image_spec(const ImageMetadata& metadata) const;
+  /// Runs it; where a failed write is the cause of its error, throws that instead.
+  template <class Action>
+  void guard(const Action& action);
+  void check(bool done) const;
+
+  std::string extension_;
+  PictureExtent extent_;
+  std::FILE* destination_ = nullptr;
+  std::unique_ptr<Proxy> proxy_;  ///< the destination, for writers that take such a thing
+  FileHandle memory_;             ///< to be copied there, for the others
+  std::unique_ptr<OIIO::ImageOutput> writer_;
+  OIIO::TypeDesc type_;  ///< of a stored channel
+  PixelFormat pixels_;
+};
+
+}  // namespace
+
+OpenImageIOEncoder::OpenImageIOEncoder(const std::string& file, const std::string& extension,
                                        const ImageFileSettings& settings)
-    : file_(std::move(file)), extension_(extension), settings_(settings), writer_(create_writer(extension)) {
+    : ImageEncoder(file, settings), extension_(extension), writer_(create_writer(extension)) {
   if (!writer_) {
     fail((is_known(extension) ? in_quotes(extension) + " is a format that can be read but not written"
                               : "no picture format has the extension " + in_quotes(extension)) +
@@ -124,8 +189,6 @@ OpenImageIOEncoder::OpenImageIOEncoder(std::string file, const std::string& exte
   constexpr int most_threads = 8;
   OIIO::attribute("threads", std::min(settings.threads, most_threads));
 }
-
-OpenImageIOEncoder::~OpenImageIOEncoder() = default;
 
 void OpenImageIOEncoder::choose_pixels(const std::string& extension) {
   constexpr float largest_float = std::numeric_limits<float>::max();
@@ -159,8 +222,8 @@ void OpenImageIOEncoder::begin(const PictureExtent& extent, const std::vector<Ch
   std::string name = file_;
   // OpenImageIO 2.4's TIFF writer leaves a file without a directory when it goes through a proxy.
   if (writer_->supports("ioproxy") && writer_->format_name() != std::string("tiff")) {
-    checked_ = std::make_unique<CheckedFile>(destination);
-    writer_->set_ioproxy(checked_.get());
+    proxy_ = std::make_unique<Proxy>(destination);
+    writer_->set_ioproxy(proxy_.get());
   } else {
     // By name, a writer may overlook a full disk. It writes to memory, and copying that is checked.
     memory_ = open_memory_file();
@@ -180,7 +243,8 @@ OIIO::ImageSpec OpenImageIOEncoder::image_spec(const ImageMetadata& metadata) co
   OIIO::ImageSpec spec(extent_.region.width(), extent_.region.height(), pixels_.channels(), type_);
   if (pixels_.srgb) {
     spec.attribute("oiio:ColorSpace", "sRGB");
-    if (pixels_.alpha) spec.attribute("oiio:UnassociatedAlpha", 1);  // else it tells that the colour is premultiplied
+    if (pixels_.alpha)
+      spec.attribute("oiio:UnassociatedAlpha", 1);  // else its files say that the colour is premultiplied
   } else if (is_tiff()) {
     constexpr int uncalibrated = 0xFFFF;
     spec.attribute("Exif:ColorSpace", uncalibrated);  // OpenImageIO 2.4 reports an error where there is no Exif at all
@@ -201,8 +265,9 @@ void OpenImageIOEncoder::write(const ImageBand& band) {
 Repairs OpenImageIOEncoder::finish() {
   guard([&] { check(writer_->close()); });
   writer_.reset();  // before the file that it writes to
-  const int error = checked_ ? checked_->finish() : copy(memory_.get(), destination_);
-  if (error != 0) fail(std::generic_category().message(error));
+  CheckedFile destination(destination_);
+  const int error = proxy_ ? proxy_->finish() : copy(memory_.get(), destination);
+  if (error != 0) fail(error);
   return repairs_;
 }
 
@@ -211,9 +276,9 @@ void OpenImageIOEncoder::guard(const Action& action) {
   try {
     action();
   } catch (const OutputError&) {
-    const int error = checked_ ? checked_->finish() : 0;
+    const int error = proxy_ ? proxy_->finish() : 0;
     writer_.reset();
-    if (error != 0) fail(std::generic_category().message(error));
+    if (error != 0) fail(error);
     throw;
   }
 }
@@ -224,10 +289,6 @@ void OpenImageIOEncoder::check(bool done) const {
   if (says_out_of_memory(reason)) throw std::bad_alloc();
   std::replace(reason.begin(), reason.end(), '\n', ' ');
   fail(reason.empty() ? "OpenImageIO's writer failed" : reason);
-}
-
-void OpenImageIOEncoder::fail(const std::string& reason) const {
-  throw OutputError("cannot write " + file_ + ": " + reason);
 }
 
 ImageEncoder* raytrace_make_openimageio_encoder(const std::string& file, const std::string& extension,

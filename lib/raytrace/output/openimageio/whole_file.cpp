@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "raytrace/cameras/view_plane.h"
+#include "raytrace/film/region.h"
 #include "raytrace/output/file_handle.h"
 #include "raytrace/output/openimageio_module.h"
 
@@ -26,11 +26,6 @@ bool has_its_end(const std::string& file, const std::string& format) {
          std::fread(bytes.data(), 1, bytes.size(), stream.get()) == bytes.size() && bytes == end->second;
 }
 
-bool is_possible(const OIIO::ImageSpec& spec) {
-  return spec.width > 0 && spec.height > 0 && spec.width <= largest_edge && spec.height <= largest_edge &&
-         double(spec.width) * double(spec.height) <= most_pixels;
-}
-
 }  // namespace
 
 bool raytrace_openimageio_reads_all_of(const std::string& file, int width, int height) {
@@ -39,7 +34,8 @@ bool raytrace_openimageio_reads_all_of(const std::string& file, int width, int h
   OIIO::ImageSpec spec;
   if (!picture || picture->format_name() == std::string("ico") || !picture->open(file, spec)) return false;
   const std::string format = picture->format_name();
-  if (!is_possible(spec) || (width > 0 && (spec.width != width || spec.height != height))) return false;
+  if (!is_allowed_size(spec.width, spec.height) || (width > 0 && (spec.width != width || spec.height != height)))
+    return false;
   // The date is what TIFF files of ours have last.
   if (format == "tiff" && spec.get_string_attribute("DateTime").empty()) return false;
   std::vector<float> row(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.nchannels));

@@ -1,0 +1,200 @@
+#include "process_limits.h"
+
+#include <pthread.h>
+#include <sys/resource.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <mutex>
+#include <optional>
+#include <sstream>
+
+#include "messages.h"
+#include "raytrace/batch/message_text.h"
+#include "raytrace/memory/process_status.h"
+
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
+namespace raytrace {
+
+namespace {
+
+/// Until whoever holds it lets it go.
+void* wait_at(void* gate) {
+  const std::lock_guard passing(*static_cast<std::mutex*>(gate));
+  return nullptr;
+}
+
+/// A file's text; empty if there is none.
+std::string text_of(const std::string& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+/// Whether `name` is one of the words between commas.
+bool lists(const std::string& words, const std::string& name) {
+  return ("," + words + ",").find("," + name + ",") != std::string::npos;
+}
+
+/// The path of this process in the hierarchy that controls memory: that of version 1, or of version 2 if there is none.
+/// Lines of /proc/self/cgroup: number, controllers, path; version 2 has no controllers.
+struct GroupPath {
+  bool version_1 = false;
+  std::string path;
+};
+
+std::optional<GroupPath> group_path(const std::string& cgroups) {
+  std::optional<GroupPath> result;
+  std::istringstream lines(cgroups);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t first = line.find(':');
+    const std::size_t second = line.find(':', first + 1);
+    if (first == std::string::npos || second == std::string::npos) continue;
+    const std::string controllers = line.substr(first + 1, second - first - 1);
+    const bool version_1 = lists(controllers, "memory");
+    if (version_1 || (controllers.empty() && !result)) result = {version_1, line.substr(second + 1)};
+  }
+  return result;
+}
+
+/// Where that hierarchy is mounted, and the group that is its root there.
+/// Lines of /proc/self/mountinfo: number, parent, device, root, mount point, options, ..., "-", type, source, options.
+struct GroupMount {
+  std::string root, folder;
+};
+
+std::optional<GroupMount> group_mount(const std::string& mountinfo, bool version_1) {
+  std::istringstream lines(mountinfo);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t separator = line.find(" - ");
+    if (separator == std::string::npos) continue;
+    std::istringstream start(line), end(line.substr(separator + 3));
+    std::string skipped, type, options;
+    GroupMount mount;
+    start >> skipped >> skipped >> skipped >> mount.root >> mount.folder;
+    end >> type >> skipped >> options;
+    if (version_1 ? type == "cgroup" && lists(options, "memory") : type == "cgroup2") return mount;
+  }
+  return std::nullopt;
+}
+
+/// That of one group; "max" and the largest number that there is mean none.
+std::optional<std::uint64_t> limit_in(const std::string& folder) {
+  constexpr std::uint64_t none = std::uint64_t{1} << 60U;
+  for (const char* const name : {"/memory.max", "/memory.limit_in_bytes"}) {
+    std::uint64_t limit = 0;
+    if (std::istringstream(text_of(folder + name)) >> limit && limit < none) return limit;
+  }
+  return std::nullopt;
+}
+
+/// What was freed, whose pages go back to the system: it is reserved, but will be touched again.
+std::uint64_t given_back() {
+#if defined(__GLIBC__)
+  malloc_trim(0);
+  return mallinfo2().fordblks;
+#else
+  return 0;
+#endif
+}
+
+/// What is reserved, and counts for RLIMIT_DATA, but is never touched, and does not count for the group: large parts
+/// of stacks, and 128 MiB of a device of Embree 3.
+std::uint64_t untouched_memory() {
+  const std::uint64_t to_be_touched = given_back();
+  const std::uint64_t reserved = process_status_bytes("VmData"), touched = process_status_bytes("RssAnon");
+  return reserved - std::min(touched + to_be_touched, reserved);
+}
+
+/// What the threads that are still to be started reserve for their stacks: those that work, and as many that write
+/// pictures.
+std::uint64_t stacks_to_come(int threads) {
+  constexpr std::uint64_t stack = std::uint64_t{8} << 20U, small_stack = std::uint64_t{1} << 20U;
+  const auto wanted = static_cast<std::uint64_t>(threads);
+  return (wanted - std::min(wanted, process_status("Threads") - 1)) * stack + wanted * small_stack;
+}
+
+/// The least that a group of this process allows, in bytes.
+std::optional<std::uint64_t> group_memory_limit() {
+  std::optional<std::uint64_t> least;
+  for (const std::string& folder :
+       memory_group_folders(text_of("/proc/self/cgroup"), text_of("/proc/self/mountinfo"))) {
+    const std::optional<std::uint64_t> limit = limit_in(folder);
+    if (limit) least = std::min(*limit, least.value_or(*limit));
+  }
+  return least;
+}
+
+std::uint64_t obeyed_limit = 0;
+
+}  // namespace
+
+int threads_with_room(int wanted) {
+  if (wanted == 1) return 1;  // there already
+  // Of one that traces rays, and of those of OpenEXR and OpenImageIO.
+  constexpr std::size_t library_stacks = std::size_t{2} << 20U;
+  const std::size_t stack = tbb::global_control::active_value(tbb::global_control::thread_stack_size) + library_stacks;
+  pthread_attr_t attributes;
+  pthread_attr_init(&attributes);
+  pthread_attr_setstacksize(&attributes, stack);
+  std::vector<pthread_t> threads;
+  {
+    std::mutex gate;
+    std::unique_lock closed(gate);
+    pthread_t thread{};
+    while (static_cast<int>(threads.size()) < wanted && pthread_create(&thread, &attributes, wait_at, &gate) == 0)
+      threads.push_back(thread);
+    closed.unlock();
+    for (const pthread_t started : threads) pthread_join(started, nullptr);
+  }
+  pthread_attr_destroy(&attributes);
+  const int started = static_cast<int>(threads.size());
+  return started == wanted ? wanted : std::max(1, started / 2);
+}
+
+void log_missing_threads(int wanted, int used) {
+  if (used == wanted) return;
+  log_warning("there is no room for " + std::to_string(wanted) +
+              " threads: " + counted(static_cast<std::uint64_t>(used), "thread") + " used");
+}
+
+std::vector<std::string> memory_group_folders(const std::string& cgroups, const std::string& mountinfo) {
+  const std::optional<GroupPath> group = group_path(cgroups);
+  if (!group) return {};
+  const std::optional<GroupMount> mount = group_mount(mountinfo, group->version_1);
+  if (!mount) return {};
+  // In a container the path may be one that only the machine around it sees: there what is mounted is the own group.
+  std::filesystem::path inside = group->path;
+  if (mount->root != "/") inside = inside.lexically_relative(mount->root);
+  inside = inside.relative_path();
+  if (inside.empty() || inside == "." || *inside.begin() == "..") inside.clear();
+  std::vector<std::string> folders;
+  for (; !inside.empty(); inside = inside.parent_path()) folders.push_back(mount->folder + "/" + inside.string());
+  folders.push_back(mount->folder);
+  return folders;
+}
+
+void obey_group_memory_limit(int threads, std::uint64_t untouched_to_come) {
+  const std::optional<std::uint64_t> allowed = group_memory_limit();
+  rlimit data{};
+  if (!allowed || getrlimit(RLIMIT_DATA, &data) != 0) return;
+  static const rlim_t asked = data.rlim_cur;  // by `ulimit -d`
+  // What is not data: the kernel's tables, the group's other processes, files on their way to the disk.
+  const std::uint64_t others = *allowed / 16;
+  data.rlim_cur =
+      std::min<rlim_t>(asked, *allowed - others + untouched_memory() + stacks_to_come(threads) + untouched_to_come);
+  if (setrlimit(RLIMIT_DATA, &data) == 0) obeyed_limit = *allowed;
+}
+
+std::string memory_limit_text() {
+  if (obeyed_limit == 0) return "";
+  return ": the control group of this process allows " + std::to_string(obeyed_limit >> 20U) + " MiB";
+}
+
+}  // namespace raytrace

@@ -1,0 +1,33 @@
+// What the machine leaves this process of threads and memory.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace raytrace {
+
+/// As many of the wanted threads as a render should use: all, if they can be started;
+/// where a limit on memory (`ulimit -v`) or on threads does not allow that, half of those that can, so that something
+/// is left for the scene. Starts them for a moment, since nothing else says how many there can be.
+int threads_with_room(int wanted);
+
+/// Warns if fewer threads are used than are wanted.
+void log_missing_threads(int wanted, int used);
+
+/// The kernel kills what grows beyond the memory limit of its control group (cgroup), without a word. So that the
+/// program can report it instead, and end as it does where the machine itself has no more, it may from now on take no
+/// more data (RLIMIT_DATA) than the group allows. What is reserved and never touched does not count: what there is of
+/// it now, the stacks that are still to come where so many threads work, and untouched_to_come, in bytes. So it is
+/// called again when that has changed. Does nothing without a limit.
+void obey_group_memory_limit(int threads, std::uint64_t untouched_to_come = 0);
+
+/// ": the control group of this process allows 200 MiB" if that is what is obeyed, else nothing.
+std::string memory_limit_text();
+
+/// A group's own folder, and those of the groups that it is part of up to the root; no folder if memory is not
+/// controlled. cgroups, mountinfo: what the files of these names in /proc/self hold.
+/// https://docs.kernel.org/admin-guide/cgroup-v2.html, and man 7 cgroups
+std::vector<std::string> memory_group_folders(const std::string& cgroups, const std::string& mountinfo);
+
+}  // namespace raytrace

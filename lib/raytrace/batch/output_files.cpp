@@ -1,0 +1,132 @@
+#include "raytrace/batch/output_files.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "raytrace/aovs/aov_selection.h"
+#include "raytrace/batch/message_text.h"
+#include "raytrace/batch/provenance.h"
+#include "raytrace/batch/settings_error.h"
+#include "raytrace/description/scene_hash.h"
+#include "raytrace/output/atomic_file.h"
+#include "raytrace/output/complete_picture.h"
+#include "raytrace/output/film_channels.h"
+
+namespace raytrace {
+
+void check_output_settings(const RenderJob& job) {
+  const std::vector<std::string>& files = job.outputs;
+  for (const std::string& file : files) check_format(file, job.image_file_settings());
+  if (job.full_float && std::none_of(files.begin(), files.end(), holds_float))
+    throw SettingsError("--float: none of the outputs can hold floats; .exr and .tif can");
+  if (job.transparent && std::none_of(files.begin(), files.end(), holds_alpha))
+    throw SettingsError("--transparent: none of the outputs can hold alpha; .exr, .png and .tif can");
+  if (job.exposure) refuse_useless_exposure(files, job.image_file_settings());
+  if (!job.aovs.empty() && std::none_of(files.begin(), files.end(), holds_data))
+    throw SettingsError("--aov: none of the outputs can hold more than colour; .exr can");
+  if (!job.checkpoint.empty() && !job.resume && std::filesystem::exists(job.checkpoint))
+    throw SettingsError("--checkpoint: there is a " + job.checkpoint +
+                        " already; --resume goes on from it, or remove it");
+}
+
+void check_outputs(const RenderJob& job) {
+  check_output_settings(job);
+  for (const std::string& file : job.files()) {
+    const AtomicFile made_and_removed(file);
+  }
+}
+
+void refuse_useless_exposure(const std::vector<std::string>& files, const ImageFileSettings& settings) {
+  const auto uses_it = [&](const std::string& file) { return is_for_display(file, settings); };
+  if (std::none_of(files.begin(), files.end(), uses_it))
+    throw SettingsError(
+        "--exposure: all outputs hold linear colour, which it does not change; .png, .jpg and .tif (without "
+        "--float) are sRGB-encoded");
+}
+
+bool may_be_skipped(const RenderJob& job) {
+  const auto exists = [](const std::string& file) { return std::filesystem::exists(file); };
+  return job.skip_existing && !job.outputs.empty() && (job.checkpoint.empty() || !exists(job.checkpoint)) &&
+         std::all_of(job.outputs.begin(), job.outputs.end(), exists);
+}
+
+bool outputs_are_complete(const RenderJob& job, const SceneDescription& description) {
+  PieceIdentity identity;
+  identity.provenance.scene = scene_hash(description, job.threads);
+  identity.whole = crop_window(description.viewplane, job);
+  identity.film.seed = job.seed;
+  identity.film.transparent = job.transparent;
+  identity.film.extent = {description.viewplane.hres, description.viewplane.vres, render_window(identity.whole, job)};
+  identity.film.samples = sample_range(description.viewplane, job);
+  WantedPicture wanted;
+  wanted.extent = identity.film.extent;
+  wanted.channels = color_channels(job.full_float);
+  for (Channel& channel : aov_channels(job.aovs)) wanted.channels.push_back(std::move(channel));
+  if (job.sample_offset)
+    for (Channel& channel : sum_channels()) wanted.channels.push_back(std::move(channel));
+  wanted.bit_depth = job.bit_depth;
+  wanted.exposure = job.exposure.value_or(0);
+  wanted.attributes = picture_attributes(identity, job.time_limit.has_value());
+  return std::all_of(job.outputs.begin(), job.outputs.end(),
+                     [&](const std::string& file) { return is_complete_picture(file, wanted); });
+}
+
+/// Whether the action could be done; its error is reported.
+template <class Action>
+bool OutputFiles::succeeds(const Action& action) const {
+  try {
+    action();
+    return true;
+  } catch (const OutputError& error) {
+    observer_.on_message(MessageLevel::error, error.what());
+    return false;
+  }
+}
+
+OutputFiles::OutputFiles(const RenderJob& job, const std::vector<std::string>& files, const PictureExtent& extent,
+                         const ImageMetadata& metadata, std::vector<Channel> sums, RenderObserver& observer)
+    : job_(job), observer_(observer), sums_(std::move(sums)), channels_(color_channels(job.full_float)) {
+  const std::vector<Channel> aovs = aov_channels(job.aovs);
+  channels_.insert(channels_.end(), aovs.begin(), aovs.end());
+  channels_.insert(channels_.end(), sums_.begin(), sums_.end());
+  for (const std::string& name : files) {
+    succeeds([&] {
+      files_.push_back(
+          {name, std::make_unique<ImageFile>(name, extent, channels_, metadata, job.image_file_settings())});
+    });
+  }
+}
+
+bool OutputFiles::write(const Film& film) {
+  const Region& region = film.region();
+  ImageBand band;  // a few rows at a time, so that no second copy of the picture is needed
+  for (int y0 = region.y0; y0 < region.y1 && !files_.empty(); y0 = band.region.y1) {
+    band.planes.resize(std::min(band.planes.size(), ImageBand::colors));
+    fill_color(band, film, y0, std::min(y0 + band_rows(region.width(), channels_.size()), region.y1), job_.threads);
+    fill_aovs(band, ImageBand::colors, film);
+    if (!sums_.empty()) append_sums(band, sums_, film);
+    std::erase_if(files_, [&](File& file) { return !succeeds([&] { file.image->write(band); }); });
+  }
+  return !files_.empty();
+}
+
+std::vector<std::string> OutputFiles::commit() {
+  std::vector<std::string> written;
+  for (File& file : files_) {
+    succeeds([&] {
+      const Repairs repairs = file.image->commit();
+      written.push_back(file.name);
+      if (repairs.clamped > 0)
+        observer_.on_message(MessageLevel::warning,
+                             file.name + ": " + counted(repairs.clamped, "value") +
+                                 " beyond what the format holds became its largest; in EXR, --float keeps them");
+      if (repairs.not_finite > 0)
+        observer_.on_message(MessageLevel::warning,
+                             file.name + ": " + counted(repairs.not_finite, "value") + " not finite; NaN became 0");
+      observer_.on_message(MessageLevel::step, "wrote " + file.name);
+    });
+  }
+  return written;
+}
+
+}  // namespace raytrace

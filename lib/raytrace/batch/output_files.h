@@ -1,0 +1,59 @@
+// The image files of a picture, and what is checked of them before the render.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "raytrace/batch/render_job.h"
+#include "raytrace/batch/render_observer.h"
+#include "raytrace/description/scene_description.h"
+#include "raytrace/output/image_file.h"
+
+namespace raytrace {
+
+/// Throws OutputError or SettingsError for what would fail at the end of the render: a format, a file or folder that
+/// cannot be written, a checkpoint that is there and not to be resumed from. (Temporary files are made and removed.)
+void check_outputs(const RenderJob& job);
+
+/// The part of it that opens no file.
+void check_output_settings(const RenderJob& job);
+
+/// Throws SettingsError if the exposure matters to none of the files.
+void refuse_useless_exposure(const std::vector<std::string>& files, const ImageFileSettings& settings);
+
+/// Whether all outputs are there and may be left as they are (RenderJob::skip_existing). A checkpoint that is still
+/// there says that they are not complete, whatever their formats can.
+bool may_be_skipped(const RenderJob& job);
+
+/// Whether all outputs are whole, and of this picture, as far as their formats say.
+bool outputs_are_complete(const RenderJob& job, const SceneDescription& description);
+
+/// Writes the outputs of a job. One that fails is reported, and the others go on.
+class OutputFiles {
+ public:
+  /// files: those of job.outputs to write. sums: the sum_channels() that EXR files keep, too; empty if none.
+  OutputFiles(const RenderJob& job, const std::vector<std::string>& files, const PictureExtent& extent,
+              const ImageMetadata& metadata, std::vector<Channel> sums, RenderObserver& observer);
+
+  /// film: whole rows of the extent's region, the next below those written before. False if no file is left.
+  bool write(const Film& film);
+
+  /// After the last row: gives the files their names, which it returns.
+  std::vector<std::string> commit();
+
+ private:
+  struct File {
+    std::string name;
+    std::unique_ptr<ImageFile> image;
+  };
+  template <class Action>
+  bool succeeds(const Action& action) const;
+
+  const RenderJob& job_;
+  RenderObserver& observer_;
+  std::vector<Channel> sums_, channels_;  ///< channels_: all of them
+  std::vector<File> files_;               ///< those without a fault
+};
+
+}  // namespace raytrace

@@ -1,0 +1,165 @@
+#include "raytrace/batch/render_job.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+#include "raytrace/batch/file_names.h"
+#include "raytrace/batch/frame_numbers.h"
+#include "raytrace/batch/message_text.h"
+#include "raytrace/batch/settings_error.h"
+#include "raytrace/text/quoted.h"
+
+namespace raytrace {
+
+std::vector<std::string> RenderJob::files() const {
+  std::vector<std::string> files = outputs;
+  if (!statistics.empty()) files.push_back(statistics);
+  if (!checkpoint.empty()) files.push_back(checkpoint);
+  return files;
+}
+
+ViewPlane requested_view_plane(const ViewPlane& viewplane, const RenderJob& job) {
+  const Resolution unscaled = job.resolution.value_or(Resolution{viewplane.hres, viewplane.vres});
+  const double width = std::max(1.0, std::round(unscaled.width * job.scale));
+  const double height = std::max(1.0, std::round(unscaled.height * job.scale));
+  if (!is_allowed_size(width, height)) {
+    char size[64];
+    std::snprintf(size, sizeof size, "%.0f x %.0f", width, height);
+    throw SettingsError(std::string("a picture of ") + size + " pixels is too large; the most is " +
+                        std::to_string(largest_edge) + " along an edge and " +
+                        std::to_string(static_cast<long long>(most_pixels)) + " in all");
+  }
+  ViewPlane requested = viewplane;
+  if (width != viewplane.hres || height != viewplane.vres)
+    requested = with_resolution(viewplane, static_cast<int>(width), static_cast<int>(height));
+  requested.samples = job.samples.value_or(viewplane.samples);
+  if (std::int64_t{job.sample_offset.value_or(0)} + requested.samples > std::numeric_limits<int>::max())
+    throw SettingsError("--sample-offset: a picture has at most 2147483647 samples per pixel");
+  return requested;
+}
+
+SampleRange sample_range(const ViewPlane& viewplane, const RenderJob& job) {
+  const auto count = static_cast<std::uint32_t>(viewplane.samples);
+  if (job.sample_offset) return {*job.sample_offset, count, false};
+  return {0, count, count == 1};
+}
+
+Region crop_window(const ViewPlane& viewplane, const RenderJob& job) {
+  if (!job.crop) return {0, 0, viewplane.hres, viewplane.vres};
+  if (const auto problem = crop_problem(*job.crop, viewplane.hres, viewplane.vres))
+    throw SettingsError("--crop: " + text_of(*job.crop) + ": " + *problem);
+  return *job.crop;
+}
+
+Region render_window(const Region& crop_window, const RenderJob& job) {
+  if (!job.tile) return crop_window;
+  const auto pixels = std::int64_t{crop_window.width()} * crop_window.height();
+  if (job.tile->count > pixels)
+    throw SettingsError("--tile: the picture has only " + std::to_string(pixels) + " pixels");
+  return tile_of(crop_window, job.tile->index, job.tile->count);
+}
+
+std::optional<SceneDescription> load_picture(const RenderJob& job, RenderObserver& observer, Phase& phase) {
+  observer.on_stage(RenderStage::load);
+  Diagnostics diagnostics(on_one_line(job.scene_name()));
+  std::optional<SceneDescription> description;
+  {
+    const PhaseTimer timer(phase);
+    description = load_scene(job.scene, diagnostics, job.threads, {job.frame, job.variables});
+  }
+  observer.on_diagnostics(diagnostics);
+  if (!description) return std::nullopt;
+  observer.on_message(MessageLevel::step,
+                      job.scene_name() + ": " + contents_text(*description) + ", read" + time_taken(phase.seconds));
+  description->viewplane = requested_view_plane(description->viewplane, job);
+  return description;
+}
+
+std::string contents_text(const SceneDescription& description) {
+  const auto count = [](const auto& lists) {
+    return std::apply([](const auto&... list) { return (list.size() + ...); }, lists);
+  };
+  return counted(count(description.objects), "object") + ", " + counted(count(description.lights), "light");
+}
+
+RenderBatch::RenderBatch(std::vector<std::string> scenes, std::vector<int> frames, RenderJob each,
+                         const std::vector<UsedFile>& other_files)
+    : scenes_(std::move(scenes)), frames_(std::move(frames)), each_(std::move(each)) {
+  if (!frames_.empty()) {
+    for (auto* const names : {&scenes_, &each_.outputs})
+      for (std::string& name : *names) name = with_folders_kept(name);
+    for (auto* const name : {&each_.statistics, &each_.checkpoint}) *name = with_folders_kept(*name);
+  }
+  const auto from_standard_input = std::count(scenes_.begin(), scenes_.end(), "-");
+  if (from_standard_input > 1 || (from_standard_input == 1 && frame_count() > 1)) {
+    throw SettingsError("standard input can be read once; give a file for " +
+                        std::string(frame_count() > 1 ? "several frames" : "the second scene"));
+  }
+  refuse_clashes(other_files);
+}
+
+void RenderBatch::refuse_clashes(const std::vector<UsedFile>& other_files) const {
+  UsedFiles files;
+  for (const UsedFile& file : other_files) files.add_or_refuse(file);
+  const auto add_written = [&](const std::string& option, const std::string& pattern, const std::string& name) {
+    const UsedFile file{option, name, true};
+    const UsedFile* const other = name.empty() ? nullptr : files.add(file);
+    if (other == nullptr) return;
+    if (other->role != option || other->file != name) refuse_clash(file, *other);
+    const std::string tokens = with_tokens(pattern, frame_count() > 1, scenes_.size() > 1);
+    throw SettingsError(
+        option + ": more than one render would write " + name + "; " +
+        (tokens == pattern ? "give scenes and outputs names that differ" : "use a name such as " + tokens));
+  };
+  std::string last_scene;
+  for (std::size_t i = 0; i < size(); ++i) {
+    const RenderJob job = (*this)[i];
+    if (job.scene != last_scene) files.add_or_refuse({"the scene", job.scene == "-" ? "/dev/stdin" : job.scene, false});
+    last_scene = job.scene;
+    for (std::size_t k = 0; k < job.outputs.size(); ++k) add_written("--output", each_.outputs[k], job.outputs[k]);
+    add_written("--stats", each_.statistics, job.statistics);
+    add_written("--checkpoint", each_.checkpoint, job.checkpoint);
+  }
+}
+
+std::optional<int> RenderBatch::frame(std::size_t i) const {
+  if (frames_.empty()) return std::nullopt;
+  return frames_[i % frame_count()];
+}
+
+std::string RenderBatch::scene(std::size_t i) const { return scene_file_name(scenes_[i / frame_count()], frame(i)); }
+
+RenderJob RenderBatch::operator[](std::size_t i) const {
+  RenderJob job = each_;
+  job.scene = scene(i);
+  job.is_one_of_frames = frame(i).has_value();
+  job.frame = frame(i).value_or(job.frame);
+  const NameValues values{frame(i), job.tile ? std::optional(job.tile->index) : std::nullopt, job.scene};
+  for (std::string& output : job.outputs) output = file_name(output, values);
+  job.statistics = file_name(job.statistics, values);
+  job.checkpoint = file_name(job.checkpoint, values);
+  return job;
+}
+
+std::string RenderBatch::name(std::size_t i) const {
+  const std::optional<int> number = frame(i);
+  return scene(i) + (number ? ", frame " + std::to_string(*number) : "");
+}
+
+std::vector<std::string> RenderBatch::names(const std::vector<std::size_t>& some) const {
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < some.size();) {
+    const std::size_t scene_number = some[k] / frame_count();
+    std::vector<int> numbers;
+    const std::size_t first = some[k];
+    for (; k < some.size() && some[k] / frame_count() == scene_number; ++k)
+      numbers.push_back(frame(some[k]).value_or(0));
+    names.push_back(numbers.size() == 1 ? name(first) : scenes_[scene_number] + ", frames " + frames_text(numbers));
+  }
+  return names;
+}
+
+}  // namespace raytrace

@@ -1,0 +1,66 @@
+// What a render says while it runs, and what it may be asked.
+#pragma once
+
+#include <atomic>
+#include <string>
+
+#include "raytrace/xml/diagnostics.h"
+
+namespace raytrace {
+
+enum class MessageLevel {
+  error,  ///< something failed; the render goes on if it can
+  warning,
+  note,  ///< an answer to what was asked
+  step,  ///< what was done
+};
+
+/// The parts of a render, in their order.
+enum class RenderStage { check_outputs, load, build, render };
+
+/// Derive from it what is to be known of a render.
+class RenderObserver {
+ public:
+  virtual ~RenderObserver() = default;
+
+  /// A stage begins.
+  virtual void on_stage(RenderStage /*stage*/) {}
+
+  /// A line, without its end. From any thread, at any time.
+  virtual void on_message(MessageLevel /*level*/, const std::string& /*text*/) {}
+
+  /// What is wrong or doubtful in the scene's file; after an error the render fails.
+  virtual void on_diagnostics(const Diagnostics& /*diagnostics*/) {}
+
+  /// fraction: of the render that is done; 1 in the end alone. One at a time, from any thread.
+  virtual void on_progress(double /*fraction*/) {}
+};
+
+/// What is asked of a render while it runs. All may be called from any thread, and from signal handlers.
+class RenderControl {
+ public:
+  /// The render writes the checkpoint and the picture so far, and ends.
+  void stop() {
+    stop_ = true;
+    pause_ = true;
+  }
+  bool is_stopped() const { return stop_; }
+
+  /// The picture so far is written to its files.
+  void request_picture() {
+    picture_ = true;
+    pause_ = true;
+  }
+  /// Whether it was asked for since the last call.
+  bool take_picture_request() { return picture_.exchange(false); }
+
+  /// The stop flag of a pass over the picture: what is asked for is done between two of them.
+  std::atomic<bool>& pause() { return pause_; }
+
+ private:
+  // Whoever sees the pause sees why: it is set last.
+  std::atomic<bool> stop_ = false, picture_ = false, pause_ = false;
+  static_assert(std::atomic<bool>::is_always_lock_free);
+};
+
+}  // namespace raytrace

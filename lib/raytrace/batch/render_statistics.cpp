@@ -1,0 +1,134 @@
+#include "raytrace/batch/render_statistics.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "raytrace/batch/message_text.h"
+#include "raytrace/memory/process_status.h"
+#include "raytrace/text/quoted.h"
+
+namespace raytrace {
+
+namespace {
+
+std::string aligned_line(const char* name, const std::string& value) {
+  char start[32];
+  std::snprintf(start, sizeof start, "%-16s", name);
+  return start + value + "\n";
+}
+
+std::string seconds_text(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%10.3f s", seconds);
+  return text;
+}
+
+/// With a metric prefix: "12.3 M".
+std::string amount_text(double amount, const char* unit) {
+  const char* const prefixes[] = {"", "k", "M", "G", "T"};
+  int prefix = 0;
+  while (amount >= 1000 && prefix < 4) {
+    amount /= 1000;
+    ++prefix;
+  }
+  char text[64];
+  const int length =
+      std::snprintf(text, sizeof text, prefix == 0 ? "%10.0f %s%s" : "%10.1f %s%s", amount, prefixes[prefix], unit);
+  std::string result(text, static_cast<std::size_t>(length));
+  while (result.back() == ' ') result.pop_back();
+  return result;
+}
+
+std::string amount_text(std::uint64_t amount, const char* unit) {
+  return amount_text(static_cast<double>(amount), unit);
+}
+
+}  // namespace
+
+double RenderStatistics::rays_per_second() const {
+  return phases.render.seconds > 0 ? static_cast<double>(total_rays()) / phases.render.seconds : 0;
+}
+
+std::uint64_t peak_memory_bytes() {
+  // Linux counts pages in batches, thread by thread, so that its peak may be a few pages less than it was before.
+  static std::uint64_t highest = 0;
+  highest = std::max(highest, process_status_bytes("VmHWM"));
+  if (highest > 0) return highest;
+  // The next best: the peak of whoever started this process is in it, too.
+  constexpr std::uint64_t unit = 1024;  // Linux counts kibibytes
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * unit;
+}
+
+std::string statistics_text(const RenderStatistics& s) {
+  const std::string picture = std::to_string(s.width) + " x " + std::to_string(s.height) + ", " +
+                              counted(static_cast<std::uint64_t>(s.samples), "sample") + " per pixel";
+  const std::string crop = s.region == Region{0, 0, s.width, s.height} ? "" : ", crop " + text_of(s.region);
+  const auto peak = [](const char* phase, const Phase& its) {
+    const std::string amount = amount_text(its.peak_memory_bytes, "B");
+    return std::string(phase) + " " + amount.substr(amount.find_first_not_of(' '));
+  };
+  const std::string by_phase = " (" + peak("load", s.phases.load) + ", " + peak("build", s.phases.build) + ", " +
+                               peak("render", s.phases.render) + ", " + peak("write", s.phases.write) + ")";
+  return aligned_line("scene", on_one_line(s.scene_file)) + aligned_line("picture", picture + crop) +
+         aligned_line("load", seconds_text(s.phases.load.seconds)) +
+         aligned_line("build", seconds_text(s.phases.build.seconds)) +
+         aligned_line("render", seconds_text(s.phases.render.seconds)) +
+         aligned_line("write", seconds_text(s.phases.write.seconds)) +
+         aligned_line("total", seconds_text(s.phases.seconds())) +
+         aligned_line("camera rays", amount_text(s.rays.camera, "")) +
+         aligned_line("shadow rays", amount_text(s.rays.shadow, "")) +
+         aligned_line("rays per second", amount_text(s.rays_per_second(), "")) +
+         aligned_line("primitives", amount_text(s.scene.primitives, "")) +
+         aligned_line("BVH", amount_text(s.scene.bvh_bytes, "B")) +
+         aligned_line("peak memory", amount_text(s.peak_memory_bytes, "B") + by_phase) +
+         aligned_line("threads", std::to_string(s.threads)) +
+         aligned_line("instructions", s.scene.isa + ", " + std::to_string(s.scene.lanes) + " lanes") +
+         aligned_line("Embree", s.scene.embree_version);
+}
+
+std::string statistics_json(const RenderStatistics& s) {
+  const nlohmann::ordered_json report = {
+      {"schema_version", 1},
+      {"software", s.software},
+      {"scene", s.scene_file},
+      {"outputs", s.outputs},
+      {"picture",
+       {{"width", s.width},
+        {"height", s.height},
+        {"region", {s.region.x0, s.region.y0, s.region.x1, s.region.y1}},
+        {"samples", s.samples},
+        {"seed", s.seed}}},
+      {"seconds",
+       {{"load", s.phases.load.seconds},
+        {"build", s.phases.build.seconds},
+        {"render", s.phases.render.seconds},
+        {"write", s.phases.write.seconds},
+        {"total", s.phases.seconds()}}},
+      {"rays",
+       {{"camera", s.rays.camera},
+        {"shadow", s.rays.shadow},
+        {"total", s.total_rays()},
+        {"per_second", s.rays_per_second()}}},
+      {"primitives", s.scene.primitives},
+      {"memory",
+       {{"bvh_bytes", s.scene.bvh_bytes},
+        {"peak_bytes", s.peak_memory_bytes},
+        {"peak_bytes_by_phase",
+         {{"load", s.phases.load.peak_memory_bytes},
+          {"build", s.phases.build.peak_memory_bytes},
+          {"render", s.phases.render.peak_memory_bytes},
+          {"write", s.phases.write.peak_memory_bytes}}}}},
+      {"threads", s.threads},
+      {"instruction_set", {{"name", s.scene.isa}, {"lanes", s.scene.lanes}}},
+      {"embree", s.scene.embree_version},
+  };
+  // A file name need not be UTF-8; JSON must.
+  return report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace raytrace

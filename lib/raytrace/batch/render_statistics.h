@@ -1,0 +1,77 @@
+// What a render took and how much it did: for people as text, for programs as JSON, whose keys stand in
+// share/statistics.schema.json and docs/command-line.md; it says when its schema_version must grow.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "raytrace/film/film.h"
+#include "raytrace/render/renderer.h"
+
+namespace raytrace {
+
+struct Phase {
+  double seconds = 0;
+  std::uint64_t peak_memory_bytes = 0;  ///< the most that the process had held by its end
+};
+
+struct Phases {
+  Phase load;    ///< scene file -> description
+  Phase build;   ///< description -> scene with its BVH
+  Phase render;  ///< scene -> film
+  Phase write;   ///< film -> image files
+  double seconds() const { return load.seconds + build.seconds + render.seconds + write.seconds; }
+};
+
+struct RenderStatistics {
+  std::string software;
+  std::string scene_file;
+  std::vector<std::string> outputs;
+  int width = 0, height = 0;  ///< of the whole picture
+  Region region;              ///< rendered
+  int samples = 0;            ///< per pixel
+  std::uint64_t seed = 0;
+  int threads = 0;
+  Phases phases;
+  RayCounts rays;
+  SceneStatistics scene;
+  std::uint64_t peak_memory_bytes = 0;
+
+  std::uint64_t total_rays() const { return rays.camera + rays.shadow; }
+  double rays_per_second() const;
+};
+
+/// The most memory that this process has held so far.
+std::uint64_t peak_memory_bytes();
+
+/// Aligned lines, each with its end.
+std::string statistics_text(const RenderStatistics& statistics);
+
+std::string statistics_json(const RenderStatistics& statistics);
+
+/// Adds the time from its making to its end, or to stop(), to a phase, and notes the memory then.
+class PhaseTimer {
+ public:
+  explicit PhaseTimer(Phase& phase) : phase_(phase) {}
+  ~PhaseTimer() { stop(); }
+  PhaseTimer(const PhaseTimer&) = delete;
+  PhaseTimer& operator=(const PhaseTimer&) = delete;
+
+  /// Ends it before its scope does.
+  void stop() {
+    if (!running_) return;
+    phase_.seconds += std::chrono::duration<double>(Clock::now() - start_).count();
+    phase_.peak_memory_bytes = peak_memory_bytes();
+    running_ = false;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Phase& phase_;
+  Clock::time_point start_ = Clock::now();
+  bool running_ = true;
+};
+
+}  // namespace raytrace

@@ -1,0 +1,34 @@
+// All files that a run reads and writes, so that none of them destroys another.
+#pragma once
+
+#include <string>
+#include <unordered_map>
+
+#include "raytrace/output/file_identity.h"
+
+namespace raytrace {
+
+/// A file and what it is to the run.
+struct UsedFile {
+  std::string role;  ///< "--output", "the scene"
+  std::string file;  ///< as it was given
+  bool writes = false;
+};
+
+class UsedFiles {
+ public:
+  /// Adds a file. Returns the one that it clashes with, or null: the same file, however it was spelled, of which one
+  /// use or the other writes. Changes nothing on the disk.
+  const UsedFile* add(const UsedFile& file);
+
+  /// The same, but throws SettingsError if there is a clash.
+  void add_or_refuse(const UsedFile& file);
+
+ private:
+  std::unordered_map<FileIdentity, UsedFile> files_;
+};
+
+/// Throws the SettingsError of a clash, which names both files.
+[[noreturn]] void refuse_clash(const UsedFile& file, const UsedFile& other);
+
+}  // namespace raytrace

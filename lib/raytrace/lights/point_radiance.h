@@ -1,0 +1,35 @@
+// The radiance of lights at a point.
+#pragma once
+
+#include <limits>
+#include <string>
+
+#include "raytrace/lights/falloff.h"
+#include "raytrace/lights/light_sample.h"
+#include "raytrace/math/color.h"
+
+namespace raytrace {
+
+class PointRadiance {
+ public:
+  PointRadiance(const Rgb<double>& radiance, const std::string& falloff)
+      : at_distance_1_(radiance), inverse_square_(falloff == falloff_inverse_square) {}
+
+  const Rgb<float>& at_distance_1() const { return at_distance_1_; }
+
+  /// What a point gets that the light is `to_light` away from. Finite, however near it is.
+  template <class F>
+  Rgb<F> at(const Vec3<F>& to_light) const {
+    const Rgb<F> radiance(at_distance_1_);
+    if (!inverse_square_) return radiance;
+    const F share = F(1) / max(dot(to_light, to_light), F(std::numeric_limits<float>::min()));
+    const F most(std::numeric_limits<float>::max());
+    return {min(radiance.red * share, most), min(radiance.green * share, most), min(radiance.blue * share, most)};
+  }
+
+ private:
+  Rgb<float> at_distance_1_;
+  bool inverse_square_;
+};
+
+}  // namespace raytrace

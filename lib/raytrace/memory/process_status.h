@@ -1,0 +1,16 @@
+// What Linux says about this process.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace raytrace {
+
+/// A number of /proc/self/status, in the unit that it has there: 4 of a line "Threads:   4", 1234 of "VmData:   1234
+/// kB". 0 where there is none. https://docs.kernel.org/filesystems/proc.html
+std::uint64_t process_status(const std::string& field);
+
+/// The same for memory, which is in KiB there, in bytes.
+inline std::uint64_t process_status_bytes(const std::string& field) { return process_status(field) << 10U; }
+
+}  // namespace raytrace
