@@ -25,20 +25,20 @@ TEST_CASE("multiples below a number, which may be negative") {
 }
 
 TEST_CASE("a crop may reach beyond the picture by the picture's size on each side") {
-  CHECK(!crop_problem({0, 0, 640, 400}, 640, 400));
-  CHECK(!crop_problem({-640, -400, 1280, 800}, 640, 400));
-  CHECK(!crop_problem({640, 0, 700, 10}, 640, 400));
-  CHECK(crop_problem({-641, 0, 1, 1}, 640, 400));
-  CHECK(crop_problem({0, -401, 1, 1}, 640, 400));
-  CHECK(crop_problem({0, 0, 1281, 1}, 640, 400));
-  CHECK(crop_problem({0, 0, 1, 801}, 640, 400));
-  CHECK(crop_problem({5, 0, 5, 1}, 640, 400));
-  CHECK(crop_problem({0, 1, 5, 1}, 640, 400));
-  CHECK(crop_problem({-2147483647 - 1, 0, 2147483647, 1}, 640, 400));
-  CHECK(crop_problem({0, 0, 2147483647, 2147483647}, 65536, 4096));
-  CHECK(!crop_problem({0, 0, 65536, 4096}, 65536, 4096));
-  CHECK(crop_problem({-1, 0, 65536, 1}, 65536, 4096));
-  CHECK(crop_problem({0, -1, 65536, 4096}, 65536, 4096));
+  CHECK(!crop_error({0, 0, 640, 400}, 640, 400));
+  CHECK(!crop_error({-640, -400, 1280, 800}, 640, 400));
+  CHECK(!crop_error({640, 0, 700, 10}, 640, 400));
+  CHECK(crop_error({-641, 0, 1, 1}, 640, 400));
+  CHECK(crop_error({0, -401, 1, 1}, 640, 400));
+  CHECK(crop_error({0, 0, 1281, 1}, 640, 400));
+  CHECK(crop_error({0, 0, 1, 801}, 640, 400));
+  CHECK(crop_error({5, 0, 5, 1}, 640, 400));
+  CHECK(crop_error({0, 1, 5, 1}, 640, 400));
+  CHECK(crop_error({-2147483647 - 1, 0, 2147483647, 1}, 640, 400));
+  CHECK(crop_error({0, 0, 2147483647, 2147483647}, 65536, 4096));
+  CHECK(!crop_error({0, 0, 65536, 4096}, 65536, 4096));
+  CHECK(crop_error({-1, 0, 65536, 1}, 65536, 4096));
+  CHECK(crop_error({0, -1, 65536, 4096}, 65536, 4096));
 }
 
 }  // namespace raytrace::test

@@ -100,8 +100,8 @@ std::optional<Tile> read_tile(const ExrReader& piece) {
 void read_place(const ExrReader& piece, PieceIdentity& identity) {
   const PictureExtent& extent = identity.film.extent = piece.extent();
   identity.whole = region(piece, whole_name);
-  if (const auto problem = crop_problem(identity.whole, extent.full_width, extent.full_height))
-    refuse(piece, whole_name, text_of(identity.whole) + ": " + *problem);
+  if (const auto error = crop_error(identity.whole, extent.full_width, extent.full_height))
+    refuse(piece, whole_name, text_of(identity.whole) + ": " + *error);
   const Region own = region(piece, region_name);
   if (own != extent.region)
     throw InputError(piece.file() + " is damaged: its data window is " + text_of(extent.region) + ", its " +

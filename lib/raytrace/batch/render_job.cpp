@@ -49,8 +49,8 @@ SampleRange sample_range(const ViewPlane& viewplane, const RenderJob& job) {
 
 Region crop_window(const ViewPlane& viewplane, const RenderJob& job) {
   if (!job.crop) return {0, 0, viewplane.hres, viewplane.vres};
-  if (const auto problem = crop_problem(*job.crop, viewplane.hres, viewplane.vres))
-    throw SettingsError("--crop: " + text_of(*job.crop) + ": " + *problem);
+  if (const auto error = crop_error(*job.crop, viewplane.hres, viewplane.vres))
+    throw SettingsError("--crop: " + text_of(*job.crop) + ": " + *error);
   return *job.crop;
 }
 

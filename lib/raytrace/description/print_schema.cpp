@@ -17,19 +17,16 @@
 namespace raytrace {
 namespace {
 
-// For each range of numbers: the least value that is allowed.
 struct RangeLimits {
-  std::string_view prefix;
+  std::string_view prefix;  ///< of the types' names
   double least_number;
   int least_integer;
 };
-constexpr RangeLimits any_number = {"", -largest_number, INT_MIN};
-constexpr RangeLimits not_negative_number = {"notnegative", 0, 0};
-constexpr RangeLimits positive_number = {"positive", smallest_size, 1};
 
-const RangeLimits& limits(Range range) {
-  if (range == Range::positive) return positive_number;
-  return range == Range::not_negative ? not_negative_number : any_number;
+RangeLimits limits(Range range) {
+  if (range == Range::positive) return {"positive", smallest_size, 1};
+  if (range == Range::not_negative) return {"notnegative", 0, 0};
+  return {"", -largest_number, INT_MIN};
 }
 
 /// Of a number in an attribute.
@@ -149,7 +146,7 @@ class SchemaPrinter : private XmlWriter {
     print_restriction("variable", "xs:token", {{"pattern", R"(.*[$].*)"}});
     print_restriction("interpolation", "xs:token", {{"pattern", R"(linear|smooth|.*[$].*)"}});
     for (const Range range : {Range::any, Range::not_negative, Range::positive}) {
-      const RangeLimits& limit = limits(range);
+      const RangeLimits limit = limits(range);
       print_value_or_variable(number_name(range), "xs:double",
                               {{"minInclusive", number_text(limit.least_number)},
                                {"maxInclusive", number_text(largest_number)},

@@ -23,7 +23,7 @@ std::optional<Region> region_of(std::string_view text) {
   return region;
 }
 
-std::optional<std::string> crop_problem(const Region& crop, int width, int height) {
+std::optional<std::string> crop_error(const Region& crop, int width, int height) {
   if (crop.x0 >= crop.x1 || crop.y0 >= crop.y1) return "it holds no pixel: x1 must be above x0, and y1 above y0";
   if (!contains({-width, -height, 2 * width, 2 * height}, crop))
     return "it reaches outside the picture of " + std::to_string(width) + " x " + std::to_string(height) +

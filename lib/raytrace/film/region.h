@@ -39,6 +39,6 @@ constexpr bool is_allowed_size(double width, double height) {
 
 /// Why this part of a picture of width x height pixels cannot be rendered; none if it can. It may reach beyond the
 /// picture, by at most the picture's size on each side.
-std::optional<std::string> crop_problem(const Region& crop, int width, int height);
+std::optional<std::string> crop_error(const Region& crop, int width, int height);
 
 }  // namespace raytrace

@@ -119,8 +119,8 @@ PictureExtent extent_of(const Window& display, const Window& data) {
   const PictureExtent extent{static_cast<int>(display.width()),
                              static_cast<int>(display.height()),
                              {edge(0), edge(1), edge(2) + 1, edge(3) + 1}};
-  if (const auto problem = crop_problem(extent.region, extent.full_width, extent.full_height))
-    throw InputError("its data window " + text_of(extent.region) + " is none of this program's: " + *problem);
+  if (const auto error = crop_error(extent.region, extent.full_width, extent.full_height))
+    throw InputError("its data window " + text_of(extent.region) + " is none of this program's: " + *error);
   return extent;
 }
 
