@@ -48,11 +48,7 @@ class PictureRender {
  public:
   PictureRender(const RenderJob& job, RenderObserver& observer, RenderControl& control,
                 std::optional<SceneDescription> description)
-      : job_(job),
-        observer_(observer),
-        control_(control),
-        description_(std::move(description)),
-        checkpoint_(job.checkpoint, job.checkpoint_interval) {}
+      : job_(job), observer_(observer), control_(control), description_(std::move(description)) {}
 
   RenderResult run();
 
@@ -163,6 +159,7 @@ void PictureRender::begin_film() {
   identity_.tile = job_.tile;
   if (job_.is_one_of_frames) identity_.frame = job_.frame;
   identity_.variables = variables_text(job_.variables);
+  if (!job_.checkpoint.empty()) checkpoint_ = CheckpointFile(job_.checkpoint, job_.checkpoint_interval);
   if (job_.display_server) {
     const PictureExtent extent{description_->viewplane.hres, description_->viewplane.vres, settings_.region};
     display_ = std::make_unique<DisplayClient>(*job_.display_server, job_.outputs.front(), extent,
