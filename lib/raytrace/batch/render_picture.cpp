@@ -218,7 +218,7 @@ RenderOutcome PictureRender::render_in_bands(int band_rows) {
   Phases& phases = result_.statistics.phases;
   identity_.film = film_settings(*scene_, *description_, settings_);
   OutputFiles outputs(job_, job_.outputs, identity_.film.extent, metadata(),
-                      job_.sample_offset ? sum_channels() : std::vector<Channel>(), observer_);
+                      job_.sample_offset ? all_sum_channels() : std::vector<Channel>(), observer_);
   for (Region band = region; band.y0 < region.y1; band.y0 = band.y1) {
     band.y1 = std::min(band.y0 + band_rows, region.y1);
     settings_.region = band;
