@@ -7,7 +7,7 @@
 #include <sstream>
 #include <string>
 
-#include "findings.h"
+#include "reported.h"
 #include "support/catch.h"
 #include "support/contains.h"
 
@@ -36,7 +36,7 @@ SceneDescription good_scene() {
   return scene;
 }
 
-std::string problems(const std::function<void(SceneDescription&)>& change) {
+std::string errors_of(const std::function<void(SceneDescription&)>& change) {
   SceneDescription scene = good_scene();
   change(scene);
   Diagnostics diagnostics("s");
@@ -52,8 +52,8 @@ auto& matte(SceneDescription& scene) { return std::get<MaterialItems<Matte>>(sce
 
 }  // namespace
 
-TEST_CASE("a good description has no problem, nor has one that was read") {
-  CHECK(problems([](SceneDescription&) {}) == "");
+TEST_CASE("a good description has no error, nor has one that was read") {
+  CHECK(errors_of([](SceneDescription&) {}) == "");
   CHECK_NOTHROW(require_good_scene(good_scene()));
   CHECK_NOTHROW(require_good_scene(
       accepted(scene_with_sphere("<center x='0' y='0' z='0'/><radius>1</radius><material>steel</material>"))));
@@ -61,46 +61,46 @@ TEST_CASE("a good description has no problem, nor has one that was read") {
 
 TEST_CASE("each rule of the format holds for a description that a program has made") {
   using Scene = SceneDescription;
-  CHECK(problems([](Scene& s) { s.viewplane.hres = 0; }) ==
+  CHECK(errors_of([](Scene& s) { s.viewplane.hres = 0; }) ==
         "s: error: <viewplane> has '0' as <hres>, which must be at least 1\n");
-  CHECK(contains(problems([](Scene& s) { s.viewplane.samples = 0; }), "as <samples>, which must be at least 1"));
-  CHECK(contains(problems([](Scene& s) { s.viewplane.hres = 70000; }), "beyond the limit of 65536 pixels an edge"));
+  CHECK(contains(errors_of([](Scene& s) { s.viewplane.samples = 0; }), "as <samples>, which must be at least 1"));
+  CHECK(contains(errors_of([](Scene& s) { s.viewplane.hres = 70000; }), "beyond the limit of 65536 pixels an edge"));
   CHECK(
-      contains(problems([](Scene& s) { s.viewplane.background.green = nan; }), "'nan' as <background>, which is not"));
-  CHECK(contains(problems([](Scene& s) { camera(s).lookat = camera(s).eye; }),
+      contains(errors_of([](Scene& s) { s.viewplane.background.green = nan; }), "'nan' as <background>, which is not"));
+  CHECK(contains(errors_of([](Scene& s) { camera(s).lookat = camera(s).eye; }),
                  "<camera>: the camera's <eye> and <lookat> are the same point"));
-  CHECK(contains(problems([](Scene& s) { camera(s).up = {0, 0, 0}; }), "a <up> of length 0; it is a direction"));
-  CHECK(contains(problems([](Scene& s) { camera(s).viewdistance = 0; }), "must be greater than 0"));
-  CHECK(problems([](Scene& s) { first_sphere(s).parameters.radius = -1; }) ==
+  CHECK(contains(errors_of([](Scene& s) { camera(s).up = {0, 0, 0}; }), "a <up> of length 0; it is a direction"));
+  CHECK(contains(errors_of([](Scene& s) { camera(s).viewdistance = 0; }), "must be greater than 0"));
+  CHECK(errors_of([](Scene& s) { first_sphere(s).parameters.radius = -1; }) ==
         "s: error: <sphere> [0] has '-1' as <radius>, which must be greater than 0\n");
-  CHECK(contains(problems([](Scene& s) { first_sphere(s).parameters.radius = nan; }), "not a finite number"));
-  CHECK(contains(problems([](Scene& s) { first_sphere(s).parameters.center.y = infinite; }),
+  CHECK(contains(errors_of([](Scene& s) { first_sphere(s).parameters.radius = nan; }), "not a finite number"));
+  CHECK(contains(errors_of([](Scene& s) { first_sphere(s).parameters.center.y = infinite; }),
                  "'inf' as <center>, which is not"));
-  CHECK(contains(problems([](Scene& s) { first_sphere(s).parameters.center.x = 1e18; }), "beyond the largest number"));
-  CHECK(contains(problems([](Scene& s) { first_sphere(s).parameters.radius = 1e-20; }), "too small"));
-  CHECK(contains(problems([](Scene& s) { matte(s).parameters.kd = -1; }),
+  CHECK(contains(errors_of([](Scene& s) { first_sphere(s).parameters.center.x = 1e18; }), "beyond the largest number"));
+  CHECK(contains(errors_of([](Scene& s) { first_sphere(s).parameters.radius = 1e-20; }), "too small"));
+  CHECK(contains(errors_of([](Scene& s) { matte(s).parameters.kd = -1; }),
                  "<matte> [0] has '-1' as <kd>, which must not"));
-  CHECK(contains(problems([](Scene& s) { matte(s).name = ""; }), "<matte> [0] has '' as <name>, which is empty"));
+  CHECK(contains(errors_of([](Scene& s) { matte(s).name = ""; }), "<matte> [0] has '' as <name>, which is empty"));
   for (const char* const name : {"a  b", "a\nb", " a", "a ", "a\x01", "\xff"})
-    CHECK(contains(problems([&](Scene& s) { matte(s).name = name; }), "<matte> [0] has '"));
-  CHECK(contains(problems([](Scene& s) { first_sphere(s).name = "ball"; }),
+    CHECK(contains(errors_of([&](Scene& s) { matte(s).name = name; }), "<matte> [0] has '"));
+  CHECK(contains(errors_of([](Scene& s) { first_sphere(s).name = "ball"; }),
                  "<sphere> [1] has the object name 'ball' of <sphere> [0]; choose another"));
-  CHECK(contains(problems([](Scene& s) { std::get<MaterialItems<Phong>>(s.materials).push_back({{}, "clay", 0}); }),
+  CHECK(contains(errors_of([](Scene& s) { std::get<MaterialItems<Phong>>(s.materials).push_back({{}, "clay", 0}); }),
                  "<phong> [0] has the material name 'clay' of <matte> [0]"));
-  CHECK(problems([](Scene& s) { first_sphere(s).material.index = 1; }) ==
-        "s: error: <sphere> [0] refers to material 1 of kind 0, which is not there\n");
-  CHECK(contains(problems([](Scene& s) { first_sphere(s).material.kind = 77; }),
-                 "material 0 of kind 77, which is not there"));
-  CHECK(contains(problems([](Scene& s) { std::get<LightItems<AmbientLight>>(s.lights).resize(2); }),
+  CHECK(errors_of([](Scene& s) { first_sphere(s).material.index = 1; }) ==
+        "s: error: <sphere> [0] refers to material 1 of type 0, which is not there\n");
+  CHECK(contains(errors_of([](Scene& s) { first_sphere(s).material.kind = 77; }),
+                 "material 0 of type 77, which is not there"));
+  CHECK(contains(errors_of([](Scene& s) { std::get<LightItems<AmbientLight>>(s.lights).resize(2); }),
                  "<ambientlight> [1] is a second one"));
   CHECK(contains(
-      problems([](Scene& s) { std::get<LightItems<DirectionalLight>>(s.lights)[0].parameters.direction = {0, 0, 0}; }),
+      errors_of([](Scene& s) { std::get<LightItems<DirectionalLight>>(s.lights)[0].parameters.direction = {0, 0, 0}; }),
       "<directionallight> [0] has a <direction> of length 0"));
-  CHECK(problems([](Scene& s) { first_sphere(s).line = 7, first_sphere(s).parameters.radius = 0; }) ==
+  CHECK(errors_of([](Scene& s) { first_sphere(s).line = 7, first_sphere(s).parameters.radius = 0; }) ==
         "s:7: error: <sphere> [0] has '0' as <radius>, which must be greater than 0\n");
 }
 
-TEST_CASE("all problems are reported at once, and warnings alone are none") {
+TEST_CASE("all errors are reported at once, and warnings alone are none") {
   SceneDescription scene = good_scene();
   first_sphere(scene).parameters.radius = 0;
   first_sphere(scene).material.index = 9;
@@ -108,13 +108,13 @@ TEST_CASE("all problems are reported at once, and warnings alone are none") {
     require_good_scene(scene);
     FAIL("nothing was thrown");
   } catch (const SceneError& error) {
-    CHECK(error.what() == std::string("scene: error: <sphere> [0] refers to material 9 of kind 0, which is not there\n"
+    CHECK(error.what() == std::string("scene: error: <sphere> [0] refers to material 9 of type 0, which is not there\n"
                                       "scene: error: <sphere> [0] has '0' as <radius>, which must be greater than 0"));
   }
   const auto flatten = [](SceneDescription& s) {
     std::get<ObjectItems<Triangle>>(s.objects)[0].parameters.vertex3 = {2, 0, 0};
   };
-  CHECK(contains(problems(flatten), "s: warning: <triangle> [0]: the triangle is degenerate"));
+  CHECK(contains(errors_of(flatten), "s: warning: <triangle> [0]: the triangle is degenerate"));
   scene = good_scene();
   flatten(scene);
   CHECK_NOTHROW(require_good_scene(scene));

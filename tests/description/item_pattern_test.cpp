@@ -1,4 +1,4 @@
-// Items that are written like the ones before them are read without being parsed: nobody must be able to tell.
+// Items that are written like the ones before them are read without being parsed, with the same result.
 #include "raytrace/description/item_pattern.h"
 
 #include <sstream>
@@ -7,12 +7,11 @@
 #include <type_traits>
 #include <vector>
 
-#include "findings.h"
 #include "raytrace/description/read_fields.h"
 #include "raytrace/description/scene_layout.h"
-#include "raytrace/description/variables.h"
 #include "raytrace/xml/document.h"
 #include "raytrace/xml/scene_text.h"
+#include "reported.h"
 #include "support/catch.h"
 
 namespace raytrace::test {
@@ -20,7 +19,7 @@ namespace {
 
 /// What comes of a text.
 struct ReadText {
-  std::string findings, scene;
+  std::string reported, scene;
   std::vector<std::uint32_t> lines;  ///< of the objects
 };
 
@@ -39,7 +38,7 @@ ReadText read_text(const std::string& text) {
 }
 
 /// A group of which each item ends with a comment, or none: a comment has no part in a pattern. Comments stand where
-/// no place that a message names comes after them in their line.
+/// nothing that a message locates comes after them in their line.
 struct AlikeGroup {
   std::string section, group, item;
   std::vector<std::string> contents;
@@ -66,12 +65,12 @@ std::string numbered_sphere(int number, const std::string& rest = clay_end) {
 void check_among(const std::string& section, const std::string& group, const std::string& item,
                  const std::vector<std::string>& others, const std::vector<std::string>& odd_ones) {
   for (const std::string& odd : odd_ones)
-    for (const std::size_t place : {std::size_t{0}, std::size_t{1}, others.size() / 2, others.size()}) {
+    for (const std::size_t index : {std::size_t{0}, std::size_t{1}, others.size() / 2, others.size()}) {
       AlikeGroup mixed{section, group, item, others};
-      mixed.contents.insert(mixed.contents.begin() + static_cast<std::ptrdiff_t>(place), odd);
-      INFO(odd << " in place " << place);
+      mixed.contents.insert(mixed.contents.begin() + static_cast<std::ptrdiff_t>(index), odd);
+      INFO(odd << " at index " << index);
       const ReadText alike = read_text(mixed.scene(false)), parsed = read_text(mixed.scene(true));
-      CHECK(alike.findings == parsed.findings);
+      CHECK(alike.reported == parsed.reported);
       CHECK(alike.scene == parsed.scene);
       CHECK(alike.lines == parsed.lines);
     }
@@ -168,7 +167,7 @@ TEST_CASE("items that change their pattern again and again are read as they stan
                              "<radius>1</radius>" + (i % 3 == 0 ? "" : clay_end));
   }
   const ReadText alike = read_text(mixed.scene(false)), parsed = read_text(mixed.scene(true));
-  CHECK(alike.findings == "");
+  CHECK(alike.reported == "");
   CHECK(alike.scene == parsed.scene);
   CHECK(alike.lines == parsed.lines);
 }
@@ -178,12 +177,10 @@ TEST_CASE("a pattern reads what is alike, and nothing else") {
   const std::string text = "<raytracer><objects><spheres>" + first + "</spheres></objects></raytracer>";
   Diagnostics diagnostics("s");
   const SceneText source{TextBuffer(text), group_elements(), 1, diagnostics};
-  const SceneSettings settings;
-  const Variables variables(settings);
-  Document document(source, variables);
+  Document document(source);
   document.parse_items(source.chunk(0), diagnostics);
 
-  FieldsReader<Sphere::Parameters> fields(Sphere::fields());
+  FieldsReader<Sphere> fields;
   Sphere::Parameters parameters;
   const auto targets = [&] { return fields.targets(parameters, {}); };
   const auto pattern = ItemPattern::of(first, document.root().first_child().element(), fields.infos(), targets());

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "findings.h"
+#include "reported.h"
 #include "support/catch.h"
 #include "support/contains.h"
 
@@ -20,7 +20,7 @@ double at(double frame, const std::vector<Key>& keys) { return value_at(keys, fr
 
 Key key(double frame, double value, Interpolation interpolation = linear) { return {frame, {value}, interpolation}; }
 
-std::string findings_at(const std::string& text, int frame) {
+std::string reported_at(const std::string& text, int frame) {
   Diagnostics diagnostics("s");
   parse_scene(text, diagnostics, 0, {frame, {}});
   std::ostringstream out;
@@ -31,7 +31,7 @@ std::string findings_at(const std::string& text, int frame) {
 std::string printed_at(const std::string& text, int frame) {
   Diagnostics diagnostics("s");
   const auto scene = parse_scene(text, diagnostics, 0, {frame, {}});
-  return scene ? print_scene(*scene) : findings_at(text, frame);
+  return scene ? print_scene(*scene) : reported_at(text, frame);
 }
 
 /// The children of a sphere; its radius starts in column 29 of line 2.
@@ -128,7 +128,7 @@ TEST_CASE("variables in keys") {
 
 TEST_CASE("keys that make no sense are refused where they stand") {
   const auto check = [](const std::string& radius, const std::string& expected) {
-    CHECK(findings_at(with_radius(radius), 1) == "s:2:" + expected + "\n");
+    CHECK(reported_at(with_radius(radius), 1) == "s:2:" + expected + "\n");
   };
   const std::string good = "<key frame='1' value='2'/>";
   check("<radius><key value='2'/></radius>",
@@ -165,7 +165,7 @@ TEST_CASE("keys that make no sense are refused where they stand") {
 TEST_CASE("keys of a vector have its components, and no value stands beside them") {
   const auto check = [](const std::string& center, const std::string& expected) {
     const std::string text = scene_with_sphere(center + "<radius>1</radius><material>clay</material>");
-    CHECK(findings_at(text, 1) == "s:2:" + expected + "\n");
+    CHECK(reported_at(text, 1) == "s:2:" + expected + "\n");
   };
   check("<center><key frame='1' value='2'/></center>",
         "24: error: unknown attribute 'value' in <key>; write <key frame=\"1\" x=\"2\" y=\"2\" z=\"2\"/>");
@@ -186,7 +186,7 @@ TEST_CASE("integers, booleans and names have no keys") {
                                  : "<raytracer><viewplane>" + children +
                                        "</viewplane><lights><pointlights><pointlight>" + children +
                                        "</pointlight></pointlights></lights></raytracer>";
-    CHECK(contains(findings_at(text, 1),
+    CHECK(contains(reported_at(text, 1),
                    "unexpected element <key> in <" + std::string(element) + ">, which takes a plain value"));
   }
 }
@@ -195,9 +195,9 @@ TEST_CASE("a direction must not be 0 at the frame at hand") {
   const std::string text = scene_with(
       "<objects><planes><plane><point x='0' y='0' z='0'/><normal><key frame='0' x='0' y='1' z='0'/>"
       "<key frame='2' x='0' y='-1' z='0'/></normal><material>clay</material></plane></planes></objects>");
-  CHECK(findings_at(text, 0) == "");
-  CHECK(contains(findings_at(text, 1), "<normal> is a direction, so x, y and z must not all be 0"));
-  CHECK(contains(findings_at(text, 1), "at frame 1"));
+  CHECK(reported_at(text, 0) == "");
+  CHECK(contains(reported_at(text, 1), "<normal> is a direction, so x, y and z must not all be 0"));
+  CHECK(contains(reported_at(text, 1), "at frame 1"));
 }
 
 }  // namespace raytrace::test

@@ -1,10 +1,10 @@
-// The frame of a scene: sections, groups and names.
+// The layout of a scene: sections, groups and names.
 #include <string>
 #include <vector>
 
-#include "findings.h"
 #include "raytrace/description/scene_layout.h"
 #include "raytrace/text/quoted.h"
+#include "reported.h"
 #include "support/catch.h"
 #include "support/contains.h"
 
@@ -47,7 +47,7 @@ TEST_CASE("order is free: objects may come before their materials") {
   CHECK(std::get<ObjectItems<Sphere>>(scene.objects)[0].material.index == 0);
 }
 
-TEST_CASE("objects refer to materials by kind and index") {
+TEST_CASE("objects refer to materials by type and index") {
   const SceneDescription scene = accepted(scene_with(
       "<materials><phongs><phong><name>gold</name><ka>0</ka><kd>1</kd><ks>1</ks><cd red='1' green='1' blue='1'/>"
       "<cs red='1' green='1' blue='1'/></phong></phongs></materials><objects><spheres><sphere><material>gold</material>"
@@ -73,7 +73,18 @@ TEST_CASE("defaults stand where nothing is said") {
   CHECK(std::get<MaterialItems<Phong>>(scene.materials).at(0).parameters.exp == 20);
 }
 
-TEST_CASE("every element of the frame is told where it belongs when it stands elsewhere") {
+TEST_CASE("a scene may name its integrator, anywhere at its root") {
+  CHECK_FALSE(accepted(scene_with("")).integrator);
+  for_each_type(Integrators{}, [&]<class T>(std::type_identity<T>) {
+    const std::string element = "<integrator> <!-- --> <" + std::string(T::element) + "/> </integrator>";
+    const auto scene = accepted(scene_with("<objects/>" + element + "<lights/>"));
+    REQUIRE(scene.integrator);
+    CHECK(scene.integrator->index() == index_of<T>(Integrators{}));
+  });
+  CHECK(contains(reported(scene_with("<integrator name='raycast'/>")), "unexpected attribute 'name' in <integrator>"));
+}
+
+TEST_CASE("the message for an element that stands elsewhere says where it belongs") {
   const std::vector<LayoutEntry> layout = scene_layout();
   for (const LayoutEntry& entry : layout) {
     for (const LayoutEntry& other : layout) {
@@ -99,16 +110,16 @@ TEST_CASE("a degenerate triangle is a warning and is left out, its name stays ta
       "<vertexposition3 x='2' y='0' z='0'/><material>clay</material></triangle>";
   const std::string scene = scene_with("<objects><triangles>" + flat + "</triangles></objects>");
   CHECK(count<Triangle>(accepted(scene)) == 0);
-  CHECK(findings(scene) == "s:2:21: warning: the triangle is degenerate (its corners lie on a line) and is left out\n");
-  CHECK(contains(findings(scene_with("<objects><triangles>" + flat + flat + "</triangles></objects>")),
+  CHECK(reported(scene) == "s:2:21: warning: the triangle is degenerate (its corners lie on a line) and is left out\n");
+  CHECK(contains(reported(scene_with("<objects><triangles>" + flat + flat + "</triangles></objects>")),
                  "error: the object name 'flat' is taken by the <triangle> in line 2; choose another\n"));
 }
 
 TEST_CASE("an object may have the name of a material, and names count by letter") {
   const std::string scene =
       scene_with_sphere("<name>clay</name><center x='0' y='0' z='0'/><radius>1</radius><material>clay</material>");
-  CHECK(findings(scene) == "");
-  CHECK(contains(findings(scene_with_sphere("<center x='0' y='0' z='0'/><radius>1</radius><material>Clay</material>")),
+  CHECK(reported(scene) == "");
+  CHECK(contains(reported(scene_with_sphere("<center x='0' y='0' z='0'/><radius>1</radius><material>Clay</material>")),
                  "unknown material 'Clay' in <sphere>; did you mean 'clay'?"));
 }
 
@@ -116,7 +127,7 @@ TEST_CASE("of several things of one name each but the first is reported") {
   const std::string named =
       "<sphere><name>a</name><center x='0' y='0' z='0'/><radius>1</radius><material>clay</material></sphere>\n";
   const std::string found =
-      findings(scene_with("<objects><spheres>\n" + named + named + named + "</spheres></objects>"));
+      reported(scene_with("<objects><spheres>\n" + named + named + named + "</spheres></objects>"));
   CHECK(found ==
         "s:4:15: error: the object name 'a' is taken by the <sphere> in line 3; choose another\n"
         "s:5:15: error: the object name 'a' is taken by the <sphere> in line 3; choose another\n");
@@ -126,7 +137,7 @@ TEST_CASE("a faulty material is no second fault for the objects that use it") {
   const std::string text = scene_with_sphere("<center x='0' y='0' z='0'/><radius>1</radius><material>clay</material>");
   std::string faulty = text;
   faulty.replace(faulty.find("<ka>0</ka>"), 10, "<ka>x</ka>");
-  const std::string found = findings(faulty);
+  const std::string found = reported(faulty);
   CHECK(contains(found, "'x' in <ka> is not a number"));
   CHECK_FALSE(contains(found, "unknown material"));
 }
@@ -136,7 +147,7 @@ TEST_CASE("what is only misspelt or misplaced is not reported as missing, too") 
   const auto with = [&](const std::vector<std::pair<std::string, std::string>>& changes) {
     std::string text = good;
     for (const auto& [from, to] : changes) text.replace(text.find(from), from.size(), to);
-    return findings(text);
+    return reported(text);
   };
   REQUIRE(with({}).empty());
   CHECK(with({{"<viewplane>", "<viewPlane>"}, {"</viewplane>", "</viewPlane>"}}) ==
@@ -161,12 +172,12 @@ TEST_CASE("what is only misspelt or misplaced is not reported as missing, too") 
   // What has nothing to do with it is reported all the same.
   CHECK(contains(with({{"<viewplane>", "<stuff/><viewplane>"}, {"<material>clay", "<material>cley"}}),
                  "unknown material 'cley'"));
-  CHECK(contains(findings("<raytracer><stuff/></raytracer>"), "the scene has no <camera>; add one"));
+  CHECK(contains(reported("<raytracer><stuff/></raytracer>"), "the scene has no <camera>; add one"));
 }
 
 TEST_CASE("a vector or colour that is written in another way is shown with its own numbers") {
   const auto center = [](const std::string& element) {
-    return findings(scene_with_sphere(element + "<radius>1</radius><material>clay</material>"));
+    return reported(scene_with_sphere(element + "<radius>1</radius><material>clay</material>"));
   };
   const std::string right = "<center x=\"0\" y=\"1\" z=\"-2.5\"/>";
   for (const char* const element :
@@ -184,7 +195,7 @@ TEST_CASE("a vector or colour that is written in another way is shown with its o
                  "<key frame=\"3\" x=\"0\" y=\"1\" z=\"-2.5\"/>\n"));
 
   const auto color = [](const std::string& element) {
-    return findings(scene_with("<lights><ambientlight>" + element + "</ambientlight></lights>"));
+    return reported(scene_with("<lights><ambientlight>" + element + "</ambientlight></lights>"));
   };
   const std::string warm = "<color red=\"1\" green=\"0.5\" blue=\"0\"/>";
   for (const char* const element :
@@ -201,9 +212,9 @@ TEST_CASE("the root may name its schema, and nothing else") {
   scene.replace(0, 10,
                 "<raytracer xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" "
                 "xsi:noNamespaceSchemaLocation=\"raytracer.xsd\"");
-  CHECK(findings(scene) == "");
+  CHECK(reported(scene) == "");
   scene.replace(scene.find("2001"), 4, "2002");
-  CHECK(contains(findings(scene), "s:1:12: error: unexpected attribute 'xmlns:xsi' in <raytracer>; remove it"));
+  CHECK(contains(reported(scene), "s:1:12: error: unexpected attribute 'xmlns:xsi' in <raytracer>; remove it"));
 }
 
 TEST_CASE("the stray > of the seed's sample is a warning before every boolean, and an error elsewhere") {
@@ -211,10 +222,10 @@ TEST_CASE("the stray > of the seed's sample is a warning before every boolean, a
     return scene_with("<lights><pointlights><pointlight><location x='0' y='1' z='2'/><shadows>" + shadows +
                       "</shadows><scaleradiance>" + radiance + "</scaleradiance></pointlight></pointlights></lights>");
   };
-  CHECK(findings(lit("> false", "1")) ==
+  CHECK(reported(lit("> false", "1")) ==
         "s:2:72: warning: stray '>' before 'false' in <shadows> is ignored; remove it\n");
   CHECK_FALSE(std::get<LightItems<PointLight>>(accepted(lit(">false", "1")).lights).at(0).parameters.shadows);
-  CHECK(contains(findings(lit("true", ">1")), "error: '>1' in <scaleradiance> is not a number"));
+  CHECK(contains(reported(lit("true", ">1")), "error: '>1' in <scaleradiance> is not a number"));
 }
 
 }  // namespace raytrace::test

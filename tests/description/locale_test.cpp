@@ -2,7 +2,7 @@
 #include <clocale>
 #include <locale>
 
-#include "findings.h"
+#include "reported.h"
 #include "support/catch.h"
 #include "support/contains.h"
 
@@ -41,13 +41,13 @@ TEST_CASE("scenes are read, printed and refused in every locale alike") {
   const std::string faulty =
       std::string(1234, '\n') + scene_with_sphere("<center x='1,5' y='0' z='0'/><radius>1234567.5.</radius>");
   const std::string printed = print_scene(accepted(text));
-  const std::string found = findings(faulty);
+  const std::string found = reported(faulty);
   CHECK(contains(found, "s:1236:9: error: '1,5' for x in <center> is not a number; write it with a point: 1.5\n"));
 
   const ForeignLocale foreign;
   CHECK(std::get<ObjectItems<Sphere>>(accepted(text).objects).at(0).parameters.center.x == 1.25);
   CHECK(print_scene(accepted(text)) == printed);
-  CHECK(findings(faulty) == found);
+  CHECK(reported(faulty) == found);
 }
 
 }  // namespace raytrace::test

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <random>
 
-#include "findings.h"
+#include "reported.h"
 #include "support/catch.h"
 
 namespace raytrace::test {
@@ -13,23 +13,23 @@ namespace {
 
 double number(std::string_view text, Range range = Range::any) {
   double value = -77;
-  const DiagnosticText complaint = parse_number(text, range, value);
-  if (complaint) FAIL(text << " " << *complaint);
+  const OptionalMessage message = parse_number(text, range, value);
+  if (message) FAIL(text << " " << *message);
   return value;
 }
 
-std::string complaint_about(std::string_view text, Range range = Range::any) {
+std::string refusal(std::string_view text, Range range = Range::any) {
   double value = -77;
-  const DiagnosticText complaint = parse_number(text, range, value);
+  const OptionalMessage message = parse_number(text, range, value);
   CHECK(value == -77);
-  return complaint.value_or("");
+  return message.value_or("");
 }
 
-std::string integer_complaint(std::string_view text, Range range = Range::any) {
+std::string integer_refusal(std::string_view text, Range range = Range::any) {
   int value = -77;
-  const DiagnosticText complaint = parse_integer(text, range, value);
+  const OptionalMessage message = parse_integer(text, range, value);
   CHECK(value == -77);
-  return complaint.value_or("");
+  return message.value_or("");
 }
 
 }  // namespace
@@ -53,33 +53,33 @@ TEST_CASE("numbers are read whole, with white space and a plus sign around them"
 TEST_CASE("what is not wholly a number is refused") {
   for (const char* text : {"",   " ", "x", "1x", "1 2",   "0x10",  "--1",   "+-1",      "-+1", "++1", "1e",
                            "e1", ".", "+", "-",  "1_000", "1.2.3", "1e5.5", "\xd9\xa1", "1f",  "$1",  "true"}) {
-    CHECK(complaint_about(text) == "is not a number; write one such as 1.5");
+    CHECK(refusal(text) == "is not a number; write one such as 1.5");
   }
-  CHECK(complaint_about("1,5") == "is not a number; write it with a point: 1.5");
-  CHECK(complaint_about("1,000,000") == "is not a number; write one such as 1.5");
+  CHECK(refusal("1,5") == "is not a number; write it with a point: 1.5");
+  CHECK(refusal("1,000,000") == "is not a number; write one such as 1.5");
   for (const char* text : {"nan", "NaN", "-nan", "inf", "-inf", "Infinity", "+INF"}) {
-    CHECK(complaint_about(text) == "is not a finite number; write one such as 1.5");
+    CHECK(refusal(text) == "is not a finite number; write one such as 1.5");
   }
 }
 
 TEST_CASE("numbers beyond the limits of scenes are refused") {
   for (const char* text : {"1.0000001e17", "-2e17", "1e308", "1e309", "-1e99999", "1e+999999999999999999999"}) {
-    CHECK(complaint_about(text) == "is beyond the largest number that a scene may have, 1e+17");
+    CHECK(refusal(text) == "is beyond the largest number that a scene may have, 1e+17");
   }
-  CHECK(complaint_about(std::string(400, '9')) == "is beyond the largest number that a scene may have, 1e+17");
+  CHECK(refusal(std::string(400, '9')) == "is beyond the largest number that a scene may have, 1e+17");
   for (const char* text : {"1e-400", "-1e-999999999999999999999"}) {
-    CHECK(complaint_about(text) == "is too small to be told from 0; write 0");
+    CHECK(refusal(text) == "is too small to differ from 0; write 0");
   }
-  CHECK(complaint_about("0." + std::string(400, '0') + "1") == "is too small to be told from 0; write 0");
+  CHECK(refusal("0." + std::string(400, '0') + "1") == "is too small to differ from 0; write 0");
 }
 
 TEST_CASE("numbers keep their ranges") {
   CHECK(number("0", Range::not_negative) == 0);
-  CHECK(complaint_about("-1e-9", Range::not_negative) == "must not be negative");
+  CHECK(refusal("-1e-9", Range::not_negative) == "must not be negative");
   CHECK(number("1e-17", Range::positive) == smallest_size);
-  CHECK(complaint_about("0", Range::positive) == "must be greater than 0");
-  CHECK(complaint_about("-3", Range::positive) == "must be greater than 0");
-  CHECK(complaint_about("9e-18", Range::positive) == "is too small; the smallest size is 1e-17");
+  CHECK(refusal("0", Range::positive) == "must be greater than 0");
+  CHECK(refusal("-3", Range::positive) == "must be greater than 0");
+  CHECK(refusal("9e-18", Range::positive) == "is too small; the smallest size is 1e-17");
 }
 
 TEST_CASE("every double has a text that gives it back") {
@@ -107,19 +107,19 @@ TEST_CASE("integers are read whole") {
 }
 
 TEST_CASE("what is not wholly an integer is refused") {
-  CHECK(integer_complaint("10.5") == "is not a whole number; write one without point and exponent, such as 16");
-  CHECK(integer_complaint("1e3") == "must be written as a whole number: 1000");
-  CHECK(integer_complaint("16.") == "must be written as a whole number: 16");
-  CHECK(integer_complaint("-2.0") == "must be written as a whole number: -2");
-  CHECK(integer_complaint("1e300") == "is not a whole number; write one without point and exponent, such as 16");
+  CHECK(integer_refusal("10.5") == "is not a whole number; write one without point and exponent, such as 16");
+  CHECK(integer_refusal("1e3") == "must be written as a whole number: 1000");
+  CHECK(integer_refusal("16.") == "must be written as a whole number: 16");
+  CHECK(integer_refusal("-2.0") == "must be written as a whole number: -2");
+  CHECK(integer_refusal("1e300") == "is not a whole number; write one without point and exponent, such as 16");
   for (const char* text : {"", "ten", "0x10", "1 0", "+-3", "nan", "inf"}) {
-    CHECK(integer_complaint(text) == "is not a whole number; write one such as 16");
+    CHECK(integer_refusal(text) == "is not a whole number; write one such as 16");
   }
   for (const char* text : {"2147483648", "99999999999999999999999", "-99999999999999999999999"}) {
-    CHECK(integer_complaint(text) == "is outside of the whole numbers from -2147483648 to 2147483647");
+    CHECK(integer_refusal(text) == "is outside of the whole numbers from -2147483648 to 2147483647");
   }
-  CHECK(integer_complaint("-1", Range::not_negative) == "must not be negative");
-  CHECK(integer_complaint("0", Range::positive) == "must be at least 1");
+  CHECK(integer_refusal("-1", Range::not_negative) == "must not be negative");
+  CHECK(integer_refusal("0", Range::positive) == "must be at least 1");
 }
 
 TEST_CASE("booleans have two spellings each") {

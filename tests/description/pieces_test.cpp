@@ -1,12 +1,12 @@
-// Scenes so large that they are read in chunks, by several threads: nobody must be able to tell.
+// Scenes so large that they are read in chunks, by several threads, with the same result.
 #include <algorithm>
 #include <sstream>
 #include <string>
 #include <vector>
 
-#include "findings.h"
-#include "raytrace/xml/line_index.h"
+#include "raytrace/xml/diagnostics.h"
 #include "raytrace/xml/xml_scanner.h"
+#include "reported.h"
 #include "support/catch.h"
 #include "support/contains.h"
 
@@ -21,7 +21,7 @@ std::string sphere(int i, const std::string& material = "clay") {
          "\" y=\"0\" z=\"0\"/>\n    <radius>1</radius>\n    <material>" + material + "</material>\n  </sphere>\n";
 }
 
-/// Some 500 kB. at(i): what stands in place of sphere i.
+/// Some 500 kB. at(i): what stands for sphere i.
 template <class At>
 std::string large_scene(At&& at) {
   std::string items;
@@ -33,7 +33,7 @@ std::string large_scene() {
   return large_scene([](int i) { return sphere(i); });
 }
 
-std::string findings(const std::string& text, int threads) {
+std::string reported(const std::string& text, int threads) {
   Diagnostics diagnostics("s");
   parse_scene(text, diagnostics, threads);
   std::ostringstream out;
@@ -43,7 +43,7 @@ std::string findings(const std::string& text, int threads) {
 
 std::string line_and_column(const std::string& text, const std::string& part) {
   REQUIRE(text.find(part) == text.rfind(part));
-  const SourceLocation location = LineIndex(text).locate(text.find(part));
+  const SourceLocation location = locate(text, text.find(part));
   return "s:" + std::to_string(location.line) + ":" + std::to_string(location.column);
 }
 
@@ -94,7 +94,7 @@ TEST_CASE("a scene in chunks is read as it stands, by any number of threads") {
   }
 }
 
-TEST_CASE("findings in chunks have their places") {
+TEST_CASE("errors in chunks have their lines and columns") {
   const std::string text = large_scene([](int i) {
     if (i == 0) return "before" + sphere(i, "one");
     if (i == 1500) return sphere(i, "two");
@@ -115,39 +115,39 @@ TEST_CASE("findings in chunks have their places") {
         line_and_column(in, "<spehre/>") + ": error: unknown element <spehre> in <spheres>; did you mean <sphere>?\n" +
         line_and_column(in, "x='a>b'") + ": error: 'a>b' for x in <center> is not a number; write one such as 1.5\n" +
         line_and_column(in, "behind") + ": error: unexpected text 'behind' in <spheres>, which takes only elements\n";
-    for (const int threads : {1, 4}) CHECK(findings(in, threads) == expected);
+    for (const int threads : {1, 4}) CHECK(reported(in, threads) == expected);
   }
 }
 
 TEST_CASE("a name that is taken in another chunk is reported where it stands") {
   const std::string text = large_scene([](int i) { return sphere(i == 3500 ? 17 : i); });
   const std::size_t at = text.rfind("sphere-17</name>");
-  const SourceLocation place = LineIndex(text).locate(at);
-  CHECK(findings(text, 4) == "s:" + std::to_string(place.line) + ":" + std::to_string(place.column) +
+  const SourceLocation name = locate(text, at);
+  CHECK(reported(text, 4) == "s:" + std::to_string(name.line) + ":" + std::to_string(name.column) +
                                  ": error: the object name 'sphere-17' is taken by the <sphere> in line " +
                                  std::to_string(3 + 6 * 17) + "; choose another\n");
 }
 
-TEST_CASE("which findings are shown does not depend on the threads") {
+TEST_CASE("which errors are shown does not depend on the threads") {
   const std::string text = large_scene([](int i) {
     const std::string shadows = "<sphere><radius>-1</radius><raduis>1</raduis></sphere>";
     return i % 25 == 24 ? shadows : sphere(i, i % 31 == 7 ? "cley" : "clay");
   });
-  const std::string alone = findings(text, 1);
+  const std::string alone = reported(text, 1);
   CHECK(contains(alone, "more errors not shown"));
-  CHECK(findings(text, 4) == alone);
-  CHECK(findings(text, 0) == alone);
+  CHECK(reported(text, 4) == alone);
+  CHECK(reported(text, 0) == alone);
 }
 
-TEST_CASE("what follows a group in chunks keeps its place") {
+TEST_CASE("what follows a group in chunks keeps its lines and columns") {
   std::string text = large_scene();
   text.replace(text.find("<disks/>"), 8, "<discs/>\n <disks>x</disks>");
-  CHECK(findings(text) == line_and_column(text, "<discs/>") +
+  CHECK(reported(text) == line_and_column(text, "<discs/>") +
                               ": error: unknown element <discs> in <objects>; did you mean <disks>?\n" +
                               line_and_column(text, "x</disks>") +
                               ": error: unexpected text 'x' in <disks>, which takes only elements\n");
   const std::string flat = without_line_ends(text);
-  CHECK(contains(findings(flat), line_and_column(flat, "<discs/>") + ": error:"));
+  CHECK(contains(reported(flat), line_and_column(flat, "<discs/>") + ": error:"));
 }
 
 }  // namespace raytrace::test

@@ -1,5 +1,5 @@
-#include "findings.h"
 #include "random_description.h"
+#include "reported.h"
 #include "support/catch.h"
 
 namespace raytrace::test {
@@ -12,14 +12,14 @@ TEST_CASE("what is printed is read back as the same scene") {
     const std::string text = print_scene(scene);
     const SceneDescription again = accepted(text);
     REQUIRE(same_scene(scene, again));
-    REQUIRE(findings(text) == "");
+    REQUIRE(reported(text) == "");
     REQUIRE(print_scene(again) == text);
     objects += std::get<ObjectItems<Sphere>>(scene.objects).size();
   }
   CHECK(objects > 300);
 }
 
-TEST_CASE("scenes that differ are told apart") {
+TEST_CASE("scenes that differ are printed differently") {
   std::mt19937_64 random(7);
   SceneDescription a;
   do a = random_description(random);

@@ -82,7 +82,16 @@ bool same_parameters(const typename T::Parameters& a, const typename T::Paramete
   return all;
 }
 
-/// equal(item, item): what items of this kind have beside their parameters.
+/// Of variants that hold the parameters of one type in the list.
+template <class List, class Parameters>
+bool same_choice(List list, const Parameters& a, const Parameters& b) {
+  if (a.index() != b.index()) return false;
+  return with_type(list, a.index(), [&]<class T>(std::type_identity<T>) {
+    return same_parameters<T>(std::get<index_of<T>(List{})>(a), std::get<index_of<T>(List{})>(b));
+  });
+}
+
+/// equal(item, item): what items of this type have beside their parameters.
 template <class List, class Tuple, class Equal>
 bool same_items(List list, const Tuple& a, const Tuple& b, Equal equal) {
   bool all = true;
@@ -102,11 +111,14 @@ bool same_items(List list, const Tuple& a, const Tuple& b, Equal equal) {
 SceneDescription random_description(Random& random) {
   SceneDescription scene;
   scene.viewplane = random_parameters<ViewPlane>(random);
-  const std::size_t camera = below(random, Cameras::size);
-  for_each_type(Cameras{}, [&]<class T>(std::type_identity<T>) {
-    if (index_of<T>(Cameras{}) == camera)
-      scene.camera.template emplace<index_of<T>(Cameras{})>(random_parameters<T>(random));
+  with_type(Cameras{}, below(random, Cameras::size), [&]<class T>(std::type_identity<T>) {
+    scene.camera.template emplace<index_of<T>(Cameras{})>(random_parameters<T>(random));
   });
+  if (below(random, 2) == 0) {
+    with_type(Integrators{}, below(random, Integrators::size), [&]<class T>(std::type_identity<T>) {
+      scene.integrator.emplace(std::in_place_index<index_of<T>(Integrators{})>, random_parameters<T>(random));
+    });
+  }
   for_each_type(Lights{}, [&]<class T>(std::type_identity<T>) {
     for (std::size_t i = below(random, T::group.empty() ? 2 : 8); i > 0; --i) {
       std::get<LightItems<T>>(scene.lights).push_back({random_parameters<T>(random)});
@@ -134,12 +146,9 @@ SceneDescription random_description(Random& random) {
 }
 
 bool same_scene(const SceneDescription& a, const SceneDescription& b) {
-  bool cameras = a.camera.index() == b.camera.index();
-  for_each_type(Cameras{}, [&]<class T>(std::type_identity<T>) {
-    constexpr std::size_t i = index_of<T>(Cameras{});
-    if (cameras && a.camera.index() == i) cameras = same_parameters<T>(std::get<i>(a.camera), std::get<i>(b.camera));
-  });
-  return cameras && same_parameters<ViewPlane>(a.viewplane, b.viewplane) &&
+  if (a.integrator.has_value() != b.integrator.has_value()) return false;
+  if (a.integrator && !same_choice(Integrators{}, *a.integrator, *b.integrator)) return false;
+  return same_choice(Cameras{}, a.camera, b.camera) && same_parameters<ViewPlane>(a.viewplane, b.viewplane) &&
          same_items(Lights{}, a.lights, b.lights, [](const auto&, const auto&) { return true; }) &&
          same_items(Materials{}, a.materials, b.materials,
                     [](const auto& x, const auto& y) { return x.name == y.name; }) &&

@@ -7,7 +7,7 @@
 
 namespace raytrace::test {
 
-/// A description of up to 8 things of each kind, with values anywhere in their ranges.
+/// A description of up to 8 things of each type, with values anywhere in their ranges.
 SceneDescription random_description(std::mt19937_64& random);
 
 /// Whether all but file and lines is the same, numbers bit for bit.

@@ -5,15 +5,15 @@
 #include <filesystem>
 #include <sstream>
 
-#include "findings.h"
 #include "raytrace/xml/text_file.h"
+#include "reported.h"
 #include "support/catch.h"
 #include "support/temporary_folder.h"
 
 namespace raytrace::test {
 namespace {
 
-std::string findings_of_file(const std::string& file) {
+std::string reported_of_file(const std::string& file) {
   Diagnostics diagnostics(file);
   const auto scene = load_scene(file, diagnostics);
   CHECK(scene.has_value() != diagnostics.has_errors());
@@ -48,17 +48,17 @@ class StandardInput {
 }  // namespace
 
 TEST_CASE("a file that cannot be read is an error of the file, not of a line") {
-  CHECK(findings_of_file("/no such folder/scene.xml") ==
+  CHECK(reported_of_file("/no such folder/scene.xml") ==
         "/no such folder/scene.xml: error: cannot read the scene: No such file or directory\n");
-  CHECK(findings_of_file("/") == "/: error: cannot read the scene: Is a directory\n");
-  CHECK(findings_of_file("") == ": error: cannot read the scene: No such file or directory\n");
-  CHECK(findings_of_file("/dev/null") == "/dev/null:1:1: error: the file is empty; a scene starts with <raytracer>\n");
+  CHECK(reported_of_file("/") == "/: error: cannot read the scene: Is a directory\n");
+  CHECK(reported_of_file("") == ": error: cannot read the scene: No such file or directory\n");
+  CHECK(reported_of_file("/dev/null") == "/dev/null:1:1: error: the file is empty; a scene starts with <raytracer>\n");
 }
 
 TEST_CASE("standard input is given as -, and shown as <stdin>") {
   {
     const StandardInput empty("");
-    CHECK(findings_of_file("-") == "<stdin>:1:1: error: the file is empty; a scene starts with <raytracer>\n");
+    CHECK(reported_of_file("-") == "<stdin>:1:1: error: the file is empty; a scene starts with <raytracer>\n");
   }
   // Larger than what is read at first.
   const StandardInput input(std::string(200000, '\n') + scene_with("<lights/>"));
@@ -90,7 +90,7 @@ TEST_CASE("a large file is read by several threads as by one") {
   }
 }
 
-TEST_CASE("findings are printed in the order of the file, at most 100 of a kind, and the rest counted") {
+TEST_CASE("diagnostics are printed in the order of the file, at most 100 of a severity, and the rest counted") {
   Diagnostics diagnostics("scene.xml");
   diagnostics.error({3, 1}, "third");
   diagnostics.warning({2, 7}, "second");

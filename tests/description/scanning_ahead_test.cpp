@@ -1,4 +1,4 @@
-// Large groups are scanned by several threads that guess where items start: nobody must be able to tell.
+// Large groups are scanned by several threads that guess where items start, with the same result.
 #include <functional>
 #include <random>
 #include <string>
@@ -13,14 +13,14 @@ namespace {
 const std::string_view groups[] = {"as", "bs"};
 
 struct Scanned {
-  std::string problem;  ///< empty if there is none
+  std::string error;  ///< empty if there is none
   std::vector<TextChunk> chunks;
 };
 
 Scanned scan(const std::string& text, int threads) {
   Scanned scanned;
-  if (const auto problem = find_xml_error(text, groups, scanned.chunks, threads))
-    scanned.problem = std::to_string(problem->offset) + ": " + problem->message;
+  if (const auto error = find_xml_error(text, groups, scanned.chunks, threads))
+    scanned.error = std::to_string(error->offset) + ": " + error->message;
   return scanned;
 }
 
@@ -55,7 +55,7 @@ std::string repeated(const std::string& what, std::size_t bytes) {
   return text;
 }
 
-/// Of some megabytes. item(i): what stands in place of item i.
+/// Of some megabytes. item(i): what stands for item i.
 std::string text_of(const std::function<std::string(int)>& item, const std::string& behind = "</as></s></root>") {
   std::string text = "<root><s><as>";
   for (int i = 0; text.size() < (std::size_t{3} << 20U); ++i) text += item(i);
@@ -65,8 +65,8 @@ std::string text_of(const std::function<std::string(int)>& item, const std::stri
 void check_alike(const std::string& text) {
   const Scanned alone = scan(text, 1);
   const Scanned together = scan(text, 4);
-  REQUIRE(together.problem == alone.problem);
-  if (alone.problem.empty()) REQUIRE(joined(together.chunks) == joined(alone.chunks));
+  REQUIRE(together.error == alone.error);
+  if (alone.error.empty()) REQUIRE(joined(together.chunks) == joined(alone.chunks));
 }
 
 }  // namespace
@@ -113,7 +113,7 @@ TEST_CASE("what only looks like an item is none") {
   check_alike(text_of(plain_item, "</as>" + repeated("<as><a/></as><bs><b/></bs>", large) + "</s></root>"));
 }
 
-TEST_CASE("the first problem of a text is the same for all threads") {
+TEST_CASE("the first error of a text is the same for all threads") {
   const std::vector<std::string> mistakes{
       "<a><name></a>",
       "</a>",
@@ -136,7 +136,7 @@ TEST_CASE("the first problem of a text is the same for all threads") {
     for (const int where : {1, 30000}) {
       const std::string text =
           text_of([&](int item) { return item == where ? mistake + plain_item(item) : plain_item(item); });
-      REQUIRE_FALSE(scan(text, 4).problem.empty());
+      REQUIRE_FALSE(scan(text, 4).error.empty());
       check_alike(text);
     }
   }

@@ -1,12 +1,12 @@
-// The hash tells every two scenes apart that look different, and no others.
+// Scenes that look different have different hashes, and others the same.
 #include "raytrace/description/scene_hash.h"
 
 #include <set>
 #include <string>
 #include <type_traits>
 
-#include "findings.h"
 #include "random_description.h"
+#include "reported.h"
 #include "support/catch.h"
 
 namespace raytrace::test {
@@ -18,60 +18,71 @@ void change(int& value) { ++value; }
 void change(bool& value) { value = !value; }
 void change(std::string& value) { value += "x"; }
 
-/// Calls tell() after each change of a number, alone; it is undone then.
-template <class Value, class Tell>
-void change_each(Value& value, const Tell& tell) {
+/// Calls changed() after each change of a number, alone; it is undone then.
+template <class Value, class Changed>
+void change_each(Value& value, const Changed& changed) {
   if constexpr (std::is_same_v<Value, Vec3d>) {
-    for (double* part : {&value.x, &value.y, &value.z}) change_each(*part, tell);
+    for (double* part : {&value.x, &value.y, &value.z}) change_each(*part, changed);
   } else if constexpr (std::is_same_v<Value, Rgb<double>>) {
-    for (double* part : {&value.red, &value.green, &value.blue}) change_each(*part, tell);
+    for (double* part : {&value.red, &value.green, &value.blue}) change_each(*part, changed);
   } else {
     const Value before = value;
     change(value);
-    tell();
+    changed();
     value = before;
   }
 }
 
-template <class T, class Tell>
-void change_fields(typename T::Parameters& parameters, const Tell& tell) {
+template <class T, class Changed>
+void change_fields(typename T::Parameters& parameters, const Changed& changed) {
   for (const auto& field : T::fields()) {
     if (std::is_same_v<T, ViewPlane> && field.name == "samples") continue;
     INFO("field " << field.name);
-    std::visit([&](auto member) { change_each(parameters.*member, tell); }, field.member);
+    std::visit([&](auto member) { change_each(parameters.*member, changed); }, field.member);
   }
 }
 
-/// Calls tell() after each change that makes another scene.
-template <class Tell>
-void change_everything(SceneDescription& scene, const Tell& tell) {
-  change_fields<ViewPlane>(scene.viewplane, tell);
+/// Calls changed() after each change that makes another scene.
+template <class Changed>
+void change_everything(SceneDescription& scene, const Changed& changed) {
+  change_fields<ViewPlane>(scene.viewplane, changed);
   for_each_type(Cameras{}, [&]<class T>(std::type_identity<T>) {
-    if (auto* parameters = std::get_if<typename T::Parameters>(&scene.camera)) change_fields<T>(*parameters, tell);
+    if (auto* parameters = std::get_if<typename T::Parameters>(&scene.camera)) change_fields<T>(*parameters, changed);
+  });
+  const auto integrator = scene.integrator;
+  for_each_type(Integrators{}, [&]<class T>(std::type_identity<T>) {
+    constexpr std::size_t i = index_of<T>(Integrators{});
+    if (integrator && integrator->index() == i) {
+      change_fields<T>(std::get<i>(*scene.integrator), changed);
+      return;
+    }
+    scene.integrator.emplace(std::in_place_index<i>);
+    changed();
+    scene.integrator = integrator;
   });
   for_each_type(Lights{}, [&]<class T>(std::type_identity<T>) {
-    for (auto& light : std::get<LightItems<T>>(scene.lights)) change_fields<T>(light.parameters, tell);
+    for (auto& light : std::get<LightItems<T>>(scene.lights)) change_fields<T>(light.parameters, changed);
   });
   for_each_type(Materials{}, [&]<class T>(std::type_identity<T>) {
     for (auto& material : std::get<MaterialItems<T>>(scene.materials)) {
-      change_fields<T>(material.parameters, tell);
-      change_each(material.name, tell);
+      change_fields<T>(material.parameters, changed);
+      change_each(material.name, changed);
     }
   });
   for_each_type(Shapes{}, [&]<class T>(std::type_identity<T>) {
     auto& objects = std::get<ObjectItems<T>>(scene.objects);
     for (auto& object : objects) {
-      change_fields<T>(object.parameters, tell);
-      change_each(object.name, tell);
+      change_fields<T>(object.parameters, changed);
+      change_each(object.name, changed);
       for (std::uint32_t* part : {&object.material.kind, &object.material.index}) {
         ++*part;
-        tell();
+        changed();
         --*part;
       }
     }
     if (objects.empty()) return;
     objects.push_back(objects.back());
-    tell();
+    changed();
     objects.pop_back();
   });
 }

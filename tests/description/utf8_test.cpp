@@ -45,12 +45,12 @@ TEST_CASE("the first invalid byte of a large text is found at any seam", "[descr
   check_same(plain);
   for (const std::string_view wrong :
        {"\x80", "\xc3", "\xe2\x82", "\xf0\x9f\x8e", "\xed\xa0\x80", "\x80\x80\x80\x80\x80", "\x01"}) {
-    for (std::size_t place = seam - 6; place <= seam + 2; ++place) {
+    for (std::size_t at = seam - 6; at <= seam + 2; ++at) {
       std::string text = plain;
-      text.replace(place, wrong.size(), wrong);
+      text.replace(at, wrong.size(), wrong);
       text.back() = '\xff';  // which is not the first
       check_same(text);
-      CHECK(find_invalid_utf8(text, 3) == place);
+      CHECK(find_invalid_utf8(text, 3) == at);
     }
   }
 }

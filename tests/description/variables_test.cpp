@@ -6,7 +6,7 @@
 #include <sstream>
 #include <string>
 
-#include "findings.h"
+#include "reported.h"
 #include "support/catch.h"
 #include "support/contains.h"
 
@@ -15,7 +15,7 @@ namespace {
 
 using Values = std::map<std::string, std::string>;
 
-std::string findings(const std::string& text, const Values& values, int threads = 0) {
+std::string reported(const std::string& text, const Values& values, int threads = 0) {
   Diagnostics diagnostics("s");
   parse_scene(text, diagnostics, threads, {7, values});
   std::ostringstream out;
@@ -26,13 +26,13 @@ std::string findings(const std::string& text, const Values& values, int threads 
 std::string printed(const std::string& text, const Values& values) {
   Diagnostics diagnostics("s");
   const auto scene = parse_scene(text, diagnostics, 0, {7, values});
-  return scene ? print_scene(*scene) : findings(text, values);
+  return scene ? print_scene(*scene) : reported(text, values);
 }
 
 std::string replaced(std::string_view text) {
   std::string result;
-  const DiagnosticText complaint = Variables({7, {{"a", "1"}, {"ab", "2"}, {"_A9", "$a"}}}).replace(text, result);
-  return complaint ? *complaint : result;
+  const OptionalMessage message = Variables({7, {{"a", "1"}, {"ab", "2"}, {"_A9", "$a"}}}).replace(text, result);
+  return message ? *message : result;
 }
 
 std::string sphere(const std::string& radius) {
@@ -86,10 +86,10 @@ TEST_CASE("a default stands where the variable is not set, and -D overrides it")
   const std::string text = sphere("${radius:-2}");
   CHECK(contains(printed(text, {}), "<radius>2</radius>"));
   CHECK(contains(printed(text, {{"radius", "3"}}), "<radius>3</radius>"));
-  CHECK(findings(text, {{"radius", "0"}}) == "s:2:36: error: '0' in <radius> must be greater than 0\n");
-  CHECK(findings(sphere("${radius:-x}"), {}) ==
+  CHECK(reported(text, {{"radius", "0"}}) == "s:2:36: error: '0' in <radius> must be greater than 0\n");
+  CHECK(reported(sphere("${radius:-x}"), {}) ==
         "s:2:36: error: 'x' in <radius> is not a number; write one such as 1.5\n");
-  CHECK(findings(text, {{"radios", "3"}}) == "s: error: no value of the scene uses $radios; remove -D radios=...\n");
+  CHECK(reported(text, {{"radios", "3"}}) == "s: error: no value of the scene uses $radios; remove -D radios=...\n");
 }
 
 TEST_CASE("what a text becomes with the values put in has a limit") {
@@ -104,7 +104,7 @@ TEST_CASE("what a text becomes with the values put in has a limit") {
   // Millions of them stop at once.
   std::string many;
   for (int i = 0; i < 1000000; ++i) many += "$a";
-  CHECK(contains(findings(sphere(many), {{"a", half}}),
+  CHECK(contains(reported(sphere(many), {{"a", half}}),
                  "in <radius> is longer than 1 MiB with the variables' values put in; shorten them\n"));
 }
 
@@ -113,26 +113,26 @@ TEST_CASE("what all texts of a scene become has a limit") {
   std::string result;
   for (std::size_t length = 0; length <= Variables::longest_scene; length += Variables::longest_text)
     REQUIRE_FALSE(variables.replace("$a", result));
-  const DiagnosticText complaint = variables.replace("$a", result);
-  REQUIRE(complaint);
-  CHECK(contains(*complaint, "makes the scene longer than 2 GiB"));
+  const OptionalMessage message = variables.replace("$a", result);
+  REQUIRE(message);
+  CHECK(contains(*message, "makes the scene longer than 2 GiB"));
 }
 
-TEST_CASE("a variable that is not set is reported for one of its places") {
+TEST_CASE("a variable that is not set is reported once") {
   std::string keys;
   for (int i = 0; i < 25; ++i) keys += "<key frame='" + std::to_string(i) + "' value='$size'/>\n";
   CHECK(
-      findings(sphere(keys), {}) ==
+      reported(sphere(keys), {}) ==
       "s:2:51: error: '$size' for value in <key> uses $size, which is not set; set it: -D size=VALUE (and at 24 other "
       "places)\n");
-  // In the chunks of a large scene, too, however many threads read them; other errors are told beside it.
+  // In the chunks of a large scene, too, however many threads read them; other errors are reported beside it.
   std::string items;
   for (int i = 0; i < 3000; ++i)
     items += "<sphere><center x='0' y='$y' z='0'/><radius>" + std::string(i == 2000 ? "-1" : "$r") +
              "</radius><material>clay</material></sphere>\n";
   const std::string scene = scene_with("<objects><spheres>\n" + items + "</spheres></objects>");
   for (const int threads : {1, 4}) {
-    const std::string found = findings(scene, {}, threads);
+    const std::string found = reported(scene, {}, threads);
     INFO(found);
     CHECK(contains(found,
                    "s:3:23: error: '$y' for y in <center> uses $y, which is not set; set it: -D y=VALUE (and at "
@@ -148,7 +148,7 @@ TEST_CASE("names of variables") {
   for (const char* const name : {"", "9", "a-b", "a ", "$a", "\xc3\xa4"}) CHECK_FALSE(is_variable_name(name));
 }
 
-TEST_CASE("a variable can stand in every kind of value") {
+TEST_CASE("a variable can stand in a value of every type") {
   const std::string text = R"(<raytracer><viewplane><hres>$w</hres><vres>1$w</vres></viewplane>
     <camera><eye x="0" y="-$y" z="9"/><lookat x="0" y="0" z="0"/><viewdistance>$frame</viewdistance></camera>
     <lights><pointlights><pointlight><location x="0" y="1" z="$frame"/><color red="$y" green="1" blue="1"/>
@@ -167,36 +167,36 @@ TEST_CASE("a variable can stand in every kind of value") {
 }
 
 TEST_CASE("a variable that is not set is an error where it stands") {
-  CHECK(findings(sphere("$radius"), {}) ==
+  CHECK(reported(sphere("$radius"), {}) ==
         "s:2:36: error: '$radius' in <radius> uses $radius, which is not set; set it: -D radius=VALUE\n");
-  CHECK(findings(sphere("1$$"), {}) == "s:2:36: error: '1$' in <radius> is not a number; write one such as 1.5\n");
+  CHECK(reported(sphere("1$$"), {}) == "s:2:36: error: '1$' in <radius> is not a number; write one such as 1.5\n");
   // What was probably meant is not reported as unused, too.
-  CHECK(findings(sphere("$radius"), {{"raduis", "2"}}) ==
+  CHECK(reported(sphere("$radius"), {{"raduis", "2"}}) ==
         "s:2:36: error: '$radius' in <radius> uses $radius, which is not set; did you mean $raduis?\n");
   CHECK(contains(
-      findings(scene_with_sphere("<center x='0' y='$y' z='0'/><radius>1</radius><material>clay</material>"), {}),
+      reported(scene_with_sphere("<center x='0' y='$y' z='0'/><radius>1</radius><material>clay</material>"), {}),
       "s:2:15: error: '$y' for y in <center> uses $y, which is not set"));
 }
 
 TEST_CASE("the value of a variable is checked as if it stood in the scene") {
-  CHECK(findings(sphere("$r"), {{"r", "-1"}}) == "s:2:36: error: '-1' in <radius> must be greater than 0\n");
-  CHECK(contains(findings(sphere("$r"), {{"r", "<"}}), "'<' in <radius> is not a number"));
+  CHECK(reported(sphere("$r"), {{"r", "-1"}}) == "s:2:36: error: '-1' in <radius> must be greater than 0\n");
+  CHECK(contains(reported(sphere("$r"), {{"r", "<"}}), "'<' in <radius> is not a number"));
   const auto with_material = [](const std::string& name) {
     return scene_with_sphere("<center x='0' y='0' z='0'/><radius>1</radius><material>" + name + "</material>");
   };
-  CHECK(findings(with_material("$m"), {{"m", "clay"}}) == "");
-  CHECK(findings(with_material("$m"), {}) ==
+  CHECK(reported(with_material("$m"), {{"m", "clay"}}) == "");
+  CHECK(reported(with_material("$m"), {}) ==
         "s:2:56: error: '$m' in <material> uses $m, which is not set; set it: -D m=VALUE\n");
-  CHECK(contains(findings(with_material("$m"), {{"m", "cley"}}), "unknown material 'cley'"));
-  CHECK(contains(findings(with_material("$m"), {{"m", ""}}), "'$m' in <material> is empty"));
+  CHECK(contains(reported(with_material("$m"), {{"m", "cley"}}), "unknown material 'cley'"));
+  CHECK(contains(reported(with_material("$m"), {{"m", ""}}), "'$m' in <material> is empty"));
 }
 
 TEST_CASE("a variable that nothing uses is an error") {
-  CHECK(findings(sphere("1"), {{"radius", "2"}}) ==
+  CHECK(reported(sphere("1"), {{"radius", "2"}}) ==
         "s: error: no value of the scene uses $radius; remove -D radius=...\n");
-  CHECK(findings(sphere("1$$radius"), {{"radius", "2"}}) ==
+  CHECK(reported(sphere("1$$radius"), {{"radius", "2"}}) ==
         "s:2:36: error: '1$radius' in <radius> is not a number; write one such as 1.5\n");
-  CHECK(findings(sphere("$radius"), {{"radius", "2"}}) == "");
+  CHECK(reported(sphere("$radius"), {{"radius", "2"}}) == "");
 }
 
 TEST_CASE("variables in the chunks of a large scene") {
@@ -210,7 +210,7 @@ TEST_CASE("variables in the chunks of a large scene") {
     return scene_with("<objects><spheres>\n" + items + "</spheres></objects>");
   };
   // Digits belong to the name.
-  CHECK(contains(findings(scene_of_spheres("$a"), {{"a", "q"}, {"y", "3"}, {"m", "clay"}}, 4),
+  CHECK(contains(reported(scene_of_spheres("$a"), {{"a", "q"}, {"y", "3"}, {"m", "clay"}}, 4),
                  "2900 more errors not shown"));
   const Values values = {{"a", "q"}, {"y", "3"}, {"m", "clay"}};
   Diagnostics diagnostics("s");

@@ -1,9 +1,9 @@
 // XML as such: what is accepted, what is said about a text that is none, and where.
 #include <string>
 
-#include "findings.h"
+#include "raytrace/xml/diagnostics.h"
 #include "raytrace/xml/document.h"
-#include "raytrace/xml/line_index.h"
+#include "reported.h"
 #include "support/catch.h"
 #include "support/contains.h"
 
@@ -18,17 +18,17 @@ std::string with_part(const std::string& part) { return scene_with(part); }
 }  // namespace
 
 TEST_CASE("all that XML allows around a scene is accepted") {
-  CHECK(findings(fine) == "");
-  CHECK(findings("\xef\xbb\xbf" + fine) == "");
-  CHECK(findings("<?xml version=\"1.0\"?>" + fine) == "");
-  CHECK(findings("<?xml version='1.0' encoding='utf-8' standalone='yes' ?>\n" + fine) == "");
-  CHECK(findings("\xef\xbb\xbf<?xml version=\"1.0\" encoding=\"UTF-8\"?><!-- a --><!DOCTYPE raytracer>" + fine) == "");
-  CHECK(findings("<!DOCTYPE raytracer SYSTEM \"a.dtd\">" + fine + "<!-- the end -->\n\n") == "");
-  CHECK(findings(with_part("<!-- <objects> & -> - > -->")) == "");
-  CHECK(findings(with_part("<objects></objects><objects\n/><objects ></objects >")) == "");
-  CHECK(findings(with_part(
+  CHECK(reported(fine) == "");
+  CHECK(reported("\xef\xbb\xbf" + fine) == "");
+  CHECK(reported("<?xml version=\"1.0\"?>" + fine) == "");
+  CHECK(reported("<?xml version='1.0' encoding='utf-8' standalone='yes' ?>\n" + fine) == "");
+  CHECK(reported("\xef\xbb\xbf<?xml version=\"1.0\" encoding=\"UTF-8\"?><!-- a --><!DOCTYPE raytracer>" + fine) == "");
+  CHECK(reported("<!DOCTYPE raytracer SYSTEM \"a.dtd\">" + fine + "<!-- the end -->\n\n") == "");
+  CHECK(reported(with_part("<!-- <objects> & -> - > -->")) == "");
+  CHECK(reported(with_part("<objects></objects><objects\n/><objects ></objects >")) == "");
+  CHECK(reported(with_part(
             "\r\n\t<lights><ambientlight><color red = '1'\n\tgreen=\"0\" blue='0'/></ambientlight></lights>")) == "");
-  CHECK(findings(with_part("<lights><![CDATA[ ]]></lights>")) == "");
+  CHECK(reported(with_part("<lights><![CDATA[ ]]></lights>")) == "");
 }
 
 TEST_CASE("entities and sections give the characters they stand for") {
@@ -50,23 +50,22 @@ TEST_CASE("entities and sections give the characters they stand for") {
 }
 
 TEST_CASE("columns count bytes from 1 and no byte order mark") {
-  CHECK(findings("\xef\xbb\xbf<raytracer") == "s:1:1: error: the tag <raytracer never ends; add '>'\n");
-  CHECK(findings("\n  <a/>") == "s:2:3: error: the scene starts with <a>; it must be <raytracer>\n");
-  CHECK(findings("\r\n\t<a/>") == "s:2:2: error: the scene starts with <a>; it must be <raytracer>\n");
+  CHECK(reported("\xef\xbb\xbf<raytracer") == "s:1:1: error: the tag <raytracer never ends; add '>'\n");
+  CHECK(reported("\n  <a/>") == "s:2:3: error: the scene starts with <a>; it must be <raytracer>\n");
+  CHECK(reported("\r\n\t<a/>") == "s:2:2: error: the scene starts with <a>; it must be <raytracer>\n");
   const std::string umlauts = "<!-- \xc3\xa4\xc3\xb6 --><a/>";
-  CHECK(findings(umlauts) == "s:1:14: error: the scene starts with <a>; it must be <raytracer>\n");
+  CHECK(reported(umlauts) == "s:1:14: error: the scene starts with <a>; it must be <raytracer>\n");
 }
 
-TEST_CASE("places are found behind all that may stand before them") {
+TEST_CASE("lines and columns are found behind all that may stand before them") {
   const std::string before = "<!-- <lamp/> \n -->\n<lights><![CDATA[\n]]><!-- --> </lights>  <objects/>";
-  CHECK(findings(with_part(before + "<lamps/>")) ==
-        "s:5:34: error: unknown element <lamps> in <raytracer>; it takes <viewplane>, <camera>, <lights>, <materials> "
-        "and "
-        "<objects>\n");
-  CHECK(findings(with_part("<objects>\n a <spheres/> <!-- --> \n  b <spheres/></objects>")) ==
+  CHECK(reported(with_part(before + "<lamps/>")) ==
+        "s:5:34: error: unknown element <lamps> in <raytracer>; it takes <viewplane>, <camera>, <integrator>, "
+        "<lights>, <materials> and <objects>\n");
+  CHECK(reported(with_part("<objects>\n a <spheres/> <!-- --> \n  b <spheres/></objects>")) ==
         "s:3:2: error: unexpected text 'a' in <objects>, which takes only elements\n"
         "s:4:3: error: unexpected text 'b' in <objects>, which takes only elements\n");
-  CHECK(findings(
+  CHECK(reported(
             with_part("<lights><ambientlight><color red='a>b'\n  green='x'\n\tblue='0'/></ambientlight></lights>")) ==
         "s:2:30: error: 'a>b' for red in <color> is not a number; write one such as 1.5\n"
         "s:3:3: error: 'x' for green in <color> is not a number; write one such as 1.5\n");
@@ -74,40 +73,45 @@ TEST_CASE("places are found behind all that may stand before them") {
 
 TEST_CASE("the closing tag that is missing is named") {
   CHECK(
-      findings("<raytracer>\n  <objects>\n</raytracer>") ==
+      reported("<raytracer>\n  <objects>\n</raytracer>") ==
       "s:3:1: error: <objects>, opened in line 2, column 3, is not closed before this </raytracer>; add </objects>\n");
-  CHECK(findings("<raytracer>\n  <objects>\n  </object>\n</raytracer>") ==
+  CHECK(reported("<raytracer>\n  <objects>\n  </object>\n</raytracer>") ==
         "s:3:3: error: </object> does not match <objects>, opened in line 2, column 3; write </objects>\n");
-  CHECK(findings("<raytracer>\n  <objects>\n") == "s:2:3: error: <objects> is never closed; add </objects>\n");
+  CHECK(reported("<raytracer>\n  <objects>\n") == "s:2:3: error: <objects> is never closed; add </objects>\n");
 }
 
 TEST_CASE("bytes that are no text are refused where they stand") {
   using namespace std::string_literals;
-  CHECK(findings("<a>\n\x01</a>") == "s:2:1: error: the byte '\\x01' is no text: is this a scene file?\n");
-  CHECK(findings("<a>\0</a>"s) == "s:1:4: error: the byte '\\x00' is no text: is this a scene file?\n");
+  CHECK(reported("<a>\n\x01</a>") == "s:2:1: error: the byte '\\x01' is no text: is this a scene file?\n");
+  CHECK(reported("<a>\0</a>"s) == "s:1:4: error: the byte '\\x00' is no text: is this a scene file?\n");
   for (const char* bytes : {"\xff", "\xc3", "\xc0\xaf", "\xe0\x80\xaf", "\xed\xa0\x80", "\xef\xbf\xbe",
                             "\xf4\x90\x80\x80", "\xf8\x88\x80\x80"}) {
-    CHECK(contains(findings("<a>" + std::string(bytes) + "</a>"), "s:1:4: error: the byte '\\x"));
+    CHECK(contains(reported("<a>" + std::string(bytes) + "</a>"), "s:1:4: error: the byte '\\x"));
   }
   // Beyond the first block that is checked at once.
-  CHECK(contains(findings(std::string(10000, '\n') + "\x7f\x80"), "s:10001:2: error: the byte '\\x80' is no UTF-8"));
+  CHECK(contains(reported(std::string(10000, '\n') + "\x7f\x80"), "s:10001:2: error: the byte '\\x80' is no UTF-8"));
   for (const std::string& text : {"\xff\xfe<\0"s, "\xfe\xff\0<"s, "<\0r\0"s, "\0<\0r"s}) {
-    CHECK(findings(text) == "s:1:1: error: the file is encoded as UTF-16 or UTF-32; save it as UTF-8\n");
+    CHECK(reported(text) == "s:1:1: error: the file is encoded as UTF-16 or UTF-32; save it as UTF-8\n");
   }
 }
 
 TEST_CASE("numeric entities must be characters") {
   for (const char* entity : {"&#0;", "&#x0;", "&#xD800;", "&#xFFFE;", "&#1114112;", "&#x110000;",
                              "&#99999999999999999999;", "&#;", "&#x;", "&#xg;", "&#12", "&#8;"}) {
-    CHECK(contains(findings(scene_with_sphere("<name>" + std::string(entity) + "</name>")),
+    CHECK(contains(reported(scene_with_sphere("<name>" + std::string(entity) + "</name>")),
                    "is no character that XML allows"));
   }
 }
 
-TEST_CASE("a line index finds the first and the last byte of each line") {
-  const LineIndex lines("ab\n\ncd");
+TEST_CASE("the first and the last byte of each line have their lines and columns, counted from anywhere before") {
+  const std::string text = "ab\n\ncd";
   const auto at = [&](std::size_t offset) {
-    const SourceLocation location = lines.locate(offset);
+    const SourceLocation location = locate(text, offset);
+    for (std::size_t from = 0; from <= offset; ++from) {
+      const SourceLocation same = locate(text, offset, from, locate(text, from).line);
+      CHECK(same.line == location.line);
+      CHECK(same.column == location.column);
+    }
     return std::to_string(location.line) + ":" + std::to_string(location.column);
   };
   CHECK(at(0) == "1:1");

@@ -48,7 +48,8 @@ void read_and_print(const std::string& text, int frame) {
   require(scene.has_value() != diagnostics.has_errors(), "a scene with errors, or none without\n");
   for (const Diagnostic& diagnostic : diagnostics.kept()) {
     const bool unused = diagnostic.message.starts_with("no value of the scene uses $");
-    require(unused || (diagnostic.location.line > 0 && diagnostic.location.column > 0), "a finding without a place\n");
+    require(unused || (diagnostic.location.line > 0 && diagnostic.location.column > 0),
+            "a diagnostic without a line\n");
     require(diagnostic.message.size() < 1000, "a message of any length\n");
   }
   std::ostringstream printed;

@@ -7,7 +7,7 @@
 
 namespace raytrace {
 
-/// A description that breaks the rules; what() has all of its problems, one a line.
+/// A description that breaks the rules; what() has all errors, one a line.
 class SceneError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -15,7 +15,7 @@ class SceneError : public std::runtime_error {
 
 /// Reports what is wrong: sizes, radii and other numbers out of their ranges, directions of length 0, an eye at the
 /// point it looks at, materials without a name, names that are taken, and references to materials that there are not.
-/// Items without a line are named by their places, as in "<sphere> [2]".
+/// Items are named by their indices, as in "<sphere> [2]".
 void check_scene(const SceneDescription& scene, Diagnostics& diagnostics);
 
 // The same as an exception, a SceneError. Warnings alone throw none.

@@ -1,58 +1,42 @@
 #include "raytrace/description/item_pattern.h"
 
 #include <algorithm>
-#include <array>
+#include <type_traits>
 #include <variant>
 
-#include "raytrace/description/parse_value.h"
-#include "raytrace/xml/xml_characters.h"
 #include "raytrace/xml/xml_scanner.h"
 
 namespace raytrace {
 namespace {
 
-/// Reads a value of plain characters. Each function is false where there is something to say.
-class PlainValueReader {
- public:
-  PlainValueReader(std::string_view text, Range range, int component)
-      : text_(text), range_(range), component_(static_cast<std::size_t>(component)) {}
-
-  bool operator()(double* value) const { return !parse_number(text_, range_, *value); }
-  bool operator()(int* value) const { return !parse_integer(text_, range_, *value); }
-  bool operator()(bool* value) const { return !parse_boolean(text_, *value); }
-  bool operator()(std::string_view* value) const {
-    *value = text_;
-    return !text_.empty() && text_.front() != ' ' && text_.back() != ' ' && text_.find("  ") == std::string_view::npos;
-  }
-  bool operator()(std::string* value) const {
-    std::string_view text;
-    if (!(*this)(&text)) return false;
-    *value = text;
-    return true;
-  }
-  bool operator()(Vec3d* value) const { return read_component({&value->x, &value->y, &value->z}); }
-  bool operator()(Rgb<double>* value) const { return read_component({&value->red, &value->green, &value->blue}); }
-
- private:
-  bool read_component(const std::array<double*, 3>& components) const {
-    return !parse_number(text_, range_of_components(range_), *components[component_]);
-  }
-
-  std::string_view text_;
-  Range range_;
-  std::size_t component_;
-};
-
-/// What a value is for.
-struct Place {
+/// Where a value goes.
+struct ValueTarget {
   std::size_t field;
-  int component;
+  std::size_t component;  // of a vector or a color
 };
 
-/// Of the item's values, in the order of its text. None if it has other content.
-std::optional<std::vector<Place>> find_places(Element item, std::span<const FieldInfo> infos,
-                                              std::span<const FieldTarget> targets) {
-  std::vector<Place> places;
+/// Reads a value of plain characters; false where there is something to say.
+bool read_plain(std::string_view text, Range range, std::size_t component, const FieldTarget& target) {
+  return std::visit(
+      [&]<class Value>(Value* value) {
+        if constexpr (HasComponents<Value>)
+          return !parse_number(text, range_of_components(range), value->*Components<Value>::members[component]);
+        else if constexpr (std::is_same_v<Value, double>)
+          return !parse_number(text, range, *value);
+        else if constexpr (std::is_same_v<Value, int>)
+          return !parse_integer(text, range, *value);
+        else if constexpr (std::is_same_v<Value, bool>)
+          return !parse_boolean(text, *value);
+        else
+          return *value = text, !text.empty() && text.front() != ' ' && text.back() != ' ' && !check_label(text);
+      },
+      target);
+}
+
+/// Those of the item's values, in the order of its text. None if it has other content.
+std::optional<std::vector<ValueTarget>> find_targets(Element item, std::span<const FieldInfo> infos,
+                                                     std::span<const FieldTarget> targets) {
+  std::vector<ValueTarget> found;
   for (Node node = item.first_child(); node; node = node.next()) {
     const Element child = node.element();
     if (!child) return std::nullopt;
@@ -62,13 +46,13 @@ std::optional<std::vector<Place>> find_places(Element item, std::span<const Fiel
     for (Attribute attribute = child.first_attribute(); attribute; attribute = attribute.next()) {
       const auto component = std::find(components.begin(), components.end(), attribute.name());
       if (component == components.end()) return std::nullopt;
-      places.push_back({field, static_cast<int>(component - components.begin())});
+      found.push_back({field, static_cast<std::size_t>(component - components.begin())});
     }
     const Node content = child.first_child();
     if (components.empty() ? !content || content.element() || content.next() : bool(content)) return std::nullopt;
-    if (components.empty()) places.push_back({field, 0});
+    if (components.empty()) found.push_back({field, 0});
   }
-  return places;
+  return found;
 }
 
 }  // namespace
@@ -76,21 +60,20 @@ std::optional<std::vector<Place>> find_places(Element item, std::span<const Fiel
 std::optional<ItemPattern> ItemPattern::of(std::string_view text, Element item, std::span<const FieldInfo> infos,
                                            std::span<const FieldTarget> targets) {
   if (text.find("<!") != std::string_view::npos) return std::nullopt;
-  const auto places = find_places(item, infos, targets);
+  const auto found = find_targets(item, infos, targets);
   const std::vector<std::string_view> values = find_values(text);
-  if (!places || places->size() != values.size()) return std::nullopt;
+  if (!found || found->size() != values.size()) return std::nullopt;
   ItemPattern pattern;
   pattern.infos_.assign(infos.begin(), infos.end());
   const char* at = text.data();
   for (std::size_t i = 0; i < values.size(); ++i) {
-    pattern.values_.push_back({std::string(at, values[i].data()), (*places)[i].field, (*places)[i].component});
+    pattern.values_.push_back({std::string(at, values[i].data()), (*found)[i].field, (*found)[i].component});
     at = values[i].data() + values[i].size();
   }
   pattern.end_.assign(at, text.data() + text.size());
-  // None stands in a value that is read by it.
-  for (const Value& value : pattern.values_)
-    pattern.line_ends_ += static_cast<std::uint32_t>(std::count(value.before.begin(), value.before.end(), '\n'));
-  pattern.line_ends_ += static_cast<std::uint32_t>(std::count(pattern.end_.begin(), pattern.end_.end(), '\n'));
+  // None is in a value that is read by it.
+  pattern.line_ends_ = xml::line_ends(pattern.end_);
+  for (const Value& value : pattern.values_) pattern.line_ends_ += xml::line_ends(value.before);
   return pattern;
 }
 
@@ -101,8 +84,7 @@ std::size_t ItemPattern::read(std::string_view text, std::span<const FieldTarget
     rest.remove_prefix(value.before.size());
     std::size_t size = 0;
     while (size < rest.size() && xml::is(rest[size], xml::plain)) ++size;
-    const PlainValueReader reader(rest.substr(0, size), infos_[value.field].range, value.component);
-    if (!std::visit(reader, targets[value.field])) return 0;
+    if (!read_plain(rest.substr(0, size), infos_[value.field].range, value.component, targets[value.field])) return 0;
     rest.remove_prefix(size);
   }
   if (!rest.starts_with(end_)) return 0;

@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "raytrace/description/read_value.h"
-#include "raytrace/xml/document.h"
 
 namespace raytrace {
 
@@ -26,7 +25,7 @@ class ItemPattern {
                                        std::span<const FieldTarget> targets);
 
   /// Reads the item that `text`, a well-formed one of several, starts with: its values go to the targets, which are of
-  /// the same kinds as those of the pattern. The length of its text; 0 if it is another or there is something to say
+  /// the same types as those of the pattern. The length of its text; 0 if it is another or there is something to say
   /// about it or, which may be, to its values: variables, entities. The targets then hold anything.
   std::size_t read(std::string_view text, std::span<const FieldTarget> targets) const;
 
@@ -37,7 +36,7 @@ class ItemPattern {
   struct Value {
     std::string before;  ///< what stands between it and the value before
     std::size_t field;
-    int component;  ///< of a vector or a color
+    std::size_t component;  ///< of a vector or a color
   };
 
   std::vector<FieldInfo> infos_;

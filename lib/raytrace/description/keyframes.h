@@ -1,4 +1,6 @@
-// Values that change from frame to frame: what they are between their keys.
+// Values that change from frame to frame:
+//
+//   <radius> <key frame="1" value="2"/> <key frame="24" value="5" interpolation="smooth"/> </radius>
 //
 // Before the first key and after the last one a value is held. Between two keys each component goes monotonically from
 // the one's to the other's, so it never leaves the range of its keys. A linear key is a corner: what comes to it and
@@ -7,18 +9,18 @@
 #pragma once
 
 #include <array>
-#include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
-#include "raytrace/description/parse_value.h"
+#include "raytrace/description/read_context.h"
 
 namespace raytrace {
 
 enum class Interpolation { linear, smooth };
 
 /// "linear" or "smooth".
-DiagnosticText parse_interpolation(std::string_view text, Interpolation& interpolation);
+OptionalMessage parse_interpolation(std::string_view text, Interpolation& interpolation);
 
 struct Key {
   double frame = 0;
@@ -35,5 +37,16 @@ inline constexpr double least_key_distance = 1e-6;
 /// neighbours, or 0 (Fritsch, Butland: A Method for Constructing Local Monotone Piecewise Cubic Interpolants, 1984); at
 /// a linear key it is on each side that of the line.
 std::array<double, 3> value_at(const std::vector<Key>& keys, double frame);
+
+/// The attribute of a number's keys, where those of vectors have x, y and z.
+inline constexpr std::string_view number_component = "value";
+
+/// Whether the element has keys among its children.
+bool has_keys(Element element);
+
+/// Reads an element that has. components: their attributes, at most 3; values: receive what they are at the frame of
+/// the variables. False, with errors, if anything is wrong.
+bool read_keys(Element element, std::span<const std::string_view> components, std::span<double* const> values,
+               Range range, const ReadContext& context);
 
 }  // namespace raytrace

@@ -1,4 +1,4 @@
-// The names of a scene's materials or objects: finds names given twice, and the place of a name.
+// The names of a scene's materials or objects: finds names given twice, and the index of a name.
 //
 // A sorted array: with a million names it takes a third of the time of a hash table, and no input makes it slow.
 #pragma once
@@ -22,7 +22,7 @@ struct ItemPosition {
 class NameTable {
  public:
   /// Adds the name of an item.
-  void add(std::string_view name, ItemPosition place);
+  void add(std::string_view name, ItemPosition position);
 
   /// To be called once all names are there: reports each item whose name another, its first bearer, has already.
   /// threads: how many may share the work.
@@ -38,19 +38,18 @@ class NameTable {
  private:
   struct Bearer {
     std::size_t name_end;  // in characters_; the name starts where the one before ends
-    ItemPosition place;
+    ItemPosition position;
   };
   struct Key {
-    std::uint32_t key;       // a hash of the name
-    std::uint32_t position;  // in bearers_
+    std::uint32_t key;    // a hash of the name
+    std::uint32_t index;  // in bearers_
   };
 
-  static std::uint32_t hash(std::string_view name);
-  std::string_view name(std::size_t position) const;
+  std::string_view name(std::size_t index) const;
 
   std::string characters_;       // all names, one behind the other
   std::vector<Bearer> bearers_;  // in the order of add
-  std::vector<Key> keys_;        // sorted by finish: by their hash, then by name, then by position
+  std::vector<Key> keys_;        // sorted by finish: by their hash, then by name, then by index
 };
 
 }  // namespace raytrace

@@ -6,8 +6,8 @@
 #include <limits>
 #include <system_error>
 
-#include "raytrace/text/quoted.h"
-#include "raytrace/xml/document.h"
+#include "raytrace/text/utf8.h"
+#include "raytrace/xml/xml_characters.h"
 
 namespace raytrace {
 namespace {
@@ -21,7 +21,7 @@ Outcome convert(std::string_view text, Number& value) {
   const std::from_chars_result result = std::from_chars(text.data(), end, value);
   if (result.ec == std::errc::invalid_argument || result.ptr != end) return Outcome::not_a_number;
   if (result.ec == std::errc()) return Outcome::whole;
-  // from_chars does not tell 1e999 from 1e-999.
+  // from_chars gives the same for 1e999 and 1e-999.
   const std::size_t exponent = text.find_first_of("eE");
   const bool tiny = exponent == std::string_view::npos ? text.find_first_of("123456789") > text.find('.')
                                                        : text.substr(exponent + 1, 1) == "-";
@@ -45,26 +45,26 @@ std::string number_text(double value) {
   return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
 }
 
-DiagnosticText parse_number(std::string_view text, Range range, double& value) {
-  text = trimmed(text);
+OptionalMessage parse_number(std::string_view text, Range range, double& value) {
+  text = xml::trimmed(text);
   double number = 0;
   switch (convert(text, number)) {
     case Outcome::not_a_number:
       return explain_no_number(text);
     case Outcome::too_small:
-      return "is too small to be told from 0; write 0";
+      return "is too small to differ from 0; write 0";
     case Outcome::too_large:
       number = std::numeric_limits<double>::max();
       break;
     case Outcome::whole:
       break;
   }
-  if (DiagnosticText diagnostic = check_number(number, range)) return diagnostic;
+  if (OptionalMessage message = check_value(number, range)) return message;
   value = number;
   return std::nullopt;
 }
 
-DiagnosticText check_number(double number, Range range) {
+OptionalMessage check_value(double number, Range range) {
   // std::from_chars takes "nan" and "inf" for numbers.
   if (!std::isfinite(number)) return "is not a finite number; write one such as 1.5";
   if (std::abs(number) > largest_number) {
@@ -78,8 +78,8 @@ DiagnosticText check_number(double number, Range range) {
   return std::nullopt;
 }
 
-DiagnosticText parse_integer(std::string_view text, Range range, int& value) {
-  text = trimmed(text);
+OptionalMessage parse_integer(std::string_view text, Range range, int& value) {
+  text = xml::trimmed(text);
   int integer = 0;
   switch (convert(text, integer)) {
     case Outcome::not_a_number: {
@@ -98,35 +98,41 @@ DiagnosticText parse_integer(std::string_view text, Range range, int& value) {
     case Outcome::whole:
       break;
   }
-  if (DiagnosticText diagnostic = check_integer(integer, range)) return diagnostic;
+  if (OptionalMessage message = check_value(integer, range)) return message;
   value = integer;
   return std::nullopt;
 }
 
-DiagnosticText check_integer(int integer, Range range) {
+OptionalMessage check_value(int integer, Range range) {
   if (range == Range::not_negative && integer < 0) return "must not be negative";
   if (range == Range::positive && integer < 1) return "must be at least 1";
   return std::nullopt;
 }
 
-DiagnosticText parse_boolean(std::string_view text, bool& value) {
-  text = trimmed(text);
+OptionalMessage parse_boolean(std::string_view text, bool& value) {
+  text = xml::trimmed(text);
   const bool yes = text == "true" || text == "1";
   if (!yes && text != "false" && text != "0") return "is neither true nor false; write one of them";
   value = yes;
   return std::nullopt;
 }
 
+OptionalMessage check_value(const std::string& value, Range) {
+  if (value.empty()) return "is empty";
+  if (find_invalid_utf8(value, 1) != std::string_view::npos) return "is no text in UTF-8 without control characters";
+  if (value.front() == ' ' || value.back() == ' ') return "has a space at an end";
+  return check_label(value);
+}
+
 // Schemas take runs of white space for single spaces; to agree with them there must not be any.
-DiagnosticText check_label(std::string_view text) {
-  bool runs = false;
-  char last = 0;
-  for (const char c : text) {
-    runs |= c == '\t' || c == '\n' || c == '\r' || (c == ' ' && last == ' ');
-    last = c;
-  }
-  if (!runs) return std::nullopt;
+OptionalMessage check_label(std::string_view text) {
+  if (text.find_first_of("\t\n\r") == std::string_view::npos && text.find("  ") == std::string_view::npos)
+    return std::nullopt;
   return "has line breaks, tabs or several spaces in a row; write single spaces";
+}
+
+bool is_direction(const Vec3d& vector) {
+  return std::max({std::abs(vector.x), std::abs(vector.y), std::abs(vector.z)}) >= smallest_size;
 }
 
 }  // namespace raytrace

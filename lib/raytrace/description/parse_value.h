@@ -9,27 +9,44 @@
 
 namespace raytrace {
 
-/// What is wrong with a text as a value, worded to follow the quoted text: "is not a number; write one such as 1.5".
-using DiagnosticText = std::optional<std::string>;
+/// Why a text or value is refused, worded to follow it in quotes: "is not a number; write one such as 1.5".
+using OptionalMessage = std::optional<std::string>;
+
+// `value` is set only if there is no message.
 
 /// A decimal number such as 1, -0.5, .5 or 1e-3; white space around it and a leading + are fine. It must be finite and
-/// within the range and the limits of fields.h. `value` is set only if there is no diagnostic.
-DiagnosticText parse_number(std::string_view text, Range range, double& value);
+/// within the range and the limits of fields.h.
+OptionalMessage parse_number(std::string_view text, Range range, double& value);
 
 /// A whole number without point or exponent.
-DiagnosticText parse_integer(std::string_view text, Range range, int& value);
+OptionalMessage parse_integer(std::string_view text, Range range, int& value);
 
 /// true, false, 1 or 0.
-DiagnosticText parse_boolean(std::string_view text, bool& value);
+OptionalMessage parse_boolean(std::string_view text, bool& value);
 
-// What is wrong with a value that is there already. Those above find the same.
+// The rules for values, wherever they come from. Those above keep them, too.
 
-DiagnosticText check_number(double value, Range range);
-DiagnosticText check_integer(int value, Range range);
-/// Of a name.
-DiagnosticText check_label(std::string_view text);
+OptionalMessage check_value(double value, Range range);
+OptionalMessage check_value(int value, Range range);
+inline OptionalMessage check_value(bool, Range) { return std::nullopt; }
+OptionalMessage check_value(const std::string& value, Range range);  ///< a name, say
+
+/// Of a text that XML allows and that has no white space at its ends, as one that was read.
+OptionalMessage check_label(std::string_view text);
+
+/// Of a vector or a color whose field has this range.
+inline Range range_of_components(Range range) { return range == Range::nonzero ? Range::any : range; }
+
+/// Whether the vector is long enough for the range `nonzero`.
+bool is_direction(const Vec3d& vector);
 
 /// The shortest text that parse_number turns into exactly this number.
 std::string number_text(double value);
+
+// As reading takes it.
+inline std::string value_text(double value) { return number_text(value); }
+inline std::string value_text(int value) { return std::to_string(value); }
+inline std::string value_text(bool value) { return value ? "true" : "false"; }
+inline std::string value_text(const std::string& value) { return value; }
 
 }  // namespace raytrace

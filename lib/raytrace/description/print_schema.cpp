@@ -1,27 +1,23 @@
 #include "raytrace/description/print_schema.h"
 
 #include <climits>
-#include <cstddef>
+#include <span>
+#include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
 
-#include "raytrace/cameras/registry.h"
-#include "raytrace/cameras/view_plane.h"
+#include "raytrace/description/keyframes.h"
 #include "raytrace/description/parse_value.h"
-#include "raytrace/description/read_keys.h"
 #include "raytrace/description/scene_layout.h"
-#include "raytrace/lights/registry.h"
-#include "raytrace/materials/registry.h"
-#include "raytrace/math/type_list.h"
-#include "raytrace/shapes/registry.h"
+#include "raytrace/xml/xml_writer.h"
 
 namespace raytrace {
 namespace {
 
-// Numbers of each kind, for each range: the least value that is allowed.
+// For each range of numbers: the least value that is allowed.
 struct RangeLimits {
   std::string_view prefix;
   double least_number;
@@ -39,124 +35,113 @@ const RangeLimits& limits(Range range) {
 /// Of a number in an attribute.
 std::string number_name(Range range) { return std::string(limits(range).prefix) + "number"; }
 
-std::string type_name(Range range, double) { return number_name(range) + "orkeys"; }
-std::string type_name(Range range, int) { return std::string(limits(range).prefix) + "integer"; }
-std::string type_name(Range, bool) { return "boolean"; }
-std::string type_name(Range, const std::string&) { return "text"; }
-std::string type_name(Range range, const Vec3d&) { return std::string(limits(range).prefix) + "vector"; }
-std::string type_name(Range range, const Rgb<double>&) { return std::string(limits(range).prefix) + "color"; }
+template <class Value>
+std::string type_name(Range range) {
+  if constexpr (std::is_same_v<Value, double>) return number_name(range) + "orkeys";
+  if constexpr (std::is_same_v<Value, int>) return std::string(limits(range).prefix) + "integer";
+  if constexpr (std::is_same_v<Value, bool>) return "boolean";
+  if constexpr (std::is_same_v<Value, std::string>) return "text";
+  if constexpr (std::is_same_v<Value, Vec3d>) return std::string(limits(range).prefix) + "vector";
+  if constexpr (std::is_same_v<Value, Rgb<double>>) return std::string(limits(range).prefix) + "color";
+}
 
-class SchemaPrinter {
+class SchemaPrinter : private XmlWriter {
  public:
   std::string print() {
     line(R"(<?xml version="1.0" encoding="UTF-8"?>)");
     line("<!-- The scene format of raytrace. Made by print_schema() from the registries: do not edit, run the target");
     line("     update_schema instead. docs/ has the meaning of the elements. -->");
-    open(R"(xs:schema xmlns:xs="http://www.w3.org/2001/XMLSchema" elementFormDefault="qualified")");
-    print_root();
-    print_section(lights_element, Lights{}, {});
-    print_section(materials_element, Materials{}, {R"(<xs:element name="name" type="text"/>)"});
-    print_section(
-        objects_element, Shapes{},
-        {R"(<xs:element name="name" type="text" minOccurs="0"/>)", R"(<xs:element name="material" type="text"/>)"});
-    print_item<ViewPlane>({});
-    for_each_type(Cameras{}, [&]<class T>(std::type_identity<T>) { print_item<T>({}); });
-    print_value_types();
-    close("xs:schema");
-    return std::move(text_);
+    element(R"(xs:schema xmlns:xs="http://www.w3.org/2001/XMLSchema" elementFormDefault="qualified")", [&] {
+      element(R"(xs:element name="raytracer")", [&] { print_root(); });
+      for_each_type(Sections{}, [&]<class Section>(std::type_identity<Section>) { print_section<Section>(); });
+      print_item<ViewPlane>({});
+      for_each_type(Cameras{}, [&]<class T>(std::type_identity<T>) { print_item<T>({}); });
+      element(named("complexType", integrator_element), [&] { print_one_of(Integrators{}); });
+      for_each_type(Integrators{}, [&]<class T>(std::type_identity<T>) { print_item<T>({}); });
+      print_value_types();
+    });
+    return take();
   }
 
  private:
-  using Labels = std::vector<std::string_view>;
+  static constexpr std::string_view any_number_of = R"(xs:choice minOccurs="0" maxOccurs="unbounded")";
 
-  // Sections in any order and number, but one view plane and one camera.
   void print_root() {
-    open(R"(xs:element name="raytracer")");
-    open("xs:complexType");
-    open("xs:sequence");
-    print_sections();
-    open("xs:choice");
-    print_pair(true);
-    print_pair(false);
-    close("xs:choice");
-    close("xs:sequence");
-    close("xs:complexType");
+    element("xs:complexType", [&] {
+      // Sections in any order and number, but one view plane and one camera. That there is one integrator at most
+      // would take as many sequences again.
+      element("xs:sequence", [&] {
+        print_sections();
+        element("xs:choice", [&] {
+          print_pair([&] { child(ViewPlane::element); }, [&] { print_one_of(Cameras{}); });
+          print_pair([&] { print_one_of(Cameras{}); }, [&] { child(ViewPlane::element); });
+        });
+      });
+    });
     line("<!-- Names are unique among all materials, and among all objects. -->");
-    print_constraint("key", R"(name="materials")", "materials/*/*", "name");
-    print_constraint("unique", R"(name="objects")", "objects/*/*", "name");
-    close("xs:element");
+    print_constraint(R"(xs:key name="materials")", "materials/*/*", "name");
+    print_constraint(R"(xs:unique name="objects")", "objects/*/*", "name");
   }
 
-  void print_pair(bool viewplane_first) {
-    open("xs:sequence");
-    if (viewplane_first)
-      element(ViewPlane::element);
-    else
-      print_cameras();
-    print_sections();
-    if (viewplane_first)
-      print_cameras();
-    else
-      element(ViewPlane::element);
-    print_sections();
-    close("xs:sequence");
+  template <class PrintFirst, class PrintSecond>
+  void print_pair(const PrintFirst& print_first, const PrintSecond& print_second) {
+    element("xs:sequence", [&] {
+      print_first();
+      print_sections();
+      print_second();
+      print_sections();
+    });
   }
 
   void print_sections() {
-    open(R"(xs:choice minOccurs="0" maxOccurs="unbounded")");
-    for (const std::string_view section : {lights_element, materials_element, objects_element}) element(section);
-    close("xs:choice");
-  }
-
-  void print_cameras() {
-    open("xs:choice");
-    for_each_type(Cameras{}, [&]<class T>(std::type_identity<T>) { element(T::element); });
-    close("xs:choice");
-  }
-
-  void print_constraint(std::string_view kind, std::string_view attributes, std::string_view selector,
-                        std::string_view field) {
-    const std::string name = "xs:" + std::string(kind);
-    open(name + " " + std::string(attributes));
-    line("<xs:selector xpath=\"" + std::string(selector) + "\"/>");
-    line("<xs:field xpath=\"" + std::string(field) + "\"/>");
-    close(name);
+    element(any_number_of, [&] {
+      for_each_type(Sections{}, [&]<class Section>(std::type_identity<Section>) { child(Section::element); });
+      child(integrator_element);
+    });
   }
 
   template <class List>
-  void print_section(std::string_view section, List list, const Labels& labels) {
-    print_choice(section, [&] {
-      for_each_type(list, [&]<class T>(std::type_identity<T>) { element(T::group.empty() ? T::element : T::group); });
+  void print_one_of(List list) {
+    element("xs:choice", [&] { for_each_type(list, [&]<class T>(std::type_identity<T>) { child(T::element); }); });
+  }
+
+  void print_constraint(std::string_view tag, const std::string& selector, const std::string& field) {
+    element(tag, [&] {
+      line("<xs:selector xpath=\"" + selector + "\"/>");
+      line("<xs:field xpath=\"" + field + "\"/>");
     });
-    for_each_type(list, [&]<class T>(std::type_identity<T>) {
-      if (!T::group.empty()) print_choice(T::group, [&] { element(T::element); });
-      print_item<T>(labels);
+  }
+
+  template <class Section>
+  void print_section() {
+    using Types = typename Section::Types;
+    print_choice(Section::element, [&] {
+      for_each_type(Types{}, [&]<class T>(std::type_identity<T>) { child(T::group.empty() ? T::element : T::group); });
+    });
+    for_each_type(Types{}, [&]<class T>(std::type_identity<T>) {
+      if (!T::group.empty()) print_choice(T::group, [&] { child(T::element); });
+      print_item<T>(Section::labels);
     });
   }
 
   /// The type of an element that has any number of other elements, in any order.
   template <class PrintChildren>
-  void print_choice(std::string_view name, PrintChildren print_children) {
-    open("xs:complexType name=\"" + std::string(name) + "\"");
-    open(R"(xs:choice minOccurs="0" maxOccurs="unbounded")");
-    print_children();
-    close("xs:choice");
-    close("xs:complexType");
+  void print_choice(std::string_view name, const PrintChildren& print_children) {
+    element(named("complexType", name), [&] { element(any_number_of, print_children); });
   }
 
   template <class T>
-  void print_item(const Labels& labels) {
-    open("xs:complexType name=\"" + std::string(T::element) + "\"");
-    open("xs:all");
-    for (const std::string_view label : labels) line(std::string(label));
-    for (const auto& field : T::fields()) {
-      const std::string type = std::visit(
-          [&]<class Value>(Value T::Parameters::*) { return type_name(field.range, Value()); }, field.member);
-      line("<xs:element name=\"" + std::string(field.name) + "\" type=\"" + type +
-           (field.required ? "\"/>" : "\" minOccurs=\"0\"/>"));
-    }
-    close("xs:all");
-    close("xs:complexType");
+  void print_item(std::span<const FieldInfo> labels) {
+    element(named("complexType", T::element), [&] {
+      element("xs:all", [&] {
+        for (const FieldInfo& label : labels) child(label.name, "text", label.required);
+        for (const auto& field : T::fields()) {
+          const std::string type = std::visit(
+              [&]<class Value>(Value T::Parameters::*) { return type_name<Value>(field.range); }, field.member);
+          child(field.name, type, field.required);
+        }
+      });
+    });
   }
 
   void print_value_types() {
@@ -171,11 +156,13 @@ class SchemaPrinter {
                                {"pattern", R"([+\-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+\-]?[0-9]+)?)"}});
       // Not of xs:int, for which xmllint forgets to take white space away.
       print_value_or_variable(
-          type_name(range, int()), "xs:integer",
+          type_name<int>(range), "xs:integer",
           {{"minInclusive", std::to_string(limit.least_integer)}, {"maxInclusive", std::to_string(INT_MAX)}});
-      print_number_or_keys(range);
-      print_components(type_name(range, Vec3d()), number_name(range), {"x", "y", "z"});
-      print_components(type_name(range, Rgb<double>()), number_name(range), {"red", "green", "blue"});
+      // XML Schema 1.0 cannot say "a number or elements", so the text is any.
+      element(named("complexType", type_name<double>(range)) + " mixed=\"true\"",
+              [&] { print_keys(number_name(range), {&number_component, 1}); });
+      print_components<Vec3d>(range);
+      print_components<Rgb<double>>(range);
     }
     line("<!-- A stray > before the value is a slip that is forgiven. -->");
     print_restriction("boolean", "xs:token", {{"pattern", R"(>? ?(true|false|1|0)|.*[$].*)"}});
@@ -184,80 +171,60 @@ class SchemaPrinter {
 
   using Facets = std::vector<std::pair<std::string_view, std::string>>;
 
-  void print_restriction(const std::string& name, std::string_view base, const Facets& facets) {
-    open("xs:simpleType name=\"" + name + "\"");
-    print_facets(base, facets);
-    close("xs:simpleType");
+  void print_restriction(std::string_view name, std::string_view base, const Facets& facets) {
+    element(named("simpleType", name), [&] { print_facets(base, facets); });
   }
 
-  void print_value_or_variable(const std::string& name, std::string_view base, const Facets& facets) {
-    open("xs:simpleType name=\"" + name + "\"");
-    open(R"(xs:union memberTypes="variable")");
-    open("xs:simpleType");
-    print_facets(base, facets);
-    close("xs:simpleType");
-    close("xs:union");
-    close("xs:simpleType");
+  void print_value_or_variable(std::string_view name, std::string_view base, const Facets& facets) {
+    element(named("simpleType", name), [&] {
+      element(R"(xs:union memberTypes="variable")",
+              [&] { element("xs:simpleType", [&] { print_facets(base, facets); }); });
+    });
   }
 
   void print_facets(std::string_view base, const Facets& facets) {
-    open("xs:restriction base=\"" + std::string(base) + "\"");
-    for (const auto& [facet, value] : facets) line("<xs:" + std::string(facet) + " value=\"" + value + "\"/>");
-    close("xs:restriction");
+    element("xs:restriction base=\"" + std::string(base) + "\"", [&] {
+      for (const auto& [facet, value] : facets) line("<xs:" + std::string(facet) + " value=\"" + value + "\"/>");
+    });
   }
 
-  /// XML Schema 1.0 cannot say "a number or elements", so the text is any.
-  void print_number_or_keys(Range range) {
-    open("xs:complexType name=\"" + type_name(range, double()) + "\" mixed=\"true\"");
-    print_keys(number_name(range), {number_component});
-    close("xs:complexType");
+  template <class Value>
+  void print_components(Range range) {
+    const std::string type = number_name(range);
+    element(named("complexType", type_name<Value>(range)), [&] {
+      // Nor can it say "attributes or elements".
+      print_keys(type, Components<Value>::names);
+      for (const std::string_view component : Components<Value>::names) attribute(component, type, false);
+    });
   }
 
-  void print_components(const std::string& name, const std::string& type,
-                        const std::vector<std::string_view>& components) {
-    open("xs:complexType name=\"" + name + "\"");
-    // Nor can it say "attributes or elements".
-    print_keys(type, components);
-    for (const std::string_view component : components) attribute(component, type, false);
-    close("xs:complexType");
-  }
-
-  void print_keys(const std::string& type, const std::vector<std::string_view>& components) {
-    open("xs:sequence");
-    open(R"(xs:element name="key" minOccurs="0" maxOccurs="unbounded")");
-    open("xs:complexType");
-    attribute("frame", number_name(Range::any), true);
-    for (const std::string_view component : components) attribute(component, type, true);
-    attribute("interpolation", "interpolation", false);
-    close("xs:complexType");
-    close("xs:element");
-    close("xs:sequence");
+  void print_keys(const std::string& type, std::span<const std::string_view> components) {
+    element("xs:sequence", [&] {
+      element(R"(xs:element name="key" minOccurs="0" maxOccurs="unbounded")", [&] {
+        element("xs:complexType", [&] {
+          attribute("frame", number_name(Range::any), true);
+          for (const std::string_view component : components) attribute(component, type, true);
+          attribute("interpolation", "interpolation", false);
+        });
+      });
+    });
   }
 
   void attribute(std::string_view name, const std::string& type, bool required) {
-    line("<xs:attribute name=\"" + std::string(name) + "\" type=\"" + type +
-         (required ? "\" use=\"required\"/>" : "\"/>"));
+    line("<" + named("attribute", name) + " type=\"" + type + (required ? "\" use=\"required\"/>" : "\"/>"));
+  }
+
+  void child(std::string_view name, std::string_view type, bool required) {
+    line("<" + named("element", name) + " type=\"" + std::string(type) + (required ? "\"/>" : "\" minOccurs=\"0\"/>"));
   }
 
   /// An element whose type has its name.
-  void element(std::string_view name) {
-    line("<xs:element name=\"" + std::string(name) + "\" type=\"" + std::string(name) + "\"/>");
+  void child(std::string_view name) { child(name, name, true); }
+
+  /// xs:what name="name"
+  static std::string named(std::string_view what, std::string_view name) {
+    return "xs:" + std::string(what) + " name=\"" + std::string(name) + "\"";
   }
-
-  void open(std::string_view tag) {
-    line("<" + std::string(tag) + ">");
-    ++depth_;
-  }
-
-  void close(std::string_view name) {
-    --depth_;
-    line("</" + std::string(name) + ">");
-  }
-
-  void line(std::string_view content) { text_.append(2 * depth_, ' ').append(content).append("\n"); }
-
-  std::string text_;
-  std::size_t depth_ = 0;
 };
 
 }  // namespace

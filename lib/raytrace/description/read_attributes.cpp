@@ -5,21 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "raytrace/description/parse_text.h"
-#include "raytrace/description/parse_value.h"
-#include "raytrace/description/variables.h"
-#include "raytrace/text/nearest_name.h"
-#include "raytrace/text/quoted.h"
-#include "raytrace/xml/report.h"
-
 namespace raytrace {
 namespace {
-
-std::size_t find_field(std::span<const AttributeField> fields, std::string_view name) {
-  std::size_t i = 0;
-  while (i < fields.size() && fields[i].name != name) ++i;
-  return i;
-}
 
 bool is_number_or_variable(std::string_view word) {
   double number = 0;
@@ -43,6 +30,7 @@ bool append_numbers(std::string_view text, std::vector<std::string>& numbers) {
 class OwnNumbers {
  public:
   OwnNumbers(Element element, std::span<const AttributeField> fields) : fields_(fields), values_(fields.size()) {
+    if (!element) return;
     for (Attribute attribute = element.first_attribute(); attribute; attribute = attribute.next())
       take(attribute.name(), attribute.value());
     for (Node node = element.first_child(); node; node = node.next()) {
@@ -71,13 +59,13 @@ class OwnNumbers {
 
   /// Numbers without a field's name go to the required fields that have none, in their order.
   void give_others() {
-    std::vector<std::size_t> places;
+    std::vector<std::string*> absent;
     for (std::size_t i = 0; i < fields_.size(); ++i)
-      if (fields_[i].required && values_[i].empty()) places.push_back(i);
+      if (fields_[i].required && values_[i].empty()) absent.push_back(&values_[i]);
     if (!others_fine_) return;
-    if (others_.size() == 1 && places.size() == 3) others_.assign(3, others_.front());  // a grey
-    if (others_.size() != places.size()) return;
-    for (std::size_t i = 0; i < places.size(); ++i) values_[places[i]] = others_[i];
+    if (others_.size() == 1 && absent.size() == 3) others_.assign(3, others_.front());  // a grey
+    if (others_.size() != absent.size()) return;
+    for (std::size_t i = 0; i < absent.size(); ++i) *absent[i] = others_[i];
   }
 
   std::span<const AttributeField> fields_;
@@ -85,56 +73,39 @@ class OwnNumbers {
   bool others_fine_ = true;
 };
 
-/// value(i): of fields[i].
-template <class Value>
-std::string example(std::string_view element, std::span<const AttributeField> fields, const Value& value) {
-  std::string text = "<" + printable(element);
-  for (std::size_t i = 0; i < fields.size(); ++i)
-    if (fields[i].required) text.append(" ").append(fields[i].name).append("=\"").append(value(i)).append("\"");
-  return text + "/>";
-}
-
-/// The field that an unknown attribute may have been meant for: a near one that is not there under its own name.
-std::string_view nearest_missing(Element element, std::string_view name, std::span<const AttributeField> fields) {
-  std::vector<std::string_view> missing;
-  for (const AttributeField& field : fields) {
-    Attribute present = element.first_attribute();
-    while (present && present.name() != field.name) present = present.next();
-    if (!present) missing.push_back(field.name);
+/// Bit i: the element has the attribute fields[i].
+std::uint64_t present_attributes(Element element, std::span<const AttributeField> fields) {
+  std::uint64_t present = 0;
+  for (Attribute attribute = element.first_attribute(); attribute; attribute = attribute.next()) {
+    const std::size_t i = find_field(fields, attribute.name());
+    if (i < fields.size()) present |= std::uint64_t(1) << i;
   }
-  return nearest_name(name, missing);
+  return present;
 }
 
-std::string explain_unknown(Element element, Attribute attribute, std::span<const AttributeField> fields,
-                            std::string_view nearest) {
-  const std::string start = "unknown attribute " + in_quotes(attribute.name()) + " in " + tag(element.name()) + "; ";
-  if (!nearest.empty()) return start + "did you mean " + in_quotes(nearest) + "?";
-  return start + "write " + own_example(element.name(), fields, element);
-}
-
-bool read_attribute(Element element, Attribute attribute, const AttributeField& field, Diagnostics& diagnostics) {
+bool read_attribute(Element element, Attribute attribute, const AttributeField& field, const ReadContext& context) {
   const auto parse = [&](std::string_view text) {
     const auto number = std::get_if<double*>(&field.target);
     return number ? parse_number(text, field.range, **number)
-                  : parse_interpolation(trimmed(text), *std::get<Interpolation*>(field.target));
+                  : parse_interpolation(xml::trimmed(text), *std::get<Interpolation*>(field.target));
   };
   const auto where = [&] { return " for " + std::string(field.name) + " in " + tag(element.name()) + " "; };
-  return parse_text<Dollars::never_fit>(attribute.value(), element, attribute, parse, where, diagnostics);
+  return parse_text(attribute.value(), element, attribute, parse, where, context);
 }
 
-/// seen: bit i for fields[i].
-bool require_all(Element element, std::span<const AttributeField> fields, std::uint64_t seen,
+/// Reports the required fields that are missing, if any: then it is false. present: bit i for fields[i].
+bool require_all(Element element, std::span<const AttributeField> fields, std::uint64_t present,
                  Diagnostics& diagnostics) {
   std::string missing;
   int count = 0;
   for (std::size_t i = 0; i < fields.size(); ++i) {
-    if (!fields[i].required || (seen >> i & 1)) continue;
+    if (!fields[i].required || (present >> i & 1)) continue;
     missing += (count++ > 0 ? " and " : "") + in_quotes(fields[i].name);
   }
   if (count == 0) return true;
-  report_error(diagnostics, element, [&] {
+  diagnostics.error(element, [&] {
     return "missing " + std::string(count > 1 ? "attributes " : "attribute ") + missing + " in " + tag(element.name()) +
-           "; write " + own_example(element.name(), fields, element);
+           "; write " + example_of(element.name(), fields, element);
   });
   return false;
 }
@@ -142,35 +113,40 @@ bool require_all(Element element, std::span<const AttributeField> fields, std::u
 }  // namespace
 
 bool read_attributes(Element element, std::span<const AttributeField> fields, bool example_shown,
-                     Diagnostics& diagnostics) {
+                     const ReadContext& context) {
   bool fine = true;
-  std::uint64_t seen = 0;
+  std::uint64_t present = 0;  // bit i: fields[i]
   for (Attribute attribute = element.first_attribute(); attribute; attribute = attribute.next()) {
     const std::size_t i = find_field(fields, attribute.name());
     if (i < fields.size()) {
-      seen |= std::uint64_t(1) << i;
-      fine &= read_attribute(element, attribute, fields[i], diagnostics);
+      present |= std::uint64_t(1) << i;
+      fine &= read_attribute(element, attribute, fields[i], context);
       continue;
     }
     fine = false;
-    const std::string_view nearest = nearest_missing(element, attribute.name(), fields);
-    report_error(diagnostics, attribute, [&] { return explain_unknown(element, attribute, fields, nearest); });
+    const std::string_view nearest = nearest_absent(fields, present_attributes(element, fields), attribute.name());
+    context.diagnostics.error(attribute, [&] {
+      return "unknown attribute " + in_quotes(attribute.name()) + " in " + tag(element.name()) +
+             (nearest.empty() ? "; write " + example_of(element.name(), fields, element)
+                              : "; did you mean " + in_quotes(nearest) + "?");
+    });
     // One slip, one message: an attribute that was only misspelt is not reported as missing too.
     if (nearest.empty())
       example_shown = true;
     else
-      seen |= std::uint64_t(1) << find_field(fields, nearest);
+      present |= std::uint64_t(1) << find_field(fields, nearest);
   }
-  return (example_shown || require_all(element, fields, seen, diagnostics)) && fine;
+  return (example_shown || require_all(element, fields, present, context.diagnostics)) && fine;
 }
 
-std::string example_of(std::string_view element, std::span<const AttributeField> fields) {
-  return example(element, fields, [](std::size_t) { return "1"; });
-}
-
-std::string own_example(std::string_view element, std::span<const AttributeField> fields, Element source) {
+std::string example_of(std::string_view element, std::span<const AttributeField> fields, Element source) {
   const OwnNumbers own(source, fields);
-  return example(element, fields, [&](std::size_t i) { return own[i].empty() ? "1" : own[i]; });
+  std::string text = "<" + printable(element);
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    if (!fields[i].required) continue;
+    text.append(" ").append(fields[i].name).append("=\"").append(own[i].empty() ? "1" : own[i]).append("\"");
+  }
+  return text + "/>";
 }
 
 }  // namespace raytrace

@@ -1,42 +1,60 @@
 // Reads an element into a Parameters struct, as its table of fields says.
 //
 // Whatever is wrong is reported where it stands, together with what to write instead: unknown, repeated, missing and
-// malformed children; attributes and text where none belong.
+// malformed children; attributes and text where none belong; parameters that do not go together.
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
-#include <utility>
 #include <variant>
 #include <vector>
 
 #include "raytrace/description/read_value.h"
-#include "raytrace/parameters/fields.h"
-#include "raytrace/xml/diagnostics.h"
-#include "raytrace/xml/document.h"
 
 namespace raytrace {
 
 /// Reads the children of `element`: the value of infos[i] goes to targets[i]. Members of absent or faulty children keep
 /// their values. False if there was an error.
 bool read_fields(Element element, std::span<const FieldInfo> infos, std::span<const FieldTarget> targets,
-                 Diagnostics& diagnostics);
+                 const ReadContext& context);
 
-/// Reads elements of one type, one after the other.
-template <class Parameters>
+/// Whether the parameters of a T, each of which is fine alone, go together; otherwise report(severity, message).
+/// may_skip: whether what they are for may be left out, with a warning, where the type says so.
+template <class T, class Report>
+bool check_together(const typename T::Parameters& parameters, bool may_skip, const Report& report) {
+  if constexpr (requires { T::check(parameters); }) {
+    if (const std::optional<ParameterDiagnostic> diagnostic = T::check(parameters)) {
+      const bool skip = diagnostic->effect == ParameterDiagnostic::Effect::skip && may_skip;
+      report(skip ? Severity::warning : Severity::error, diagnostic->message);
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Reads elements of the type T, one after the other.
+template <class T>
 class FieldsReader {
  public:
-  /// labels: children that the elements have beside those of their parameters.
-  explicit FieldsReader(Fields<Parameters> fields, std::vector<FieldInfo> labels = {})
-      : fields_(std::move(fields)), label_count_(labels.size()), infos_(std::move(labels)) {
-    for (const Field<Parameters>& field : fields_) infos_.push_back({field.name, field.required, field.range});
+  using Parameters = typename T::Parameters;
+
+  /// labels: children that the elements have beside those of their parameters. may_skip: as in check_together().
+  explicit FieldsReader(std::span<const FieldInfo> labels = {}, bool may_skip = false)
+      : label_count_(labels.size()), infos_(labels.begin(), labels.end()), may_skip_(may_skip) {
+    for (const auto& field : fields_) infos_.push_back(field);
     targets_.reserve(infos_.size());
   }
 
-  /// labels: receives the labels' texts, in the order of the constructor's.
-  bool read(Element element, Parameters& parameters, std::span<std::string_view> labels, Diagnostics& diagnostics) {
-    return read_fields(element, infos_, targets(parameters, labels), diagnostics);
+  /// False if the element is of no use, which is reported. labels: receives the labels' texts, in the order of the
+  /// constructor's.
+  bool read(Element element, Parameters& parameters, std::span<std::string_view> labels, const ReadContext& context) {
+    if (!read_fields(element, infos_, targets(parameters, labels), context)) return false;
+    return check_together<T>(parameters, may_skip_, [&](Severity severity, const std::string& message) {
+      context.diagnostics.report(severity, element, [&] { return message; });
+    });
   }
 
   /// What read() gives read_fields(); targets are valid until the next call.
@@ -44,17 +62,17 @@ class FieldsReader {
   std::span<const FieldTarget> targets(Parameters& parameters, std::span<std::string_view> labels) {
     targets_.clear();
     for (std::size_t i = 0; i < label_count_; ++i) targets_.emplace_back(&labels[i]);
-    for (const Field<Parameters>& field : fields_) {
+    for (const auto& field : fields_)
       std::visit([&](auto member) { targets_.emplace_back(&(parameters.*member)); }, field.member);
-    }
     return targets_;
   }
 
  private:
-  Fields<Parameters> fields_;
+  Fields<Parameters> fields_ = T::fields();
   std::size_t label_count_;
   std::vector<FieldInfo> infos_;
   std::vector<FieldTarget> targets_;  // of the element at hand
+  bool may_skip_;
 };
 
 }  // namespace raytrace

@@ -1,15 +1,9 @@
 #include "raytrace/description/read_items.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <deque>
-#include <optional>
 
-#include "raytrace/description/refuse_content.h"
-#include "raytrace/description/scene_layout.h"
 #include "raytrace/parallel/in_order.h"
-#include "raytrace/xml/report.h"
-#include "raytrace/xml/xml_characters.h"
 #include "raytrace/xml/xml_scanner.h"
 
 namespace raytrace {
@@ -17,10 +11,10 @@ namespace raytrace {
 namespace {
 
 /// What one thread reads chunks with.
-class PieceReader {
+class ChunkReader {
  public:
-  PieceReader(const ItemGroup& group, std::unique_ptr<ItemList> items)
-      : group_(group), document_(group.text, group.variables), items_(std::move(items)) {}
+  ChunkReader(const ItemGroup& group, std::unique_ptr<ItemList> items)
+      : group_(group), document_(group.text), items_(std::move(items)) {}
 
   ItemList& items() { return *items_; }
 
@@ -39,16 +33,16 @@ class PieceReader {
       const std::size_t length = wants_pattern || alike >= many ? first_length() : 0;
       Span parsed = rest_;
       if (length > 0) parsed.end = parsed.begin + length;
-      const std::size_t findings_before = diagnostics.error_count() + diagnostics.warning_count();
+      const std::size_t reports_before = diagnostics.error_count() + diagnostics.warning_count();
       read_parsed(parsed, diagnostics);
       if (length == 0) return;
       const std::string_view text = group_.text.of(parsed);
       if (wants_pattern) {
         --patterns_left_;
-        if (diagnostics.error_count() + diagnostics.warning_count() == findings_before)
+        if (diagnostics.error_count() + diagnostics.warning_count() == reports_before)
           pattern_ = items_->pattern_of(text, document_.root().first_child().element());
       }
-      rest_.line += static_cast<std::uint32_t>(std::count(text.begin(), text.end(), '\n'));
+      rest_.line += xml::line_ends(text);
       rest_.begin = parsed.end;
       skip_space();
     }
@@ -75,9 +69,9 @@ class PieceReader {
       if (refuse_text(node, group_.element, diagnostics)) continue;
       const Element child = node.element();
       if (child.name() == group_.item_name)
-        items_->read(child, number_, diagnostics);
+        items_->read(child, number_, {group_.variables, diagnostics});
       else
-        refuse_misplaced(child, group_.element.name(), diagnostics);
+        diagnostics.error(child, [&] { return explain_misplaced(child.name(), group_.element.name()); });
       ++number_;
     }
   }
@@ -89,10 +83,11 @@ class PieceReader {
   }
 
   void skip_space() {
-    const std::string_view text = group_.text.of(rest_);
-    std::size_t size = 0;
-    for (; size < text.size() && xml::is(text[size], xml::space); ++size) rest_.line += text[size] == '\n' ? 1 : 0;
-    rest_.begin += size;
+    for (const char c : group_.text.of(rest_)) {
+      if (!xml::is(c, xml::space)) return;
+      rest_.line += c == '\n' ? 1 : 0;
+      ++rest_.begin;
+    }
   }
 
   const ItemGroup& group_;
@@ -112,11 +107,11 @@ void read_items(const ItemGroup& group, tbb::task_arena& arena, Diagnostics& dia
   struct Worker {
     Worker(const ItemGroup& group, std::unique_ptr<ItemList> items) : reader(group, std::move(items)) {}
 
-    PieceReader reader;
+    ChunkReader reader;
     Diagnostics diagnostics = Diagnostics::counter();
   };
   const SceneText::ChunkRange chunks = group.text.chunks_of(group.element.offset());
-  // Pieces are read without a message at first. Where there is something to say, the chunk is read once more when all
+  // Chunks are read without a message at first. Where there is something to say, the chunk is read once more when all
   // before it have been taken: so no more messages are composed than are kept, and they do not depend on the threads.
   const auto read_quietly = [&](std::size_t i, Worker& worker) {
     worker.diagnostics = Diagnostics::counter();
@@ -140,8 +135,15 @@ void read_items(const ItemGroup& group, tbb::task_arena& arena, Diagnostics& dia
   in_order(chunks.count, workers, arena, read_quietly, report_and_take);
 }
 
-void refuse_misplaced(Element element, std::string_view parent, Diagnostics& diagnostics) {
-  report_error(diagnostics, element, [&] { return explain_misplaced(element.name(), parent); });
+void NamedMaterials::report_unknown(Element object, std::string_view name, Diagnostics& diagnostics) const {
+  // A missing one has been reported, and an unknown one may be among those that were refused.
+  if (name.empty() || !complete) return;
+  diagnostics.error(object.child("material").first_child(), [&] {
+    const std::string_view nearest = nearest_name(name, names.names());
+    return "unknown material " + in_quotes(name) + " in " + tag(object.name()) + "; " +
+           (nearest.empty() ? "add one of that name to " + tag(MaterialsSection::element)
+                            : "did you mean " + in_quotes(nearest) + "?");
+  });
 }
 
 }  // namespace raytrace

@@ -3,18 +3,48 @@
 
 #include <tbb/task_arena.h>
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string_view>
+#include <utility>
+#include <vector>
 
-#include "raytrace/description/item_list.h"
-#include "raytrace/description/variables.h"
-#include "raytrace/xml/diagnostics.h"
-#include "raytrace/xml/document.h"
+#include "raytrace/description/item_pattern.h"
+#include "raytrace/description/name_table.h"
+#include "raytrace/description/read_fields.h"
+#include "raytrace/description/scene_layout.h"
 #include "raytrace/xml/scene_text.h"
 
 namespace raytrace {
+
+/// The items of one type that a thread reads from a chunk, before they go into the description: what the loop over a
+/// group's items knows of them. It is the same for all types, so that it is compiled once.
+class ItemList {
+ public:
+  ItemList() = default;
+  virtual ~ItemList() = default;
+  ItemList(const ItemList&) = delete;
+  ItemList& operator=(const ItemList&) = delete;
+
+  virtual void clear() = 0;
+
+  // number: of the item among the elements of its chunk.
+
+  /// Appends what an element holds.
+  virtual void read(Element element, std::uint32_t number, const ReadContext& context) = 0;
+
+  /// Appends the item that `text`, whose line is `line`, starts with, if it has the pattern and there is nothing to say
+  /// about it. The length of its text; 0 if it was not appended.
+  virtual std::size_t read_alike(const ItemPattern& pattern, std::string_view text, std::uint32_t line,
+                                 std::uint32_t number) = 0;
+
+  /// That of an item which was read with nothing to say. (ItemPattern::of)
+  virtual std::optional<ItemPattern> pattern_of(std::string_view text, Element item) = 0;
+};
 
 struct ItemGroup {
   const SceneText& text;
@@ -24,13 +54,91 @@ struct ItemGroup {
 };
 
 /// For each chunk, in their order: take(the chunk's index, the items that were read from it). Several threads read at
-/// once, each into a list that make() made for it; take is called by one at a time. Findings do not depend on the
+/// once, each into a list that make() made for it; take is called by one at a time. Diagnostics do not depend on the
 /// threads.
 void read_items(const ItemGroup& group, tbb::task_arena& arena, Diagnostics& diagnostics,
                 const std::function<std::unique_ptr<ItemList>()>& make,
                 const std::function<void(std::size_t chunk, ItemList& items)>& take);
 
-/// Reports an element that stands where none of its name belongs.
-void refuse_misplaced(Element element, std::string_view parent, Diagnostics& diagnostics);
+/// The materials that objects may name.
+struct NamedMaterials {
+  NameTable names;
+  std::vector<MaterialReference> references;  ///< in the order of names
+  bool complete = true;                       ///< false: a material was refused before its name was read
+
+  void report_unknown(Element object, std::string_view name, Diagnostics& diagnostics) const;
+};
+
+/// Items of the type T in one of the Sections.
+template <class Section, class T>
+class TypedItemList final : public ItemList {
+ public:
+  using Item = std::remove_cvref_t<decltype(items_of<Section, T>(std::declval<SceneDescription&>()).front())>;
+  struct Entry {
+    Item item;
+    std::uint32_t number = 0;
+    bool usable = false;  ///< free of errors, and not to be left out
+  };
+
+  explicit TypedItemList(const NamedMaterials& materials) : materials_(materials) {}
+
+  std::vector<Entry>& entries() { return entries_; }
+
+  void clear() override { entries_.clear(); }
+
+  void read(Element element, std::uint32_t number, const ReadContext& context) override {
+    Entry& entry = append(element.line(), number);
+    Labels labels;
+    entry.usable = fields_.read(element, entry.item.parameters, labels, context);
+    if (take_labels(labels, entry.item)) return;
+    entry.usable = false;
+    if constexpr (has_material) materials_.report_unknown(element, labels[1], context.diagnostics);
+  }
+
+  std::size_t read_alike(const ItemPattern& pattern, std::string_view text, std::uint32_t line,
+                         std::uint32_t number) override {
+    Entry& entry = append(line, number);
+    Labels labels;
+    const std::size_t length = pattern.read(text, fields_.targets(entry.item.parameters, labels));
+    const auto ignore = [](Severity, const std::string&) {};
+    entry.usable =
+        length > 0 && check_together<T>(entry.item.parameters, true, ignore) && take_labels(labels, entry.item);
+    if (entry.usable) return length;
+    entries_.pop_back();
+    return 0;
+  }
+
+  std::optional<ItemPattern> pattern_of(std::string_view text, Element item) override {
+    typename T::Parameters parameters;
+    Labels labels;
+    return ItemPattern::of(text, item, fields_.infos(), fields_.targets(parameters, labels));
+  }
+
+ private:
+  static constexpr bool has_material = requires(Item item) { item.material; };
+  using Labels = std::array<std::string_view, Section::labels.size()>;
+
+  Entry& append(std::uint32_t line, std::uint32_t number) {
+    Entry& entry = entries_.emplace_back();
+    entry.item.line = line;
+    entry.number = number;
+    return entry;
+  }
+
+  /// False if there is no material of that name.
+  bool take_labels(const Labels& labels, Item& item) const {
+    if constexpr (requires { item.name; }) item.name = labels[0];
+    if constexpr (has_material) {
+      const std::optional<std::size_t> material = materials_.names.find(labels[1]);
+      if (!material) return false;
+      item.material = materials_.references[*material];
+    }
+    return true;
+  }
+
+  const NamedMaterials& materials_;
+  FieldsReader<T> fields_{Section::labels, Section::may_skip};
+  std::vector<Entry> entries_;
+};
 
 }  // namespace raytrace

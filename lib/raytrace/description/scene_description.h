@@ -13,7 +13,8 @@
 
 #include "raytrace/cameras/registry.h"
 #include "raytrace/cameras/view_plane.h"
-#include "raytrace/description/scene_settings.h"
+#include "raytrace/description/variables.h"
+#include "raytrace/integrators/registry.h"
 #include "raytrace/lights/registry.h"
 #include "raytrace/materials/registry.h"
 #include "raytrace/math/type_list.h"
@@ -35,7 +36,7 @@ struct MaterialItem {
   std::uint32_t line = 0;
 };
 
-/// A material by its kind (the position in the Materials registry) and its index among the items of that kind.
+/// A material by its type (the index in the Materials registry) and its index among the items of that type.
 struct MaterialReference {
   std::uint32_t kind = 0;
   std::uint32_t index = 0;
@@ -56,7 +57,7 @@ using MaterialItems = std::vector<MaterialItem<T>>;
 template <class T>
 using ObjectItems = std::vector<ObjectItem<T>>;
 
-/// One of the registered cameras' parameters.
+/// The parameters of one of a registry's types.
 template <class List>
 struct ParametersVariant;
 template <class... Types>
@@ -64,18 +65,20 @@ struct ParametersVariant<TypeList<Types...>> {
   using type = std::variant<typename Types::Parameters...>;
 };
 using CameraParameters = ParametersVariant<Cameras>::type;
+using IntegratorParameters = ParametersVariant<Integrators>::type;
 
 struct SceneDescription {
   std::string file;  ///< as given on the command line; "-" for standard input
   ViewPlane viewplane;
   CameraParameters camera;
+  std::optional<IntegratorParameters> integrator;     ///< none: the file leaves it open
   TupleOf<Lights, LightItems>::type lights;           ///< std::get<LightItems<PointLight>>(lights)
   TupleOf<Materials, MaterialItems>::type materials;  ///< std::get<MaterialItems<Matte>>(materials)
   TupleOf<Shapes, ObjectItems>::type objects;         ///< std::get<ObjectItems<Sphere>>(objects)
 };
 
-/// Reads and validates a scene file ("-": standard input). All problems go to `diagnostics`; no value if one of them
-/// is an error. Warnings alone still give a scene. A file that cannot be read is an error at line 0.
+/// Reads and validates a scene file ("-": standard input). All errors and warnings go to `diagnostics`; no value if
+/// there is an error. A file that cannot be read is an error at line 0.
 /// threads: so many at most share the work; 0: all that the machine has. The result does not depend on it.
 /// settings: variables that are not used are errors, as those that are not set.
 std::optional<SceneDescription> load_scene(const std::string& file, Diagnostics& diagnostics, int threads = 0,

@@ -39,7 +39,7 @@ Variables::Variables(const SceneSettings& settings) : frame_(settings.frame) {
   frame.used = true;
 }
 
-DiagnosticText Variables::replace(std::string_view text, std::string& replaced) const {
+OptionalMessage Variables::replace(std::string_view text, std::string& replaced) const {
   std::string result;
   while (true) {
     const std::size_t dollar = text.find('$');
@@ -52,19 +52,17 @@ DiagnosticText Variables::replace(std::string_view text, std::string& replaced) 
       text.remove_prefix(1);
       continue;
     }
-    if (DiagnosticText diagnostic = text.starts_with('{') ? replace_braced(text, result) : replace_plain(text, result))
-      return diagnostic;
+    if (OptionalMessage message = text.starts_with('{') ? replace_braced(text, result) : replace_plain(text, result))
+      return message;
   }
   if (scene_length_.fetch_add(result.size(), std::memory_order_relaxed) > longest_scene) return scene_too_long;
   replaced = std::move(result);
   return std::nullopt;
 }
 
-bool Variables::is_cause(std::string_view diagnostic) {
-  return diagnostic.starts_with(uses) || diagnostic == scene_too_long;
-}
+bool Variables::is_cause(std::string_view message) { return message.starts_with(uses) || message == scene_too_long; }
 
-DiagnosticText Variables::replace_plain(std::string_view& text, std::string& result) const {
+OptionalMessage Variables::replace_plain(std::string_view& text, std::string& result) const {
   const std::string_view name = text.substr(0, name_length(text));
   if (name.empty()) return "has a '$' without a name behind it; write $$ for a dollar";
   const std::string* const value = find(name);
@@ -74,7 +72,7 @@ DiagnosticText Variables::replace_plain(std::string_view& text, std::string& res
   return std::nullopt;
 }
 
-DiagnosticText Variables::replace_braced(std::string_view& text, std::string& result) const {
+OptionalMessage Variables::replace_braced(std::string_view& text, std::string& result) const {
   static constexpr std::string_view default_sign = ":-";
   const std::size_t end = text.find('}');
   if (end == std::string_view::npos) return "has a '${' without a '}'; write ${name}, or ${name:-value} with a default";

@@ -14,9 +14,14 @@
 #include <vector>
 
 #include "raytrace/description/parse_value.h"
-#include "raytrace/description/scene_settings.h"
 
 namespace raytrace {
+
+/// What the values of a scene may depend on.
+struct SceneSettings {
+  int frame = 1;                                 ///< the value of $frame, and the moment at which keys are evaluated
+  std::map<std::string, std::string> variables;  ///< name -> value; none is called "frame" (see is_variable_name)
+};
 
 /// The variable that need not be set.
 inline constexpr std::string_view frame_variable = "frame";
@@ -37,11 +42,11 @@ class Variables {
   /// text may have a long value many times.
   static constexpr std::size_t longest_text = std::size_t{1} << 20U, longest_scene = std::size_t{1} << 31U;
 
-  /// replaced: receives the text with the values in place of the variables, unless there is a diagnostic.
-  DiagnosticText replace(std::string_view text, std::string& replaced) const;
+  /// replaced: receives the text with the variables' values in it, unless there is a message.
+  OptionalMessage replace(std::string_view text, std::string& replaced) const;
 
-  /// Whether a diagnostic is about a variable, or all of them, and so the same wherever it stands.
-  static bool is_cause(std::string_view diagnostic);
+  /// Whether a message is about a variable, or all of them, and so the same wherever it stands.
+  static bool is_cause(std::string_view message);
 
   /// Those that no text had so far.
   std::vector<std::string_view> unused() const;
@@ -53,8 +58,8 @@ class Variables {
   };
 
   // text: what follows the dollar; they take the variable off its beginning, and append its value.
-  DiagnosticText replace_plain(std::string_view& text, std::string& result) const;
-  DiagnosticText replace_braced(std::string_view& text, std::string& result) const;
+  OptionalMessage replace_plain(std::string_view& text, std::string& result) const;
+  OptionalMessage replace_braced(std::string_view& text, std::string& result) const;
 
   /// The value of a variable, which counts as used from here on; null if it is not set.
   const std::string* find(std::string_view name) const;

@@ -35,6 +35,12 @@ auto with_type(TypeList<First, Others...>, std::size_t position, const Function&
   return f(std::type_identity<First>{});
 }
 
+/// Whether the list has T.
+template <class T, class... Types>
+constexpr bool has_type(TypeList<Types...>) {
+  return (std::is_same_v<T, Types> || ...);
+}
+
 /// The position of T in the list.
 template <class T, class... Types>
 constexpr std::size_t index_of(TypeList<Types...>) {

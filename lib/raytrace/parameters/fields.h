@@ -11,6 +11,7 @@
 // missing or malformed child with its file, line and column. The default of an optional member is its initialiser.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -36,33 +37,53 @@ enum class Range {
 inline constexpr double largest_number = 1e17;
 inline constexpr double smallest_size = 1e-17;
 
-/// One child element: its name and where its value goes.
-/// double, int, bool, string: the element's text. Vec3d: attributes x, y, z. Rgb: attributes red, green, blue.
+/// One child element.
+struct FieldInfo {
+  std::string_view name;
+  bool required = true;
+  Range range = Range::any;
+};
+
+/// The same, and where its value goes.
+/// double, int, bool, string: the element's text. Vec3d and Rgb: attributes (see Components).
 template <class Parameters>
-struct Field {
+struct Field : FieldInfo {
   using Member = std::variant<double Parameters::*, int Parameters::*, bool Parameters::*, std::string Parameters::*,
                               Vec3d Parameters::*, Rgb<double> Parameters::*>;
-  std::string_view name;
   Member member;
-  bool required;
-  Range range;
 };
 
 template <class Parameters>
 using Fields = std::vector<Field<Parameters>>;
 
+/// Vectors and colors: their attributes, and the member for each.
+template <class Value>
+struct Components;
+template <>
+struct Components<Vec3d> {
+  static constexpr std::array<std::string_view, 3> names = {"x", "y", "z"};
+  static constexpr std::array members = {&Vec3d::x, &Vec3d::y, &Vec3d::z};
+};
+template <>
+struct Components<Rgb<double>> {
+  static constexpr std::array<std::string_view, 3> names = {"red", "green", "blue"};
+  static constexpr std::array members = {&Rgb<double>::red, &Rgb<double>::green, &Rgb<double>::blue};
+};
+template <class Value>
+concept HasComponents = requires { Components<Value>::names; };
+
 template <class Parameters, class Value>
 Field<Parameters> required(std::string_view name, Value Parameters::* member, Range range = Range::any) {
-  return {name, member, true, range};
+  return {{name, true, range}, member};
 }
 
 template <class Parameters, class Value>
 Field<Parameters> optional(std::string_view name, Value Parameters::* member, Range range = Range::any) {
-  return {name, member, false, range};
+  return {{name, false, range}, member};
 }
 
-/// What a type finds wrong with a combination of its parameters, each of which is fine alone. A type that has such
-/// conditions declares `static std::optional<ParameterDiagnostic> check(const Parameters&)`.
+/// Why a combination of a type's parameters, each of which is fine alone, is refused. A type that has such conditions
+/// declares `static std::optional<ParameterDiagnostic> check(const Parameters&)`.
 struct ParameterDiagnostic {
   enum class Effect {
     error,  ///< the scene is refused

@@ -4,7 +4,17 @@
 #include <ostream>
 #include <tuple>
 
+#include "raytrace/xml/xml_characters.h"
+
 namespace raytrace {
+
+SourceLocation locate(std::string_view text, std::size_t offset, std::size_t from, std::uint32_t line) {
+  const std::string_view before = text.substr(0, offset);
+  const std::size_t line_end = before.rfind('\n');
+  std::size_t start = line_end == std::string_view::npos ? 0 : line_end + 1;
+  if (start == 0 && text.starts_with(byte_order_mark)) start = std::min(offset, byte_order_mark.size());
+  return {line + xml::line_ends(before.substr(from)), static_cast<std::uint32_t>(offset - start + 1)};
+}
 
 Diagnostics Diagnostics::counter() {
   Diagnostics counter{std::string()};
@@ -17,17 +27,12 @@ void Diagnostics::count(const Diagnostics& other) {
   warning_count_ += other.warning_count_;
 }
 
-void Diagnostics::error(SourceLocation location, std::string message) {
-  if (keeps_another(Severity::error)) kept_.push_back({Severity::error, location, std::move(message)});
-  ++error_count_;
+void Diagnostics::add(Severity severity, SourceLocation location, std::string message) {
+  if (keeps_another(severity)) kept_.push_back({severity, location, std::move(message)});
+  ++(severity == Severity::error ? error_count_ : warning_count_);
 }
 
-void Diagnostics::warning(SourceLocation location, std::string message) {
-  if (keeps_another(Severity::warning)) kept_.push_back({Severity::warning, location, std::move(message)});
-  ++warning_count_;
-}
-
-bool Diagnostics::repeats(const std::string& cause) {
+bool Diagnostics::count_repeat(const std::string& cause) {
   if (const auto known = causes_.find(cause); known != causes_.end()) {
     ++kept_[known->second].repeats;
     ++error_count_;
@@ -41,7 +46,7 @@ bool Diagnostics::repeats(const std::string& cause) {
 void Diagnostics::print(std::ostream& out) const {
   std::vector<const Diagnostic*> sorted;
   for (const Diagnostic& diagnostic : kept_) sorted.push_back(&diagnostic);
-  // At one place in the order of their discovery, which is that of their addresses.
+  // At one location in the order of their discovery, which is that of their addresses.
   std::sort(sorted.begin(), sorted.end(), [](const Diagnostic* a, const Diagnostic* b) {
     return std::tie(a->location.line, a->location.column, a) < std::tie(b->location.line, b->location.column, b);
   });
@@ -55,12 +60,12 @@ void Diagnostics::print(std::ostream& out) const {
     if (diagnostic->repeats > 0) out << " (and at " << std::to_string(diagnostic->repeats) << " other places)";
     out << '\n';
   }
-  const auto count_rest = [&](std::size_t count, const char* what) {
+  const auto print_rest = [&](std::size_t count, const char* what) {
     if (count > most_kept)
       out << file_ << ": " << std::to_string(count - most_kept) << " more " << what << " not shown\n";
   };
-  count_rest(error_count_ - repeat_count_, "errors");
-  count_rest(warning_count_, "warnings");
+  print_rest(error_count_ - repeat_count_, "errors");
+  print_rest(warning_count_, "warnings");
 }
 
 }  // namespace raytrace

@@ -1,4 +1,4 @@
-// What is wrong or doubtful in a scene file, gathered so that one run reports all of it.
+// The errors and warnings about a scene file, gathered so that one run reports all of them.
 #pragma once
 
 #include <cstddef>
@@ -6,15 +6,28 @@
 #include <iosfwd>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace raytrace {
 
-/// A place in a scene file; both count from 1, columns in bytes. 0: unknown.
+/// Both count from 1, columns in bytes. 0: unknown.
 struct SourceLocation {
   std::uint32_t line = 0;
   std::uint32_t column = 0;
+};
+
+/// What some editors put at the start of a UTF-8 file. None of them shows it, so columns do not count it.
+inline constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+
+/// Of the byte at an offset. Counts lines from the byte at `from`, not behind it, which is in line `line`.
+SourceLocation locate(std::string_view text, std::size_t offset, std::size_t from = 0, std::uint32_t line = 1);
+
+/// An error in a text, by the offset of its byte.
+struct TextError {
+  std::size_t offset;
+  std::string message;
 };
 
 enum class Severity { warning, error };
@@ -23,7 +36,7 @@ struct Diagnostic {
   Severity severity;
   SourceLocation location;
   std::string message;
-  std::size_t repeats = 0;  ///< other places with the same cause
+  std::size_t repeats = 0;  ///< other locations with the same cause
 };
 
 /// The diagnostics about one file.
@@ -39,11 +52,34 @@ class Diagnostics {
   /// must not exhaust the memory or the terminal.
   static constexpr std::size_t most_kept = 100;
 
-  void error(SourceLocation location, std::string message);
-  void warning(SourceLocation location, std::string message);
-  /// Whether an error of this cause, which lies elsewhere than at any of its places, is kept already. It is then
-  /// counted as a repeat; otherwise the next error is the one of this cause.
-  bool repeats(const std::string& cause);
+  void add(Severity severity, SourceLocation location, std::string message);
+  void error(SourceLocation location, std::string message) { add(Severity::error, location, std::move(message)); }
+  void warning(SourceLocation location, std::string message) { add(Severity::warning, location, std::move(message)); }
+
+  /// at: an Element, Node or Attribute. make_message() is called, and `at` located, only if the diagnostic is kept:
+  /// both cost more than reading does.
+  template <class At, class MakeMessage>
+  void report(Severity severity, const At& at, const MakeMessage& make_message) {
+    if (keeps_another(severity))
+      add(severity, at.location(), make_message());
+    else
+      add(severity, {}, {});
+  }
+  template <class At, class MakeMessage>
+  void error(const At& at, const MakeMessage& make_message) {
+    report(Severity::error, at, make_message);
+  }
+  template <class At, class MakeMessage>
+  void warning(const At& at, const MakeMessage& make_message) {
+    report(Severity::warning, at, make_message);
+  }
+
+  /// An error whose cause lies elsewhere, such as a variable that is not set: it is kept once, and then only counted.
+  template <class At, class MakeMessage>
+  void error_once(const std::string& cause, const At& at, const MakeMessage& make_message) {
+    if (!count_repeat(cause)) error(at, make_message);
+  }
+
   /// Counts the diagnostics of another, without keeping them.
   void count(const Diagnostics& other);
 
@@ -55,8 +91,7 @@ class Diagnostics {
   /// In the order of their discovery.
   const std::vector<Diagnostic>& kept() const { return kept_; }
 
-  /// True while another diagnostic of that severity would be kept: diagnostic a column costs a scan of the file, so
-  /// callers may leave out location and message for the rest (xml/report.h does).
+  /// True while another diagnostic of that severity would be kept.
   bool keeps_another(Severity severity) const {
     return (severity == Severity::error ? error_count_ - repeat_count_ : warning_count_) < limit_;
   }
@@ -66,13 +101,14 @@ class Diagnostics {
   void print(std::ostream& out) const;
 
  private:
+  /// Whether an error of that cause is kept; the error at hand is then counted. Otherwise the next error is its first.
+  bool count_repeat(const std::string& cause);
+
   std::string file_;
   std::size_t limit_ = most_kept;
   std::vector<Diagnostic> kept_;
-  std::size_t error_count_ = 0;
-  std::size_t warning_count_ = 0;
-  std::map<std::string, std::size_t> causes_;  ///< the diagnostic of each
-  std::size_t repeat_count_ = 0;
+  std::size_t error_count_ = 0, warning_count_ = 0, repeat_count_ = 0;
+  std::map<std::string, std::size_t> causes_;  ///< the kept diagnostic of each
 };
 
 }  // namespace raytrace

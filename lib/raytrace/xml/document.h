@@ -1,7 +1,7 @@
 // Parsed parts of a scene's text and handles to what is in them: what the rest of the reader sees of tinyxml2.
 //
-// Handles are as light as pointers, and valid until their Document parses something else. Reading through them is no
-// matter of one thread only by looks: tinyxml2 finishes names and texts when they are first read.
+// Handles are as light as pointers, and valid until their Document parses something else. A Document and its handles
+// belong to one thread, even to read: tinyxml2 finishes names and texts when they are first read.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,6 @@ class XMLNode;
 namespace raytrace {
 
 class Element;
-class Variables;
 
 class Attribute {
  public:
@@ -40,7 +39,7 @@ class Attribute {
   const tinyxml2::XMLAttribute* attribute_;
 };
 
-/// An element, or a text between the tags of one. Comments are never seen.
+/// An element, or a text between the tags of one. Comments are left out.
 class Node {
  public:
   explicit Node(const tinyxml2::XMLNode* node) : node_(node) {}
@@ -65,10 +64,8 @@ class Element {
   Node first_child() const;
   Element child(std::string_view name) const;  ///< the first of that name; false if there is none
   std::uint32_t line() const;
-  std::size_t offset() const;       ///< of the start tag, in the scene's text
-  SourceLocation location() const;  ///< of the start tag
-
-  const Variables& variables() const;               ///< that its values may have
+  std::size_t offset() const;                       ///< of the start tag, in the scene's text
+  SourceLocation location() const;                  ///< of the start tag
   std::string_view keep(std::string&& text) const;  ///< keeps a text for as long as the element lives
 
  private:
@@ -77,8 +74,8 @@ class Element {
 
 class Document {
  public:
-  /// Both must outlive the document.
-  Document(const SceneText& source, const Variables& variables);
+  /// source: must outlive the document.
+  explicit Document(const SceneText& source);
   ~Document();
   Document(const Document&) = delete;
   Document& operator=(const Document&) = delete;
@@ -93,20 +90,7 @@ class Document {
   Element root() const;
 
  private:
-  friend class Attribute;
-  friend class Element;
-  friend class Node;
-  struct Implementation;
-
-  static std::uint32_t line(const tinyxml2::XMLNode& node);
-  static std::size_t offset(const tinyxml2::XMLNode& node);
-  static SourceLocation location(const tinyxml2::XMLNode& node);
-  static SourceLocation location(const tinyxml2::XMLElement& element, std::string_view attribute);
-
-  std::unique_ptr<Implementation> implementation_;
+  std::unique_ptr<class ParsedText> parsed_;
 };
-
-/// The text without the white space of XML around it.
-std::string_view trimmed(std::string_view text);
 
 }  // namespace raytrace

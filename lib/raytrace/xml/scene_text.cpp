@@ -4,17 +4,19 @@
 #include <utility>
 
 #include "raytrace/parallel/for_each_index.h"
-#include "raytrace/xml/file_kind.h"
+#include "raytrace/xml/file_type.h"
+#include "raytrace/xml/xml_characters.h"
+#include "raytrace/xml/xml_scanner.h"
 
 namespace raytrace {
 
 SceneText::SceneText(TextBuffer text, std::span<const std::string_view> groups, int threads, Diagnostics& diagnostics)
     : text_(std::move(text)) {
-  if (const auto diagnostic = find_xml_error(text_.text(), groups, chunks_, threads)) {
-    if (const auto kind = explain_file_kind(text_.text()))
-      diagnostics.error({1, 1}, *kind);
+  if (const auto error = find_xml_error(text_.text(), groups, chunks_, threads)) {
+    if (const auto type = explain_file_type(text_.text()))
+      diagnostics.error({1, 1}, *type);
     else
-      diagnostics.error(locate(diagnostic->offset), diagnostic->message);
+      diagnostics.error(raytrace::locate(text_.text(), error->offset), error->message);
     chunks_.clear();
     return;
   }
@@ -22,33 +24,25 @@ SceneText::SceneText(TextBuffer text, std::span<const std::string_view> groups, 
 }
 
 void SceneText::measure(int threads) {
-  const std::string_view text = text_.text();
   const auto line_ends = [&](std::size_t begin, std::size_t end) {
-    const std::string_view part = text.substr(begin, end - begin);
-    std::uint32_t count = 0;
-    for (std::size_t at = part.find('\n'); at != std::string_view::npos; at = part.find('\n', at + 1)) ++count;
-    return count;
+    return xml::line_ends(text_.text().substr(begin, end - begin));
   };
-  chunk_lines_.resize(chunks_.size());
   for_each_index(static_cast<int>(chunks_.size()), threads, [&](int i) {
-    const auto chunk = static_cast<std::size_t>(i);
-    chunk_lines_[chunk] = line_ends(chunks_[chunk].begin, chunks_[chunk].end);
+    TextChunk& chunk = chunks_[static_cast<std::size_t>(i)];
+    chunk.line = line_ends(chunk.begin, chunk.end);
   });
   // From how many lines each has to its first.
   Span rest{0, 0, 1};  // what of the skeleton stands before the chunk at hand
-  std::uint32_t line = 1;
-  for (std::size_t i = 0; i < chunks_.size(); ++i) {
-    const TextChunk& chunk = chunks_[i];
+  for (TextChunk& chunk : chunks_) {
+    std::uint32_t line = rest.line;
     if (rest.begin != chunk.begin) {
       line += line_ends(rest.begin, chunk.begin);
       skeleton_.push_back({rest.begin, chunk.begin, rest.line});
     }
-    const std::uint32_t lines = chunk_lines_[i];
-    chunk_lines_[i] = line;
-    line += lines;
-    rest = {chunk.end, chunk.end, line};
+    rest = {chunk.end, chunk.end, line + chunk.line};
+    chunk.line = line;
   }
-  skeleton_.push_back({rest.begin, text.size(), rest.line});
+  skeleton_.push_back({rest.begin, text_.text().size(), rest.line});
 }
 
 SceneText::ChunkRange SceneText::chunks_of(std::size_t group) const {
@@ -60,8 +54,10 @@ SceneText::ChunkRange SceneText::chunks_of(std::size_t group) const {
 }
 
 SourceLocation SceneText::locate(std::size_t offset) const {
-  if (!lines_) lines_.emplace(text_.text());
-  return lines_->locate(offset);
+  const auto next = std::upper_bound(chunks_.begin(), chunks_.end(), offset,
+                                     [](std::size_t wanted, const TextChunk& chunk) { return wanted < chunk.begin; });
+  if (next == chunks_.begin()) return raytrace::locate(text_.text(), offset);
+  return raytrace::locate(text_.text(), offset, (next - 1)->begin, (next - 1)->line);
 }
 
 }  // namespace raytrace

@@ -7,15 +7,13 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "raytrace/xml/diagnostics.h"
-#include "raytrace/xml/line_index.h"
-#include "raytrace/xml/text_buffer.h"
-#include "raytrace/xml/xml_scanner.h"
+#include "raytrace/xml/item_chunks.h"
+#include "raytrace/xml/text_file.h"
 
 namespace raytrace {
 
@@ -38,7 +36,7 @@ class SceneText {
 
   /// In the order of the text.
   std::span<const Span> skeleton() const { return skeleton_; }
-  Span chunk(std::size_t index) const { return {chunks_[index].begin, chunks_[index].end, chunk_lines_[index]}; }
+  Span chunk(std::size_t index) const { return {chunks_[index].begin, chunks_[index].end, chunks_[index].line}; }
 
   struct ChunkRange {
     std::size_t first, count;
@@ -47,7 +45,7 @@ class SceneText {
   /// The chunks of the group whose start tag begins at an offset.
   ChunkRange chunks_of(std::size_t group) const;
 
-  /// For messages; not to be called by two threads at once.
+  /// For messages: it counts lines.
   SourceLocation locate(std::size_t offset) const;
 
  private:
@@ -55,9 +53,7 @@ class SceneText {
 
   TextBuffer text_;
   std::vector<TextChunk> chunks_;
-  std::vector<std::uint32_t> chunk_lines_;
   std::vector<Span> skeleton_;
-  mutable std::optional<LineIndex> lines_;  // made for the first message
 };
 
 }  // namespace raytrace

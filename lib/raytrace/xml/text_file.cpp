@@ -39,13 +39,13 @@ std::size_t read_at(int file, char* bytes, std::size_t count, std::size_t offset
 }
 
 /// A file of known size, by several threads: memory that is fresh from the system takes longer to get than the bytes to
-/// copy. No value if the file does not have that size, or no places.
-std::optional<TextBuffer> read_in_pieces(int file, std::size_t size, int threads) {
-  constexpr std::size_t chunk = std::size_t(1) << 21;
+/// copy. No value if the file does not have that size, or cannot be read from an offset on.
+std::optional<TextBuffer> read_in_parallel(int file, std::size_t size, int threads) {
+  constexpr std::size_t block = std::size_t(1) << 21;
   TextBuffer text(size);
   std::atomic<bool> complete{true};
-  for_each_index(static_cast<int>((size + chunk - 1) / chunk), threads, [&](int index) {
-    const std::size_t offset = static_cast<std::size_t>(index) * chunk, count = std::min(chunk, size - offset);
+  for_each_index(static_cast<int>((size + block - 1) / block), threads, [&](int index) {
+    const std::size_t offset = static_cast<std::size_t>(index) * block, count = std::min(block, size - offset);
     if (read_at(file, text.data() + offset, count, offset) != count) complete = false;
   });
   char next = 0;
@@ -70,7 +70,7 @@ std::optional<TextBuffer> read_text_file(const std::string& file, int threads, D
   const std::uintmax_t size = std::filesystem::file_size(file, unknown_size);
   constexpr std::size_t large_file = std::size_t(1) << 22;
   if (!unknown_size && size >= large_file && size <= largest_file) {
-    if (std::optional<TextBuffer> text = read_in_pieces(fileno(input.get()), static_cast<std::size_t>(size), threads))
+    if (std::optional<TextBuffer> text = read_in_parallel(fileno(input.get()), static_cast<std::size_t>(size), threads))
       return text;
   }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 namespace raytrace::xml {
 
@@ -45,11 +46,18 @@ inline std::uint32_t digit(char c) {
   return 16;
 }
 
-/// Whether texts may have it, by its number.
-inline bool allowed(std::uint32_t character) {
-  if (character < 0x20) return character == '\t' || character == '\n' || character == '\r';
-  const bool surrogate = character >= 0xd800 && character <= 0xdfff;
-  return character <= 0x10ffff && !surrogate && character != 0xfffe && character != 0xffff;
+/// How many lines end in the text.
+inline std::uint32_t line_ends(std::string_view text) {
+  std::uint32_t count = 0;
+  for (std::size_t at = text.find('\n'); at != std::string_view::npos; at = text.find('\n', at + 1)) ++count;
+  return count;
+}
+
+/// The text without the white space around it.
+inline std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && is(text.front(), space)) text.remove_prefix(1);
+  while (!text.empty() && is(text.back(), space)) text.remove_suffix(1);
+  return text;
 }
 
 }  // namespace raytrace::xml

@@ -1,4 +1,4 @@
-// A place in an XML text, and what may be read there whatever is around it.
+// A position in an XML text, and what may be read there whatever is around it.
 #pragma once
 
 #include <cstddef>
@@ -8,22 +8,21 @@
 #include <utility>
 
 #include "raytrace/text/quoted.h"
+#include "raytrace/text/utf8.h"
+#include "raytrace/xml/diagnostics.h"
 #include "raytrace/xml/xml_characters.h"
-#include "raytrace/xml/xml_diagnostic.h"
 
 namespace raytrace {
 
 /// The text has passed the check of its bytes, so that '\0' stands at its end and nowhere else. Functions leave the
-/// cursor behind what they have read, and throw XmlDiagnostic.
+/// cursor behind what they have read, and throw TextError.
 class XmlCursor {
  protected:
   explicit XmlCursor(std::string_view text) : begin_(text.data()), end_(begin_ + text.size()), here_(begin_) {}
 
   std::size_t offset(const char* at) const { return static_cast<std::size_t>(at - begin_); }
 
-  [[noreturn]] void fail(const char* at, std::string message) const {
-    throw XmlDiagnostic{offset(at), std::move(message)};
-  }
+  [[noreturn]] void fail(const char* at, std::string message) const { throw TextError{offset(at), std::move(message)}; }
 
   std::string_view rest() const { return {here_, here_ < end_ ? static_cast<std::size_t>(end_ - here_) : 0}; }
 
@@ -64,7 +63,7 @@ class XmlCursor {
       const char* const digits = here_;
       for (; xml::digit(*here_) < base && character <= 0x10ffff; ++here_)
         character = character * base + xml::digit(*here_);
-      if (here_ > digits && *here_ == ';' && xml::allowed(character)) {
+      if (here_ > digits && *here_ == ';' && is_xml_character(character)) {
         ++here_;
         return;
       }

@@ -7,9 +7,7 @@
 #include "raytrace/text/nearest_name.h"
 #include "raytrace/text/quoted.h"
 #include "raytrace/text/utf8.h"
-#include "raytrace/xml/encoding_check.h"
-#include "raytrace/xml/items_ahead.h"
-#include "raytrace/xml/line_index.h"
+#include "raytrace/xml/item_chunks.h"
 #include "raytrace/xml/xml_characters.h"
 #include "raytrace/xml/xml_cursor.h"
 
@@ -22,7 +20,7 @@ constexpr std::size_t most_open = 64;
 constexpr std::size_t most_attributes = 64;
 constexpr std::size_t group_depth = 3;
 
-/// Walks over a whole text. Throws XmlDiagnostic.
+/// Walks over a whole text. Throws TextError.
 class Scanner : private XmlCursor {
  public:
   explicit Scanner(std::string_view text) : XmlCursor(text) {
@@ -30,15 +28,11 @@ class Scanner : private XmlCursor {
     attributes_.reserve(most_attributes);
   }
 
-  /// nodes: receives what find_nodes returns.
-  void collect_nodes(std::vector<std::size_t>& nodes) { nodes_ = &nodes; }
+  std::vector<std::size_t>* nodes = nullptr;        ///< receives what find_nodes returns
+  std::vector<std::string_view>* values = nullptr;  ///< receives what find_values returns
+  ChunkCutter* cutter = nullptr;                    ///< is called for the items of groups
 
-  /// values: receives what find_values returns.
-  void collect_values(std::vector<std::string_view>& values) { values_ = &values; }
-
-  void cut_pieces(ChunkCutter& cutter) { cutter_ = &cutter; }
-
-  /// Has up to so many threads look ahead in the groups that are cut: behind cut_pieces().
+  /// Has up to so many threads look ahead in the groups that are cut.
   void look_ahead(int threads) {
     const auto scan = [this](const char* from, const char* to, const char* limit, std::vector<TextChunk>& chunks) {
       return scan_items(from, to, limit, chunks);
@@ -51,7 +45,7 @@ class Scanner : private XmlCursor {
     if (starts_with("<?xml") && !is(here_[5], name_part)) declaration();
     while (true) {
       skip_space();
-      if (ahead_ && at_item() && cutter_->cuts(open_.back().name)) pass_scanned_items();
+      if (ahead_ && at_item() && cutter->cuts(open_.back().name)) pass_scanned_items();
       if (*here_ == '\0') break;
       scan_next();
     }
@@ -114,7 +108,7 @@ class Scanner : private XmlCursor {
     while (at_item()) {
       const ItemsAhead::ScannedRange* const range = ahead_->from(open_.back().begin, here_);
       if (range == nullptr) return;
-      cutter_->add(offset(open_.back().begin), open_.back().name, range->chunks);
+      cutter->add(offset(open_.back().begin), open_.back().name, range->chunks);
       here_ = range->end;
     }
   }
@@ -125,11 +119,11 @@ class Scanner : private XmlCursor {
     scanner.open_ = open_;
     scanner.root_seen_ = scanner.guessing_ = true;
     scanner.here_ = from;
-    ChunkCutter cutter(*cutter_, chunks);
-    scanner.cut_pieces(cutter);
+    ChunkCutter group_cutter(*cutter, chunks);
+    scanner.cutter = &group_cutter;
     try {
       if (!scanner.scan_items(to)) return nullptr;
-    } catch (const XmlDiagnostic&) {
+    } catch (const TextError&) {
       return nullptr;
     }
     chunks.back().end = offset(scanner.here_);
@@ -148,16 +142,16 @@ class Scanner : private XmlCursor {
   }
 
   std::string opened_in(const OpenElement& element) const {
-    const SourceLocation location = LineIndex({begin_, offset(here_)}).locate(offset(element.begin));
+    const SourceLocation location = locate({begin_, offset(here_)}, offset(element.begin));
     return "opened in line " + std::to_string(location.line) + ", column " + std::to_string(location.column);
   }
 
   void note_node(const char* at) {
-    if (nodes_) nodes_->push_back(offset(at));
+    if (nodes) nodes->push_back(offset(at));
   }
 
   void note_value(std::string_view value) {
-    if (values_) values_->push_back(value);
+    if (values) values->push_back(value);
   }
 
   void declaration() {
@@ -212,8 +206,8 @@ class Scanner : private XmlCursor {
     if (open_.size() == most_open) fail(start, "elements are nested more than 64 deep here; is a closing tag missing?");
     root_seen_ = true;
     note_node(start);
-    if (cutter_ && open_.size() == group_depth)
-      cutter_->item(offset(open_.back().begin), open_.back().name, offset(start));
+    if (cutter && open_.size() == group_depth)
+      cutter->item(offset(open_.back().begin), open_.back().name, offset(start));
     attributes_.clear();
     while (true) {
       const char* const before = here_;
@@ -254,7 +248,7 @@ class Scanner : private XmlCursor {
     skip_space();
     if (*here_ != '>') fail(start, "the tag </" + printable(found) + " never ends; add '>'");
     ++here_;
-    if (cutter_ && open_.size() == group_depth) cutter_->end(offset(last.begin), offset(start));
+    if (cutter && open_.size() == group_depth) cutter->end(offset(last.begin), offset(start));
     open_.pop_back();
   }
 
@@ -302,9 +296,6 @@ class Scanner : private XmlCursor {
     fail(start, "processing instructions (<?...?>) are not part of the scene format; remove this one");
   }
 
-  std::vector<std::size_t>* nodes_ = nullptr;
-  std::vector<std::string_view>* values_ = nullptr;
-  ChunkCutter* cutter_ = nullptr;
   std::vector<OpenElement> open_;
   std::vector<std::string_view> attributes_;  // of the tag at hand
   bool root_seen_ = false;
@@ -314,19 +305,33 @@ class Scanner : private XmlCursor {
   std::optional<ItemsAhead> ahead_;
 };
 
+/// The first byte of `text` that XML in UTF-8 cannot have there, or its first byte if all of it is UTF-16 or UTF-32.
+std::optional<TextError> find_encoding_error(std::string_view text, int threads) {
+  using namespace std::string_view_literals;
+  for (const std::string_view start : {"\xff\xfe"sv, "\xfe\xff"sv, "<\0"sv, "\0<"sv})
+    if (text.starts_with(start)) return TextError{0, "the file is encoded as UTF-16 or UTF-32; save it as UTF-8"};
+  const std::size_t invalid = find_invalid_utf8(text, threads);
+  if (invalid == std::string_view::npos) return std::nullopt;
+  const bool control = static_cast<unsigned char>(text[invalid]) < 0x20;
+  return TextError{invalid,
+                   "the byte " + in_quotes(text.substr(invalid, 1)) +
+                       (control ? " is no text: is this a scene file?"
+                                : " is no UTF-8 text; save the file as UTF-8 (is it one of another program?)")};
+}
+
 }  // namespace
 
-std::optional<XmlDiagnostic> find_xml_error(std::string_view text, std::span<const std::string_view> groups,
-                                            std::vector<TextChunk>& chunks, int threads) {
-  if (auto diagnostic = find_encoding_error(text, threads)) return diagnostic;
+std::optional<TextError> find_xml_error(std::string_view text, std::span<const std::string_view> groups,
+                                        std::vector<TextChunk>& chunks, int threads) {
+  if (auto error = find_encoding_error(text, threads)) return error;
   try {
     Scanner scanner(text);
     ChunkCutter cutter(groups, chunks);
-    scanner.cut_pieces(cutter);
+    scanner.cutter = &cutter;
     scanner.look_ahead(worker_count(threads));
     scanner.scan();
-  } catch (XmlDiagnostic& diagnostic) {
-    return std::move(diagnostic);
+  } catch (TextError& error) {
+    return std::move(error);
   }
   return std::nullopt;
 }
@@ -334,7 +339,7 @@ std::optional<XmlDiagnostic> find_xml_error(std::string_view text, std::span<con
 std::vector<std::size_t> find_nodes(std::string_view text) {
   std::vector<std::size_t> nodes;
   Scanner scanner(text);
-  scanner.collect_nodes(nodes);
+  scanner.nodes = &nodes;
   scanner.scan();
   return nodes;
 }
@@ -344,7 +349,7 @@ std::size_t element_length(std::string_view text) { return Scanner(text).scan_el
 std::vector<std::string_view> find_values(std::string_view text) {
   std::vector<std::string_view> values;
   Scanner scanner(text);
-  scanner.collect_values(values);
+  scanner.values = &values;
   scanner.scan_element();
   return values;
 }

@@ -11,23 +11,23 @@
 #include <string_view>
 #include <vector>
 
-#include "raytrace/xml/chunk_cutter.h"
-#include "raytrace/xml/xml_diagnostic.h"
+#include "raytrace/xml/diagnostics.h"
+#include "raytrace/xml/item_chunks.h"
 
 namespace raytrace {
 
 // Behind a text there must be a '\0', as in std::string.
 
-/// The first place where `text` is not well-formed XML 1.0 in UTF-8, with or without byte order mark. Document type
-/// declarations with declarations of their own, processing instructions, elements nested more than 64 deep and tags of
-/// more than 64 attributes are refused too: no scene has them, and they are where XML readers get into trouble.
+/// The first error of `text`: where it is not well-formed XML 1.0 in UTF-8, with or without byte order mark. Document
+/// type declarations with declarations of their own, processing instructions, elements nested more than 64 deep and
+/// tags of more than 64 attributes are refused too: no scene has them, and they are where XML readers get into trouble.
 ///
 /// chunks: receives those of all elements that bear one of the names in `groups` and stand where groups do (root,
 /// section, group), unless there is an error. Where they are cut may depend on whether there is more than one thread.
 ///
 /// threads: how many may share the work on large groups; 0: all processors.
-std::optional<XmlDiagnostic> find_xml_error(std::string_view text, std::span<const std::string_view> groups,
-                                            std::vector<TextChunk>& chunks, int threads);
+std::optional<TextError> find_xml_error(std::string_view text, std::span<const std::string_view> groups,
+                                        std::vector<TextChunk>& chunks, int threads);
 
 /// Where the elements (the '<' of their start tags) and the texts (their first character that is no white space) of a
 /// well-formed text begin, in the order of the document: the order of a walk through its tree, parents before children.

@@ -1,9 +1,9 @@
 // Files of other formats, given as a scene.
-#include "raytrace/xml/file_kind.h"
+#include "raytrace/xml/file_type.h"
 
 #include <string>
 
-#include "findings.h"
+#include "reported.h"
 #include "support/catch.h"
 #include "support/contains.h"
 
@@ -12,7 +12,7 @@ namespace raytrace::test {
 TEST_CASE("a file of another format is named by what it seems to be") {
   using namespace std::string_literals;
   const auto check = [](const std::string& text, const std::string& name, const std::string& advice = "") {
-    CHECK(findings(text) == "s:1:1: error: this seems to be " + name +
+    CHECK(reported(text) == "s:1:1: error: this seems to be " + name +
                                 "; raytrace reads scenes in XML, which start with <raytracer>" + advice + "\n");
   };
   const std::string obj = "a Wavefront OBJ model";
@@ -28,7 +28,7 @@ TEST_CASE("a file of another format is named by what it seems to be") {
   check("\x28\xb5\x2f\xfd\0"s, "packed with zstd, as Blender does with its files", "; unpack it first");
   check("\x1f\x8b\x08\0"s, "packed with gzip", "; unpack it first");
   check("\x89PNG\r\n\x1a\n\0"s, "a PNG picture", "; if it is the picture to write, put -o before it");
-  check("\x76\x2f\x31\x01\2\0"s, "an OpenEXR picture", "; if it is a chunk of a picture, use raytrace merge");
+  check("\x76\x2f\x31\x01\2\0"s, "an OpenEXR picture", "; if it is a piece of a picture, use raytrace merge");
   check("\xff\xd8\xff\xe0", "a JPEG picture", "; if it is the picture to write, put -o before it");
   check("// a sphere\n#include \"colors.inc\"\n", "a POV-Ray scene");
   check("camera { location <0, 2, -3> }", "a POV-Ray scene");
@@ -36,11 +36,11 @@ TEST_CASE("a file of another format is named by what it seems to be") {
   check("#usda 1.0\n", "a USD scene");
 }
 
-TEST_CASE("what is not known, and what is XML, has no other kind") {
+TEST_CASE("what is not known, and what is XML, is said to be of no type") {
   for (const char* const text : {"", "volume", "no scene", "{ \"viewplane\": 4 }", "<scene/>", "\n <raytracer"})
-    CHECK_FALSE(explain_file_kind(text));
-  CHECK(contains(findings("volume 3"), "this is no XML: it starts with 'volume 3'"));
-  CHECK(contains(findings(std::string("\xff\xfe#\0 \0", 6)), "encoded as UTF-16 or UTF-32; save it as UTF-8"));
+    CHECK_FALSE(explain_file_type(text));
+  CHECK(contains(reported("volume 3"), "this is no XML: it starts with 'volume 3'"));
+  CHECK(contains(reported(std::string("\xff\xfe#\0 \0", 6)), "encoded as UTF-16 or UTF-32; save it as UTF-8"));
 }
 
 }  // namespace raytrace::test

@@ -1,11 +1,11 @@
-#include "findings.h"
+#include "reported.h"
 
 #include <sstream>
 #include <stdexcept>
 
 namespace raytrace::test {
 
-std::string findings(const std::string& text) {
+std::string reported(const std::string& text) {
   Diagnostics diagnostics("s");
   const bool accepted = parse_scene(text, diagnostics).has_value();
   if (accepted == diagnostics.has_errors()) throw std::logic_error("a scene with errors, or none without");
@@ -17,7 +17,7 @@ std::string findings(const std::string& text) {
 SceneDescription accepted(const std::string& text) {
   Diagnostics diagnostics("s");
   auto scene = parse_scene(text, diagnostics);
-  if (!scene) throw std::runtime_error(findings(text));
+  if (!scene) throw std::runtime_error(reported(text));
   return *scene;
 }
 

@@ -9,7 +9,7 @@
 namespace raytrace::test {
 
 /// All that reading the text reports, as it is printed; the file is called "s". Empty: the scene is fine.
-std::string findings(const std::string& text);
+std::string reported(const std::string& text);
 
 /// The scene of a text that may have warnings but no error.
 SceneDescription accepted(const std::string& text);

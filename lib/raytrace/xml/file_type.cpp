@@ -1,8 +1,10 @@
-#include "raytrace/xml/file_kind.h"
+#include "raytrace/xml/file_type.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
+
+#include "raytrace/xml/diagnostics.h"
 
 namespace raytrace {
 
@@ -11,16 +13,16 @@ namespace {
 using namespace std::string_view_literals;
 
 constexpr const char* picture = "; if it is the picture to write, put -o before it";
-constexpr const char* chunks = "; if it is a chunk of a picture, use raytrace merge";
+constexpr const char* piece = "; if it is a piece of a picture, use raytrace merge";
 constexpr const char* packed = "; unpack it first";
 
-struct Kind {
+struct FileType {
   std::string_view start;
   const char* name;
   const char* advice = "";
 };
 
-constexpr Kind kinds[] = {
+constexpr FileType file_types[] = {
     {"ply\n"sv, "a PLY model"},
     {"ply\r"sv, "a PLY model"},
     {"glTF"sv, "a glTF model (.glb)"},
@@ -33,7 +35,7 @@ constexpr Kind kinds[] = {
     {"PXR-USDC"sv, "a USD scene"},
     {"#usda"sv, "a USD scene"},
     {"##RenderMan"sv, "a RenderMan scene (RIB)"},
-    {"\x76\x2f\x31\x01"sv, "an OpenEXR picture", chunks},
+    {"\x76\x2f\x31\x01"sv, "an OpenEXR picture", piece},
     {"\x89PNG"sv, "a PNG picture", picture},
     {"\xff\xd8\xff"sv, "a JPEG picture", picture},
     {"GIF8"sv, "a GIF picture", picture},
@@ -64,7 +66,7 @@ std::string_view without_space(std::string_view text) {
 std::string_view first_word(std::string_view line) { return line.substr(0, line.find_first_of(" \t\r\n{\"[(")); }
 
 /// By the words that the first lines begin with, comments left out.
-std::optional<Kind> kind_by_words(std::string_view text) {
+std::optional<FileType> type_by_words(std::string_view text) {
   static constexpr std::string_view obj[] = {"v", "vt", "vn", "vp", "f", "o", "g", "s", "mtllib", "usemtl"};
   static constexpr std::string_view pbrt[] = {"LookAt",     "Camera",      "Film",   "Sampler",
                                               "Integrator", "WorldBegin",  "Scale",  "Option",
@@ -77,40 +79,39 @@ std::optional<Kind> kind_by_words(std::string_view text) {
   for (int lines = 0; lines < 100 && !(text = without_space(text)).empty(); ++lines) {
     const std::string_view line = text.substr(0, text.find('\n'));
     const std::string_view word = first_word(line);
-    if (is_one_of(word, povray)) return Kind{{}, "a POV-Ray scene"};
-    if (is_one_of(word, pbrt)) return Kind{{}, "a pbrt scene"};
-    if (is_one_of(word, obj)) return Kind{{}, "a Wavefront OBJ model"};
+    if (is_one_of(word, povray)) return FileType{{}, "a POV-Ray scene"};
+    if (is_one_of(word, pbrt)) return FileType{{}, "a pbrt scene"};
+    if (is_one_of(word, obj)) return FileType{{}, "a Wavefront OBJ model"};
     if (!line.starts_with('#') && !line.starts_with("//")) return std::nullopt;
     text.remove_prefix(line.size());
   }
   return std::nullopt;
 }
 
-std::optional<Kind> kind_of(std::string_view text) {
-  for (const Kind& kind : kinds)
-    if (text.starts_with(kind.start)) return kind;
+std::optional<FileType> type_of(std::string_view text) {
+  for (const FileType& type : file_types)
+    if (text.starts_with(type.start)) return type;
   // Its first 80 bytes are anything; a number of triangles of 50 bytes each follows.
   constexpr std::size_t stl_header = 80, stl_start = 84, stl_triangle = 50;
   if (text.size() >= stl_start) {
     std::size_t triangles = 0;
     for (std::size_t i = 4; i-- > 0;) triangles = triangles << 8U | static_cast<unsigned char>(text[stl_header + i]);
-    if (text.size() - stl_start == triangles * stl_triangle) return Kind{{}, "an STL model"};
+    if (text.size() - stl_start == triangles * stl_triangle) return FileType{{}, "an STL model"};
   }
   if (without_space(text).starts_with('{') && text.find("\"asset\"") != std::string_view::npos)
-    return Kind{{}, "a glTF model"};
-  return kind_by_words(text);
+    return FileType{{}, "a glTF model"};
+  return type_by_words(text);
 }
 
 }  // namespace
 
-std::optional<std::string> explain_file_kind(std::string_view text) {
-  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+std::optional<std::string> explain_file_type(std::string_view text) {
   if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   if (without_space(text).starts_with('<')) return std::nullopt;
-  const std::optional<Kind> kind = kind_of(text);
-  if (!kind) return std::nullopt;
-  return std::string("this seems to be ") + kind->name +
-         "; raytrace reads scenes in XML, which start with <raytracer>" + kind->advice;
+  const std::optional<FileType> type = type_of(text);
+  if (!type) return std::nullopt;
+  return std::string("this seems to be ") + type->name +
+         "; raytrace reads scenes in XML, which start with <raytracer>" + type->advice;
 }
 
 }  // namespace raytrace
