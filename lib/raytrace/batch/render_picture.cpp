@@ -390,7 +390,7 @@ RenderResult render_picture(const RenderJob& job, RenderObserver& observer, Rend
 RenderResult render_picture(const RenderJob& job, SceneDescription description, RenderObserver& observer,
                             RenderControl& control) {
   require_good_scene(description);
-  description.viewplane = requested_view_plane(description.viewplane, job);
+  apply_job(job, description);
   return PictureRender(job, observer, control, std::move(description)).run();
 }
 

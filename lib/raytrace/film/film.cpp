@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "raytrace/film/aov_film.h"
-#include "raytrace/film/film_means.h"
+#include "raytrace/film/mean.h"
 #include "raytrace/math/content_hash.h"
 
 namespace raytrace {
