@@ -10,4 +10,5 @@
 #pragma once
 
 #include "raytrace/integrators/registry.h"
+#include "raytrace/tracing/normals_kernel.h"
 #include "raytrace/tracing/raycast_kernel.h"
