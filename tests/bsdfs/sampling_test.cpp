@@ -6,6 +6,7 @@
 #include "raytrace/bsdfs/glossy_specular.h"
 #include "raytrace/bsdfs/lambertian.h"
 #include "raytrace/materials/kernels.h"
+#include "raytrace/math/gather.h"
 #include "support/catch.h"
 #include "support/chi_square.h"
 #include "support/lanes.h"

@@ -51,6 +51,7 @@ Film::Film(const FilmSettings& settings, FilmContent content)
 Pixel Film::pixel(int x, int y) const {
   switch (content_) {
     case FilmContent::sums:
+      if (highs_.data() == nullptr) return mean(sums_[index(x, y)], unit_, settings_.transparent);
       return mean(sums_[index(x, y)], high(x, y), unit_, settings_.transparent);
     case FilmContent::means:
       return means_[index(x, y)];

@@ -22,12 +22,16 @@ RAYTRACE_INLINE Pixel mean(double red, double green, double blue, std::uint32_t 
 }
 
 /// Of the pixel's samples. transparent: FilmSettings::transparent.
-inline Pixel mean(const PixelSum& sum, const PixelSumHigh& high, double unit, bool transparent) {
-  const auto total = [](std::int64_t low, std::int64_t high_limb) {
-    return high_limb == 0 ? static_cast<double>(low) : static_cast<double>(from_limbs({low, high_limb}));
-  };
-  return mean(total(sum.red, high.red), total(sum.green, high.green), total(sum.blue, high.blue),
+inline Pixel mean(const PixelSum& sum, double unit, bool transparent) {
+  return mean(static_cast<double>(sum.red), static_cast<double>(sum.green), static_cast<double>(sum.blue),
               transparent ? sum.hits : sum.samples, sum.samples, unit);
+}
+
+/// Of sums with second limbs.
+inline Pixel mean(const PixelSum& sum, const PixelSumHigh& high, double unit, bool transparent) {
+  return mean(
+      static_cast<double>(from_limbs({sum.red, high.red})), static_cast<double>(from_limbs({sum.green, high.green})),
+      static_cast<double>(from_limbs({sum.blue, high.blue})), transparent ? sum.hits : sum.samples, sum.samples, unit);
 }
 
 }  // namespace raytrace
