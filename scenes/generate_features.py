@@ -198,6 +198,20 @@ light(
 """,
 )
 light(
+    "spot-light",
+    "A spotlight with a penumbra, which falls off with the square of the distance.",
+    """\
+    <ambientlight> <scaleradiance>0.5</scaleradiance> </ambientlight>
+    <spotlights>
+      <spotlight>
+        <location x="-2" y="4" z="2"/> <lookat x="-0.2" y="0.6" z="0"/> <coneangle>42</coneangle>
+        <penumbraangle>7</penumbraangle> <scaleradiance>90</scaleradiance> <color red="1" green="0.85" blue="0.6"/>
+        <falloff>inversesquare</falloff>
+      </spotlight>
+    </spotlights>
+""",
+)
+light(
     "directional-light",
     "A directional light: parallel rays, the floor evenly bright.",
     """\
@@ -323,6 +337,48 @@ write(
       <torus>
         <center x="0" y="0.3" z="0"/>
         <sweptradius>1</sweptradius> <tuberadius>0.3</tuberadius> <material>glossy</material>
+      </torus>
+    </toruses>
+""",
+)
+
+STAIRS = "".join(
+    f"      <rectangle> <corner x=\"{x}\" y=\"{y}\" z=\"{z}\"/> <edge1 {edge1}/> <edge2 {edge2}/> "
+    "<material>glossy</material> </rectangle>\n"
+    for step in range(4)
+    for x, y, z, edge1, edge2 in (
+        (-1.6 + 0.8 * step, 0, -0.8, f'x="0" y="{0.4 * (step + 1):g}" z="0"', 'x="0" y="0" z="1.6"'),
+        (-1.6 + 0.8 * step, 0, 0.8, 'x="0.8" y="0" z="0"', f'x="0" y="{0.4 * (step + 1):g}" z="0"'),
+        (-1.6 + 0.8 * step, round(0.4 * (step + 1), 2), -0.8, 'x="0.8" y="0" z="0"', 'x="0" y="0" z="1.6"'),
+    )
+)
+CORNER = """\
+  <viewplane>
+    <hres>320</hres> <vres>240</vres> <pixelsize>0.018</pixelsize> <samples>16</samples>
+    <background red="0.04" green="0.06" blue="0.09"/>
+  </viewplane>
+  <orthographiccamera> <eye x="-6" y="6" z="8"/> <lookat x="0" y="0.6" z="0"/> </orthographiccamera>
+"""
+write(
+    "camera-orthographic",
+    "An orthographic camera: what is parallel in the scene is parallel in the picture.",
+    room=CORNER,
+    mattes="",
+    phongs=GLOSSY,
+    objects=f"    <rectangles>\n{STAIRS}    </rectangles>\n",
+)
+
+# Integrator
+write(
+    "normals",
+    "Shading normals as colours: x is red, y green, z blue.",
+    room=ROOM + "  <integrator> <normals/> </integrator>\n",
+    objects="""\
+    <spheres> <sphere> <center x="-1.4" y="1" z="0"/> <radius>1</radius> <material>clay</material> </sphere> </spheres>
+    <toruses>
+      <torus>
+        <center x="1.2" y="1.1" z="0"/> <axis x="0.3" y="0.6" z="1"/>
+        <sweptradius>0.8</sweptradius> <tuberadius>0.3</tuberadius> <material>clay</material>
       </torus>
     </toruses>
 """,

@@ -47,6 +47,9 @@ int bit_depth(const std::string& text);
 /// The text, if it is one of the names.
 std::string one_of(const std::string& text, const Names& names);
 
+/// The elements of all integrators.
+Names integrator_names();
+
 /// Those that --aov knows, and "all".
 Names aov_choices();
 

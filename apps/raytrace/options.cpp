@@ -150,6 +150,9 @@ void define_options(OptionParser& parser, Options& options) {
       [&](const std::string& text) { options.sample_offset = static_cast<std::uint32_t>(integer(text, 0, largest)); });
   parser.add("--pixel", "x,y", "Print the samples of one pixel, from the top left, instead of rendering a picture",
              [&](const std::string& text) { options.pixel = pixel_index(text); });
+  parser.add(
+      "--integrator", "NAME", "How light is computed, instead of the scene's way: " + joined(integrator_names(), ", "),
+      [&](const std::string& text) { options.integrator = one_of(text, integrator_names()); }, integrator_names());
   parser.add("--seed", "N", "Another, equally good, pattern of samples (0)",
              [&](const std::string& text) { options.seed = natural_number(text); });
 

@@ -107,12 +107,12 @@ def variants_table(programs, chosen):
 
 
 def start_table(best, native, starts):
-    """How long the smallest job takes, where the program chooses, is told, and has no choice."""
+    """How long the smallest job takes, where the program chooses, is given, and has no choice of instruction set."""
     scene = scenes.cloud("start", "one sphere", 1, ["sphere"], width=64, height=64, samples=1)
     folder = written(scene)
     ways = {
         "chooses": processor_seconds(folder, PROGRAM),
-        f"is told: `--isa {best}`": processor_seconds(folder, PROGRAM, "--isa", best),
+        f"is given: `--isa {best}`": processor_seconds(folder, PROGRAM, "--isa", best),
         "has one only: the native build": processor_seconds(folder, native),
     }
     seconds = in_turns(ways, starts)
@@ -146,7 +146,7 @@ def main():
             "# Instruction sets\n\n`benchmarks/instruction_sets` writes this page.\n\n"
             f"{report.machine_line(where)}; {raytrace.version()}. Load when it began: {where['load_at_start']}.\n\n"
             "## Each variant against a native build\n\n"
-            "The program as it is built for everyone, told its variant by `--isa`, against a program built for this"
+            "The program as it is built for everyone, given its variant by `--isa`, against a program built for this"
             " processor alone: all of it with `-march=native`, limited to the same instruction set. What is left out for"
             f" that: {left_out}. The scenes are those of [the comparison](comparison.md). Processor time of the whole"
             " process with one thread, from reading the scene to writing the picture."

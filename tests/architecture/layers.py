@@ -15,12 +15,12 @@ LAYERS = [
     ["batch"],
     ["render"],
     ["variants"],
-    ["integrators"],
+    ["tracing"],
     ["accel"],
     ["scene"],
     ["sampling", "aovs"],
     ["description"],
-    ["shapes", "lights", "materials"],
+    ["shapes", "lights", "materials", "integrators"],
     ["bsdfs", "output", "display"],
     ["cameras"],
     ["film"],
@@ -31,7 +31,7 @@ LAYERS = [
 ]
 
 # Compiled for each instruction set, as lib/raytrace/CMakeLists.txt has it.
-WIDE_SOURCES = re.compile(r"lib/raytrace/((accel|scene|integrators)/[^/]*|variants/variant)\.cpp$")
+WIDE_SOURCES = re.compile(r"lib/raytrace/((accel|scene|tracing)/[^/]*|variants/variant)\.cpp$")
 WIDE_HEADERS = re.compile(r"^xsimd/|raytrace/math/simd\.h$|_kernel\.h$|/kernels\.h$")
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*[<"]([^>"]+)[>"]', re.MULTILINE)
 

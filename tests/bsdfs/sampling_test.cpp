@@ -5,6 +5,8 @@
 #include "bsdfs/directions.h"
 #include "raytrace/bsdfs/glossy_specular.h"
 #include "raytrace/bsdfs/lambertian.h"
+#include "raytrace/materials/kernels.h"
+#include "raytrace/math/gather.h"
 #include "support/catch.h"
 #include "support/chi_square.h"
 #include "support/lanes.h"
@@ -134,6 +136,78 @@ TEST_CASE("GlossySpecular samples follow their pdf, which integrates to 1, from 
         CHECK(outcome.impossible <= 1);  // by rounding at the lobe's rim
       }
   }
+}
+
+namespace {
+
+/// A material's Bsdf, for judge(): which lobe a sample is of comes from random numbers of its own.
+template <class Bsdf>
+struct JudgedBsdf {
+  Bsdf bsdf;
+  mutable Random lobes{777};
+
+  Vec3<FloatN> sample(const Vec3<FloatN>& wo, const Vec3<FloatN>&, const FloatN& u1, const FloatN& u2) const {
+    return bsdf.sample(wo, batch_of<FloatN>([&](std::size_t) { return lobes.unit(); }), u1, u2).wi;
+  }
+  FloatN pdf(const Vec3<FloatN>& wo, const Vec3<FloatN>& wi, const Vec3<FloatN>&) const { return bsdf.pdf(wo, wi); }
+};
+
+/// The mean of f cos / pdf of a Bsdf's samples: the share of light that it reflects.
+template <class Bsdf>
+double reflected_share(const Bsdf& bsdf, const Vec3d& wo) {
+  Random random(4242);
+  double sum = 0;
+  for (int i = 0; i < samples; i += packet_lanes) {
+    const auto numbers = [&] { return batch_of<FloatN>([&](std::size_t) { return random.unit(); }); };
+    const FloatN u = numbers(), u1 = numbers(), u2 = numbers();
+    const BsdfSample<FloatN> drawn = bsdf.sample(spread(wo), u, u1, u2);
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const double cosine = std::max(0.0, double{drawn.wi.z.get(lane)});
+      sum += double{drawn.f.red.get(lane)} * cosine / double{drawn.pdf.get(lane)};
+    }
+  }
+  return sum / samples;
+}
+
+/// The same of every lane.
+template <template <class> class Bsdf>
+Bsdf<FloatN> spread_bsdf(const Bsdf<float>& bsdf) {
+  return gather_records<Bsdf, FloatN>(&bsdf, LaneIndices(0));
+}
+
+}  // namespace
+
+TEST_CASE("a matte's samples follow its pdf, and carry its albedo") {
+  const auto bsdf = spread_bsdf<Kernel<Matte>::Bsdf>(Kernel<Matte>::bsdf({0.3, 0.8, {0.5, 0.6, 0.7}}));
+  for (const double angle : angles) {
+    const Vec3d normal{0, 0, 1}, wo = at_angle(normal, angle, 2);
+    const Outcome outcome = judge(JudgedBsdf<Kernel<Matte>::Bsdf<FloatN>>{bsdf}, wo, normal, Cells(normal, 2));
+    INFO("wo at " << angle << " degrees");
+    CHECK(outcome.integral == Approx(1).epsilon(1e-3));
+    CHECK(outcome.deviation < 4);
+    CHECK(outcome.lowest > 0);
+    CHECK(reflected_share(bsdf, wo) == Approx(0.4).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("a phong's samples follow its pdf over both lobes, and carry what it reflects") {
+  for (const double exponent : {3.0, 40.0}) {
+    const auto bsdf =
+        spread_bsdf<Kernel<Phong>::Bsdf>(Kernel<Phong>::bsdf({0.3, 0.5, 0.1, {0.5, 0.6, 0.7}, {1, 1, 1}, exponent}));
+    // From straight above, no part of the lobe lies below the surface.
+    const Vec3d normal{0, 0, 1};
+    const Outcome outcome = judge(JudgedBsdf<Kernel<Phong>::Bsdf<FloatN>>{bsdf}, normal, normal, Cells(normal, 2));
+    INFO("exponent " << exponent);
+    CHECK(outcome.integral == Approx(1).epsilon(2e-3));
+    CHECK(outcome.deviation < 4);
+    CHECK(outcome.impossible == 0);
+    CHECK(reflected_share(bsdf, normal) == Approx(0.25 + 0.1 * 2 * std::numbers::pi / (exponent + 2)).epsilon(0.01));
+  }
+}
+
+TEST_CASE("a phong that reflects nothing still draws directions with a density") {
+  const auto bsdf = spread_bsdf<Kernel<Phong>::Bsdf>(Kernel<Phong>::bsdf({0, 0, 0, {0, 0, 0}, {0, 0, 0}, 20}));
+  CHECK(reflected_share(bsdf, {0, 0.6, 0.8}) == 0);
 }
 
 TEST_CASE("a lobe narrower than float can cancel still has the spread of its exponent") {

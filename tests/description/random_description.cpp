@@ -34,7 +34,8 @@ void randomize(Random& random, Range range, int& value) {
   value = static_cast<int>(below(random, 10000)) + (range == Range::positive ? 1 : 0);
 }
 void randomize(Random& random, Range, bool& value) { value = below(random, 2) == 0; }
-void randomize(Random& random, Range, std::string& value) { value = random_name(random); }
+/// The only texts are fall-offs.
+void randomize(Random& random, Range, std::string& value) { value = below(random, 2) == 0 ? "none" : "inversesquare"; }
 void randomize(Random& random, Range range, Vec3d& value) {
   const Range each = range == Range::nonzero ? Range::any : range;
   value = {random_number(random, each), random_number(random, each),

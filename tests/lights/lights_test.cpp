@@ -1,5 +1,7 @@
 // The way from points to lights, and what they send.
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "raytrace/lights/kernels.h"
 #include "raytrace/scene/light_source.h"
@@ -79,6 +81,77 @@ TEST_CASE("a light that a scene says nothing more about is white, of radiance 1,
   CHECK(Kernel<DirectionalLight>({{0, 1, 0}, directional.scaleradiance, directional.color, directional.shadows})
             .shadows());
   CHECK(Kernel<AmbientLight>(AmbientLight::Parameters{}).radiance().blue == 1.0f);
+}
+
+namespace {
+
+/// What a light sends to a point.
+template <class Light>
+Rgb<float> radiance_at(const typename Light::Parameters& parameters, const Vec3d& p) {
+  const LightSourceOf<Kernel<Light>> light{Kernel<Light>(parameters)};
+  const Rgb<FloatN> radiance = arriving_at(spread(p), light).radiance;
+  return {radiance.red.get(1), radiance.green.get(1), radiance.blue.get(1)};
+}
+
+SpotLight::Parameters spotlight(double coneangle, double penumbraangle) {
+  SpotLight::Parameters parameters;
+  parameters.location = {1, 5, 2};
+  parameters.lookat = {1, 0, 2};
+  parameters.coneangle = coneangle;
+  parameters.penumbraangle = penumbraangle;
+  parameters.color = {1, 0.5, 2};
+  return parameters;
+}
+
+/// A point that is so many degrees from the axis of that light, at a distance.
+Vec3d off_axis(double degrees, double distance = 3) {
+  const double angle = degrees * std::numbers::pi / 180;
+  return {1 + distance * std::sin(angle), 5 - distance * std::cos(angle), 2};
+}
+
+}  // namespace
+
+TEST_CASE("light that falls off with the square of the distance has its full radiance at distance 1") {
+  PointLight::Parameters parameters{{1, 0, 0}, 3, {1, 0.5, 0.25}, true, "inversesquare"};
+  for (const double distance : {0.001, 0.5, 1.0, 2.0, 1e6}) {
+    const Rgb<float> radiance = radiance_at<PointLight>(parameters, {1 + distance, 0, 0});
+    const double squared = std::pow(double{static_cast<float>(1 + distance)} - 1, 2);
+    CHECK(radiance.red == Approx(3 / squared).epsilon(1e-5));
+    CHECK(radiance.blue == Approx(0.75 / squared).epsilon(1e-5));
+  }
+  CHECK(std::isfinite(radiance_at<PointLight>(parameters, {1, 0, 0}).red));  // and at the light itself
+  parameters.scaleradiance = 1e17;
+  CHECK(std::isfinite(radiance_at<PointLight>(parameters, {1, 1e-17, 0}).red));
+  parameters.falloff = "none";
+  CHECK(radiance_at<PointLight>(parameters, {1e6, 0, 0}).red == static_cast<float>(1e17));
+}
+
+TEST_CASE("a spotlight without penumbra shines evenly inside its cone, and not outside") {
+  for (const double cone : {10.0, 90.0, 180.0, 270.0}) {
+    const SpotLight::Parameters parameters = spotlight(cone, 0);
+    CHECK(radiance_at<SpotLight>(parameters, off_axis(0)).blue == 2);
+    CHECK(radiance_at<SpotLight>(parameters, off_axis(cone / 2 - 0.01)).green == 0.5F);
+    CHECK(radiance_at<SpotLight>(parameters, off_axis(cone / 2 + 0.01)).green == 0);
+    CHECK(radiance_at<SpotLight>(parameters, parameters.location).red == 0);  // which is in no direction
+  }
+}
+
+TEST_CASE("a spotlight's penumbra grows smoothly from its edge inwards") {
+  const SpotLight::Parameters parameters = spotlight(60, 10);
+  const double edge = std::cos(std::numbers::pi / 6), inner = std::cos(std::numbers::pi / 9);
+  for (const double degrees : {29.9, 28.0, 25.0, 22.0, 20.1}) {
+    const double x = (std::cos(degrees * std::numbers::pi / 180) - edge) / (inner - edge);
+    CHECK(radiance_at<SpotLight>(parameters, off_axis(degrees)).red == Approx(x * x * (3 - 2 * x)).margin(1e-5));
+  }
+  CHECK(radiance_at<SpotLight>(parameters, off_axis(19.9)).red == 1);
+  CHECK(radiance_at<SpotLight>(parameters, off_axis(30.1)).red == 0);
+}
+
+TEST_CASE("a spotlight falls off as a point light does") {
+  SpotLight::Parameters parameters = spotlight(60, 10);
+  parameters.falloff = "inversesquare";
+  CHECK(radiance_at<SpotLight>(parameters, off_axis(5, 3)).red == Approx(1.0 / 9).epsilon(1e-5));
+  CHECK(radiance_at<SpotLight>(parameters, off_axis(40, 3)).red == 0);
 }
 
 }  // namespace raytrace::test

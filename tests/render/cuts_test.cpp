@@ -1,6 +1,6 @@
-// However a picture is cut - threads, crops, tiles, ranges of samples, passes - its pixels have the same bits. The
-// gallery's scenes are cut at random, rendered piece by piece into files, and merged; command/test_pieces.py does one
-// of each kind through the program.
+// However a picture is cut - threads, crops (also beyond the picture), tiles, ranges of samples, passes - its pixels
+// have the same bits. The gallery's scenes are cut at random, rendered piece by piece into files, and merged;
+// command/test_pieces.py does one of each kind through the program.
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -23,12 +23,14 @@
 #include "raytrace/render/renderer.h"
 #include "support/catch.h"
 #include "support/temporary_folder.h"
+#include "support/usable_isas.h"
 
 namespace raytrace::test {
 
 namespace {
 
 constexpr int width = 40, height = 28;  // no multiples of the blocks of 8 x 8 pixels that are traced together
+constexpr Region whole_picture = {0, 0, width, height}, overscan = {-17, -13, width + 19, height + 14};
 
 std::vector<std::string> gallery() {
   std::vector<std::string> files;
@@ -60,12 +62,13 @@ class Chance {
     return least + static_cast<int>(bits_() % static_cast<unsigned>(most - least + 1));
   }
 
-  Region crop() {
+  /// Inside `bounds`, and no larger than the picture.
+  Region crop(const Region& bounds) {
     Region r;
     do {
-      r = {number(0, width - 1), number(0, height - 1), 0, 0};
-      r.x1 = number(r.x0 + 1, width);
-      r.y1 = number(r.y0 + 1, height);
+      r = {number(bounds.x0, bounds.x1 - 1), number(bounds.y0, bounds.y1 - 1), 0, 0};
+      r.x1 = number(r.x0 + 1, std::min(r.x0 + width, bounds.x1));
+      r.y1 = number(r.y0 + 1, std::min(r.y0 + height, bounds.y1));
     } while (r.width() * r.height() < 8);  // enough pixels for all tiles
     return r;
   }
@@ -110,20 +113,25 @@ struct Colors {
 /// One gallery scene, and the ways to render it.
 class CutRender {
  public:
-  /// finer: the film's unit is 2^finer times smaller than the scene's.
-  CutRender(const std::string& file, unsigned seed, int finer = 0)
+  /// isa: as build_scene() takes it. finer: the film's unit is 2^finer times smaller than the scene's.
+  CutRender(const std::string& file, int samples, bool transparent, const std::string& isa, unsigned seed,
+            int finer = 0)
       : chance_(seed),
         finer_(finer),
-        samples_(chance_.number(8, 12)),
-        description_(small_scene(file, samples_)),
-        scene_(build_scene(description_, {8, {}})),
-        whole_(in_one({0, 0, width, height}, 1)) {}
+        samples_(samples),
+        transparent_(transparent),
+        description_(small_scene(file, samples)),
+        scene_(build_scene(description_, {8, isa})),
+        whole_(in_one(overscan, 1)) {}
 
   /// Whether the picture, or a crop of it, has the same bits when it is rendered in a way of this kind. What was done
   /// is added to `steps`.
   bool same_after(const std::string& kind, std::string& steps) {
-    const Region crop = kind.ends_with("of a crop") ? chance_.crop() : Region{0, 0, width, height};
-    steps = kind + " " + text_of(crop) + ", " + std::to_string(samples_) + " samples:";
+    const Region crop = kind.ends_with("of a crop")             ? chance_.crop(whole_picture)
+                        : kind.ends_with("of an overscan crop") ? chance_.crop(overscan)
+                                                                : whole_picture;
+    steps = kind + " " + text_of(crop) + ", " + std::to_string(samples_) + " samples" +
+            (transparent_ ? ", transparent:" : ":");
     steps_ = &steps;
     if (kind.starts_with("threads")) return same(in_one(crop, chance_.number(1, 8)), whole_);
     if (kind.starts_with("passes")) return same(in_passes(crop), whole_);
@@ -143,7 +151,7 @@ class CutRender {
   }
 
   Film empty_film(const Region& region, const SampleRange& samples) const {
-    FilmSettings settings = film_settings(*scene_, description_, {1, 0, region, samples, {}});
+    FilmSettings settings = film_settings(*scene_, description_, {1, 0, region, samples, {}, transparent_});
     settings.unit_exponent -= finer_;
     return Film(settings);
   }
@@ -240,6 +248,7 @@ class CutRender {
   TemporaryFolder folder_;
   Chance chance_;
   int finer_, samples_;
+  bool transparent_;
   SceneDescription description_;
   std::unique_ptr<const Scene> scene_;
   int pieces_ = 0, with_high_ = 0, without_high_ = 0;
@@ -253,6 +262,7 @@ TEST_CASE("the gallery's scenes have the same bits however they are cut") {
   std::vector<std::string> kinds;
   for (const auto& [kind, count] : std::vector<std::pair<std::string, int>>{{"threads", 3},
                                                                             {"threads of a crop", 4},
+                                                                            {"threads of an overscan crop", 2},
                                                                             {"passes", 2},
                                                                             {"passes of a crop", 2},
                                                                             {"tiles", 2},
@@ -260,24 +270,41 @@ TEST_CASE("the gallery's scenes have the same bits however they are cut") {
                                                                             {"samples", 3},
                                                                             {"samples of a crop", 1},
                                                                             {"mixed", 4},
-                                                                            {"mixed of a crop", 1}})
+                                                                            {"mixed of a crop", 1},
+                                                                            {"mixed of an overscan crop", 1}})
     kinds.insert(kinds.end(), static_cast<std::size_t>(count), kind);
   const std::vector<std::string> files = gallery();
   CHECK(files.size() >= 7);
-  unsigned seed = 0;
-  for (const std::string& file : files) {
-    CutRender cut(file, seed++);
+  for (unsigned i = 0; i < files.size(); ++i) {
+    CutRender cut(files[i], Chance(i).number(8, 12), i % 2 == 1, {}, i);
     for (const std::string& kind : kinds) {
       std::string steps;
       const bool same = cut.same_after(kind, steps);
-      INFO(file << ": " << steps);
+      INFO(files[i] << ": " << steps);
+      CHECK(same);
+    }
+  }
+}
+
+TEST_CASE("packets of every shape give the same bits however a picture is cut") {
+  // Numbers of samples that lead to packets of a single pixel, of two pixels and so on, up to as many pixels as lanes:
+  // which leads to which depends on the instruction set's lanes (render_tile() in tracing/).
+  const int samples = GENERATE(32, 16, 8, 4, 3);
+  const std::string file = RAYTRACE_SOURCE_DIR "/scenes/gallery/still-life.xml";
+  for (const std::string& isa : usable_isas()) {
+    CutRender cut(file, samples, samples == 16, isa, static_cast<unsigned>(samples));
+    for (const std::string kind : {"threads of a crop", "threads of a crop", "threads of an overscan crop",
+                                   "passes of a crop", "mixed", "mixed of an overscan crop"}) {
+      std::string steps;
+      const bool same = cut.same_after(kind, steps);
+      INFO(isa << ": " << steps);
       CHECK(same);
     }
   }
 }
 
 TEST_CASE("pieces with sums beyond 64 bits are merged with others") {
-  CutRender cut(gallery().front(), 5, 22);
+  CutRender cut(gallery().front(), Chance(5).number(8, 12), false, {}, 5, 22);
   for (int i = 0; i < 12; ++i) {
     std::string steps;
     const bool same = cut.same_after(i % 2 == 0 ? "samples" : "mixed of a crop", steps);

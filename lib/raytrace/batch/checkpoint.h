@@ -29,7 +29,10 @@ class CheckpointFile {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// file: empty if there is to be none. interval: in seconds, between two checkpoints.
+  /// None is to be written.
+  CheckpointFile() = default;
+
+  /// interval: in seconds, between two checkpoints; the first of them begins now.
   CheckpointFile(std::string file, double interval);
 
   bool is_due() const { return !file_.empty() && Clock::now() >= next_; }
@@ -45,7 +48,7 @@ class CheckpointFile {
 
  private:
   std::string file_;
-  Clock::duration interval_;
+  Clock::duration interval_{};
   Clock::time_point next_ = Clock::now() + interval_;
   std::optional<FileIdentity> last_;  ///< that was read or written
 };

@@ -21,6 +21,9 @@ std::vector<std::string> RenderJob::files() const {
   return files;
 }
 
+namespace {
+
+/// The scene's view plane with the job's resolution, scale and samples.
 ViewPlane requested_view_plane(const ViewPlane& viewplane, const RenderJob& job) {
   const Resolution unscaled = job.resolution.value_or(Resolution{viewplane.hres, viewplane.vres});
   const double width = std::max(1.0, std::round(unscaled.width * job.scale));
@@ -39,6 +42,23 @@ ViewPlane requested_view_plane(const ViewPlane& viewplane, const RenderJob& job)
   if (std::int64_t{job.sample_offset.value_or(0)} + requested.samples > std::numeric_limits<int>::max())
     throw SettingsError("--sample-offset: a picture has at most 2147483647 samples per pixel");
   return requested;
+}
+
+}  // namespace
+
+void apply_job(const RenderJob& job, SceneDescription& description) {
+  description.viewplane = requested_view_plane(description.viewplane, job);
+  if (job.integrator.empty()) return;
+  bool found = false;
+  for_each_type(Integrators{}, [&]<class Integrator>(std::type_identity<Integrator>) {
+    if (job.integrator != Integrator::element) return;
+    found = true;
+    // The scene's own parameters stay, if they are this integrator's.
+    const bool is_the_scenes =
+        description.integrator && std::holds_alternative<typename Integrator::Parameters>(*description.integrator);
+    if (!is_the_scenes) description.integrator = typename Integrator::Parameters{};
+  });
+  if (!found) throw SettingsError("there is no integrator " + in_quotes(job.integrator));
 }
 
 SampleRange sample_range(const ViewPlane& viewplane, const RenderJob& job) {
@@ -74,7 +94,7 @@ std::optional<SceneDescription> load_picture(const RenderJob& job, RenderObserve
   if (!description) return std::nullopt;
   observer.on_message(MessageLevel::step,
                       job.scene_name() + ": " + contents_text(*description) + ", read" + time_taken(phase.seconds));
-  description->viewplane = requested_view_plane(description->viewplane, job);
+  apply_job(job, *description);
   return description;
 }
 

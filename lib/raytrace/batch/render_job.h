@@ -37,6 +37,7 @@ struct RenderJob {
   std::optional<int> samples;                  ///< per pixel; none: the scene's
   std::optional<std::uint32_t> sample_offset;  ///< none: all samples of the picture, not a part of them
   std::uint64_t seed = 0;
+  std::string integrator;  ///< its element, such as "normals"; empty: the scene's
   AovSet aovs;
   bool transparent = false;
 
@@ -65,9 +66,9 @@ struct RenderJob {
   }
 };
 
-/// The scene's view plane with the job's resolution, scale and samples. Throws SettingsError if the picture gets too
-/// large.
-ViewPlane requested_view_plane(const ViewPlane& viewplane, const RenderJob& job);
+/// Gives the scene the job's resolution, scale, samples and integrator. Throws SettingsError if the picture gets too
+/// large, or there is no such integrator.
+void apply_job(const RenderJob& job, SceneDescription& description);
 
 /// Which of each pixel's samples: a sample offset makes them a part of the picture's.
 SampleRange sample_range(const ViewPlane& viewplane, const RenderJob& job);

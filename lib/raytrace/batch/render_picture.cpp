@@ -48,11 +48,7 @@ class PictureRender {
  public:
   PictureRender(const RenderJob& job, RenderObserver& observer, RenderControl& control,
                 std::optional<SceneDescription> description)
-      : job_(job),
-        observer_(observer),
-        control_(control),
-        description_(std::move(description)),
-        checkpoint_(job.checkpoint, job.checkpoint_interval) {}
+      : job_(job), observer_(observer), control_(control), description_(std::move(description)) {}
 
   RenderResult run();
 
@@ -163,6 +159,7 @@ void PictureRender::begin_film() {
   identity_.tile = job_.tile;
   if (job_.is_one_of_frames) identity_.frame = job_.frame;
   identity_.variables = variables_text(job_.variables);
+  if (!job_.checkpoint.empty()) checkpoint_ = CheckpointFile(job_.checkpoint, job_.checkpoint_interval);
   if (job_.display_server) {
     const PictureExtent extent{description_->viewplane.hres, description_->viewplane.vres, settings_.region};
     display_ = std::make_unique<DisplayClient>(*job_.display_server, job_.outputs.front(), extent,
@@ -221,7 +218,7 @@ RenderOutcome PictureRender::render_in_bands(int band_rows) {
   Phases& phases = result_.statistics.phases;
   identity_.film = film_settings(*scene_, *description_, settings_);
   OutputFiles outputs(job_, job_.outputs, identity_.film.extent, metadata(),
-                      job_.sample_offset ? sum_channels() : std::vector<Channel>(), observer_);
+                      job_.sample_offset ? all_sum_channels() : std::vector<Channel>(), observer_);
   for (Region band = region; band.y0 < region.y1; band.y0 = band.y1) {
     band.y1 = std::min(band.y0 + band_rows, region.y1);
     settings_.region = band;
@@ -393,7 +390,7 @@ RenderResult render_picture(const RenderJob& job, RenderObserver& observer, Rend
 RenderResult render_picture(const RenderJob& job, SceneDescription description, RenderObserver& observer,
                             RenderControl& control) {
   require_good_scene(description);
-  description.viewplane = requested_view_plane(description.viewplane, job);
+  apply_job(job, description);
   return PictureRender(job, observer, control, std::move(description)).run();
 }
 

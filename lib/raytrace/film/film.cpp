@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "raytrace/film/aov_film.h"
-#include "raytrace/film/film_means.h"
+#include "raytrace/film/mean.h"
 #include "raytrace/math/content_hash.h"
 
 namespace raytrace {
@@ -51,6 +51,7 @@ Film::Film(const FilmSettings& settings, FilmContent content)
 Pixel Film::pixel(int x, int y) const {
   switch (content_) {
     case FilmContent::sums:
+      if (highs_.data() == nullptr) return mean(sums_[index(x, y)], unit_, settings_.transparent);
       return mean(sums_[index(x, y)], high(x, y), unit_, settings_.transparent);
     case FilmContent::means:
       return means_[index(x, y)];

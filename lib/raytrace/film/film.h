@@ -121,16 +121,12 @@ class Film {
   void add(int x, int y, const PixelSum& more) {
     PixelSum& sum = sums_[index(x, y)];
     const PixelSum before = sum;
-    sum.red = wrapped_sum(before.red, more.red);
-    sum.green = wrapped_sum(before.green, more.green);
-    sum.blue = wrapped_sum(before.blue, more.blue);
+    bool wraps = __builtin_add_overflow(before.red, more.red, &sum.red);
+    wraps |= __builtin_add_overflow(before.green, more.green, &sum.green);
+    wraps |= __builtin_add_overflow(before.blue, more.blue, &sum.blue);
     sum.hits += more.hits;
     sum.samples += more.samples;
-    // Negative where the terms have one sign, and the sum the other.
-    const std::int64_t wrapped = ((before.red ^ sum.red) & (more.red ^ sum.red)) |
-                                 ((before.green ^ sum.green) & (more.green ^ sum.green)) |
-                                 ((before.blue ^ sum.blue) & (more.blue ^ sum.blue));
-    if (wrapped < 0) [[unlikely]]
+    if (wraps) [[unlikely]]
       carry(x, y, before, more);
   }
   void add(int x, int y, const PixelSum& more, const PixelSumHigh& more_high);
@@ -170,9 +166,6 @@ class Film {
   std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y - region().y0) * static_cast<std::size_t>(region().width()) +
            static_cast<std::size_t>(x - region().x0);
-  }
-  static std::int64_t wrapped_sum(std::int64_t a, std::int64_t b) {
-    return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
   }
   void carry(int x, int y, const PixelSum& before, const PixelSum& more);
 

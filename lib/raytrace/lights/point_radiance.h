@@ -1,6 +1,7 @@
 // The radiance of lights at a point.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <string>
 
@@ -20,6 +21,7 @@ class PointRadiance {
   /// What a point gets that the light is `to_light` away from. Finite, however near it is.
   template <class F>
   Rgb<F> at(const Vec3<F>& to_light) const {
+    using std::max, std::min;  // of plain numbers
     const Rgb<F> radiance(at_distance_1_);
     if (!inverse_square_) return radiance;
     const F share = F(1) / max(dot(to_light, to_light), F(std::numeric_limits<float>::min()));

@@ -8,7 +8,7 @@
 namespace raytrace {
 
 /// The second half of a type. What it provides: shapes/kernels.h, lights/kernels.h, materials/kernels.h,
-/// cameras/kernels.h, integrators/kernels.h.
+/// cameras/kernels.h, tracing/kernels.h.
 template <class Type>
 class Kernel;
 

@@ -15,6 +15,7 @@
 #include <utility>
 #include <xsimd/xsimd.hpp>
 
+#include "raytrace/math/compiler_vector.h"
 #include "raytrace/math/inline.h"
 #include "raytrace/math/twin_batch.h"
 #include "raytrace/math/vec3.h"
@@ -53,17 +54,6 @@ using UintN = Uints<FloatN>;
 
 template <class F>
 inline constexpr int lane_count = static_cast<int>(F::size);
-
-namespace detail {
-template <class T, std::size_t lanes>
-struct CompilerVectorOf {
-  typedef T type __attribute__((vector_size(lanes * sizeof(T))));
-};
-}  // namespace detail
-
-/// Vector types of the compiler: it converts them where there is no instruction that xsimd knows of.
-template <class T, std::size_t lanes>
-using CompilerVector = typename detail::CompilerVectorOf<T, lanes>::type;
 
 namespace detail {
 template <int lanes>

@@ -26,7 +26,7 @@ class Scene {
  public:
   virtual ~Scene() = default;
 
-  /// No sample of direct light has a larger radiance, in any channel. It scales the film's unit.
+  /// What the integrator says that samples mostly stay below, in any channel. It scales the film's unit.
   virtual float largest_radiance() const = 0;
 
   /// No material's albedo is larger, in any channel.

@@ -7,7 +7,8 @@
 
 namespace raytrace {
 
-SceneTables::SceneTables(const SceneDescription& description, int threads) : viewplane_(description.viewplane) {
+SceneTables::SceneTables(const SceneDescription& description, int threads)
+    : viewplane_(description.viewplane), integrator_(description.integrator.value_or(Raycast::Parameters{})) {
   set_camera(description);
   add_lights(description);
   add_materials(description);

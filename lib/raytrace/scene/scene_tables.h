@@ -32,6 +32,8 @@ class SceneTables {
   SceneTables(const SceneDescription& description, int threads);
 
   const ViewPlane& viewplane() const { return viewplane_; }
+  /// Raycast where the description leaves it open.
+  const IntegratorParameters& integrator() const { return integrator_; }
   const Camera& camera() const { return *camera_; }
   /// Unit length.
   const Vec3f& viewing_direction() const { return viewing_direction_; }
@@ -74,6 +76,7 @@ class SceneTables {
   Rgb<FloatN> by_material(const Hits& hits, const Answer& answer) const;
 
   ViewPlane viewplane_;
+  IntegratorParameters integrator_;
   std::unique_ptr<Camera> camera_;
   Vec3f viewing_direction_{};
   std::optional<BufferOrigin> camera_origin_;

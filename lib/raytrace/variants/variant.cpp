@@ -1,6 +1,6 @@
 #include "raytrace/variants/variant.h"
 
-#include "raytrace/integrators/render_tile.h"
+#include "raytrace/tracing/render_tile.h"
 
 #define RAYTRACE_JOIN_NAMES(a, b) a##b
 #define RAYTRACE_JOIN(a, b) RAYTRACE_JOIN_NAMES(a, b)
@@ -12,7 +12,9 @@ namespace {
 constexpr const char* widest_embree_isa = register_lanes == 16 ? "avx512" : register_lanes == 8 ? "avx2" : "sse4.2";
 
 std::unique_ptr<const Scene> build(const SceneDescription& description, int threads) {
-  return std::make_unique<TracedScene>(description, threads, RAYTRACE_ISA, widest_embree_isa);
+  auto scene = std::make_unique<TracedScene>(description, threads, RAYTRACE_ISA, widest_embree_isa);
+  scene->set_largest_radiance(largest_radiance(scene->tables()));
+  return scene;
 }
 
 RenderReport render(const Scene& scene, const Region& tile, std::uint32_t samples, Film& film,

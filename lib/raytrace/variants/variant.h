@@ -12,8 +12,8 @@
 
 #include "raytrace/description/scene_description.h"
 #include "raytrace/film/film.h"
-#include "raytrace/integrators/render_report.h"
 #include "raytrace/scene/scene.h"
+#include "raytrace/tracing/render_report.h"
 
 namespace raytrace {
 

@@ -18,7 +18,7 @@ namespace {
 using EntryPoint = const Variant& (*)();
 constexpr EntryPoint entry_points[] = {RAYTRACE_VARIANTS(RAYTRACE_ENTRY)};
 #define RAYTRACE_ISA_NAME(name, isa) isa,
-constexpr const char* names[] = {RAYTRACE_VARIANTS(RAYTRACE_ISA_NAME)};
+constexpr const char* variant_isas[] = {RAYTRACE_VARIANTS(RAYTRACE_ISA_NAME)};
 
 bool processor_runs(const std::string& name) {
 #if defined(__x86_64__)
@@ -35,22 +35,24 @@ bool processor_runs(const std::string& name) {
 
 }  // namespace
 
-std::vector<std::string> isa_names() { return {std::begin(names), std::end(names)}; }
+std::vector<std::string> isa_names() { return {std::begin(variant_isas), std::end(variant_isas)}; }
 
 bool isa_supported(const std::string& name) {
-  return std::find(std::begin(names), std::end(names), name) != std::end(names) && processor_runs(name);
+  return std::find(std::begin(variant_isas), std::end(variant_isas), name) != std::end(variant_isas) &&
+         processor_runs(name);
 }
 
 std::string best_isa() {
-  for (std::size_t i = std::size(names); i-- > 0;)
-    if (processor_runs(names[i])) return names[i];
-  throw RenderError(std::string("this processor is older than the least that this program was built for, ") + names[0]);
+  for (std::size_t i = std::size(variant_isas); i-- > 0;)
+    if (processor_runs(variant_isas[i])) return variant_isas[i];
+  throw RenderError(std::string("this processor is older than the least that this program was built for, ") +
+                    variant_isas[0]);
 }
 
 const Variant& choose_variant(const std::string& isa) {
   const std::string name = isa.empty() ? best_isa() : isa;
-  for (std::size_t i = 0; i < std::size(names); ++i)
-    if (name == names[i]) {
+  for (std::size_t i = 0; i < std::size(variant_isas); ++i)
+    if (name == variant_isas[i]) {
       if (!processor_runs(name)) throw RenderError("this processor cannot run " + name + "; its best is " + best_isa());
       return entry_points[i]();
     }

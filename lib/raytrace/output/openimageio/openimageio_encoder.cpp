@@ -121,6 +121,7 @@ class Proxy final : public OIIO::Filesystem::IOFile {
   std::size_t write(const void* data, std::size_t size) override {
     file_.write(data, size);
     m_pos += static_cast<std::int64_t>(size);
+    m_size = std::max(m_size, static_cast<std::size_t>(m_pos));
     return size;
   }
 

@@ -10,10 +10,10 @@
 #include <memory>
 
 #include "raytrace/film/film_means.h"
-#include "raytrace/integrators/lane_counts.h"
-#include "raytrace/integrators/ray_result.h"
 #include "raytrace/math/fixed_point_sums.h"
 #include "raytrace/math/limbs.h"
+#include "raytrace/tracing/lane_counts.h"
+#include "raytrace/tracing/ray_result.h"
 
 namespace raytrace {
 

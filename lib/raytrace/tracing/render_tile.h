@@ -5,9 +5,12 @@
 
 #include "raytrace/accel/traced_scene.h"
 #include "raytrace/film/film.h"
-#include "raytrace/integrators/render_report.h"
+#include "raytrace/tracing/render_report.h"
 
 namespace raytrace {
+
+/// Kernel::largest_radiance() of the scene's integrator.
+float largest_radiance(const SceneTables& scene);
 
 /// Renders the tile's pixels as Variant::render promises. Packets are blocks of neighbouring pixels, aligned to the
 /// picture's own grid: a pixel shares its packet with the same neighbours however the picture is cut, so its bits do

@@ -1,13 +1,13 @@
-#include "raytrace/integrators/render_tile.h"
+#include "raytrace/tracing/render_tile.h"
 
 #include <algorithm>
 #include <bit>
 
-#include "raytrace/integrators/block_aovs.h"
-#include "raytrace/integrators/block_sums.h"
-#include "raytrace/integrators/kernels.h"
-#include "raytrace/integrators/packet_block.h"
 #include "raytrace/sampling/pixel_sampler.h"
+#include "raytrace/tracing/block_aovs.h"
+#include "raytrace/tracing/block_sums.h"
+#include "raytrace/tracing/kernels.h"
+#include "raytrace/tracing/packet_block.h"
 
 namespace raytrace {
 
@@ -174,12 +174,17 @@ class BlockRenderer {
   RenderReport report_;
 };
 
-}  // namespace
+/// f(std::type_identity<Integrator>{}) of the scene's.
+template <class Function>
+auto with_integrator(const SceneTables& scene, const Function& f) {
+  return with_type(Integrators{}, scene.integrator().index(), f);
+}
 
-RenderReport render_tile(const TracedScene& scene, const Region& region, std::uint32_t samples, Film& film,
-                         const std::atomic<bool>* stop) {
+template <class Integrator>
+RenderReport render_tile_by(const TracedScene& scene, const Region& region, std::uint32_t samples, Film& film,
+                            const std::atomic<bool>* stop) {
   const auto in_groups_of = [&]<int group>(std::integral_constant<int, group>) {
-    return BlockRenderer<Raycast, shape_of_samples(group)>(scene, region, film, stop).render(samples);
+    return BlockRenderer<Integrator, shape_of_samples(group)>(scene, region, film, stop).render(samples);
   };
   // As many samples of as few pixels as there are samples at hand: such rays are closer together than those of one
   // sample of many pixels. Samples 0, 1, ... of a pixel belong to groups, and lanes may be left without work in the
@@ -201,6 +206,21 @@ RenderReport render_tile(const TracedScene& scene, const Region& region, std::ui
     if (few_are_idle(4)) return in_groups_of(std::integral_constant<int, 4>());
   }
   return in_groups_of(std::integral_constant<int, 1>());
+}
+
+}  // namespace
+
+float largest_radiance(const SceneTables& scene) {
+  return with_integrator(scene, [&]<class Integrator>(std::type_identity<Integrator>) {
+    return Kernel<Integrator>::largest_radiance(scene);
+  });
+}
+
+RenderReport render_tile(const TracedScene& scene, const Region& region, std::uint32_t samples, Film& film,
+                         const std::atomic<bool>* stop) {
+  return with_integrator(scene.tables(), [&]<class Integrator>(std::type_identity<Integrator>) {
+    return render_tile_by<Integrator>(scene, region, samples, film, stop);
+  });
 }
 
 }  // namespace raytrace

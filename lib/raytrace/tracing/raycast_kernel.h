@@ -5,10 +5,10 @@
 #include <bit>
 
 #include "raytrace/accel/traced_scene.h"
-#include "raytrace/integrators/ray_result.h"
 #include "raytrace/integrators/raycast.h"
-#include "raytrace/integrators/render_report.h"
 #include "raytrace/math/kernel.h"
+#include "raytrace/tracing/ray_result.h"
+#include "raytrace/tracing/render_report.h"
 
 namespace raytrace {
 

@@ -1,4 +1,4 @@
-#include "raytrace/integrators/block_aovs.h"
+#include "raytrace/tracing/block_aovs.h"
 
 #include <algorithm>
 #include <bit>
@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "raytrace/integrators/aov_values.h"
+#include "raytrace/tracing/aov_values.h"
 
 namespace raytrace {
 

@@ -9,5 +9,6 @@
 //       further rays in the lanes of `counted` to `counts`, and sets `first` to what was met if it is not null.
 #pragma once
 
-#include "raytrace/integrators/raycast_kernel.h"
 #include "raytrace/integrators/registry.h"
+#include "raytrace/tracing/normals_kernel.h"
+#include "raytrace/tracing/raycast_kernel.h"

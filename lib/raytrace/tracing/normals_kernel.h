@@ -1,0 +1,32 @@
+// Shading normals as colours.
+#pragma once
+
+#include "raytrace/accel/traced_scene.h"
+#include "raytrace/integrators/normals.h"
+#include "raytrace/math/kernel.h"
+#include "raytrace/tracing/ray_result.h"
+#include "raytrace/tracing/render_report.h"
+
+namespace raytrace {
+
+template <>
+class Kernel<Normals> {
+ public:
+  static float largest_radiance(const SceneTables&) { return 1; }
+
+  static RayResult radiance(const TracedScene& scene, const Rgb<float>& background, Ray<FloatN>& rays,
+                            const MaskN& active, const MaskN&, RayCounts&, FirstHits* first) {
+    const Hits hits = scene.accelerator().intersect(rays, active, Coherence::coherent, scene.camera_buffer());
+    if (first != nullptr) first->hits = hits;
+    if (none(hits.hit)) return {Rgb<FloatN>(background), hits.hit};
+    const SurfaceInteraction<FloatN> surface = scene.accelerator().surface(rays, hits);
+    if (first != nullptr) first->surface = surface;
+    const auto color = [](const FloatN& component) {
+      return min(max(component * FloatN(0.5F) + FloatN(0.5F), FloatN(0)), FloatN(1));
+    };
+    const Rgb<FloatN> normal{color(surface.ns.x), color(surface.ns.y), color(surface.ns.z)};
+    return {select(hits.hit, normal, Rgb<FloatN>(background)), hits.hit};
+  }
+};
+
+}  // namespace raytrace
