@@ -5,10 +5,10 @@
 #include "raytrace/bsdfs/glossy_specular.h"
 #include "raytrace/bsdfs/lambertian.h"
 #include "raytrace/film/film.h"
-#include "raytrace/tracing/block_sums.h"
-#include "raytrace/tracing/packet_block.h"
 #include "raytrace/sampling/pixel_sampler.h"
 #include "raytrace/scene/camera.h"
+#include "raytrace/tracing/block_sums.h"
+#include "raytrace/tracing/packet_block.h"
 #include "wide_cases.h"
 
 namespace raytrace::benchmark {

@@ -1,5 +1,5 @@
-// The library in one include: read a scene or make one, build it, render it, write the picture; batches of pictures with
-// checkpoints and a time limit; pieces of a picture, and merging them. docs/library.md shows a whole program.
+// The library in one include: read a scene or make one, build it, render it, write the picture; batches of pictures
+// with checkpoints and a time limit; pieces of a picture, and merging them. docs/library.md shows a whole program.
 #pragma once
 
 #include "raytrace/batch/checkpoint.h"

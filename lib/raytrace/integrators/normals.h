@@ -1,5 +1,5 @@
-// Shading normals as colours, for looking at a model: each component of the normal, on the side that is in view, goes from
-// -1 to 1 as its colour goes from 0 to 1. x is red, y green, z blue. Without lights.
+// Shading normals as colours, for looking at a model: each component of the normal, on the side that is in view, goes
+// from -1 to 1 as its colour goes from 0 to 1. x is red, y green, z blue. Without lights.
 //
 //   <integrator> <normals/> </integrator>
 #pragma once
