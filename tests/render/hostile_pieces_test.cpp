@@ -330,7 +330,7 @@ TEST_CASE("all pieces that are refused are named in one run") {
   CHECK(!contains(message, folder.file("good.exr") + " is"));
 }
 
-TEST_CASE("a piece that was stopped is told with the options that make it") {
+TEST_CASE("a piece that was stopped is reported with the options that make it") {
   const TemporaryFolder folder;
   SamplePiece piece;
   piece.sums = piece.partial = true;

@@ -99,7 +99,7 @@ TEST_CASE("overlaps and gaps are found in random layouts, and nowhere else") {
   CHECK(exact > 500);
 }
 
-TEST_CASE("overlaps and gaps are told by their files, pixels and samples") {
+TEST_CASE("overlaps and gaps are reported by their files, pixels and samples") {
   const PieceExtent left{"left.exr", {0, 0, 4, 8}, 0, 10}, right{"right.exr", {4, 0, 8, 8}, 0, 6},
       again{"again.exr", {3, 7, 4, 9}, 9, 12};
   const std::vector<std::string> twice = overlaps({left, right, again});
@@ -114,7 +114,7 @@ TEST_CASE("overlaps and gaps are told by their files, pixels and samples") {
   CHECK(missing[0].starts_with("no piece holds samples 6 to 9 of the pixels 4,0,8,8"));
 }
 
-TEST_CASE("what is missing is told with the options that render it") {
+TEST_CASE("what is missing is reported with the options that render it") {
   using Lines = std::vector<std::string>;
   const Region whole{-8, 0, 56, 48};
   const auto tile = [&](int index, int count, std::uint64_t first, std::uint64_t last) {
@@ -146,7 +146,7 @@ TEST_CASE("what is missing is told with the options that render it") {
         Lines{"tile 3/4 is missing: render it with --tile 3/4 -s 1"});
 }
 
-TEST_CASE("a picture of which much is missing is told in a few lines") {
+TEST_CASE("a picture of which much is missing is reported in a few lines") {
   std::vector<PieceExtent> pieces;
   for (int i = 0; i < 1000; ++i) pieces.push_back({"p", {2 * i, 0, 2 * i + 1, 1}, 0, 1});
   const std::size_t lines = missing_parts(pieces, {{0, 0, 2000, 1}, 1}).size();
