@@ -138,7 +138,7 @@ TEST_CASE("a checkpoint keeps both limbs") {
     render(*scene, film, 8, 1);
     CHECK(film.has_high() == (finer != 0));
     PieceIdentity identity;
-    identity.provenance = provenance_of("raytrace test", *scene, description);
+    identity.provenance = provenance_of(*scene, description);
     identity.film = film.settings();
     identity.whole = whole(description);
     const TemporaryFolder folder;
