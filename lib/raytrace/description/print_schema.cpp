@@ -129,7 +129,9 @@ class SchemaPrinter : private XmlWriter {
 
   template <class T>
   void print_item(std::span<const FieldInfo> labels) {
-    element(named("complexType", T::element), [&] {
+    // Without fields it would have to be empty, white space included, were it not mixed.
+    const bool empty = labels.empty() && T::fields().empty();
+    element(named("complexType", T::element) + (empty ? " mixed=\"true\"" : ""), [&] {
       element("xs:all", [&] {
         for (const FieldInfo& label : labels) child(label.name, "text", label.required);
         for (const auto& field : T::fields()) {
