@@ -16,21 +16,23 @@ const std::string sphere =
     "</materials><objects><spheres><sphere><center x='0' y='2' z='0'/><radius>2</radius><material>m</material></sphere>"
     "</spheres></objects><integrator><normals/></integrator>";
 
+const std::string straight = "<eye x='0' y='2' z='12'/><lookat x='0' y='2' z='0'/>";
+
 }  // namespace
 
 TEST_CASE("a sphere's normals are its colours, from 0 to 1, in the dark too") {
-  const SceneDescription description = parsed_scene(scene_text(101, 101, 1, sphere));
+  const SceneDescription description = parsed_scene(scene_text(101, 101, 1, sphere, straight));
   for (const std::string& isa : usable_isas()) {
     const FloatPicture picture = rendered(description, 1, isa);
     int checked = 0;
     double worst = 0;
     for (int y = 0; y < 101; ++y)
       for (int x = 0; x < 101; ++x) {
-        // The ray through the pixel's center, from (0, 2, 12) along -z tilted by (dx, dy); the view distance is 101.
+        // The ray through the pixel's center, from (0, 2, 12) about along -z; the view distance is 101.
         const Vec3d direction = normalize(Vec3d{x + 0.5 - 50.5, 50.5 - (y + 0.5), -101}), to_center{0, 0, -12};
         const double along = dot(direction, to_center);
         const double discriminant = 4 - (dot(to_center, to_center) - along * along);
-        const Pixel pixel = picture.pixel(x, y);
+        const Pixel pixel = picture.at(x, y);
         if (std::abs(discriminant) < 0.02) continue;  // the edge
         Vec3d wanted{0.1, 0.2, 0.4};                  // the background
         if (discriminant > 0) {
