@@ -10,12 +10,15 @@ install(TARGETS raytrace EXPORT raytraceTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 
-# accel/, scene/ and integrators/ are the inside of the library: users go through render/renderer.h.
+# What is compiled for each instruction set is the inside of the library: users go through raytrace/raytrace.h.
 install(DIRECTORY lib/raytrace DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
   FILES_MATCHING PATTERN "*.h"
   PATTERN accel EXCLUDE
   PATTERN scene EXCLUDE
-  PATTERN integrators EXCLUDE)
+  PATTERN tracing EXCLUDE
+  PATTERN "*kernel*.h" EXCLUDE)
+install(FILES lib/raytrace/scene/scene.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/raytrace/scene)
+install(FILES lib/raytrace/tracing/render_report.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/raytrace/tracing)
 
 install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/raytrace
   FILES_MATCHING PATTERN "*.xml" PATTERN "*.xsd")
