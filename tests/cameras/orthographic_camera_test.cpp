@@ -9,7 +9,7 @@ namespace raytrace::test {
 
 namespace {
 
-void check_same(const Vec3d& got, const Vec3d& wanted) {
+void check_close(const Vec3d& got, const Vec3d& wanted) {
   INFO(got.x << " " << got.y << " " << got.z << " instead of " << wanted.x << " " << wanted.y << " " << wanted.z);
   CHECK(length(got - wanted) < 1e-5);
 }
@@ -23,8 +23,8 @@ TEST_CASE("an orthographic camera's rays are parallel, and a pixel apart by pixe
   for (const double x : {-200.0, 0.0, 0.5, 160.0})
     for (const double y : {-120.0, 0.0, 75.5}) {
       const Ray<FloatN> rays = camera.generate(FloatN(static_cast<float>(x)), FloatN(static_cast<float>(y)));
-      check_same(lane_of(rays.origin, 0), eye + u * (0.25 * x) + v * (0.25 * y));
-      check_same(lane_of(rays.direction, 0), -w);
+      check_close(lane_of(rays.origin, 0), eye + u * (0.25 * x) + v * (0.25 * y));
+      check_close(lane_of(rays.direction, 0), -w);
       CHECK(rays.near.get(0) == 0);
       CHECK(rays.far.get(0) == std::numeric_limits<float>::infinity());
     }
@@ -45,7 +45,7 @@ TEST_CASE("an orthographic camera's matrices take points to where its rays meet 
     for (const double y : {-100.0, 33.0}) {
       const Ray<FloatN> ray = camera.generate(FloatN(static_cast<float>(x)), FloatN(static_cast<float>(y)));
       const Vec3d p = lane_of(ray.origin, 0) + lane_of(ray.direction, 0) * 7.0;
-      check_same(transformed(p, matrices.world_to_camera), {0.1 * x, 0.1 * y, -7});
+      check_close(transformed(p, matrices.world_to_camera), {0.1 * x, 0.1 * y, -7});
       const Vec3d ndc = transformed(p, matrices.world_to_ndc);
       CHECK(ndc.x == Approx(x / 320 + 0.5).margin(1e-5));
       CHECK(ndc.y == Approx(y / 200 + 0.5).margin(1e-5));
