@@ -109,7 +109,7 @@ RenderReport render(const Scene& scene, Film& film, std::uint32_t samples, int t
                     const ProgressFunction& progress, const std::atomic<bool>* stop) {
   const int workers = worker_count(thread_count(threads));
   const TileGrid grid = tiles_for(film.region(), workers);
-  const Variant& variant = choose_variant(scene.isa());
+  const Variant variant = choose_variant(scene.isa());
   ProgressReporter teller(progress, grid.count());
   std::vector<RenderReport> reports(static_cast<std::size_t>(grid.count()));  // of each tile
   // With the loop's own, all that threads write and others read: once a tile.
