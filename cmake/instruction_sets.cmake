@@ -67,7 +67,7 @@ function(raytrace_add_variants target)
       $<$<AND:$<CXX_COMPILER_ID:GNU>,$<STREQUAL:${isa},x86-64-v3>>:-mstore-max=256>
       # A unique symbol cannot be made local.
       $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>
-      # GCC 12 takes the undefined operands in its own AVX-512 header for a mistake (GCC bug 105593, mended in 13).
+      # GCC 12 takes the undefined operands in its own AVX-512 header for a mistake (GCC bug 105593, fixed in 13).
       "$<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-uninitialized;-Wno-maybe-uninitialized>")
 
     set(inputs $<TARGET_OBJECTS:${objects}>)

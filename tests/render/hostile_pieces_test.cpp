@@ -1,14 +1,13 @@
-// Pieces and checkpoints that were damaged, or made to harm: each is refused by its name, before anything follows from
+// Pieces that were damaged, or made to harm: each is refused by its name, before anything follows from
 // what it claims. tests/fuzz/fuzz_pieces.cpp tries what nobody thought of.
 #include <sys/stat.h>
 
-#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
 
-#include "raytrace/batch/checkpoint.h"
 #include "raytrace/batch/merge_pieces.h"
+#include "render/exr_edits.h"
 #include "support/catch.h"
 #include "support/contains.h"
 #include "support/exr_bytes.h"
@@ -18,10 +17,6 @@
 namespace raytrace::test {
 
 namespace {
-
-using Edit = std::function<void(ExrBytes&)>;
-
-ExrBytes exr_of(const std::string& file) { return *ExrBytes::parsed(bytes_of(file)); }
 
 /// What merging says of the pieces, which must leave no picture; "" if it does not refuse them.
 std::string refusal(const TemporaryFolder& folder, const std::vector<std::string>& pieces, bool partial = false) {
@@ -37,18 +32,6 @@ std::string refusal(const TemporaryFolder& folder, const std::vector<std::string
     return error.what();
   }
   std::filesystem::remove(settings.outputs[0]);
-  return "";
-}
-
-/// What resuming says of a checkpoint of this piece.
-std::string resume_refusal(const std::string& file, const SamplePiece& piece) {
-  const PieceIdentity identity = identity_of(piece);
-  Film film(identity.film);
-  try {
-    read_checkpoint(file, identity, film);
-  } catch (const InputError& error) {
-    return error.what();
-  }
   return "";
 }
 
@@ -74,22 +57,6 @@ void check_refused(const SamplePiece& kind, const Edit& edit, const std::string&
 }
 
 void check_refused(const Edit& edit, const std::string& text) { check_refused({}, edit, text); }
-
-void set_window(ExrBytes& exr, const char* name, const std::vector<std::int32_t>& edges) {
-  exr.set(name, "box2i", little_endian(edges));
-}
-
-void edit_channels(ExrBytes& exr, const std::function<void(std::vector<ExrChannel>&)>& edit) {
-  std::vector<ExrChannel> channels = channels_of(exr["channels"].value);
-  edit(channels);
-  exr["channels"].value = channels_value(channels);
-}
-
-ExrChannel& channel(std::vector<ExrChannel>& channels, const std::string& name) {
-  for (ExrChannel& one : channels)
-    if (one.name == name) return one;
-  throw std::runtime_error("no channel " + name);
-}
 
 constexpr int highest = std::numeric_limits<int>::max(), lowest = std::numeric_limits<int>::min();
 
@@ -345,54 +312,6 @@ TEST_CASE("a piece that was stopped is reported with the options that make it") 
   check("--tile 1/4 ");
   piece.samples = {8, 4};
   check("--tile 1/4 --sample-offset 8 ");
-}
-
-TEST_CASE("a damaged checkpoint is refused") {
-  const TemporaryFolder folder;
-  const std::string file = folder.file("checkpoint.exr");
-  SamplePiece piece;
-  piece.partial = piece.aovs = true;
-  const auto refusal_of = [&](const Edit& edit) {
-    const PieceIdentity identity = identity_of(piece);
-    ImageMetadata metadata;
-    metadata.software = identity.provenance.software;
-    metadata.seed = identity.film.seed;
-    write_checkpoint(file, film_of(piece), identity, metadata);
-    ExrBytes exr = exr_of(file);
-    edit(exr);
-    write_text(file, exr.bytes());
-    return resume_refusal(file, piece);
-  };
-  REQUIRE(refusal_of([](ExrBytes&) {}) == "");
-  const std::vector<Edit> edits = {
-      [](ExrBytes& exr) { set_window(exr, "dataWindow", {100000, 0, 100023, 17}); },
-      [](ExrBytes& exr) { set_window(exr, "dataWindow", {5, 0, 28, 17}); },
-      [](ExrBytes& exr) { set_window(exr, "displayWindow", {0, 0, 65535, 65535}); },
-      [](ExrBytes& exr) { exr.set_text("raytrace:whole", "1,1,2,2"); },
-      [](ExrBytes& exr) { exr.set_text("raytrace:region", "0,0,24,17"); },
-      [](ExrBytes& exr) { exr.set_int("raytrace:samples", -1); },
-      [](ExrBytes& exr) { exr.set_text("raytrace:firstSample", "0x"); },
-      [](ExrBytes& exr) { exr.set_text("raytrace:sumsHash", "0123"); },
-      [](ExrBytes& exr) { exr.remove("raytrace:sumsHash"); },
-      [](ExrBytes& exr) { exr.set_first_value("sums.red.low", 1); },
-      [](ExrBytes& exr) { exr.set_first_value("sums.samples", 0xffffffff); },
-      [](ExrBytes& exr) { exr.set_first_value("sums.aov.nearest.sample", 0xffffffff); },
-      [](ExrBytes& exr) { exr.set_first_value("sums.aov.cover0.count000", 0xffffffff); },
-      [](ExrBytes& exr) {
-        edit_channels(exr,
-                      [](auto& all) { channel(all, "sums.aov.cover0.count001").name = "sums.aov.cover0.counx001"; });
-      },
-      [](ExrBytes& exr) { edit_channels(exr, [](auto& all) { channel(all, "sums.hits").layout[0] = '\2'; }); },
-      [](ExrBytes& exr) { exr.rest.resize(exr.rest.size() - 1); },
-      [](ExrBytes& exr) { exr.rest.resize(40); },
-  };
-  for (std::size_t i = 0; i < edits.size(); ++i) {
-    const std::string message = refusal_of(edits[i]);
-    INFO("edit " << i << ": " << message);
-    CHECK(contains(message, file));
-  }
-  write_piece(file, {});
-  CHECK(contains(resume_refusal(file, {}), "it is a picture without the sums of its samples"));
 }
 
 TEST_CASE("what is no regular file is refused at once") {
