@@ -6,7 +6,6 @@
 #include "raytrace/bsdfs/lambertian.h"
 #include "raytrace/film/film.h"
 #include "raytrace/sampling/pixel_sampler.h"
-#include "raytrace/scene/camera.h"
 #include "raytrace/tracing/block_sums.h"
 #include "raytrace/tracing/packet_block.h"
 #include "wide_cases.h"
@@ -69,10 +68,11 @@ class RayPackets {
       for (std::size_t lane = 0; lane < size; ++lane) {
         lane_of(packet.ray.tfar, lane) = std::numeric_limits<float>::infinity();
         lane_of(packet.hit.geomID, lane) = RTC_INVALID_GEOMETRY_ID;
+        query_.nearest.start(static_cast<unsigned>(lane), std::numeric_limits<float>::infinity());
       }
       Queries<size>::intersect(valid_, scene_, query_, packet);
       for (std::size_t lane = 0; lane < size; ++lane)
-        hits += lane_of(packet.hit.geomID, lane) != RTC_INVALID_GEOMETRY_ID ? 1 : 0;
+        hits += query_.nearest.geometry[lane] != embree::NearestHits::none ? 1 : 0;
     }
     return static_cast<float>(hits);
   }
@@ -81,8 +81,10 @@ class RayPackets {
   float occluded() {
     int hits = 0;
     for (RayHit& packet : packets_) {
-      for (std::size_t lane = 0; lane < size; ++lane)
+      for (std::size_t lane = 0; lane < size; ++lane) {
         lane_of(packet.ray.tfar, lane) = std::numeric_limits<float>::infinity();
+        query_.nearest.start(static_cast<unsigned>(lane), std::numeric_limits<float>::infinity());
+      }
       Queries<size>::occluded(valid_, scene_, query_, packet.ray);
       for (std::size_t lane = 0; lane < size; ++lane) hits += lane_of(packet.ray.tfar, lane) < 0 ? 1 : 0;
     }
@@ -103,7 +105,7 @@ class RayPackets {
     lane_of(packet.ray.tnear, lane) = 0;
     lane_of(packet.ray.time, lane) = 0;
     lane_of(packet.ray.mask, lane) = 0xffffffffu;
-    lane_of(packet.ray.id, lane) = 0;
+    lane_of(packet.ray.id, lane) = static_cast<unsigned>(lane);
     lane_of(packet.ray.flags, lane) = 0;
     lane_of(packet.hit.instID[0], lane) = RTC_INVALID_GEOMETRY_ID;
   }
@@ -220,11 +222,10 @@ void add_camera_case(std::vector<MicroCase>& cases) {
   std::vector<FloatN> points;
   for (std::size_t i = 0; i < packet_count; ++i) points.push_back(random.number() * FloatN(512));
   const Kernel<PinholeCamera> pinhole({{0, 8, 30}, {0, 0, 0}, {0, 1, 0}, 1500}, ViewPlane{});
-  const std::shared_ptr<const Camera> camera = std::make_shared<CameraOf<Kernel<PinholeCamera>>>(pinhole);
   add_packet_case(
       "camera/pinhole", 1,
-      [camera, points](std::size_t i) {
-        return sum_of(camera->generate(points[i], points[packet_count - 1 - i]).direction);
+      [pinhole, points](std::size_t i) {
+        return sum_of(pinhole.generate<FloatN>(points[i], points[packet_count - 1 - i]).direction);
       },
       cases);
 }

@@ -95,10 +95,11 @@ Accelerator::Accelerator(const GeometryTable& table, int threads, const char* is
       if (records.empty()) return;
       embree::Geometry geometry;
       if constexpr (UserGeometry<Shape>) {
-        geometry = make_user_geometry<Shape>(device_.get(), records);
+        geometry.reset(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER));
       } else {
         geometry = make_triangles<Shape>(device_.get(), records);
       }
+      set_callbacks<Shape>(geometry.get(), records);
       rtcCommitGeometry(geometry.get());
       rtcAttachGeometryByID(scene_.get(), geometry.get(), static_cast<unsigned>(index));
     }

@@ -12,9 +12,9 @@
 #include <tuple>
 #include <vector>
 
+#include "raytrace/accel/callbacks.h"
 #include "raytrace/accel/direction_buffer.h"
 #include "raytrace/accel/embree.h"
-#include "raytrace/accel/user_geometry.h"
 #include "raytrace/scene/scene_tables.h"
 
 namespace raytrace {
@@ -39,10 +39,11 @@ class Accelerator {
   std::vector<std::optional<DirectionBuffer>> direction_buffers(std::span<const std::optional<BufferOrigin>> origins,
                                                                 int threads) const;
 
-  /// Nearest hits in the lanes of `active`, which then are where the rays end. Rays that Embree cannot take (a
-  /// component that is NaN, infinite or beyond 1.8e18, or a direction of length 0) hit nothing. origin_buffer: from
-  /// the point that all rays start at, their directions being of unit length; null if there is none. The same answer,
-  /// sooner.
+  /// Nearest hits in the lanes of `active`, which then are where the rays end; of those at equal distances, the first
+  /// by geometry and primitive. Rays that Embree cannot take (a component that is NaN, infinite or beyond 1.8e18, or a
+  /// direction of length 0) hit nothing. origin_buffer: from the point that all rays start at, their directions being
+  /// of unit length; null if there is none. The same answer, sooner. Shapes
+  /// with bounds are hit from the origin on, where near is negative.
   Hits intersect(Ray<FloatN>& rays, const MaskN& active, Coherence coherence,
                  const DirectionBuffer* origin_buffer = nullptr) const;
 
@@ -63,7 +64,7 @@ class Accelerator {
   std::string embree_version() const;
 
   /// The two parts of a query, for tests and benchmarks that put their own to Embree: the shapes without end, and the
-  /// scene that holds all others. `active`: lanes that Embree can take.
+  /// scene that holds all others, whose rays need NearestHits. `active`: lanes that Embree can take.
   Hits intersect_unbounded(Ray<FloatN>& rays, const MaskN& active) const;
   MaskN occluded_unbounded(const Ray<FloatN>& rays, const MaskN& active) const;
   RTCScene embree_scene() const {
@@ -85,9 +86,13 @@ class Accelerator {
     const RecordsInMemory& records = records_in_memory_[object.shape_type];
     __builtin_prefetch(records.first + object.primitive * records.record_size);
   }
-  // Both return the lanes that are left to Embree.
-  MaskN intersect_candidates(const DirectionBuffer& seen, Ray<FloatN>& rays, const MaskN& active, Hits& hits) const;
-  MaskN occluded_by_candidates(const DirectionBuffer& seen, const Ray<FloatN>& rays, const MaskN& active,
+  // Those of candidates return the lanes that are left to Embree. distance: of the hits so far, or where the rays end;
+  // rays.far: as far as they are followed.
+  void intersect_bvh(const Ray<FloatN>& rays, const MaskN& active, Coherence coherence, FloatN& distance,
+                     Hits& hits) const;
+  MaskN intersect_candidates(const DirectionBuffer& buffer, Ray<FloatN>& rays, const MaskN& active, FloatN& distance,
+                             Hits& hits) const;
+  MaskN occluded_by_candidates(const DirectionBuffer& buffer, const Ray<FloatN>& rays, const MaskN& active,
                                const MaskN& in_reach, MaskN& occluded) const;
 
   std::unique_ptr<Report> report_;  ///< before device_, which still reports while it ends

@@ -17,8 +17,7 @@ RAYTRACE_INLINE MaskN embree_takes(const Ray<FloatN>& rays) {
   const auto size = [](const Vec3<FloatN>& v) { return abs(v.x) + abs(v.y) + abs(v.z); };
   const FloatN direction = size(rays.direction);
   // Directions whose square would vanish in float count as 0.
-  return (size(rays.origin) + direction < FloatN(1.8e18f)) & (direction > FloatN(1e-18f)) & (rays.near >= FloatN(0)) &
-         (rays.far > rays.near);
+  return (size(rays.origin) + direction < FloatN(1.8e18f)) & (direction > FloatN(1e-18f)) & (rays.far > rays.near);
 }
 
 RTCRay single_ray(const embree::RegisterPacket::Ray& rays, int lane) {
@@ -32,6 +31,7 @@ RTCRay single_ray(const embree::RegisterPacket::Ray& rays, int lane) {
   ray.dir_z = rays.dir_z[lane];
   ray.tfar = rays.tfar[lane];
   ray.mask = rays.mask[lane];
+  ray.id = rays.id[lane];
   return ray;
 }
 
@@ -47,17 +47,6 @@ RAYTRACE_INLINE void for_each_unbounded(const Tables& tables, Function f) {
   });
 }
 
-RAYTRACE_INLINE void find_first(Hits& hits) {
-  const std::uint32_t lanes = bits_of<FloatN>(hits.hit);
-  if (lanes == 0) return;
-  const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-  hits.first_geometry = hits.geometry.get(lane);
-  hits.first_primitive = hits.primitive.get(lane);
-  hits.one_geometry = none(hits.hit & float_mask<FloatN>(hits.geometry != UintN(hits.first_geometry)));
-  hits.one_primitive =
-      hits.one_geometry && none(hits.hit & float_mask<FloatN>(hits.primitive != IntN(hits.first_primitive)));
-}
-
 /// Shapes that take rays from a point as such.
 template <class Shape>
 concept TakesRaysFromPoint =
@@ -67,21 +56,33 @@ concept TakesRaysFromPoint =
       Kernel<Shape>::template intersect<FloatN>(record, rays, active, u, u);
     };
 
-/// Ends the rays where they meet an object. far: where they end, whatever Rays is.
+/// The nearest hits so far.
+struct Nearest {
+  Hits& hits;
+  FloatN& distance;  ///< of the hits, or where the rays end
+  FloatN& far;       ///< as far as the rays are followed: those that have hit something, to behind(distance)
+};
+
+/// Keeps the hits with an object that come first. rays: their far is nearest.far.
 template <class Shape, class Rays>
-RAYTRACE_INLINE void meet(const typename ShapeTable<Shape>::Record& record, std::uint32_t primitive, const Rays& rays,
-                          FloatN& far, const MaskN& active, Hits& hits) {
-  FloatN distance, u(0), v(0);  // a triangle that no ray meets leaves u and v as they are
+RAYTRACE_INLINE void intersect_object(const typename ShapeTable<Shape>::Record& record, std::uint32_t primitive,
+                                      const Rays& rays, const MaskN& active, const Nearest& nearest) {
+  FloatN t, u(0), v(0);  // a triangle that no ray hits leaves u and v as they are
   if constexpr (EmbreeTriangle<Shape>) {
-    distance = Kernel<Shape>::template intersect<FloatN>(record, rays, active, u, v);
+    t = Kernel<Shape>::template intersect<FloatN>(record, rays, active, u, v);
   } else {
-    distance = Kernel<Shape>::template intersect<FloatN>(record, rays, active);
+    t = Kernel<Shape>::template intersect<FloatN>(record, rays, active);
   }
-  const MaskN hit = distance < infinity<FloatN>();  // in float it may be the same as the one before
+  constexpr auto geometry = static_cast<std::uint32_t>(index_of<Shape>(Shapes{}));
+  Hits& hits = nearest.hits;
+  const MaskN hit = comes_first<FloatN>(t, geometry, primitive, nearest.distance, [&]() RAYTRACE_INLINE_LAMBDA {
+    return std::pair(hits.geometry, same_bits<UintN>(hits.primitive));
+  });
   if (none(hit)) return;
-  far = select(hit, distance, far);
+  nearest.distance = select(hit, t, nearest.distance);
+  if constexpr (!UnboundedShape<Shape>) nearest.far = select(hit, behind(t), nearest.far);
   hits.hit = hits.hit | hit;
-  hits.geometry = select_lanes(hit, UintN(static_cast<std::uint32_t>(index_of<Shape>(Shapes{}))), hits.geometry);
+  hits.geometry = select_lanes(hit, UintN(geometry), hits.geometry);
   hits.primitive = select_lanes(hit, IntN(static_cast<std::int32_t>(primitive)), hits.primitive);
   if constexpr (EmbreeTriangle<Shape>) {
     hits.u = select(hit, u, hits.u);
@@ -105,39 +106,48 @@ concept SurfaceOfOne = requires(typename ShapeTable<Shape>::Record record, Ray<F
   Kernel<Shape>::surface(record, rays, distance);
 };
 
-/// With the normal on the side that the rays come from.
-RAYTRACE_INLINE SurfacePoint<FloatN> facing(const SurfacePoint<FloatN>& point, const Ray<FloatN>& rays) {
-  return {point.position, select(dot(point.normal, rays.direction) > FloatN(0), -point.normal, point.normal),
-          point.error};
-}
-
-/// The surfaces of one shape, under the wide type of its table's precision.
+/// The surfaces of one shape, under the wide type of its table's precision: sets p, error, and ng to either side.
 template <class Shape>
-SurfacePoint<FloatN> surface_of(const ShapeTable<Shape>& table, const LaneIndices& primitive, const Ray<FloatN>& rays,
-                                const Hits& hits) {
+void set_surface(const ShapeTable<Shape>& table, const LaneIndices& primitive, const Ray<FloatN>& rays,
+                 const Hits& hits, SurfaceInteraction<FloatN>& result) {
+  const auto set = [&](const SurfacePoint<FloatN>& points) RAYTRACE_INLINE_LAMBDA {
+    result.p = points.position;
+    result.ng = points.normal;
+    result.error = points.error;
+  };
   if constexpr (SurfaceOfOne<Shape>) {
-    SurfacePoint<FloatN> points =
-        facing(Kernel<Shape>::surface(table.records[primitive.first()], rays, rays.far), rays);
-    if (primitive.all_same()) return points;
+    set(Kernel<Shape>::surface(table.records[primitive.first()], rays, rays.far));
+    if (primitive.all_same()) return;
     MaskN left = float_mask<FloatN>(primitive.lanes() != IntN(static_cast<std::int32_t>(primitive.first())));
     while (any(left)) {
       const std::int32_t next =
           primitive.lanes().get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(left))));
       const MaskN here = left & float_mask<FloatN>(primitive.lanes() == IntN(next));
       const auto& record = table.records[static_cast<std::size_t>(next)];
-      points = select(here, facing(Kernel<Shape>::surface(record, rays, rays.far), rays), points);
+      set(select(here, Kernel<Shape>::surface(record, rays, rays.far),
+                 SurfacePoint<FloatN>{result.p, result.ng, result.error}));
       left = left & !here;
     }
-    return points;
   } else {
     constexpr bool in_float =
         std::is_same_v<typename ShapeTable<Shape>::Record, typename Kernel<Shape>::template Record<float>>;
     using Wide = std::conditional_t<in_float, FloatN, Doubles<FloatN>>;
     const auto records = gather_records<Kernel<Shape>::template Record, Wide>(table.records.data(), primitive);
     if constexpr (EmbreeTriangle<Shape>) {
-      return facing(Kernel<Shape>::template surface<FloatN>(records, hits.u, hits.v), rays);
+      set(Kernel<Shape>::template surface<FloatN>(records, hits.u, hits.v));
     } else {
-      return facing(Kernel<Shape>::template surface<FloatN>(records, rays, rays.far), rays);
+      set(Kernel<Shape>::template surface<FloatN>(records, rays, rays.far));
+    }
+    if constexpr (requires { Kernel<Shape>::template position_on_ray<FloatN>(records, rays); }) {
+      // Next to a large object, what is precise for it is not for what stands on it, or for its shadow.
+      const FloatN threshold = rays.far * FloatN(0x1p-16F);
+      const MaskN coarse = result.error * result.error > threshold * threshold * dot(rays.direction, rays.direction);
+      if (any(coarse & hits.hit)) {
+        const auto on_ray = Kernel<Shape>::template position_on_ray<FloatN>(records, rays);
+        const MaskN finer = coarse & (on_ray.error < result.error * FloatN(0.5F));
+        result.p = select(finer, on_ray.position, result.p);
+        result.error = select(finer, on_ray.error, result.error);
+      }
     }
   }
 }
@@ -151,8 +161,9 @@ Hits Accelerator::intersect_unbounded(Ray<FloatN>& rays, const MaskN& active) co
   hits.geometry = UintN(RTC_INVALID_GEOMETRY_ID);
   hits.primitive = IntN(0);
   hits.u = hits.v = FloatN(0);
+  // They come in the order that decides at equal distances: what lies where the rays end so far comes too late.
   for_each_unbounded(table_, [&](auto type, std::uint32_t primitive, const auto& record) RAYTRACE_INLINE_LAMBDA {
-    meet<typename decltype(type)::type>(record, primitive, rays, rays.far, active, hits);
+    intersect_object<typename decltype(type)::type>(record, primitive, rays, active, {hits, rays.far, rays.far});
   });
   return hits;
 }
@@ -166,30 +177,30 @@ MaskN Accelerator::occluded_unbounded(const Ray<FloatN>& rays, const MaskN& acti
   return occluded;
 }
 
-MaskN Accelerator::intersect_candidates(const DirectionBuffer& seen, Ray<FloatN>& rays, const MaskN& active,
-                                        Hits& hits) const {
+MaskN Accelerator::intersect_candidates(const DirectionBuffer& buffer, Ray<FloatN>& rays, const MaskN& active,
+                                        FloatN& distance, Hits& hits) const {
   const auto reaches = [&](const MaskN& lanes, const DirectionBuffer::Object& object) {
     return any(lanes & (rays.far * rays.far >= FloatN(object.nearest)));
   };
-  const RaysFromPoint<FloatN> from_point{seen.point(), rays.direction, rays.near, rays.far};
+  const RaysFromPoint<FloatN> from_point{buffer.point(), rays.direction, rays.near, rays.far};
   const auto test = [&](const DirectionBuffer::Object& object) {
     with_type(Shapes{}, object.shape_type, [&](auto type) {
       using Shape = typename decltype(type)::type;
       const auto& record = table_.table<Shape>().records[object.primitive];
       if constexpr (TakesRaysFromPoint<Shape>) {
-        meet<Shape>(record, object.primitive, from_point, rays.far, active, hits);
+        intersect_object<Shape>(record, object.primitive, from_point, active, {hits, distance, rays.far});
       } else {
-        meet<Shape>(record, object.primitive, rays, rays.far, active, hits);
+        intersect_object<Shape>(record, object.primitive, rays, active, {hits, distance, rays.far});
       }
     });
   };
   const auto fetch = [&](const DirectionBuffer::Object& object) RAYTRACE_INLINE_LAMBDA { fetch_record(object); };
-  return for_each_candidate<Way::from_point>(seen, rays.direction, active, reaches, fetch, test);
+  return for_each_candidate<Way::from_point>(buffer, rays.direction, active, reaches, fetch, test);
 }
 
-MaskN Accelerator::occluded_by_candidates(const DirectionBuffer& seen, const Ray<FloatN>& rays, const MaskN& active,
+MaskN Accelerator::occluded_by_candidates(const DirectionBuffer& buffer, const Ray<FloatN>& rays, const MaskN& active,
                                           const MaskN& in_reach, MaskN& occluded) const {
-  const FloatN depth = seen.depth(rays.origin, rays.direction);
+  const FloatN depth = buffer.depth(rays.origin, rays.direction);
   MaskN open = active;
   const auto reaches = [&](const MaskN& lanes, const DirectionBuffer::Object& object) {
     return any(lanes & open & (depth >= FloatN(object.nearest)));
@@ -199,10 +210,10 @@ MaskN Accelerator::occluded_by_candidates(const DirectionBuffer& seen, const Ray
   };
   const auto fetch = [&](const DirectionBuffer::Object& object) RAYTRACE_INLINE_LAMBDA { fetch_record(object); };
   const auto test_all = [&](const Vec3<FloatN>& direction) RAYTRACE_INLINE_LAMBDA {
-    return for_each_candidate<Way::to_point>(seen, direction, active & in_reach, reaches, fetch, test);
+    return for_each_candidate<Way::to_point>(buffer, direction, active & in_reach, reaches, fetch, test);
   };
-  MaskN left = seen.infinitely_far() ? test_all(seen.direction_to_picture(rays.origin)) : test_all(rays.direction);
-  if (any(active & !in_reach)) left = left | (active & !in_reach & !seen.leads_past(rays));
+  MaskN left = buffer.infinitely_far() ? test_all(buffer.direction_to_picture(rays.origin)) : test_all(rays.direction);
+  if (any(active & !in_reach)) left = left | (active & !in_reach & !buffer.leads_past(rays));
   occluded = occluded | (active & !open);
   return open & left;
 }
@@ -213,47 +224,53 @@ Hits Accelerator::intersect(Ray<FloatN>& rays, const MaskN& active, Coherence co
   MaskN valid_lanes = origin_buffer != nullptr ? active : active & embree_takes(rays);
   // First the shapes without end: what lies behind their hits need not be looked for.
   Hits hits = intersect_unbounded(rays, valid_lanes);
-  if (origin_buffer != nullptr) {
-    valid_lanes = intersect_candidates(*origin_buffer, rays, valid_lanes, hits);
-    find_first(hits);
-  }
-  if (none(valid_lanes)) return hits;
+  rays.near = max(rays.near, FloatN(0));
+  FloatN distance = rays.far;
+  rays.far = select(hits.hit, behind(distance), distance);
+  if (origin_buffer != nullptr) valid_lanes = intersect_candidates(*origin_buffer, rays, valid_lanes, distance, hits);
+  if (any(valid_lanes)) intersect_bvh(rays, valid_lanes, coherence, distance, hits);
+  rays.far = distance;
+  hits.find_first();
+  return hits;
+}
 
+void Accelerator::intersect_bvh(const Ray<FloatN>& rays, const MaskN& active, Coherence coherence, FloatN& distance,
+                                Hits& hits) const {
   const RTCScene scene = embree_scene();
   embree::Query query(coherence == Coherence::coherent);
   alignas(64) embree::RegisterPacket::RayHit packets[embree::packets];
   embree::store_rays(rays, [&](int i) -> auto& { return packets[i].ray; });
   embree::store(UintN(RTC_INVALID_GEOMETRY_ID), [&](int i) { return packets[i].hit.geomID; });
   embree::store(UintN(RTC_INVALID_GEOMETRY_ID), [&](int i) { return packets[i].hit.instID[0]; });
+  embree::store(hits.u, [&](int i) { return packets[i].hit.u; });
+  embree::store(hits.v, [&](int i) { return packets[i].hit.v; });
+  embree::NearestHits& nearest = query.nearest;
+  distance.store_aligned(nearest.distance);
+  hits.geometry.store_aligned(nearest.geometry);
+  same_bits<UintN>(hits.primitive).store_aligned(nearest.primitive);
   if (coherence == Coherence::coherent) {
-    const embree::ValidLanes valid(valid_lanes);
+    const embree::ValidLanes valid(active);
     embree::for_each_packet(
-        valid_lanes, [&](int i) { embree::RegisterPacket::intersect(valid.lanes[i], scene, query, packets[i]); });
+        active, [&](int i) { embree::RegisterPacket::intersect(valid.lanes[i], scene, query, packets[i]); });
   } else {
-    embree::for_each_lane(valid_lanes, [&](int i, int lane) {
+    embree::for_each_lane(active, [&](int i, int lane) {
       auto& packet = packets[i];
       RTCRayHit single{};
       single.ray = single_ray(packet.ray, lane);
       single.hit.geomID = single.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+      single.hit.u = packet.hit.u[lane];
+      single.hit.v = packet.hit.v[lane];
       embree::intersect1(scene, query, single);
-      packet.ray.tfar[lane] = single.ray.tfar;
       packet.hit.u[lane] = single.hit.u;
       packet.hit.v[lane] = single.hit.v;
-      packet.hit.primID[lane] = single.hit.primID;
-      packet.hit.geomID[lane] = single.hit.geomID;
     });
   }
-  const UintN geometry = embree::load<UintN>([&](int i) { return packets[i].hit.geomID; });
-  const MaskN in_bvh = valid_lanes & float_mask<FloatN>(geometry != UintN(RTC_INVALID_GEOMETRY_ID));
-  hits.hit = hits.hit | in_bvh;
-  hits.geometry = select_lanes(in_bvh, geometry, hits.geometry);
-  const UintN primitive = embree::load<UintN>([&](int i) { return packets[i].hit.primID; });
-  hits.primitive = select_lanes(in_bvh, same_bits<IntN>(primitive), hits.primitive);
-  rays.far = embree::load<FloatN>([&](int i) { return packets[i].ray.tfar; });
-  hits.u = select(in_bvh, embree::load<FloatN>([&](int i) { return packets[i].hit.u; }), hits.u);
-  hits.v = select(in_bvh, embree::load<FloatN>([&](int i) { return packets[i].hit.v; }), hits.v);
-  find_first(hits);
-  return hits;
+  distance = FloatN::load_aligned(nearest.distance);
+  hits.geometry = UintN::load_aligned(nearest.geometry);
+  hits.primitive = same_bits<IntN>(UintN::load_aligned(nearest.primitive));
+  hits.hit = hits.hit | (active & float_mask<FloatN>(hits.geometry != UintN(embree::NearestHits::none)));
+  hits.u = embree::load<FloatN>([&](int i) { return packets[i].hit.u; });
+  hits.v = embree::load<FloatN>([&](int i) { return packets[i].hit.v; });
 }
 
 MaskN Accelerator::occluded(const Ray<FloatN>& rays, const MaskN& active, Coherence coherence,
@@ -269,7 +286,9 @@ MaskN Accelerator::occluded(const Ray<FloatN>& rays, const MaskN& active, Cohere
   const RTCScene scene = embree_scene();
   embree::Query query(coherence == Coherence::coherent);
   alignas(64) embree::RegisterPacket::Ray packets[embree::packets];
-  embree::store_rays(rays, [&](int i) -> auto& { return packets[i]; });
+  const Ray<FloatN> followed{rays.origin, rays.direction, max(rays.near, FloatN(0)), behind(rays.far)};
+  embree::store_rays(followed, [&](int i) -> auto& { return packets[i]; });
+  rays.far.store_aligned(query.nearest.distance);
   if (coherence == Coherence::coherent) {
     const embree::ValidLanes valid(valid_lanes);
     embree::for_each_packet(valid_lanes,
@@ -285,26 +304,33 @@ MaskN Accelerator::occluded(const Ray<FloatN>& rays, const MaskN& active, Cohere
 }
 
 SurfaceInteraction<FloatN> Accelerator::surface(const Ray<FloatN>& rays, const Hits& hits) const {
-  const auto points_of = [&](std::uint32_t geometry, const LaneIndices& primitive) {
-    return with_type(Shapes{}, table_.geometry(geometry).shape_type, [&]<class Shape>(std::type_identity<Shape>) {
-      return surface_of<Shape>(table_.table<Shape>(), primitive, rays, hits);
+  SurfaceInteraction<FloatN> result;
+  const auto set = [&](std::uint32_t geometry, const LaneIndices& primitive, SurfaceInteraction<FloatN>& surface) {
+    with_type(Shapes{}, table_.geometry(geometry).shape_type, [&]<class Shape>(std::type_identity<Shape>) {
+      set_surface<Shape>(table_.table<Shape>(), primitive, rays, hits, surface);
     });
   };
-  const auto interaction = [&](const SurfacePoint<FloatN>& point) {
-    return SurfaceInteraction<FloatN>{point.position, point.normal, point.normal, -rays.direction, point.error};
-  };
-  if (hits.one_primitive) return interaction(points_of(hits.first_geometry, LaneIndices(hits.first_primitive)));
-  SurfacePoint<FloatN> result{};
-  for (MaskN left = hits.hit; any(left);) {
-    const auto first = static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(left)));
-    const std::uint32_t geometry = hits.geometry.get(first);
-    const MaskN here = left & float_mask<FloatN>(hits.geometry == UintN(geometry));
-    left = left & !here;
-    // The other lanes follow the first of these, so that they read a record that exists, and no further ones.
-    const IntN primitive = select_lanes(here, hits.primitive, IntN(hits.primitive.get(first)));
-    result = select(here, points_of(geometry, primitive), result);
+  if (hits.one_primitive) {
+    set(hits.first_geometry, LaneIndices(hits.first_primitive), result);
+  } else {
+    SurfaceInteraction<FloatN> other;
+    for (MaskN left = hits.hit; any(left);) {
+      const auto first = static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(left)));
+      const std::uint32_t geometry = hits.geometry.get(first);
+      const MaskN here = left & float_mask<FloatN>(hits.geometry == UintN(geometry));
+      left = left & !here;
+      // The other lanes follow the first of these, so that they read a record that exists, and no further ones.
+      const IntN primitive = select_lanes(here, hits.primitive, IntN(hits.primitive.get(first)));
+      set(geometry, primitive, other);
+      result.p = select(here, other.p, result.p);
+      result.ng = select(here, other.ng, result.ng);
+      result.error = select(here, other.error, result.error);
+    }
   }
-  return interaction(result);
+  result.ng = select(dot(result.ng, rays.direction) > FloatN(0), -result.ng, result.ng);
+  result.ns = result.ng;
+  result.wo = -rays.direction;
+  return result;
 }
 
 }  // namespace raytrace

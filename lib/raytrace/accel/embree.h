@@ -7,6 +7,7 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <cstdint>
 #include <memory>
 #include <type_traits>
 
@@ -21,7 +22,31 @@ using Device = std::unique_ptr<std::remove_pointer_t<RTCDevice>, Release<RTCDevi
 using Scene = std::unique_ptr<std::remove_pointer_t<RTCScene>, Release<RTCScene, rtcReleaseScene>>;
 using Geometry = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, Release<RTCGeometry, rtcReleaseGeometry>>;
 
-/// Embree's packet types and calls by size; version 3 takes a context where version 4 takes arguments.
+/// The nearest hits so far of a query's rays, by the rays' ids, kept by the callbacks (callbacks.h): what Embree itself
+/// would keep depends on the order in which it visits objects of equal distance. Embree hands it to each callback.
+struct NearestHits {
+  static constexpr int most_rays = 32;
+  static constexpr std::uint32_t none = RTC_INVALID_GEOMETRY_ID;
+
+#if RTC_VERSION_MAJOR >= 4
+  RTCRayQueryContext context;
+#else
+  RTCIntersectContext context;
+#endif
+  alignas(64) float distance[most_rays];          ///< where a ray ends: at its hit, or what it was given
+  alignas(64) std::uint32_t geometry[most_rays];  ///< `none`: it has hit nothing
+  alignas(64) std::uint32_t primitive[most_rays];
+
+  /// Ray `id` ends at `end`, and has hit nothing.
+  void start(unsigned id, float end) {
+    distance[id] = end;
+    geometry[id] = none;
+    primitive[id] = 0;
+  }
+};
+
+/// Embree's packet types and calls by size; version 3 takes a context where version 4 takes arguments. The rays of a
+/// packet have ids that follow each other; for each, NearestHits must say where it ends.
 template <int size>
 struct Packet;
 
@@ -32,17 +57,18 @@ inline constexpr bool callback_reports_hits = true;
 class Query {
  public:
   explicit Query(bool coherent) {
-    rtcInitRayQueryContext(&context_);
+    rtcInitRayQueryContext(&nearest.context);
     rtcInitIntersectArguments(&intersect_);
     rtcInitOccludedArguments(&occluded_);
     intersect_.flags = occluded_.flags = coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
-    intersect_.context = occluded_.context = &context_;
+    intersect_.context = occluded_.context = &nearest.context;
   }
   RTCIntersectArguments* intersect() { return &intersect_; }
   RTCOccludedArguments* occluded() { return &occluded_; }
 
+  NearestHits nearest;
+
  private:
-  RTCRayQueryContext context_;
   RTCIntersectArguments intersect_;
   RTCOccludedArguments occluded_;
 };
@@ -68,13 +94,12 @@ inline constexpr bool callback_reports_hits = false;
 class Query {
  public:
   explicit Query(bool coherent) {
-    rtcInitIntersectContext(&context_);
-    context_.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    rtcInitIntersectContext(&nearest.context);
+    nearest.context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   }
-  RTCIntersectContext* context() { return &context_; }
+  RTCIntersectContext* context() { return &nearest.context; }
 
- private:
-  RTCIntersectContext context_;
+  NearestHits nearest;
 };
 
 inline void intersect1(RTCScene scene, Query& query, RTCRayHit& ray) { rtcIntersect1(scene, query.context(), &ray); }

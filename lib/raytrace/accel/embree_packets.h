@@ -35,7 +35,7 @@ struct ValidLanes {
   }
 };
 
-/// ray(i): Embree's packet number i.
+/// ray(i): Embree's packet number i. A ray's id is its lane.
 template <class EmbreeRay>
 void store_rays(const Ray<FloatN>& rays, const EmbreeRay& ray) {
   store(rays.origin.x, [&](int i) { return ray(i).org_x; });
@@ -48,7 +48,7 @@ void store_rays(const Ray<FloatN>& rays, const EmbreeRay& ray) {
   store(FloatN(0), [&](int i) { return ray(i).time; });
   store(rays.far, [&](int i) { return ray(i).tfar; });
   store(UintN(0xffffffffu), [&](int i) { return ray(i).mask; });
-  store(UintN(0), [&](int i) { return ray(i).id; });
+  store(lane_numbers<UintN>(), [&](int i) { return ray(i).id; });
   store(UintN(0), [&](int i) { return ray(i).flags; });
 }
 

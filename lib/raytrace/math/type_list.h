@@ -6,6 +6,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "raytrace/math/inline.h"
+
 namespace raytrace {
 
 template <class... Types>
@@ -23,7 +25,7 @@ struct TupleOf<TypeList<Types...>, Container> {
 
 /// Calls f(std::type_identity<T>{}) for each T of the list, in the list's order.
 template <class... Types, class Function>
-void for_each_type(TypeList<Types...>, Function&& f) {
+RAYTRACE_INLINE void for_each_type(TypeList<Types...>, Function&& f) {
   (f(std::type_identity<Types>{}), ...);
 }
 

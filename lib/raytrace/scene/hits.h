@@ -1,6 +1,8 @@
 // What packets of rays hit.
 #pragma once
 
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 
 #include "raytrace/math/simd.h"
@@ -23,6 +25,30 @@ struct Hits {
   std::uint32_t first_geometry = 0;
   std::int32_t first_primitive = 0;
   bool one_geometry = false, one_primitive = false;
+
+  /// Sets what is of the first lane with a hit, if there is one.
+  RAYTRACE_INLINE void find_first() {
+    const std::uint32_t lanes = bits_of<FloatN>(hit);
+    if (lanes == 0) return;
+    const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+    first_geometry = geometry.get(lane);
+    first_primitive = primitive.get(lane);
+    one_geometry = none(hit & float_mask<FloatN>(geometry != UintN(first_geometry)));
+    one_primitive = one_geometry && none(hit & float_mask<FloatN>(primitive != IntN(first_primitive)));
+  }
 };
+
+/// Lane by lane: a where the mask is true, else b.
+inline Hits select(const MaskN& mask, const Hits& a, const Hits& b) {
+  Hits hits;
+  hits.hit = (a.hit & mask) | (b.hit & !mask);
+  hits.instance = select_lanes(mask, a.instance, b.instance);
+  hits.geometry = select_lanes(mask, a.geometry, b.geometry);
+  hits.primitive = select_lanes(mask, a.primitive, b.primitive);
+  hits.u = select(mask, a.u, b.u);
+  hits.v = select(mask, a.v, b.v);
+  hits.find_first();
+  return hits;
+}
 
 }  // namespace raytrace

@@ -44,8 +44,10 @@ class Kernel<Torus> {
 template <class F>
 F Kernel<Torus>::intersect(const Record<double>& torus, const Ray<F>& ray, const Mask<F>& active) {
   if (none(active & comes_near(torus, ray))) return infinity<F>();
-  const TorusRay<F> places(torus, ray);
-  const auto bracket = places.first_root(active);
+  // Of the whole ray: what it has hit so far must not change the digits of what it hits here.
+  const TorusRay<F> places(torus, {ray.origin, ray.direction, ray.near, infinity<F>()});
+  auto bracket = places.first_root(active);
+  bracket.found = bracket.found & places.begins_before(bracket, ray.far);
   if (none(bracket.found)) return infinity<F>();
   const F t = places.distance(bracket);
   return select(bracket.found & (t > ray.near) & (t < ray.far), t, infinity<F>());

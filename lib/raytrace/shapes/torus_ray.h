@@ -50,6 +50,11 @@ class TorusRay {
 
   Bracket first_root(const Mask<F>& active) const;
 
+  /// Whether the part begins in front of the distance `far`, rounding aside.
+  Mask<F> begins_before(const Bracket& bracket, const F& far) const {
+    return (exact_place(bracket.left) + to_closest_).to_float() <= far;
+  }
+
   /// Where the root is, on the ray.
   F distance(const Bracket& bracket) const;
 

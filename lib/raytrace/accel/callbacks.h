@@ -1,0 +1,308 @@
+// Embree's callbacks: one template for every shape and packet size. They decide what a ray hits; Embree finds what it
+// may hit.
+//
+// A shape supplies bounds() and intersect() for F lanes and knows nothing of Embree. intersect and occluded go through
+// the same code, but that a shape may leave out what only the distance needs (occludes()). Embree intersects triangles
+// itself; its filters then put each hit to Kernel<Triangle>, since Embree's distances differ from processor to
+// processor in their last bits, and between packets and single rays.
+//
+// Of hits at equal distances, the first by geometry and primitive counts, in whatever order Embree visits them: it goes
+// on to behind(distance), and NearestHits holds the distance itself.
+// https://github.com/RenderKit/embree, doc/src/api/rtcSetGeometryIntersectFunction.md and
+// rtcSetGeometryIntersectFilterFunction.md
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "raytrace/accel/embree.h"
+#include "raytrace/math/bounds.h"
+#include "raytrace/math/ray.h"
+#include "raytrace/math/simd.h"
+#include "raytrace/scene/geometry_table.h"
+
+namespace raytrace {
+
+/// Shapes whose records are Embree's triangles.
+template <class Shape>
+concept EmbreeTriangle = requires { &Kernel<Shape>::template Record<float>::vertex1; };
+
+/// Shapes without end: every ray is tested against them, and they stay out of the BVH. There all boxes on the way to
+/// them would be without end.
+template <class Shape>
+concept UnboundedShape = !requires { &Kernel<Shape>::bounds; };
+
+/// All others: they bring their own intersection, and bounds for a BVH to keep them in.
+template <class Shape>
+concept UserGeometry = !EmbreeTriangle<Shape> && !UnboundedShape<Shape>;
+
+/// Whether the object lies on the rays, in the lanes of `active`. Kernel::occludes(), where there is one, need not find
+/// out where.
+template <class Shape, class Record, class F>
+RAYTRACE_INLINE Mask<F> occludes(const Record& record, const Ray<F>& ray, const Mask<F>& active) {
+  if constexpr (requires { Kernel<Shape>::template occludes<F>(record, ray, active); }) {
+    return Kernel<Shape>::template occludes<F>(record, ray, active);
+  } else if constexpr (EmbreeTriangle<Shape>) {
+    F u, v;
+    return Kernel<Shape>::template intersect<F>(record, ray, active, u, v) < infinity<F>();
+  } else {
+    return Kernel<Shape>::template intersect<F>(record, ray, active) < infinity<F>();
+  }
+}
+
+/// How far Embree follows a ray that has hit something: behind it by more than the roundings of its boxes, of its
+/// triangles' distances and of our spheres' (2^-17), so that it finds all that may lie as near.
+template <class F>
+RAYTRACE_INLINE F behind(const F& distance) {
+  return distance * F(1 + 0x1p-14F);
+}
+
+/// Whether a hit at t, which may be infinite for none, comes before the one at `nearest` whose geometry and primitive
+/// ids() returns, as a pair. Where it has none, nearest is where the ray ends.
+template <class F, class Ids>
+RAYTRACE_INLINE Mask<F> comes_first(const F& t, std::uint32_t geometry, std::uint32_t primitive, const F& nearest,
+                                    const Ids& ids) {
+  const Mask<F> nearer = t < nearest, tie = (t == nearest) & (t < infinity<F>());
+  if (none(tie)) return nearer;
+  const auto [nearest_geometry, nearest_primitive] = ids();
+  const Uints<F> g(geometry), p(primitive), nothing(embree::NearestHits::none);
+  const auto first =
+      ((g < nearest_geometry) & (nearest_geometry != nothing)) | ((g == nearest_geometry) & (p < nearest_primitive));
+  return nearer | (tie & float_mask<F>(first));
+}
+
+namespace detail {
+
+// Embree's packets are arrays of `size` floats for each field. F covers lanes [first, first + lane_count<F>) of them,
+// or, where the packet is narrower than F, all of them: `count` says how many there are.
+
+template <class Batch>
+RAYTRACE_INLINE Batch load_lanes(const typename Batch::value_type* lanes, int count) {
+  constexpr int size = static_cast<int>(Batch::size);
+  if (count >= size) return Batch::load_unaligned(lanes);
+  alignas(64) typename Batch::value_type copy[size];
+  for (int lane = 0; lane < size; ++lane) copy[lane] = lanes[std::min(lane, count - 1)];
+  return Batch::load_aligned(copy);
+}
+
+template <class F>
+RAYTRACE_INLINE Mask<F> load_mask(const int* valid, int count) {
+  alignas(64) std::int32_t copy[lane_count<F>] = {};
+  if (count >= lane_count<F>) return float_mask<F>(Ints<F>::load_unaligned(valid) != Ints<F>(0));
+  std::copy_n(valid, count, copy);
+  return float_mask<F>(Ints<F>::load_aligned(copy) != Ints<F>(0));
+}
+
+/// Overwrites the lanes of `mask`. Value: floats or unsigned integers of F's lane count.
+template <class F, class Value>
+RAYTRACE_INLINE void store_lanes(typename Value::value_type* lanes, int count, const Mask<F>& mask,
+                                 const Value& value) {
+  if (count >= lane_count<F>) {
+    const F old = std::bit_cast<F>(Value::load_unaligned(lanes));
+    std::bit_cast<Value>(select(mask, std::bit_cast<F>(value), old)).store_unaligned(lanes);
+    return;
+  }
+  alignas(64) typename Value::value_type copy[lane_count<F>];
+  value.store_aligned(copy);
+  const std::uint32_t bits = bits_of<F>(mask);
+  for (int lane = 0; lane < count; ++lane)
+    if ((bits >> lane & 1) != 0) lanes[lane] = copy[lane];
+}
+
+/// In Embree 4, `valid` also carries the answer.
+template <class F>
+void report_hits(int* valid, int count, const Mask<F>& hit) {
+  if constexpr (embree::callback_reports_hits) {
+    const std::uint32_t bits = bits_of<F>(hit);
+    for (int lane = 0; lane < std::min(count, lane_count<F>); ++lane) valid[lane] = (bits >> lane & 1) != 0 ? -1 : 0;
+  }
+}
+
+template <class F>
+RAYTRACE_INLINE Ray<F> load_rays(RTCRayN* rays, unsigned size, unsigned first, int count) {
+  const auto load = [count](const float& lanes) { return load_lanes<F>(&lanes, count); };
+  return {{load(RTCRayN_org_x(rays, size, first)), load(RTCRayN_org_y(rays, size, first)),
+           load(RTCRayN_org_z(rays, size, first))},
+          {load(RTCRayN_dir_x(rays, size, first)), load(RTCRayN_dir_y(rays, size, first)),
+           load(RTCRayN_dir_z(rays, size, first))},
+          load(RTCRayN_tnear(rays, size, first)),
+          load(RTCRayN_tfar(rays, size, first))};
+}
+
+/// The rays [first, first + lane_count<F>) of a callback's packet, and what the query keeps of them.
+template <class F>
+struct CallbackRays {
+  int count;
+  Mask<F> active;
+  embree::NearestHits& nearest;
+  unsigned id;  ///< of the first ray
+  Ray<F> rays;
+
+  template <class Arguments>
+  CallbackRays(const Arguments* arguments, RTCRayN* all, unsigned first)
+      : count(static_cast<int>(arguments->N - first)),
+        active(load_mask<F>(arguments->valid + first, count)),
+        nearest(*reinterpret_cast<embree::NearestHits*>(arguments->context)),
+        id(RTCRayN_id(all, arguments->N, first)),
+        rays(load_rays<F>(all, arguments->N, first, count)) {}
+
+  F distance() const { return load_lanes<F>(nearest.distance + id, count); }
+
+  /// Keeps the hits at t, in the lanes of the mask, that come before those so far. The result: their lanes.
+  Mask<F> keep(const Mask<F>& mask, const F& t, std::uint32_t geometry, std::uint32_t primitive) {
+    const Mask<F> kept = mask & comes_first<F>(t, geometry, primitive, distance(), [&] {
+                           return std::pair(load_lanes<Uints<F>>(nearest.geometry + id, count),
+                                            load_lanes<Uints<F>>(nearest.primitive + id, count));
+                         });
+    if (any(kept)) {
+      store_lanes<F>(nearest.distance + id, count, kept, t);
+      store_lanes<F>(nearest.geometry + id, count, kept, Uints<F>(geometry));
+      store_lanes<F>(nearest.primitive + id, count, kept, Uints<F>(primitive));
+    }
+    return kept;
+  }
+};
+
+template <class Shape>
+const auto& record_of(void* records, unsigned primitive) {
+  return static_cast<const typename ShapeTable<Shape>::Record*>(records)[primitive];
+}
+
+template <class Shape>
+struct Intersect {
+  using Arguments = RTCIntersectFunctionNArguments;
+
+  template <class F>
+  static void call(const Arguments* arguments, unsigned first) {
+    RTCRayN* const all = RTCRayHitN_RayN(arguments->rayhit, arguments->N);
+    CallbackRays<F> packet(arguments, all, first);
+    const auto& record = record_of<Shape>(arguments->geometryUserPtr, arguments->primID);
+    const F t = Kernel<Shape>::template intersect<F>(record, packet.rays, packet.active);
+    const Mask<F> hit = packet.keep(t < infinity<F>(), t, arguments->geomID, arguments->primID);
+    if (any(hit)) store_lanes<F>(&RTCRayN_tfar(all, arguments->N, first), packet.count, hit, behind(t));
+    report_hits<F>(arguments->valid + first, packet.count, hit);
+  }
+};
+
+template <class Shape>
+struct Occlude {
+  using Arguments = RTCOccludedFunctionNArguments;
+
+  template <class F>
+  static void call(const Arguments* arguments, unsigned first) {
+    CallbackRays<F> packet(arguments, arguments->ray, first);
+    packet.rays.far = packet.distance();
+    const auto& record = record_of<Shape>(arguments->geometryUserPtr, arguments->primID);
+    const Mask<F> hit = occludes<Shape>(record, packet.rays, packet.active);
+    if (any(hit)) store_lanes<F>(&RTCRayN_tfar(arguments->ray, arguments->N, first), packet.count, hit, -infinity<F>());
+    report_hits<F>(arguments->valid + first, packet.count, hit);
+  }
+};
+
+/// Calls f(lanes, primitive) for each triangle that lanes of the packet may hit, most of all there is one; f returns in
+/// which of them it is right. `valid` becomes those.
+template <class F, class Function>
+RAYTRACE_INLINE void filter_packet(const RTCFilterFunctionNArguments* arguments, unsigned first,
+                                   const CallbackRays<F>& packet, const Function& f) {
+  const Uints<F> primitives = load_lanes<Uints<F>>(&RTCHitN_primID(arguments->hit, arguments->N, first), packet.count);
+  Mask<F> left = packet.active, right(false);
+  while (any(left)) {
+    const std::uint32_t primitive = primitives.get(static_cast<std::size_t>(std::countr_zero(bits_of<F>(left))));
+    const Mask<F> lanes = left & float_mask<F>(primitives == Uints<F>(primitive));
+    right = right | f(lanes, primitive);
+    left = left & !lanes;
+  }
+  const std::uint32_t bits = bits_of<F>(right);
+  for (int lane = 0; lane < std::min(packet.count, lane_count<F>); ++lane)
+    if ((bits >> lane & 1) == 0) arguments->valid[first + static_cast<unsigned>(lane)] = 0;
+}
+
+/// Embree has set tfar to its own distance. It takes what is written there, and u and v, as the hit's.
+template <class Shape>
+struct FilterIntersect {
+  using Arguments = RTCFilterFunctionNArguments;
+
+  template <class F>
+  static void call(const Arguments* arguments, unsigned first) {
+    CallbackRays<F> packet(arguments, arguments->ray, first);
+    packet.rays.far = infinity<F>();
+    filter_packet<F>(arguments, first, packet, [&](const Mask<F>& lanes, std::uint32_t primitive) {
+      F u, v;
+      const auto& record = record_of<Shape>(arguments->geometryUserPtr, primitive);
+      const F t = Kernel<Shape>::template intersect<F>(record, packet.rays, lanes, u, v);
+      const Mask<F> hit =
+          packet.keep(t < infinity<F>(), t, RTCHitN_geomID(arguments->hit, arguments->N, first), primitive);
+      if (none(hit)) return hit;
+      store_lanes<F>(&RTCRayN_tfar(arguments->ray, arguments->N, first), packet.count, hit, behind(t));
+      store_lanes<F>(&RTCHitN_u(arguments->hit, arguments->N, first), packet.count, hit, u);
+      store_lanes<F>(&RTCHitN_v(arguments->hit, arguments->N, first), packet.count, hit, v);
+      return hit;
+    });
+  }
+};
+
+template <class Shape>
+struct FilterOcclude {
+  using Arguments = RTCFilterFunctionNArguments;
+
+  template <class F>
+  static void call(const Arguments* arguments, unsigned first) {
+    CallbackRays<F> packet(arguments, arguments->ray, first);
+    packet.rays.far = packet.distance();
+    filter_packet<F>(arguments, first, packet, [&](const Mask<F>& lanes, std::uint32_t primitive) {
+      return occludes<Shape>(record_of<Shape>(arguments->geometryUserPtr, primitive), packet.rays, lanes);
+    });
+  }
+};
+
+/// As Embree calls it: packets by as many lanes as they have, single rays by the fewest there are.
+template <class Callback>
+void callback(const typename Callback::Arguments* arguments) {
+  const auto call = [arguments]<class F>(std::type_identity<F>) {
+    for (unsigned first = 0; first < arguments->N; first += static_cast<unsigned>(lane_count<F>))
+      Callback::template call<F>(arguments, first);
+  };
+  switch (arguments->N) {
+    case 16:
+      return call(std::type_identity<FloatLanes<16>>{});
+    case 8:
+      return call(std::type_identity<FloatLanes<8>>{});
+    default:
+      return call(std::type_identity<FloatLanes<4>>{});
+  }
+}
+
+template <class Shape>
+void bounds_callback(const RTCBoundsFunctionArguments* arguments) {
+  const auto* records = static_cast<const typename ShapeTable<Shape>::Record*>(arguments->geometryUserPtr);
+  const Bounds bounds = Kernel<Shape>::bounds(records[arguments->primID]);
+  RTCBounds& box = *arguments->bounds_o;
+  box.lower_x = bounds.lower.x;
+  box.lower_y = bounds.lower.y;
+  box.lower_z = bounds.lower.z;
+  box.upper_x = bounds.upper.x;
+  box.upper_y = bounds.upper.y;
+  box.upper_z = bounds.upper.z;
+}
+
+}  // namespace detail
+
+/// The shape's callbacks, for a geometry of these records, which must outlive it.
+template <class Shape>
+void set_callbacks(RTCGeometry geometry, std::span<const typename ShapeTable<Shape>::Record> records) {
+  // Embree hands it to the callbacks, which only read.
+  rtcSetGeometryUserData(geometry, const_cast<typename ShapeTable<Shape>::Record*>(records.data()));
+  if constexpr (EmbreeTriangle<Shape>) {
+    rtcSetGeometryIntersectFilterFunction(geometry, &detail::callback<detail::FilterIntersect<Shape>>);
+    rtcSetGeometryOccludedFilterFunction(geometry, &detail::callback<detail::FilterOcclude<Shape>>);
+  } else {
+    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(records.size()));
+    rtcSetGeometryBoundsFunction(geometry, &detail::bounds_callback<Shape>, nullptr);
+    rtcSetGeometryIntersectFunction(geometry, &detail::callback<detail::Intersect<Shape>>);
+    rtcSetGeometryOccludedFunction(geometry, &detail::callback<detail::Occlude<Shape>>);
+  }
+}
+
+}  // namespace raytrace
