@@ -130,6 +130,8 @@ class CeilingOfVariant final : public Ceiling {
       embree::store(rays.far, [&](int i) { return packet.rays[i].ray.tfar; });
     }
     embree::Query query(true);
+    embree::load<FloatN>([&](int i) { return packet.rays[i].ray.tfar; }).store_aligned(query.nearest.distance);
+    UintN(embree::NearestHits::none).store_aligned(query.nearest.geometry);
     const embree::ValidLanes valid(packet.valid);
     embree::for_each_packet(packet.valid, [&](int i) {
       embree::RegisterPacket::intersect(valid.lanes[i], embree_scene(), query, packet.rays[i]);
@@ -141,6 +143,7 @@ class CeilingOfVariant final : public Ceiling {
     if (bare_ == BareLoop::parts)
       left = left & !scene_.accelerator().occluded_unbounded(embree::load_rays(packet.ray()), left);
     embree::Query query(true);
+    embree::load<FloatN>([&](int i) { return packet.rays[i].tfar; }).store_aligned(query.nearest.distance);
     const embree::ValidLanes valid(left);
     embree::for_each_packet(
         left, [&](int i) { embree::RegisterPacket::occluded(valid.lanes[i], embree_scene(), query, packet.rays[i]); });
@@ -154,7 +157,8 @@ class CeilingOfVariant final : public Ceiling {
   void add_planes(const SceneDescription& description) {
     for (const auto& item : std::get<ObjectItems<Plane>>(description.objects))
       planes_.records.push_back(Kernel<Plane>::record(item.parameters));
-    const embree::Geometry planes = make_user_geometry<BoxedPlane>(rtcGetSceneDevice(embree_scene()), planes_.records);
+    const embree::Geometry planes(rtcNewGeometry(rtcGetSceneDevice(embree_scene()), RTC_GEOMETRY_TYPE_USER));
+    set_callbacks<BoxedPlane>(planes.get(), planes_.records);
     rtcCommitGeometry(planes.get());
     rtcAttachGeometry(embree_scene(), planes.get());
     rtcCommitScene(embree_scene());
@@ -179,8 +183,9 @@ class CeilingOfVariant final : public Ceiling {
       const PixelSampler::Point point = sampler.next();
       if (sample < first_sample) continue;
       const MaskN all(true);
-      Ray<FloatN> rays =
-          scene_.tables().camera().generate(FloatN::load_aligned(xs) + point.x, FloatN::load_aligned(ys) + point.y);
+      CameraRays made;
+      scene_.tables().set_camera_rays(FloatN::load_aligned(xs) + point.x, FloatN::load_aligned(ys) + point.y, made);
+      Ray<FloatN>& rays = made.rays;
       CameraPacket& packet = camera.emplace_back();
       embree::store_rays(rays, packet.ray());
       embree::store(UintN(RTC_INVALID_GEOMETRY_ID), [&](int i) { return packet.rays[i].hit.geomID; });

@@ -4,7 +4,6 @@
 
 #include "raytrace/cameras/kernels.h"
 #include "raytrace/cameras/view_plane.h"
-#include "raytrace/scene/camera.h"
 #include "support/catch.h"
 #include "support/lanes.h"
 
@@ -22,8 +21,7 @@ PinholeCamera::Parameters parameters(Vec3d eye, Vec3d lookat, Vec3d up, double v
 }
 
 Vec3d direction(const Kernel<PinholeCamera>& camera, double x, double y) {
-  const Ray<FloatN> rays =
-      CameraOf<Kernel<PinholeCamera>>(camera).generate(FloatN(static_cast<float>(x)), FloatN(static_cast<float>(y)));
+  const Ray<FloatN> rays = camera.generate<FloatN>(FloatN(static_cast<float>(x)), FloatN(static_cast<float>(y)));
   return lane_of(rays.direction, lanes - 1);
 }
 

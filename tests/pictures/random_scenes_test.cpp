@@ -19,11 +19,16 @@ namespace {
 constexpr double tolerance = 1e-3;
 constexpr double most_differing = 0.002;
 
-void check_scenes(unsigned first, unsigned last) {
+/// change_scene(scene) and change_description(description): what is other than in the random scenes.
+template <class ChangeScene, class ChangeDescription>
+void check_scenes(unsigned first, unsigned last, const ChangeScene& change_scene,
+                  const ChangeDescription& change_description) {
   for (unsigned seed = first; seed < last; ++seed) {
-    const reference::Scene scene = reference::random_scene(seed);
+    reference::Scene scene = reference::random_scene(seed);
+    change_scene(scene);
     const std::string text = reference::scene_text(scene);
-    const SceneDescription description = parsed_scene(text);
+    SceneDescription description = parsed_scene(text);
+    change_description(description);
     const Picture wanted = reference_picture(scene);
     for (const std::string& isa : usable_isas()) {
       const Picture got = library_picture(description, isa);
@@ -39,12 +44,49 @@ void check_scenes(unsigned first, unsigned last) {
   }
 }
 
+void check_scenes(unsigned first, unsigned last) {
+  check_scenes(first, last, [](reference::Scene&) {}, [](SceneDescription&) {});
+}
+
+/// Moves all that the scene has.
+void move(SceneDescription& description, const Vec3d& by) {
+  const auto move_items = [&]<class Type>(std::type_identity<Type>, auto& items) {
+    for (auto& item : items)
+      for (const auto point : point_members<Type>()) item.parameters.*point += by;
+  };
+  for_each_type(Shapes{}, [&]<class Shape>(std::type_identity<Shape> type) {
+    move_items(type, std::get<ObjectItems<Shape>>(description.objects));
+  });
+  for_each_type(Lights{}, [&]<class Light>(std::type_identity<Light> type) {
+    move_items(type, std::get<LightItems<Light>>(description.lights));
+  });
+  for_each_type(Cameras{}, [&]<class Camera>(std::type_identity<Camera>) {
+    if (auto* camera = std::get_if<typename Camera::Parameters>(&description.camera))
+      for (const auto point : point_members<Camera>()) camera->*point += by;
+  });
+}
+
 }  // namespace
 
 TEST_CASE("random scenes 0 to 11 equal the reference's pictures") { check_scenes(0, 12); }
 TEST_CASE("random scenes 12 to 23 equal the reference's pictures") { check_scenes(12, 24); }
 TEST_CASE("random scenes 24 to 35 equal the reference's pictures") { check_scenes(24, 36); }
 TEST_CASE("random scenes 36 to 47 equal the reference's pictures") { check_scenes(36, 48); }
+
+TEST_CASE("random scenes far from the origin equal the reference's pictures of those near it") {
+  check_scenes(
+      0, 24, [](reference::Scene&) {}, [](SceneDescription& description) { move(description, {1e7, -3e6, 2e7}); });
+}
+
+TEST_CASE("random scenes from a camera far away equal the reference's pictures") {
+  const auto go_away = [](reference::Scene& scene) {
+    const reference::Vector way = scene.eye - scene.look_at;
+    const reference::Real nearer = length(way) / 1e7L, height = scene.pixel_size / scene.view_distance;
+    scene.eye = scene.look_at + (1 / nearer) * way;
+    scene.pixel_size = height * nearer * scene.view_distance;
+  };
+  check_scenes(0, 24, go_away, [](SceneDescription&) {});
+}
 
 TEST_CASE("the random scenes show every kind of thing") {
   // What the comparison above is worth depends on this: something is hit, lit, shadowed and seen from inside.

@@ -4,7 +4,7 @@
 //   Kernel(const Parameters&, const ViewPlane&);
 //   template <class F> Ray<F> generate(const F& x, const F& y) const;
 //                              rays through points of the picture: x to the right and y upwards from its center, in
-//                              pixels; directions of unit length
+//                              pixels; directions of unit length. F: floats, or Doubles of them
 //   Vec3f origin() const;      if all rays start there
 #pragma once
 

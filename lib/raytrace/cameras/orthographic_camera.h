@@ -19,7 +19,7 @@ class OrthographicCamera {
   static constexpr std::string_view name = "orthographic";  ///< as --list cameras shows it
   static constexpr std::string_view element = "orthographiccamera";
   static Fields<Parameters> fields() {
-    return {required("eye", &Parameters::eye), required("lookat", &Parameters::lookat),
+    return {required("eye", &Parameters::eye, a_point), required("lookat", &Parameters::lookat, a_point),
             optional("up", &Parameters::up, Range::nonzero)};
   }
   static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "raytrace/cameras/orthographic_camera.h"
+#include "raytrace/cameras/pixel_frame.h"
 #include "raytrace/math/kernel.h"
 #include "raytrace/math/ray.h"
 #include "raytrace/math/simd.h"
@@ -11,24 +12,20 @@ namespace raytrace {
 template <>
 class Kernel<OrthographicCamera> {
  public:
-  Kernel(const OrthographicCamera::Parameters& parameters, const ViewPlane& viewplane) : eye_(parameters.eye) {
-    const ViewFrame frame(parameters.eye, parameters.lookat, parameters.up);
-    right_ = Vec3f(frame.u * viewplane.pixelsize);
-    up_ = Vec3f(frame.v * viewplane.pixelsize);
-    forward_ = Vec3f(-frame.w);
-  }
+  Kernel(const OrthographicCamera::Parameters& parameters, const ViewPlane& viewplane)
+      : Kernel(parameters.eye, {parameters.eye, parameters.lookat, parameters.up}, viewplane.pixelsize) {}
 
   template <class F>
-  Ray<F> generate(const F& x, const F& y) const {
-    const Vec3<F> origin{multiply_add(F(right_.x), x, multiply_add(F(up_.x), y, F(eye_.x))),
-                         multiply_add(F(right_.y), x, multiply_add(F(up_.y), y, F(eye_.y))),
-                         multiply_add(F(right_.z), x, multiply_add(F(up_.z), y, F(eye_.z)))};
-    return {origin, Vec3<F>(forward_), F(0), infinity<F>()};
+  RAYTRACE_INLINE Ray<F> generate(const F& x, const F& y) const {
+    const auto& frame = frame_.vectors<F>();
+    return {frame.at_pixel(frame.eye, x, y), Vec3<F>(frame.forward), F(0), infinity<F>()};
   }
 
  private:
-  Vec3f eye_, right_, up_;  ///< right_, up_: to the next pixel
-  Vec3f forward_;           ///< unit length
+  Kernel(const Vec3d& eye, const ViewFrame& frame, double pixel)
+      : frame_(eye, -frame.w, frame.u * pixel, frame.v * pixel) {}
+
+  PixelFrame frame_;
 };
 
 }  // namespace raytrace

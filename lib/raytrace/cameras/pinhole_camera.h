@@ -20,7 +20,7 @@ class PinholeCamera {
   static constexpr std::string_view name = "pinhole";  ///< as --list cameras shows it
   static constexpr std::string_view element = "camera";
   static Fields<Parameters> fields() {
-    return {required("eye", &Parameters::eye), required("lookat", &Parameters::lookat),
+    return {required("eye", &Parameters::eye, a_point), required("lookat", &Parameters::lookat, a_point),
             optional("up", &Parameters::up, Range::nonzero),
             required("viewdistance", &Parameters::viewdistance, Range::positive)};
   }

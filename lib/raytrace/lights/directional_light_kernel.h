@@ -23,7 +23,7 @@ class Kernel<DirectionalLight> {
   Rgb<float> largest_radiance() const { return radiance_; }
 
   template <class F>
-  LightSample<F> sample(const Vec3<F>&) const {
+  RAYTRACE_INLINE LightSample<F> sample(const Vec3<F>&) const {
     return {Vec3<F>(direction_), F(std::numeric_limits<float>::infinity()), Rgb<F>(radiance_)};
   }
 

@@ -22,7 +22,7 @@ class Kernel<PointLight> {
   Rgb<float> largest_radiance() const { return radiance_.at_distance_1(); }
 
   template <class F>
-  LightSample<F> sample(const Vec3<F>& p) const {
+  RAYTRACE_INLINE LightSample<F> sample(const Vec3<F>& p) const {
     const Vec3<F> to_light = Vec3<F>(location_) - p;
     return {to_light, F(1), radiance_.at(to_light)};
   }

@@ -20,11 +20,11 @@ class PointRadiance {
 
   /// What a point gets that the light is `to_light` away from. Finite, however near it is.
   template <class F>
-  Rgb<F> at(const Vec3<F>& to_light) const {
+  RAYTRACE_INLINE Rgb<F> at(const Vec3<F>& to_light) const {
     using std::max, std::min;  // of plain numbers
     const Rgb<F> radiance(at_distance_1_);
-    if (!inverse_square_) return radiance;
-    const F share = F(1) / max(dot(to_light, to_light), F(std::numeric_limits<float>::min()));
+    F share(1);
+    if (inverse_square_) share = F(1) / max(dot(to_light, to_light), F(std::numeric_limits<float>::min()));
     const F most(std::numeric_limits<float>::max());
     return {min(radiance.red * share, most), min(radiance.green * share, most), min(radiance.blue * share, most)};
   }

@@ -25,8 +25,8 @@ class SpotLight {
   static constexpr std::string_view group = "spotlights";
   static constexpr std::string_view element = "spotlight";
   static Fields<Parameters> fields() {
-    return {required("location", &Parameters::location),
-            required("lookat", &Parameters::lookat),
+    return {required("location", &Parameters::location, a_point),
+            required("lookat", &Parameters::lookat, a_point),
             required("coneangle", &Parameters::coneangle, Range::positive),
             optional("penumbraangle", &Parameters::penumbraangle, Range::not_negative),
             optional("scaleradiance", &Parameters::scaleradiance),

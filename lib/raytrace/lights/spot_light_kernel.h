@@ -32,7 +32,7 @@ class Kernel<SpotLight> {
   Rgb<float> largest_radiance() const { return radiance_.at_distance_1(); }
 
   template <class F>
-  LightSample<F> sample(const Vec3<F>& p) const {
+  RAYTRACE_INLINE LightSample<F> sample(const Vec3<F>& p) const {
     const Vec3<F> to_light = Vec3<F>(location_) - p;
     const F above_edge = dot(normalize(to_light), Vec3<F>(towards_)) - F(edge_cosine_);
     F share = F(1);

@@ -15,6 +15,11 @@ struct Bounds {
   Vec3f lower, upper;
 };
 
+struct BoundingSphere {
+  Vec3d center;
+  double radius;
+};
+
 /// Around nothing: what it is joined with stays as it is.
 inline constexpr Bounds empty_bounds = [] {
   constexpr float infinity = std::numeric_limits<float>::infinity();

@@ -42,6 +42,7 @@ struct FieldInfo {
   std::string_view name;
   bool required = true;
   Range range = Range::any;
+  bool is_point = false;  ///< of world space: it moves with the world's origin, as no direction, edge or size does
 };
 
 /// The same, and where its value goes.
@@ -80,6 +81,30 @@ Field<Parameters> required(std::string_view name, Value Parameters::* member, Ra
 template <class Parameters, class Value>
 Field<Parameters> optional(std::string_view name, Value Parameters::* member, Range range = Range::any) {
   return {{name, false, range}, member};
+}
+
+// The same of a point: required("center", &Parameters::center, a_point).
+
+inline constexpr struct PointTag {
+} a_point;
+
+template <class Parameters>
+Field<Parameters> required(std::string_view name, Vec3d Parameters::* member, PointTag) {
+  return {{name, true, Range::any, true}, member};
+}
+
+template <class Parameters>
+Field<Parameters> optional(std::string_view name, Vec3d Parameters::* member, PointTag) {
+  return {{name, false, Range::any, true}, member};
+}
+
+/// The members of a type that are points.
+template <class Type>
+std::vector<Vec3d Type::Parameters::*> point_members() {
+  std::vector<Vec3d Type::Parameters::*> members;
+  for (const auto& field : Type::fields())
+    if (field.is_point) members.push_back(std::get<Vec3d Type::Parameters::*>(field.member));
+  return members;
 }
 
 /// Why a combination of a type's parameters, each of which is fine alone, is refused. A type that has such conditions

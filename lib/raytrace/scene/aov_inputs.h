@@ -1,6 +1,7 @@
 // What a packet of camera rays met, as AOVs want it.
 #pragma once
 
+#include "raytrace/math/doubles.h"
 #include "raytrace/scene/scene_tables.h"
 
 namespace raytrace {
@@ -8,16 +9,25 @@ namespace raytrace {
 /// Lanes without a hit hold anything.
 class AovInputs {
  public:
-  /// rays: from the camera to what they hit. All must outlive it.
-  AovInputs(const SceneTables& scene, const Ray<FloatN>& rays, const Hits& hits,
+  /// camera: rays to what they hit. All must outlive it.
+  AovInputs(const SceneTables& scene, const CameraRays& camera, const Hits& hits,
             const SurfaceInteraction<FloatN>& surface)
-      : scene_(scene), rays_(rays), hits_(hits), surface_(surface) {}
+      : scene_(scene), camera_(camera), hits_(hits), surface_(surface) {}
 
   const MaskN& hit() const { return hits_.hit; }
 
   /// From the eye, along the camera's viewing direction.
-  FloatN depth() const { return rays_.far * dot(rays_.direction, Vec3<FloatN>(scene_.viewing_direction())); }
-  const Vec3<FloatN>& position() const { return surface_.p; }
+  FloatN depth() const {
+    const Ray<FloatN>& rays = camera_.rays;
+    return (camera_.skipped + rays.far) * dot(rays.direction, Vec3<FloatN>(scene_.viewing_direction()));
+  }
+  /// In the world.
+  Vec3<FloatN> position() const {
+    const Vec3d& origin = scene_.origin();
+    if (origin.x == 0 && origin.y == 0 && origin.z == 0) return surface_.p;
+    using D = Doubles<FloatN>;
+    return to_float(Vec3<D>(surface_.p) + Vec3<D>(origin));
+  }
   const Vec3<FloatN>& normal() const { return surface_.ns; }
   /// What the material reflects diffusely of light from all sides.
   Rgb<FloatN> albedo() const { return scene_.albedo(hits_); }
@@ -30,7 +40,7 @@ class AovInputs {
 
  private:
   const SceneTables& scene_;
-  const Ray<FloatN>& rays_;
+  const CameraRays& camera_;
   const Hits& hits_;
   const SurfaceInteraction<FloatN>& surface_;
 };

@@ -1,28 +1,33 @@
-// The scene's camera, whatever its type: one call a packet.
+// Rays of the scene's camera, whatever its type.
 #pragma once
 
+#include "raytrace/math/bounds.h"
+#include "raytrace/math/doubles.h"
 #include "raytrace/math/ray.h"
 #include "raytrace/math/simd.h"
 
 namespace raytrace {
 
-class Camera {
- public:
-  virtual ~Camera() = default;
-  /// Rays through points of the picture, as cameras/kernels.h has them.
-  virtual Ray<FloatN> generate(const FloatN& x, const FloatN& y) const = 0;
+/// Rays of a camera, and how much of the way from where they begin they leave out.
+struct CameraRays {
+  Ray<FloatN> rays;
+  FloatN skipped;  ///< rays.near may be as far before their origins
 };
 
+/// The rays of a camera that is far away from what it shows: computed in double up to where they come to the sphere, or
+/// closest to it, and in float from there on.
 template <class CameraKernel>
-class CameraOf final : public Camera {
- public:
-  explicit CameraOf(const CameraKernel& camera) : camera_(camera) {}
-  Ray<FloatN> generate(const FloatN& x, const FloatN& y) const override {
-    return camera_.template generate<FloatN>(x, y);
-  }
-
- private:
-  CameraKernel camera_;
-};
+CameraRays rays_at(const BoundingSphere& sphere, const CameraKernel& camera, const FloatN& x, const FloatN& y) {
+  using D = Doubles<FloatN>;
+  const Ray<D> rays = camera.template generate<D>(D(x), D(y));
+  const Vec3<D> to_center = Vec3<D>(sphere.center) - rays.origin;
+  const D closest = dot(to_center, rays.direction);
+  const Vec3<D> across = to_center - rays.direction * closest;
+  const D half_chord = sqrt(max(D(sphere.radius * sphere.radius) - dot(across, across), D(0.0)));
+  // Less, by more than its rounding to float.
+  const FloatN skipped = (max(closest - half_chord, D(0.0)) * D(1 - 0x1p-22)).to_float();
+  return {{to_float(rays.origin + rays.direction * D(skipped)), to_float(rays.direction), -skipped, infinity<FloatN>()},
+          skipped};
+}
 
 }  // namespace raytrace

@@ -5,20 +5,26 @@
 
 namespace raytrace {
 
-GeometryTable::GeometryTable(const SceneDescription& description, std::span<const std::int32_t> first_materials,
-                             int threads) {
+GeometryTable::GeometryTable(const SceneDescription& description, const Vec3d& origin,
+                             std::span<const std::int32_t> first_materials, int threads) {
   std::size_t count = 0;
   for_each_type(Shapes{}, [&]<class Shape>(std::type_identity<Shape>) {
     const auto& items = std::get<ObjectItems<Shape>>(description.objects);
     auto& records = std::get<ShapeTable<Shape>>(tables_).records;
     reserve_large(records, items.size() + 1);  // Embree reads whole 16 byte words of the last vertex
-    for (const auto& item : items) records.push_back(Kernel<Shape>::record(item.parameters));
+    const auto points = point_members<Shape>();
+    for (const auto& item : items) {
+      typename Shape::Parameters parameters = item.parameters;
+      for (const auto point : points) parameters.*point += -origin;
+      records.push_back(Kernel<Shape>::record(parameters));
+    }
     constexpr std::size_t type = index_of<Shape>(Shapes{});
     first_objects_[type] = static_cast<std::int32_t>(count);
     geometries_[type] = {type, 0, static_cast<std::uint32_t>(items.size()), first_objects_[type]};
     count += items.size();
   });
 
+  set_bounding_sphere(threads);
   object_materials_.resize(count);
   for_each_type(Shapes{}, [&]<class Shape>(std::type_identity<Shape>) {
     const auto& items = std::get<ObjectItems<Shape>>(description.objects);
@@ -31,6 +37,24 @@ GeometryTable::GeometryTable(const SceneDescription& description, std::span<cons
       }
     });
   });
+}
+
+void GeometryTable::set_bounding_sphere(int threads) {
+  Bounds all = empty_bounds;
+  for_each_type(Shapes{}, [&]<class Shape>(std::type_identity<Shape>) {
+    if constexpr (requires { &Kernel<Shape>::bounds; }) {
+      const auto& records = table<Shape>().records;
+      std::vector<Bounds> chunks(chunk_count(records.size()), empty_bounds);
+      for_each_chunk(records.size(), threads, [&](std::size_t chunk, std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+          chunks[chunk] = join(chunks[chunk], Kernel<Shape>::bounds(records[i]));
+      });
+      for (const Bounds& chunk : chunks) all = join(all, chunk);
+    }
+  });
+  if (all.lower.x > all.upper.x) return;
+  const Vec3d lower(all.lower), upper(all.upper);
+  bounding_sphere_ = {(lower + upper) * 0.5, length(upper - lower) / 2 * (1 + 1e-6)};
 }
 
 IntN GeometryTable::object(const Hits& hits) const {

@@ -35,8 +35,10 @@ struct Geometry {
 /// counterpart in Embree's scene.
 class GeometryTable {
  public:
-  /// first_materials: of each material type, the number of its first material, all counted together.
-  GeometryTable(const SceneDescription& description, std::span<const std::int32_t> first_materials, int threads);
+  /// origin: subtracted from all points, in double. first_materials: of each material type, the number of its first
+  /// material, all counted together.
+  GeometryTable(const SceneDescription& description, const Vec3d& origin, std::span<const std::int32_t> first_materials,
+                int threads);
 
   const std::array<Geometry, Shapes::size>& geometries() const { return geometries_; }
   const Geometry& geometry(std::uint32_t index) const { return geometries_[index]; }
@@ -45,6 +47,8 @@ class GeometryTable {
     return std::get<ShapeTable<Shape>>(tables_);
   }
   std::uint64_t object_count() const { return object_materials_.size(); }
+  /// Around all objects that have bounds; of negative radius if there are none.
+  const BoundingSphere& bounding_sphere() const { return bounding_sphere_; }
 
   // Of what was hit; at least one lane must have a hit, and lanes without one follow one that has.
 
@@ -57,10 +61,13 @@ class GeometryTable {
   }
 
  private:
+  void set_bounding_sphere(int threads);
+
   TupleOf<Shapes, ShapeTable>::type tables_;
   std::array<Geometry, Shapes::size> geometries_{};
   std::array<std::int32_t, Shapes::size> first_objects_{};  ///< of each geometry, side by side
   std::vector<std::int32_t> object_materials_;              ///< of each object
+  BoundingSphere bounding_sphere_{{0, 0, 0}, -1};
 };
 
 }  // namespace raytrace

@@ -2,36 +2,71 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "raytrace/math/gather.h"
 
 namespace raytrace {
 
+namespace {
+
+constexpr double near_origin = 4096;
+
+Vec3d rounded(const Vec3d& point) { return {std::round(point.x), std::round(point.y), std::round(point.z)}; }
+
+Vec3d origin_of(const CameraParameters& camera) {
+  return std::visit(
+      [](const auto& parameters) {
+        if (std::min(length(parameters.eye), length(parameters.lookat)) <= near_origin) return Vec3d(0, 0, 0);
+        return rounded(parameters.eye);
+      },
+      camera);
+}
+
+}  // namespace
+
 SceneTables::SceneTables(const SceneDescription& description, int threads)
-    : viewplane_(description.viewplane), integrator_(description.integrator.value_or(Raycast::Parameters{})) {
+    : origin_(origin_of(description.camera)),
+      viewplane_(description.viewplane),
+      integrator_(description.integrator.value_or(Raycast::Parameters{})) {
+  add_materials(description);
+  geometry_ = std::make_unique<const GeometryTable>(description, origin_, first_material_, threads);
+  if (camera_is_far_from(geometry_->bounding_sphere(), description)) {
+    const Vec3d& center = geometry_->bounding_sphere().center;
+    if (length(origin_) > 0) {
+      origin_ += rounded(center);
+      geometry_ = std::make_unique<const GeometryTable>(description, origin_, first_material_, threads);
+    }
+    camera_target_ = geometry_->bounding_sphere();
+  }
   set_camera(description);
   add_lights(description);
-  add_materials(description);
-  geometry_ = std::make_unique<const GeometryTable>(description, first_material_, threads);
 }
 
 void SceneTables::set_camera(const SceneDescription& description) {
   for_each_type(Cameras{}, [&]<class Type>(std::type_identity<Type>) {
     const auto* parameters = std::get_if<typename Type::Parameters>(&description.camera);
     if (parameters == nullptr) return;
-    const Kernel<Type> camera(*parameters, viewplane_);
-    camera_ = std::make_unique<CameraOf<Kernel<Type>>>(camera);
-    if constexpr (requires { camera.origin(); }) camera_origin_ = BufferOrigin{camera.origin()};
+    const Kernel<Type> camera(moved<Type>(*parameters), viewplane_);
+    camera_ = camera;
+    if constexpr (requires { camera.origin(); })
+      if (!camera_is_far()) camera_origin_ = BufferOrigin{camera.origin()};
     const CameraMatrices matrices = Type::matrices(*parameters, viewplane_);
     const float* const m = matrices.world_to_camera;  // its third column turns points into -z, behind the camera
     viewing_direction_ = Vec3f(-m[2], -m[6], -m[10]);
   });
 }
 
+bool SceneTables::camera_is_far_from(const BoundingSphere& sphere, const SceneDescription& description) const {
+  constexpr double far = 256;  // radii: a float's rounding at that distance is some 1 / 65,000 of one
+  const Vec3d eye = std::visit([](const auto& parameters) { return parameters.eye; }, description.camera) - origin_;
+  return sphere.radius >= 0 && length(eye - sphere.center) > far * sphere.radius;
+}
+
 void SceneTables::add_lights(const SceneDescription& description) {
   for_each_type(Lights{}, [&]<class Light>(std::type_identity<Light>) {
     for (const auto& item : std::get<LightItems<Light>>(description.lights)) {
-      const Kernel<Light> light(item.parameters);
+      const Kernel<Light> light(moved<Light>(item.parameters));
       if constexpr (Kernel<Light>::ambient) {
         ambient_radiance_ += light.radiance();
       } else {

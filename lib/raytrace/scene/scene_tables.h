@@ -31,10 +31,29 @@ class SceneTables {
   /// threads: so many at most share the work. Throws std::bad_alloc.
   SceneTables(const SceneDescription& description, int threads);
 
+  /// The world's point that is (0, 0, 0) in all that is traced, so that floats are precise where the camera looks: the
+  /// world's own origin if the eye or what it looks at lies within 4096 of it; else the eye or, where the camera is far
+  /// from all objects, their center; rounded to whole units.
+  const Vec3d& origin() const { return origin_; }
+
   const ViewPlane& viewplane() const { return viewplane_; }
   /// Raycast where the description leaves it open.
   const IntegratorParameters& integrator() const { return integrator_; }
-  const Camera& camera() const { return *camera_; }
+  /// Sets rays through points of the picture, as cameras/kernels.h has them.
+  RAYTRACE_INLINE void set_camera_rays(const FloatN& x, const FloatN& y, CameraRays& result) const {
+    for_each_type(Cameras{}, [&]<class Type>(std::type_identity<Type>) RAYTRACE_INLINE_LAMBDA {
+      const auto* const camera = std::get_if<Kernel<Type>>(&*camera_);
+      if (camera == nullptr) return;
+      if (camera_is_far()) [[unlikely]] {
+        result = rays_at(*camera_target_, *camera, x, y);
+      } else {
+        result.rays = camera->template generate<FloatN>(x, y);
+        result.skipped = FloatN(0);
+      }
+    });
+  }
+  /// Whether the camera is so far away from all objects with bounds that its rays start at them.
+  bool camera_is_far() const { return camera_target_.has_value(); }
   /// Unit length.
   const Vec3f& viewing_direction() const { return viewing_direction_; }
   /// The point that all camera rays start at; none if there is none.
@@ -67,7 +86,14 @@ class SceneTables {
                     std::span<const IncidentLight> lights) const;
 
  private:
+  /// The parameters with all points less the origin.
+  template <class Type>
+  typename Type::Parameters moved(typename Type::Parameters parameters) const {
+    for (const auto member : point_members<Type>()) parameters.*member += -origin_;
+    return parameters;
+  }
   void set_camera(const SceneDescription& description);
+  bool camera_is_far_from(const BoundingSphere& sphere, const SceneDescription& description) const;
   void add_lights(const SceneDescription& description);
   void add_materials(const SceneDescription& description);
 
@@ -75,9 +101,11 @@ class SceneTables {
   template <class Answer>
   Rgb<FloatN> by_material(const Hits& hits, const Answer& answer) const;
 
+  Vec3d origin_;
   ViewPlane viewplane_;
   IntegratorParameters integrator_;
-  std::unique_ptr<Camera> camera_;
+  std::optional<KernelVariant<Cameras>::type> camera_;
+  std::optional<BoundingSphere> camera_target_;  ///< around all objects with bounds, if it is far
   Vec3f viewing_direction_{};
   std::optional<BufferOrigin> camera_origin_;
   Rgb<float> ambient_radiance_{0, 0, 0};

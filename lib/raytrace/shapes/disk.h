@@ -20,7 +20,7 @@ class Disk {
   static constexpr std::string_view group = "disks";
   static constexpr std::string_view element = "disk";
   static Fields<Parameters> fields() {
-    return {required("center", &Parameters::center), required("normal", &Parameters::normal, Range::nonzero),
+    return {required("center", &Parameters::center, a_point), required("normal", &Parameters::normal, Range::nonzero),
             required("radius", &Parameters::radius, Range::positive)};
   }
 };

@@ -16,7 +16,7 @@ class Plane {
   static constexpr std::string_view group = "planes";
   static constexpr std::string_view element = "plane";
   static Fields<Parameters> fields() {
-    return {required("point", &Parameters::point), required("normal", &Parameters::normal, Range::nonzero)};
+    return {required("point", &Parameters::point, a_point), required("normal", &Parameters::normal, Range::nonzero)};
   }
 };
 

@@ -20,7 +20,7 @@ class Rectangle {
   static constexpr std::string_view group = "rectangles";
   static constexpr std::string_view element = "rectangle";
   static Fields<Parameters> fields() {
-    return {required("corner", &Parameters::corner), required("edge1", &Parameters::edge1, Range::nonzero),
+    return {required("corner", &Parameters::corner, a_point), required("edge1", &Parameters::edge1, Range::nonzero),
             required("edge2", &Parameters::edge2, Range::nonzero)};
   }
   static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {

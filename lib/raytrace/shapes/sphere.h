@@ -16,7 +16,7 @@ class Sphere {
   static constexpr std::string_view group = "spheres";
   static constexpr std::string_view element = "sphere";
   static Fields<Parameters> fields() {
-    return {required("center", &Parameters::center), required("radius", &Parameters::radius, Range::positive)};
+    return {required("center", &Parameters::center, a_point), required("radius", &Parameters::radius, Range::positive)};
   }
 };
 

@@ -18,8 +18,9 @@ class Triangle {
   static constexpr std::string_view group = "triangles";
   static constexpr std::string_view element = "triangle";
   static Fields<Parameters> fields() {
-    return {required("vertexposition1", &Parameters::vertex1), required("vertexposition2", &Parameters::vertex2),
-            required("vertexposition3", &Parameters::vertex3)};
+    return {required("vertexposition1", &Parameters::vertex1, a_point),
+            required("vertexposition2", &Parameters::vertex2, a_point),
+            required("vertexposition3", &Parameters::vertex3, a_point)};
   }
 
   /// A triangle without area is skipped with a warning.

@@ -17,7 +17,8 @@ auto aov_values(const AovInputs& inputs) {
   if constexpr (name == "depth") {
     return std::array{inputs.depth()};
   } else if constexpr (name == "position") {
-    return std::array{inputs.position().x, inputs.position().y, inputs.position().z};
+    const Vec3<FloatN> position = inputs.position();
+    return std::array{position.x, position.y, position.z};
   } else if constexpr (name == "normal") {
     return std::array{inputs.normal().x, inputs.normal().y, inputs.normal().z};
   } else if constexpr (name == "albedo") {

@@ -2,7 +2,7 @@
 //
 // An integrator's Kernel provides:
 //   static float largest_radiance(const SceneTables& scene);   it scales the film's unit: most samples stay below it
-//   static RayResult radiance(const TracedScene& scene, const Rgb<float>& background, Ray<FloatN>& rays,
+//   static RayResult radiance(const TracedScene& scene, const Rgb<float>& background, CameraRays& camera,
 //                             const MaskN& active, const MaskN& counted, RayCounts& counts, FirstHits* first);
 //       the radiance that arrives along camera rays, whose directions have unit length, in the lanes of `active`; it
 //       ends the rays where they meet something, and `background` arrives along those that meet nothing. Adds the

@@ -4,6 +4,7 @@
 #include "raytrace/accel/traced_scene.h"
 #include "raytrace/integrators/normals.h"
 #include "raytrace/math/kernel.h"
+#include "raytrace/tracing/camera_hits.h"
 #include "raytrace/tracing/ray_result.h"
 #include "raytrace/tracing/render_report.h"
 
@@ -14,12 +15,12 @@ class Kernel<Normals> {
  public:
   static float largest_radiance(const SceneTables&) { return 1; }
 
-  static RayResult radiance(const TracedScene& scene, const Rgb<float>& background, Ray<FloatN>& rays,
+  static RayResult radiance(const TracedScene& scene, const Rgb<float>& background, CameraRays& camera,
                             const MaskN& active, const MaskN&, RayCounts&, FirstHits* first) {
-    const Hits hits = scene.accelerator().intersect(rays, active, Coherence::coherent, scene.camera_buffer());
+    const Hits hits = intersect_camera_rays(scene, camera, active);
     if (first != nullptr) first->hits = hits;
     if (none(hits.hit)) return {Rgb<FloatN>(background), hits.hit};
-    const SurfaceInteraction<FloatN> surface = scene.accelerator().surface(rays, hits);
+    const SurfaceInteraction<FloatN> surface = scene.accelerator().surface(camera.rays, hits);
     if (first != nullptr) first->surface = surface;
     const auto color = [](const FloatN& component) {
       return min(max(component * FloatN(0.5F) + FloatN(0.5F), FloatN(0)), FloatN(1));

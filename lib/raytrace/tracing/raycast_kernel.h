@@ -7,6 +7,7 @@
 #include "raytrace/accel/traced_scene.h"
 #include "raytrace/integrators/raycast.h"
 #include "raytrace/math/kernel.h"
+#include "raytrace/tracing/camera_hits.h"
 #include "raytrace/tracing/ray_result.h"
 #include "raytrace/tracing/render_report.h"
 
@@ -17,7 +18,7 @@ class Kernel<Raycast> {
  public:
   static float largest_radiance(const SceneTables& scene) { return scene.largest_radiance(); }
 
-  static RayResult radiance(const TracedScene& scene, const Rgb<float>& background, Ray<FloatN>& rays,
+  static RayResult radiance(const TracedScene& scene, const Rgb<float>& background, CameraRays& camera,
                             const MaskN& active, const MaskN& counted, RayCounts& counts, FirstHits* first);
 
  private:
@@ -27,15 +28,15 @@ class Kernel<Raycast> {
   static constexpr std::size_t lights_per_run = 16;
 };
 
-inline RayResult Kernel<Raycast>::radiance(const TracedScene& scene, const Rgb<float>& background, Ray<FloatN>& rays,
+inline RayResult Kernel<Raycast>::radiance(const TracedScene& scene, const Rgb<float>& background, CameraRays& camera,
                                            const MaskN& active, const MaskN& counted, RayCounts& counts,
                                            FirstHits* first) {
   const SceneTables& tables = scene.tables();
-  const Hits hits = scene.accelerator().intersect(rays, active, Coherence::coherent, scene.camera_buffer());
+  const Hits hits = intersect_camera_rays(scene, camera, active);
   if (first != nullptr) first->hits = hits;
   if (none(hits.hit)) return {Rgb<FloatN>(background), hits.hit};
 
-  const SurfaceInteraction<FloatN> surface = scene.accelerator().surface(rays, hits);
+  const SurfaceInteraction<FloatN> surface = scene.accelerator().surface(camera.rays, hits);
   if (first != nullptr) first->surface = surface;
 
   std::array<IncidentLight, lights_per_run> incident;

@@ -108,11 +108,12 @@ class BlockRenderer {
       const bool all_wanted = base >= left.all_from && left.last - base >= group;
       const MaskN wanted = all_wanted ? active : active & in_range(sample, left.lane_first, UintN(left.last));
       const PixelSampler::Point point = sampler.next();
-      Ray<FloatN> rays = scene_.tables().camera().generate(x + point.x, y + point.y);
-      const RayResult result = Kernel<Integrator>::radiance(scene_, background_, rays, active, wanted, report_.rays,
+      CameraRays camera;
+      scene_.tables().set_camera_rays(x + point.x, y + point.y, camera);
+      const RayResult result = Kernel<Integrator>::radiance(scene_, background_, camera, active, wanted, report_.rays,
                                                             aovs != nullptr ? &first : nullptr);
       const MaskN large = sums.add(result, wanted);
-      if (aovs != nullptr) aovs->add(AovInputs(scene_.tables(), rays, first.hits, first.surface), wanted, sample);
+      if (aovs != nullptr) aovs->add(AovInputs(scene_.tables(), camera, first.hits, first.surface), wanted, sample);
       report_.rays.camera += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(wanted)));
       if (any(large)) add_invalid(sums.add_large(result, large), block, base);
       if (packets % packets_per_look == 0) {

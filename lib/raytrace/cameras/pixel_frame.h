@@ -1,0 +1,44 @@
+// What leads camera rays through the picture.
+#pragma once
+
+#include "raytrace/math/simd.h"
+#include "raytrace/math/vec3.h"
+
+namespace raytrace {
+
+/// In float, and in double for cameras that are far away.
+class PixelFrame {
+ public:
+  template <class T>
+  struct Vectors {
+    Vec3<T> eye, forward;
+    Vec3<T> right, up;  ///< one pixel
+
+    /// from + right x + up y.
+    template <class F>
+    RAYTRACE_INLINE Vec3<F> at_pixel(const Vec3<T>& from, const F& x, const F& y) const {
+      return {multiply_add(F(right.x), x, multiply_add(F(up.x), y, F(from.x))),
+              multiply_add(F(right.y), x, multiply_add(F(up.y), y, F(from.y))),
+              multiply_add(F(right.z), x, multiply_add(F(up.z), y, F(from.z)))};
+    }
+  };
+
+  PixelFrame(const Vec3d& eye, const Vec3d& forward, const Vec3d& right, const Vec3d& up)
+      : in_float_{Vec3f(eye), Vec3f(forward), Vec3f(right), Vec3f(up)}, in_double_{eye, forward, right, up} {}
+
+  /// As precise as F is.
+  template <class F>
+  RAYTRACE_INLINE const auto& vectors() const {
+    if constexpr (requires(F number) { number.to_float(); }) {
+      return in_double_;
+    } else {
+      return in_float_;
+    }
+  }
+
+ private:
+  Vectors<float> in_float_;
+  Vectors<double> in_double_;
+};
+
+}  // namespace raytrace

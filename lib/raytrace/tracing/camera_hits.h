@@ -1,0 +1,26 @@
+// What camera rays hit.
+#pragma once
+
+#include "raytrace/accel/traced_scene.h"
+
+namespace raytrace {
+
+/// Ends the rays at their nearest hits. Those of a camera that is far away start anew from the eye where they hit
+/// something that is closer to it than to where they started: floats are more precise there.
+inline Hits intersect_camera_rays(const TracedScene& scene, CameraRays& camera, const MaskN& active) {
+  Ray<FloatN>& rays = camera.rays;
+  Hits hits = scene.accelerator().intersect(rays, active, Coherence::coherent, scene.camera_buffer());
+  if (!scene.tables().camera_is_far()) return hits;
+  const MaskN near_eye = hits.hit & (rays.far < camera.skipped * FloatN(-0.5F));
+  if (none(near_eye)) return hits;
+  Ray<FloatN> from_eye{rays.origin - rays.direction * camera.skipped, rays.direction, FloatN(0), infinity<FloatN>()};
+  const Hits near_hits = scene.accelerator().intersect(from_eye, near_eye, Coherence::coherent);
+  rays.origin = select(near_eye, from_eye.origin, rays.origin);
+  rays.near = select(near_eye, from_eye.near, rays.near);
+  rays.far = select(near_eye, from_eye.far, rays.far);
+  camera.skipped = select(near_eye, FloatN(0), camera.skipped);
+  hits = select(near_eye, near_hits, hits);
+  return hits;
+}
+
+}  // namespace raytrace
