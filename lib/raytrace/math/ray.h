@@ -35,6 +35,13 @@ struct SurfacePoint {
   F error;           ///< bound of the distance between `position` and the true surface
 };
 
+/// A point of a surface without its normal.
+template <class F>
+struct SurfacePosition {
+  Vec3<F> position;
+  F error;
+};
+
 /// Lane by lane: a where the mask is true, else b.
 template <class F, class MaskType>
 RAYTRACE_INLINE SurfacePoint<F> select(const MaskType& mask, const SurfacePoint<F>& a, const SurfacePoint<F>& b) {
@@ -44,8 +51,7 @@ RAYTRACE_INLINE SurfacePoint<F> select(const MaskType& mask, const SurfacePoint<
 /// Bound of the rounding errors of a point computed in float from numbers of its own magnitude and of `size`.
 template <class F>
 RAYTRACE_INLINE F rounding_error(const Vec3<F>& position, const F& size) {
-  const F magnitude = max(max(abs(position.x), abs(position.y)), max(abs(position.z), size));
-  return magnitude * F(4 * 0x1p-24f);
+  return max(largest_component(position), size) * F(4 * 0x1p-24f);
 }
 
 }  // namespace raytrace

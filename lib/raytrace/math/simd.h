@@ -220,6 +220,13 @@ RAYTRACE_INLINE float multiply_add(float a, float b, float c) {
 #endif
 }
 
+/// A power of 2 that brings positive numbers to [1, 2): a product with it rounds nothing.
+template <class F>
+RAYTRACE_INLINE F inverse_power_of_2(const F& numbers) {
+  constexpr std::uint32_t exponent = 0x7f800000U, twice_the_bias = 254U << 23U;
+  return same_bits<F>(Uints<F>(twice_the_bias) - (same_bits<Uints<F>>(numbers) & Uints<F>(exponent)));
+}
+
 /// dot() with as few roundings as the instruction set allows.
 template <class F>
 RAYTRACE_INLINE F fused_dot(const Vec3<F>& a, const Vec3<F>& b) {

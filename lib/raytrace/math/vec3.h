@@ -53,6 +53,12 @@ RAYTRACE_INLINE T& component(Vec3<T>& a, int number) {
   return number == 0 ? a.x : number == 1 ? a.y : a.z;
 }
 
+/// The largest of the components' magnitudes.
+template <class T>
+RAYTRACE_INLINE T largest_component(const Vec3<T>& a) {
+  return max(max(abs(a.x), abs(a.y)), abs(a.z));
+}
+
 /// Length. Components beyond 1e18 (float) overflow: the scene format refuses them.
 template <class T>
 RAYTRACE_INLINE T length(const Vec3<T>& a) {

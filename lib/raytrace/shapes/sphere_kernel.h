@@ -41,6 +41,15 @@ class Kernel<Sphere> {
   template <class F>
   static SurfacePoint<F> surface(const Record<F>& sphere, const Ray<F>& ray, const F& distance);
 
+  /// The surface's point on a ray that hits it from nearby, and its error: intersect() is as precise there as floats
+  /// allow.
+  template <class F>
+  static SurfacePosition<F> position_on_ray(const Record<F>&, const Ray<F>& ray) {
+    const Vec3<F> position = ray.at(ray.far);
+    return {position,
+            rounding_error(position, max(largest_component(ray.origin), largest_component(ray.direction) * ray.far))};
+  }
+
  private:
   template <class F, class Rays>
   static F intersect_in_double(const Record<float>& sphere, const Rays& ray);
@@ -85,12 +94,15 @@ RAYTRACE_INLINE F Kernel<Sphere>::intersect(const Record<float>& sphere, const R
   const F exit = to_closest + (correction + half_chord);
   F t = select(entry > ray.near, entry, exit);
   // Again, in double, where a hit is much closer than the terms it is the difference of (an origin near the surface of
-  // a large sphere), or where the chord is so short that its own rounding, about radius^2 / half_chord ulps, shows.
-  // Rays that leave the sphere itself stay out of it: they start further away than the rounding.
-  const F terms = abs(to_closest) + half_chord;
+  // a large sphere: the rounding may even put it on the other side), or where the chord is so short that its own
+  // rounding, about radius^2 / half_chord ulps, shows. Rays that leave the sphere itself stay out of it: they start
+  // further away than the rounding.
+  const F terms = abs(to_closest) + half_chord, radius2 = radius * radius * inverse_dd;
   const F rounding = terms * F(0x1p-22f);
-  const Mask<F> imprecise = possible & (t > ray.near - rounding) & (t < ray.far + rounding) &
-                            ((t * F(64) < terms) | (t * half_chord * F(64) < radius * radius * inverse_dd));
+  const Mask<F> in_question =
+      (t > ray.near - rounding) & (t < ray.far + rounding) & ((t * F(64) < terms) | (t * half_chord * F(64) < radius2));
+  const Mask<F> on_either_side = abs(entry - ray.near) * half_chord < (terms * half_chord + radius2) * F(0x1p-22f);
+  const Mask<F> imprecise = possible & (in_question | on_either_side);
   if (any(imprecise)) t = select(imprecise, intersect_in_double<F>(sphere, ray), t);
   return select(possible & (t > ray.near) & (t < ray.far), t, infinity<F>());
 }

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "raytrace/math/bounds.h"
+#include "raytrace/math/doubles.h"
 #include "raytrace/math/kernel.h"
 #include "raytrace/math/ray.h"
 #include "raytrace/math/simd.h"
@@ -38,6 +39,15 @@ class Kernel<Triangle> {
   /// The surface at barycentric coordinates: u of vertex 2, v of vertex 3.
   template <class F>
   static SurfacePoint<F> surface(const Record<F>& triangle, const F& u, const F& v);
+
+  /// The surface's point on a ray that hits it, and its error.
+  template <class F>
+  static SurfacePosition<F> position_on_ray(const Record<F>& triangle, const Ray<F>& ray);
+
+ private:
+  /// Where rays meet the triangle's plane. T: float, or F where lanes have different triangles.
+  template <class F, class T, class Origin>
+  static Doubles<F> plane_distance(const Record<T>& triangle, const Vec3<Origin>& origin, const Vec3<F>& direction);
 };
 
 namespace detail {
@@ -72,7 +82,17 @@ RAYTRACE_INLINE F Kernel<Triangle>::intersect(const Record<float>& triangle, con
   const Mask<F> inside = active & ((least >= -rounding) | (most <= rounding));
   if (none(inside)) return infinity<F>();
   const Vector perpendicular = detail::fused_cross(edge31, edge12);
-  const F t = F(fused_dot(vertex1, perpendicular)) / fused_dot(Vec3<F>(perpendicular), ray.direction);
+  const auto height = fused_dot(vertex1, perpendicular);
+  F t = F(height) / fused_dot(Vec3<F>(perpendicular), ray.direction);
+  // Again, in double, where the ray starts so close to the triangle's plane that little is left of its height, or the
+  // triangle is so large or small that floats do not hold it: rays that leave a large triangle must not hit it.
+  using std::abs;
+  const auto terms =
+      abs(vertex1.x * perpendicular.x) + abs(vertex1.y * perpendicular.y) + abs(vertex1.z * perpendicular.z);
+  const F size(terms);
+  const Mask<F> precise = (F(abs(height)) >= size * F(0x1p-10F)) & (size > F(1e-30F)) & (size < F(1e37F));
+  const Mask<F> imprecise = inside & !precise;
+  if (any(imprecise)) t = select(imprecise, plane_distance<F>(triangle, ray.origin, ray.direction).to_float(), t);
   const F inverse_sum = F(1) / sum;
   u = min(max(opposite2 * inverse_sum, F(0)), F(1));
   v = min(max(opposite3 * inverse_sum, F(0)), F(1));
@@ -81,16 +101,38 @@ RAYTRACE_INLINE F Kernel<Triangle>::intersect(const Record<float>& triangle, con
 
 template <class F>
 SurfacePoint<F> Kernel<Triangle>::surface(const Record<F>& triangle, const F& u, const F& v) {
-  const Vec3<F> edge1 = triangle.vertex2 - triangle.vertex1;
-  const Vec3<F> edge2 = triangle.vertex3 - triangle.vertex1;
+  Vec3<F> edge1 = triangle.vertex2 - triangle.vertex1;
+  Vec3<F> edge2 = triangle.vertex3 - triangle.vertex1;
   const Vec3<F> position = triangle.vertex1 + edge1 * u + edge2 * v;
   const F size =
       max(max(max(abs(edge1.x), abs(edge1.y)), abs(edge1.z)), max(max(abs(edge2.x), abs(edge2.y)), abs(edge2.z)));
+  // Edges of about length 1, by a power of 2: floats do not hold the squares of all areas.
+  const F scale = inverse_power_of_2(size);
+  edge1 = edge1 * scale;
+  edge2 = edge2 * scale;
   // Embree's distance is off in proportion to the triangle's length over its altitude, as far as that exceeds 1.
   const Vec3<F> perpendicular = cross(edge1, edge2);
   const F inverse_area = F(1) / length(perpendicular);
   const F sliver = max(F(1), max(dot(edge1, edge1), dot(edge2, edge2)) * inverse_area);
   return {position, perpendicular * inverse_area, rounding_error(position, size) * sliver};
+}
+
+template <class F>
+SurfacePosition<F> Kernel<Triangle>::position_on_ray(const Record<F>& triangle, const Ray<F>& ray) {
+  using D = Doubles<F>;
+  const D t = plane_distance<F>(triangle, ray.origin, ray.direction);
+  const Vec3<F> position = to_float(Vec3<D>(ray.origin) + Vec3<D>(ray.direction) * t);
+  return {position, rounding_error(position, F(0))};
+}
+
+template <class F, class T, class Origin>
+Doubles<F> Kernel<Triangle>::plane_distance(const Record<T>& triangle, const Vec3<Origin>& origin,
+                                            const Vec3<F>& direction) {
+  using D = Doubles<F>;
+  using Double = std::conditional_t<std::is_same_v<T, float>, double, D>;  // as wide as the triangle is
+  const Vec3<Double> vertex1(triangle.vertex1);
+  const Vec3<D> normal(cross(Vec3<Double>(triangle.vertex2) - vertex1, Vec3<Double>(triangle.vertex3) - vertex1));
+  return dot(normal, Vec3<D>(vertex1) - Vec3<D>(Vec3<F>(origin))) / dot(normal, Vec3<D>(direction));
 }
 
 inline Kernel<Triangle>::Record<float> Kernel<Triangle>::record(const Parameters& parameters) {
