@@ -221,7 +221,7 @@ class Merger {
         band.planes.emplace_back(std::vector<float>(pixels));
       }
     }
-    if (report_.missing_parts) fill_background(band);
+    if (report_.missing_parts && !pieces_.front().identity.film.transparent) fill_background(band);
     add_up_sums(band);
     for (const Piece& piece : pieces_) {
       const auto [top, bottom] = common_rows(piece, region);
