@@ -6,6 +6,7 @@
 #include <set>
 
 #include "raytrace/aovs/aov_selection.h"
+#include "raytrace/batch/output_files.h"
 #include "raytrace/batch/piece_layout.h"
 #include "raytrace/batch/provenance.h"
 #include "raytrace/output/film_channels.h"
@@ -199,7 +200,9 @@ class Merger {
     }
     refuse_problems();
     for (std::size_t i = 0; i < files.size(); ++i) {
-      files[i]->commit();
+      const Repairs repairs = files[i]->commit();
+      for (std::string& warning : warnings_of(repairs, settings_.outputs[i]))
+        report_.warnings.push_back(std::move(warning));
       report_.outputs.push_back(settings_.outputs[i]);
     }
   }

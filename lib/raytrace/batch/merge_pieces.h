@@ -27,6 +27,7 @@ struct MergeReport {
   bool missing_parts = false;  ///< only with MergeSettings::partial
   bool stopped = false;        ///< nothing was written
   std::vector<std::string> outputs;
+  std::vector<std::string> warnings;  ///< of values that outputs could not hold
 };
 
 /// Pieces that do not fit together; what() holds all the problems, a line each, each naming its file.

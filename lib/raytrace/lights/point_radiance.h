@@ -17,6 +17,7 @@ class PointRadiance {
       : at_distance_1_(radiance), inverse_square_(falloff == falloff_inverse_square) {}
 
   const Rgb<float>& at_distance_1() const { return at_distance_1_; }
+  bool falls_off() const { return inverse_square_; }
 
   /// What a point gets that the light is `to_light` away from. Finite, however near it is.
   template <class F>

@@ -33,6 +33,12 @@ GeometryTable::GeometryTable(const SceneDescription& description, std::span<cons
   });
 }
 
+std::vector<std::uint8_t> GeometryTable::used_materials(std::int32_t materials) const {
+  std::vector<std::uint8_t> used(static_cast<std::size_t>(materials));
+  for (const std::int32_t material : object_materials_) used[static_cast<std::size_t>(material)] = 1;
+  return used;
+}
+
 IntN GeometryTable::object(const Hits& hits) const {
   const IntN primitive = select_lanes(hits.hit, hits.primitive, IntN(hits.first_primitive));
   if (hits.one_geometry) return primitive + IntN(first_objects_[hits.first_geometry]);

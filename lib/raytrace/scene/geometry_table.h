@@ -45,6 +45,8 @@ class GeometryTable {
     return std::get<ShapeTable<Shape>>(tables_);
   }
   std::uint64_t object_count() const { return object_materials_.size(); }
+  /// Of so many materials, those that objects have: 1, else 0.
+  std::vector<std::uint8_t> used_materials(std::int32_t materials) const;
 
   // Of what was hit; at least one lane must have a hit, and lanes without one follow one that has.
 
