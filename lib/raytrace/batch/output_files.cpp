@@ -78,6 +78,7 @@ std::vector<std::string> warnings_of(const Repairs& repairs, const std::string& 
   };
   add(repairs.clamped, "value", " beyond what the format holds became its largest; in EXR, --float keeps them");
   add(repairs.not_finite, "value", " not finite; NaN became 0");
+  add(repairs.negative, "pixel", " with radiance below 0, which became 0; EXR keeps it");
   return warnings;
 }
 

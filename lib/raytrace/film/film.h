@@ -78,7 +78,7 @@ struct FilmSettings {
 /// `samples` values up to `largest` fit: 2^-44 of the next power of two above it, for up to 524,288 samples.
 int unit_exponent(float largest, std::uint64_t samples);
 
-/// What a scene's samples may be, in any channel.
+/// What a scene's samples may be. Magnitudes, in any channel: radiance may be negative.
 struct RadianceRange {
   float usual = 0;    ///< most samples stay below it
   float largest = 0;  ///< all do, or those that must fit

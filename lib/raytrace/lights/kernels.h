@@ -7,7 +7,7 @@
 //   Rgb<float> radiance() const;
 // else:
 //   bool shadows() const;
-//   Rgb<float> largest_radiance() const;   no point gets more; of a light that falls off, at distance 1
+//   Rgb<float> largest_radiance() const;   no point gets more, by magnitude; of a light that falls off, at distance 1
 //   template <class F> LightSample<F> sample(const Vec3<F>& p) const;
 // and, if it can, and its Parameters have a `location`:
 //   bool falls_off() const;    with the square of the distance from there

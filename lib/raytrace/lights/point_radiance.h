@@ -27,7 +27,8 @@ class PointRadiance {
     if (!inverse_square_) return radiance;
     const F share = F(1) / max(dot(to_light, to_light), F(std::numeric_limits<float>::min()));
     const F most(std::numeric_limits<float>::max());
-    return {min(radiance.red * share, most), min(radiance.green * share, most), min(radiance.blue * share, most)};
+    const auto finite = [&](const F& channel) { return max(min(channel, most), F(0) - most); };
+    return {finite(radiance.red * share), finite(radiance.green * share), finite(radiance.blue * share)};
   }
 
  private:

@@ -1,6 +1,9 @@
 // All materials of one type together: shaded for a packet in one call, whichever of them its lanes hit.
 #pragma once
 
+#include <array>
+#include <bit>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -22,7 +25,7 @@ struct IncidentLight {
   Rgb<FloatN> radiance;
 };
 
-/// What the lights of a scene send to a point at most.
+/// What the lights of a scene send to a point at most, by magnitude.
 struct LightBounds {
   Rgb<float> ambient{0, 0, 0};  ///< ambient light
   Rgb<float> usual{0, 0, 0};    ///< all others together, those that fall off at distance 1
@@ -42,7 +45,7 @@ class MaterialTable {
   /// back along its normal.
   virtual void add_to(RadianceRange& range, const LightBounds& lights, const std::uint8_t* used) const = 0;
 
-  /// The albedo of each lane's material, and the most that any of those in use has.
+  /// The albedo of each lane's material, and the most that any of those in use has, by magnitude.
   virtual Rgb<FloatN> albedo(const LaneIndices& materials) const = 0;
   virtual Rgb<float> largest_albedo(const std::uint8_t* used) const = 0;
 
@@ -72,8 +75,8 @@ class MaterialTableOf final : public MaterialTable {
     const auto lane = [](const Rgb<FloatN>& c) { return Rgb<float>(c.red.get(0), c.green.get(0), c.blue.get(0)); };
     for (std::size_t i = 0; i < bsdfs_.size(); ++i) {
       if (used[i] == 0) continue;
-      const LaneIndices material(static_cast<std::int32_t>(i));
-      const auto bsdfs = gather_records<MaterialKernel::template Bsdf, FloatN>(bsdfs_.data(), material);
+      const auto bsdf = magnitudes(bsdfs_[i]);
+      const auto bsdfs = gather_records<MaterialKernel::template Bsdf, FloatN>(&bsdf, LaneIndices(0));
       const Rgb<FloatN> ambient = bsdfs.ambient_radiance(Rgb<FloatN>(lights.ambient));
       const Rgb<FloatN> f = bsdfs.evaluate(normal, normal, normal);
       range.add_usual(lane(ambient + f * Rgb<FloatN>(lights.usual)));
@@ -90,12 +93,19 @@ class MaterialTableOf final : public MaterialTable {
   Rgb<float> largest_albedo(const std::uint8_t* used) const override {
     Rgb<float> largest(0, 0, 0);
     for (std::size_t i = 0; i < bsdfs_.size(); ++i)
-      if (used[i] != 0) largest = max(largest, bsdfs_[i].albedo());
+      if (used[i] != 0) largest = max(largest, abs(bsdfs_[i].albedo()));
     return largest;
   }
 
  private:
   using Bsdf = typename MaterialKernel::template Bsdf<float>;
+
+  /// Colours may be negative, and cancel each other in one direction but not in all.
+  static Bsdf magnitudes(const Bsdf& bsdf) {
+    auto numbers = std::bit_cast<std::array<float, sizeof(Bsdf) / sizeof(float)>>(bsdf);
+    for (float& number : numbers) number = std::abs(number);
+    return std::bit_cast<Bsdf>(numbers);
+  }
 
   std::vector<Bsdf> bsdfs_;
 };

@@ -31,7 +31,7 @@ class Scene {
   /// As the integrator knows it. It scales the film's unit.
   virtual RadianceRange radiance_range() const = 0;
 
-  /// No albedo of a material in use is larger, in any channel.
+  /// The albedo of no material in use has a larger magnitude, in any channel.
   virtual float largest_albedo() const = 0;
 
   /// The name of its variant's instruction set.

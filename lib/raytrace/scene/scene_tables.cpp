@@ -31,7 +31,7 @@ void SceneTables::set_camera(const SceneDescription& description) {
 
 template <class LightKernel, class Parameters>
 void SceneTables::add_light_bounds(const LightKernel& light, const Parameters& parameters, const Vec3d& eye) {
-  const Rgb<float> radiance = light.largest_radiance();
+  const Rgb<float> radiance = abs(light.largest_radiance());
   double far = 1, near = 1;
   if constexpr (requires { light.falls_off(); })
     if (light.falls_off()) {
@@ -55,7 +55,7 @@ void SceneTables::add_lights(const SceneDescription& description) {
       const Kernel<Light> light(item.parameters);
       if constexpr (Kernel<Light>::ambient) {
         ambient_radiance_ += light.radiance();
-        light_bounds_.ambient += light.radiance();
+        light_bounds_.ambient += abs(light.radiance());
       } else {
         add_light_bounds(light, item.parameters, eye);
         lights_.push_back(std::make_unique<LightSourceOf<Kernel<Light>>>(light));
@@ -81,7 +81,7 @@ void SceneTables::add_materials(const SceneDescription& description) {
 
 RadianceRange SceneTables::background_range() const {
   RadianceRange range;
-  const Rgb<float> background(viewplane_.background);
+  const Rgb<float> background = abs(Rgb<float>(viewplane_.background));
   range.add_usual(background);
   range.add_largest(background);
   range.add_source(background);
