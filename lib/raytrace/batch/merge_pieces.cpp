@@ -275,7 +275,8 @@ class Merger {
     if (any) develop(film, band);
   }
 
-  /// Checks of 8 x 8 pixels in two greys with alpha 0: nobody takes them for a part of the picture.
+  /// Checks of 8 x 8 pixels in two greys with alpha 0: nobody takes them for a part of the picture. (But "over" adds
+  /// them to what is behind a transparent one.)
   void fill_background(ImageBand& band) const {
     std::size_t pixel = 0;
     for (int y = band.region.y0; y < band.region.y1; ++y)
