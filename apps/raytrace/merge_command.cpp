@@ -95,6 +95,7 @@ void log_report(const MergeReport& report) {
     log_step("wrote " + file + ": " + counted(report.pieces, "piece") + ", " +
              counted(static_cast<std::uint64_t>(report.samples), "sample") + " per pixel");
   }
+  for (const std::string& warning : report.warnings) log_warning(warning);
   if (report.missing_parts) log_warning("the picture is not complete: some pixels, or samples of them, are missing");
 }
 

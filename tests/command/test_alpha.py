@@ -84,11 +84,30 @@ class Alpha(CommandTest):
         self.check_straight(whole, Png(self.read("merged.png")), 8, -0.5)
         self.succeed("merge", "-q", "two5.exr", "one.exr", "two0.exr", "-o", "merged.png")
         self.assertEqual(Png(self.read("merged.png")).rows, Png(self.read("whole.png")).rows)
-        # What is missing covers nothing.
+        # What is missing covers nothing, and adds nothing.
         self.succeed("merge", "-q", "one.exr", "-o", "part.exr", "-o", "part.png", "--partial")
-        part, there = Png(self.read("part.png")), Exr(self.read("one.exr")).pixels()
+        part, linear, there = Png(self.read("part.png")), Exr(self.read("part.exr")), Exr(self.read("one.exr")).pixels()
         for (x, y), pixel in whole.pixels().items():
             self.assertEqual(part.pixel(x, y)[3] > 0, (x, y) in there and pixel[3] > 0)
+            if (x, y) not in there:
+                self.assertEqual(linear.pixel(x, y), (0, 0, 0, 0))
+
+    def test_beyond_the_picture(self):
+        whole = self.exr("a.exr", "--transparent")
+        crop = "--crop=-20,-10,100,70"
+        wide = self.exr("b.exr", "--transparent", crop)
+        self.assertEqual(wide.bytes_of(0, 0, 80, 60), whole.bytes_of(0, 0, 80, 60))
+        self.assertEqual(wide.pixel(-20, -10), (0, 0, 0, 0))
+        self.assertEqual(self.exr("c.exr", crop).pixel(-20, -10)[3], 1)
+        for i in range(3):
+            self.exr(f"t{i}.exr", "--transparent", crop, "--tile", f"{i}/3")
+        self.succeed("merge", "-q", "t0.exr", "t1.exr", "t2.exr", "-o", "m.exr")
+        self.assertEqual(Exr(self.read("m.exr")).row_bytes, wide.row_bytes)
+
+    def test_passes_of_a_render_with_a_checkpoint(self):
+        whole = self.exr("a.exr", "--transparent", "-s", "40")
+        passes = self.exr("b.exr", "--transparent", "-s", "40", "--checkpoint", "c.ck")
+        self.assertEqual(passes.row_bytes, whole.row_bytes)
 
     def test_pieces_and_checkpoints_of_the_other_kind_are_refused(self):
         self.exr("a.exr", "--tile", "0/2")

@@ -110,6 +110,19 @@ class Aovs(CommandTest):
             covered = objects["sphere#1"].get(place, 0) + objects["plane#1"].get(place, 0)
             self.assertAlmostEqual(covered, pixel[3], places=6)
 
+    def test_an_object_without_a_name_is_no_other(self):
+        one = "<sphere><center x='-1.5' y='1' z='0'/><radius>0.5</radius><material>shiny</material></sphere>"
+        other = "<sphere><name>sphere#2</name><center x='1.5' y='1' z='0'/><radius>0.5</radius>" \
+                "<material>shiny</material></sphere>"
+        self.write("scene.xml", support.SCENE.replace("</spheres>", one + other + "</spheres>"))
+        picture = self.render("--aov", "object_id,crypto_object")
+        names = json.loads(picture.text("raytrace:manifest/id.object"))
+        self.assertEqual(names, ["plane#1", "sphere#1", "sphere#2#2", "sphere#2"])
+        found = mattes(picture, "crypto_object")
+        self.assertEqual(sorted(found), sorted(names))
+        self.assertLess(max(x for x, _ in found["sphere#2#2"]), 40)
+        self.assertGreater(min(x for x, _ in found["sphere#2"]), 40)
+
     def test_names_of_all_kinds_come_through(self):
         name = "caf\u00e9 & \"co\" \\ \u4e16"
         escaped = name.replace("&", "&amp;")

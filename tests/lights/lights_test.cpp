@@ -120,10 +120,12 @@ TEST_CASE("light that falls off with the square of the distance has its full rad
     CHECK(radiance.blue == Approx(0.75 / squared).epsilon(1e-5));
   }
   CHECK(std::isfinite(radiance_at<PointLight>(parameters, {1, 0, 0}).red));  // and at the light itself
-  parameters.scaleradiance = 1e17;
-  CHECK(std::isfinite(radiance_at<PointLight>(parameters, {1, 1e-17, 0}).red));
+  for (const double scale : {1e17, -1e17}) {
+    parameters.scaleradiance = scale;
+    CHECK(std::isfinite(radiance_at<PointLight>(parameters, {1, 1e-17, 0}).red));
+  }
   parameters.falloff = "none";
-  CHECK(radiance_at<PointLight>(parameters, {1e6, 0, 0}).red == static_cast<float>(1e17));
+  CHECK(radiance_at<PointLight>(parameters, {1e6, 0, 0}).red == static_cast<float>(-1e17));
 }
 
 TEST_CASE("a spotlight without penumbra shines evenly inside its cone, and not outside") {

@@ -130,13 +130,21 @@ TEST_CASE("large terms have the same sums however a render is cut") {
   }
 }
 
-TEST_CASE("a checkpoint keeps both limbs") {
-  const SceneDescription description = parsed_scene(busy_scene(40, 30, 8));
+TEST_CASE("a checkpoint keeps both limbs, and a render goes on from it, below 0 and without background, too") {
+  const bool negative = GENERATE(false, true), transparent = GENERATE(false, true);
+  SceneDescription description = parsed_scene(busy_scene(40, 30, 8));
+  if (negative) {
+    std::get<LightItems<AmbientLight>>(description.lights).front().parameters.scaleradiance = -1000;
+    description.viewplane.background.red = -1000;
+  }
   const auto scene = build_scene(description, {1, {}});
   for (const int finer : {0, 24}) {
-    Film film(finer_settings(*scene, description, finer));
-    render(*scene, film, 8, 1);
-    CHECK(film.has_high() == (finer != 0));
+    FilmSettings settings = finer_settings(*scene, description, finer);
+    settings.transparent = transparent;
+    Film film(settings), whole_film(settings);
+    render(*scene, film, 4, 1);
+    render(*scene, whole_film, 8, 1);
+    CHECK(whole_film.has_high() == (finer != 0));
     PieceIdentity identity;
     identity.provenance = provenance_of(*scene, description);
     identity.film = film.settings();
@@ -149,6 +157,8 @@ TEST_CASE("a checkpoint keeps both limbs") {
     Film got(film.settings());
     read_checkpoint(folder.file("c.exr"), identity, got);
     CHECK(same_sums(got, film));
+    render(*scene, got, 8, 1);
+    CHECK(same_sums(got, whole_film));
   }
 }
 

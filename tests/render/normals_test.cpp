@@ -51,10 +51,10 @@ TEST_CASE("a sphere's normals are its colours, from 0 to 1, in the dark too") {
 
 TEST_CASE("the normals' film counts on colours up to 1, whatever the lights") {
   const SceneDescription dark = parsed_scene(scene_text(8, 8, 1, sphere));
-  CHECK(build_scene(dark, {1, {}})->largest_radiance() == 1);
+  CHECK(build_scene(dark, {1, {}})->radiance_range().usual == 1);
   SceneDescription by_light = dark;
   by_light.integrator.reset();
-  CHECK(build_scene(by_light, {1, {}})->largest_radiance() == 0.4F);  // the background's
+  CHECK(build_scene(by_light, {1, {}})->radiance_range().usual == 0.4F);  // the background's
 }
 
 TEST_CASE("normals have the same bits from packets of every shape") {

@@ -17,8 +17,8 @@ class TracedScene final : public Scene {
   TracedScene(const SceneDescription& description, int threads, const char* isa_name, const char* embree_isa);
 
   /// By the integrator, which sets it before anything is rendered.
-  float largest_radiance() const override { return largest_radiance_; }
-  void set_largest_radiance(float radiance) { largest_radiance_ = radiance; }
+  RadianceRange radiance_range() const override { return radiance_range_; }
+  void set_radiance_range(const RadianceRange& range) { radiance_range_ = range; }
   float largest_albedo() const override { return tables_.largest_albedo(); }
   const char* isa() const override { return isa_name_; }
   SceneStatistics statistics() const override;
@@ -41,7 +41,7 @@ class TracedScene final : public Scene {
   Accelerator accelerator_;
   std::optional<DirectionBuffer> camera_buffer_;
   std::vector<std::optional<DirectionBuffer>> light_buffers_;
-  float largest_radiance_ = 0;
+  RadianceRange radiance_range_;
   const char* isa_name_;
 };
 

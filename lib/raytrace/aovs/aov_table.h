@@ -22,7 +22,7 @@ enum class AovRule {
 
 /// What a scene's values may reach.
 struct AovBounds {
-  float albedo = 0;  ///< of any material, in any channel
+  float albedo = 0;  ///< of any material in use, in any channel, by magnitude
 };
 
 struct Aov {

@@ -1,17 +1,31 @@
 #include "raytrace/aovs/scene_names.h"
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
+#include <unordered_set>
+
+#include "raytrace/aovs/cryptomatte.h"
 
 namespace raytrace {
 
 std::vector<std::string> object_names(const SceneDescription& description) {
   std::vector<std::string> names;
-  for_each_type(Shapes{}, [&](auto type) {
-    using Shape = typename decltype(type)::type;
-    std::size_t number = 0;
-    for (const auto& item : std::get<ObjectItems<Shape>>(description.objects)) {
-      ++number;
-      names.push_back(item.name.empty() ? std::string(Shape::element) + '#' + std::to_string(number) : item.name);
+  for_each_type(Shapes{}, [&]<class Shape>(std::type_identity<Shape>) {
+    for (const auto& item : std::get<ObjectItems<Shape>>(description.objects)) names.push_back(item.name);
+  });
+  std::unordered_set<std::uint32_t> taken;
+  taken.reserve(names.size());
+  for (const std::string& name : names)
+    if (!name.empty()) taken.insert(cryptomatte::id_of(name));
+
+  auto name = names.begin();
+  for_each_type(Shapes{}, [&]<class Shape>(std::type_identity<Shape>) {
+    const std::size_t count = std::get<ObjectItems<Shape>>(description.objects).size();
+    for (std::size_t number = 1; number <= count; ++number, ++name) {
+      if (!name->empty()) continue;
+      const std::string usual = std::string(Shape::element) + '#' + std::to_string(number);
+      *name = usual;
+      for (int i = 2; !taken.insert(cryptomatte::id_of(*name)).second; ++i) *name = usual + '#' + std::to_string(i);
     }
   });
   return names;

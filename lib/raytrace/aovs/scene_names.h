@@ -11,7 +11,8 @@
 namespace raytrace {
 
 /// In the order that objects are counted in: type by type as in the Shapes registry, each type's as the file has them.
-/// An object without a name is called by its type and its number among that type's, counted from 1: "sphere#12".
+/// An object without a name is called by its type and its number among that type's, counted from 1: "sphere#12"; or,
+/// where another object is called so, or has the Cryptomatte id of that name, "sphere#12#2", "sphere#12#3"...
 std::vector<std::string> object_names(const SceneDescription& description);
 
 /// Type by type as in the Materials registry, each type's as the file has them.

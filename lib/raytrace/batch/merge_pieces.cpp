@@ -6,6 +6,7 @@
 #include <set>
 
 #include "raytrace/aovs/aov_selection.h"
+#include "raytrace/batch/output_files.h"
 #include "raytrace/batch/piece_layout.h"
 #include "raytrace/batch/provenance.h"
 #include "raytrace/output/film_channels.h"
@@ -199,7 +200,9 @@ class Merger {
     }
     refuse_problems();
     for (std::size_t i = 0; i < files.size(); ++i) {
-      files[i]->commit();
+      const Repairs repairs = files[i]->commit();
+      for (std::string& warning : warnings_of(repairs, settings_.outputs[i]))
+        report_.warnings.push_back(std::move(warning));
       report_.outputs.push_back(settings_.outputs[i]);
     }
   }
@@ -221,7 +224,7 @@ class Merger {
         band.planes.emplace_back(std::vector<float>(pixels));
       }
     }
-    if (report_.missing_parts) fill_background(band);
+    if (report_.missing_parts && !pieces_.front().identity.film.transparent) fill_background(band);
     add_up_sums(band);
     for (const Piece& piece : pieces_) {
       const auto [top, bottom] = common_rows(piece, region);
@@ -272,7 +275,8 @@ class Merger {
     if (any) develop(film, band);
   }
 
-  /// Checks of 8 x 8 pixels in two greys with alpha 0: nobody takes them for a part of the picture.
+  /// Checks of 8 x 8 pixels in two greys with alpha 0: nobody takes them for a part of the picture. (But "over" adds
+  /// them to what is behind a transparent one.)
   void fill_background(ImageBand& band) const {
     std::size_t pixel = 0;
     for (int y = band.region.y0; y < band.region.y1; ++y)

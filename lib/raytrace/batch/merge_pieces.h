@@ -15,7 +15,8 @@ struct MergeSettings {
   std::vector<std::string> pieces;   ///< EXR files of this program
   std::vector<std::string> outputs;  ///< colour in the pieces' type: ImageFileSettings::full_float is theirs
   std::optional<int> samples;        ///< per pixel that the picture must get; none: as many as the pieces have
-  bool partial = false;  ///< what is missing is filled with a checked, empty background, or has fewer samples
+  bool partial = false;  ///< what is missing has fewer samples, or is filled with checks of alpha 0; with nothing in a
+                         ///< transparent picture
   int bit_depth = 8;
   std::optional<double> exposure;  ///< ImageFileSettings::exposure; some output must be for display. None: 0
   int threads = 0;
@@ -27,6 +28,7 @@ struct MergeReport {
   bool missing_parts = false;  ///< only with MergeSettings::partial
   bool stopped = false;        ///< nothing was written
   std::vector<std::string> outputs;
+  std::vector<std::string> warnings;  ///< of values that outputs could not hold
 };
 
 /// Pieces that do not fit together; what() holds all the problems, a line each, each naming its file.

@@ -71,6 +71,17 @@ bool outputs_are_complete(const RenderJob& job, const SceneDescription& descript
                      [&](const std::string& file) { return is_complete_picture(file, wanted); });
 }
 
+std::vector<std::string> warnings_of(const Repairs& repairs, const std::string& file) {
+  std::vector<std::string> warnings;
+  const auto add = [&](std::uint64_t count, const char* thing, const char* what) {
+    if (count > 0) warnings.push_back(file + ": " + counted(count, thing) + what);
+  };
+  add(repairs.clamped, "value", " beyond what the format holds became its largest; in EXR, --float keeps them");
+  add(repairs.not_finite, "value", " not finite; NaN became 0");
+  add(repairs.negative, "pixel", " with radiance below 0, which became 0; EXR keeps it");
+  return warnings;
+}
+
 /// Whether the action could be done; its error is reported.
 template <class Action>
 bool OutputFiles::succeeds(const Action& action) const {
@@ -116,13 +127,8 @@ std::vector<std::string> OutputFiles::commit() {
     succeeds([&] {
       const Repairs repairs = file.image->commit();
       written.push_back(file.name);
-      if (repairs.clamped > 0)
-        observer_.on_message(MessageLevel::warning,
-                             file.name + ": " + counted(repairs.clamped, "value") +
-                                 " beyond what the format holds became its largest; in EXR, --float keeps them");
-      if (repairs.not_finite > 0)
-        observer_.on_message(MessageLevel::warning,
-                             file.name + ": " + counted(repairs.not_finite, "value") + " not finite; NaN became 0");
+      for (const std::string& warning : warnings_of(repairs, file.name))
+        observer_.on_message(MessageLevel::warning, warning);
       observer_.on_message(MessageLevel::step, "wrote " + file.name);
     });
   }

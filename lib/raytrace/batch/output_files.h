@@ -29,6 +29,9 @@ bool may_be_skipped(const RenderJob& job);
 /// Whether all outputs are whole, and of this picture, as far as their formats say.
 bool outputs_are_complete(const RenderJob& job, const SceneDescription& description);
 
+/// What is to be said of values that the file could not hold, a line each.
+std::vector<std::string> warnings_of(const Repairs& repairs, const std::string& file);
+
 /// Writes the outputs of a job. One that fails is reported, and the others go on.
 class OutputFiles {
  public:

@@ -155,6 +155,8 @@ void PictureRender::begin_film() {
   settings_.aovs = job_.aovs;
   settings_.transparent = job_.transparent;
   film_content_ = film_content();
+  identity_.film = film_settings(*scene_, *description_, settings_);
+  if (const auto warning = rounding_warning(*scene_, identity_.film)) report(MessageLevel::warning, *warning);
   identity_.provenance = provenance_of(*scene_, *description_, job_.threads);
   identity_.tile = job_.tile;
   if (job_.is_one_of_frames) identity_.frame = job_.frame;
@@ -182,8 +184,7 @@ FilmContent PictureRender::film_content() const {
 
 RenderOutcome PictureRender::render_at_once() {
   PhaseTimer timer(result_.statistics.phases.render);
-  Film film(film_settings(*scene_, *description_, settings_), film_content_);
-  identity_.film = film.settings();
+  Film film(identity_.film, film_content_);
   std::uint32_t done = 0;
   if (job_.resume && std::filesystem::exists(job_.checkpoint)) {
     checkpoint_.read(identity_, film);
@@ -216,7 +217,6 @@ RenderOutcome PictureRender::render_at_once() {
 RenderOutcome PictureRender::render_in_bands(int band_rows) {
   const Region region = settings_.region;
   Phases& phases = result_.statistics.phases;
-  identity_.film = film_settings(*scene_, *description_, settings_);
   OutputFiles outputs(job_, job_.outputs, identity_.film.extent, metadata(),
                       job_.sample_offset ? all_sum_channels() : std::vector<Channel>(), observer_);
   for (Region band = region; band.y0 < region.y1; band.y0 = band.y1) {

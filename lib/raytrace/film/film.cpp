@@ -10,16 +10,40 @@
 #include "raytrace/film/aov_film.h"
 #include "raytrace/film/mean.h"
 #include "raytrace/math/content_hash.h"
+#include "raytrace/math/limbs.h"
 
 namespace raytrace {
 
-int unit_exponent(float largest_radiance, std::uint64_t samples) {
-  constexpr int sample_bits = 44;  // of a sample of the largest radiance
-  constexpr int count_bits = 63 - sample_bits;
+namespace {
+
+/// Of the next power of two above it.
+int exponent_above(float number) {
   int exponent = 0;
-  std::frexp(std::min(largest_radiance, std::numeric_limits<float>::max()), &exponent);
+  std::frexp(std::min(number, std::numeric_limits<float>::max()), &exponent);
+  return exponent;
+}
+
+int exponent_for_dimmest(const RadianceRange& range) {
+  constexpr int float_bits = 25, least_half = -24;  // one bit more: it is rounded once more as a float
+  return std::max(exponent_above(range.dimmest), least_half) - float_bits;
+}
+
+}  // namespace
+
+int unit_exponent(float largest, std::uint64_t samples) {
+  constexpr int sample_bits = 44;  // of a sample of the largest value
+  constexpr int count_bits = 63 - sample_bits;
   const int needed_bits = samples > 1 ? static_cast<int>(std::bit_width(samples - 1)) : 0;
-  return exponent - sample_bits + std::max(0, needed_bits - count_bits);
+  return exponent_above(largest) - sample_bits + std::max(0, needed_bits - count_bits);
+}
+
+int unit_exponent(const RadianceRange& range, std::uint64_t samples) {
+  const int least = exponent_above(range.largest) - std::ilogb(largest_units) + 1;  // its rounding may exceed it
+  return std::max(std::min(unit_exponent(range.usual, samples), exponent_for_dimmest(range)), least);
+}
+
+bool is_fine_for_dimmest(const RadianceRange& range, int unit_exponent) {
+  return unit_exponent <= exponent_for_dimmest(range);
 }
 
 bool is_unit_exponent(int exponent) {

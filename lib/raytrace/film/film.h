@@ -1,15 +1,18 @@
 // The picture in memory while it is rendered: sums of samples, from which the means of pixels are made, or these alone.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "raytrace/film/aov_settings.h"
 #include "raytrace/film/region.h"
+#include "raytrace/math/color.h"
 #include "raytrace/memory/large_array.h"
 #include "raytrace/memory/late_array.h"
 
@@ -72,9 +75,34 @@ struct FilmSettings {
 };
 
 /// The exponent of a unit so small that a sample's rounding to it cannot be seen, and so large that the sums of
-/// `samples` radiances up to `largest_radiance` fit: 2^-44 of the next power of two above it, for up to 524,288
-/// samples. It depends on nothing else, so that the parts of a picture agree on it.
-int unit_exponent(float largest_radiance, std::uint64_t samples);
+/// `samples` values up to `largest` fit: 2^-44 of the next power of two above it, for up to 524,288 samples.
+int unit_exponent(float largest, std::uint64_t samples);
+
+/// What a scene's samples may be. Magnitudes, in any channel: radiance may be negative.
+struct RadianceRange {
+  float usual = 0;    ///< most samples stay below it
+  float largest = 0;  ///< all do, or those that must fit
+  /// The most that the dimmest source gives alone. A source is the background, or what a material sends on from one
+  /// light; those that give nothing do not count.
+  float dimmest = std::numeric_limits<float>::infinity();
+
+  void add_usual(const Rgb<float>& radiance) { usual = std::max({usual, radiance.red, radiance.green, radiance.blue}); }
+  void add_largest(const Rgb<float>& radiance) {
+    largest = std::max({largest, radiance.red, radiance.green, radiance.blue});
+  }
+  void add_source(const Rgb<float>& radiance) {
+    for (const float channel : {radiance.red, radiance.green, radiance.blue})
+      if (channel > 0) dimmest = std::min(dimmest, channel);
+  }
+};
+
+/// The film's: that of `usual`, but so much smaller that the dimmest source has all the bits of a float (or of the
+/// least half, if it is dimmer than that), as far as `largest` fits in both limbs of a sum. It depends on nothing else,
+/// so that the parts of a picture agree on it.
+int unit_exponent(const RadianceRange& range, std::uint64_t samples);
+
+/// Whether the unit gives the dimmest source that many bits.
+bool is_fine_for_dimmest(const RadianceRange& range, int unit_exponent);
 
 /// Whether unit_exponent() may be that of a picture.
 bool is_unit_exponent(int exponent);

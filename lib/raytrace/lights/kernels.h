@@ -7,8 +7,10 @@
 //   Rgb<float> radiance() const;
 // else:
 //   bool shadows() const;
-//   Rgb<float> largest_radiance() const;   no point gets more; of a light without such a bound, at distance 1
+//   Rgb<float> largest_radiance() const;   no point gets more, by magnitude; of a light that falls off, at distance 1
 //   template <class F> LightSample<F> sample(const Vec3<F>& p) const;
+// and, if it can, and its Parameters have a `location`:
+//   bool falls_off() const;    with the square of the distance from there
 // and, so that shadows are found sooner, one of these, where it holds:
 //   Vec3f location() const;    to_light is location() - p, and t_max is 1
 //   Vec3f direction() const;   to_light is direction(), of unit length, and t_max is infinity

@@ -20,6 +20,7 @@ class Kernel<PointLight> {
   bool shadows() const { return shadows_; }
   Vec3f location() const { return location_; }
   Rgb<float> largest_radiance() const { return radiance_.at_distance_1(); }
+  bool falls_off() const { return radiance_.falls_off(); }
 
   template <class F>
   RAYTRACE_INLINE LightSample<F> sample(const Vec3<F>& p) const {

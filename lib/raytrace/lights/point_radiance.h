@@ -17,6 +17,7 @@ class PointRadiance {
       : at_distance_1_(radiance), inverse_square_(falloff == falloff_inverse_square) {}
 
   const Rgb<float>& at_distance_1() const { return at_distance_1_; }
+  bool falls_off() const { return inverse_square_; }
 
   /// What a point gets that the light is `to_light` away from. Finite, however near it is.
   template <class F>
@@ -26,7 +27,8 @@ class PointRadiance {
     F share(1);
     if (inverse_square_) share = F(1) / max(dot(to_light, to_light), F(std::numeric_limits<float>::min()));
     const F most(std::numeric_limits<float>::max());
-    return {min(radiance.red * share, most), min(radiance.green * share, most), min(radiance.blue * share, most)};
+    const auto finite = [&](const F& channel) { return max(min(channel, most), F(0) - most); };
+    return {finite(radiance.red * share), finite(radiance.green * share), finite(radiance.blue * share)};
   }
 
  private:

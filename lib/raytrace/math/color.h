@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "raytrace/math/inline.h"
 
@@ -33,6 +34,9 @@ struct Rgb {
 inline Rgb<float> max(const Rgb<float>& a, const Rgb<float>& b) {
   return {std::max(a.red, b.red), std::max(a.green, b.green), std::max(a.blue, b.blue)};
 }
+
+/// Each channel's magnitude.
+inline Rgb<float> abs(const Rgb<float>& a) { return {std::abs(a.red), std::abs(a.green), std::abs(a.blue)}; }
 
 /// Lane by lane: a where the mask is true, else b.
 template <class T, class Mask>

@@ -56,9 +56,11 @@ struct ImageMetadata {
 struct Repairs {
   std::uint64_t clamped = 0;     ///< linear formats: beyond the largest number (half: 65504), which is stored instead
   std::uint64_t not_finite = 0;  ///< NaN, stored as 0, and infinities, stored as the largest number
+  std::uint64_t negative = 0;    ///< pixels, not values: in formats without a sign, with a colour below 0, stored as 0
   Repairs& operator+=(const Repairs& other) {
     clamped += other.clamped;
     not_finite += other.not_finite;
+    negative += other.negative;
     return *this;
   }
 };

@@ -27,7 +27,7 @@ float stored(float radiance, float factor, const PixelFormat& format, Repairs& r
   }
   const float clamped = std::clamp(radiance * factor, format.lowest, format.highest);
   if (format.srgb) return srgb_encoded(clamped);
-  if (clamped != radiance) ++repairs.clamped;
+  if (clamped < radiance) ++repairs.clamped;
   return clamped;
 }
 
@@ -56,6 +56,7 @@ Repairs stored_row(const ImageBand& band, int row, const PixelFormat& format, fl
     const float alpha = format.alpha ? coverage(pixel.alpha) : 1.0F;
     const bool straight = format.srgb && alpha < 1;
     const float factor = !straight ? format.gain : alpha > 0 ? format.gain / alpha : 0.0F;
+    if (std::min({pixel.red, pixel.green, pixel.blue}) < format.lowest && format.lowest == 0) ++repairs.negative;
     for (const float radiance : {pixel.red, pixel.green, pixel.blue})
       *values++ = stored(radiance, factor, format, repairs);
     if (format.alpha) *values++ = alpha;

@@ -1,6 +1,8 @@
 #include "raytrace/render/renderer.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <mutex>
 #include <tuple>
 #include <vector>
@@ -99,10 +101,18 @@ FilmSettings film_settings(const Scene& scene, const SceneDescription& descripti
   if (film.samples.count == 0) throw RenderError("no samples to render");
   film.seed = settings.seed;
   const std::uint64_t most_samples = std::uint64_t{film.samples.first} + film.samples.count;
-  film.unit_exponent = unit_exponent(scene.largest_radiance(), most_samples);
+  film.unit_exponent = unit_exponent(scene.radiance_range(), most_samples);
   film.aovs = aov_settings(settings.aovs, {scene.largest_albedo()}, description, most_samples);
   film.transparent = settings.transparent;
   return film;
+}
+
+std::optional<std::string> rounding_warning(const Scene& scene, const FilmSettings& film) {
+  if (is_fine_for_dimmest(scene.radiance_range(), film.unit_exponent)) return std::nullopt;
+  char unit[32];
+  std::snprintf(unit, sizeof unit, "%.2g", std::ldexp(1.0, film.unit_exponent));
+  return std::string("radiance is rounded to multiples of ") + unit +
+         ": the scene's brightest light outshines its dimmest by more than sums can hold";
 }
 
 RenderReport render(const Scene& scene, Film& film, std::uint32_t samples, int threads,

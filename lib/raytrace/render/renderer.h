@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "raytrace/description/scene_description.h"
 #include "raytrace/film/film.h"
@@ -28,6 +29,9 @@ using ProgressFunction = std::function<void(double fraction)>;
 /// Of a film for a render of the scene with the settings. Throws SceneError if the description's view plane breaks the
 /// rules, and RenderError for a region without pixels or for no samples.
 FilmSettings film_settings(const Scene& scene, const SceneDescription& description, const RenderSettings& settings);
+
+/// Where sums cannot hold both the scene's brightest light and its dimmest: what radiance is rounded to.
+std::optional<std::string> rounding_warning(const Scene& scene, const FilmSettings& film);
 
 /// Continues the film until each pixel has `samples` (at most the film's own). Returns early once `stop` is set; the
 /// film keeps what was done, and another call goes on from there: of sums, that is. A film of means is rendered by one

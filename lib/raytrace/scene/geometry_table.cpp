@@ -57,6 +57,12 @@ void GeometryTable::set_bounding_sphere(int threads) {
   bounding_sphere_ = {(lower + upper) * 0.5, length(upper - lower) / 2 * (1 + 1e-6)};
 }
 
+std::vector<std::uint8_t> GeometryTable::used_materials(std::int32_t materials) const {
+  std::vector<std::uint8_t> used(static_cast<std::size_t>(materials));
+  for (const std::int32_t material : object_materials_) used[static_cast<std::size_t>(material)] = 1;
+  return used;
+}
+
 IntN GeometryTable::object(const Hits& hits) const {
   const IntN primitive = select_lanes(hits.hit, hits.primitive, IntN(hits.first_primitive));
   if (hits.one_geometry) return primitive + IntN(first_objects_[hits.first_geometry]);

@@ -49,6 +49,8 @@ class GeometryTable {
   std::uint64_t object_count() const { return object_materials_.size(); }
   /// Around all objects that have bounds; of negative radius if there are none.
   const BoundingSphere& bounding_sphere() const { return bounding_sphere_; }
+  /// Of so many materials, those that objects have: 1, else 0.
+  std::vector<std::uint8_t> used_materials(std::int32_t materials) const;
 
   // Of what was hit; at least one lane must have a hit, and lanes without one follow one that has.
 

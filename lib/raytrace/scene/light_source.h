@@ -14,7 +14,6 @@ class LightSource {
   /// Leads rays, whose origins are set, to the light, where they end. radiance: receives what arrives along them.
   virtual void sample(Ray<FloatN>& shadow_rays, Rgb<FloatN>& radiance) const = 0;
   virtual bool shadows() const = 0;
-  virtual Rgb<float> largest_radiance() const = 0;
 };
 
 template <class LightKernel>
@@ -28,7 +27,6 @@ class LightSourceOf final : public LightSource {
     radiance = sample.radiance;
   }
   bool shadows() const override { return light_.shadows(); }
-  Rgb<float> largest_radiance() const override { return light_.largest_radiance(); }
 
  private:
   LightKernel light_;

@@ -1,10 +1,16 @@
 // All materials of one type together: shaded for a packet in one call, whichever of them its lanes hit.
 #pragma once
 
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "raytrace/film/film.h"
 #include "raytrace/math/color.h"
 #include "raytrace/math/gather.h"
 #include "raytrace/math/simd.h"
@@ -19,17 +25,29 @@ struct IncidentLight {
   Rgb<FloatN> radiance;
 };
 
+/// What the lights of a scene send to a point at most, by magnitude.
+struct LightBounds {
+  Rgb<float> ambient{0, 0, 0};  ///< ambient light
+  Rgb<float> usual{0, 0, 0};    ///< all others together, those that fall off at distance 1
+  Rgb<float> largest{0, 0, 0};  ///< the same, those that fall off as near to them as must still fit
+  /// Each channel by itself: the dimmest of them that has any of it, those that fall off as far away as the eye.
+  Rgb<float> dimmest{infinite, infinite, infinite};
+
+ private:
+  static constexpr float infinite = std::numeric_limits<float>::infinity();
+};
+
 class MaterialTable {
  public:
   virtual ~MaterialTable() = default;
 
-  /// The most that any of them sends anywhere under lights of together that radiance: none reflects more than straight
+  /// Adds what those of them that are in use (1, else 0) send on under the lights. None reflects more than straight
   /// back along its normal.
-  virtual Rgb<float> largest_radiance(const Rgb<float>& ambient_radiance, const Rgb<float>& light_radiance) const = 0;
+  virtual void add_to(RadianceRange& range, const LightBounds& lights, const std::uint8_t* used) const = 0;
 
-  /// The albedo of each lane's material, and the most that any of them has.
+  /// The albedo of each lane's material, and the most that any of those in use has, by magnitude.
   virtual Rgb<FloatN> albedo(const LaneIndices& materials) const = 0;
-  virtual Rgb<float> largest_albedo() const = 0;
+  virtual Rgb<float> largest_albedo(const std::uint8_t* used) const = 0;
 
   /// The radiance that leaves along wo, of unit length. materials: of each lane, for every lane one that exists.
   virtual Rgb<FloatN> shade(const LaneIndices& materials, const Vec3<FloatN>& wo, const Vec3<FloatN>& normal,
@@ -52,31 +70,44 @@ class MaterialTableOf final : public MaterialTable {
     return result;
   }
 
-  Rgb<float> largest_radiance(const Rgb<float>& ambient_radiance, const Rgb<float>& light_radiance) const override {
+  void add_to(RadianceRange& range, const LightBounds& lights, const std::uint8_t* used) const override {
     const Vec3<FloatN> normal(Vec3<float>{0, 0, 1});
-    Rgb<float> largest(0, 0, 0);
+    const auto lane = [](const Rgb<FloatN>& c) { return Rgb<float>(c.red.get(0), c.green.get(0), c.blue.get(0)); };
     for (std::size_t i = 0; i < bsdfs_.size(); ++i) {
-      const LaneIndices material(static_cast<std::int32_t>(i));
-      const auto bsdfs = gather_records<MaterialKernel::template Bsdf, FloatN>(bsdfs_.data(), material);
-      const Rgb<FloatN> radiance = bsdfs.ambient_radiance(Rgb<FloatN>(ambient_radiance)) +
-                                   bsdfs.evaluate(normal, normal, normal) * Rgb<FloatN>(light_radiance);
-      largest = max(largest, {radiance.red.get(0), radiance.green.get(0), radiance.blue.get(0)});
+      if (used[i] == 0) continue;
+      const auto bsdf = magnitudes(bsdfs_[i]);
+      const auto bsdfs = gather_records<MaterialKernel::template Bsdf, FloatN>(&bsdf, LaneIndices(0));
+      const Rgb<FloatN> ambient = bsdfs.ambient_radiance(Rgb<FloatN>(lights.ambient));
+      const Rgb<FloatN> f = bsdfs.evaluate(normal, normal, normal);
+      range.add_usual(lane(ambient + f * Rgb<FloatN>(lights.usual)));
+      range.add_largest(lane(ambient + f * Rgb<FloatN>(lights.largest)));
+      range.add_source(lane(ambient));
+      range.add_source(lane(f * Rgb<FloatN>(lights.dimmest)));
     }
-    return largest;
   }
 
   Rgb<FloatN> albedo(const LaneIndices& materials) const override {
     return gather_records<MaterialKernel::template Bsdf, FloatN>(bsdfs_.data(), materials).albedo();
   }
 
-  Rgb<float> largest_albedo() const override {
+  Rgb<float> largest_albedo(const std::uint8_t* used) const override {
     Rgb<float> largest(0, 0, 0);
-    for (const auto& bsdf : bsdfs_) largest = max(largest, bsdf.albedo());
+    for (std::size_t i = 0; i < bsdfs_.size(); ++i)
+      if (used[i] != 0) largest = max(largest, abs(bsdfs_[i].albedo()));
     return largest;
   }
 
  private:
-  std::vector<typename MaterialKernel::template Bsdf<float>> bsdfs_;
+  using Bsdf = typename MaterialKernel::template Bsdf<float>;
+
+  /// Colours may be negative, and cancel each other in one direction but not in all.
+  static Bsdf magnitudes(const Bsdf& bsdf) {
+    auto numbers = std::bit_cast<std::array<float, sizeof(Bsdf) / sizeof(float)>>(bsdf);
+    for (float& number : numbers) number = std::abs(number);
+    return std::bit_cast<Bsdf>(numbers);
+  }
+
+  std::vector<Bsdf> bsdfs_;
 };
 
 }  // namespace raytrace

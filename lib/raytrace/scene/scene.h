@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "raytrace/film/film.h"
+
 namespace raytrace {
 
 /// A scene that could not be built or rendered (Embree's or the machine's fault, not the scene file's).
@@ -26,10 +28,10 @@ class Scene {
  public:
   virtual ~Scene() = default;
 
-  /// What the integrator says that samples mostly stay below, in any channel. It scales the film's unit.
-  virtual float largest_radiance() const = 0;
+  /// As the integrator knows it. It scales the film's unit.
+  virtual RadianceRange radiance_range() const = 0;
 
-  /// No material's albedo is larger, in any channel.
+  /// The albedo of no material in use has a larger magnitude, in any channel.
   virtual float largest_albedo() const = 0;
 
   /// The name of its variant's instruction set.

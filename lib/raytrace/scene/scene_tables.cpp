@@ -41,6 +41,7 @@ SceneTables::SceneTables(const SceneDescription& description, int threads)
   }
   set_camera(description);
   add_lights(description);
+  used_materials_ = geometry_->used_materials(first_material_.back());
 }
 
 void SceneTables::set_camera(const SceneDescription& description) {
@@ -62,14 +63,35 @@ bool SceneTables::camera_is_far_from(const BoundingSphere& sphere, const SceneDe
   const Vec3d eye = std::visit([](const auto& parameters) { return parameters.eye; }, description.camera) - origin_;
   return sphere.radius >= 0 && length(eye - sphere.center) > far * sphere.radius;
 }
+template <class LightKernel, class Parameters>
+void SceneTables::add_light_bounds(const LightKernel& light, const Parameters& parameters, const Vec3d& eye) {
+  const Rgb<float> radiance = abs(light.largest_radiance());
+  double far = 1, near = 1;
+  if constexpr (requires { light.falls_off(); })
+    if (light.falls_off()) {
+      far = std::max(1.0, length(parameters.location - eye));
+      near = std::max(0x1p-10, far * 0x1p-13);
+    }
+  light_bounds_.usual += radiance;
+  light_bounds_.largest += radiance * static_cast<float>(1 / (near * near));
+  const auto add_dimmest = [&](float& dimmest, float channel) {
+    if (channel > 0) dimmest = std::min(dimmest, channel * static_cast<float>(1 / (far * far)));
+  };
+  add_dimmest(light_bounds_.dimmest.red, radiance.red);
+  add_dimmest(light_bounds_.dimmest.green, radiance.green);
+  add_dimmest(light_bounds_.dimmest.blue, radiance.blue);
+}
 
 void SceneTables::add_lights(const SceneDescription& description) {
+  const Vec3d eye = std::visit([](const auto& camera) { return camera.eye; }, description.camera);
   for_each_type(Lights{}, [&]<class Light>(std::type_identity<Light>) {
     for (const auto& item : std::get<LightItems<Light>>(description.lights)) {
       const Kernel<Light> light(moved<Light>(item.parameters));
       if constexpr (Kernel<Light>::ambient) {
         ambient_radiance_ += light.radiance();
+        light_bounds_.ambient += abs(light.radiance());
       } else {
+        add_light_bounds(light, item.parameters, eye);
         lights_.push_back(std::make_unique<LightSourceOf<Kernel<Light>>>(light));
         light_origins_.emplace_back();
         if (!light.shadows()) continue;
@@ -91,18 +113,26 @@ void SceneTables::add_materials(const SceneDescription& description) {
   });
 }
 
-float SceneTables::largest_radiance() const {
-  Rgb<float> light_radiance(0, 0, 0);
-  for (const auto& light : lights_) light_radiance += light->largest_radiance();
-  Rgb<float> largest(viewplane_.background);
-  for (const auto& table : materials_)
-    largest = max(largest, table->largest_radiance(ambient_radiance_, light_radiance));
-  return std::max({largest.red, largest.green, largest.blue});
+RadianceRange SceneTables::background_range() const {
+  RadianceRange range;
+  const Rgb<float> background = abs(Rgb<float>(viewplane_.background));
+  range.add_usual(background);
+  range.add_largest(background);
+  range.add_source(background);
+  return range;
+}
+
+RadianceRange SceneTables::radiance_range() const {
+  RadianceRange range = background_range();
+  for (std::size_t type = 0; type < materials_.size(); ++type)
+    materials_[type]->add_to(range, light_bounds_, used_materials_.data() + first_material_[type]);
+  return range;
 }
 
 float SceneTables::largest_albedo() const {
   Rgb<float> largest(0, 0, 0);
-  for (const auto& table : materials_) largest = max(largest, table->largest_albedo());
+  for (std::size_t type = 0; type < materials_.size(); ++type)
+    largest = max(largest, materials_[type]->largest_albedo(used_materials_.data() + first_material_[type]));
   return std::max({largest.red, largest.green, largest.blue});
 }
 

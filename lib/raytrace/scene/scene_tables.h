@@ -68,8 +68,10 @@ class SceneTables {
 
   const GeometryTable& geometry() const { return *geometry_; }
 
-  /// The most that a sample of direct light can have, and a material's albedo, in any channel.
-  float largest_radiance() const;
+  /// Of direct light, and of the background alone.
+  RadianceRange radiance_range() const;
+  RadianceRange background_range() const;
+  /// Scene::largest_albedo()
   float largest_albedo() const;
 
   // Of what was hit; at least one lane must have a hit, and lanes without one get anything.
@@ -95,6 +97,8 @@ class SceneTables {
   void set_camera(const SceneDescription& description);
   bool camera_is_far_from(const BoundingSphere& sphere, const SceneDescription& description) const;
   void add_lights(const SceneDescription& description);
+  template <class LightKernel, class Parameters>
+  void add_light_bounds(const LightKernel& light, const Parameters& parameters, const Vec3d& eye);
   void add_materials(const SceneDescription& description);
 
   /// answer(table, materials) of each material type among the lanes, each lane's of its own.
@@ -109,12 +113,14 @@ class SceneTables {
   Vec3f viewing_direction_{};
   std::optional<BufferOrigin> camera_origin_;
   Rgb<float> ambient_radiance_{0, 0, 0};
+  LightBounds light_bounds_;
   std::vector<std::unique_ptr<LightSource>> lights_;
   std::vector<std::optional<BufferOrigin>> light_origins_;
   std::array<std::unique_ptr<MaterialTable>, Materials::size> materials_;
   std::array<std::int32_t, Materials::size + 1>
       first_material_{};  ///< of each type, all counted together; their number
   std::unique_ptr<const GeometryTable> geometry_;
+  std::vector<std::uint8_t> used_materials_;  ///< 1 for those that objects have, else 0
 };
 
 }  // namespace raytrace

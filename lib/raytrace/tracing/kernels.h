@@ -1,7 +1,7 @@
 // The kernels of all integrators.
 //
 // An integrator's Kernel provides:
-//   static float largest_radiance(const SceneTables& scene);   it scales the film's unit: most samples stay below it
+//   static RadianceRange radiance_range(const SceneTables& scene);   it scales the film's unit
 //   static RayResult radiance(const TracedScene& scene, const Rgb<float>& background, CameraRays& camera,
 //                             const MaskN& active, const MaskN& counted, RayCounts& counts, FirstHits* first);
 //       the radiance that arrives along camera rays, whose directions have unit length, in the lanes of `active`; it

@@ -13,7 +13,11 @@ namespace raytrace {
 template <>
 class Kernel<Normals> {
  public:
-  static float largest_radiance(const SceneTables&) { return 1; }
+  static RadianceRange radiance_range(const SceneTables& scene) {
+    RadianceRange range = scene.background_range();
+    range.usual = 1;
+    return range;
+  }
 
   static RayResult radiance(const TracedScene& scene, const Rgb<float>& background, CameraRays& camera,
                             const MaskN& active, const MaskN&, RayCounts&, FirstHits* first) {

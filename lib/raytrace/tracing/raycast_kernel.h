@@ -16,7 +16,7 @@ namespace raytrace {
 template <>
 class Kernel<Raycast> {
  public:
-  static float largest_radiance(const SceneTables& scene) { return scene.largest_radiance(); }
+  static RadianceRange radiance_range(const SceneTables& scene) { return scene.radiance_range(); }
 
   static RayResult radiance(const TracedScene& scene, const Rgb<float>& background, CameraRays& camera,
                             const MaskN& active, const MaskN& counted, RayCounts& counts, FirstHits* first);

@@ -211,9 +211,9 @@ RenderReport render_tile_by(const TracedScene& scene, const Region& region, std:
 
 }  // namespace
 
-float largest_radiance(const SceneTables& scene) {
+RadianceRange radiance_range(const SceneTables& scene) {
   return with_integrator(scene, [&]<class Integrator>(std::type_identity<Integrator>) {
-    return Kernel<Integrator>::largest_radiance(scene);
+    return Kernel<Integrator>::radiance_range(scene);
   });
 }
 

@@ -9,8 +9,8 @@
 
 namespace raytrace {
 
-/// Kernel::largest_radiance() of the scene's integrator.
-float largest_radiance(const SceneTables& scene);
+/// Kernel::radiance_range() of the scene's integrator.
+RadianceRange radiance_range(const SceneTables& scene);
 
 /// Renders the tile's pixels as Variant::render promises. Packets are blocks of neighbouring pixels, aligned to the
 /// picture's own grid: a pixel shares its packet with the same neighbours however the picture is cut, so its bits do

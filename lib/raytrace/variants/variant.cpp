@@ -13,7 +13,7 @@ constexpr const char* widest_embree_isa = register_lanes == 16 ? "avx512" : regi
 
 std::unique_ptr<const Scene> build(const SceneDescription& description, int threads) {
   auto scene = std::make_unique<TracedScene>(description, threads, RAYTRACE_ISA, widest_embree_isa);
-  scene->set_largest_radiance(largest_radiance(scene->tables()));
+  scene->set_radiance_range(radiance_range(scene->tables()));
   return scene;
 }
 
