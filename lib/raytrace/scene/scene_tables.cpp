@@ -63,6 +63,7 @@ bool SceneTables::camera_is_far_from(const BoundingSphere& sphere, const SceneDe
   const Vec3d eye = std::visit([](const auto& parameters) { return parameters.eye; }, description.camera) - origin_;
   return sphere.radius >= 0 && length(eye - sphere.center) > far * sphere.radius;
 }
+
 template <class LightKernel, class Parameters>
 void SceneTables::add_light_bounds(const LightKernel& light, const Parameters& parameters, const Vec3d& eye) {
   const Rgb<float> radiance = abs(light.largest_radiance());
