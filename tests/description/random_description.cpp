@@ -154,7 +154,7 @@ bool same_scene(const SceneDescription& a, const SceneDescription& b) {
          same_items(Materials{}, a.materials, b.materials,
                     [](const auto& x, const auto& y) { return x.name == y.name; }) &&
          same_items(Shapes{}, a.objects, b.objects, [](const auto& x, const auto& y) {
-           return x.name == y.name && x.material.kind == y.material.kind && x.material.index == y.material.index;
+           return x.name == y.name && x.material.type == y.material.type && x.material.index == y.material.index;
          });
 }
 

@@ -74,7 +74,7 @@ void change_everything(SceneDescription& scene, const Changed& changed) {
     for (auto& object : objects) {
       change_fields<T>(object.parameters, changed);
       change_each(object.name, changed);
-      for (std::uint32_t* part : {&object.material.kind, &object.material.index}) {
+      for (std::uint32_t* part : {&object.material.type, &object.material.index}) {
         ++*part;
         changed();
         --*part;

@@ -101,13 +101,13 @@ class SceneChecker {
   }
 
   void check_material(const SceneDescription& scene, const MaterialReference& material) {
-    const bool is_type = material.kind < Materials::size;
+    const bool is_type = material.type < Materials::size;
     const std::size_t count =
-        is_type ? with_type(Materials{}, material.kind,
+        is_type ? with_type(Materials{}, material.type,
                             [&]<class T>(std::type_identity<T>) { return items_of<MaterialsSection, T>(scene).size(); })
                 : 0;
     if (material.index < count) return;
-    error("refers to material " + std::to_string(material.index) + " of type " + std::to_string(material.kind) +
+    error("refers to material " + std::to_string(material.index) + " of type " + std::to_string(material.type) +
           ", which is not there" + (is_type ? "" : "; nor is that type"));
   }
 

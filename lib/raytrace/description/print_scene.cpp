@@ -76,7 +76,7 @@ class ScenePrinter : private XmlWriter {
   }
 
   static std::string material_name(const SceneDescription& scene, MaterialReference material) {
-    return with_type(Materials{}, material.kind, [&]<class T>(std::type_identity<T>) {
+    return with_type(Materials{}, material.type, [&]<class T>(std::type_identity<T>) {
       return items_of<MaterialsSection, T>(scene).at(material.index).name;
     });
   }

@@ -38,7 +38,7 @@ struct MaterialItem {
 
 /// A material by its type (the index in the Materials registry) and its index among the items of that type.
 struct MaterialReference {
-  std::uint32_t kind = 0;
+  std::uint32_t type = 0;
   std::uint32_t index = 0;
 };
 

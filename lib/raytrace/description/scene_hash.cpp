@@ -47,7 +47,7 @@ class SceneHash {
         hash.add_parameters(fields, item.parameters);
         if constexpr (requires { item.name; }) hash.add(item.name);
         if constexpr (requires { item.material; }) {
-          hash.add(item.material.kind);
+          hash.add(item.material.type);
           hash.add(item.material.index);
         }
       }

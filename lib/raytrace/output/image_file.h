@@ -43,7 +43,7 @@ struct ImageAttribute {
 struct ImageMetadata {
   std::string software;  ///< "raytrace 1.2.3"
   std::string scene_file;
-  int samples = 1;  ///< a pixel
+  int samples = 1;  ///< per pixel
   std::uint64_t seed = 0;
   int threads = 1;
   std::optional<double> render_seconds;  ///< absent where the file is begun before the render ends

@@ -27,7 +27,7 @@ GeometryTable::GeometryTable(const SceneDescription& description, std::span<cons
       for (std::size_t i = first; i < last; ++i) {
         const MaterialReference& material = items[i].material;
         object_materials_[first_object + i] =
-            first_materials[material.kind] + static_cast<std::int32_t>(material.index);
+            first_materials[material.type] + static_cast<std::int32_t>(material.index);
       }
     });
   });

@@ -88,7 +88,7 @@ void add_metadata(OIIO::ImageSpec& spec, const ImageMetadata& metadata, double e
   if (!metadata.software.empty()) spec.attribute("Software", metadata.software);  // JPEG's IPTC aborts on empty text
   std::ostringstream description;
   description.imbue(std::locale::classic());
-  description << "scene " << metadata.scene_file << ", " << metadata.samples << " samples a pixel, seed "
+  description << "scene " << metadata.scene_file << ", " << metadata.samples << " samples per pixel, seed "
               << metadata.seed;
   if (exposure != 0) description << ", exposure " << exposure;
   for (const ImageAttribute& attribute : metadata.attributes)
