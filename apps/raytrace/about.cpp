@@ -17,7 +17,7 @@
 #include "raytrace/math/type_list.h"
 #include "raytrace/render/renderer.h"
 #include "raytrace/shapes/registry.h"
-#include "raytrace/text/quoted.h"
+#include "raytrace/text/message.h"
 
 namespace raytrace {
 

@@ -6,7 +6,7 @@
 #include "merge_command.h"
 #include "messages.h"
 #include "options.h"
-#include "process_setup.h"
+#include "process_limits.h"
 #include "render_command.h"
 #include "run_all.h"
 

@@ -13,10 +13,10 @@
 #include "messages.h"
 #include "option_parser.h"
 #include "process_limits.h"
-#include "raytrace/batch/message_text.h"
 #include "raytrace/batch/output_files.h"
-#include "raytrace/batch/used_files.h"
+#include "raytrace/batch/settings_error.h"
 #include "raytrace/render/renderer.h"
+#include "raytrace/text/message.h"
 #include "signals.h"
 
 namespace raytrace {

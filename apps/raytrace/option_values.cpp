@@ -7,10 +7,8 @@
 #include <optional>
 
 #include "raytrace/aovs/aov_selection.h"
-#include "raytrace/batch/message_text.h"
 #include "raytrace/integrators/registry.h"
-#include "raytrace/text/nearest_name.h"
-#include "raytrace/text/quoted.h"
+#include "raytrace/text/message.h"
 
 namespace raytrace {
 

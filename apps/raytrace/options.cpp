@@ -7,13 +7,11 @@
 #include "about.h"
 #include "manual.h"
 #include "option_parser.h"
-#include "option_values.h"
 #include "raytrace/aovs/aov_selection.h"
-#include "raytrace/batch/frame_numbers.h"
-#include "raytrace/batch/message_text.h"
+#include "raytrace/batch/frames.h"
 #include "raytrace/description/variables.h"
 #include "raytrace/render/renderer.h"
-#include "raytrace/text/quoted.h"
+#include "raytrace/text/message.h"
 #include "raytrace/text/utf8.h"
 
 namespace raytrace {

@@ -11,9 +11,9 @@
 #include "messages.h"
 #include "option_values.h"
 #include "process_limits.h"
-#include "raytrace/batch/message_text.h"
 #include "raytrace/memory/out_of_memory.h"
-#include "raytrace/output/output_error.h"
+#include "raytrace/output/file_handle.h"
+#include "raytrace/text/message.h"
 
 namespace raytrace {
 

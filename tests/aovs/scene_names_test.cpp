@@ -1,7 +1,6 @@
-#include "raytrace/aovs/scene_names.h"
-
 #include <nlohmann/json.hpp>
 
+#include "raytrace/aovs/aov_selection.h"
 #include "render/scenes.h"
 #include "support/catch.h"
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "raytrace/description/scene_layout.h"
-#include "raytrace/text/quoted.h"
+#include "raytrace/text/message.h"
 #include "reported.h"
 #include "support/catch.h"
 #include "support/contains.h"

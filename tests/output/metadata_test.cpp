@@ -100,7 +100,7 @@ TEST_CASE("with SOURCE_DATE_EPOCH, the same picture gives the same bytes") {
 TEST_CASE("a SOURCE_DATE_EPOCH that is no time is refused") {
   const TemporaryFolder folder;
   const SourceDateEpoch epoch(GENERATE("", "tomorrow", "-1", "12x", "99999999999999999999", "253402300800"));
-  CHECK_THROWS_AS(check_writable(folder.file("a.exr"), {}), OutputError);
+  CHECK_THROWS_AS(check_format(folder.file("a.exr"), {}), OutputError);
   CHECK_THROWS_AS(write_image(folder.file("a.exr"), distinct_film(8, 8), {}, {}), OutputError);
   CHECK(folder.names().empty());
 }

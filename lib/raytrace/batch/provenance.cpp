@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
-#include <map>
 #include <sstream>
 
 #include "raytrace/aovs/aov_selection.h"
-#include "raytrace/batch/message_text.h"
-#include "raytrace/description/scene_hash.h"
+#include "raytrace/description/scene_description.h"
 #include "raytrace/film/samples_done.h"
-#include "raytrace/text/quoted.h"
+#include "raytrace/text/message.h"
 
 namespace raytrace {
 

@@ -6,11 +6,9 @@
 #include <tuple>
 #include <utility>
 
-#include "raytrace/batch/file_names.h"
-#include "raytrace/batch/frame_numbers.h"
-#include "raytrace/batch/message_text.h"
+#include "raytrace/batch/frames.h"
 #include "raytrace/batch/settings_error.h"
-#include "raytrace/text/quoted.h"
+#include "raytrace/text/message.h"
 
 namespace raytrace {
 

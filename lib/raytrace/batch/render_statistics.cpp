@@ -6,9 +6,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "raytrace/batch/message_text.h"
 #include "raytrace/memory/process_status.h"
-#include "raytrace/text/quoted.h"
+#include "raytrace/text/message.h"
 
 namespace raytrace {
 

@@ -1,7 +1,6 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
-#include <variant>
 
 #include "raytrace/description/parse_value.h"
 #include "raytrace/description/scene_description.h"
@@ -85,7 +84,7 @@ class ScenePrinter : private XmlWriter {
   void print_parameters(const typename T::Parameters& parameters) {
     static const auto fields = T::fields();
     for (const auto& field : fields)
-      std::visit([&](auto member) { print_value(field.name, parameters.*member); }, field.member);
+      field.visit(parameters, [&](const auto& value) { print_value(field.name, value); });
   }
 
   template <class Value>

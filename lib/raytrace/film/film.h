@@ -11,7 +11,6 @@
 #include "raytrace/film/aov_settings.h"
 #include "raytrace/film/region.h"
 #include "raytrace/memory/large_array.h"
-#include "raytrace/memory/late_array.h"
 
 namespace raytrace {
 

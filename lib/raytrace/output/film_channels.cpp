@@ -1,50 +1,110 @@
 #include "raytrace/output/film_channels.h"
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdio>
+#include <string>
 
 #include "raytrace/film/aov_film.h"
 #include "raytrace/math/limbs.h"
-#include "raytrace/output/aov_sum_channels.h"
 
 namespace raytrace {
 
 namespace {
 
-constexpr std::array<const char*, 8> names = {"sums.red.low",  "sums.red.high",  "sums.green.low", "sums.green.high",
-                                              "sums.blue.low", "sums.blue.high", "sums.hits",      "sums.samples"};
-constexpr std::array<const char*, 6> limb_names = {"sums.limb2.red.low",   "sums.limb2.red.high",
-                                                   "sums.limb2.green.low", "sums.limb2.green.high",
-                                                   "sums.limb2.blue.low",  "sums.limb2.blue.high"};
-constexpr std::size_t planes = names.size(), limb_planes = limb_names.size();
+/// What a film's sums consist of. A pixel's are written as words, whose order is that of channels_of().
+struct SumLayout {
+  AovSettings aovs;
+  bool has_high = false;
+  std::vector<std::size_t> ids{};  ///< of each coverage: as many as the pixel with the most has
+};
 
-using Words = std::array<std::uint32_t, planes + limb_planes>;
+std::string coverage_name(std::size_t coverage) { return "sums.aov.cover" + std::to_string(coverage); }
 
-Words words_of(const PixelSum& sum, const PixelSumHigh& high) {
-  Words words{};
-  const auto split = [&](std::size_t first, std::int64_t number) {
-    words[first] = static_cast<std::uint32_t>(number);
-    words[first + 1] = static_cast<std::uint32_t>(static_cast<std::uint64_t>(number) >> 32U);
+std::vector<Channel> channels_of(const SumLayout& layout) {
+  std::vector<Channel> channels;
+  const auto add = [&](const std::string& name) { channels.push_back({name, ChannelType::uint32}); };
+  const auto add_halves = [&](const std::string& name) {
+    add(name + ".low");
+    add(name + ".high");
   };
-  split(0, sum.red);
-  split(2, sum.green);
-  split(4, sum.blue);
-  words[6] = sum.hits;
-  words[7] = sum.samples;
-  split(planes, high.red);
-  split(planes + 2, high.green);
-  split(planes + 4, high.blue);
-  return words;
+  for (const char* const color : {"red", "green", "blue"}) add_halves(std::string("sums.") + color);
+  add("sums.hits");
+  add("sums.samples");
+  if (layout.has_high)
+    for (const char* const color : {"red", "green", "blue"}) add_halves(std::string("sums.limb2.") + color);
+  if (layout.aovs.nearest_values > 0) {
+    add("sums.aov.nearest.sample");  // its index, plus 1; 0: no sample met a surface
+    add("sums.aov.nearest.depth");   // a float's bits
+    for (std::size_t i = 0; i < layout.aovs.nearest_values; ++i) add("sums.aov.nearest.value" + std::to_string(i));
+  }
+  for (std::size_t i = 0; i < layout.aovs.mean_units.size(); ++i) add_halves("sums.aov.mean" + std::to_string(i));
+  for (std::size_t coverage = 0; coverage < layout.aovs.coverages; ++coverage)
+    for (std::size_t i = 0; i < layout.ids[coverage]; ++i) {
+      char digits[24];
+      std::snprintf(digits, sizeof digits, "%03zu", i);  // in the order of their names
+      add(coverage_name(coverage) + ".id" + digits);
+      add(coverage_name(coverage) + ".count" + digits);
+    }
+  return channels;
 }
 
-/// Adds the sum if it can be of samples of the range.
-bool add(const Words& words, const SampleRange& range, Film& film, int x, int y) {
-  const auto number = [&](std::size_t first) {
-    return static_cast<std::int64_t>(words[first] | std::uint64_t{words[first + 1]} << 32U);
+/// That of a film with these AOVs whose sums are in such channels.
+SumLayout layout_of(const AovSettings& aovs, const std::vector<Channel>& channels) {
+  const auto count = [&](const std::string& start) {
+    return static_cast<std::size_t>(std::count_if(
+        channels.begin(), channels.end(), [&](const Channel& channel) { return channel.name.starts_with(start); }));
   };
-  const PixelSum sum{number(0), number(2), number(4), words[6], words[7]};
-  const PixelSumHigh high{number(planes), number(planes + 2), number(planes + 4)};
+  SumLayout layout{aovs, count("sums.limb2.red.low") > 0};
+  for (std::size_t coverage = 0; coverage < aovs.coverages; ++coverage)
+    layout.ids.push_back(count(coverage_name(coverage) + ".id"));
+  return layout;
+}
+
+void append_words(const Film& film, const SumLayout& layout, int x, int y, std::vector<std::uint32_t>& words) {
+  const auto append_halves = [&](std::int64_t number) {
+    words.push_back(static_cast<std::uint32_t>(number));
+    words.push_back(static_cast<std::uint32_t>(static_cast<std::uint64_t>(number) >> 32U));
+  };
+  const PixelSum& sum = film.sum(x, y);
+  for (const std::int64_t color : {sum.red, sum.green, sum.blue}) append_halves(color);
+  words.insert(words.end(), {sum.hits, sum.samples});
+  if (layout.has_high) {
+    const PixelSumHigh high = film.high(x, y);
+    for (const std::int64_t color : {high.red, high.green, high.blue}) append_halves(color);
+  }
+  if (film.aovs() == nullptr) return;
+  const AovFilm& aovs = *film.aovs();
+  if (layout.aovs.nearest_values > 0) {
+    const AovFilm::Nearest nearest = aovs.nearest(x, y);
+    const bool any = nearest.values != nullptr;
+    words.insert(words.end(), {any ? nearest.sample + 1 : 0, std::bit_cast<std::uint32_t>(nearest.depth)});
+    for (std::size_t i = 0; i < layout.aovs.nearest_values; ++i) words.push_back(any ? nearest.values[i] : 0);
+  }
+  for (std::size_t i = 0; i < layout.aovs.mean_units.size(); ++i) append_halves(aovs.sum(x, y, i));
+  for (std::size_t coverage = 0; coverage < layout.aovs.coverages; ++coverage) {
+    std::vector<IdCount> ranked = aovs.ranked(x, y, coverage);
+    ranked.resize(layout.ids[coverage]);
+    for (const auto& [id, count] : ranked) words.insert(words.end(), {id, count});
+  }
+}
+
+/// Adds the sums to the pixel's. False, with some of them added, if they cannot be of samples of the range.
+bool add_words(const std::vector<std::uint32_t>& words, const SumLayout& layout, const SampleRange& range, Film& film,
+               int x, int y) {
+  const std::uint32_t* next = words.data();
+  const auto take_halves = [&] {
+    const std::uint64_t low = *next++;
+    return static_cast<std::int64_t>(low | std::uint64_t{*next++} << 32U);
+  };
+  PixelSum sum;
+  for (std::int64_t* const color : {&sum.red, &sum.green, &sum.blue}) *color = take_halves();
+  sum.hits = *next++;
+  sum.samples = *next++;
+  PixelSumHigh high;
+  if (layout.has_high)
+    for (std::int64_t* const color : {&high.red, &high.green, &high.blue}) *color = take_halves();
   if (sum.samples > range.count || sum.hits > sum.samples) return false;
   const auto fits = [&](std::int64_t low, std::int64_t high_limb) {
     const double most = sum.samples * largest_units;  // rounded, both of them
@@ -52,87 +112,81 @@ bool add(const Words& words, const SampleRange& range, Film& film, int x, int y)
   };
   if (!fits(sum.red, high.red) || !fits(sum.green, high.green) || !fits(sum.blue, high.blue)) return false;
   film.add(x, y, sum, high);
-  return true;
-}
+  if (film.aovs() == nullptr) return true;
 
-bool has_limbs(const std::vector<Channel>& channels) {
-  return std::any_of(channels.begin(), channels.end(),
-                     [](const Channel& channel) { return channel.name == limb_names.front(); });
-}
-
-template <std::size_t count>
-void append(std::vector<Channel>& channels, const std::array<const char*, count>& more) {
-  for (const char* name : more) channels.push_back({name, ChannelType::uint32});
-}
-
-void append(std::vector<Channel>& channels, std::vector<Channel> more) {
-  for (Channel& channel : more) channels.push_back(std::move(channel));
-}
-
-std::vector<std::uint32_t>& words_in(ImageBand& band, std::size_t plane) {
-  return std::get<std::vector<std::uint32_t>>(band.planes[plane]);
-}
-const std::vector<std::uint32_t>& words_in(const ImageBand& band, std::size_t plane) {
-  return std::get<std::vector<std::uint32_t>>(band.planes[plane]);
+  AovFilm& aovs = *film.aovs();
+  bool sound = true;
+  if (layout.aovs.nearest_values > 0) {
+    if (next[0] != 0) {
+      const std::uint32_t index = next[0] - 1;
+      sound = index >= range.first && index - range.first < range.count && sum.samples > 0;
+      aovs.add_nearest(x, y, std::bit_cast<float>(next[1]), index, next + 2);
+    }
+    next += 2 + layout.aovs.nearest_values;
+  }
+  for (std::size_t i = 0; i < layout.aovs.mean_units.size(); ++i)
+    sound = aovs.add_mean(x, y, i, take_halves()) && sound;
+  for (std::size_t coverage = 0; coverage < layout.aovs.coverages; ++coverage) {
+    std::uint32_t left = sum.samples;  // that no id has yet
+    for (std::size_t i = 0; i < layout.ids[coverage]; ++i, next += 2) {
+      const IdCount one{next[0], next[1]};
+      if (one.count == 0) continue;
+      if (one.count > left) return false;
+      left -= one.count;
+      aovs.add_coverage(x, y, coverage, one);
+    }
+  }
+  return sound;
 }
 
 }  // namespace
 
-std::vector<Channel> sum_channels() {
-  std::vector<Channel> channels;
-  append(channels, names);
-  return channels;
-}
+std::vector<Channel> sum_channels() { return channels_of({}); }
 
-std::vector<Channel> all_sum_channels() {
-  std::vector<Channel> channels = sum_channels();
-  append(channels, limb_names);
-  return channels;
-}
+std::vector<Channel> all_sum_channels() { return channels_of({{}, true}); }
 
 bool is_sum(const Channel& channel) { return channel.name.starts_with("sums."); }
 
 std::vector<Channel> sum_channels(const Film& film) {
-  std::vector<Channel> channels = film.has_high() ? all_sum_channels() : sum_channels();
-  if (film.aovs() != nullptr) append(channels, aov_sum_channels(*film.aovs()));
-  return channels;
+  SumLayout layout{film.settings().aovs, film.has_high(), std::vector<std::size_t>(film.settings().aovs.coverages)};
+  for_each_pixel(film.region(), [&](std::size_t, int x, int y) {
+    for (std::size_t coverage = 0; coverage < layout.ids.size(); ++coverage)
+      layout.ids[coverage] = std::max(layout.ids[coverage], film.aovs()->ranked(x, y, coverage).size());
+  });
+  return channels_of(layout);
 }
 
 std::vector<Channel> sum_channels(const AovSettings& aovs, const std::vector<Channel>& channels) {
-  std::vector<Channel> wanted = has_limbs(channels) ? all_sum_channels() : sum_channels();
-  append(wanted, aov_sum_channels(aovs, channels));
-  return wanted;
+  return channels_of(layout_of(aovs, channels));
 }
 
 void append_sums(ImageBand& band, const std::vector<Channel>& sums, const Film& film) {
-  const Region& region = band.region;
-  const std::size_t first = band.planes.size(), own = has_limbs(sums) ? planes + limb_planes : planes;
-  const auto pixels = static_cast<std::size_t>(region.width()) * static_cast<std::size_t>(region.height());
-  for (std::size_t plane = 0; plane < own; ++plane) band.planes.emplace_back(std::vector<std::uint32_t>(pixels));
-  std::size_t pixel = 0;
-  for (int y = region.y0; y < region.y1; ++y)
-    for (int x = region.x0; x < region.x1; ++x, ++pixel) {
-      const Words words = words_of(film.sum(x, y), film.high(x, y));
-      for (std::size_t plane = 0; plane < own; ++plane) words_in(band, first + plane)[pixel] = words[plane];
-    }
-  if (film.aovs() != nullptr)
-    fill_aov_sums(band, first + own, {sums.begin() + static_cast<std::ptrdiff_t>(own), sums.end()}, *film.aovs());
+  const SumLayout layout = layout_of(film.settings().aovs, sums);
+  const std::size_t first = band.planes.size();
+  make_planes(band, first, sums);
+  std::vector<std::uint32_t*> planes;
+  for (std::size_t i = 0; i < sums.size(); ++i)
+    planes.push_back(std::get<std::vector<std::uint32_t>>(band.planes[first + i]).data());
+  std::vector<std::uint32_t> words;
+  for_each_pixel(band.region, [&](std::size_t pixel, int x, int y) {
+    words.clear();
+    append_words(film, layout, x, y, words);
+    for (std::size_t i = 0; i < words.size(); ++i) planes[i][pixel] = words[i];
+  });
 }
 
 bool add_sums(const ImageBand& band, const std::vector<Channel>& sums, const SampleRange& range, Film& film) {
-  const Region& region = band.region;
-  const std::size_t own = has_limbs(sums) ? planes + limb_planes : planes;
+  const SumLayout layout = layout_of(film.settings().aovs, sums);
+  std::vector<const std::uint32_t*> planes;
+  for (std::size_t i = 0; i < sums.size(); ++i)
+    planes.push_back(std::get<std::vector<std::uint32_t>>(band.planes[i]).data());
   bool sound = true;
-  std::size_t pixel = 0;
-  for (int y = region.y0; y < region.y1; ++y)
-    for (int x = region.x0; x < region.x1; ++x, ++pixel) {
-      Words words{};
-      for (std::size_t plane = 0; plane < own; ++plane) words[plane] = words_in(band, plane)[pixel];
-      sound = add(words, range, film, x, y) && sound;
-    }
-  if (!sound || film.aovs() == nullptr) return sound;
-  return add_aov_sums(band, own, {sums.begin() + static_cast<std::ptrdiff_t>(own), sums.end()}, range,
-                      words_in(band, planes - 1), *film.aovs());
+  std::vector<std::uint32_t> words(sums.size());
+  for_each_pixel(band.region, [&](std::size_t pixel, int x, int y) {
+    for (std::size_t i = 0; i < words.size(); ++i) words[i] = planes[i][pixel];
+    sound = add_words(words, layout, range, film, x, y) && sound;
+  });
+  return sound;
 }
 
 }  // namespace raytrace

@@ -15,7 +15,9 @@ std::vector<Channel> all_sum_channels();
 /// Whether it is one of them, or of an AOV's sums: by its name.
 bool is_sum(const Channel& channel);
 
-/// Those that the film needs: the second limbs only where one is not zero; then those of what it gathered for AOVs.
+/// Those that the film needs: the second limbs only where one is not zero; then those of what it gathered for AOVs,
+/// "sums.aov.nearest.sample", "sums.aov.mean0.low", "sums.aov.cover0.id000"...: as many ids of a coverage as the pixel
+/// with the most has.
 std::vector<Channel> sum_channels(const Film& film);
 
 /// Those that a file must have of a film with these settings. channels: that it has, which say how many ids there are.

@@ -33,6 +33,14 @@ struct ImageBand {
   const std::uint16_t* half_colors = nullptr;
 };
 
+/// Calls f(pixel, x, y) for each pixel of the region, row by row; `pixel` counts them.
+template <class Function>
+void for_each_pixel(const Region& region, const Function& f) {
+  std::size_t pixel = 0;
+  for (int y = region.y0; y < region.y1; ++y)
+    for (int x = region.x0; x < region.x1; ++x) f(pixel++, x, y);
+}
+
 /// R, G, B and A: 16 bits each, or 32.
 std::vector<Channel> color_channels(bool full_float);
 

@@ -43,23 +43,8 @@ std::unique_ptr<ImageEncoder> make_image_encoder(const std::string& file, const 
   return make_openimageio_encoder(file, extension, settings);
 }
 
-bool holds_float(const std::string& file) {
-  ImageFileSettings settings;
-  settings.full_float = true;
-  return make_image_encoder(file, settings)->holds_float();
-}
-
-bool holds_halves(const std::string& file, const ImageFileSettings& settings) {
-  const auto encoder = make_image_encoder(file, settings);
-  return encoder->holds_data() && !encoder->holds_float();
-}
-
-bool holds_data(const std::string& file) { return make_image_encoder(file, {})->holds_data(); }
-
-bool holds_alpha(const std::string& file) { return make_image_encoder(file, {})->holds_alpha(); }
-
-bool is_for_display(const std::string& file, const ImageFileSettings& settings) {
-  return make_image_encoder(file, settings)->is_for_display();
+ImageFormat image_format(const std::string& file, const ImageFileSettings& settings) {
+  return make_image_encoder(file, settings)->format();
 }
 
 void check_format(const std::string& file, const ImageFileSettings& settings) {
@@ -72,11 +57,6 @@ void check_format(const std::string& file, const ImageFileSettings& settings) {
   encoder->begin(extent, channels, {}, memory.get());
   encoder->write(black);
   encoder->finish();
-}
-
-void check_writable(const std::string& file, const ImageFileSettings& settings) {
-  check_format(file, settings);
-  const AtomicFile made_and_removed(file);
 }
 
 void check_size(const std::string& file, const Region& region, const ImageFileSettings& settings) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <mutex>
-#include <tuple>
 #include <vector>
 
 #include "raytrace/aovs/aov_selection.h"

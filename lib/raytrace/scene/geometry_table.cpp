@@ -1,6 +1,6 @@
 #include "raytrace/scene/geometry_table.h"
 
-#include "raytrace/memory/large_pages.h"
+#include "raytrace/memory/large_array.h"
 #include "raytrace/parallel/for_each_index.h"
 
 namespace raytrace {
