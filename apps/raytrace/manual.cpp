@@ -4,7 +4,7 @@
 #include <sstream>
 #include <string_view>
 
-#include "exit_code.h"
+#include "process.h"
 #include "raytrace/text/message.h"
 
 namespace raytrace {
@@ -256,22 +256,16 @@ std::vector<std::string> short_help(const Manual& manual) {
 std::string help_text(const Manual& manual, const std::vector<OptionEntry>& options) {
   constexpr std::size_t columns = 80;
   std::string help = manual.command + ": " + manual.purpose + "\n\nUsage: " + manual.synopsis + "\n";
-  std::vector<Section> sections = option_sections(options);
-  const std::size_t options_indent = longest_term(sections) + 4;
-  for (const Section& section : sections) {
+  const std::vector<Section> sections = option_sections(options);
+  const auto append = [&](const Section& section, std::size_t indent) {
     help += "\n" + section.title + ":\n";
-    for (const Entry& entry : section.entries) {
-      help += "  " + entry.term + std::string(options_indent - 2 - entry.term.size(), ' ') +
-              wrapped(entry.text, columns - options_indent, options_indent) + "\n";
-    }
-  }
+    for (const Entry& entry : section.entries)
+      help += "  " + entry.term + std::string(indent - 2 - entry.term.size(), ' ') +
+              wrapped(entry.text, columns - indent, indent) + "\n";
+  };
+  for (const Section& section : sections) append(section, longest_term(sections) + 4);
   help += examples_text(manual.examples);
-  help += "\n" + manual.exit_codes.title + ":\n";
-  const std::size_t codes_indent = longest_term({manual.exit_codes}) + 4;
-  for (const Entry& code : manual.exit_codes.entries) {
-    help += "  " + code.term + std::string(codes_indent - 2 - code.term.size(), ' ') +
-            wrapped(code.text, columns - codes_indent, codes_indent) + "\n";
-  }
+  append(manual.exit_codes, longest_term({manual.exit_codes}) + 4);
   return help;
 }
 

@@ -48,6 +48,13 @@ class OptionParser {
   void add(const std::string& names, const std::string& value_name, const std::string& help, const Take& take,
            const Names& values = {});
 
+  /// The same for a variable, which becomes parse(the value).
+  template <class Variable, class Parse>
+  void add(const std::string& names, const std::string& value_name, const std::string& help, Variable& variable,
+           const Parse& parse, const Names& values = {}) {
+    add(names, value_name, help, [&variable, parse](const std::string& text) { variable = parse(text); }, values);
+  }
+
   /// One that may be repeated, and keeps all its values.
   void add_repeatable(const std::string& names, const std::string& value_name, const std::string& help,
                       const Take& take);

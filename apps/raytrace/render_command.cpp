@@ -9,9 +9,8 @@
 #include <unordered_set>
 #include <utility>
 
-#include "exit_code.h"
 #include "messages.h"
-#include "process_limits.h"
+#include "process.h"
 #include "progress.h"
 #include "raytrace/batch/output_files.h"
 #include "raytrace/batch/render_picture.h"

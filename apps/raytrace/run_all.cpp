@@ -7,10 +7,9 @@
 #include <unordered_set>
 #include <vector>
 
-#include "exit_code.h"
 #include "messages.h"
 #include "option_values.h"
-#include "process_limits.h"
+#include "process.h"
 #include "raytrace/memory/out_of_memory.h"
 #include "raytrace/output/file_handle.h"
 #include "raytrace/text/message.h"

@@ -4,7 +4,7 @@
 #include <array>
 #include <random>
 
-#include "raytrace/output/film_channels.h"
+#include "raytrace/output/image_band.h"
 #include "support/catch.h"
 
 namespace raytrace::test {

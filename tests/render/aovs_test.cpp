@@ -6,7 +6,7 @@
 
 #include "raytrace/aovs/aov_selection.h"
 #include "raytrace/film/aov_film.h"
-#include "raytrace/output/film_channels.h"
+#include "raytrace/output/image_band.h"
 #include "render/scenes.h"
 #include "support/catch.h"
 #include "support/usable_isas.h"

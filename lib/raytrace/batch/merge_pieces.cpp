@@ -8,7 +8,7 @@
 #include "raytrace/aovs/aov_selection.h"
 #include "raytrace/batch/piece_layout.h"
 #include "raytrace/batch/provenance.h"
-#include "raytrace/output/film_channels.h"
+#include "raytrace/output/image_band.h"
 #include "raytrace/text/message.h"
 
 namespace raytrace {

@@ -9,7 +9,7 @@
 #include "raytrace/description/scene_description.h"
 #include "raytrace/output/atomic_file.h"
 #include "raytrace/output/complete_picture.h"
-#include "raytrace/output/film_channels.h"
+#include "raytrace/output/image_band.h"
 #include "raytrace/text/message.h"
 
 namespace raytrace {

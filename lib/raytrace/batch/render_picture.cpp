@@ -18,7 +18,7 @@
 #include "raytrace/film/samples_done.h"
 #include "raytrace/output/atomic_file.h"
 #include "raytrace/output/complete_picture.h"
-#include "raytrace/output/film_channels.h"
+#include "raytrace/output/image_band.h"
 #include "raytrace/render/renderer.h"
 #include "raytrace/text/message.h"
 

@@ -73,10 +73,6 @@ ImageFile::ImageFile(const std::string& file, const PictureExtent& extent, const
                      const ImageMetadata& metadata, const ImageFileSettings& settings)
     : ImageFile(file, make_image_encoder(file, settings), extent, channels, metadata) {}
 
-ImageFile::ImageFile(const std::string& file, const PictureExtent& extent, const ImageMetadata& metadata,
-                     const ImageFileSettings& settings)
-    : ImageFile(file, extent, color_channels(settings.full_float), metadata, settings) {}
-
 ImageFile::~ImageFile() = default;
 
 void ImageFile::write(const ImageBand& band) { encoder_->write(band); }
@@ -99,7 +95,7 @@ Repairs ImageFile::commit() {
 
 Repairs write_image(const std::string& file, const Film& film, const ImageMetadata& metadata,
                     const ImageFileSettings& settings) {
-  ImageFile image(file, film.settings().extent, metadata, settings);
+  ImageFile image(file, film.settings().extent, color_channels(settings.full_float), metadata, settings);
   image.write(film);
   return image.commit();
 }

@@ -104,9 +104,6 @@ class ImageFile {
   /// In the encoder's format, whatever the file's name.
   ImageFile(const std::string& file, std::unique_ptr<ImageEncoder> encoder, const PictureExtent& extent,
             const std::vector<Channel>& channels, const ImageMetadata& metadata);
-  /// Of color_channels() alone.
-  ImageFile(const std::string& file, const PictureExtent& extent, const ImageMetadata& metadata,
-            const ImageFileSettings& settings);
   ~ImageFile();
   ImageFile(const ImageFile&) = delete;
   ImageFile& operator=(const ImageFile&) = delete;

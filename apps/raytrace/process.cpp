@@ -1,4 +1,4 @@
-#include "process_limits.h"
+#include "process.h"
 
 #include <fcntl.h>
 #include <malloc.h>

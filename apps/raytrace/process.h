@@ -9,6 +9,16 @@
 
 namespace raytrace {
 
+/// What the program's exit code says. (docs/command-line.md)
+namespace exit_code {
+inline constexpr int done = 0;
+inline constexpr int failed = 1;          ///< the scene, the render, or a file
+inline constexpr int usage = 2;           ///< the command line
+inline constexpr int out_of_memory = 33;  ///< render farms give a job more memory on it
+inline constexpr int resumable = 75;      ///< stopped by a signal, with a checkpoint to go on from
+inline constexpr int stopped = 128;       ///< plus the signal's number
+}  // namespace exit_code
+
 /// Ends the process with the exit code of `program`, which runs in a process where
 /// - files 0 to 2 are open: if one was closed, the next file that is opened, a picture perhaps, would get its number
 ///   and whatever is printed;
