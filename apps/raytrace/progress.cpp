@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -31,27 +30,15 @@ int terminal_columns() {
 /// "42 s", "3:07 min" or "1:02:09 h".
 std::string duration_text(double seconds) {
   const auto whole = static_cast<long long>(std::ceil(seconds));
-  char text[64];
-  if (whole < 60) {
-    std::snprintf(text, sizeof text, "%lld s", whole);
-  } else if (whole < 3600) {
-    std::snprintf(text, sizeof text, "%lld:%02lld min", whole / 60, whole % 60);
-  } else {
-    std::snprintf(text, sizeof text, "%lld:%02lld:%02lld h", whole / 3600, whole / 60 % 60, whole % 60);
-  }
-  return text;
+  if (whole < 60) return formatted("%lld s", whole);
+  if (whole < 3600) return formatted("%lld:%02lld min", whole / 60, whole % 60);
+  return formatted("%lld:%02lld:%02lld h", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
 std::string percentage(double fraction) { return std::to_string(static_cast<int>(100 * fraction)) + " %"; }
 
 /// Rounded down, so that 100 means the end.
 double to_tenths(double value) { return std::floor(value * 10) / 10; }
-
-std::string with_one_decimal(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f", value);
-  return text;
-}
 
 /// A line end in a file's name must not begin a line that a farm takes for an order.
 std::string without_controls(std::string text) {
@@ -157,7 +144,7 @@ bool is_for_programs(ProgressStyle style) {
 }
 
 std::string progress_line(ProgressStyle style, double percent, double seconds, std::optional<double> seconds_left) {
-  if (style == ProgressStyle::openjd) return "openjd_progress: " + with_one_decimal(to_tenths(percent)) + "\n";
+  if (style == ProgressStyle::openjd) return formatted("openjd_progress: %.1f\n", to_tenths(percent));
   if (style == ProgressStyle::alf) return "ALF_PROGRESS " + std::to_string(static_cast<int>(percent)) + "%\n";
   if (style != ProgressStyle::json) return {};
   nlohmann::ordered_json event = {

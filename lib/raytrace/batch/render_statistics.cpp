@@ -3,7 +3,6 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "raytrace/memory/process_status.h"
@@ -13,17 +12,9 @@ namespace raytrace {
 
 namespace {
 
-std::string aligned_line(const char* name, const std::string& value) {
-  char start[32];
-  std::snprintf(start, sizeof start, "%-16s", name);
-  return start + value + "\n";
-}
+std::string aligned_line(const char* name, const std::string& value) { return formatted("%-16s", name) + value + "\n"; }
 
-std::string seconds_text(double seconds) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%10.3f s", seconds);
-  return text;
-}
+std::string seconds_text(double seconds) { return formatted("%10.3f s", seconds); }
 
 /// With a metric prefix: "12.3 M".
 std::string amount_text(double amount, const char* unit) {
@@ -33,10 +24,7 @@ std::string amount_text(double amount, const char* unit) {
     amount /= 1000;
     ++prefix;
   }
-  char text[64];
-  const int length =
-      std::snprintf(text, sizeof text, prefix == 0 ? "%10.0f %s%s" : "%10.1f %s%s", amount, prefixes[prefix], unit);
-  std::string result(text, static_cast<std::size_t>(length));
+  std::string result = formatted("%10.*f %s%s", prefix == 0 ? 0 : 1, amount, prefixes[prefix], unit);
   while (result.back() == ' ') result.pop_back();
   return result;
 }

@@ -4,12 +4,12 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 #include "raytrace/film/aov_film.h"
 #include "raytrace/math/limbs.h"
 #include "raytrace/parallel/for_each_index.h"
+#include "raytrace/text/message.h"
 
 namespace raytrace {
 
@@ -44,8 +44,7 @@ std::vector<Channel> channels_of(const SumLayout& layout) {
   for (std::size_t i = 0; i < layout.aovs.mean_units.size(); ++i) add_halves("sums.aov.mean" + std::to_string(i));
   for (std::size_t coverage = 0; coverage < layout.aovs.coverages; ++coverage)
     for (std::size_t i = 0; i < layout.ids[coverage]; ++i) {
-      char digits[24];
-      std::snprintf(digits, sizeof digits, "%03zu", i);  // in the order of their names
+      const std::string digits = formatted("%03zu", i);  // in the order of their names
       add(coverage_name(coverage) + ".id" + digits);
       add(coverage_name(coverage) + ".count" + digits);
     }

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdarg>
 #include <cstddef>
+#include <cstdio>
 
 #include "raytrace/text/utf8.h"
 
@@ -102,6 +104,15 @@ std::string_view nearest_name(std::string_view name, std::span<const std::string
     limit = distance - 1;
   }
   return nearest;
+}
+
+std::string formatted(const char* format, ...) {
+  char text[128];
+  std::va_list values;
+  va_start(values, format);
+  std::vsnprintf(text, sizeof text, format, values);
+  va_end(values);
+  return text;
 }
 
 }  // namespace raytrace

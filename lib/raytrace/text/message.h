@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <span>
 #include <string>
 #include <string_view>
@@ -50,11 +49,10 @@ inline std::string joined(const std::vector<std::string>& texts, const char* sep
   return all;
 }
 
+/// What printf prints, of at most 127 characters.
+[[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...);
+
 /// " in 1.250 s"
-inline std::string time_taken(double seconds) {
-  char text[64];
-  std::snprintf(text, sizeof text, " in %.3f s", seconds);
-  return text;
-}
+inline std::string time_taken(double seconds) { return formatted(" in %.3f s", seconds); }
 
 }  // namespace raytrace
