@@ -8,16 +8,15 @@
 
 #include "manual.h"
 #include "option_parser.h"
-#include "raytrace/aovs/aov_table.h"
+#include "raytrace/aovs/aov_selection.h"
 #include "raytrace/batch/provenance.h"
 #include "raytrace/cameras/registry.h"
 #include "raytrace/integrators/registry.h"
 #include "raytrace/lights/registry.h"
 #include "raytrace/materials/registry.h"
-#include "raytrace/math/type_list.h"
 #include "raytrace/render/renderer.h"
 #include "raytrace/shapes/registry.h"
-#include "raytrace/text/quoted.h"
+#include "raytrace/text/message.h"
 
 namespace raytrace {
 
@@ -32,39 +31,16 @@ std::string help() {
 
 /// The version, the libraries' and the instruction sets, one a line.
 std::string version() {
-  std::string isas;
-  for (const std::string& name : isa_names()) isas += (isas.empty() ? "" : ", ") + name;
   // An empty scene knows which Embree it is made with.
   const std::string embree_version = build_scene({}, {1, "", true})->statistics().embree_version;
   return software_name() + "\nEmbree " + embree_version + "\nOpenImageIO " OPENIMAGEIO_VERSION "\noneTBB " +
-         TBB_runtime_version() + "\ninstruction sets: " + isas + " (best here: " + best_isa() + ")\n";
+         TBB_runtime_version() + "\ninstruction sets: " + joined(isa_names(), ", ") + " (best here: " + best_isa() +
+         ")\n";
 }
 
-/// The names in a registry, one a line.
-template <class List>
-std::string names_in(List list) {
-  std::string names;
-  for_each_type(list, [&](auto type) {
-    using T = typename decltype(type)::type;
-    if constexpr (requires { T::name; }) {
-      names += T::name;
-    } else {
-      names += T::element;
-    }
-    names += '\n';
-  });
-  return names;
-}
-
-std::string names_of_aovs() {
-  std::string names;
-  for (const Aov& aov : aov_table) names += std::string(aov.name) + '\n';
-  return names;
-}
-
-std::vector<std::pair<std::string, std::string>> listings() {
+std::vector<std::pair<std::string, Names>> listings() {
   return {{"shapes", names_in(Shapes())},   {"materials", names_in(Materials())},     {"lights", names_in(Lights())},
-          {"cameras", names_in(Cameras())}, {"integrators", names_in(Integrators())}, {"aovs", names_of_aovs()}};
+          {"cameras", names_in(Cameras())}, {"integrators", names_in(Integrators())}, {"aovs", aov_names()}};
 }
 
 struct OptionForWord {
@@ -101,7 +77,7 @@ std::optional<std::string> about_program(const Options& options) {
   if (options.help) return help();
   if (options.version) return version();
   for (const auto& [name, members] : listings())
-    if (name == options.list) return members;
+    if (name == options.list) return joined(members, "\n") + "\n";
   return std::nullopt;
 }
 

@@ -3,8 +3,6 @@
 #include <iostream>
 #include <string_view>
 
-#include "about.h"
-#include "completion.h"
 #include "manual.h"
 #include "merge_command.h"
 #include "options.h"

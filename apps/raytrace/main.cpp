@@ -2,11 +2,10 @@
 #include <vector>
 
 #include "about.h"
-#include "exit_code.h"
 #include "merge_command.h"
 #include "messages.h"
 #include "options.h"
-#include "process_setup.h"
+#include "process.h"
 #include "render_command.h"
 #include "run_all.h"
 

@@ -1,4 +1,5 @@
-// The manual of the command, made of the parser's own options: --help and the man page cannot differ.
+// What is made of the parser's own options, so that they cannot differ: --help, the man pages, and what shells
+// complete.
 #pragma once
 
 #include <string>
@@ -21,5 +22,11 @@ std::vector<std::string> short_help(const Manual& manual);
 
 /// For man(1), in the man macros of troff. `software` stands in the page's margins.
 std::string man_page(const Manual& manual, const std::vector<OptionEntry>& options, const std::string& software);
+
+/// What bash, zsh and fish read when a person types raytrace and the tab key. render, merge: the options of raytrace
+/// and of raytrace merge.
+std::string bash_completion(const std::vector<OptionEntry>& render, const std::vector<OptionEntry>& merge);
+std::string zsh_completion(const std::vector<OptionEntry>& render, const std::vector<OptionEntry>& merge);
+std::string fish_completion(const std::vector<OptionEntry>& render, const std::vector<OptionEntry>& merge);
 
 }  // namespace raytrace

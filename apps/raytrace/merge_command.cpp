@@ -8,15 +8,14 @@
 #include <system_error>
 #include <utility>
 
-#include "exit_code.h"
 #include "manual.h"
 #include "messages.h"
 #include "option_parser.h"
-#include "process_limits.h"
-#include "raytrace/batch/message_text.h"
+#include "process.h"
 #include "raytrace/batch/output_files.h"
-#include "raytrace/batch/used_files.h"
+#include "raytrace/batch/settings_error.h"
 #include "raytrace/render/renderer.h"
+#include "raytrace/text/message.h"
 #include "signals.h"
 
 namespace raytrace {
@@ -114,17 +113,15 @@ void define_merge_options(OptionParser& parser, MergeOptions& options) {
                     "Pieces may be missing or unfinished: a pixel gets the samples that there are, or else a checked "
                     "background with alpha 0");
   parser.add("-s,--spp", "N", "Refuse pieces that have other than N samples per pixel together (as many as there are)",
-             [&](const std::string& text) { settings.samples = integer(text, 1, largest); });
+             settings.samples, integer_between(1, largest));
   parser.group("Output");
   parser.add_repeatable("-o,--output", "FILE", "Write the picture to FILE; repeatable",
                         [&](const std::string& text) { settings.outputs.push_back(text); });
   parser.add("--bit-depth", "8|16", "Bits per channel in PNG, TIFF and other sRGB-encoded files (8)",
-             [&](const std::string& text) { settings.bit_depth = bit_depth(text); }, {"8", "16"});
-  parser.add("--exposure", exposure_value_name, exposure_help,
-             [&](const std::string& text) { settings.exposure = exposure(text); });
+             settings.bit_depth, bit_depth, {"8", "16"});
+  parser.add("--exposure", exposure_value_name, exposure_help, settings.exposure, exposure);
   parser.group("Work");
-  parser.add("-t,--threads", "N", "Use N threads (all processors)",
-             [&](const std::string& text) { settings.threads = integer(text, 1, most_threads); });
+  parser.add("-t,--threads", "N", "Use N threads (all processors)", settings.threads, integer_between(1, most_threads));
   parser.group("Messages");
   parser.add_switch("-q,--quiet", options.quiet, "Errors only");
   parser.add_switch("-v,--verbose", options.verbose, "Report what is done");

@@ -1,9 +1,6 @@
 // raytrace merge PIECES... -o FILE
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "raytrace/batch/merge_pieces.h"
 
 namespace raytrace {

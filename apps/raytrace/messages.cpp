@@ -12,9 +12,9 @@
 #include <string_view>
 #include <unordered_set>
 
-#include "raytrace/output/link_target.h"
-#include "raytrace/output/output_error.h"
-#include "raytrace/text/quoted.h"
+#include "raytrace/output/file_handle.h"
+#include "raytrace/output/file_identity.h"
+#include "raytrace/text/message.h"
 
 namespace raytrace {
 

@@ -1,12 +1,12 @@
 // The messages of the program while it runs, for a person on standard error ("raytrace: error: ..."), the log file, and
-// a program that reads along on standard output (progress_lines.h). Any thread may log something at any time.
+// a program that reads along on standard output (progress.h). Any thread may log something at any time.
 #pragma once
 
 #include <cstddef>
 #include <string>
 #include <vector>
 
-#include "progress_lines.h"
+#include "progress.h"
 #include "raytrace/xml/diagnostics.h"
 
 namespace raytrace {

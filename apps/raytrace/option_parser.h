@@ -48,6 +48,13 @@ class OptionParser {
   void add(const std::string& names, const std::string& value_name, const std::string& help, const Take& take,
            const Names& values = {});
 
+  /// The same for a variable, which becomes parse(the value).
+  template <class Variable, class Parse>
+  void add(const std::string& names, const std::string& value_name, const std::string& help, Variable& variable,
+           const Parse& parse, const Names& values = {}) {
+    add(names, value_name, help, [&variable, parse](const std::string& text) { variable = parse(text); }, values);
+  }
+
   /// One that may be repeated, and keeps all its values.
   void add_repeatable(const std::string& names, const std::string& value_name, const std::string& help,
                       const Take& take);
@@ -80,5 +87,12 @@ class OptionParser {
   std::vector<OptionEntry> entries_;
   std::vector<std::string>* arguments_ = nullptr;
 };
+
+/// "--spp" for "--samples", "-samples" or "samples", however it is divided into words ("--num_threads",
+/// "--numThreads"); empty if it is not known.
+std::string_view option_of_other_renderers(std::string_view name);
+
+/// "--resolution" for "+W640", as POV-Ray has it.
+std::string_view option_of_povray(std::string_view argument);
 
 }  // namespace raytrace

@@ -7,10 +7,7 @@
 #include <optional>
 
 #include "raytrace/aovs/aov_selection.h"
-#include "raytrace/batch/message_text.h"
-#include "raytrace/integrators/registry.h"
-#include "raytrace/text/nearest_name.h"
-#include "raytrace/text/quoted.h"
+#include "raytrace/text/message.h"
 
 namespace raytrace {
 
@@ -82,12 +79,6 @@ int bit_depth(const std::string& text) {
 std::string one_of(const std::string& text, const Names& names) {
   if (std::find(names.begin(), names.end(), text) != names.end()) return text;
   throw UsageError(in_quotes(text) + " is not one of " + joined(names, ", ") + suggestion(text, names));
-}
-
-Names integrator_names() {
-  Names names;
-  for_each_type(Integrators{}, [&]<class T>(std::type_identity<T>) { names.emplace_back(T::element); });
-  return names;
 }
 
 Names aov_choices() {

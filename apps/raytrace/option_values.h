@@ -12,6 +12,7 @@
 #include "raytrace/film/aov_settings.h"
 #include "raytrace/film/region.h"
 #include "raytrace/film/tiles.h"
+#include "raytrace/math/type_list.h"
 
 namespace raytrace {
 
@@ -37,6 +38,9 @@ std::string nearest(const std::string& wrong, const Names& names);
 std::string suggestion(const std::string& wrong, const Names& names);
 
 int integer(const std::string& text, int least, int most);
+inline auto integer_between(int least, int most) {
+  return [=](const std::string& text) { return integer(text, least, most); };
+}
 
 /// Any that 64 bits hold.
 std::uint64_t natural_number(const std::string& text);
@@ -46,9 +50,22 @@ int bit_depth(const std::string& text);
 
 /// The text, if it is one of the names.
 std::string one_of(const std::string& text, const Names& names);
+inline auto one_of(const Names& names) {
+  return [=](const std::string& text) { return one_of(text, names); };
+}
 
-/// The elements of all integrators.
-Names integrator_names();
+/// All types in a registry, as --list shows them.
+template <class List>
+Names names_in(List list) {
+  Names names;
+  for_each_type(list, [&]<class T>(std::type_identity<T>) {
+    if constexpr (requires { T::name; })
+      names.emplace_back(T::name);
+    else
+      names.emplace_back(T::element);
+  });
+  return names;
+}
 
 /// Those that --aov knows, and "all".
 Names aov_choices();

@@ -7,13 +7,12 @@
 #include "about.h"
 #include "manual.h"
 #include "option_parser.h"
-#include "option_values.h"
 #include "raytrace/aovs/aov_selection.h"
-#include "raytrace/batch/frame_numbers.h"
-#include "raytrace/batch/message_text.h"
+#include "raytrace/batch/frames.h"
 #include "raytrace/description/variables.h"
+#include "raytrace/integrators/registry.h"
 #include "raytrace/render/renderer.h"
-#include "raytrace/text/quoted.h"
+#include "raytrace/text/message.h"
 #include "raytrace/text/utf8.h"
 
 namespace raytrace {
@@ -100,7 +99,7 @@ void define_options(OptionParser& parser, Options& options) {
       "--frames", "FRAMES",
       "Render these frames, e.g. 1-10:2,15; #### or %04d in the names of scenes, outputs and statistics is the number, "
       "{#} a #",
-      [&](const std::string& text) { options.frames = frame_numbers(text); });
+      options.frames, frame_numbers);
   parser.add_repeatable("-D,--define", "NAME=VALUE", "Set the variable $NAME of the scene; repeatable",
                         [&](const std::string& text) { define(text, options.variables); });
 
@@ -117,75 +116,68 @@ void define_options(OptionParser& parser, Options& options) {
   parser.add_switch("--transparent", options.transparent,
                     "Leave the background out of the colour; alpha is coverage: premultiplied in EXR, straight RGBA in "
                     "PNG and TIFF");
-  parser.add("--exposure", exposure_value_name, exposure_help,
-             [&](const std::string& text) { options.exposure = exposure(text); });
-  parser.add(
-      "--aov", "LIST",
-      "What EXR files hold besides the colour, separated by commas: " + joined(aov_names(), ", ") + "; or all",
-      [&](const std::string& text) { options.aovs = aovs(text); }, aov_choices());
-  parser.add("--bit-depth", "8|16", "Bits per channel in PNG, TIFF and other sRGB-encoded files (8)",
-             [&](const std::string& text) { options.bit_depth = bit_depth(text); }, {"8", "16"});
+  parser.add("--exposure", exposure_value_name, exposure_help, options.exposure, exposure);
+  parser.add("--aov", "LIST",
+             "What EXR files hold besides the colour, separated by commas: " + joined(aov_names(), ", ") + "; or all",
+             options.aovs, aovs, aov_choices());
+  parser.add("--bit-depth", "8|16", "Bits per channel in PNG, TIFF and other sRGB-encoded files (8)", options.bit_depth,
+             bit_depth, {"8", "16"});
 
   parser.group("Picture");
   parser.add("-r,--resolution", "WxH", "Size in pixels instead of the scene's; what was in view stays in view",
-             [&](const std::string& text) { options.resolution = resolution(text); });
-  parser.add("--scale", "F", "Multiply the resolution by F (1)",
-             [&](const std::string& text) { options.scale = scale(text); });
+             options.resolution, resolution);
+  parser.add("--scale", "F", "Multiply the resolution by F (1)", options.scale, scale);
   parser.add(
       "--crop", "x0,y0,x1,y1",
       "Only these pixels: origin at the top left, x1 and y1 exclusive; they may reach beyond the picture; an EXR says "
       "where in the whole picture they are",
-      [&](const std::string& text) { options.crop = crop(text); });
+      options.crop, crop);
   parser.add(
       "--tile", "I/N",
       "Only part I (from 0) of N of the picture or crop, for as many machines: together they cover it; `raytrace "
       "merge` "
       "puts them together",
-      [&](const std::string& text) { options.tile = tile(text); });
+      options.tile, tile);
   parser.add("-s,--spp", "N", "Samples per pixel instead of the scene's; 1 goes through the pixel's centre",
-             [&](const std::string& text) { options.samples = integer(text, 1, largest); });
-  parser.add(
-      "--sample-offset", "K",
-      "These --spp samples are the picture's from number K on; the EXR keeps their sums for `raytrace merge`",
-      [&](const std::string& text) { options.sample_offset = static_cast<std::uint32_t>(integer(text, 0, largest)); });
+             options.samples, integer_between(1, largest));
+  parser.add("--sample-offset", "K",
+             "These --spp samples are the picture's from number K on; the EXR keeps their sums for `raytrace merge`",
+             options.sample_offset, integer_between(0, largest));
   parser.add("--pixel", "x,y", "Print the samples of one pixel, from the top left, instead of rendering a picture",
-             [&](const std::string& text) { options.pixel = pixel_index(text); });
-  parser.add(
-      "--integrator", "NAME", "How light is computed, instead of the scene's way: " + joined(integrator_names(), ", "),
-      [&](const std::string& text) { options.integrator = one_of(text, integrator_names()); }, integrator_names());
-  parser.add("--seed", "N", "Another, equally good, pattern of samples (0)",
-             [&](const std::string& text) { options.seed = natural_number(text); });
+             options.pixel, pixel_index);
+  parser.add("--integrator", "NAME",
+             "How light is computed, instead of the scene's way: " + joined(names_in(Integrators{}), ", "),
+             options.integrator, one_of(names_in(Integrators{})), names_in(Integrators{}));
+  parser.add("--seed", "N", "Another, equally good, pattern of samples (0)", options.seed, natural_number);
 
   parser.group("Work");
-  parser.add("-t,--threads", "N", "Use N threads (all processors); the picture does not depend on it",
-             [&](const std::string& text) { options.threads = integer(text, 1, most_threads); });
-  parser.add(
-      "--isa", "NAME", "Instruction set: " + joined(isa_names(), ", ") + " (the best that the processor has)",
-      [&](const std::string& text) { options.isa = instruction_set(text); }, isa_names());
+  parser.add("-t,--threads", "N", "Use N threads (all processors); the picture does not depend on it", options.threads,
+             integer_between(1, most_threads));
+  parser.add("--isa", "NAME", "Instruction set: " + joined(isa_names(), ", ") + " (the best that the processor has)",
+             options.isa, instruction_set, isa_names());
 
   parser.add(
       "--time-limit", "TIME",
       "Stop adding samples when TIME (90s, 10m, 1h30m) has passed since the start; the picture has as many as fit, at "
       "least 4",
-      [&](const std::string& text) { options.time_limit = duration(text); });
+      options.time_limit, duration);
 
   parser.group("Safety");
   parser.add("--checkpoint", "FILE", "Keep what is rendered in FILE, once a minute and when stopped by a signal",
              [&](const std::string& text) { options.checkpoint = text; });
-  parser.add("--checkpoint-interval", "TIME", "Time between two checkpoints (60s)",
-             [&](const std::string& text) { options.checkpoint_interval = duration(text); });
+  parser.add("--checkpoint-interval", "TIME", "Time between two checkpoints (60s)", options.checkpoint_interval,
+             duration);
   parser.add_switch("--resume", options.resume, "Go on from the checkpoint, if there is one");
 
   parser.group("Messages");
   parser.add_switch("-q,--quiet", options.quiet,
                     "Errors only: no warnings, and no progress but what --progress asks for");
   parser.add_switch("-v,--verbose", options.verbose, "Report what is done; twice: all that --stats reports, too");
-  parser.add(
-      "--progress", "STYLE",
-      "How far the render is: auto, bar and plain on standard error (auto: a bar on a terminal, plain lines "
-      "elsewhere); "
-      "openjd, alf and json on standard output, for Open Job Description, Tractor and other programs; or none",
-      [&](const std::string& text) { options.progress = progress_style(text); }, progress_names());
+  parser.add("--progress", "STYLE",
+             "How far the render is: auto, bar and plain on standard error (auto: a bar on a terminal, plain lines "
+             "elsewhere); "
+             "openjd, alf and json on standard output, for Open Job Description, Tractor and other programs; or none",
+             options.progress, progress_style, progress_names());
   parser.add("--log-file", "FILE", "Add the messages to FILE, too, each with its time", [&](const std::string& text) {
     if (text.empty()) throw UsageError("the file name is empty");
     options.log_file = text;
@@ -197,15 +189,14 @@ void define_options(OptionParser& parser, Options& options) {
   parser.add(
       "--display-server", "HOST:PORT",
       "Show the picture as it grows in the image viewer tev (port 14158); one that fails does not stop the render",
-      [&](const std::string& text) { options.display_server = display_address(text); });
+      options.display_server, display_address);
 
   parser.group("Look first");
   parser.add_switch("--validate", options.validate, "Check the scene and render nothing");
   parser.add_switch("--print-scene", options.print_scene,
                     "Print the scene with every value spelled out, as it would be rendered, and render nothing");
-  parser.add(
-      "--list", "KIND", "Print the " + joined(listing_names(), ", ") + " that there are",
-      [&](const std::string& text) { options.list = one_of(text, listing_names()); }, listing_names());
+  parser.add("--list", "KIND", "Print the " + joined(listing_names(), ", ") + " that there are", options.list,
+             one_of(listing_names()), listing_names());
   parser.add_switch("--version", options.version, "Print the version, the libraries' and the instruction sets");
   parser.add_switch("-h,--help", options.help, "Print this");
 }

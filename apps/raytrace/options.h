@@ -8,7 +8,7 @@
 
 #include "messages.h"
 #include "option_values.h"
-#include "progress_lines.h"
+#include "progress.h"
 #include "raytrace/batch/render_job.h"
 
 namespace raytrace {

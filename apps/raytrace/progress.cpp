@@ -5,11 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "messages.h"
+#include "raytrace/text/message.h"
 
 namespace raytrace {
 
@@ -29,18 +30,33 @@ int terminal_columns() {
 /// "42 s", "3:07 min" or "1:02:09 h".
 std::string duration_text(double seconds) {
   const auto whole = static_cast<long long>(std::ceil(seconds));
-  char text[64];
-  if (whole < 60) {
-    std::snprintf(text, sizeof text, "%lld s", whole);
-  } else if (whole < 3600) {
-    std::snprintf(text, sizeof text, "%lld:%02lld min", whole / 60, whole % 60);
-  } else {
-    std::snprintf(text, sizeof text, "%lld:%02lld:%02lld h", whole / 3600, whole / 60 % 60, whole % 60);
-  }
-  return text;
+  if (whole < 60) return formatted("%lld s", whole);
+  if (whole < 3600) return formatted("%lld:%02lld min", whole / 60, whole % 60);
+  return formatted("%lld:%02lld:%02lld h", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
 std::string percentage(double fraction) { return std::to_string(static_cast<int>(100 * fraction)) + " %"; }
+
+/// Rounded down, so that 100 means the end.
+double to_tenths(double value) { return std::floor(value * 10) / 10; }
+
+/// A line end in a file's name must not begin a line that a farm takes for an order.
+std::string without_controls(std::string text) {
+  std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
+  return on_one_line(text);
+}
+
+std::string json_line(const nlohmann::ordered_json& event) {
+  // A file name need not be UTF-8; JSON must.
+  return event.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+/// The line of an event that is a text.
+std::string text_line(ProgressStyle style, const char* openjd_name, const char* json_name, const std::string& text) {
+  if (style == ProgressStyle::openjd) return std::string(openjd_name) + ": " + without_controls(text) + "\n";
+  if (style == ProgressStyle::json) return json_line({{"event", json_name}, {"text", text}});
+  return {};
+}
 
 }  // namespace
 
@@ -121,6 +137,28 @@ std::optional<double> Progress::seconds_left(double fraction) const {
 std::string Progress::time_left(double fraction) const {
   const std::optional<double> left = fraction < 1 ? seconds_left(fraction) : std::nullopt;
   return left ? ", " + duration_text(*left) + " left" : "";
+}
+
+bool is_for_programs(ProgressStyle style) {
+  return style == ProgressStyle::openjd || style == ProgressStyle::alf || style == ProgressStyle::json;
+}
+
+std::string progress_line(ProgressStyle style, double percent, double seconds, std::optional<double> seconds_left) {
+  if (style == ProgressStyle::openjd) return formatted("openjd_progress: %.1f\n", to_tenths(percent));
+  if (style == ProgressStyle::alf) return "ALF_PROGRESS " + std::to_string(static_cast<int>(percent)) + "%\n";
+  if (style != ProgressStyle::json) return {};
+  nlohmann::ordered_json event = {
+      {"event", "progress"}, {"percent", to_tenths(percent)}, {"seconds", to_tenths(seconds)}};
+  if (seconds_left) event["seconds_left"] = to_tenths(*seconds_left);
+  return json_line(event);
+}
+
+std::string status_line(ProgressStyle style, const std::string& text) {
+  return text_line(style, "openjd_status", "status", text);
+}
+
+std::string failure_line(ProgressStyle style, const std::string& text) {
+  return text_line(style, "openjd_fail", "failure", text);
 }
 
 }  // namespace raytrace

@@ -6,9 +6,31 @@
 #include <optional>
 #include <string>
 
-#include "progress_lines.h"
-
 namespace raytrace {
+
+enum class ProgressStyle {
+  automatic,  ///< bar on a terminal that can move its cursor, plain elsewhere
+  bar,        ///< one line that is drawn over, ten times a second at most, and wiped out in the end
+  plain,      ///< a whole line a second at most, and one at the end
+  openjd,     ///< Open Job Description's openjd_progress, openjd_status and openjd_fail:
+              ///< github.com/OpenJobDescription/openjd-specifications/wiki/How-Jobs-Are-Run
+  alf,        ///< ALF_PROGRESS of Pixar's Tractor and Alfred, which take errors from the exit code
+  json,       ///< an object a line; keys: docs/watching.md
+  none,
+};
+
+/// Whether lines of this style are for a program, on standard output; the other styles are for people, on standard
+/// error.
+bool is_for_programs(ProgressStyle style);
+
+/// The lines that programs read, each with its end. percent: 0 to 100; seconds_left: none while nobody can know.
+std::string progress_line(ProgressStyle style, double percent, double seconds, std::optional<double> seconds_left);
+
+/// What is being done. Empty if the style has no such line; so, too, the next one.
+std::string status_line(ProgressStyle style, const std::string& text);
+
+/// Why the run fails.
+std::string failure_line(ProgressStyle style, const std::string& text);
 
 /// Calls must come one at a time, from whatever thread.
 class Progress {

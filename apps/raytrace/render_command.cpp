@@ -9,17 +9,15 @@
 #include <unordered_set>
 #include <utility>
 
-#include "exit_code.h"
 #include "messages.h"
-#include "process_limits.h"
+#include "process.h"
 #include "progress.h"
 #include "raytrace/batch/output_files.h"
 #include "raytrace/batch/render_picture.h"
-#include "raytrace/batch/settings_error.h"
 #include "raytrace/description/parse_value.h"
 #include "raytrace/output/atomic_file.h"
 #include "raytrace/render/renderer.h"
-#include "raytrace/text/quoted.h"
+#include "raytrace/text/message.h"
 #include "run_all.h"
 #include "signals.h"
 

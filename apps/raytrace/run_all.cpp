@@ -7,13 +7,12 @@
 #include <unordered_set>
 #include <vector>
 
-#include "exit_code.h"
 #include "messages.h"
 #include "option_values.h"
-#include "process_limits.h"
-#include "raytrace/batch/message_text.h"
+#include "process.h"
 #include "raytrace/memory/out_of_memory.h"
-#include "raytrace/output/output_error.h"
+#include "raytrace/output/file_handle.h"
+#include "raytrace/text/message.h"
 
 namespace raytrace {
 

@@ -120,7 +120,7 @@ def page(facts, results, all_threads):
     text.append("## What is rendered\n")
     text.append(
         "Objects at random places over an endless floor, in 9 matte colours, under one point light with shadows,"
-        " 1024 x 1024 pixels, 16 samples a pixel, unless the name says otherwise. No ambient light and no"
+        " 1024 x 1024 pixels, 16 samples per pixel, unless the name says otherwise. No ambient light and no"
         " highlights, since the renderers have different ideas of them; the background is blue where nothing is hit, so"
         " that coverage can be compared. [scenes.py](../benchmarks/comparison/scenes.py) makes the scenes. Each run"
         " reads its scene from a file and writes what it is at home in: raytrace and Mitsuba an EXR, the others an 8-bit"

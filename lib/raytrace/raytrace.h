@@ -3,7 +3,7 @@
 #pragma once
 
 #include "raytrace/batch/checkpoint.h"
-#include "raytrace/batch/frame_numbers.h"
+#include "raytrace/batch/frames.h"
 #include "raytrace/batch/merge_pieces.h"
 #include "raytrace/batch/render_picture.h"
 #include "raytrace/batch/settings_error.h"

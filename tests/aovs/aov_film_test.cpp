@@ -4,7 +4,7 @@
 #include <array>
 #include <random>
 
-#include "raytrace/output/aov_sum_channels.h"
+#include "raytrace/output/image_band.h"
 #include "support/catch.h"
 
 namespace raytrace::test {
@@ -102,19 +102,26 @@ TEST_CASE("what AOVs gather does not depend on the order of samples, nor on how 
   std::mt19937 bits(3);
   for (int i = 0; i < 5; ++i) {
     std::shuffle(samples.begin(), samples.end(), bits);
-    std::vector<AovFilm> parts;
-    for (int part = 0; part < 4; ++part) parts.emplace_back(region, some_settings());
-    for (const Sample& sample : samples) add(parts[bits() % 4], sample);
-    AovFilm merged(region, some_settings());
-    for (const AovFilm& part : parts) {  // through channels, as pieces are merged
-      const std::vector<Channel> channels = aov_sum_channels(part);
+    FilmSettings settings;
+    settings.extent.region = region;
+    settings.aovs = some_settings();
+    std::vector<Film> parts;
+    for (int part = 0; part < 4; ++part) {
+      const PixelSum all{0, 0, 0, 0, 2000};
+      for_each_pixel(region,
+                     [film = &parts.emplace_back(settings), &all](std::size_t, int x, int y) { film->add(x, y, all); });
+    }
+    for (const Sample& sample : samples) add(*parts[bits() % 4].aovs(), sample);
+    Film merged(settings);
+    for (const Film& part : parts) {  // through channels, as pieces are merged
+      const std::vector<Channel> channels = sum_channels(part);
       for (int y = region.y0; y < region.y1; y += 2) {
-        ImageBand band{{region.x0, y, region.x1, std::min(y + 2, region.y1)}, {std::vector<float>{}}};
-        fill_aov_sums(band, 1, channels, part);
-        CHECK(add_aov_sums(band, 1, channels, {0, 2000}, std::vector<std::uint32_t>(14, 2000), merged));
+        ImageBand band{{region.x0, y, region.x1, std::min(y + 2, region.y1)}, {}};
+        append_sums(band, channels, part);
+        CHECK(add_sums(band, channels, {0, 2000}, merged));
       }
     }
-    CHECK(same(merged, wanted));
+    CHECK(same(*merged.aovs(), wanted));
   }
   AovFilm other(region, some_settings());
   for (const Sample& sample : samples) add(other, sample);

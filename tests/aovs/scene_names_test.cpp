@@ -1,9 +1,8 @@
-#include "raytrace/aovs/scene_names.h"
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "raytrace/aovs/aov_selection.h"
 #include "raytrace/aovs/cryptomatte.h"
 #include "render/scenes.h"
 #include "support/catch.h"

@@ -1,8 +1,7 @@
 // What is put into the names of files.
-#include "raytrace/batch/file_names.h"
-
 #include <filesystem>
 
+#include "raytrace/batch/frames.h"
 #include "raytrace/batch/settings_error.h"
 #include "support/catch.h"
 #include "support/temporary_folder.h"

@@ -1,6 +1,5 @@
 // The texts of --frames.
-#include "raytrace/batch/frame_numbers.h"
-
+#include "raytrace/batch/frames.h"
 #include "raytrace/batch/settings_error.h"
 #include "support/catch.h"
 

@@ -1,7 +1,7 @@
 // The renders that a command line asks for.
-#include "exit_code.h"
 #include "messages.h"
 #include "options.h"
+#include "process.h"
 #include "run_all.h"
 #include "support/catch.h"
 

@@ -3,7 +3,6 @@
 
 #include "about.h"
 #include "option_parser.h"
-#include "option_synonyms.h"
 #include "options.h"
 #include "raytrace/render/renderer.h"
 #include "support/catch.h"

@@ -1,6 +1,5 @@
 // Where the limits of a process' control groups stand.
-#include "process_limits.h"
-
+#include "process.h"
 #include "support/catch.h"
 
 namespace raytrace::test {

@@ -147,7 +147,7 @@ class Signals(SafetyTest):
             with self.subTest(name):
                 code, told = self.stop(number, *self.CHECKPOINT)
                 self.assertEqual(code, 75)
-                counts = re.fullmatch(rf"raytrace: stopped by {name}: (\d+)(?: to (\d+))? of (\d+) samples a pixel: "
+                counts = re.fullmatch(rf"raytrace: stopped by {name}: (\d+)(?: to (\d+))? of (\d+) samples per pixel: "
                                       "checkpoint c.exr written, --resume goes on from it; picture so far in a.exr\n", told)
                 self.assertTrue(counts, told)
                 least, most, samples = counts.groups()
@@ -157,7 +157,7 @@ class Signals(SafetyTest):
                 os.remove(self.path("c.exr"))
                 code, told = self.stop(number)
                 self.assertEqual(code, 128 + number)
-                self.assertRegex(told, rf"^raytrace: stopped by {name}: 0 to \d+ of \d+ samples a pixel: picture so far in "
+                self.assertRegex(told, rf"^raytrace: stopped by {name}: 0 to \d+ of \d+ samples per pixel: picture so far in "
                                        r"a\.exr\n$")
                 self.assertEqual(self.names(), ["a.exr", "scene.xml"])
                 os.remove(self.path("a.exr"))
@@ -211,7 +211,7 @@ class Signals(SafetyTest):
         self.wait_for_rays(process)
         process.send_signal(signal.SIGUSR1)
         told = process.stderr.readline()
-        counts = re.fullmatch(r"raytrace: picture so far, 0 to (\d+) of (\d+) samples a pixel, in a.exr, a.tif\n", told)
+        counts = re.fullmatch(r"raytrace: picture so far, 0 to (\d+) of (\d+) samples per pixel, in a.exr, a.tif\n", told)
         self.assertTrue(counts, told)
         self.assert_counts("a.exr", 0, *counts.groups())
         self.assertIn(b", seed 0, partial\0", self.read("a.tif"))

@@ -89,8 +89,12 @@ TEST_CASE("each rule of the format holds for a description that a program has ma
                  "<phong> [0] has the material name 'clay' of <matte> [0]"));
   CHECK(errors_of([](Scene& s) { first_sphere(s).material.index = 1; }) ==
         "s: error: <sphere> [0] refers to material 1 of type 0, which is not there\n");
-  CHECK(contains(errors_of([](Scene& s) { first_sphere(s).material.kind = 77; }),
+  CHECK(contains(errors_of([](Scene& s) { first_sphere(s).material.type = 77; }),
                  "material 0 of type 77, which is not there"));
+  CHECK(contains(errors_of([](Scene& s) {
+                   std::get<LightItems<PointLight>>(s.lights)[0].parameters.falloff = static_cast<Falloff>(2);
+                 }),
+                 "<pointlight> [0] has '2' as <falloff>, which is neither none nor inversesquare"));
   CHECK(contains(errors_of([](Scene& s) { std::get<LightItems<AmbientLight>>(s.lights).resize(2); }),
                  "<ambientlight> [1] is a second one"));
   CHECK(contains(

@@ -1,8 +1,7 @@
 // Files of other formats, given as a scene.
-#include "raytrace/xml/file_type.h"
-
 #include <string>
 
+#include "raytrace/xml/scene_text.h"
 #include "reported.h"
 #include "support/catch.h"
 #include "support/contains.h"

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "raytrace/description/scene_layout.h"
-#include "raytrace/text/quoted.h"
+#include "raytrace/text/message.h"
 #include "reported.h"
 #include "support/catch.h"
 #include "support/contains.h"
@@ -43,7 +43,7 @@ TEST_CASE("order is free: objects may come before their materials") {
                                      "</spheres></objects>" + text.substr(text.find("<materials>"));
   const SceneDescription scene = accepted(late_materials);
   REQUIRE(count<Sphere>(scene) == 1);
-  CHECK(std::get<ObjectItems<Sphere>>(scene.objects)[0].material.kind == index_of<Matte>(Materials{}));
+  CHECK(std::get<ObjectItems<Sphere>>(scene.objects)[0].material.type == index_of<Matte>(Materials{}));
   CHECK(std::get<ObjectItems<Sphere>>(scene.objects)[0].material.index == 0);
 }
 
@@ -53,7 +53,7 @@ TEST_CASE("objects refer to materials by type and index") {
       "<cs red='1' green='1' blue='1'/></phong></phongs></materials><objects><spheres><sphere><material>gold</material>"
       "<radius>1</radius><center x='0' y='0' z='0'/></sphere></spheres></objects>"));
   const MaterialReference gold = std::get<ObjectItems<Sphere>>(scene.objects).at(0).material;
-  CHECK(gold.kind == index_of<Phong>(Materials{}));
+  CHECK(gold.type == index_of<Phong>(Materials{}));
   CHECK(std::get<MaterialItems<Phong>>(scene.materials).at(gold.index).name == "gold");
 }
 

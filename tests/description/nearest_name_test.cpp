@@ -1,9 +1,8 @@
-#include "raytrace/text/nearest_name.h"
-
 #include <array>
 #include <string>
 #include <vector>
 
+#include "raytrace/text/message.h"
 #include "support/catch.h"
 
 namespace raytrace::test {

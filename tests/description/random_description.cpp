@@ -34,8 +34,7 @@ void randomize(Random& random, Range range, int& value) {
   value = static_cast<int>(below(random, 10000)) + (range == Range::positive ? 1 : 0);
 }
 void randomize(Random& random, Range, bool& value) { value = below(random, 2) == 0; }
-/// The only texts are fall-offs.
-void randomize(Random& random, Range, std::string& value) { value = below(random, 2) == 0 ? "none" : "inversesquare"; }
+void randomize(Random& random, Range, const ChoiceReference& value) { value.set(below(random, value.words().size())); }
 void randomize(Random& random, Range range, Vec3d& value) {
   const Range each = range == Range::nonzero ? Range::any : range;
   value = {random_number(random, each), random_number(random, each),
@@ -58,9 +57,8 @@ template <class T>
 typename T::Parameters random_parameters(Random& random) {
   typename T::Parameters parameters;
   do {
-    for (const auto& field : T::fields()) {
-      std::visit([&](auto member) { randomize(random, field.range, parameters.*member); }, field.member);
-    }
+    for (const auto& field : T::fields())
+      field.visit(parameters, [&](auto&& value) { randomize(random, field.range, value); });
   } while (!allowed<T>(parameters));
   return parameters;
 }
@@ -68,7 +66,7 @@ typename T::Parameters random_parameters(Random& random) {
 bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 bool same(int a, int b) { return a == b; }
 bool same(bool a, bool b) { return a == b; }
-bool same(const std::string& a, const std::string& b) { return a == b; }
+bool same(const ChoiceReference& a, const ChoiceReference& b) { return a.index() == b.index(); }
 bool same(const Vec3d& a, const Vec3d& b) { return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z); }
 bool same(const Rgb<double>& a, const Rgb<double>& b) {
   return same(a.red, b.red) && same(a.green, b.green) && same(a.blue, b.blue);
@@ -77,9 +75,12 @@ bool same(const Rgb<double>& a, const Rgb<double>& b) {
 template <class T>
 bool same_parameters(const typename T::Parameters& a, const typename T::Parameters& b) {
   bool all = true;
-  for (const auto& field : T::fields()) {
-    std::visit([&](auto member) { all = all && same(a.*member, b.*member); }, field.member);
-  }
+  for (const auto& field : T::fields())
+    field.visit(a, [&]<class Value>(const Value& one) {
+      field.visit(b, [&]<class Other>(const Other& other) {
+        if constexpr (std::is_same_v<Value, Other>) all = all && same(one, other);
+      });
+    });
   return all;
 }
 
@@ -154,7 +155,7 @@ bool same_scene(const SceneDescription& a, const SceneDescription& b) {
          same_items(Materials{}, a.materials, b.materials,
                     [](const auto& x, const auto& y) { return x.name == y.name; }) &&
          same_items(Shapes{}, a.objects, b.objects, [](const auto& x, const auto& y) {
-           return x.name == y.name && x.material.kind == y.material.kind && x.material.index == y.material.index;
+           return x.name == y.name && x.material.type == y.material.type && x.material.index == y.material.index;
          });
 }
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "raytrace/xml/text_file.h"
+#include "raytrace/xml/scene_text.h"
 #include "reported.h"
 #include "support/catch.h"
 #include "support/temporary_folder.h"

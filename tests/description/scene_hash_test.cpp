@@ -1,11 +1,10 @@
 // Scenes that look different have different hashes, and others the same.
-#include "raytrace/description/scene_hash.h"
-
 #include <set>
 #include <string>
 #include <type_traits>
 
 #include "random_description.h"
+#include "raytrace/description/scene_description.h"
 #include "reported.h"
 #include "support/catch.h"
 
@@ -25,6 +24,13 @@ void change_each(Value& value, const Changed& changed) {
     for (double* part : {&value.x, &value.y, &value.z}) change_each(*part, changed);
   } else if constexpr (std::is_same_v<Value, Rgb<double>>) {
     for (double* part : {&value.red, &value.green, &value.blue}) change_each(*part, changed);
+  } else if constexpr (std::is_same_v<Value, ChoiceReference>) {
+    const std::size_t before = value.index();
+    for (std::size_t other = 0; other < value.words().size(); ++other) {
+      value.set(other);
+      if (other != before) changed();
+    }
+    value.set(before);
   } else {
     const Value before = value;
     change(value);
@@ -38,7 +44,7 @@ void change_fields(typename T::Parameters& parameters, const Changed& changed) {
   for (const auto& field : T::fields()) {
     if (std::is_same_v<T, ViewPlane> && field.name == "samples") continue;
     INFO("field " << field.name);
-    std::visit([&](auto member) { change_each(parameters.*member, changed); }, field.member);
+    field.visit(parameters, [&](auto&& value) { change_each(value, changed); });
   }
 }
 
@@ -74,7 +80,7 @@ void change_everything(SceneDescription& scene, const Changed& changed) {
     for (auto& object : objects) {
       change_fields<T>(object.parameters, changed);
       change_each(object.name, changed);
-      for (std::uint32_t* part : {&object.material.kind, &object.material.index}) {
+      for (std::uint32_t* part : {&object.material.type, &object.material.index}) {
         ++*part;
         changed();
         --*part;

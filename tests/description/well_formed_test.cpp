@@ -2,7 +2,7 @@
 #include <string>
 
 #include "raytrace/description/scene_layout.h"
-#include "raytrace/text/quoted.h"
+#include "raytrace/text/message.h"
 #include "raytrace/xml/diagnostics.h"
 #include "raytrace/xml/document.h"
 #include "reported.h"

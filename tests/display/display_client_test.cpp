@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "display/loopback_server.h"
-#include "raytrace/display/tev_packets.h"
+#include "raytrace/display/display_server.h"
 #include "support/catch.h"
 
 namespace raytrace::test {

@@ -112,7 +112,7 @@ Vec3d off_axis(double degrees, double distance = 3) {
 }  // namespace
 
 TEST_CASE("light that falls off with the square of the distance has its full radiance at distance 1") {
-  PointLight::Parameters parameters{{1, 0, 0}, 3, {1, 0.5, 0.25}, true, "inversesquare"};
+  PointLight::Parameters parameters{{1, 0, 0}, 3, {1, 0.5, 0.25}, true, Falloff::inverse_square};
   for (const double distance : {0.001, 0.5, 1.0, 2.0, 1e6}) {
     const Rgb<float> radiance = radiance_at<PointLight>(parameters, {1 + distance, 0, 0});
     const double squared = std::pow(double{static_cast<float>(1 + distance)} - 1, 2);
@@ -124,7 +124,7 @@ TEST_CASE("light that falls off with the square of the distance has its full rad
     parameters.scaleradiance = scale;
     CHECK(std::isfinite(radiance_at<PointLight>(parameters, {1, 1e-17, 0}).red));
   }
-  parameters.falloff = "none";
+  parameters.falloff = Falloff::none;
   CHECK(radiance_at<PointLight>(parameters, {1e6, 0, 0}).red == static_cast<float>(-1e17));
 }
 
@@ -151,7 +151,7 @@ TEST_CASE("a spotlight's penumbra grows smoothly from its edge inwards") {
 
 TEST_CASE("a spotlight falls off as a point light does") {
   SpotLight::Parameters parameters = spotlight(60, 10);
-  parameters.falloff = "inversesquare";
+  parameters.falloff = Falloff::inverse_square;
   CHECK(radiance_at<SpotLight>(parameters, off_axis(5, 3)).red == Approx(1.0 / 9).epsilon(1e-5));
   CHECK(radiance_at<SpotLight>(parameters, off_axis(40, 3)).red == 0);
 }

@@ -149,12 +149,12 @@ TEST_CASE("what was exposed says by how much") {
 TEST_CASE("which files hold alpha, and which are for display") {
   ImageFileSettings floats;
   floats.full_float = true;
-  for (const char* name : {"a.exr", "a.png", "a.PNG", "a.tif"}) CHECK(holds_alpha(name));
-  for (const char* name : {"a.jpg", "a.hdr", "a.bmp"}) CHECK_FALSE(holds_alpha(name));
-  for (const char* name : {"a.png", "a.tif", "a.jpg"}) CHECK(is_for_display(name, {}));
-  for (const char* name : {"a.exr", "a.hdr"}) CHECK_FALSE(is_for_display(name, {}));
-  CHECK(is_for_display("a.png", floats));
-  CHECK_FALSE(is_for_display("a.tif", floats));
+  for (const char* name : {"a.exr", "a.png", "a.PNG", "a.tif"}) CHECK(image_format(name).alpha);
+  for (const char* name : {"a.jpg", "a.hdr", "a.bmp"}) CHECK_FALSE(image_format(name).alpha);
+  for (const char* name : {"a.png", "a.tif", "a.jpg"}) CHECK(image_format(name).for_display);
+  for (const char* name : {"a.exr", "a.hdr"}) CHECK_FALSE(image_format(name).for_display);
+  CHECK(image_format("a.png", floats).for_display);
+  CHECK_FALSE(image_format("a.tif", floats).for_display);
 }
 
 }  // namespace raytrace::test

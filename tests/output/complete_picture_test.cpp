@@ -2,7 +2,6 @@
 #include "raytrace/output/complete_picture.h"
 
 #include "pictures.h"
-#include "raytrace/output/png_file.h"
 #include "support/catch.h"
 #include "support/temporary_folder.h"
 

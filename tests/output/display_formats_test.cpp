@@ -98,7 +98,7 @@ TEST_CASE("other formats work by their extension, in any case") {
   const std::string extension = GENERATE(".jpg", ".JPEG", ".PNG", ".bmp", ".tga", ".ppm", ".sgi", ".TIFF");
   const std::string file = folder.file("a" + extension);
   const FloatPicture film = distinct_film(48, 40);
-  check_writable(file, {});
+  check_format(file, {});
   write_image(file, film, some_metadata(), {});
   const ReadPicture picture = read_picture(file);
   REQUIRE(picture.spec.width == 48);
@@ -118,7 +118,7 @@ TEST_CASE("an extension or a bit depth that no file can have is reported before 
     ImageFileSettings settings;
     settings.bit_depth = bits;
     try {
-      check_writable(folder.file(name), settings);
+      check_format(folder.file(name), settings);
     } catch (const OutputError& error) {
       return std::string(error.what());
     }
@@ -138,21 +138,23 @@ TEST_CASE("an extension or a bit depth that no file can have is reported before 
 }
 
 TEST_CASE("which files can hold floats") {
-  CHECK(holds_float("a.exr"));
-  CHECK(holds_float("a.tif"));
-  CHECK(holds_float("a.hdr"));
-  CHECK_FALSE(holds_float("a.png"));
-  CHECK_THROWS_AS(holds_float("a.unknown"), OutputError);
+  ImageFileSettings floats;
+  floats.full_float = true;
+  CHECK(image_format("a.exr", floats).floats);
+  CHECK(image_format("a.tif", floats).floats);
+  CHECK(image_format("a.hdr", floats).floats);
+  CHECK_FALSE(image_format("a.png", floats).floats);
+  CHECK_THROWS_AS(image_format("a.unknown", floats), OutputError);
 }
 
 TEST_CASE("which files want no more than halves") {
   ImageFileSettings floats;
   floats.full_float = true;
-  CHECK(holds_halves("a.exr", {}));
-  CHECK_FALSE(holds_halves("a.exr", floats));
-  CHECK_FALSE(holds_halves("a.png", {}));
-  CHECK_FALSE(holds_halves("a.hdr", {}));
-  CHECK_THROWS_AS(holds_halves("a.unknown", {}), OutputError);
+  CHECK(image_format("a.exr", {}).halves());
+  CHECK_FALSE(image_format("a.exr", floats).halves());
+  CHECK_FALSE(image_format("a.png", {}).halves());
+  CHECK_FALSE(image_format("a.hdr", {}).halves());
+  CHECK_THROWS_AS(image_format("a.unknown", {}), OutputError);
 }
 
 }  // namespace raytrace::test

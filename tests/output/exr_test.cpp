@@ -104,7 +104,7 @@ TEST_CASE("a picture written in bands has the bytes of the same picture written 
   write_image(file, film, {}, {});
   const std::string at_once = bytes_of(file);
   {
-    ImageFile image(file, {50, 90, film.region()}, {}, {});
+    ImageFile image(file, {50, 90, film.region()}, color_channels(false), {}, {});
     for (Region band = film.region(); band.y0 < 88; band.y0 = band.y1) {
       band.y1 = std::min(band.y0 + 32, 88);
       image.write(color_band(distinct_film(50, 90, band)));
@@ -220,7 +220,7 @@ TEST_CASE("a picture that is not ended leaves nothing") {
   const TemporaryFolder folder;
   const std::string file = folder.file(GENERATE("a.exr", "a.png", "a.tif"));
   {
-    ImageFile image(file, {40, 64, {0, 0, 40, 64}}, {}, {});
+    ImageFile image(file, {40, 64, {0, 0, 40, 64}}, color_channels(false), {}, {});
     image.write(color_band(distinct_film(40, 64, {0, 0, 40, 32})));
   }
   CHECK(folder.names().empty());

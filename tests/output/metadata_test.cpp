@@ -75,7 +75,7 @@ TEST_CASE("other formats get a description") {
   const std::string file = folder.file("a.jpg");
   write_image(file, distinct_film(8, 8), some_metadata(), {});
   CHECK(read_picture(file).spec.get_string_attribute("ImageDescription") ==
-        "scene folder/scene.xml, 16 samples a pixel, seed 18446744073709551615");
+        "scene folder/scene.xml, 16 samples per pixel, seed 18446744073709551615");
 }
 
 TEST_CASE("with SOURCE_DATE_EPOCH, the same picture gives the same bytes") {
@@ -100,7 +100,7 @@ TEST_CASE("with SOURCE_DATE_EPOCH, the same picture gives the same bytes") {
 TEST_CASE("a SOURCE_DATE_EPOCH that is no time is refused") {
   const TemporaryFolder folder;
   const SourceDateEpoch epoch(GENERATE("", "tomorrow", "-1", "12x", "99999999999999999999", "253402300800"));
-  CHECK_THROWS_AS(check_writable(folder.file("a.exr"), {}), OutputError);
+  CHECK_THROWS_AS(check_format(folder.file("a.exr"), {}), OutputError);
   CHECK_THROWS_AS(write_image(folder.file("a.exr"), distinct_film(8, 8), {}, {}), OutputError);
   CHECK(folder.names().empty());
 }

@@ -65,7 +65,7 @@ inline ImageBand color_band(const FloatPicture& picture) {
 
 inline Repairs write_image(const std::string& file, const FloatPicture& picture, const ImageMetadata& metadata,
                            const ImageFileSettings& settings) {
-  ImageFile image(file, picture.extent(), metadata, settings);
+  ImageFile image(file, picture.extent(), color_channels(settings.full_float), metadata, settings);
   image.write(color_band(picture));
   return image.commit();
 }

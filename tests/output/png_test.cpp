@@ -99,7 +99,7 @@ TEST_CASE("bands of any height make the same PNG") {
   ImageFileSettings settings;
   settings.bit_depth = GENERATE(8, 16);
   write_image(folder.file("a.png"), film, {}, settings);
-  ImageFile image(folder.file("b.png"), film.extent(), {}, settings);
+  ImageFile image(folder.file("b.png"), film.extent(), color_channels(false), {}, settings);
   for (int y = 0; y < 50; y += 7) {
     ImageBand band;
     fill_color(band, film, y, std::min(y + 7, 50));

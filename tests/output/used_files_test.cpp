@@ -1,8 +1,7 @@
 // Files of a run that are one file.
-#include "raytrace/batch/used_files.h"
-
 #include <filesystem>
 
+#include "raytrace/batch/settings_error.h"
 #include "support/catch.h"
 #include "support/temporary_folder.h"
 

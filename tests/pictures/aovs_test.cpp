@@ -4,7 +4,7 @@
 #include <map>
 
 #include "raytrace/aovs/aov_selection.h"
-#include "raytrace/aovs/scene_names.h"
+#include "raytrace/aovs/aov_table.h"
 #include "reference/renderer.h"
 #include "reference/scene.h"
 #include "support/catch.h"

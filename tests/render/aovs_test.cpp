@@ -6,7 +6,7 @@
 
 #include "raytrace/aovs/aov_selection.h"
 #include "raytrace/film/aov_film.h"
-#include "raytrace/output/aov_sum_channels.h"
+#include "raytrace/output/image_band.h"
 #include "render/scenes.h"
 #include "support/catch.h"
 #include "support/usable_isas.h"
@@ -103,12 +103,10 @@ TEST_CASE("AOVs are the same from any split of the samples, in passes or in piec
     RenderSettings settings = all_aovs(everything);
     settings.samples = SampleRange{first, count, false};
     const Film piece = rendered_aovs(*scene, description, settings);
-    const std::vector<Channel> channels = aov_sum_channels(*piece.aovs());
+    const std::vector<Channel> channels = sum_channels(piece);
     ImageBand band{everything, {}};
-    fill_aov_sums(band, 0, channels, *piece.aovs());
-    CHECK(add_aov_sums(band, 0, channels, {first, count}, std::vector<std::uint32_t>(61 * 43, count), *merged.aovs()));
-    for (int y = 0; y < 43; ++y)
-      for (int x = 0; x < 61; ++x) merged.sum(x, y) += piece.sum(x, y);
+    append_sums(band, channels, piece);
+    CHECK(add_sums(band, channels, {first, count}, merged));
   }
   CHECK(differing(aovs_of(merged, everything), wanted) == 0);
 }

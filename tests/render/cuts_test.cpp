@@ -18,7 +18,7 @@
 #include "raytrace/description/scene_description.h"
 #include "raytrace/film/tiles.h"
 #include "raytrace/output/exr_reader.h"
-#include "raytrace/output/film_channels.h"
+#include "raytrace/output/image_band.h"
 #include "raytrace/output/image_file.h"
 #include "raytrace/render/renderer.h"
 #include "support/catch.h"

@@ -4,7 +4,7 @@
 
 #include "raytrace/aovs/aov_selection.h"
 #include "raytrace/film/aov_film.h"
-#include "raytrace/output/film_channels.h"
+#include "raytrace/output/image_band.h"
 
 namespace raytrace::test {
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <nlohmann/json.hpp>
+#include <unordered_set>
 
 #include "raytrace/aovs/cryptomatte.h"
 #include "raytrace/film/aov_film.h"
@@ -18,18 +20,10 @@ std::vector<Aov> selected(const AovSet& aovs) {
   return list;
 }
 
-/// Calls f(pixel, x, y) for each pixel of the region; `pixel` counts them.
-template <class Function>
-void for_each_pixel_of(const Region& region, const Function& f) {
-  std::size_t pixel = 0;
-  for (int y = region.y0; y < region.y1; ++y)
-    for (int x = region.x0; x < region.x1; ++x) f(pixel++, x, y);
-}
-
 /// value: the first of the AOV's among those of the nearest samples.
 template <class Value>
 void fill_nearest(Value* plane, const Region& rows, std::size_t value, Value without_hit, const AovFilm& film) {
-  for_each_pixel_of(rows, [&](std::size_t pixel, int x, int y) {
+  for_each_pixel(rows, [&](std::size_t pixel, int x, int y) {
     const std::uint32_t* const values = film.nearest(x, y).values;
     plane[pixel] = values == nullptr ? without_hit : std::bit_cast<Value>(values[value]);
   });
@@ -37,7 +31,7 @@ void fill_nearest(Value* plane, const Region& rows, std::size_t value, Value wit
 
 void fill_mean(float* plane, const Region& rows, std::size_t mean, const Film& film) {
   const double unit = std::ldexp(1.0, film.settings().aovs.mean_units[mean]);
-  for_each_pixel_of(rows, [&](std::size_t pixel, int x, int y) {
+  for_each_pixel(rows, [&](std::size_t pixel, int x, int y) {
     const std::uint32_t samples = film.sum(x, y).samples;
     if (samples == 0) return;
     plane[pixel] = static_cast<float>(static_cast<double>(film.aovs()->sum(x, y, mean)) / samples * unit);
@@ -46,7 +40,7 @@ void fill_mean(float* plane, const Region& rows, std::size_t mean, const Film& f
 
 /// planes: the id of each pair, and its share.
 void fill_coverage(ChannelValues* planes, const Region& rows, std::size_t coverage, const Film& film) {
-  for_each_pixel_of(rows, [&](std::size_t pixel, int x, int y) {
+  for_each_pixel(rows, [&](std::size_t pixel, int x, int y) {
     const std::vector<IdCount> ranked = film.aovs()->ranked(x, y, coverage);
     const auto samples = static_cast<double>(film.sum(x, y).samples);
     for (std::size_t i = 0; i < std::min(ranked.size(), cryptomatte::pairs); ++i) {
@@ -152,7 +146,7 @@ void fill_aovs(ImageBand& band, std::size_t first_plane, const Film& film) {
       if (aov.rule == AovRule::mean) {
         fill_mean(floats->data(), rows, next_mean++, film);
       } else if (aov.rule == AovRule::samples) {
-        for_each_pixel_of(rows, [&](std::size_t pixel, int x, int y) { (*integers)[pixel] = film.sum(x, y).samples; });
+        for_each_pixel(rows, [&](std::size_t pixel, int x, int y) { (*integers)[pixel] = film.sum(x, y).samples; });
       } else if (integers != nullptr) {
         fill_nearest(integers->data(), rows, next_nearest++, std::uint32_t{0}, *film.aovs());
       } else {
@@ -160,6 +154,43 @@ void fill_aovs(ImageBand& band, std::size_t first_plane, const Film& film) {
       }
     }
   }
+}
+
+std::vector<std::string> object_names(const SceneDescription& description) {
+  std::vector<std::string> names;
+  for_each_type(Shapes{}, [&]<class Shape>(std::type_identity<Shape>) {
+    for (const auto& item : std::get<ObjectItems<Shape>>(description.objects)) names.push_back(item.name);
+  });
+  std::unordered_set<std::uint32_t> taken;
+  taken.reserve(names.size());
+  for (const std::string& name : names)
+    if (!name.empty()) taken.insert(cryptomatte::id_of(name));
+
+  auto name = names.begin();
+  for_each_type(Shapes{}, [&]<class Shape>(std::type_identity<Shape>) {
+    const std::size_t count = std::get<ObjectItems<Shape>>(description.objects).size();
+    for (std::size_t number = 1; number <= count; ++number, ++name) {
+      if (!name->empty()) continue;
+      const std::string usual = std::string(Shape::element) + '#' + std::to_string(number);
+      *name = usual;
+      for (int i = 2; !taken.insert(cryptomatte::id_of(*name)).second; ++i) *name = usual + '#' + std::to_string(i);
+    }
+  });
+  return names;
+}
+
+std::vector<std::string> material_names(const SceneDescription& description) {
+  std::vector<std::string> names;
+  for_each_type(Materials{}, [&](auto type) {
+    using Material = typename decltype(type)::type;
+    for (const auto& item : std::get<MaterialItems<Material>>(description.materials)) names.push_back(item.name);
+  });
+  return names;
+}
+
+ImageAttribute id_manifest(std::string_view channel, const std::vector<std::string>& names) {
+  return {"raytrace:manifest/" + std::string(channel),
+          nlohmann::json(names).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
 }
 
 }  // namespace raytrace

@@ -34,6 +34,10 @@ std::vector<Channel> aov_channels(const AovSet& aovs);
 /// The names of the ids that the channels have, and how Cryptomatte's are made.
 std::vector<ImageAttribute> aov_attributes(const AovSet& aovs, const SceneDescription& description);
 
+/// The names of a channel's ids as an attribute of the picture, "raytrace:manifest/id.object": a JSON array, the name
+/// of id 1 first.
+ImageAttribute id_manifest(std::string_view channel, const std::vector<std::string>& names);
+
 /// Sets the planes of aov_channels() from `first_plane` on to the values of the rows of band.region.
 void fill_aovs(ImageBand& band, std::size_t first_plane, const Film& film);
 

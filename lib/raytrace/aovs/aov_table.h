@@ -5,12 +5,24 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <string_view>
+#include <vector>
 
-#include "raytrace/aovs/scene_names.h"
+#include "raytrace/description/scene_description.h"
 #include "raytrace/output/image_band.h"
+#include "raytrace/output/image_file.h"
 
 namespace raytrace {
+
+/// What objects are called where a picture has ids of them, in the order that objects are counted in: type by type as
+/// in the Shapes registry, each type's as the file has them. An object without a name is called by its type and its
+/// number among that type's, counted from 1: "sphere#12"; or,
+/// where another object is called so, or has the Cryptomatte id of that name, "sphere#12#2", "sphere#12#3"...
+std::vector<std::string> object_names(const SceneDescription& description);
+
+/// The same of materials: type by type as in the Materials registry, each type's as the file has them.
+std::vector<std::string> material_names(const SceneDescription& description);
 
 /// How samples become a pixel's value (film/aov_film.h says it exactly).
 enum class AovRule {

@@ -1,8 +1,9 @@
 #include "raytrace/aovs/cryptomatte.h"
 
 #include <bit>
-#include <cstdio>
 #include <nlohmann/json.hpp>
+
+#include "raytrace/text/message.h"
 
 namespace raytrace::cryptomatte {
 
@@ -13,11 +14,7 @@ std::uint32_t byte_at(std::string_view text, std::size_t i) { return static_cast
 /// A block of four bytes, or what is left of one, before it goes into the hash.
 std::uint32_t scrambled(std::uint32_t block) { return std::rotl(block * 0xcc9e2d51U, 15) * 0x1b873593U; }
 
-std::string hexadecimal(std::uint32_t number) {
-  char text[9];
-  std::snprintf(text, sizeof text, "%08x", number);
-  return text;
-}
+std::string hexadecimal(std::uint32_t number) { return formatted("%08x", number); }
 
 }  // namespace
 

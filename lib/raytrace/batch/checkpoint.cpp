@@ -5,7 +5,7 @@
 
 #include "raytrace/film/samples_done.h"
 #include "raytrace/math/content_hash.h"
-#include "raytrace/output/film_channels.h"
+#include "raytrace/output/image_band.h"
 #include "raytrace/output/image_encoder.h"
 
 namespace raytrace {

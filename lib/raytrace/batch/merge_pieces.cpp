@@ -9,8 +9,8 @@
 #include "raytrace/batch/output_files.h"
 #include "raytrace/batch/piece_layout.h"
 #include "raytrace/batch/provenance.h"
-#include "raytrace/output/film_channels.h"
-#include "raytrace/text/quoted.h"
+#include "raytrace/output/image_band.h"
+#include "raytrace/text/message.h"
 
 namespace raytrace {
 
@@ -208,7 +208,7 @@ class Merger {
   }
 
   void refuse_useless_exposure(const ImageFileSettings& image_settings) const {
-    const auto uses_it = [&](const std::string& file) { return is_for_display(file, image_settings); };
+    const auto uses_it = [&](const std::string& file) { return image_format(file, image_settings).for_display; };
     if (settings_.exposure && std::none_of(settings_.outputs.begin(), settings_.outputs.end(), uses_it))
       refuse({"--exposure: all outputs hold linear colour, which it does not change, for the pieces hold floats"});
   }
@@ -216,14 +216,7 @@ class Merger {
   ImageBand merged_band(const Region& region) {
     ImageBand band;
     band.region = region;
-    const auto pixels = static_cast<std::size_t>(region.width()) * static_cast<std::size_t>(region.height());
-    for (const Channel& channel : channels_) {
-      if (channel.type == ChannelType::uint32) {
-        band.planes.emplace_back(std::vector<std::uint32_t>(pixels));
-      } else {
-        band.planes.emplace_back(std::vector<float>(pixels));
-      }
-    }
+    make_planes(band, 0, channels_);
     if (report_.missing_parts && !pieces_.front().identity.film.transparent) fill_background(band);
     add_up_sums(band);
     for (const Piece& piece : pieces_) {
@@ -277,12 +270,11 @@ class Merger {
 
   /// Checks of 8 x 8 pixels in two greys with alpha 0: nobody takes them for a part of the picture. (But "over" adds
   /// them to what is behind a transparent one.)
-  void fill_background(ImageBand& band) const {
-    std::size_t pixel = 0;
-    for (int y = band.region.y0; y < band.region.y1; ++y)
-      for (int x = band.region.x0; x < band.region.x1; ++x, ++pixel)
-        for (std::size_t i = 0; i < 3; ++i)
-          std::get<std::vector<float>>(band.planes[i])[pixel] = ((x ^ y) & 8) == 0 ? 0.1F : 0.2F;
+  static void fill_background(ImageBand& band) {
+    for_each_pixel(band.region, [&](std::size_t pixel, int x, int y) {
+      for (std::size_t i = 0; i < 3; ++i)
+        std::get<std::vector<float>>(band.planes[i])[pixel] = ((x ^ y) & 8) == 0 ? 0.1F : 0.2F;
+    });
   }
 
   static void copy_rows(const ImageBand& from, ImageBand& to) {
@@ -305,15 +297,13 @@ class Merger {
 
   /// The means of all pixels that have sums.
   static void develop(const Film& sums, ImageBand& band) {
-    std::size_t pixel = 0;
-    for (int y = band.region.y0; y < band.region.y1; ++y)
-      for (int x = band.region.x0; x < band.region.x1; ++x, ++pixel) {
-        if (sums.sum(x, y).samples == 0) continue;
-        const Pixel mean = sums.pixel(x, y);
-        std::size_t plane = 0;
-        for (const float value : {mean.red, mean.green, mean.blue, mean.alpha})
-          std::get<std::vector<float>>(band.planes[plane++])[pixel] = value;
-      }
+    for_each_pixel(band.region, [&](std::size_t pixel, int x, int y) {
+      if (sums.sum(x, y).samples == 0) return;
+      const Pixel mean = sums.pixel(x, y);
+      std::size_t plane = 0;
+      for (const float value : {mean.red, mean.green, mean.blue, mean.alpha})
+        std::get<std::vector<float>>(band.planes[plane++])[pixel] = value;
+    });
   }
 
   void heed_stop() const {

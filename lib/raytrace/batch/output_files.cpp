@@ -4,25 +4,30 @@
 #include <filesystem>
 
 #include "raytrace/aovs/aov_selection.h"
-#include "raytrace/batch/message_text.h"
 #include "raytrace/batch/provenance.h"
 #include "raytrace/batch/settings_error.h"
-#include "raytrace/description/scene_hash.h"
+#include "raytrace/description/scene_description.h"
 #include "raytrace/output/atomic_file.h"
 #include "raytrace/output/complete_picture.h"
-#include "raytrace/output/film_channels.h"
+#include "raytrace/output/image_band.h"
+#include "raytrace/text/message.h"
 
 namespace raytrace {
 
 void check_output_settings(const RenderJob& job) {
   const std::vector<std::string>& files = job.outputs;
-  for (const std::string& file : files) check_format(file, job.image_file_settings());
-  if (job.full_float && std::none_of(files.begin(), files.end(), holds_float))
+  const ImageFileSettings settings = job.image_file_settings();
+  for (const std::string& file : files) check_format(file, settings);
+  const auto none = [&](bool ImageFormat::* ability) {
+    return std::none_of(files.begin(), files.end(),
+                        [&](const std::string& file) { return image_format(file, settings).*ability; });
+  };
+  if (job.full_float && none(&ImageFormat::floats))
     throw SettingsError("--float: none of the outputs can hold floats; .exr and .tif can");
-  if (job.transparent && std::none_of(files.begin(), files.end(), holds_alpha))
+  if (job.transparent && none(&ImageFormat::alpha))
     throw SettingsError("--transparent: none of the outputs can hold alpha; .exr, .png and .tif can");
-  if (job.exposure) refuse_useless_exposure(files, job.image_file_settings());
-  if (!job.aovs.empty() && std::none_of(files.begin(), files.end(), holds_data))
+  if (job.exposure) refuse_useless_exposure(files, settings);
+  if (!job.aovs.empty() && none(&ImageFormat::data))
     throw SettingsError("--aov: none of the outputs can hold more than colour; .exr can");
   if (!job.checkpoint.empty() && !job.resume && std::filesystem::exists(job.checkpoint))
     throw SettingsError("--checkpoint: there is a " + job.checkpoint +
@@ -37,7 +42,7 @@ void check_outputs(const RenderJob& job) {
 }
 
 void refuse_useless_exposure(const std::vector<std::string>& files, const ImageFileSettings& settings) {
-  const auto uses_it = [&](const std::string& file) { return is_for_display(file, settings); };
+  const auto uses_it = [&](const std::string& file) { return image_format(file, settings).for_display; };
   if (std::none_of(files.begin(), files.end(), uses_it))
     throw SettingsError(
         "--exposure: all outputs hold linear colour, which it does not change; .png, .jpg and .tif (without "

@@ -1,8 +1,8 @@
 #include "raytrace/batch/piece_layout.h"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
-#include <tuple>
 #include <utility>
 
 namespace raytrace {
@@ -22,52 +22,47 @@ bool overlap(const PieceExtent& a, const PieceExtent& b) {
   return overlap(a.region, b.region) && a.first_sample < b.last_sample && b.first_sample < a.last_sample;
 }
 
-/// Calls visit(top, bottom, pieces) for strips of rows from the top, in each of which the same pieces lie.
-template <class Visit>
-void for_each_strip(const std::vector<PieceExtent>& pieces, int top, int bottom, const Visit& visit) {
-  std::vector<const PieceExtent*> by_top;
-  std::set<int> edges = {top, bottom};
-  for (const PieceExtent& piece : pieces) {
-    by_top.push_back(&piece);
-    for (const int edge : {piece.region.y0, piece.region.y1})
-      if (edge > top && edge < bottom) edges.insert(edge);
-  }
-  std::sort(by_top.begin(), by_top.end(), [](const auto* a, const auto* b) { return a->region.y0 < b->region.y0; });
-  std::vector<const PieceExtent*> present;
-  auto next = by_top.begin();
-  for (auto edge = edges.begin(); std::next(edge) != edges.end(); ++edge) {
-    std::erase_if(present, [&](const PieceExtent* piece) { return piece->region.y1 <= *edge; });
-    for (; next != by_top.end() && (*next)->region.y0 <= *edge; ++next)
-      if ((*next)->region.y1 > *edge) present.push_back(*next);
-    visit(*edge, *std::next(edge), present);
-  }
+using Pieces = std::vector<const PieceExtent*>;
+
+/// The edges of pieces along an axis, from the first to the last of a picture's.
+std::set<int> edges_in(const Pieces& pieces, const Region& whole, int Region::* low, int Region::* high) {
+  std::set<int> edges = {whole.*low, whole.*high};
+  for (const PieceExtent* piece : pieces)
+    for (const int edge : {piece->region.*low, piece->region.*high})
+      if (edge > whole.*low && edge < whole.*high) edges.insert(edge);
+  return edges;
+}
+
+/// Those that hold the pixels behind an edge.
+Pieces pieces_at(const Pieces& pieces, int edge, int Region::* low, int Region::* high) {
+  Pieces found;
+  std::copy_if(pieces.begin(), pieces.end(), std::back_inserter(found),
+               [&](const PieceExtent* piece) { return piece->region.*low <= edge && piece->region.*high > edge; });
+  return found;
 }
 
 /// Calls visit(gap) for boxes of pixels and samples that no piece holds, until it returns false.
 template <class Visit>
 void for_each_gap(const std::vector<PieceExtent>& pieces, const WantedExtent& picture, const Visit& visit) {
-  const Region& whole = picture.region;
-  bool more = true;
-  for_each_strip(pieces, whole.y0, whole.y1, [&](int top, int bottom, const std::vector<const PieceExtent*>& present) {
-    std::set<int> columns = {whole.x0, whole.x1};
-    for (const PieceExtent* piece : present)
-      for (const int edge : {piece->region.x0, piece->region.x1})
-        if (edge > whole.x0 && edge < whole.x1) columns.insert(edge);
-    for (auto left = columns.begin(); more && std::next(left) != columns.end(); ++left) {
-      std::vector<const PieceExtent*> here;
-      for (const PieceExtent* piece : present)
-        if (piece->region.x0 <= *left && piece->region.x1 > *left) here.push_back(piece);
+  Pieces all;
+  for (const PieceExtent& piece : pieces) all.push_back(&piece);
+  const std::set<int> rows = edges_in(all, picture.region, &Region::y0, &Region::y1);
+  for (auto top = rows.begin(); std::next(top) != rows.end(); ++top) {
+    const Pieces strip = pieces_at(all, *top, &Region::y0, &Region::y1);
+    const std::set<int> columns = edges_in(strip, picture.region, &Region::x0, &Region::x1);
+    for (auto left = columns.begin(); std::next(left) != columns.end(); ++left) {
+      Pieces here = pieces_at(strip, *left, &Region::x0, &Region::x1);
       std::sort(here.begin(), here.end(),
                 [](const auto* a, const auto* b) { return a->first_sample < b->first_sample; });
-      const Region region{*left, top, *std::next(left), bottom};
+      const Region region{*left, *top, *std::next(left), *std::next(top)};
       std::uint64_t covered = 0;
       for (const PieceExtent* piece : here) {
-        if (piece->first_sample > covered) more = more && visit(PieceExtent{"", region, covered, piece->first_sample});
+        if (piece->first_sample > covered && !visit(PieceExtent{"", region, covered, piece->first_sample})) return;
         covered = std::max(covered, piece->last_sample);
       }
-      if (covered < picture.samples) more = more && visit(PieceExtent{"", region, covered, picture.samples});
+      if (covered < picture.samples && !visit(PieceExtent{"", region, covered, picture.samples})) return;
     }
-  });
+  }
 }
 
 /// The tiles that a picture may be cut into so that each of its pieces holds whole ones of them.
@@ -110,13 +105,13 @@ class Cuts {
 std::string problem_of(const PieceExtent& part, const WantedExtent& picture) {
   const Tile& tile = *part.tile;
   const bool all_samples = part.first_sample == 0 && part.last_sample == picture.samples;
-  const std::string name = "tile " + std::to_string(tile.index) + "/" + std::to_string(tile.count);
+  const std::string name = "tile " + text_of(tile);
   std::string text = all_samples ? name : samples_text(part.first_sample, part.last_sample);
   if (!all_samples && tile.count > 1) text += " of " + name;
   const std::uint64_t count = part.last_sample - part.first_sample;
   const bool one = all_samples || count == 1;
   text += one ? " is missing: render it with" : " are missing: render them with";
-  if (tile.count > 1) text += " --tile " + std::to_string(tile.index) + "/" + std::to_string(tile.count);
+  if (tile.count > 1) text += " --tile " + text_of(tile);
   // A single sample would be in the pixel's center without it.
   if (!all_samples || (count == 1 && !picture.centered))
     text += " --sample-offset " + std::to_string(part.first_sample);
@@ -128,40 +123,17 @@ std::string problem_of(const PieceExtent& part, const WantedExtent& picture) {
 
 std::string options_of(const PieceExtent& piece) {
   std::string options;
-  if (piece.tile)
-    options += "--tile " + std::to_string(piece.tile->index) + "/" + std::to_string(piece.tile->count) + " ";
+  if (piece.tile) options += "--tile " + text_of(*piece.tile) + " ";
   if (piece.first_sample > 0) options += "--sample-offset " + std::to_string(piece.first_sample) + " ";
   return options;
 }
 
 std::vector<std::string> overlaps(const std::vector<PieceExtent>& pieces) {
   std::vector<std::string> problems;
-  if (pieces.empty()) return problems;
-  int top = pieces.front().region.y0, bottom = top;
-  for (const PieceExtent& piece : pieces) {
-    top = std::min(top, piece.region.y0);
-    bottom = std::max(bottom, piece.region.y1);
-  }
-  std::set<std::pair<const PieceExtent*, const PieceExtent*>> reported;
-  for_each_strip(pieces, top, bottom, [&](int, int, std::vector<const PieceExtent*> present) {
-    // Along a strip, or along the samples: whichever way separates more pieces.
-    std::sort(present.begin(), present.end(), [](const auto* a, const auto* b) {
-      return std::tie(a->first_sample, a->region.x0) < std::tie(b->first_sample, b->region.x0);
-    });
-    for (std::size_t i = 0; i < present.size() && problems.size() < most_problems; ++i)
-      for (auto k = present.begin() + static_cast<std::ptrdiff_t>(i) + 1;
-           k != present.end() && (*k)->first_sample < present[i]->last_sample && problems.size() < most_problems;) {
-        if ((*k)->region.x0 >= present[i]->region.x1) {
-          // So are all others that begin with this sample.
-          k = std::upper_bound(k, present.end(), (*k)->first_sample,
-                               [](std::uint64_t sample, const auto* piece) { return sample < piece->first_sample; });
-          continue;
-        }
-        if (overlap(*present[i], **k) && reported.insert(std::minmax(present[i], *k)).second)
-          problems.push_back((*k)->file + " holds what " + present[i]->file + " holds, too");
-        ++k;
-      }
-  });
+  // Each with each: to read a piece takes longer than to compare it with thousands.
+  for (auto a = pieces.begin(); a != pieces.end(); ++a)
+    for (auto b = std::next(a); b != pieces.end() && problems.size() < most_problems; ++b)
+      if (overlap(*a, *b)) problems.push_back(b->file + " holds what " + a->file + " holds, too");
   return problems;
 }
 

@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
-#include <map>
 #include <sstream>
 
 #include "raytrace/aovs/aov_selection.h"
-#include "raytrace/batch/message_text.h"
-#include "raytrace/description/scene_hash.h"
+#include "raytrace/description/scene_description.h"
 #include "raytrace/film/samples_done.h"
-#include "raytrace/text/quoted.h"
+#include "raytrace/text/message.h"
 
 namespace raytrace {
 
@@ -85,8 +83,6 @@ SampleRange samples_of(const ExrReader& piece) {
   return samples;
 }
 
-std::string tile_text(const Tile& tile) { return std::to_string(tile.index) + "/" + std::to_string(tile.count); }
-
 std::optional<Tile> read_tile(const ExrReader& piece) {
   const auto text = piece.attribute<std::string>(tile_name);
   if (!text) return std::nullopt;
@@ -110,8 +106,7 @@ void read_place(const ExrReader& piece, PieceIdentity& identity) {
   Region wanted = identity.whole;
   if (const auto& tile = identity.tile) {
     const std::int64_t pixels = std::int64_t{wanted.width()} * wanted.height();
-    if (tile->index < 0 || tile->index >= tile->count || tile->count > pixels)
-      refuse(piece, tile_name, tile_text(*tile));
+    if (tile->index < 0 || tile->index >= tile->count || tile->count > pixels) refuse(piece, tile_name, text_of(*tile));
     wanted = tile_of(wanted, tile->index, tile->count);
   }
   if (own != wanted)
@@ -190,7 +185,7 @@ std::vector<ImageAttribute> identity_attributes(const PieceIdentity& identity) {
       {unit_name, identity.film.unit_exponent},
       {whole_name, text_of(identity.whole)},
       {region_name, text_of(identity.film.extent.region)}};
-  if (identity.tile) attributes.push_back({tile_name, tile_text(*identity.tile)});
+  if (identity.tile) attributes.push_back({tile_name, text_of(*identity.tile)});
   const AovSettings& aovs = identity.film.aovs;
   if (!aovs.wanted.empty()) {
     attributes.push_back({aovs_name, joined(aov_names(aovs.wanted), ",")});

@@ -6,11 +6,9 @@
 #include <tuple>
 #include <utility>
 
-#include "raytrace/batch/file_names.h"
-#include "raytrace/batch/frame_numbers.h"
-#include "raytrace/batch/message_text.h"
+#include "raytrace/batch/frames.h"
 #include "raytrace/batch/settings_error.h"
-#include "raytrace/text/quoted.h"
+#include "raytrace/text/message.h"
 
 namespace raytrace {
 
@@ -29,10 +27,8 @@ ViewPlane requested_view_plane(const ViewPlane& viewplane, const RenderJob& job)
   const double width = std::max(1.0, std::round(unscaled.width * job.scale));
   const double height = std::max(1.0, std::round(unscaled.height * job.scale));
   if (!is_allowed_size(width, height)) {
-    char size[64];
-    std::snprintf(size, sizeof size, "%.0f x %.0f", width, height);
-    throw SettingsError(std::string("a picture of ") + size + " pixels is too large; the most is " +
-                        std::to_string(largest_edge) + " along an edge and " +
+    throw SettingsError("a picture of " + formatted("%.0f x %.0f", width, height) +
+                        " pixels is too large; the most is " + std::to_string(largest_edge) + " along an edge and " +
                         std::to_string(static_cast<long long>(most_pixels)) + " in all");
   }
   ViewPlane requested = viewplane;

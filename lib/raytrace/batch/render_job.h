@@ -10,7 +10,7 @@
 
 #include "raytrace/batch/render_observer.h"
 #include "raytrace/batch/render_statistics.h"
-#include "raytrace/batch/used_files.h"
+#include "raytrace/batch/settings_error.h"
 #include "raytrace/description/scene_description.h"
 #include "raytrace/display/display_server.h"
 #include "raytrace/film/film.h"
@@ -89,7 +89,7 @@ std::string contents_text(const SceneDescription& description);
 class RenderBatch {
  public:
   /// frames: in increasing order; none: each scene is rendered once, and its name is no pattern. each: what all renders
-  /// have in common; the names of its files, and of the scenes, may be patterns (file_names.h). other_files: that the
+  /// have in common; the names of its files, and of the scenes, may be patterns (frames.h). other_files: that the
   /// run uses, too. Throws SettingsError if a file that is written would be another file of the run, or if standard
   /// input would be read twice. Opens no file.
   RenderBatch(std::vector<std::string> scenes, std::vector<int> frames, RenderJob each,

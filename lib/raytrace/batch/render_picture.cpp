@@ -10,7 +10,6 @@
 
 #include "raytrace/aovs/aov_selection.h"
 #include "raytrace/batch/checkpoint.h"
-#include "raytrace/batch/message_text.h"
 #include "raytrace/batch/output_files.h"
 #include "raytrace/batch/provenance.h"
 #include "raytrace/description/check_scene.h"
@@ -19,13 +18,12 @@
 #include "raytrace/film/samples_done.h"
 #include "raytrace/output/atomic_file.h"
 #include "raytrace/output/complete_picture.h"
-#include "raytrace/output/film_channels.h"
+#include "raytrace/output/image_band.h"
 #include "raytrace/render/renderer.h"
+#include "raytrace/text/message.h"
 
 namespace raytrace {
-
 namespace {
-
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
@@ -50,25 +48,300 @@ class PictureRender {
                 std::optional<SceneDescription> description)
       : job_(job), observer_(observer), control_(control), description_(std::move(description)) {}
 
-  RenderResult run();
+  RenderResult run() {
+    const auto end_with = [&](RenderOutcome outcome) {
+      result_.outcome = outcome;
+      return std::move(result_);
+    };
+    const bool may_skip = may_be_skipped(job_);  // if the files are of this picture, which the scene says
+    if (!may_skip) check();
+    if (!description_) description_ = load_picture(job_, observer_, result_.statistics.phases.load);
+    if (!description_) return end_with(RenderOutcome::invalid_scene);
+    identity_.whole = crop_window(description_->viewplane, job_);
+    settings_.region = render_window(identity_.whole, job_);
+    if (may_skip) {
+      if (outputs_are_complete(job_, *description_)) {
+        report(MessageLevel::note, joined(job_.outputs, ", ") + ": there already, skipped");
+        return end_with(RenderOutcome::skipped);
+      }
+      check();
+    }
+    for (const std::string& file : job_.outputs) check_size(file, settings_.region, job_.image_file_settings());
+    build();
+
+    observer_.on_stage(RenderStage::render);
+    begin_film();
+    const AovSettings aovs = aov_settings(job_.aovs);
+    const int rows = rows_at_once(settings_.region, sizeof(PixelSum) + AovFilm::pixel_bytes(aovs));
+    // What goes on later, or may end at any sample, needs the whole film; so does the number of channels that a piece's
+    // AOVs need.
+    const bool whole_film = !job_.checkpoint.empty() || job_.time_limit || (job_.sample_offset && aovs.gather());
+    in_bands_ = !whole_film && rows < settings_.region.height();
+    const RenderOutcome outcome = in_bands_ ? render_in_bands(rows) : render_at_once();
+    report_invalid_samples();
+    if (outcome != RenderOutcome::stopped) write_statistics();
+    return end_with(outcome);
+  }
 
  private:
-  void check();
-  void build();
-  void begin_film();
-  FilmContent film_content() const;
-  RenderOutcome render_at_once();
-  RenderOutcome render_in_bands(int band_rows);
-  bool render_pass(Film& film, std::uint32_t target, double work_before, double work);
-  void service_requests(const Film& film);
-  bool is_due() const;
-  std::uint32_t next_target(std::uint32_t done, double seconds_a_sample) const;
-  void finish_render();
-  RenderOutcome write_partial(const Film& film);
-  bool write_picture(const Film& film, const std::vector<std::string>& files, std::uint32_t samples, bool partial);
-  ImageMetadata metadata() const;
-  void report_invalid_samples() const;
-  void write_statistics();
+  void check() {
+    observer_.on_stage(RenderStage::check_outputs);
+    check_outputs(job_);
+  }
+
+  void build() {
+    observer_.on_stage(RenderStage::build);
+    RenderStatistics& statistics = result_.statistics;
+    {
+      const PhaseTimer timer(statistics.phases.build);
+      scene_ = build_scene(*description_, {job_.threads, job_.isa, true});
+    }
+    statistics.scene = scene_->statistics();
+    report(MessageLevel::step, "built for " + statistics.scene.isa + " with Embree " + statistics.scene.embree_version +
+                                   time_taken(statistics.phases.build.seconds));
+    statistics.software = software_name();
+    statistics.scene_file = job_.scene_name();
+    statistics.width = description_->viewplane.hres;
+    statistics.height = description_->viewplane.vres;
+    statistics.region = settings_.region;
+    statistics.samples = description_->viewplane.samples;
+    statistics.seed = job_.seed;
+    statistics.threads = thread_count(job_.threads);
+  }
+
+  /// What the film is to be, and what its files say of it.
+  void begin_film() {
+    settings_.threads = job_.threads;
+    settings_.seed = job_.seed;
+    settings_.samples = sample_range(description_->viewplane, job_);
+    settings_.aovs = job_.aovs;
+    settings_.transparent = job_.transparent;
+    film_content_ = film_content();
+    identity_.film = film_settings(*scene_, *description_, settings_);
+    if (const auto warning = rounding_warning(*scene_, identity_.film)) report(MessageLevel::warning, *warning);
+    identity_.provenance = provenance_of(*scene_, *description_, job_.threads);
+    identity_.tile = job_.tile;
+    if (job_.is_one_of_frames) identity_.frame = job_.frame;
+    identity_.variables = variables_text(job_.variables);
+    if (!job_.checkpoint.empty()) checkpoint_ = CheckpointFile(job_.checkpoint, job_.checkpoint_interval);
+    if (job_.display_server) {
+      const PictureExtent extent{description_->viewplane.hres, description_->viewplane.vres, settings_.region};
+      display_ = std::make_unique<DisplayClient>(*job_.display_server, job_.outputs.front(), extent,
+                                                 [this](const auto& text) { report(MessageLevel::warning, text); });
+    }
+  }
+
+  /// Means where nobody asks for more: neither for samples to come after a while, nor for pieces to be put together, be
+  /// they stopped or not.
+  FilmContent film_content() const {
+    const Region picture{0, 0, description_->viewplane.hres, description_->viewplane.vres};
+    if (!job_.checkpoint.empty() || job_.time_limit || job_.sample_offset || job_.display_server ||
+        !job_.aovs.empty() || settings_.region != picture)
+      return FilmContent::sums;
+    const bool halves = std::all_of(job_.outputs.begin(), job_.outputs.end(), [&](const std::string& file) {
+      return image_format(file, job_.image_file_settings()).halves();
+    });
+    return halves ? FilmContent::half_means : FilmContent::means;
+  }
+
+  RenderOutcome render_at_once() {
+    PhaseTimer timer(result_.statistics.phases.render);
+    Film film(identity_.film, film_content_);
+    std::uint32_t done = 0;
+    if (job_.resume && std::filesystem::exists(job_.checkpoint)) {
+      checkpoint_.read(identity_, film);
+      done = film.fewest_samples();
+      report(MessageLevel::step, "resumed from " + job_.checkpoint);
+    }
+    const std::uint32_t all = film.settings().samples.count;
+    double seconds_a_sample = 0;
+    while (done < all) {
+      const std::uint32_t target = next_target(done, seconds_a_sample);
+      if (target == done) break;  // the time is up
+      const Clock::time_point pass_start = Clock::now();
+      if (!render_pass(film, target, 1.0 * done / all, 1.0 * (target - done) / all)) break;
+      seconds_a_sample = seconds_since(pass_start) / (target - done);
+      done = target;
+    }
+    timer.stop();
+    if (control_.is_stopped() && done < all) return write_partial(film);
+    if (display_) display_->show(film, film.region());
+    finish_render();
+    result_.statistics.samples = static_cast<int>(done);
+    if (done < all)
+      report(MessageLevel::warning, "the time limit was reached after " + counted(done, "sample") + " per pixel");
+    if (!write_picture(film, job_.outputs, done, false)) return RenderOutcome::failed;
+    checkpoint_.remove(observer_);
+    return RenderOutcome::written;
+  }
+
+  /// Large pictures go to their files band by band, so that no more than one of them need be in memory.
+  RenderOutcome render_in_bands(int band_rows) {
+    const Region region = settings_.region;
+    Phases& phases = result_.statistics.phases;
+    OutputFiles outputs(job_, job_.outputs, identity_.film.extent, metadata(),
+                        job_.sample_offset ? all_sum_channels() : std::vector<Channel>(), observer_);
+    for (Region band = region; band.y0 < region.y1; band.y0 = band.y1) {
+      band.y1 = std::min(band.y0 + band_rows, region.y1);
+      settings_.region = band;
+      PhaseTimer timer(phases.render);
+      Film film(film_settings(*scene_, *description_, settings_), film_content_);
+      const double height = region.height();
+      if (!render_pass(film, film.settings().samples.count, (band.y0 - region.y0) / height, band.height() / height)) {
+        result_.kept = "nothing kept: of a picture of this size, only --checkpoint keeps what is done";
+        return RenderOutcome::stopped;
+      }
+      timer.stop();
+      if (display_) display_->show(film, band);
+      if (band.y1 == region.y1) finish_render();
+      const PhaseTimer writing(phases.write);
+      if (!outputs.write(film)) return RenderOutcome::failed;
+    }
+    const PhaseTimer writing(phases.write);
+    result_.statistics.outputs = outputs.commit();
+    return result_.statistics.outputs.size() == job_.outputs.size() ? RenderOutcome::written : RenderOutcome::failed;
+  }
+
+  /// Until each pixel has `target` samples; false if it was stopped. work_before, work: fractions of all that there is
+  /// to do, what was done before and what this does.
+  bool render_pass(Film& film, std::uint32_t target, double work_before, double work) {
+    for (;;) {
+      // First the flag, then what it stands for: a request in between pauses once more than it need.
+      control_.pause() = false;
+      if (control_.is_stopped()) return false;
+      service_requests(film);
+      const auto update = [&](double fraction) {
+        const double of_time = job_.time_limit ? seconds_since(start_) / *job_.time_limit : 0;
+        observer_.on_progress(std::min(std::max(work_before + fraction * work, of_time), std::nextafter(1.0, 0.0)));
+        if (is_due()) control_.pause() = true;
+      };
+      const RenderReport done = render(*scene_, film, target, job_.threads, update, &control_.pause());
+      result_.statistics.rays += done.rays;
+      result_.statistics.scene.bvh_bytes = scene_->statistics().bvh_bytes;  // rays may have been the first to want it
+      invalid_samples_ += done.invalid_samples;
+      if (!control_.pause()) return true;
+    }
+  }
+
+  /// Does what is asked for, or due, while the render pauses.
+  void service_requests(const Film& film) {
+    if (control_.take_picture_request()) {
+      if (in_bands_) {
+        report(MessageLevel::warning,
+               "a picture of this size goes to its files band by band: there is none to look at before the end");
+      } else if (write_picture(film, job_.outputs, film.settings().samples.count, true)) {
+        report(MessageLevel::note, "picture so far, " + samples_done_text(film) + ", in " + joined(job_.outputs, ", "));
+      }
+    }
+    if (checkpoint_.is_due()) checkpoint_.write(film, identity_, metadata(), observer_);
+    if (display_ && display_->is_due()) display_->show(film, film.region());
+  }
+
+  /// Whether something is to be done that wants the render to pause.
+  bool is_due() const { return checkpoint_.is_due() || (display_ && display_->is_due()); }
+
+  /// The samples per pixel after the next pass: early passes are short, so that there is a whole picture soon. With a
+  /// time limit, no pass is begun that would not end in time.
+  std::uint32_t next_target(std::uint32_t done, double seconds_a_sample) const {
+    const std::uint32_t all = identity_.film.samples.count;
+    if (!job_.time_limit && job_.checkpoint.empty() && !display_) return all;
+    constexpr std::uint32_t group = 4;  // of samples that are traced together: of fewer, each would cost more
+    constexpr std::uint32_t least_samples = group, most_samples = 32;  // of a pass
+    std::uint32_t samples = std::min(std::clamp(done, least_samples, most_samples), all - done);
+    if (job_.time_limit && done > 0) {
+      const double left = *job_.time_limit - seconds_since(start_);
+      const double fitting = seconds_a_sample > 0 ? std::max(0.0, left / seconds_a_sample) : left > 0 ? group : 0.0;
+      if (fitting < samples) samples = static_cast<std::uint32_t>(fitting) / group * group;
+    }
+    return done + samples;
+  }
+
+  void finish_render() {
+    observer_.on_progress(1);
+    const RenderStatistics& statistics = result_.statistics;
+    report(MessageLevel::step, "rendered " + counted(statistics.total_rays(), "ray") + " on " +
+                                   counted(static_cast<std::uint64_t>(statistics.threads), "thread") +
+                                   time_taken(statistics.phases.render.seconds));
+  }
+
+  /// After a stop: writes the checkpoint and the picture so far, and says which of them there are.
+  RenderOutcome write_partial(const Film& film) {
+    std::vector<std::string> files = job_.outputs, kept, reasons;
+    bool saved = true;
+    if (!job_.checkpoint.empty()) {
+      saved = checkpoint_.write(film, identity_, metadata(), observer_);
+      if (saved) kept.push_back("checkpoint " + job_.checkpoint + " written, --resume goes on from it");
+    } else {
+      // Nothing goes on from here: an earlier picture that is complete is worth more. And where no mark says that this
+      // one is not, the next run would skip it.
+      std::erase_if(files, [&](const std::string& file) {
+        const bool earlier = is_complete_picture(file), unmarked = job_.skip_existing && !image_format(file).data;
+        if (earlier) reasons.push_back(file + " is complete, from an earlier run, and stays");
+        if (unmarked && !earlier) reasons.push_back(file + " could not say that it is partial, and would be skipped");
+        return earlier || unmarked;
+      });
+    }
+    const std::vector<std::string>& written = result_.statistics.outputs = {};
+    const bool all_written = files.empty() || write_picture(film, files, identity_.film.samples.count, true);
+    if (!written.empty()) kept.push_back("picture so far in " + joined(written, ", "));
+    result_.kept = (kept.empty() ? "nothing kept" : samples_done_text(film) + ": ") + joined(kept, "; ") +
+                   (reasons.empty() ? "" : "; ") + joined(reasons, "; ");
+    return all_written && saved ? RenderOutcome::stopped : RenderOutcome::failed;
+  }
+
+  /// samples: that each pixel has, or is to have if the picture is partial.
+  bool write_picture(const Film& film, const std::vector<std::string>& files, std::uint32_t samples, bool partial) {
+    const PhaseTimer timer(result_.statistics.phases.write);
+    ImageMetadata its_metadata = metadata();
+    its_metadata.samples = static_cast<int>(samples);
+    if (partial) {
+      its_metadata.attributes = partial_attributes(identity_, film);
+    } else {
+      its_metadata.render_seconds = result_.statistics.phases.render.seconds;
+    }
+    const bool keeps_sums = film.content() == FilmContent::sums && (partial || job_.sample_offset);
+    OutputFiles outputs(job_, files, film.settings().extent, its_metadata,
+                        keeps_sums ? sum_channels(film) : std::vector<Channel>(), observer_);
+    if (!outputs.write(film)) return false;
+    result_.statistics.outputs = outputs.commit();
+    return result_.statistics.outputs.size() == files.size();
+  }
+
+  ImageMetadata metadata() const {
+    const RenderStatistics& statistics = result_.statistics;
+    ImageMetadata metadata;
+    metadata.software = statistics.software;
+    metadata.scene_file = statistics.scene_file;
+    metadata.samples = static_cast<int>(identity_.film.samples.count);
+    metadata.seed = statistics.seed;
+    metadata.threads = statistics.threads;
+    metadata.camera = camera_matrices(*description_);
+    metadata.attributes = identity_attributes(identity_);
+    metadata.data_attributes = aov_attributes(job_.aovs, *description_);
+    return metadata;
+  }
+
+  void report_invalid_samples() const {
+    if (invalid_samples_.count == 0) return;
+    std::string text = counted(invalid_samples_.count, "sample") + " without a finite radiance, counted as black:";
+    for (const SampleId& id : invalid_samples_.listed)
+      text += " sample " + std::to_string(id.sample) + " of pixel " + std::to_string(id.x) + "," +
+              std::to_string(id.y) + ";";
+    const SampleId& first = invalid_samples_.listed.front();
+    report(MessageLevel::warning,
+           text + " to see it again: --pixel " + std::to_string(first.x) + "," + std::to_string(first.y));
+  }
+
+  /// Completes the statistics, and writes them to their file.
+  void write_statistics() {
+    result_.statistics.peak_memory_bytes = peak_memory_bytes();
+    if (job_.statistics.empty()) return;
+    AtomicFile file(job_.statistics);
+    const std::string text = statistics_json(result_.statistics);
+    if (std::fwrite(text.data(), 1, text.size(), file.stream()) != text.size()) file.fail(errno);
+    file.commit();
+  }
+
   void report(MessageLevel level, const std::string& text) const { observer_.on_message(level, text); }
 
   const RenderJob& job_;
@@ -86,300 +359,6 @@ class PictureRender {
   std::unique_ptr<DisplayClient> display_;  ///< none if it was not asked for
   RenderResult result_;
 };
-
-RenderResult PictureRender::run() {
-  const auto end_with = [&](RenderOutcome outcome) {
-    result_.outcome = outcome;
-    return std::move(result_);
-  };
-  const bool may_skip = may_be_skipped(job_);  // if the files are of this picture, which the scene says
-  if (!may_skip) check();
-  if (!description_) description_ = load_picture(job_, observer_, result_.statistics.phases.load);
-  if (!description_) return end_with(RenderOutcome::invalid_scene);
-  identity_.whole = crop_window(description_->viewplane, job_);
-  settings_.region = render_window(identity_.whole, job_);
-  if (may_skip) {
-    if (outputs_are_complete(job_, *description_)) {
-      report(MessageLevel::note, joined(job_.outputs, ", ") + ": there already, skipped");
-      return end_with(RenderOutcome::skipped);
-    }
-    check();
-  }
-  for (const std::string& file : job_.outputs) check_size(file, settings_.region, job_.image_file_settings());
-  build();
-
-  observer_.on_stage(RenderStage::render);
-  begin_film();
-  const AovSettings aovs = aov_settings(job_.aovs);
-  const int rows = rows_at_once(settings_.region, sizeof(PixelSum) + AovFilm::pixel_bytes(aovs));
-  // What goes on later, or may end at any sample, needs the whole film; so does the number of channels that a piece's
-  // AOVs need.
-  const bool whole_film = !job_.checkpoint.empty() || job_.time_limit || (job_.sample_offset && aovs.gather());
-  in_bands_ = !whole_film && rows < settings_.region.height();
-  const RenderOutcome outcome = in_bands_ ? render_in_bands(rows) : render_at_once();
-  report_invalid_samples();
-  if (outcome != RenderOutcome::stopped) write_statistics();
-  return end_with(outcome);
-}
-
-void PictureRender::check() {
-  observer_.on_stage(RenderStage::check_outputs);
-  check_outputs(job_);
-}
-
-void PictureRender::build() {
-  observer_.on_stage(RenderStage::build);
-  RenderStatistics& statistics = result_.statistics;
-  {
-    const PhaseTimer timer(statistics.phases.build);
-    scene_ = build_scene(*description_, {job_.threads, job_.isa, true});
-  }
-  statistics.scene = scene_->statistics();
-  report(MessageLevel::step, "built for " + statistics.scene.isa + " with Embree " + statistics.scene.embree_version +
-                                 time_taken(statistics.phases.build.seconds));
-  statistics.software = software_name();
-  statistics.scene_file = job_.scene_name();
-  statistics.width = description_->viewplane.hres;
-  statistics.height = description_->viewplane.vres;
-  statistics.region = settings_.region;
-  statistics.samples = description_->viewplane.samples;
-  statistics.seed = job_.seed;
-  statistics.threads = thread_count(job_.threads);
-}
-
-/// What the film is to be, and what its files say of it.
-void PictureRender::begin_film() {
-  settings_.threads = job_.threads;
-  settings_.seed = job_.seed;
-  settings_.samples = sample_range(description_->viewplane, job_);
-  settings_.aovs = job_.aovs;
-  settings_.transparent = job_.transparent;
-  film_content_ = film_content();
-  identity_.film = film_settings(*scene_, *description_, settings_);
-  if (const auto warning = rounding_warning(*scene_, identity_.film)) report(MessageLevel::warning, *warning);
-  identity_.provenance = provenance_of(*scene_, *description_, job_.threads);
-  identity_.tile = job_.tile;
-  if (job_.is_one_of_frames) identity_.frame = job_.frame;
-  identity_.variables = variables_text(job_.variables);
-  if (!job_.checkpoint.empty()) checkpoint_ = CheckpointFile(job_.checkpoint, job_.checkpoint_interval);
-  if (job_.display_server) {
-    const PictureExtent extent{description_->viewplane.hres, description_->viewplane.vres, settings_.region};
-    display_ = std::make_unique<DisplayClient>(*job_.display_server, job_.outputs.front(), extent,
-                                               [this](const auto& text) { report(MessageLevel::warning, text); });
-  }
-}
-
-/// Means where nobody asks for more: neither for samples to come after a while, nor for pieces to be put together, be
-/// they stopped or not.
-FilmContent PictureRender::film_content() const {
-  const Region picture{0, 0, description_->viewplane.hres, description_->viewplane.vres};
-  if (!job_.checkpoint.empty() || job_.time_limit || job_.sample_offset || job_.display_server || !job_.aovs.empty() ||
-      settings_.region != picture)
-    return FilmContent::sums;
-  const bool halves = std::all_of(job_.outputs.begin(), job_.outputs.end(), [&](const std::string& file) {
-    return holds_halves(file, job_.image_file_settings());
-  });
-  return halves ? FilmContent::half_means : FilmContent::means;
-}
-
-RenderOutcome PictureRender::render_at_once() {
-  PhaseTimer timer(result_.statistics.phases.render);
-  Film film(identity_.film, film_content_);
-  std::uint32_t done = 0;
-  if (job_.resume && std::filesystem::exists(job_.checkpoint)) {
-    checkpoint_.read(identity_, film);
-    done = film.fewest_samples();
-    report(MessageLevel::step, "resumed from " + job_.checkpoint);
-  }
-  const std::uint32_t all = film.settings().samples.count;
-  double seconds_a_sample = 0;
-  while (done < all) {
-    const std::uint32_t target = next_target(done, seconds_a_sample);
-    if (target == done) break;  // the time is up
-    const Clock::time_point pass_start = Clock::now();
-    if (!render_pass(film, target, 1.0 * done / all, 1.0 * (target - done) / all)) break;
-    seconds_a_sample = seconds_since(pass_start) / (target - done);
-    done = target;
-  }
-  timer.stop();
-  if (control_.is_stopped() && done < all) return write_partial(film);
-  if (display_) display_->show(film, film.region());
-  finish_render();
-  result_.statistics.samples = static_cast<int>(done);
-  if (done < all)
-    report(MessageLevel::warning, "the time limit was reached after " + counted(done, "sample") + " per pixel");
-  if (!write_picture(film, job_.outputs, done, false)) return RenderOutcome::failed;
-  checkpoint_.remove(observer_);
-  return RenderOutcome::written;
-}
-
-/// Large pictures go to their files band by band, so that no more than one of them need be in memory.
-RenderOutcome PictureRender::render_in_bands(int band_rows) {
-  const Region region = settings_.region;
-  Phases& phases = result_.statistics.phases;
-  OutputFiles outputs(job_, job_.outputs, identity_.film.extent, metadata(),
-                      job_.sample_offset ? all_sum_channels() : std::vector<Channel>(), observer_);
-  for (Region band = region; band.y0 < region.y1; band.y0 = band.y1) {
-    band.y1 = std::min(band.y0 + band_rows, region.y1);
-    settings_.region = band;
-    PhaseTimer timer(phases.render);
-    Film film(film_settings(*scene_, *description_, settings_), film_content_);
-    const double height = region.height();
-    if (!render_pass(film, film.settings().samples.count, (band.y0 - region.y0) / height, band.height() / height)) {
-      result_.kept = "nothing kept: of a picture of this size, only --checkpoint keeps what is done";
-      return RenderOutcome::stopped;
-    }
-    timer.stop();
-    if (display_) display_->show(film, band);
-    if (band.y1 == region.y1) finish_render();
-    const PhaseTimer writing(phases.write);
-    if (!outputs.write(film)) return RenderOutcome::failed;
-  }
-  const PhaseTimer writing(phases.write);
-  result_.statistics.outputs = outputs.commit();
-  return result_.statistics.outputs.size() == job_.outputs.size() ? RenderOutcome::written : RenderOutcome::failed;
-}
-
-/// Until each pixel has `target` samples; false if it was stopped. work_before, work: fractions of all that there is to
-/// do, what was done before and what this does.
-bool PictureRender::render_pass(Film& film, std::uint32_t target, double work_before, double work) {
-  for (;;) {
-    // First the flag, then what it stands for: a request in between pauses once more than it need.
-    control_.pause() = false;
-    if (control_.is_stopped()) return false;
-    service_requests(film);
-    const auto update = [&](double fraction) {
-      const double of_time = job_.time_limit ? seconds_since(start_) / *job_.time_limit : 0;
-      observer_.on_progress(std::min(std::max(work_before + fraction * work, of_time), std::nextafter(1.0, 0.0)));
-      if (is_due()) control_.pause() = true;
-    };
-    const RenderReport done = render(*scene_, film, target, job_.threads, update, &control_.pause());
-    result_.statistics.rays += done.rays;
-    result_.statistics.scene.bvh_bytes = scene_->statistics().bvh_bytes;  // rays may have been the first to want it
-    invalid_samples_ += done.invalid_samples;
-    if (!control_.pause()) return true;
-  }
-}
-
-/// Does what is asked for, or due, while the render pauses.
-void PictureRender::service_requests(const Film& film) {
-  if (control_.take_picture_request()) {
-    if (in_bands_) {
-      report(MessageLevel::warning,
-             "a picture of this size goes to its files band by band: there is none to look at before the end");
-    } else if (write_picture(film, job_.outputs, film.settings().samples.count, true)) {
-      report(MessageLevel::note, "picture so far, " + samples_done_text(film) + ", in " + joined(job_.outputs, ", "));
-    }
-  }
-  if (checkpoint_.is_due()) checkpoint_.write(film, identity_, metadata(), observer_);
-  if (display_ && display_->is_due()) display_->show(film, film.region());
-}
-
-/// Whether something is to be done that wants the render to pause.
-bool PictureRender::is_due() const { return checkpoint_.is_due() || (display_ && display_->is_due()); }
-
-/// The samples per pixel after the next pass: early passes are short, so that there is a whole picture soon. With a
-/// time limit, no pass is begun that would not end in time.
-std::uint32_t PictureRender::next_target(std::uint32_t done, double seconds_a_sample) const {
-  const std::uint32_t all = identity_.film.samples.count;
-  if (!job_.time_limit && job_.checkpoint.empty() && !display_) return all;
-  constexpr std::uint32_t group = 4;  // of samples that are traced together: of fewer, each would cost more
-  constexpr std::uint32_t least_samples = group, most_samples = 32;  // of a pass
-  std::uint32_t samples = std::min(std::clamp(done, least_samples, most_samples), all - done);
-  if (job_.time_limit && done > 0) {
-    const double left = *job_.time_limit - seconds_since(start_);
-    const double fitting = seconds_a_sample > 0 ? std::max(0.0, left / seconds_a_sample) : left > 0 ? group : 0.0;
-    if (fitting < samples) samples = static_cast<std::uint32_t>(fitting) / group * group;
-  }
-  return done + samples;
-}
-
-void PictureRender::finish_render() {
-  observer_.on_progress(1);
-  const RenderStatistics& statistics = result_.statistics;
-  report(MessageLevel::step, "rendered " + counted(statistics.total_rays(), "ray") + " on " +
-                                 counted(static_cast<std::uint64_t>(statistics.threads), "thread") +
-                                 time_taken(statistics.phases.render.seconds));
-}
-
-/// After a stop: writes the checkpoint and the picture so far, and says which of them there are.
-RenderOutcome PictureRender::write_partial(const Film& film) {
-  std::vector<std::string> files = job_.outputs, kept, reasons;
-  bool saved = true;
-  if (!job_.checkpoint.empty()) {
-    saved = checkpoint_.write(film, identity_, metadata(), observer_);
-    if (saved) kept.push_back("checkpoint " + job_.checkpoint + " written, --resume goes on from it");
-  } else {
-    // Nothing goes on from here: an earlier picture that is complete is worth more. And where no mark says that this
-    // one is not, the next run would skip it.
-    std::erase_if(files, [&](const std::string& file) {
-      const bool earlier = is_complete_picture(file), unmarked = job_.skip_existing && !holds_data(file);
-      if (earlier) reasons.push_back(file + " is complete, from an earlier run, and stays");
-      if (unmarked && !earlier) reasons.push_back(file + " could not say that it is partial, and would be skipped");
-      return earlier || unmarked;
-    });
-  }
-  const std::vector<std::string>& written = result_.statistics.outputs = {};
-  const bool all_written = files.empty() || write_picture(film, files, identity_.film.samples.count, true);
-  if (!written.empty()) kept.push_back("picture so far in " + joined(written, ", "));
-  result_.kept = (kept.empty() ? "nothing kept" : samples_done_text(film) + ": ") + joined(kept, "; ") +
-                 (reasons.empty() ? "" : "; ") + joined(reasons, "; ");
-  return all_written && saved ? RenderOutcome::stopped : RenderOutcome::failed;
-}
-
-/// samples: that each pixel has, or is to have if the picture is partial.
-bool PictureRender::write_picture(const Film& film, const std::vector<std::string>& files, std::uint32_t samples,
-                                  bool partial) {
-  const PhaseTimer timer(result_.statistics.phases.write);
-  ImageMetadata its_metadata = metadata();
-  its_metadata.samples = static_cast<int>(samples);
-  if (partial) {
-    its_metadata.attributes = partial_attributes(identity_, film);
-  } else {
-    its_metadata.render_seconds = result_.statistics.phases.render.seconds;
-  }
-  const bool keeps_sums = film.content() == FilmContent::sums && (partial || job_.sample_offset);
-  OutputFiles outputs(job_, files, film.settings().extent, its_metadata,
-                      keeps_sums ? sum_channels(film) : std::vector<Channel>(), observer_);
-  if (!outputs.write(film)) return false;
-  result_.statistics.outputs = outputs.commit();
-  return result_.statistics.outputs.size() == files.size();
-}
-
-ImageMetadata PictureRender::metadata() const {
-  const RenderStatistics& statistics = result_.statistics;
-  ImageMetadata metadata;
-  metadata.software = statistics.software;
-  metadata.scene_file = statistics.scene_file;
-  metadata.samples = static_cast<int>(identity_.film.samples.count);
-  metadata.seed = statistics.seed;
-  metadata.threads = statistics.threads;
-  metadata.camera = camera_matrices(*description_);
-  metadata.attributes = identity_attributes(identity_);
-  metadata.data_attributes = aov_attributes(job_.aovs, *description_);
-  return metadata;
-}
-
-void PictureRender::report_invalid_samples() const {
-  if (invalid_samples_.count == 0) return;
-  std::string text = counted(invalid_samples_.count, "sample") + " without a finite radiance, counted as black:";
-  for (const SampleId& id : invalid_samples_.listed)
-    text +=
-        " sample " + std::to_string(id.sample) + " of pixel " + std::to_string(id.x) + "," + std::to_string(id.y) + ";";
-  const SampleId& first = invalid_samples_.listed.front();
-  report(MessageLevel::warning,
-         text + " to see it again: --pixel " + std::to_string(first.x) + "," + std::to_string(first.y));
-}
-
-/// Completes the statistics, and writes them to their file.
-void PictureRender::write_statistics() {
-  result_.statistics.peak_memory_bytes = peak_memory_bytes();
-  if (job_.statistics.empty()) return;
-  AtomicFile file(job_.statistics);
-  const std::string text = statistics_json(result_.statistics);
-  if (std::fwrite(text.data(), 1, text.size(), file.stream()) != text.size()) file.fail(errno);
-  file.commit();
-}
 
 }  // namespace
 

@@ -2,9 +2,11 @@
 // share/statistics.schema.json and docs/command-line.md; it says when its schema_version must grow.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "raytrace/film/film.h"
@@ -23,6 +25,10 @@ struct Phases {
   Phase render;  ///< scene -> film
   Phase write;   ///< film -> image files
   double seconds() const { return load.seconds + build.seconds + render.seconds + write.seconds; }
+  /// With their names, in their order.
+  std::array<std::pair<const char*, Phase>, 4> named() const {
+    return {{{"load", load}, {"build", build}, {"render", render}, {"write", write}}};
+  }
 };
 
 struct RenderStatistics {

@@ -1,7 +1,11 @@
-// Settings of a render or a merge that cannot be meant.
+// Settings of a render or a merge that cannot be meant, such as one file for two uses.
 #pragma once
 
 #include <stdexcept>
+#include <string>
+#include <unordered_map>
+
+#include "raytrace/output/file_identity.h"
 
 namespace raytrace {
 
@@ -11,5 +15,29 @@ class SettingsError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// A file and what it is to the run.
+struct UsedFile {
+  std::string role;  ///< "--output", "the scene"
+  std::string file;  ///< as it was given
+  bool writes = false;
+};
+
+/// All files that a run reads and writes, so that none of them destroys another.
+class UsedFiles {
+ public:
+  /// Adds a file. Returns the one that it clashes with, or null: the same file, however it was spelled, of which one
+  /// use or the other writes. Changes nothing on the disk.
+  const UsedFile* add(const UsedFile& file);
+
+  /// The same, but throws SettingsError if there is a clash.
+  void add_or_refuse(const UsedFile& file);
+
+ private:
+  std::unordered_map<FileIdentity, UsedFile> files_;
+};
+
+/// Throws the SettingsError of a clash, which names both files.
+[[noreturn]] void refuse_clash(const UsedFile& file, const UsedFile& other);
 
 }  // namespace raytrace

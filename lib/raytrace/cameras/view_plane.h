@@ -14,7 +14,7 @@ struct ViewPlane {
   int hres = 0;                     ///< pixels across
   int vres = 0;                     ///< pixels down
   double pixelsize = 1;             ///< edge of a pixel in world units, on the view plane at the camera's viewdistance
-  int samples = 1;                  ///< samples a pixel
+  int samples = 1;                  ///< samples per pixel
   Rgb<double> background{0, 0, 0};  ///< radiance where nothing is hit
 
   using Parameters = ViewPlane;

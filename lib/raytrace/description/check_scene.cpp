@@ -7,12 +7,11 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
-#include <variant>
 
 #include "raytrace/description/parse_value.h"
 #include "raytrace/description/read_fields.h"
 #include "raytrace/description/scene_layout.h"
-#include "raytrace/text/quoted.h"
+#include "raytrace/text/message.h"
 
 namespace raytrace {
 
@@ -73,7 +72,7 @@ class SceneChecker {
     static const auto fields = T::fields();
     const std::size_t errors_before = diagnostics_.error_count();
     for (const auto& field : fields)
-      std::visit([&](auto member) { check_field(field.name, parameters.*member, field.range); }, field.member);
+      field.visit(parameters, [&](const auto& value) { check_field(field.name, value, field.range); });
     if (diagnostics_.error_count() > errors_before) return;
     check_together<T>(parameters, may_skip, [&](Severity severity, const std::string& message) {
       diagnostics_.add(severity, {line_, 0}, item_.text() + ": " + message);
@@ -101,13 +100,13 @@ class SceneChecker {
   }
 
   void check_material(const SceneDescription& scene, const MaterialReference& material) {
-    const bool is_type = material.kind < Materials::size;
+    const bool is_type = material.type < Materials::size;
     const std::size_t count =
-        is_type ? with_type(Materials{}, material.kind,
+        is_type ? with_type(Materials{}, material.type,
                             [&]<class T>(std::type_identity<T>) { return items_of<MaterialsSection, T>(scene).size(); })
                 : 0;
     if (material.index < count) return;
-    error("refers to material " + std::to_string(material.index) + " of type " + std::to_string(material.kind) +
+    error("refers to material " + std::to_string(material.index) + " of type " + std::to_string(material.type) +
           ", which is not there" + (is_type ? "" : "; nor is that type"));
   }
 

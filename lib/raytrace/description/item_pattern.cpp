@@ -18,17 +18,20 @@ struct ValueTarget {
 /// Reads a value of plain characters; false where there is something to say.
 bool read_plain(std::string_view text, Range range, std::size_t component, const FieldTarget& target) {
   return std::visit(
-      [&]<class Value>(Value* value) {
-        if constexpr (HasComponents<Value>)
-          return !parse_number(text, range_of_components(range), value->*Components<Value>::members[component]);
-        else if constexpr (std::is_same_v<Value, double>)
+      [&]<class Target>(const Target& value) {
+        if constexpr (std::is_same_v<Target, double*>)
           return !parse_number(text, range, *value);
-        else if constexpr (std::is_same_v<Value, int>)
+        else if constexpr (std::is_same_v<Target, int*>)
           return !parse_integer(text, range, *value);
-        else if constexpr (std::is_same_v<Value, bool>)
+        else if constexpr (std::is_same_v<Target, bool*>)
           return !parse_boolean(text, *value);
-        else
+        else if constexpr (std::is_same_v<Target, ChoiceReference>)
+          return !parse_choice(text, value);
+        else if constexpr (std::is_same_v<Target, std::string_view*>)
           return *value = text, !text.empty() && text.front() != ' ' && text.back() != ' ' && !check_label(text);
+        else
+          return !parse_number(text, range_of_components(range),
+                               value->*Components<std::remove_pointer_t<Target>>::members[component]);
       },
       target);
 }

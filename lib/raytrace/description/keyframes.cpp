@@ -5,8 +5,7 @@
 #include <cstddef>
 #include <string>
 
-#include "raytrace/description/read_attributes.h"
-#include "raytrace/text/nearest_name.h"
+#include "raytrace/text/message.h"
 
 namespace raytrace {
 namespace {
@@ -117,7 +116,7 @@ class KeysReader {
     std::vector<AttributeField> fields{{"frame", &key.frame}};
     const Range range = range_of_components(range_);
     for (std::size_t i = 0; i < components_.size(); ++i) fields.push_back({components_[i], &key.components[i], range});
-    fields.push_back({"interpolation", &key.interpolation, Range::any, false});
+    fields.push_back({"interpolation", ChoiceReference(key.interpolation), Range::any, false});
     return fields;
   }
 
@@ -163,12 +162,6 @@ class KeysReader {
 };
 
 }  // namespace
-
-OptionalMessage parse_interpolation(std::string_view text, Interpolation& interpolation) {
-  if (text != "linear" && text != "smooth") return "is neither linear nor smooth; write one of them";
-  interpolation = text == "smooth" ? Interpolation::smooth : Interpolation::linear;
-  return std::nullopt;
-}
 
 std::array<double, 3> value_at(const std::vector<Key>& keys, double frame) {
   const auto next = std::upper_bound(keys.begin(), keys.end(), frame,

@@ -13,14 +13,16 @@
 #include <string_view>
 #include <vector>
 
-#include "raytrace/description/read_context.h"
+#include "raytrace/description/read_value.h"
 
 namespace raytrace {
 
 enum class Interpolation { linear, smooth };
 
-/// "linear" or "smooth".
-OptionalMessage parse_interpolation(std::string_view text, Interpolation& interpolation);
+template <>
+struct Choices<Interpolation> {
+  static constexpr std::array<std::string_view, 2> words = {"linear", "smooth"};
+};
 
 struct Key {
   double frame = 0;

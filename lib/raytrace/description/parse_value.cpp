@@ -6,6 +6,7 @@
 #include <limits>
 #include <system_error>
 
+#include "raytrace/text/message.h"
 #include "raytrace/text/utf8.h"
 #include "raytrace/xml/xml_characters.h"
 
@@ -36,6 +37,15 @@ std::string explain_no_number(std::string_view text) {
     return "is not a number; write it with a point: " + with_point;
   }
   return "is not a number; write one such as 1.5";
+}
+
+/// "is neither linear nor smooth; write one of them"
+std::string explain_no_choice(std::string_view text, std::span<const std::string_view> words) {
+  std::string message = "is neither ";
+  for (std::size_t i = 0; i < words.size(); ++i)
+    message.append(i == 0 ? "" : i + 1 < words.size() ? ", " : " nor ").append(words[i]);
+  const std::string_view nearest = nearest_name(text, words);
+  return message + (nearest.empty() ? "; write one of them" : "; did you mean " + in_quotes(nearest) + "?");
 }
 
 }  // namespace
@@ -115,6 +125,24 @@ OptionalMessage parse_boolean(std::string_view text, bool& value) {
   if (!yes && text != "false" && text != "0") return "is neither true nor false; write one of them";
   value = yes;
   return std::nullopt;
+}
+
+OptionalMessage parse_choice(std::string_view text, const ChoiceReference& choice) {
+  const auto words = choice.words();
+  const auto word = std::find(words.begin(), words.end(), xml::trimmed(text));
+  if (word == words.end()) return explain_no_choice(text, words);
+  choice.set(static_cast<std::size_t>(word - words.begin()));
+  return std::nullopt;
+}
+
+OptionalMessage check_value(const ChoiceReference& choice, Range) {
+  if (choice.index() < choice.words().size()) return std::nullopt;
+  return explain_no_choice({}, choice.words());
+}
+
+std::string value_text(const ChoiceReference& choice) {
+  const std::size_t index = choice.index();
+  return index < choice.words().size() ? std::string(choice.words()[index]) : std::to_string(index);
 }
 
 OptionalMessage check_value(const std::string& value, Range) {

@@ -24,12 +24,16 @@ OptionalMessage parse_integer(std::string_view text, Range range, int& value);
 /// true, false, 1 or 0.
 OptionalMessage parse_boolean(std::string_view text, bool& value);
 
+/// One of the choice's words.
+OptionalMessage parse_choice(std::string_view text, const ChoiceReference& choice);
+
 // The rules for values, wherever they come from. Those above keep them, too.
 
 OptionalMessage check_value(double value, Range range);
 OptionalMessage check_value(int value, Range range);
 inline OptionalMessage check_value(bool, Range) { return std::nullopt; }
-OptionalMessage check_value(const std::string& value, Range range);  ///< a name, say
+OptionalMessage check_value(const ChoiceReference& choice, Range range);
+OptionalMessage check_value(const std::string& value, Range range);  ///< a name
 
 /// Of a text that XML allows and that has no white space at its ends, as one that was read.
 OptionalMessage check_label(std::string_view text);
@@ -48,5 +52,6 @@ inline std::string value_text(double value) { return number_text(value); }
 inline std::string value_text(int value) { return std::to_string(value); }
 inline std::string value_text(bool value) { return value ? "true" : "false"; }
 inline std::string value_text(const std::string& value) { return value; }
+std::string value_text(const ChoiceReference& choice);
 
 }  // namespace raytrace

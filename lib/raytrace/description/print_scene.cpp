@@ -1,7 +1,6 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
-#include <variant>
 
 #include "raytrace/description/parse_value.h"
 #include "raytrace/description/scene_description.h"
@@ -76,7 +75,7 @@ class ScenePrinter : private XmlWriter {
   }
 
   static std::string material_name(const SceneDescription& scene, MaterialReference material) {
-    return with_type(Materials{}, material.kind, [&]<class T>(std::type_identity<T>) {
+    return with_type(Materials{}, material.type, [&]<class T>(std::type_identity<T>) {
       return items_of<MaterialsSection, T>(scene).at(material.index).name;
     });
   }
@@ -85,7 +84,7 @@ class ScenePrinter : private XmlWriter {
   void print_parameters(const typename T::Parameters& parameters) {
     static const auto fields = T::fields();
     for (const auto& field : fields)
-      std::visit([&](auto member) { print_value(field.name, parameters.*member); }, field.member);
+      field.visit(parameters, [&](const auto& value) { print_value(field.name, value); });
   }
 
   template <class Value>

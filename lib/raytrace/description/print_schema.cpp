@@ -1,16 +1,13 @@
-#include "raytrace/description/print_schema.h"
-
 #include <climits>
 #include <span>
-#include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "raytrace/description/keyframes.h"
 #include "raytrace/description/parse_value.h"
+#include "raytrace/description/scene_description.h"
 #include "raytrace/description/scene_layout.h"
 #include "raytrace/xml/xml_writer.h"
 
@@ -37,7 +34,6 @@ std::string type_name(Range range) {
   if constexpr (std::is_same_v<Value, double>) return number_name(range) + "orkeys";
   if constexpr (std::is_same_v<Value, int>) return std::string(limits(range).prefix) + "integer";
   if constexpr (std::is_same_v<Value, bool>) return "boolean";
-  if constexpr (std::is_same_v<Value, std::string>) return "text";
   if constexpr (std::is_same_v<Value, Vec3d>) return std::string(limits(range).prefix) + "vector";
   if constexpr (std::is_same_v<Value, Rgb<double>>) return std::string(limits(range).prefix) + "color";
 }
@@ -134,11 +130,14 @@ class SchemaPrinter : private XmlWriter {
     element(named("complexType", T::element) + (empty ? " mixed=\"true\"" : ""), [&] {
       element("xs:all", [&] {
         for (const FieldInfo& label : labels) child(label.name, "text", label.required);
-        for (const auto& field : T::fields()) {
-          const std::string type = std::visit(
-              [&]<class Value>(Value T::Parameters::*) { return type_name<Value>(field.range); }, field.member);
-          child(field.name, type, field.required);
-        }
+        typename T::Parameters parameters;
+        for (const auto& field : T::fields())
+          field.visit(parameters, [&]<class Value>(const Value& value) {
+            if constexpr (std::is_same_v<Value, ChoiceReference>)
+              print_choice_of_words(field, value.words());
+            else
+              child(field.name, type_name<Value>(field.range), field.required);
+          });
       });
     });
   }
@@ -146,7 +145,7 @@ class SchemaPrinter : private XmlWriter {
   void print_value_types() {
     line("<!-- A variable, anywhere in a value. -->");
     print_restriction("variable", "xs:token", {{"pattern", R"(.*[$].*)"}});
-    print_restriction("interpolation", "xs:token", {{"pattern", R"(linear|smooth|.*[$].*)"}});
+    print_restriction("interpolation", "xs:token", word_facets(Choices<Interpolation>::words));
     for (const Range range : {Range::any, Range::not_negative, Range::positive}) {
       const RangeLimits limit = limits(range);
       print_value_or_variable(number_name(range), "xs:double",
@@ -169,6 +168,17 @@ class SchemaPrinter : private XmlWriter {
   }
 
   using Facets = std::vector<std::pair<std::string_view, std::string>>;
+
+  static Facets word_facets(std::span<const std::string_view> words) {
+    std::string pattern;
+    for (const std::string_view word : words) pattern.append(word).append("|");
+    return {{"pattern", pattern + ".*[$].*"}};
+  }
+
+  void print_choice_of_words(const FieldInfo& info, std::span<const std::string_view> words) {
+    element(named("element", info.name) + (info.required ? "" : R"( minOccurs="0")"),
+            [&] { element("xs:simpleType", [&] { print_facets("xs:token", word_facets(words)); }); });
+  }
 
   void print_restriction(std::string_view name, std::string_view base, const Facets& facets) {
     element(named("simpleType", name), [&] { print_facets(base, facets); });

@@ -1,7 +1,6 @@
 #include "raytrace/description/read_fields.h"
 
 #include <cstdint>
-#include <optional>
 
 namespace raytrace {
 namespace {

@@ -9,7 +9,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "raytrace/description/read_value.h"
@@ -63,7 +62,12 @@ class FieldsReader {
     targets_.clear();
     for (std::size_t i = 0; i < label_count_; ++i) targets_.emplace_back(&labels[i]);
     for (const auto& field : fields_)
-      std::visit([&](auto member) { targets_.emplace_back(&(parameters.*member)); }, field.member);
+      field.visit(parameters, [&]<class Value>(Value&& value) {
+        if constexpr (std::is_same_v<Value, ChoiceReference>)
+          targets_.emplace_back(value);
+        else
+          targets_.emplace_back(&value);
+      });
     return targets_;
   }
 

@@ -7,7 +7,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <variant>
 #include <vector>
 
@@ -38,7 +37,7 @@ struct MaterialItem {
 
 /// A material by its type (the index in the Materials registry) and its index among the items of that type.
 struct MaterialReference {
-  std::uint32_t kind = 0;
+  std::uint32_t type = 0;
   std::uint32_t index = 0;
 };
 
@@ -91,5 +90,17 @@ std::optional<SceneDescription> parse_scene(std::string_view text, Diagnostics& 
 /// Writes the description as a scene file in canonical form: every value spelled out, defaults included; reading it
 /// back gives an equal description (all doubles round-trip). It has neither variables nor keys.
 std::string print_scene(const SceneDescription& description);
+
+/// An XML Schema 1.0 document, made from the registries' tables of fields, so that it knows every type there is. A file
+/// that it refuses is one that load_scene refuses. The reverse does not hold: no schema can say that a direction is not
+/// 0, that a camera's eye is not where it looks, or that there is one ambient light in all; nor, since they may have
+/// keys, that a number is one and a vector whole; nor, since names may have variables, that an object's material
+/// exists.
+std::string print_schema();
+
+/// 32 hexadecimal digits (XXH3, 128 bits) of all names and values of the description but the number of samples and
+/// where in which file they stood: two files that mean the same have the same. threads: so many at most share the work;
+/// 0: all that the machine has.
+std::string scene_hash(const SceneDescription& description, int threads = 0);
 
 }  // namespace raytrace

@@ -1,10 +1,9 @@
-#include "raytrace/description/scene_hash.h"
-
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
 #include <vector>
 
+#include "raytrace/description/scene_description.h"
 #include "raytrace/description/scene_layout.h"
 #include "raytrace/math/content_hash.h"
 #include "raytrace/parallel/for_each_index.h"
@@ -47,7 +46,7 @@ class SceneHash {
         hash.add_parameters(fields, item.parameters);
         if constexpr (requires { item.name; }) hash.add(item.name);
         if constexpr (requires { item.material; }) {
-          hash.add(item.material.kind);
+          hash.add(item.material.type);
           hash.add(item.material.index);
         }
       }
@@ -58,13 +57,15 @@ class SceneHash {
 
   template <class Parameters>
   void add_parameters(const Fields<Parameters>& fields, const Parameters& parameters) {
-    for (const auto& field : fields) std::visit([&](auto member) { add(parameters.*member); }, field.member);
+    for (const auto& field : fields) field.visit(parameters, [&](const auto& value) { add(value); });
   }
 
   template <class Value>
   void add(const Value& value) {
     if constexpr (HasComponents<Value>) {
       for (const auto member : Components<Value>::members) add(value.*member);
+    } else if constexpr (std::is_same_v<Value, ChoiceReference>) {
+      add(value.words()[value.index()]);
     } else if constexpr (std::is_arithmetic_v<Value>) {
       const Value number = value + Value(0);  // -0 is 0
       hash_.add(&number, sizeof number);

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "raytrace/text/nearest_name.h"
-#include "raytrace/text/quoted.h"
+#include "raytrace/text/message.h"
 
 namespace raytrace {
 namespace {

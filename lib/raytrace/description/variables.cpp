@@ -1,9 +1,6 @@
 #include "raytrace/description/variables.h"
 
-#include <cstddef>
-
-#include "raytrace/text/nearest_name.h"
-#include "raytrace/text/quoted.h"
+#include "raytrace/text/message.h"
 
 namespace raytrace {
 namespace {

@@ -38,8 +38,8 @@ class Variables {
 
   int frame() const { return frame_; }
 
-  /// In bytes, with the values put in: of a text, and of all texts together as of a scene's file (text_file.h). A short
-  /// text may have a long value many times.
+  /// In bytes, with the values put in: of a text, and of all texts together as of a scene's file (scene_text.h). A
+  /// short text may have a long value many times.
   static constexpr std::size_t longest_text = std::size_t{1} << 20U, longest_scene = std::size_t{1} << 31U;
 
   /// replaced: receives the text with the variables' values in it, unless there is a message.

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "raytrace/display/tev_packets.h"
+#include "raytrace/display/display_server.h"
 
 namespace raytrace {
 

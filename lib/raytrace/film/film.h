@@ -14,7 +14,6 @@
 #include "raytrace/film/region.h"
 #include "raytrace/math/color.h"
 #include "raytrace/memory/large_array.h"
-#include "raytrace/memory/late_array.h"
 
 namespace raytrace {
 

@@ -32,7 +32,7 @@ SamplesDone samples_done(const Film& film) {
 std::string samples_done_text(const Film& film) {
   const SamplesDone done = samples_done(film);
   return std::to_string(done.least) + (done.most != done.least ? " to " + std::to_string(done.most) : "") + " of " +
-         std::to_string(film.settings().samples.count) + " samples a pixel";
+         std::to_string(film.settings().samples.count) + " samples per pixel";
 }
 
 }  // namespace raytrace

@@ -16,7 +16,7 @@ struct SamplesDone {
 /// Of a film of means, whose pixels get all of their samples at once: 0, and all if any pixel has them.
 SamplesDone samples_done(const Film& film);
 
-/// "12 of 64 samples a pixel", or "8 to 12 of 64 samples a pixel"
+/// "12 of 64 samples per pixel", or "8 to 12 of 64 samples per pixel"
 std::string samples_done_text(const Film& film);
 
 }  // namespace raytrace

@@ -17,7 +17,7 @@ class PointLight {
     double scaleradiance = 1;
     Rgb<double> color{1, 1, 1};
     bool shadows = true;
-    std::string falloff{falloff_none};
+    Falloff falloff = Falloff::none;
   };
   static constexpr std::string_view group = "pointlights";
   static constexpr std::string_view element = "pointlight";
@@ -25,9 +25,6 @@ class PointLight {
     return {required("location", &Parameters::location, a_point), optional("scaleradiance", &Parameters::scaleradiance),
             optional("color", &Parameters::color), optional("shadows", &Parameters::shadows),
             optional("falloff", &Parameters::falloff)};
-  }
-  static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {
-    return check_falloff(parameters.falloff);
   }
 };
 

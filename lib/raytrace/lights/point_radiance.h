@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <string>
 
 #include "raytrace/lights/falloff.h"
 #include "raytrace/lights/light_sample.h"
@@ -13,8 +12,8 @@ namespace raytrace {
 
 class PointRadiance {
  public:
-  PointRadiance(const Rgb<double>& radiance, const std::string& falloff)
-      : at_distance_1_(radiance), inverse_square_(falloff == falloff_inverse_square) {}
+  PointRadiance(const Rgb<double>& radiance, Falloff falloff)
+      : at_distance_1_(radiance), inverse_square_(falloff == Falloff::inverse_square) {}
 
   const Rgb<float>& at_distance_1() const { return at_distance_1_; }
   bool falls_off() const { return inverse_square_; }

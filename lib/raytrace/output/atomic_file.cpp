@@ -10,8 +10,6 @@
 #include <optional>
 #include <system_error>
 
-#include "raytrace/output/link_target.h"
-
 namespace raytrace {
 
 namespace fs = std::filesystem;

@@ -7,7 +7,6 @@
 
 #include "raytrace/output/file_handle.h"
 #include "raytrace/output/file_identity.h"
-#include "raytrace/output/output_error.h"
 
 namespace raytrace {
 

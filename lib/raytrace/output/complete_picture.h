@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,5 +29,15 @@ bool is_complete_picture(const std::string& file);
 
 /// ... and it is this picture.
 bool is_complete_picture(const std::string& file, const WantedPicture& wanted);
+
+/// What a PNG file says of itself, without its pixels.
+struct PngFile {
+  int width = 0, height = 0;
+  int bits = 0;                              ///< of a channel
+  std::map<std::string, std::string> texts;  ///< keyword -> text
+};
+
+/// None if it is no PNG, or not whole: if its chunks do not end with IEND. Compressed texts are passed over.
+std::optional<PngFile> read_png_file(const std::string& file);
 
 }  // namespace raytrace

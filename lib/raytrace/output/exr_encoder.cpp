@@ -30,9 +30,7 @@
 #include "raytrace/parallel/for_each_index.h"
 
 namespace raytrace {
-
 namespace {
-
 /// Throws OutputError where it fails, as OpenEXR wants it.
 class ExrDestination final : public Imf::OStream {
  public:
@@ -169,127 +167,118 @@ class ExrEncoder final : public ImageEncoder {
     if (settings_.threads <= 0) settings_.threads = tbb::this_task_arena::max_concurrency();
   }
 
-  bool holds_float() const override { return settings_.full_float; }
-  bool holds_data() const override { return true; }
-  bool holds_alpha() const override { return true; }
-  bool is_for_display() const override { return false; }
+  ImageFormat format() const override {
+    return {.floats = settings_.full_float, .data = true, .alpha = true, .for_display = false};
+  }
+
   void begin(const PictureExtent& extent, const std::vector<Channel>& channels, const ImageMetadata& metadata,
-             std::FILE* destination) override;
-  void write(const ImageBand& band) override;
-  Repairs finish() override;
+             std::FILE* destination) override {
+    // OpenEXR compresses this many rows together, so that threads have work for no more of them.
+    constexpr int block_rows = 16;
+    const int threads = std::min(settings_.threads, (extent.region.height() + block_rows - 1) / block_rows);
+    const int helpers = threads == 1 ? 0 : threads;  // 0: the calling thread does it
+    make_thread_pool(settings_.threads);
+    const Imf::Header header = header_of(extent, channels, metadata, settings_.compressed);
+    open_ = std::make_unique<OpenExr>(destination, channels);
+    guard([&] { open_->exr.emplace(open_->destination, header, helpers); });
+  }
+
+  void write(const ImageBand& band) override {
+    const Region& region = band.region;
+    const Imath::Box2i window({region.x0, region.y0}, {region.x1 - 1, region.y1 - 1});
+    Imf::FrameBuffer frame;
+    std::size_t first_plane = 0;
+    if (band.half_colors != nullptr) {
+      const Imath::half* const colors = storable_colors(band);
+      for (; first_plane < ImageBand::colors; ++first_plane)
+        frame.insert(open_->channels[first_plane].name,
+                     slice(Imf::HALF, colors + first_plane, window, ImageBand::colors));
+    }
+    convert_values(band, first_plane);
+    for (std::size_t i = first_plane; i < open_->channels.size(); ++i) {
+      const Channel& channel = open_->channels[i];
+      const auto* const integers = std::get_if<std::vector<std::uint32_t>>(&band.planes[i]);
+      const void* const values =
+          integers != nullptr ? static_cast<const void*>(integers->data()) : open_->stored[i].data();
+      frame.insert(channel.name, slice(pixel_type(channel.type), values, window));
+    }
+    guard([&] {
+      open_->exr->setFrameBuffer(frame);
+      open_->exr->writePixels(region.height());
+    });
+  }
+
+  Repairs finish() override {
+    guard([&] {
+      open_->exr.reset();  // writes the table of where rows begin, and reports no failure
+      open_->destination.finish();
+    });
+    return repairs_;
+  }
 
  private:
-  void convert_values(const ImageBand& band, std::size_t first_plane);
-  const Imath::half* storable_colors(const ImageBand& band);
+  /// Of the planes from first_plane on, to what the file stores.
+  void convert_values(const ImageBand& band, std::size_t first_plane) {
+    if (first_plane == open_->channels.size()) return;
+    const auto width = static_cast<std::size_t>(band.region.width());
+    const auto rows = static_cast<std::size_t>(band.region.height());
+    for (std::size_t i = first_plane; i < open_->channels.size(); ++i)
+      if (open_->channels[i].type != ChannelType::uint32)
+        open_->stored[i].resize(width * rows * value_bytes(pixel_type(open_->channels[i].type)));
+    std::vector<Repairs> repairs(rows);
+    for_each_index(band.region.height(), settings_.threads, [&](int index) {
+      const auto row = static_cast<std::size_t>(index);
+      for (std::size_t i = first_plane; i < open_->channels.size(); ++i) {
+        const ChannelType type = open_->channels[i].type;
+        if (type == ChannelType::half)
+          convert_row<Imath::half>(band.planes[i], row, width, open_->stored[i], repairs[row]);
+        if (type == ChannelType::float32)
+          convert_row<float>(band.planes[i], row, width, open_->stored[i], repairs[row]);
+      }
+    });
+    for (const Repairs& of_row : repairs) repairs_ += of_row;
+  }
+
+  /// Of a band's half_colors: themselves, but for infinities.
+  const Imath::half* storable_colors(const ImageBand& band) {
+    const auto* const colors = reinterpret_cast<const Imath::half*>(band.half_colors);
+    const std::size_t row_values = ImageBand::colors * static_cast<std::size_t>(band.region.width());
+    const auto rows = static_cast<std::size_t>(band.region.height());
+    std::vector<std::size_t> infinite(rows);
+    for_each_index(band.region.height(), settings_.threads, [&](int index) {
+      const auto row = static_cast<std::size_t>(index);
+      // By their bits, which the compiler makes a loop of wide instructions.
+      const std::uint16_t* const bits = band.half_colors + row * row_values;
+      std::uint32_t count = 0;
+      for (std::size_t i = 0; i < row_values; ++i) count += (bits[i] & 0x7fffU) >= 0x7c00U ? 1U : 0U;
+      infinite[row] = count;
+    });
+    if (std::all_of(infinite.begin(), infinite.end(), [](std::size_t count) { return count == 0; })) return colors;
+    std::vector<Imath::half>& stored = open_->half_colors;
+    stored.assign(colors, colors + rows * row_values);
+    for (Imath::half& value : stored)
+      if (!value.isFinite()) value = storable<Imath::half>(std::copysign(2 * largest<Imath::half>, value), repairs_);
+    return stored.data();
+  }
+
   /// Runs it, and throws an OutputError with the true reason for whatever it throws, or std::bad_alloc where that is
   /// it.
   template <class Action>
-  void guard(const Action& action) const;
+  void guard(const Action& action) const {
+    try {
+      action();
+    } catch (const std::exception& exception) {
+      const int error = open_->destination.error();
+      if (error == 0) rethrow_out_of_memory(exception);
+      if (error != 0) fail(error);
+      fail(exception.what());
+    }
+  }
 
   std::unique_ptr<OpenExr> open_;
 };
 
 }  // namespace
-
-void ExrEncoder::begin(const PictureExtent& extent, const std::vector<Channel>& channels, const ImageMetadata& metadata,
-                       std::FILE* destination) {
-  // OpenEXR compresses this many rows together, so that threads have work for no more of them.
-  constexpr int block_rows = 16;
-  const int threads = std::min(settings_.threads, (extent.region.height() + block_rows - 1) / block_rows);
-  const int helpers = threads == 1 ? 0 : threads;  // 0: the calling thread does it
-  make_thread_pool(settings_.threads);
-  const Imf::Header header = header_of(extent, channels, metadata, settings_.compressed);
-  open_ = std::make_unique<OpenExr>(destination, channels);
-  guard([&] { open_->exr.emplace(open_->destination, header, helpers); });
-}
-
-void ExrEncoder::write(const ImageBand& band) {
-  const Region& region = band.region;
-  const Imath::Box2i window({region.x0, region.y0}, {region.x1 - 1, region.y1 - 1});
-  Imf::FrameBuffer frame;
-  std::size_t first_plane = 0;
-  if (band.half_colors != nullptr) {
-    const Imath::half* const colors = storable_colors(band);
-    for (; first_plane < ImageBand::colors; ++first_plane)
-      frame.insert(open_->channels[first_plane].name,
-                   slice(Imf::HALF, colors + first_plane, window, ImageBand::colors));
-  }
-  convert_values(band, first_plane);
-  for (std::size_t i = first_plane; i < open_->channels.size(); ++i) {
-    const Channel& channel = open_->channels[i];
-    const auto* const integers = std::get_if<std::vector<std::uint32_t>>(&band.planes[i]);
-    const void* const values =
-        integers != nullptr ? static_cast<const void*>(integers->data()) : open_->stored[i].data();
-    frame.insert(channel.name, slice(pixel_type(channel.type), values, window));
-  }
-  guard([&] {
-    open_->exr->setFrameBuffer(frame);
-    open_->exr->writePixels(region.height());
-  });
-}
-
-/// Of a band's half_colors: themselves, but for infinities.
-const Imath::half* ExrEncoder::storable_colors(const ImageBand& band) {
-  const auto* const colors = reinterpret_cast<const Imath::half*>(band.half_colors);
-  const std::size_t row_values = ImageBand::colors * static_cast<std::size_t>(band.region.width());
-  const auto rows = static_cast<std::size_t>(band.region.height());
-  std::vector<std::size_t> infinite(rows);
-  for_each_index(band.region.height(), settings_.threads, [&](int index) {
-    const auto row = static_cast<std::size_t>(index);
-    // By their bits, which the compiler makes a loop of wide instructions.
-    const std::uint16_t* const bits = band.half_colors + row * row_values;
-    std::uint32_t count = 0;
-    for (std::size_t i = 0; i < row_values; ++i) count += (bits[i] & 0x7fffU) >= 0x7c00U ? 1U : 0U;
-    infinite[row] = count;
-  });
-  if (std::all_of(infinite.begin(), infinite.end(), [](std::size_t count) { return count == 0; })) return colors;
-  std::vector<Imath::half>& stored = open_->half_colors;
-  stored.assign(colors, colors + rows * row_values);
-  for (Imath::half& value : stored)
-    if (!value.isFinite()) value = storable<Imath::half>(std::copysign(2 * largest<Imath::half>, value), repairs_);
-  return stored.data();
-}
-
-/// Of the planes from first_plane on, to what the file stores.
-void ExrEncoder::convert_values(const ImageBand& band, std::size_t first_plane) {
-  if (first_plane == open_->channels.size()) return;
-  const auto width = static_cast<std::size_t>(band.region.width());
-  const auto rows = static_cast<std::size_t>(band.region.height());
-  for (std::size_t i = first_plane; i < open_->channels.size(); ++i)
-    if (open_->channels[i].type != ChannelType::uint32)
-      open_->stored[i].resize(width * rows * value_bytes(pixel_type(open_->channels[i].type)));
-  std::vector<Repairs> repairs(rows);
-  for_each_index(band.region.height(), settings_.threads, [&](int index) {
-    const auto row = static_cast<std::size_t>(index);
-    for (std::size_t i = first_plane; i < open_->channels.size(); ++i) {
-      const ChannelType type = open_->channels[i].type;
-      if (type == ChannelType::half)
-        convert_row<Imath::half>(band.planes[i], row, width, open_->stored[i], repairs[row]);
-      if (type == ChannelType::float32) convert_row<float>(band.planes[i], row, width, open_->stored[i], repairs[row]);
-    }
-  });
-  for (const Repairs& of_row : repairs) repairs_ += of_row;
-}
-
-Repairs ExrEncoder::finish() {
-  guard([&] {
-    open_->exr.reset();  // writes the table of where rows begin, and reports no failure
-    open_->destination.finish();
-  });
-  return repairs_;
-}
-
-template <class Action>
-void ExrEncoder::guard(const Action& action) const {
-  try {
-    action();
-  } catch (const std::exception& exception) {
-    const int error = open_->destination.error();
-    if (error == 0) rethrow_out_of_memory(exception);
-    if (error != 0) fail(error);
-    fail(exception.what());
-  }
-}
 
 std::unique_ptr<ImageEncoder> make_exr_encoder(const std::string& file, const ImageFileSettings& settings) {
   return std::make_unique<ExrEncoder>(file, settings);

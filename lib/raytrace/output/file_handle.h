@@ -1,4 +1,4 @@
-// The C library's files, closed at the end of their scope.
+// The C library's files, closed at the end of their scope, and what goes wrong with them.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +13,19 @@ namespace raytrace {
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+/// A file that could not be written; what() names the file and the reason. The file of that name, if there was one,
+/// is as it was.
+class OutputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A picture that is too large, or too small, for the format that its file's name asks for.
+class SizeError : public OutputError {
+ public:
+  using OutputError::OutputError;
 };
 
 struct CloseFile {

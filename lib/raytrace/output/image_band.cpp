@@ -2,10 +2,145 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cmath>
+#include <string>
 
+#include "raytrace/film/aov_film.h"
+#include "raytrace/math/limbs.h"
 #include "raytrace/parallel/for_each_index.h"
+#include "raytrace/text/message.h"
 
 namespace raytrace {
+
+namespace {
+
+/// What a film's sums consist of. A pixel's are written as words, whose order is that of channels_of().
+struct SumLayout {
+  AovSettings aovs;
+  bool has_high = false;
+  std::vector<std::size_t> ids{};  ///< of each coverage: as many as the pixel with the most has
+};
+
+std::string coverage_name(std::size_t coverage) { return "sums.aov.cover" + std::to_string(coverage); }
+
+std::vector<Channel> channels_of(const SumLayout& layout) {
+  std::vector<Channel> channels;
+  const auto add = [&](const std::string& name) { channels.push_back({name, ChannelType::uint32}); };
+  const auto add_halves = [&](const std::string& name) {
+    add(name + ".low");
+    add(name + ".high");
+  };
+  for (const char* const color : {"red", "green", "blue"}) add_halves(std::string("sums.") + color);
+  add("sums.hits");
+  add("sums.samples");
+  if (layout.has_high)
+    for (const char* const color : {"red", "green", "blue"}) add_halves(std::string("sums.limb2.") + color);
+  if (layout.aovs.nearest_values > 0) {
+    add("sums.aov.nearest.sample");  // its index, plus 1; 0: no sample met a surface
+    add("sums.aov.nearest.depth");   // a float's bits
+    for (std::size_t i = 0; i < layout.aovs.nearest_values; ++i) add("sums.aov.nearest.value" + std::to_string(i));
+  }
+  for (std::size_t i = 0; i < layout.aovs.mean_units.size(); ++i) add_halves("sums.aov.mean" + std::to_string(i));
+  for (std::size_t coverage = 0; coverage < layout.aovs.coverages; ++coverage)
+    for (std::size_t i = 0; i < layout.ids[coverage]; ++i) {
+      const std::string digits = formatted("%03zu", i);  // in the order of their names
+      add(coverage_name(coverage) + ".id" + digits);
+      add(coverage_name(coverage) + ".count" + digits);
+    }
+  return channels;
+}
+
+/// That of a film with these AOVs whose sums are in such channels.
+SumLayout layout_of(const AovSettings& aovs, const std::vector<Channel>& channels) {
+  const auto count = [&](const std::string& start) {
+    return static_cast<std::size_t>(std::count_if(
+        channels.begin(), channels.end(), [&](const Channel& channel) { return channel.name.starts_with(start); }));
+  };
+  SumLayout layout{aovs, count("sums.limb2.red.low") > 0};
+  for (std::size_t coverage = 0; coverage < aovs.coverages; ++coverage)
+    layout.ids.push_back(count(coverage_name(coverage) + ".id"));
+  return layout;
+}
+
+void append_words(const Film& film, const SumLayout& layout, int x, int y, std::vector<std::uint32_t>& words) {
+  const auto append_halves = [&](std::int64_t number) {
+    words.push_back(static_cast<std::uint32_t>(number));
+    words.push_back(static_cast<std::uint32_t>(static_cast<std::uint64_t>(number) >> 32U));
+  };
+  const PixelSum& sum = film.sum(x, y);
+  for (const std::int64_t color : {sum.red, sum.green, sum.blue}) append_halves(color);
+  words.insert(words.end(), {sum.hits, sum.samples});
+  if (layout.has_high) {
+    const PixelSumHigh high = film.high(x, y);
+    for (const std::int64_t color : {high.red, high.green, high.blue}) append_halves(color);
+  }
+  if (film.aovs() == nullptr) return;
+  const AovFilm& aovs = *film.aovs();
+  if (layout.aovs.nearest_values > 0) {
+    const AovFilm::Nearest nearest = aovs.nearest(x, y);
+    const bool any = nearest.values != nullptr;
+    words.insert(words.end(), {any ? nearest.sample + 1 : 0, std::bit_cast<std::uint32_t>(nearest.depth)});
+    for (std::size_t i = 0; i < layout.aovs.nearest_values; ++i) words.push_back(any ? nearest.values[i] : 0);
+  }
+  for (std::size_t i = 0; i < layout.aovs.mean_units.size(); ++i) append_halves(aovs.sum(x, y, i));
+  for (std::size_t coverage = 0; coverage < layout.aovs.coverages; ++coverage) {
+    std::vector<IdCount> ranked = aovs.ranked(x, y, coverage);
+    ranked.resize(layout.ids[coverage]);
+    for (const auto& [id, count] : ranked) words.insert(words.end(), {id, count});
+  }
+}
+
+/// Adds the sums to the pixel's. False, with some of them added, if they cannot be of samples of the range.
+bool add_words(const std::vector<std::uint32_t>& words, const SumLayout& layout, const SampleRange& range, Film& film,
+               int x, int y) {
+  const std::uint32_t* next = words.data();
+  const auto take_halves = [&] {
+    const std::uint64_t low = *next++;
+    return static_cast<std::int64_t>(low | std::uint64_t{*next++} << 32U);
+  };
+  PixelSum sum;
+  for (std::int64_t* const color : {&sum.red, &sum.green, &sum.blue}) *color = take_halves();
+  sum.hits = *next++;
+  sum.samples = *next++;
+  PixelSumHigh high;
+  if (layout.has_high)
+    for (std::int64_t* const color : {&high.red, &high.green, &high.blue}) *color = take_halves();
+  if (sum.samples > range.count || sum.hits > sum.samples) return false;
+  const auto fits = [&](std::int64_t low, std::int64_t high_limb) {
+    const double most = sum.samples * largest_units;  // rounded, both of them
+    return std::abs(std::ldexp(static_cast<double>(high_limb), 64) + static_cast<double>(low)) <= most;
+  };
+  if (!fits(sum.red, high.red) || !fits(sum.green, high.green) || !fits(sum.blue, high.blue)) return false;
+  film.add(x, y, sum, high);
+  if (film.aovs() == nullptr) return true;
+
+  AovFilm& aovs = *film.aovs();
+  bool sound = true;
+  if (layout.aovs.nearest_values > 0) {
+    if (next[0] != 0) {
+      const std::uint32_t index = next[0] - 1;
+      sound = index >= range.first && index - range.first < range.count && sum.samples > 0;
+      aovs.add_nearest(x, y, std::bit_cast<float>(next[1]), index, next + 2);
+    }
+    next += 2 + layout.aovs.nearest_values;
+  }
+  for (std::size_t i = 0; i < layout.aovs.mean_units.size(); ++i)
+    sound = aovs.add_mean(x, y, i, take_halves()) && sound;
+  for (std::size_t coverage = 0; coverage < layout.aovs.coverages; ++coverage) {
+    std::uint32_t left = sum.samples;  // that no id has yet
+    for (std::size_t i = 0; i < layout.ids[coverage]; ++i, next += 2) {
+      const IdCount one{next[0], next[1]};
+      if (one.count == 0) continue;
+      if (one.count > left) return false;
+      left -= one.count;
+      aovs.add_coverage(x, y, coverage, one);
+    }
+  }
+  return sound;
+}
+
+}  // namespace
 
 std::vector<Channel> color_channels(bool full_float) {
   const ChannelType type = full_float ? ChannelType::float32 : ChannelType::half;
@@ -54,6 +189,54 @@ void fill_color(ImageBand& band, const Film& film, int y0, int y1, int threads) 
       planes[3][at] = pixel.alpha;
     }
   });
+}
+
+std::vector<Channel> sum_channels() { return channels_of({}); }
+
+std::vector<Channel> all_sum_channels() { return channels_of({{}, true}); }
+
+bool is_sum(const Channel& channel) { return channel.name.starts_with("sums."); }
+
+std::vector<Channel> sum_channels(const Film& film) {
+  SumLayout layout{film.settings().aovs, film.has_high(), std::vector<std::size_t>(film.settings().aovs.coverages)};
+  for_each_pixel(film.region(), [&](std::size_t, int x, int y) {
+    for (std::size_t coverage = 0; coverage < layout.ids.size(); ++coverage)
+      layout.ids[coverage] = std::max(layout.ids[coverage], film.aovs()->ranked(x, y, coverage).size());
+  });
+  return channels_of(layout);
+}
+
+std::vector<Channel> sum_channels(const AovSettings& aovs, const std::vector<Channel>& channels) {
+  return channels_of(layout_of(aovs, channels));
+}
+
+void append_sums(ImageBand& band, const std::vector<Channel>& sums, const Film& film) {
+  const SumLayout layout = layout_of(film.settings().aovs, sums);
+  const std::size_t first = band.planes.size();
+  make_planes(band, first, sums);
+  std::vector<std::uint32_t*> planes;
+  for (std::size_t i = 0; i < sums.size(); ++i)
+    planes.push_back(std::get<std::vector<std::uint32_t>>(band.planes[first + i]).data());
+  std::vector<std::uint32_t> words;
+  for_each_pixel(band.region, [&](std::size_t pixel, int x, int y) {
+    words.clear();
+    append_words(film, layout, x, y, words);
+    for (std::size_t i = 0; i < words.size(); ++i) planes[i][pixel] = words[i];
+  });
+}
+
+bool add_sums(const ImageBand& band, const std::vector<Channel>& sums, const SampleRange& range, Film& film) {
+  const SumLayout layout = layout_of(film.settings().aovs, sums);
+  std::vector<const std::uint32_t*> planes;
+  for (std::size_t i = 0; i < sums.size(); ++i)
+    planes.push_back(std::get<std::vector<std::uint32_t>>(band.planes[i]).data());
+  bool sound = true;
+  std::vector<std::uint32_t> words(sums.size());
+  for_each_pixel(band.region, [&](std::size_t pixel, int x, int y) {
+    for (std::size_t i = 0; i < words.size(); ++i) words[i] = planes[i][pixel];
+    sound = add_words(words, layout, range, film, x, y) && sound;
+  });
+  return sound;
 }
 
 }  // namespace raytrace

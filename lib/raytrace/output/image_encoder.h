@@ -22,17 +22,7 @@ class ImageEncoder {
   ImageEncoder(const ImageEncoder&) = delete;
   ImageEncoder& operator=(const ImageEncoder&) = delete;
 
-  /// Whether it stores 32 bit floats.
-  virtual bool holds_float() const { return false; }
-
-  /// Whether it stores other channels than color_channels(), and ImageMetadata::data_attributes.
-  virtual bool holds_data() const { return false; }
-
-  /// Whether it stores alpha, where ImageFileSettings::transparent asks for it.
-  virtual bool holds_alpha() const = 0;
-
-  /// Whether it stores a picture for eyes, clamped and sRGB-encoded, which ImageFileSettings::exposure is for.
-  virtual bool is_for_display() const = 0;
+  virtual ImageFormat format() const = 0;
 
   /// Throws SizeError if the format cannot hold a picture of so many pixels. So does begin().
   virtual void check_size(int /*width*/, int /*height*/) const {}

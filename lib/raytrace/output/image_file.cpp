@@ -43,23 +43,8 @@ std::unique_ptr<ImageEncoder> make_image_encoder(const std::string& file, const 
   return make_openimageio_encoder(file, extension, settings);
 }
 
-bool holds_float(const std::string& file) {
-  ImageFileSettings settings;
-  settings.full_float = true;
-  return make_image_encoder(file, settings)->holds_float();
-}
-
-bool holds_halves(const std::string& file, const ImageFileSettings& settings) {
-  const auto encoder = make_image_encoder(file, settings);
-  return encoder->holds_data() && !encoder->holds_float();
-}
-
-bool holds_data(const std::string& file) { return make_image_encoder(file, {})->holds_data(); }
-
-bool holds_alpha(const std::string& file) { return make_image_encoder(file, {})->holds_alpha(); }
-
-bool is_for_display(const std::string& file, const ImageFileSettings& settings) {
-  return make_image_encoder(file, settings)->is_for_display();
+ImageFormat image_format(const std::string& file, const ImageFileSettings& settings) {
+  return make_image_encoder(file, settings)->format();
 }
 
 void check_format(const std::string& file, const ImageFileSettings& settings) {
@@ -72,11 +57,6 @@ void check_format(const std::string& file, const ImageFileSettings& settings) {
   encoder->begin(extent, channels, {}, memory.get());
   encoder->write(black);
   encoder->finish();
-}
-
-void check_writable(const std::string& file, const ImageFileSettings& settings) {
-  check_format(file, settings);
-  const AtomicFile made_and_removed(file);
 }
 
 void check_size(const std::string& file, const Region& region, const ImageFileSettings& settings) {
@@ -92,10 +72,6 @@ ImageFile::ImageFile(const std::string& file, std::unique_ptr<ImageEncoder> enco
 ImageFile::ImageFile(const std::string& file, const PictureExtent& extent, const std::vector<Channel>& channels,
                      const ImageMetadata& metadata, const ImageFileSettings& settings)
     : ImageFile(file, make_image_encoder(file, settings), extent, channels, metadata) {}
-
-ImageFile::ImageFile(const std::string& file, const PictureExtent& extent, const ImageMetadata& metadata,
-                     const ImageFileSettings& settings)
-    : ImageFile(file, extent, color_channels(settings.full_float), metadata, settings) {}
 
 ImageFile::~ImageFile() = default;
 
@@ -119,7 +95,7 @@ Repairs ImageFile::commit() {
 
 Repairs write_image(const std::string& file, const Film& film, const ImageMetadata& metadata,
                     const ImageFileSettings& settings) {
-  ImageFile image(file, film.settings().extent, metadata, settings);
+  ImageFile image(file, film.settings().extent, color_channels(settings.full_float), metadata, settings);
   image.write(film);
   return image.commit();
 }

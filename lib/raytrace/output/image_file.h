@@ -18,8 +18,8 @@
 #include "raytrace/cameras/camera_matrices.h"
 #include "raytrace/film/film.h"
 #include "raytrace/output/atomic_file.h"
+#include "raytrace/output/file_handle.h"
 #include "raytrace/output/image_band.h"
-#include "raytrace/output/output_error.h"
 
 namespace raytrace {
 
@@ -43,7 +43,7 @@ struct ImageAttribute {
 struct ImageMetadata {
   std::string software;  ///< "raytrace 1.2.3"
   std::string scene_file;
-  int samples = 1;  ///< a pixel
+  int samples = 1;  ///< per pixel
   std::uint64_t seed = 0;
   int threads = 1;
   std::optional<double> render_seconds;  ///< absent where the file is begun before the render ends
@@ -65,31 +65,24 @@ struct Repairs {
   }
 };
 
-/// Whether ImageFileSettings::full_float matters to a file of this name, or it holds floats anyway. Throws OutputError
-/// if its extension is unknown.
-bool holds_float(const std::string& file);
+/// What files of a format hold.
+struct ImageFormat {
+  bool floats = false;       ///< linear colour in 32 bits
+  bool data = false;         ///< channels besides color_channels(), and ImageMetadata::data_attributes
+  bool alpha = false;        ///< that of a transparent picture
+  bool for_display = false;  ///< a picture for eyes, clamped and sRGB-encoded, which ImageFileSettings::exposure is for
 
-/// Whether files of this name, with these settings, store colours as halves: whether FilmContent::half_means is all
-/// that they want. Throws OutputError as holds_float() does.
-bool holds_halves(const std::string& file, const ImageFileSettings& settings);
+  /// Whether FilmContent::half_means is all that they want.
+  bool halves() const { return data && !floats; }
+};
 
-/// Whether files of this name hold channels besides colour. Throws OutputError as holds_float() does.
-bool holds_data(const std::string& file);
-
-/// Whether files of this name hold the alpha of a transparent picture. Throws OutputError as holds_float() does.
-bool holds_alpha(const std::string& file);
-
-/// Whether ImageFileSettings::exposure matters to files of this name with these settings. Throws OutputError as
-/// holds_float() does.
-bool is_for_display(const std::string& file, const ImageFileSettings& settings);
+/// Of files of this name with these settings. Throws OutputError if the extension is unknown.
+ImageFormat image_format(const std::string& file, const ImageFileSettings& settings = {});
 
 /// Throws OutputError if files of this name cannot be written for their format: no known extension, a bit depth that
-/// the format lacks.
+/// the format lacks. To be called before the render, so that hours of work do not end in an error that was there
+/// before.
 void check_format(const std::string& file, const ImageFileSettings& settings);
-
-/// Throws OutputError for that, too, and if the file itself cannot be written: no such folder, no permission. Leaves no
-/// trace. To be called before the render, so that hours of work do not end in an error that was there before.
-void check_writable(const std::string& file, const ImageFileSettings& settings);
 
 /// Throws SizeError if files of this name cannot hold a picture of the region's size. To be called before the render,
 /// too, as soon as the size is known.
@@ -113,9 +106,6 @@ class ImageFile {
   /// In the encoder's format, whatever the file's name.
   ImageFile(const std::string& file, std::unique_ptr<ImageEncoder> encoder, const PictureExtent& extent,
             const std::vector<Channel>& channels, const ImageMetadata& metadata);
-  /// Of color_channels() alone.
-  ImageFile(const std::string& file, const PictureExtent& extent, const ImageMetadata& metadata,
-            const ImageFileSettings& settings);
   ~ImageFile();
   ImageFile(const ImageFile&) = delete;
   ImageFile& operator=(const ImageFile&) = delete;

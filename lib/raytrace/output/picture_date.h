@@ -4,7 +4,7 @@
 #include <ctime>
 #include <string>
 
-#include "raytrace/output/output_error.h"
+#include "raytrace/output/file_handle.h"
 
 namespace raytrace {
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace raytrace {
 
@@ -41,6 +42,13 @@ PixelFormat display_format(const ImageFileSettings& settings) {
   format.alpha = settings.transparent;
   format.gain = static_cast<float>(std::exp2(settings.exposure));
   return format;
+}
+
+std::string exposure_text(double exposure) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  if (exposure != 0) text << exposure;
+  return text.str();
 }
 
 float srgb_encoded(float linear) {

@@ -1,6 +1,8 @@
 // How formats other than EXR store a pixel, and how radiance becomes that.
 #pragma once
 
+#include <string>
+
 #include "raytrace/output/image_band.h"
 #include "raytrace/output/image_file.h"
 
@@ -19,6 +21,10 @@ struct PixelFormat {
 
 /// A display format's, with the settings' alpha and exposure.
 PixelFormat display_format(const ImageFileSettings& settings);
+
+/// The attribute of ImageFileSettings::exposure: absent where that is 0, and its text is empty then.
+inline constexpr const char* exposure_keyword = "raytrace:exposure";
+std::string exposure_text(double exposure);
 
 /// OpenImageIO's linear_to_sRGB(), bit for bit.
 float srgb_encoded(float linear);

@@ -14,14 +14,11 @@
 #include "raytrace/output/image_encoder.h"
 #include "raytrace/output/picture_date.h"
 #include "raytrace/output/pixel_format.h"
-#include "raytrace/output/png_file.h"
 #include "raytrace/parallel/for_each_index.h"
 #include "raytrace/text/utf8.h"
 
 namespace raytrace {
-
 namespace {
-
 /// The nearest whole number, halves upwards: what std::round() gives, but no call of a function.
 unsigned nearest(float value) {
   const auto floor = static_cast<unsigned>(value);
@@ -137,18 +134,80 @@ class PngEncoder final : public ImageEncoder {
   PngEncoder(const std::string& file, const ImageFileSettings& settings)
       : ImageEncoder(file, settings), pixels_(display_format(settings)) {}
 
-  bool holds_alpha() const override { return true; }
-  bool is_for_display() const override { return true; }
-  void begin(const PictureExtent& extent, const std::vector<Channel>& channels, const ImageMetadata& metadata,
-             std::FILE* destination) override;
-  void write(const ImageBand& band) override;
-  Repairs finish() override;
+  ImageFormat format() const override { return {.floats = false, .data = false, .alpha = true, .for_display = true}; }
+
+  void begin(const PictureExtent& extent, const std::vector<Channel>& /*only the first are stored*/,
+             const ImageMetadata& metadata, std::FILE* destination) override {
+    std::vector<PngText> texts = png_texts(metadata, settings_);
+    std::vector<png_text_struct> chunks(texts.size());
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+      chunks[i].compression = text_format(texts[i].text);
+      chunks[i].key = texts[i].keyword.data();
+      chunks[i].text = texts[i].text.data();
+      chunks[i].text_length = texts[i].text.size();
+    }
+    const std::tm utc = picture_date().utc;
+    const auto width = static_cast<png_uint_32>(extent.region.width());
+    const auto height = static_cast<png_uint_32>(extent.region.height());
+    const int color = pixels_.alpha ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB;
+    open_ = std::make_unique<OpenPng>(destination);
+    const png_structp png = open_->png;
+    const png_infop info = open_->info;
+    guard([&] {
+      png_set_IHDR(png, info, width, height, settings_.bit_depth, color, PNG_INTERLACE_NONE,
+                   PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+      png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_ABSOLUTE);
+      png_time time;
+      png_convert_from_struct_tm(&time, &utc);
+      png_set_tIME(png, info, &time);
+      png_set_text(png, info, chunks.data(), static_cast<int>(chunks.size()));
+      // Differences to the left neighbour. Those of 8 bits repeat in runs, or not at all: docs/design.md, Output.
+      png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
+      png_set_compression_level(png, Z_BEST_SPEED);
+      if (settings_.bit_depth == 8) png_set_compression_strategy(png, Z_RLE);
+      png_set_compression_buffer_size(png, 65536);
+      png_write_info(png, info);
+    });
+  }
+
+  void write(const ImageBand& band) override {
+    const auto row_values =
+        static_cast<std::size_t>(pixels_.channels()) * static_cast<std::size_t>(band.region.width());
+    const std::size_t row_bytes = row_values * static_cast<std::size_t>(settings_.bit_depth / 8);
+    const auto rows = static_cast<std::size_t>(band.region.height());
+    bytes_.resize(rows * row_bytes);
+    std::vector<Repairs> repairs(rows);
+    for_each_index(band.region.height(), settings_.threads, [&](int index) {
+      const auto row = static_cast<std::size_t>(index);
+      std::vector<float> values(row_values);
+      repairs[row] = stored_row(band, index, pixels_, values.data());
+      quantize(values, settings_.bit_depth, bytes_.data() + row * row_bytes);
+    });
+    for (const Repairs& of_row : repairs) repairs_ += of_row;
+    guard([&] {
+      for (std::size_t row = 0; row < rows; ++row) png_write_row(open_->png, bytes_.data() + row * row_bytes);
+    });
+  }
+
+  Repairs finish() override {
+    guard([&] { png_write_end(open_->png, nullptr); });
+    if (!open_->destination.flush()) fail(open_->destination.error());
+    return repairs_;
+  }
 
  private:
   /// Runs calls of libpng, whose errors are jumps: `calls` must make no object that has a destructor. Throws an
   /// OutputError with the true reason of a failure, or std::bad_alloc.
   template <class Calls>
-  void guard(const Calls& calls);
+  void guard(const Calls& calls) {
+    if (setjmp(png_jmpbuf(open_->png)) == 0) {
+      calls();
+      return;
+    }
+    if (open_->destination.error() != 0) fail(open_->destination.error());
+    if (open_->out_of_memory) throw std::bad_alloc();
+    fail(open_->message);
+  }
 
   PixelFormat pixels_;
   std::vector<std::uint8_t> bytes_;  ///< of a band; kept from band to band
@@ -156,75 +215,6 @@ class PngEncoder final : public ImageEncoder {
 };
 
 }  // namespace
-
-void PngEncoder::begin(const PictureExtent& extent, const std::vector<Channel>& /*only the first are stored*/,
-                       const ImageMetadata& metadata, std::FILE* destination) {
-  std::vector<PngText> texts = png_texts(metadata, settings_);
-  std::vector<png_text_struct> chunks(texts.size());
-  for (std::size_t i = 0; i < texts.size(); ++i) {
-    chunks[i].compression = text_format(texts[i].text);
-    chunks[i].key = texts[i].keyword.data();
-    chunks[i].text = texts[i].text.data();
-    chunks[i].text_length = texts[i].text.size();
-  }
-  const std::tm utc = picture_date().utc;
-  const auto width = static_cast<png_uint_32>(extent.region.width());
-  const auto height = static_cast<png_uint_32>(extent.region.height());
-  const int color = pixels_.alpha ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB;
-  open_ = std::make_unique<OpenPng>(destination);
-  const png_structp png = open_->png;
-  const png_infop info = open_->info;
-  guard([&] {
-    png_set_IHDR(png, info, width, height, settings_.bit_depth, color, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
-                 PNG_FILTER_TYPE_DEFAULT);
-    png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_ABSOLUTE);
-    png_time time;
-    png_convert_from_struct_tm(&time, &utc);
-    png_set_tIME(png, info, &time);
-    png_set_text(png, info, chunks.data(), static_cast<int>(chunks.size()));
-    // Differences to the left neighbour. Those of 8 bits repeat in runs, or not at all: docs/design.md, Output.
-    png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
-    png_set_compression_level(png, Z_BEST_SPEED);
-    if (settings_.bit_depth == 8) png_set_compression_strategy(png, Z_RLE);
-    png_set_compression_buffer_size(png, 65536);
-    png_write_info(png, info);
-  });
-}
-
-void PngEncoder::write(const ImageBand& band) {
-  const auto row_values = static_cast<std::size_t>(pixels_.channels()) * static_cast<std::size_t>(band.region.width());
-  const std::size_t row_bytes = row_values * static_cast<std::size_t>(settings_.bit_depth / 8);
-  const auto rows = static_cast<std::size_t>(band.region.height());
-  bytes_.resize(rows * row_bytes);
-  std::vector<Repairs> repairs(rows);
-  for_each_index(band.region.height(), settings_.threads, [&](int index) {
-    const auto row = static_cast<std::size_t>(index);
-    std::vector<float> values(row_values);
-    repairs[row] = stored_row(band, index, pixels_, values.data());
-    quantize(values, settings_.bit_depth, bytes_.data() + row * row_bytes);
-  });
-  for (const Repairs& of_row : repairs) repairs_ += of_row;
-  guard([&] {
-    for (std::size_t row = 0; row < rows; ++row) png_write_row(open_->png, bytes_.data() + row * row_bytes);
-  });
-}
-
-Repairs PngEncoder::finish() {
-  guard([&] { png_write_end(open_->png, nullptr); });
-  if (!open_->destination.flush()) fail(open_->destination.error());
-  return repairs_;
-}
-
-template <class Calls>
-void PngEncoder::guard(const Calls& calls) {
-  if (setjmp(png_jmpbuf(open_->png)) == 0) {
-    calls();
-    return;
-  }
-  if (open_->destination.error() != 0) fail(open_->destination.error());
-  if (open_->out_of_memory) throw std::bad_alloc();
-  fail(open_->message);
-}
 
 std::unique_ptr<ImageEncoder> make_png_encoder(const std::string& file, const ImageFileSettings& settings) {
   return std::make_unique<PngEncoder>(file, settings);

@@ -12,9 +12,13 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -45,13 +49,75 @@ struct FieldInfo {
   bool is_point = false;  ///< of world space: it moves with the world's origin, as no direction, edge or size does
 };
 
+/// An enumeration that fields may have: the words that scene files spell its values with, in their order from 0.
+///
+///   enum class Falloff { none, inverse_square };
+///   template <>
+///   struct Choices<Falloff> {
+///     static constexpr std::array<std::string_view, 2> words = {"none", "inversesquare"};
+///   };
+template <class Value>
+struct Choices;
+template <class Value>
+concept HasChoices = requires { Choices<Value>::words; };
+
+/// A reference to a value of such an enumeration, whichever it is.
+class ChoiceReference {
+ public:
+  template <HasChoices Value>
+  explicit ChoiceReference(Value& value) : value_(&value), type_(&type_of<Value>) {}
+
+  std::span<const std::string_view> words() const { return type_->words; }
+  /// Of the value's word; of a value that is none of the enumeration's, beyond them.
+  std::size_t index() const { return type_->get(value_); }
+  void set(std::size_t index) const { type_->set(value_, index); }
+
+ private:
+  struct Type {
+    std::span<const std::string_view> words;
+    std::size_t (*get)(const void* value);
+    void (*set)(void* value, std::size_t index);
+  };
+  template <class Value>
+  static constexpr Type type_of = {
+      Choices<Value>::words,
+      [](const void* value) { return static_cast<std::size_t>(*static_cast<const Value*>(value)); },
+      [](void* value, std::size_t index) { *static_cast<Value*>(value) = static_cast<Value>(index); }};
+
+  void* value_;
+  const Type* type_;
+};
+
 /// The same, and where its value goes.
-/// double, int, bool, string: the element's text. Vec3d and Rgb: attributes (see Components).
+/// double, int, bool, enumerations with Choices: the element's text. Vec3d and Rgb: attributes (see Components).
 template <class Parameters>
 struct Field : FieldInfo {
-  using Member = std::variant<double Parameters::*, int Parameters::*, bool Parameters::*, std::string Parameters::*,
-                              Vec3d Parameters::*, Rgb<double> Parameters::*>;
+  using Choice = std::function<ChoiceReference(Parameters&)>;
+  using Member = std::variant<double Parameters::*, int Parameters::*, bool Parameters::*, Choice, Vec3d Parameters::*,
+                              Rgb<double> Parameters::*>;
   Member member;
+
+  template <class Value>
+  Field(const FieldInfo& info, Value Parameters::* value) : FieldInfo(info) {
+    if constexpr (HasChoices<Value>)
+      member = Choice([value](Parameters& parameters) { return ChoiceReference(parameters.*value); });
+    else
+      member = value;
+  }
+
+  /// visit(a reference to the value), which of a choice is a ChoiceReference; what it returns. parameters: may be
+  /// constant, if `visit` sets no choice.
+  template <class AnyParameters, class Visit>
+  decltype(auto) visit(AnyParameters& parameters, const Visit& visit) const {
+    return std::visit(
+        [&]<class Any>(const Any& any) -> decltype(auto) {
+          if constexpr (std::is_same_v<Any, Choice>)
+            return visit(any(const_cast<Parameters&>(parameters)));
+          else
+            return visit(parameters.*any);
+        },
+        member);
+  }
 };
 
 template <class Parameters>
@@ -75,12 +141,12 @@ concept HasComponents = requires { Components<Value>::names; };
 
 template <class Parameters, class Value>
 Field<Parameters> required(std::string_view name, Value Parameters::* member, Range range = Range::any) {
-  return {{name, true, range}, member};
+  return {FieldInfo{name, true, range}, member};
 }
 
 template <class Parameters, class Value>
 Field<Parameters> optional(std::string_view name, Value Parameters::* member, Range range = Range::any) {
-  return {{name, false, range}, member};
+  return {FieldInfo{name, false, range}, member};
 }
 
 // The same of a point: required("center", &Parameters::center, a_point).

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdio>
 #include <mutex>
-#include <tuple>
 #include <vector>
 
 #include "raytrace/aovs/aov_selection.h"
@@ -66,22 +65,22 @@ bool is_rendered(const Film& film, const Region& tile, std::uint32_t samples) {
   return true;
 }
 
-/// Tells the progress without making any thread wait for another.
+/// Reports the progress without making any thread wait for another.
 class ProgressReporter {
  public:
   ProgressReporter(const ProgressFunction& progress, int tiles) : progress_(progress), tiles_(tiles) {}
 
-  void tell(int done) {
+  void report(int done) {
     if (!progress_) return;
     const std::unique_lock lock(mutex_, std::try_to_lock);
-    if (!lock || done <= told_) return;
-    told_ = done;
+    if (!lock || done <= reported_) return;
+    reported_ = done;
     progress_(static_cast<double>(done) / tiles_);
   }
 
  private:
   const ProgressFunction& progress_;
-  int tiles_, told_ = 0;
+  int tiles_, reported_ = 0;
   std::mutex mutex_;
 };
 
@@ -120,7 +119,7 @@ RenderReport render(const Scene& scene, Film& film, std::uint32_t samples, int t
   const int workers = worker_count(thread_count(threads));
   const TileGrid grid = tiles_for(film.region(), workers);
   const Variant variant = choose_variant(scene.isa());
-  ProgressReporter teller(progress, grid.count());
+  ProgressReporter reporter(progress, grid.count());
   std::vector<RenderReport> reports(static_cast<std::size_t>(grid.count()));  // of each tile
   // With the loop's own, all that threads write and others read: once a tile.
   std::atomic<int> done{0};
@@ -129,9 +128,9 @@ RenderReport render(const Scene& scene, Film& film, std::uint32_t samples, int t
     const Region tile = grid.tile(index);
     if (film.content() != FilmContent::sums || !is_rendered(film, tile, samples))
       reports[static_cast<std::size_t>(index)] = variant.render(scene, tile, samples, film, stop);
-    teller.tell(done.fetch_add(1, std::memory_order_relaxed) + 1);
+    reporter.report(done.fetch_add(1, std::memory_order_relaxed) + 1);
   });
-  teller.tell(done.load(std::memory_order_relaxed));  // the last may have found another thread telling
+  reporter.report(done.load(std::memory_order_relaxed));  // the last may have found another thread reporting
   RenderReport report;
   for (const RenderReport& of_tile : reports) report += of_tile;
   return report;

@@ -1,6 +1,6 @@
 #include "raytrace/scene/geometry_table.h"
 
-#include "raytrace/memory/large_pages.h"
+#include "raytrace/memory/large_array.h"
 #include "raytrace/parallel/for_each_index.h"
 
 namespace raytrace {
@@ -33,7 +33,7 @@ GeometryTable::GeometryTable(const SceneDescription& description, const Vec3d& o
       for (std::size_t i = first; i < last; ++i) {
         const MaterialReference& material = items[i].material;
         object_materials_[first_object + i] =
-            first_materials[material.kind] + static_cast<std::int32_t>(material.index);
+            first_materials[material.type] + static_cast<std::int32_t>(material.index);
       }
     });
   });

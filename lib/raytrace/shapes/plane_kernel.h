@@ -20,11 +20,11 @@ class Kernel<Plane> {
   using Parameters = Plane::Parameters;
 
   struct Record {
-    Vec3d normal;   ///< unit length
-    double offset;  ///< dot(normal, any point of the plane)
-    int axis;       ///< that the normal lies along: 0, 1 or 2; 3 if it lies along none
-    float place;    ///< on that axis, rounded,
-    float rest;     ///< and what is missing
+    Vec3d normal;      ///< unit length
+    double offset;     ///< dot(normal, any point of the plane)
+    int axis;          ///< that the normal lies along: 0, 1 or 2; 3 if it lies along none
+    float coordinate;  ///< on that axis, rounded,
+    float rest;        ///< and what is missing
   };
   static Record record(const Parameters& parameters);
 
@@ -41,7 +41,7 @@ template <class F>
 RAYTRACE_INLINE F Kernel<Plane>::intersect(const Record& plane, const Ray<F>& ray, const Mask<F>& active) {
   F height, speed;
   if (plane.axis < 3) {
-    height = (F(plane.place) - component(ray.origin, plane.axis)) + F(plane.rest);
+    height = (F(plane.coordinate) - component(ray.origin, plane.axis)) + F(plane.rest);
     speed = component(ray.direction, plane.axis);
   } else {
     using D = Doubles<F>;
@@ -63,7 +63,7 @@ RAYTRACE_INLINE SurfacePoint<F> Kernel<Plane>::surface(const Record& plane, cons
     return {position, Vec3<F>(Vec3f(plane.normal)), rounding_error(position, F(0))};
   }
   Vec3<F> position = ray.at(distance);
-  component(position, plane.axis) = F(plane.place);
+  component(position, plane.axis) = F(plane.coordinate);
   return {position, Vec3<F>(Vec3f(plane.normal)), rounding_error(position, F(0))};
 }
 
@@ -77,9 +77,9 @@ inline Kernel<Plane>::Record Kernel<Plane>::record(const Parameters& parameters)
                : normal.x == 0 && normal.y == 0 ? 2
                                                 : 3;
   if (plane.axis < 3) {
-    const double place = plane.offset * component(normal, plane.axis);
-    plane.place = static_cast<float>(place);
-    plane.rest = static_cast<float>(place - double{plane.place});
+    const double coordinate = plane.offset * component(normal, plane.axis);
+    plane.coordinate = static_cast<float>(coordinate);
+    plane.rest = static_cast<float>(coordinate - double{plane.coordinate});
   }
   return plane;
 }

@@ -3,7 +3,6 @@
 #include <tinyxml2.h>
 
 #include <algorithm>
-#include <cstddef>
 #include <deque>
 #include <utility>
 #include <vector>

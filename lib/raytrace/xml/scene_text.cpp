@@ -1,14 +1,158 @@
 #include "raytrace/xml/scene_text.h"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <iterator>
+#include <memory>
+#include <system_error>
 #include <utility>
 
 #include "raytrace/parallel/for_each_index.h"
-#include "raytrace/xml/file_type.h"
+#include "raytrace/xml/diagnostics.h"
 #include "raytrace/xml/xml_characters.h"
 #include "raytrace/xml/xml_scanner.h"
 
 namespace raytrace {
+
+namespace {
+
+constexpr std::size_t largest_file = std::size_t(1) << 31;
+
+struct Close {
+  void operator()(std::FILE* file) const {
+    if (file != stdin) std::fclose(file);
+  }
+};
+
+/// The bytes of the file from an offset on, as many as there are up to `count`.
+std::size_t read_at(int file, char* bytes, std::size_t count, std::size_t offset) {
+  std::size_t done = 0;
+  while (done < count) {
+    const ssize_t more = pread(file, bytes + done, count - done, static_cast<off_t>(offset + done));
+    if (more < 0 && errno == EINTR) continue;
+    if (more <= 0) break;
+    done += static_cast<std::size_t>(more);
+  }
+  return done;
+}
+
+/// A file of known size, by several threads: memory that is fresh from the system takes longer to get than the bytes to
+/// copy. No value if the file does not have that size, or cannot be read from an offset on.
+std::optional<TextBuffer> read_in_parallel(int file, std::size_t size, int threads) {
+  constexpr std::size_t block = std::size_t(1) << 21;
+  TextBuffer text(size);
+  std::atomic<bool> complete{true};
+  for_each_index(static_cast<int>((size + block - 1) / block), threads, [&](int index) {
+    const std::size_t offset = static_cast<std::size_t>(index) * block, count = std::min(block, size - offset);
+    if (read_at(file, text.data() + offset, count, offset) != count) complete = false;
+  });
+  char next = 0;
+  if (!complete || read_at(file, &next, 1, size) != 0) return std::nullopt;
+  text.lengthen_to(size);
+  return text;
+}
+
+using namespace std::string_view_literals;
+
+constexpr const char* picture = "; if it is the picture to write, put -o before it";
+constexpr const char* piece = "; if it is a piece of a picture, use raytrace merge";
+constexpr const char* packed = "; unpack it first";
+
+struct FileType {
+  std::string_view start;
+  const char* name;
+  const char* advice = "";
+};
+
+constexpr FileType file_types[] = {
+    {"ply\n"sv, "a PLY model"},
+    {"ply\r"sv, "a PLY model"},
+    {"glTF"sv, "a glTF model (.glb)"},
+    {"BLENDER"sv, "a Blender file"},
+    {"Kaydara FBX Binary"sv, "an FBX model"},
+    {"; FBX"sv, "an FBX model"},
+    {"solid "sv, "an STL model"},
+    {"Ogawa"sv, "an Alembic model"},
+    {"OFF\n"sv, "an OFF model"},
+    {"PXR-USDC"sv, "a USD scene"},
+    {"#usda"sv, "a USD scene"},
+    {"##RenderMan"sv, "a RenderMan scene (RIB)"},
+    {"\x76\x2f\x31\x01"sv, "an OpenEXR picture", piece},
+    {"\x89PNG"sv, "a PNG picture", picture},
+    {"\xff\xd8\xff"sv, "a JPEG picture", picture},
+    {"GIF8"sv, "a GIF picture", picture},
+    {"II*\0"sv, "a TIFF picture", picture},
+    {"MM\0*"sv, "a TIFF picture", picture},
+    {"#?R"sv, "a Radiance picture (.hdr)", picture},
+    {"RIFF"sv, "a WebP picture or another RIFF file", picture},
+    {"\x1f\x8b"sv, "packed with gzip", packed},
+    {"BZh"sv, "packed with bzip2", packed},
+    {"\xfd"
+     "7zXZ"sv,
+     "packed with xz", packed},
+    {"\x28\xb5\x2f\xfd"sv, "packed with zstd, as Blender does with its files", packed},
+    {"PK\x03\x04"sv, "a ZIP archive", packed},
+    {"7z\xbc\xaf"sv, "a 7z archive", packed},
+    {"%PDF"sv, "a PDF document"},
+    {"\x7f"
+     "ELF"sv,
+     "a program"},
+    {"#!"sv, "a script"},
+};
+
+std::string_view without_space(std::string_view text) {
+  const std::size_t start = text.find_first_not_of(" \t\r\n");
+  return start == std::string_view::npos ? std::string_view() : text.substr(start);
+}
+
+std::string_view first_word(std::string_view line) { return line.substr(0, line.find_first_of(" \t\r\n{\"[(")); }
+
+/// By the words that the first lines begin with, comments left out.
+std::optional<FileType> type_by_words(std::string_view text) {
+  static constexpr std::string_view obj[] = {"v", "vt", "vn", "vp", "f", "o", "g", "s", "mtllib", "usemtl"};
+  static constexpr std::string_view pbrt[] = {"LookAt",     "Camera",      "Film",   "Sampler",
+                                              "Integrator", "WorldBegin",  "Scale",  "Option",
+                                              "Transform",  "PixelFilter", "Rotate", "Translate"};
+  static constexpr std::string_view povray[] = {"#include",        "#version", "#declare", "camera", "light_source",
+                                                "global_settings", "sphere",   "union",    "plane"};
+  const auto is_one_of = [](std::string_view word, const auto& words) {
+    return std::find(std::begin(words), std::end(words), word) != std::end(words);
+  };
+  for (int lines = 0; lines < 100 && !(text = without_space(text)).empty(); ++lines) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    const std::string_view word = first_word(line);
+    if (is_one_of(word, povray)) return FileType{{}, "a POV-Ray scene"};
+    if (is_one_of(word, pbrt)) return FileType{{}, "a pbrt scene"};
+    if (is_one_of(word, obj)) return FileType{{}, "a Wavefront OBJ model"};
+    if (!line.starts_with('#') && !line.starts_with("//")) return std::nullopt;
+    text.remove_prefix(line.size());
+  }
+  return std::nullopt;
+}
+
+std::optional<FileType> type_of(std::string_view text) {
+  for (const FileType& type : file_types)
+    if (text.starts_with(type.start)) return type;
+  // Its first 80 bytes are anything; a number of triangles of 50 bytes each follows.
+  constexpr std::size_t stl_header = 80, stl_start = 84, stl_triangle = 50;
+  if (text.size() >= stl_start) {
+    std::size_t triangles = 0;
+    for (std::size_t i = 4; i-- > 0;) triangles = triangles << 8U | static_cast<unsigned char>(text[stl_header + i]);
+    if (text.size() - stl_start == triangles * stl_triangle) return FileType{{}, "an STL model"};
+  }
+  if (without_space(text).starts_with('{') && text.find("\"asset\"") != std::string_view::npos)
+    return FileType{{}, "a glTF model"};
+  return type_by_words(text);
+}
+
+}  // namespace
 
 SceneText::SceneText(TextBuffer text, std::span<const std::string_view> groups, int threads, Diagnostics& diagnostics)
     : text_(std::move(text)) {
@@ -58,6 +202,50 @@ SourceLocation SceneText::locate(std::size_t offset) const {
                                      [](std::size_t wanted, const TextChunk& chunk) { return wanted < chunk.begin; });
   if (next == chunks_.begin()) return raytrace::locate(text_.text(), offset);
   return raytrace::locate(text_.text(), offset, (next - 1)->begin, (next - 1)->line);
+}
+
+std::optional<TextBuffer> read_text_file(const std::string& file, int threads, Diagnostics& diagnostics) {
+  const auto refuse = [&](const std::string& reason) {
+    diagnostics.error({}, "cannot read the scene: " + reason);
+    return std::nullopt;
+  };
+  const auto reason = [](int error) { return std::generic_category().message(error); };
+
+  const std::unique_ptr<std::FILE, Close> input(file == "-" ? stdin : std::fopen(file.c_str(), "rb"));
+  if (!input) return refuse(reason(errno));
+
+  std::error_code unknown_size;
+  const std::uintmax_t size = std::filesystem::file_size(file, unknown_size);
+  constexpr std::size_t large_file = std::size_t(1) << 22;
+  if (!unknown_size && size >= large_file && size <= largest_file) {
+    if (std::optional<TextBuffer> text = read_in_parallel(fileno(input.get()), static_cast<std::size_t>(size), threads))
+      return text;
+  }
+
+  // A pipe or a device has no size beforehand, and a file may grow: the room is doubled while there is more.
+  TextBuffer text(unknown_size ? std::size_t(1) << 16
+                               : static_cast<std::size_t>(std::min<std::uintmax_t>(size, largest_file)) + 1);
+  std::size_t length = 0;
+  while (true) {
+    errno = 0;
+    length += std::fread(text.data() + length, 1, text.room() - length, input.get());
+    if (std::ferror(input.get())) return refuse(reason(errno));
+    if (length > largest_file) return refuse("it is larger than 2 GiB");
+    text.lengthen_to(length);
+    if (length < text.room()) return text;
+    TextBuffer larger(2 * length);
+    larger.append(text.text());
+    text = std::move(larger);
+  }
+}
+
+std::optional<std::string> explain_file_type(std::string_view text) {
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  if (without_space(text).starts_with('<')) return std::nullopt;
+  const std::optional<FileType> type = type_of(text);
+  if (!type) return std::nullopt;
+  return std::string("this seems to be ") + type->name +
+         "; raytrace reads scenes in XML, which start with <raytracer>" + type->advice;
 }
 
 }  // namespace raytrace

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "raytrace/text/quoted.h"
+#include "raytrace/text/message.h"
 #include "raytrace/text/utf8.h"
 #include "raytrace/xml/diagnostics.h"
 #include "raytrace/xml/xml_characters.h"

@@ -4,10 +4,8 @@
 #include <cstring>
 
 #include "raytrace/parallel/worker_count.h"
-#include "raytrace/text/nearest_name.h"
-#include "raytrace/text/quoted.h"
+#include "raytrace/text/message.h"
 #include "raytrace/text/utf8.h"
-#include "raytrace/xml/item_chunks.h"
 #include "raytrace/xml/xml_characters.h"
 #include "raytrace/xml/xml_cursor.h"
 

@@ -30,7 +30,7 @@ SceneDescription ball_at(double height) {
   lamp.scaleradiance = 3;
   std::get<LightItems<PointLight>>(scene.lights).push_back({lamp});
 
-  // A material by its kind and its index among those of its kind.
+  // A material by its type and its index among those of its type.
   auto& mattes = std::get<MaterialItems<Matte>>(scene.materials);
   mattes.push_back({{0.1, 0.8, {0.3, 0.5, 0.6}}, "floor"});
   mattes.push_back({{0.1, 0.8, {0.9, 0.1, 0.1}}, "red"});

@@ -1,10 +1,11 @@
-// The formats that OpenImageIO writes, but for EXR and PNG.
+// The formats that OpenImageIO writes, but for EXR and PNG, and whether files of them are whole.
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdio>
 #include <limits>
 #include <map>
 #include <memory>
@@ -12,19 +13,17 @@
 #include <sstream>
 #include <vector>
 
+#include "raytrace/film/region.h"
 #include "raytrace/memory/out_of_memory.h"
 #include "raytrace/output/file_handle.h"
 #include "raytrace/output/image_encoder.h"
 #include "raytrace/output/openimageio_module.h"
 #include "raytrace/output/picture_date.h"
 #include "raytrace/output/pixel_format.h"
-#include "raytrace/text/nearest_name.h"
-#include "raytrace/text/quoted.h"
+#include "raytrace/text/message.h"
 
 namespace raytrace {
-
 namespace {
-
 using Names = std::vector<std::string>;
 
 std::unique_ptr<OIIO::ImageOutput> create_writer(const std::string& extension) {
@@ -88,7 +87,7 @@ void add_metadata(OIIO::ImageSpec& spec, const ImageMetadata& metadata, double e
   if (!metadata.software.empty()) spec.attribute("Software", metadata.software);  // JPEG's IPTC aborts on empty text
   std::ostringstream description;
   description.imbue(std::locale::classic());
-  description << "scene " << metadata.scene_file << ", " << metadata.samples << " samples a pixel, seed "
+  description << "scene " << metadata.scene_file << ", " << metadata.samples << " samples per pixel, seed "
               << metadata.seed;
   if (exposure != 0) description << ", exposure " << exposure;
   for (const ImageAttribute& attribute : metadata.attributes)
@@ -144,25 +143,130 @@ class Proxy final : public OIIO::Filesystem::IOFile {
 class OpenImageIOEncoder final : public ImageEncoder {
  public:
   /// extension: in lower case, with its dot. Throws OutputError.
-  OpenImageIOEncoder(const std::string& file, const std::string& extension, const ImageFileSettings& settings);
+  OpenImageIOEncoder(const std::string& file, const std::string& extension, const ImageFileSettings& settings)
+      : ImageEncoder(file, settings), extension_(extension), writer_(create_writer(extension)) {
+    if (!writer_) {
+      fail((is_known(extension) ? in_quotes(extension) + " is a format that can be read but not written"
+                                : "no picture format has the extension " + in_quotes(extension)) +
+           suggestion(extension));
+    }
+    choose_pixels(extension);
+    // A pool of the whole process; where it cannot be started, the process crashes at its end. TIFF alone has work for
+    // it.
+    constexpr int most_threads = 8;
+    OIIO::attribute("threads", std::min(settings.threads, most_threads));
+  }
 
-  bool holds_float() const override { return type_ == OIIO::TypeFloat; }
-  bool holds_alpha() const override { return is_tiff(); }
-  bool is_for_display() const override { return pixels_.srgb; }
-  void check_size(int width, int height) const override;
-  void begin(const PictureExtent& extent, const std::vector<Channel>& channels, const ImageMetadata& metadata,
-             std::FILE* destination) override;
-  void write(const ImageBand& band) override;
-  Repairs finish() override;
+  ImageFormat format() const override {
+    return {.floats = type_ == OIIO::TypeFloat, .data = false, .alpha = is_tiff(), .for_display = pixels_.srgb};
+  }
+
+  void check_size(int width, int height) const override {
+    const auto [least, most] = edge_limits(writer_->format_name());
+    if (std::min(width, height) >= least && std::max(width, height) <= most) return;
+    const bool too_large = std::max(width, height) > most;
+    throw SizeError("cannot write " + file_ + ": a " + in_quotes(extension_) + " file has edges of at " +
+                    (too_large ? "most " + std::to_string(most) : "least " + std::to_string(least)) + " pixels, not " +
+                    std::to_string(width) + " x " + std::to_string(height) + "; .exr and .png have room for it");
+  }
+
+  void begin(const PictureExtent& extent, const std::vector<Channel>& /*only the first are stored*/,
+             const ImageMetadata& metadata, std::FILE* destination) override {
+    check_size(extent.region.width(), extent.region.height());
+    extent_ = extent;
+    destination_ = destination;
+    std::string name = file_;
+    // OpenImageIO 2.4's TIFF writer leaves a file without a directory when it goes through a proxy.
+    if (writer_->supports("ioproxy") && writer_->format_name() != std::string("tiff")) {
+      proxy_ = std::make_unique<Proxy>(destination);
+      writer_->set_ioproxy(proxy_.get());
+    } else {
+      // By name, a writer may overlook a full disk. It writes to memory, and copying that is checked.
+      memory_ = open_memory_file();
+      name = "/proc/self/fd/" + std::to_string(fileno(memory_.get()));
+    }
+    const OIIO::ImageSpec spec = image_spec(metadata);
+    guard([&] {
+      check(writer_->open(name, spec));
+      if (writer_->spec().format.size() < type_.size()) {
+        fail("this format holds " + std::to_string(8 * writer_->spec().format.size()) + " bits a channel, not " +
+             std::to_string(8 * type_.size()));
+      }
+    });
+  }
+
+  void write(const ImageBand& band) override {
+    const auto row_values =
+        static_cast<std::size_t>(pixels_.channels()) * static_cast<std::size_t>(band.region.width());
+    std::vector<float> values(row_values * static_cast<std::size_t>(band.region.height()));
+    for (int row = 0; row < band.region.height(); ++row)
+      repairs_ += stored_row(band, row, pixels_, values.data() + static_cast<std::size_t>(row) * row_values);
+    const int y0 = band.region.y0 - extent_.region.y0, y1 = band.region.y1 - extent_.region.y0;
+    guard([&] { check(writer_->write_scanlines(y0, y1, 0, OIIO::TypeFloat, values.data())); });
+  }
+
+  Repairs finish() override {
+    guard([&] { check(writer_->close()); });
+    writer_.reset();  // before the file that it writes to
+    CheckedFile destination(destination_);
+    const int error = proxy_ ? proxy_->finish() : copy(memory_.get(), destination);
+    if (error != 0) fail(error);
+    return repairs_;
+  }
 
  private:
   bool is_tiff() const { return writer_->format_name() == std::string_view("tiff"); }
-  void choose_pixels(const std::string& extension);
-  OIIO::ImageSpec image_spec(const ImageMetadata& metadata) const;
+
+  void choose_pixels(const std::string& extension) {
+    constexpr float largest_float = std::numeric_limits<float>::max();
+    constexpr float largest_rgbe = 1.6e38F;  // 255/256 x 2^127, with room for its rounding
+    type_ = OIIO::TypeFloat;
+    if (writer_->format_name() == std::string_view("hdr")) {
+      pixels_ = {false, false, 0, largest_rgbe};
+    } else if (extension == ".pfm" || (is_tiff() && settings_.full_float)) {
+      pixels_ = {is_tiff() && settings_.transparent, false, -largest_float, largest_float};
+    } else {
+      type_ = settings_.bit_depth == 16 ? OIIO::TypeUInt16 : OIIO::TypeUInt8;
+      pixels_ = display_format(settings_);
+      pixels_.alpha = is_tiff() && settings_.transparent;
+    }
+  }
+
+  OIIO::ImageSpec image_spec(const ImageMetadata& metadata) const {
+    OIIO::ImageSpec spec(extent_.region.width(), extent_.region.height(), pixels_.channels(), type_);
+    if (pixels_.srgb) {
+      spec.attribute("oiio:ColorSpace", "sRGB");
+      if (pixels_.alpha)
+        spec.attribute("oiio:UnassociatedAlpha", 1);  // else its files say that the colour is premultiplied
+    } else if (is_tiff()) {
+      constexpr int uncalibrated = 0xFFFF;
+      spec.attribute("Exif:ColorSpace",
+                     uncalibrated);  // OpenImageIO 2.4 reports an error where there is no Exif at all
+    }
+    add_metadata(spec, metadata, pixels_.srgb ? settings_.exposure : 0);
+    return spec;
+  }
+
   /// Runs it; where a failed write is the cause of its error, throws that instead.
   template <class Action>
-  void guard(const Action& action);
-  void check(bool done) const;
+  void guard(const Action& action) {
+    try {
+      action();
+    } catch (const OutputError&) {
+      const int error = proxy_ ? proxy_->finish() : 0;
+      writer_.reset();
+      if (error != 0) fail(error);
+      throw;
+    }
+  }
+
+  void check(bool done) const {
+    if (done && !writer_->has_error()) return;
+    std::string reason = writer_->geterror();
+    if (says_out_of_memory(reason)) throw std::bad_alloc();
+    std::replace(reason.begin(), reason.end(), '\n', ' ');
+    fail(reason.empty() ? "OpenImageIO's writer failed" : reason);
+  }
 
   std::string extension_;
   PictureExtent extent_;
@@ -174,127 +278,40 @@ class OpenImageIOEncoder final : public ImageEncoder {
   PixelFormat pixels_;
 };
 
+/// Whether the file ends as those of its format do. Readers make up what is missing of some.
+bool has_its_end(const std::string& file, const std::string& format) {
+  static const std::map<std::string, std::string> ends = {
+      {"gif", ";"}, {"jpeg", "\xff\xd9"}, {"targa", std::string("TRUEVISION-XFILE.\0", 18)}};
+  const auto end = ends.find(format);
+  if (end == ends.end()) return true;
+  const FileHandle stream(std::fopen(file.c_str(), "rb"));
+  std::string bytes(end->second.size(), '\0');
+  return stream && std::fseek(stream.get(), -static_cast<long>(bytes.size()), SEEK_END) == 0 &&
+         std::fread(bytes.data(), 1, bytes.size(), stream.get()) == bytes.size() && bytes == end->second;
+}
+
 }  // namespace
-
-OpenImageIOEncoder::OpenImageIOEncoder(const std::string& file, const std::string& extension,
-                                       const ImageFileSettings& settings)
-    : ImageEncoder(file, settings), extension_(extension), writer_(create_writer(extension)) {
-  if (!writer_) {
-    fail((is_known(extension) ? in_quotes(extension) + " is a format that can be read but not written"
-                              : "no picture format has the extension " + in_quotes(extension)) +
-         suggestion(extension));
-  }
-  choose_pixels(extension);
-  // A pool of the whole process; where it cannot be started, the process crashes at its end. TIFF alone has work for
-  // it.
-  constexpr int most_threads = 8;
-  OIIO::attribute("threads", std::min(settings.threads, most_threads));
-}
-
-void OpenImageIOEncoder::choose_pixels(const std::string& extension) {
-  constexpr float largest_float = std::numeric_limits<float>::max();
-  constexpr float largest_rgbe = 1.6e38F;  // 255/256 x 2^127, with room for its rounding
-  type_ = OIIO::TypeFloat;
-  if (writer_->format_name() == std::string_view("hdr")) {
-    pixels_ = {false, false, 0, largest_rgbe};
-  } else if (extension == ".pfm" || (is_tiff() && settings_.full_float)) {
-    pixels_ = {is_tiff() && settings_.transparent, false, -largest_float, largest_float};
-  } else {
-    type_ = settings_.bit_depth == 16 ? OIIO::TypeUInt16 : OIIO::TypeUInt8;
-    pixels_ = display_format(settings_);
-    pixels_.alpha = is_tiff() && settings_.transparent;
-  }
-}
-
-void OpenImageIOEncoder::check_size(int width, int height) const {
-  const auto [least, most] = edge_limits(writer_->format_name());
-  if (std::min(width, height) >= least && std::max(width, height) <= most) return;
-  const bool too_large = std::max(width, height) > most;
-  throw SizeError("cannot write " + file_ + ": a " + in_quotes(extension_) + " file has edges of at " +
-                  (too_large ? "most " + std::to_string(most) : "least " + std::to_string(least)) + " pixels, not " +
-                  std::to_string(width) + " x " + std::to_string(height) + "; .exr and .png have room for it");
-}
-
-void OpenImageIOEncoder::begin(const PictureExtent& extent, const std::vector<Channel>& /*only the first are stored*/,
-                               const ImageMetadata& metadata, std::FILE* destination) {
-  check_size(extent.region.width(), extent.region.height());
-  extent_ = extent;
-  destination_ = destination;
-  std::string name = file_;
-  // OpenImageIO 2.4's TIFF writer leaves a file without a directory when it goes through a proxy.
-  if (writer_->supports("ioproxy") && writer_->format_name() != std::string("tiff")) {
-    proxy_ = std::make_unique<Proxy>(destination);
-    writer_->set_ioproxy(proxy_.get());
-  } else {
-    // By name, a writer may overlook a full disk. It writes to memory, and copying that is checked.
-    memory_ = open_memory_file();
-    name = "/proc/self/fd/" + std::to_string(fileno(memory_.get()));
-  }
-  const OIIO::ImageSpec spec = image_spec(metadata);
-  guard([&] {
-    check(writer_->open(name, spec));
-    if (writer_->spec().format.size() < type_.size()) {
-      fail("this format holds " + std::to_string(8 * writer_->spec().format.size()) + " bits a channel, not " +
-           std::to_string(8 * type_.size()));
-    }
-  });
-}
-
-OIIO::ImageSpec OpenImageIOEncoder::image_spec(const ImageMetadata& metadata) const {
-  OIIO::ImageSpec spec(extent_.region.width(), extent_.region.height(), pixels_.channels(), type_);
-  if (pixels_.srgb) {
-    spec.attribute("oiio:ColorSpace", "sRGB");
-    if (pixels_.alpha)
-      spec.attribute("oiio:UnassociatedAlpha", 1);  // else its files say that the colour is premultiplied
-  } else if (is_tiff()) {
-    constexpr int uncalibrated = 0xFFFF;
-    spec.attribute("Exif:ColorSpace", uncalibrated);  // OpenImageIO 2.4 reports an error where there is no Exif at all
-  }
-  add_metadata(spec, metadata, pixels_.srgb ? settings_.exposure : 0);
-  return spec;
-}
-
-void OpenImageIOEncoder::write(const ImageBand& band) {
-  const auto row_values = static_cast<std::size_t>(pixels_.channels()) * static_cast<std::size_t>(band.region.width());
-  std::vector<float> values(row_values * static_cast<std::size_t>(band.region.height()));
-  for (int row = 0; row < band.region.height(); ++row)
-    repairs_ += stored_row(band, row, pixels_, values.data() + static_cast<std::size_t>(row) * row_values);
-  const int y0 = band.region.y0 - extent_.region.y0, y1 = band.region.y1 - extent_.region.y0;
-  guard([&] { check(writer_->write_scanlines(y0, y1, 0, OIIO::TypeFloat, values.data())); });
-}
-
-Repairs OpenImageIOEncoder::finish() {
-  guard([&] { check(writer_->close()); });
-  writer_.reset();  // before the file that it writes to
-  CheckedFile destination(destination_);
-  const int error = proxy_ ? proxy_->finish() : copy(memory_.get(), destination);
-  if (error != 0) fail(error);
-  return repairs_;
-}
-
-template <class Action>
-void OpenImageIOEncoder::guard(const Action& action) {
-  try {
-    action();
-  } catch (const OutputError&) {
-    const int error = proxy_ ? proxy_->finish() : 0;
-    writer_.reset();
-    if (error != 0) fail(error);
-    throw;
-  }
-}
-
-void OpenImageIOEncoder::check(bool done) const {
-  if (done && !writer_->has_error()) return;
-  std::string reason = writer_->geterror();
-  if (says_out_of_memory(reason)) throw std::bad_alloc();
-  std::replace(reason.begin(), reason.end(), '\n', ' ');
-  fail(reason.empty() ? "OpenImageIO's writer failed" : reason);
-}
 
 ImageEncoder* raytrace_make_openimageio_encoder(const std::string& file, const std::string& extension,
                                                 const ImageFileSettings& settings) {
   return new OpenImageIOEncoder(file, extension, settings);
+}
+
+bool raytrace_openimageio_reads_all_of(const std::string& file, int width, int height) {
+  const auto picture = OIIO::ImageInput::create(file);
+  OIIO::geterror();  // the answer is enough
+  OIIO::ImageSpec spec;
+  if (!picture || picture->format_name() == std::string("ico") || !picture->open(file, spec)) return false;
+  const std::string format = picture->format_name();
+  if (!is_allowed_size(spec.width, spec.height) || (width > 0 && (spec.width != width || spec.height != height)))
+    return false;
+  // The date is what TIFF files of ours have last.
+  if (format == "tiff" && spec.get_string_attribute("DateTime").empty()) return false;
+  std::vector<float> row(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.nchannels));
+  // The last row; and the first, which some formats have at their end.
+  const bool read = picture->read_scanline(spec.y, 0, OIIO::TypeFloat, row.data()) &&
+                    picture->read_scanline(spec.y + spec.height - 1, 0, OIIO::TypeFloat, row.data());
+  return read && !picture->has_error() && has_its_end(file, format);
 }
 
 }  // namespace raytrace

@@ -1,4 +1,4 @@
-// What stands in a file's name for what differs from one picture of a batch to the next.
+// The frames of a batch, and what stands in a file's name for what differs from one picture of it to the next:
 //
 //   ####, %04d   the frame's number with at least so many digits; any number of #, %d for no zeros
 //   {#}, %%      a # and a % as such
@@ -8,9 +8,23 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace raytrace {
 
+/// The frames of --frames, in the syntax of OpenJD's <IntRangeExpr>: "1-10", "1-10:3" (1, 4, 7, 10), "10-1:-3" (the
+/// same), "-5--1", "7" and lists of them with commas; spaces and tabs may stand between the parts. The frames are in
+/// increasing order. Throws SettingsError for anything else, for parts that overlap ("1-9:2,4": 4 lies between 1 and 9)
+/// as in https://github.com/OpenJobDescription/openjd-specifications/wiki, "IntRangeExpr", and for more than 100,000
+/// frames.
+///
+/// One thing differs: by the specification "10-1" is 10 alone, by its reference implementation an error; so it is here.
+std::vector<int> frame_numbers(const std::string& text);
+
+/// The short text of such frames, which are in increasing order: "1-10:3,15".
+std::string frames_text(const std::vector<int>& frames);
+
+/// What a file's name depends on.
 struct NameValues {
   std::optional<int> frame;  ///< none: all that has # or % stands for itself
   std::optional<int> tile;   ///< none: {tile} is an error

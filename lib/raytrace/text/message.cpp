@@ -1,10 +1,41 @@
-#include "raytrace/text/nearest_name.h"
+#include "raytrace/text/message.h"
 
 #include <algorithm>
 #include <array>
+#include <cstdarg>
+#include <cstddef>
+#include <cstdio>
+
+#include "raytrace/text/utf8.h"
 
 namespace raytrace {
+
 namespace {
+
+constexpr std::size_t most_shown = 40;  // bytes of the original
+
+/// So many bytes of the text, or a few more where they end within a character.
+std::string shown(std::string_view text, std::size_t most) {
+  static constexpr char digits[] = "0123456789abcdef";
+  std::string result;
+  std::size_t i = 0;
+  while (i < text.size() && i < most) {
+    const unsigned char byte = static_cast<unsigned char>(text[i]);
+    const std::size_t length = utf8_length(text.substr(i));
+    // U+0080 to U+009F are control characters, too.
+    const bool is_control = length == 1 ? byte < 0x20 || byte == 0x7f
+                                        : length == 2 && byte == 0xc2 && static_cast<unsigned char>(text[i + 1]) < 0xa0;
+    if (length > 0 && !is_control) {
+      result.append(text.substr(i, length));
+      i += length;
+    } else {
+      result.append({'\\', 'x', digits[byte >> 4], digits[byte & 15]});
+      ++i;
+    }
+  }
+  if (i < text.size()) result += "...";
+  return result;
+}
 
 constexpr std::size_t longest = 64;
 constexpr std::size_t most_candidates = 10000;
@@ -12,6 +43,24 @@ constexpr std::size_t most_candidates = 10000;
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 }  // namespace
+
+std::string on_one_line(std::string_view text) { return shown(text, text.size()); }
+
+std::string printable(std::string_view text) { return shown(text, most_shown); }
+
+std::string in_quotes(std::string_view text) { return std::string("'").append(printable(text)).append("'"); }
+
+std::string tag(std::string_view name) { return std::string("<").append(printable(name)).append(">"); }
+
+std::string closing_tag(std::string_view name) { return std::string("</").append(printable(name)).append(">"); }
+
+std::string list_of_tags(std::span<const std::string_view> names) {
+  if (names.empty()) return "nothing";
+  std::string list = tag(names[0]);
+  for (std::size_t i = 1; i < names.size(); ++i)
+    list.append(i + 1 < names.size() ? ", " : " and ").append(tag(names[i]));
+  return list;
+}
 
 std::size_t edit_distance(std::string_view a, std::string_view b, std::size_t limit) {
   const std::size_t difference = a.size() > b.size() ? a.size() - b.size() : b.size() - a.size();
@@ -55,6 +104,15 @@ std::string_view nearest_name(std::string_view name, std::span<const std::string
     limit = distance - 1;
   }
   return nearest;
+}
+
+std::string formatted(const char* format, ...) {
+  char text[128];
+  std::va_list values;
+  va_start(values, format);
+  std::vsnprintf(text, sizeof text, format, values);
+  va_end(values);
+  return text;
 }
 
 }  // namespace raytrace

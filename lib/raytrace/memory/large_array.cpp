@@ -1,10 +1,8 @@
-#include "raytrace/memory/large_pages.h"
+#include "raytrace/memory/large_array.h"
 
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include <cstdlib>
-#include <memory>
 #include <new>
 
 namespace raytrace {

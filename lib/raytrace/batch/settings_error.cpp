@@ -1,5 +1,3 @@
-#include "raytrace/batch/used_files.h"
-
 #include "raytrace/batch/settings_error.h"
 
 namespace raytrace {

@@ -1,11 +1,32 @@
-// What the machine leaves this process of threads and memory.
+// What the program wants of its process before it does anything else, and what the machine leaves it of threads and
+// memory.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace raytrace {
+
+/// What the program's exit code says. (docs/command-line.md)
+namespace exit_code {
+inline constexpr int done = 0;
+inline constexpr int failed = 1;          ///< the scene, the render, or a file
+inline constexpr int usage = 2;           ///< the command line
+inline constexpr int out_of_memory = 33;  ///< render farms give a job more memory on it
+inline constexpr int resumable = 75;      ///< stopped by a signal, with a checkpoint to go on from
+inline constexpr int stopped = 128;       ///< plus the signal's number
+}  // namespace exit_code
+
+/// Ends the process with the exit code of `program`, which runs in a process where
+/// - files 0 to 2 are open: if one was closed, the next file that is opened, a picture perhaps, would get its number
+///   and whatever is printed;
+/// - writing to a pipe that nobody reads, or beyond the limit on a file's size, is an error and no signal
+///   (SIGPIPE, SIGXFSZ), and SIGUSR1, which asks a render for its picture, ends nothing that is no render;
+/// - every stack is large enough, whatever `ulimit -s` says: the program's own and those of threads that libraries
+///   start.
+int run_in_prepared_process(const std::function<int()>& program);
 
 /// As many of the wanted threads as a render should use: all, if they can be started;
 /// where a limit on memory (`ulimit -v`) or on threads does not allow that, half of those that can, so that something
