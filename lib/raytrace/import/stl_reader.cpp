@@ -98,12 +98,12 @@ bool read_text(MeshFile& file, const MeshReadSettings& settings, Diagnostics& di
         errors[chunk].add(static_cast<std::size_t>(word.data() - text.data()), message);
       };
       if (is_word(word, "vertex")) {
+        float* const position = &corners[3 * corner++];
         for (int axis = 0; axis < 3; ++axis) {
           double value = 0;
           if (!words.number(value)) return refuse("a vertex needs three numbers");
-          corners[3 * corner + static_cast<std::size_t>(axis)] = coordinate(value, component(settings.origin, axis));
+          position[axis] = coordinate(value, component(settings.origin, axis));
         }
-        ++corner;
       } else if (is_word(word, "endloop")) {
         if (corner % 3 != 0) refuse("a facet with other than three vertices, here or before");
       } else if (!is_word(word, "facet") && !is_word(word, "outer") && !is_word(word, "endfacet") &&
