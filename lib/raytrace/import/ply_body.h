@@ -1,6 +1,8 @@
 // What follows the head of a PLY file. Inside of the reader: programs include read_mesh.h.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -50,7 +52,8 @@ auto with_loader(Type type, bool big_endian, const Function& f) {
   const auto of_type = [&]<class T>(T) {
     const auto load = []<bool swapped>(const char* from) {
       std::array<char, sizeof(T)> bytes;
-      for (std::size_t i = 0; i < sizeof(T); ++i) bytes[i] = from[swapped ? sizeof(T) - 1 - i : i];
+      std::memcpy(bytes.data(), from, sizeof(T));
+      if constexpr (swapped) std::reverse(bytes.begin(), bytes.end());
       return std::bit_cast<T>(bytes);
     };
     const bool swap = big_endian != (std::endian::native == std::endian::big);
