@@ -23,7 +23,7 @@ LAYERS = [
     ["shapes", "lights", "materials", "integrators"],
     ["bsdfs", "output", "display"],
     ["cameras"],
-    ["film"],
+    ["film", "import"],
     ["parameters", "xml"],
     ["text"],
     ["math", "memory"],

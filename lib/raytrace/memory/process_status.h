@@ -1,6 +1,7 @@
-// What Linux says about this process.
+// What Linux says about this process and its memory.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -12,5 +13,8 @@ std::uint64_t process_status(const std::string& field);
 
 /// The same for memory, which is in KiB there, in bytes.
 inline std::uint64_t process_status_bytes(const std::string& field) { return process_status(field) << 10U; }
+
+/// Bytes that the process may still take: without swapping, and within its limit for data (RLIMIT_DATA).
+std::size_t available_memory();
 
 }  // namespace raytrace

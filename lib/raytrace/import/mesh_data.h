@@ -1,0 +1,95 @@
+// A mesh of triangles or quads, in buffers that Embree can share (rtcSetSharedGeometryBuffer). Readers of files make
+// it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "raytrace/math/color.h"
+#include "raytrace/memory/large_array.h"
+
+namespace raytrace {
+
+/// So many values, and 16 bytes behind them that may be read, as Embree asks of buffers that it shares.
+template <class T>
+class MeshBuffer {
+ public:
+  MeshBuffer() = default;
+  /// Of values that are to be written before they are read. Throws std::bad_alloc.
+  explicit MeshBuffer(std::size_t size) : values_(LargeArray<T>::unset(size + padding / sizeof(T))), size_(size) {
+    std::memset(values_.data() + size, 0, padding);
+  }
+
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  T* data() { return values_.data(); }
+  const T* data() const { return values_.data(); }
+  T& operator[](std::size_t i) { return values_[i]; }
+  const T& operator[](std::size_t i) const { return values_[i]; }
+  const T* begin() const { return data(); }
+  const T* end() const { return data() + size_; }
+
+  /// Leaves out the last ones.
+  void shorten_to(std::size_t size) { size_ = size; }
+
+ private:
+  static constexpr std::size_t padding = 16;
+
+  LargeArray<T> values_;
+  std::size_t size_ = 0;
+};
+
+/// An image that a material names, with the options before the name (Wavefront's MTL).
+struct MeshTexture {
+  std::string file;  ///< as in the file, with '/' between folders; empty: none
+  std::array<double, 2> scale{1, 1}, offset{0, 0};
+  double strength = 1;  ///< of a bump map
+  bool clamp = false;   ///< does not repeat
+};
+
+/// What an MTL file says of a material, by its names there. No value: not said.
+struct MeshMaterial {
+  std::string name;
+  std::optional<Rgb<double>> ka, kd, ks, ke, tf;
+  std::optional<double> ns, d, ni, pr, pm;
+  std::optional<int> illum;
+  MeshTexture map_ka, map_kd, map_ks, map_ke, map_ns, map_d, map_bump, map_pr, map_pm, norm;
+};
+
+struct MeshData {
+  static constexpr std::uint32_t no_material = 0xffffffff;
+
+  /// x, y, z of each vertex, less the origin that the reader was given. All are finite, and at most 1e18 in magnitude.
+  MeshBuffer<float> positions;
+  /// `corners` vertices of each face, in the order of the file. A triangle in a mesh of quads repeats its last vertex.
+  MeshBuffer<std::uint32_t> indices;
+  int corners = 3;  ///< 3 or 4
+
+  // Of each vertex; empty where the file has none.
+  MeshBuffer<float> normals;  ///< three numbers, not normalized; 0 0 0 where that vertex has none
+  MeshBuffer<float> uvs;      ///< two numbers; (0, 0) is the lower left of an image
+  MeshBuffer<float> colors;   ///< linear red, green and blue
+
+  /// Of each face its material, or no_material. Empty: all have the first material, or none if there is none.
+  MeshBuffer<std::uint32_t> face_materials;
+  std::vector<MeshMaterial> materials;
+
+  std::size_t vertex_count() const { return positions.size() / 3; }
+  std::size_t face_count() const { return indices.size() / static_cast<std::size_t>(corners); }
+};
+
+/// Points with perhaps a radius and a colour each.
+struct PointCloud {
+  MeshBuffer<float> positions;  ///< as a mesh's
+  MeshBuffer<float> radii;      ///< greater than 0; empty where the file has none
+  MeshBuffer<float> colors;     ///< as a mesh's
+
+  std::size_t size() const { return positions.size() / 3; }
+};
+
+}  // namespace raytrace

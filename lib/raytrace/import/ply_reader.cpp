@@ -1,0 +1,144 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "raytrace/import/mesh_readers.h"
+#include "raytrace/import/ply_body.h"
+#include "raytrace/text/quoted.h"
+
+namespace raytrace {
+namespace ply {
+namespace {
+
+using Names = std::initializer_list<std::string_view>;
+
+struct OpenFile {
+  Header header;
+  std::unique_ptr<Body> body;
+  std::size_t vertices = 0;
+  std::vector<Column> columns;
+
+  const Element& vertex() const { return header.elements[header.find("vertex")]; }
+
+  /// A buffer for properties of the vertices, if the file has all of them, each a number with one of these names.
+  MeshBuffer<float> add(std::initializer_list<Names> names, Column::Use use, const Vec3d& origin = {0, 0, 0}) {
+    std::vector<std::size_t> found;
+    for (const Names& one : names)
+      if (const auto property = vertex().find(one); property && !vertex().properties[*property].count_type)
+        found.push_back(*property);
+    if (found.size() < names.size()) return {};
+    MeshBuffer<float> buffer(vertices * names.size());
+    for (std::size_t i = 0; i < found.size(); ++i)
+      columns.push_back({found[i], use, component(origin, static_cast<int>(i)), buffer.data() + i, found.size()});
+    return buffer;
+  }
+  MeshBuffer<float> add_colors() {
+    return add({{"red", "r", "diffuse_red"}, {"green", "g", "diffuse_green"}, {"blue", "b", "diffuse_blue"}},
+               Column::Use::color);
+  }
+};
+
+/// Reads the head, and makes sure that the file has the vertices and that these have positions.
+bool open(MeshFile& file, const MeshReadSettings& settings, Diagnostics& diagnostics, OpenFile& open,
+          MeshBuffer<float>& positions) {
+  constexpr std::size_t longest_head = std::size_t{1} << 20U;
+  MeshFile::Scratch scratch;
+  const std::size_t size = std::min(file.size(), longest_head);
+  const char* const first = file.bytes(0, size, scratch);
+  if (first == nullptr) {
+    MeshFile::report_changed(diagnostics);
+    return false;
+  }
+  std::optional<Header> header = read_header({first, size}, diagnostics);
+  if (!header) return false;
+  open.header = std::move(*header);
+  const auto refuse = [&](const std::string& message) {
+    diagnostics.error({open.header.lines, 0}, message);
+    return false;
+  };
+  if (open.header.find("vertex") == open.header.elements.size()) return refuse("there is no element 'vertex'");
+  open.vertices = open.vertex().count;
+  if (open.vertices >= std::numeric_limits<std::uint32_t>::max())
+    return refuse("there are more than 4294967294 vertices");
+  for (const std::string_view name : {"x", "y", "z"}) {
+    const auto property = open.vertex().find({name});
+    if (!property || open.vertex().properties[*property].count_type)
+      return refuse("the element 'vertex' has no property " + in_quotes(name));
+  }
+  const bool text = open.header.format == Header::Format::ascii;
+  open.body = (text ? text_body : binary_body)(file, open.header, settings.threads, diagnostics);
+  if (!open.body->find_vertices()) return false;
+  positions = open.add({{"x"}, {"y"}, {"z"}}, Column::Use::position, settings.origin);
+  return true;
+}
+
+}  // namespace
+}  // namespace ply
+
+std::optional<MeshData> read_ply(MeshFile& file, const MeshReadSettings& settings, Diagnostics& diagnostics) {
+  using ply::Column;
+  ply::OpenFile open;
+  MeshData mesh;
+  if (!ply::open(file, settings, diagnostics, open, mesh.positions)) return std::nullopt;
+  const std::size_t faces = open.header.find("face");
+  const auto property = faces < open.header.elements.size()
+                            ? open.header.elements[faces].find({"vertex_indices", "vertex_index"})
+                            : std::nullopt;
+  const auto is_list = [](const ply::Property& p) { return p.count_type && !ply::is_float(p.type); };
+  if (!property || !is_list(open.header.elements[faces].properties[*property])) {
+    diagnostics.error({open.header.lines, 0}, "there is no element 'face' with a list of integers 'vertex_indices'");
+    return std::nullopt;
+  }
+  mesh.normals = open.add({{"nx"}, {"ny"}, {"nz"}}, Column::Use::number);
+  mesh.uvs =
+      open.add({{"u", "s", "texture_u", "texture_s"}, {"v", "t", "texture_v", "texture_t"}}, Column::Use::number);
+  mesh.colors = open.add_colors();
+
+  MeshFaults faults;
+  bool dented_quads = false;
+  if (!open.body->read_vertices(open.columns, mesh.positions.data(), faults.bad_vertices)) return std::nullopt;
+  if (!open.body->read_faces(*property, mesh, faults, dented_quads)) return std::nullopt;
+  if (!finish_mesh(mesh, faults, dented_quads, settings.threads, diagnostics)) return std::nullopt;
+  return mesh;
+}
+
+std::optional<PointCloud> read_ply_cloud(MeshFile& file, const MeshReadSettings& settings, Diagnostics& diagnostics) {
+  ply::OpenFile open;
+  PointCloud cloud;
+  if (!ply::open(file, settings, diagnostics, open, cloud.positions)) return std::nullopt;
+  cloud.radii = open.add({{"radius"}}, ply::Column::Use::radius);
+  cloud.colors = open.add_colors();
+  std::size_t bad = 0;
+  if (!open.body->read_vertices(open.columns, cloud.positions.data(), bad)) return std::nullopt;
+
+  const bool has_radii = !cloud.radii.empty(), has_colors = !cloud.colors.empty();
+  std::size_t kept = 0;
+  const auto move = [&](MeshBuffer<float>& values, std::size_t i, std::size_t numbers) {
+    std::copy_n(&values[numbers * i], numbers, &values[numbers * kept]);
+  };
+  for (std::size_t i = 0; i < open.vertices; ++i) {
+    if (std::isnan(cloud.positions[3 * i])) continue;
+    if (has_radii && !(cloud.radii[i] > 0 && std::isfinite(cloud.radii[i]))) continue;
+    if (kept < i) {
+      move(cloud.positions, i, 3);
+      if (has_radii) move(cloud.radii, i, 1);
+      if (has_colors) move(cloud.colors, i, 3);
+    }
+    ++kept;
+  }
+  cloud.positions.shorten_to(3 * kept);
+  if (has_radii) cloud.radii.shorten_to(kept);
+  if (has_colors) cloud.colors.shorten_to(3 * kept);
+  if (kept < open.vertices)
+    diagnostics.warning({}, std::to_string(open.vertices - kept) +
+                                " points are not finite, beyond 1e18 or without a size, and are left out");
+  if (kept == 0) {
+    diagnostics.error({}, "has no points");
+    return std::nullopt;
+  }
+  return cloud;
+}
+
+}  // namespace raytrace

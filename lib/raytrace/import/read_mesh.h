@@ -1,0 +1,58 @@
+// Meshes and point clouds from files.
+//
+//   PLY  .ply: ASCII and both binary orders; any types; elements and properties that have no meaning here are skipped.
+//        `vertex`: x y z; nx ny nz; u v, s t, texture_u texture_v or texture_s texture_t; red green blue.
+//        `face`: a list vertex_indices or vertex_index.
+//   OBJ  .obj: polygons (v, vt, vn, f; negative indices; colours after a position); materials from MTL files. Groups,
+//        objects and smoothing groups are not kept; lines, points, curves and free-form surfaces are skipped.
+//   STL  .stl: ASCII and binary.
+//
+// Each may be compressed by gzip, with .gz behind the name.
+//
+// Faces. Where at least half of the faces are quads, they stay quads, and all others become triangles in a mesh of
+// quads; else quads become triangles. A quad is two triangles that meet at the diagonal between its second and fourth
+// corner, as in Embree; a quad with a dent starts with another corner, so that this diagonal is inside. A polygon
+// of more corners is a fan of triangles around its first corner if it is convex or has more than 128 corners, else its
+// ears are cut off one by one. Faces whose corners repeat, so that they have no area, are left out with one warning
+// that counts them, and so are those at a vertex that is not finite or beyond 1e18.
+//
+// Colours of integer type are sRGB, from 0 to 255 (of 16 bits: to 65535), and become linear; those of type float are
+// linear already.
+//
+// Memory. No array is allocated before it is known that the file has the values for it. A compressed file may become as
+// large as a quarter of the memory that is available; more is an error.
+//
+// The result does not depend on the number of threads.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "raytrace/import/mesh_data.h"
+#include "raytrace/math/vec3.h"
+#include "raytrace/xml/diagnostics.h"
+
+namespace raytrace {
+
+struct MeshReadSettings {
+  /// Subtracted from the positions in double precision, before they are rounded to float: what is far from the origin
+  /// of its file keeps its detail.
+  Vec3d origin{0, 0, 0};
+  /// Corners of an STL file at the same position are one vertex, which smooth normals need. Each facet has its
+  /// own three otherwise.
+  bool weld = true;
+  int threads = 0;  ///< at most; 0: all that the machine has
+};
+
+/// No value, and errors, if the file cannot be read or is not what it should be. Errors have the line, or name the byte
+/// where the file is binary. diagnostics: of that file. Throws std::bad_alloc.
+std::optional<MeshData> read_mesh(const std::string& file, const MeshReadSettings& settings, Diagnostics& diagnostics);
+
+/// The elements `vertex` of a PLY file, with x, y, z, radius and red, green, blue.
+std::optional<PointCloud> read_point_cloud(const std::string& file, const MeshReadSettings& settings,
+                                           Diagnostics& diagnostics);
+
+/// Whether read_mesh() knows files of that name, by its ending.
+bool is_mesh_file(const std::string& file);
+
+}  // namespace raytrace

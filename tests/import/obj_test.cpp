@@ -1,0 +1,83 @@
+#include "import/support.h"
+#include "support/catch.h"
+#include "support/contains.h"
+
+using namespace raytrace;
+using namespace raytrace::test;
+
+namespace {
+
+using Indices = std::vector<std::uint32_t>;
+using Floats = std::vector<float>;
+
+}  // namespace
+
+TEST_CASE("an OBJ vertex is a combination of v, vt and vn") {
+  const ReadResult read = read_bytes("a.obj",
+                                     "# a comment \\\no thing\r\nv 0 0 0\r\nv 1 0 \\\r\n 0\nv 1 1 0\nv 0 1 0\n"
+                                     "vt 0 0\nvt 0.5 1 0\nvn 0 0 1\ng a b\ns off\n"
+                                     "f 1/1/1 2/2/1 3/1/1 # inline\nf -4/1/1 -2/2/-1 -1//1\n");
+  INFO(read.messages);
+  REQUIRE(read.mesh);
+  CHECK(read.messages.empty());
+  CHECK(values(read.mesh->indices) == Indices{0, 1, 2, 0, 3, 4});
+  CHECK(values(read.mesh->positions) == Floats{0, 0, 0, 1, 0, 0, 1, 1, 0, 1, 1, 0, 0, 1, 0});
+  CHECK(values(read.mesh->uvs) == Floats{0, 0, 0.5F, 1, 0, 0, 0.5F, 1, 0, 0});
+  CHECK(values(read.mesh->normals) == Floats{0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1});
+}
+
+TEST_CASE("an OBJ file of equal indices keeps its vertices, with colours") {
+  const ReadResult read =
+      read_bytes("a.obj", "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 0 0 0.5\nvt 0 0\nvt 1 0\nvt 1 1\nf 3/3 1/1 2/2\n");
+  REQUIRE(read.mesh);
+  CHECK(values(read.mesh->indices) == Indices{2, 0, 1});
+  CHECK(values(read.mesh->uvs) == Floats{0, 0, 1, 0, 1, 1});
+  CHECK(values(read.mesh->colors) == Floats{1, 0, 0, 0, 1, 0, 0, 0, 0.5F});
+}
+
+TEST_CASE("an OBJ file's materials come from its MTL files") {
+  const TemporaryFolder folder;
+  write_text(folder.file("my materials.mtl"),
+             "newmtl dark red\nKa 0.1\nKd 0.5 0 0\nKs 1 1 1\nNs 30\nTr 0.25\nillum 2\n"
+             "map_Kd -s 2 3 1 -o 0.5 -clamp on textures\\a wood.png\nmap_Bump -bm 0.5 bump.png\nKs red\n"
+             "newmtl other\nKd 1 1 1\n");
+  write_text(folder.file("a.obj"),
+             "mtllib my materials.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\nusemtl dark red\nf 1 2 3\nf 3 2 1\n"
+             "usemtl missing\nf 2 3 1\n");
+  Diagnostics diagnostics(folder.file("a.obj"));
+  const auto mesh = read_mesh(folder.file("a.obj"), {}, diagnostics);
+  REQUIRE(mesh);
+  CHECK(values(mesh->face_materials) == Indices{MeshData::no_material, 0, 0, 1});
+  REQUIRE(mesh->materials.size() == 2);
+  const MeshMaterial& red = mesh->materials[0];
+  CHECK(red.name == "dark red");
+  CHECK(red.ka->green == 0.1);
+  CHECK(red.kd->red == 0.5);
+  CHECK(red.kd->blue == 0);
+  CHECK(red.ns == 30);
+  CHECK(red.d == 0.75);
+  CHECK(red.illum == 2);
+  CHECK(red.map_kd.file == "textures/a wood.png");
+  CHECK(red.map_kd.scale == std::array<double, 2>{2, 3});
+  CHECK(red.map_kd.offset == std::array<double, 2>{0.5, 0});
+  CHECK(red.map_kd.clamp);
+  CHECK(red.map_bump.strength == 0.5);
+  CHECK(mesh->materials[1].name == "missing");
+  CHECK(printed(diagnostics, folder.path().string()) ==
+        "a.obj:1: warning: my materials.mtl:10: 'ks' needs one or three numbers\n"
+        "a.obj:9: warning: no material 'missing' in the material libraries\n");
+}
+
+TEST_CASE("what is wrong in an OBJ file is an error in its line") {
+  CHECK(read_bytes("a.obj", "v 0 0 0\nv 1 0\nv 1 x 0\nvt\nf 1 2 3\n").messages ==
+        "a.obj:2: error: needs at least 3 numbers\na.obj:3: error: 'x' is no number\n"
+        "a.obj:4: error: needs at least 1 numbers\n");
+  CHECK(read_bytes("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 4\nf 1 -4 2\nf 1 0 2\nf 1/1 2 3\nf a b c\n").messages ==
+        "a.obj:4: error: '4' is not one of the 3 vertices\na.obj:5: error: '-4' is not one of the 3 vertices\n"
+        "a.obj:6: error: '0' is not one of the 3 vertices\na.obj:7: error: '1/1' is not one of the 0 texture "
+        "coordinates\n"
+        "a.obj:8: error: 'a' is no corner of a face, which is v, v/vt, v//vn or v/vt/vn\n");
+  CHECK(read_bytes("a.obj", "").messages == "a.obj: error: has no faces\n");
+  CHECK(contains(read_bytes("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2\nf 1 2 3\n").messages,
+                 "a.obj:4: warning: 1 statements are skipped, the first of which is 'l'"));
+}
