@@ -12,7 +12,7 @@
 #include "raytrace/import/mesh_text.h"
 #include "raytrace/import/unique_items.h"
 #include "raytrace/parallel/for_each_index.h"
-#include "raytrace/text/quoted.h"
+#include "raytrace/text/message.h"
 
 namespace raytrace {
 namespace obj {

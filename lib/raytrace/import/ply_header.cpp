@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "raytrace/import/mesh_text.h"
-#include "raytrace/text/quoted.h"
+#include "raytrace/text/message.h"
 
 namespace raytrace::ply {
 namespace {

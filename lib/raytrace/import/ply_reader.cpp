@@ -6,7 +6,7 @@
 
 #include "raytrace/import/mesh_readers.h"
 #include "raytrace/import/ply_body.h"
-#include "raytrace/text/quoted.h"
+#include "raytrace/text/message.h"
 
 namespace raytrace {
 namespace ply {

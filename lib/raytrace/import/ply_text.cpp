@@ -6,7 +6,7 @@
 #include "raytrace/import/mesh_text.h"
 #include "raytrace/import/ply_body.h"
 #include "raytrace/parallel/for_each_index.h"
-#include "raytrace/text/quoted.h"
+#include "raytrace/text/message.h"
 
 namespace raytrace::ply {
 namespace {
