@@ -111,7 +111,8 @@ bool MeshFile::decompress(Diagnostics& diagnostics) {
   // The last four bytes say how much there is, modulo 2^32, if they do not lie.
   unsigned char claim[4] = {};
   if (size_ >= sizeof claim) read_file_at(*file_, reinterpret_cast<char*>(claim), sizeof claim, size_ - sizeof claim);
-  const std::size_t claimed = claim[0] | claim[1] << 8U | claim[2] << 16U | std::size_t{claim[3]} << 24U;
+  const std::size_t claimed =
+      std::size_t{claim[0]} | std::size_t{claim[1]} << 8U | std::size_t{claim[2]} << 16U | std::size_t{claim[3]} << 24U;
   std::size_t room = std::clamp(claimed + 1, std::min(block, most), most), length = 0;
   auto memory = LargeArray<char>::unset(room);
 

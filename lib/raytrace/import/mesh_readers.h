@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,8 +20,9 @@ std::optional<MeshData> read_stl(MeshFile& file, const MeshReadSettings& setting
 std::optional<MeshData> read_obj(MeshFile& file, const std::string& folder, const MeshReadSettings& settings,
                                  Diagnostics& diagnostics);
 
-/// Adds the materials of an MTL file. Calls report(line, message) for what is wrong, which is skipped.
-void read_mtl(std::string_view text, std::vector<MeshMaterial>& materials,
-              const std::function<void(std::uint32_t, const std::string&)>& report);
+/// Adds the materials of the MTL files that a statement names, in the line of an OBJ file in the folder: one file whose
+/// name may have spaces, or several. What is wrong with them are warnings of that line.
+void read_material_libraries(std::string_view names, const std::string& folder, std::uint32_t line,
+                             std::vector<MeshMaterial>& materials, Diagnostics& diagnostics);
 
 }  // namespace raytrace

@@ -2,6 +2,8 @@
 // (Pr), metalness (Pm) and normal maps (norm). Statements without a meaning here are skipped.
 #include <algorithm>
 #include <array>
+#include <filesystem>
+#include <functional>
 #include <string>
 
 #include "raytrace/import/mesh_readers.h"
@@ -77,11 +79,9 @@ MeshTexture read_texture(LineWords& words) {
   return texture;
 }
 
-}  // namespace
-}  // namespace mtl
-
-void read_mtl(std::string_view text, std::vector<MeshMaterial>& materials,
-              const std::function<void(std::uint32_t, const std::string&)>& report) {
+/// Adds the materials of a file. Calls report(line, message) for what is wrong, which is skipped.
+void read_text(std::string_view text, std::vector<MeshMaterial>& materials,
+               const std::function<void(std::uint32_t, const std::string&)>& report) {
   bool any = false;
   if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   for_each_line<true>(text, [&](const char* start, const char* end) {
@@ -100,20 +100,20 @@ void read_mtl(std::string_view text, std::vector<MeshMaterial>& materials,
       any = true;
       return true;
     }
-    const auto* const color = mtl::find_field(mtl::color_fields, keyword);
-    const auto* const number = mtl::find_field(mtl::number_fields, keyword);
-    const auto* const texture = mtl::find_field(mtl::texture_fields, keyword);
+    const auto* const color = find_field(color_fields, keyword);
+    const auto* const number = find_field(number_fields, keyword);
+    const auto* const texture = find_field(texture_fields, keyword);
     if (color == nullptr && number == nullptr && texture == nullptr && keyword != "illum") return true;
     if (!any) return refuse(in_quotes(keyword) + " before the first newmtl");
     MeshMaterial& material = materials.back();
     if (texture != nullptr) {
-      material.*texture->member = mtl::read_texture(words);
+      material.*texture->member = read_texture(words);
       return true;
     }
     LineWords after = words;
     if (after.word() == "-halo") words = after;
     std::array<double, 3> values{};
-    const int count = mtl::read_numbers(words, values);
+    const int count = read_numbers(words, values);
     if (color != nullptr) {
       if (count != 1 && count != 3) return refuse(in_quotes(keyword) + " needs one or three numbers");
       const auto [red, green, blue] = values;
@@ -127,6 +127,30 @@ void read_mtl(std::string_view text, std::vector<MeshMaterial>& materials,
     }
     return true;
   });
+}
+
+}  // namespace
+}  // namespace mtl
+
+void read_material_libraries(std::string_view names, const std::string& folder, std::uint32_t line,
+                             std::vector<MeshMaterial>& materials, Diagnostics& diagnostics) {
+  const auto read = [&](std::string name) {
+    std::replace(name.begin(), name.end(), '\\', '/');
+    const std::string path = (std::filesystem::path(folder) / name).string();
+    Diagnostics of_library(path);
+    std::optional<MeshFile> file = MeshFile::open(path, of_library);
+    if (!file || !file->load(1, of_library)) {
+      diagnostics.warning({line, 0}, in_quotes(name) + ": " + of_library.kept().front().message);
+      return;
+    }
+    mtl::read_text(file->text(true), materials, [&](std::uint32_t in_line, const std::string& message) {
+      diagnostics.warning({line, 0}, name + ":" + std::to_string(in_line) + ": " + message);
+    });
+  };
+  std::error_code unknown;
+  if (std::filesystem::exists(std::filesystem::path(folder) / names, unknown)) return read(std::string(names));
+  LineWords words(names.data(), names.data() + names.size());
+  for (std::string_view name = words.word(); !name.empty(); name = words.word()) read(std::string(name));
 }
 
 }  // namespace raytrace

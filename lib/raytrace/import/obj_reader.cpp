@@ -2,7 +2,6 @@
 // each, so that all know their first numbers; to read the vertices; and to read the faces, which may need positions
 // from anywhere in the file.
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <string>
 #include <utility>
@@ -108,7 +107,6 @@ class Reader {
   /// The number, from 0 on, of an index in a face; none, if there is no such value.
   std::uint32_t resolved(std::int64_t index, std::size_t seen, std::size_t which) const;
   void read_materials();
-  void read_library(std::string_view names, std::vector<MeshMaterial>& materials);
   bool join_indices();
 
   std::string_view text_;
@@ -226,7 +224,7 @@ std::uint32_t Reader::resolved(std::int64_t index, std::size_t seen, std::size_t
 bool Reader::read_faces() {
   if (!make_faces(before_.back().faces, mesh_, diagnostics_)) return false;
   faults_.too_small_polygons = before_.back().faces.too_small;
-  for (const std::size_t which : {1, 2})
+  for (const std::size_t which : {1U, 2U})
     if (before_.back().values[which] > 0) indices_[which] = MeshBuffer<std::uint32_t>(mesh_.indices.size());
   const bool has_materials = !mesh_.materials.empty();
   if (has_materials) mesh_.face_materials = MeshBuffer<std::uint32_t>(mesh_.face_count());
@@ -282,14 +280,14 @@ bool Reader::read_faces() {
       }
       if (!words.at_word_end()) return refuse(" is no corner of a face, which is v, v/vt, v//vn or v/vt/vn");
       state.polygon.push_back(corner[0]);
-      for (const std::size_t which : {1, 2}) {
+      for (const std::size_t which : {1U, 2U}) {
         state.others[which].push_back(corner[which]);
         state.used[which] = state.used[which] || corner[which] != none;
         state.same[which] = state.same[which] && corner[which] == corner[0];
       }
     }
     state.faces.add(state.polygon, [&](std::size_t out, std::uint32_t local) {
-      for (const std::size_t which : {1, 2})
+      for (const std::size_t which : {1U, 2U})
         if (!indices_[which].empty()) indices_[which][out] = state.others[which][local];
       if (has_materials) mesh_.face_materials[out / static_cast<std::size_t>(mesh_.corners)] = state.material;
     });
@@ -298,7 +296,7 @@ bool Reader::read_faces() {
   std::vector<ChunkErrors> errors;
   is_same_ = {true, true, true};
   for (State& state : states) {
-    for (const std::size_t which : {1, 2}) {
+    for (const std::size_t which : {1U, 2U}) {
       is_used_[which] = is_used_[which] || state.used[which];
       is_same_[which] = is_same_[which] && state.same[which];
     }
@@ -311,7 +309,7 @@ bool Reader::read_faces() {
 /// Makes one vertex of each combination of v, vt and vn that faces have.
 bool Reader::join_indices() {
   const auto& all = before_.back().values;
-  for (const std::size_t which : {1, 2})
+  for (const std::size_t which : {1U, 2U})
     if (!is_used_[which]) {
       indices_[which] = {};
       (which == 1 ? mesh_.uvs : mesh_.normals) = {};
@@ -354,27 +352,6 @@ bool Reader::join_indices() {
   return true;
 }
 
-void Reader::read_library(std::string_view names, std::vector<MeshMaterial>& materials) {
-  const std::uint32_t line = line_of(names);
-  const auto read = [&](std::string name) {
-    std::replace(name.begin(), name.end(), '\\', '/');
-    const std::string path = (std::filesystem::path(folder_) / name).string();
-    Diagnostics of_library(path);
-    std::optional<MeshFile> file = MeshFile::open(path, of_library);
-    if (!file || !file->load(1, of_library)) {
-      diagnostics_.warning({line, 0}, in_quotes(name) + ": " + of_library.kept().front().message);
-      return;
-    }
-    read_mtl(file->text(true), materials, [&](std::uint32_t in_line, const std::string& message) {
-      diagnostics_.warning({line, 0}, name + ":" + std::to_string(in_line) + ": " + message);
-    });
-  };
-  std::error_code unknown;
-  if (std::filesystem::exists(std::filesystem::path(folder_) / names, unknown)) return read(std::string(names));
-  LineWords words(names.data(), names.data() + names.size());
-  for (std::string_view name = words.word(); !name.empty(); name = words.word()) read(std::string(name));
-}
-
 void Reader::read_materials() {
   constexpr std::size_t most_libraries = 256;
   std::vector<std::string_view> libraries, names;
@@ -391,7 +368,8 @@ void Reader::read_materials() {
     }
   }
   std::vector<MeshMaterial> defined;
-  for (const std::string_view library : libraries) read_library(library, defined);
+  for (const std::string_view library : libraries)
+    read_material_libraries(library, folder_, line_of(library), defined, diagnostics_);
   std::map<std::string_view, const MeshMaterial*> by_name;
   for (const MeshMaterial& material : defined) by_name.try_emplace(material.name, &material);
   for (const std::string_view name : names) {
