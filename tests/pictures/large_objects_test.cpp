@@ -26,12 +26,12 @@ struct Ground {
 Vector in_float(Vector v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
 
 /// A triangle around (0, 0, 0), across `up`.
-Ground triangle(const std::string& name, Vector up, Real half_edge) {
+Ground triangle_ground(const std::string& name, Vector up, Real half_edge) {
   const Vector x = half_edge * reference::unit(cross(up, Vector{0, 0, 1})), z = cross(x, up);
   return {name, up, std::make_shared<reference::Triangle>(in_float(z - x), in_float(x + z), in_float(-z))};
 }
 
-Ground sphere(const std::string& name, Real radius) {
+Ground planet(const std::string& name, Real radius) {
   return {name, {0, 1, 0}, std::make_shared<reference::Sphere>(Vector{0, -radius, 0}, radius)};
 }
 
@@ -62,7 +62,7 @@ reference::Scene scene_on(const Ground& ground, Real scale) {
   return scene;
 }
 
-void check(const Ground& ground, Real scale) {
+void check_ground(const Ground& ground, Real scale) {
   const reference::Scene scene = scene_on(ground, scale);
   const SceneDescription description = parsed_scene(reference::scene_text(scene));
   const Picture wanted = reference_picture(scene);
@@ -80,24 +80,26 @@ const Vector tilted = reference::unit(Vector{0.3L, 1, 0.2L});
 }  // namespace
 
 TEST_CASE("a unit sphere on a planet is lit and casts its shadow") {
-  check(sphere("planet of 1e4", 1e4L), 1);
-  check(sphere("planet of 6371000", 6371000), 1);
-  check(sphere("planet of 1e9", 1e9L), 1);
+  check_ground(planet("planet of 1e4", 1e4L), 1);
+  check_ground(planet("planet of 6371000", 6371000), 1);
+  check_ground(planet("planet of 1e9", 1e9L), 1);
 }
 
 TEST_CASE("a unit sphere on a huge triangle is lit and casts its shadow") {
-  check(triangle("triangle of 1e4", {0, 1, 0}, 1e4L), 1);
-  check(triangle("triangle of 1e6", {0, 1, 0}, 1e6L), 1);
-  check(triangle("triangle of 3e9", {0, 1, 0}, 3e9L), 1);
-  check(triangle("triangle of 1e12", {0, 1, 0}, 1e12L), 1);
-  check(triangle("tilted triangle of 1e4", tilted, 1e4L), 1);
+  check_ground(triangle_ground("triangle of 1e4", {0, 1, 0}, 1e4L), 1);
+  check_ground(triangle_ground("triangle of 1e6", {0, 1, 0}, 1e6L), 1);
+  check_ground(triangle_ground("triangle of 3e9", {0, 1, 0}, 3e9L), 1);
+  check_ground(triangle_ground("triangle of 1e12", {0, 1, 0}, 1e12L), 1);
+  check_ground(triangle_ground("tilted triangle of 1e4", tilted, 1e4L), 1);
 }
 
 TEST_CASE("a tiny sphere on a tiny triangle is lit and casts its shadow") {
   for (const Real scale : {1e-6L, 1e-9L, 1e-12L}) {
     const auto exact = static_cast<Real>(static_cast<float>(scale));
-    check(triangle("triangle of 30 times " + std::to_string(std::log10(scale)), {0, 1, 0}, 30 * exact), exact);
-    check(triangle("tilted triangle of 30 times " + std::to_string(std::log10(scale)), tilted, 30 * exact), exact);
+    check_ground(triangle_ground("triangle of 30 times " + std::to_string(std::log10(scale)), {0, 1, 0}, 30 * exact),
+                 exact);
+    check_ground(
+        triangle_ground("tilted triangle of 30 times " + std::to_string(std::log10(scale)), tilted, 30 * exact), exact);
   }
 }
 

@@ -15,7 +15,7 @@ namespace raytrace::test {
 
 namespace {
 
-constexpr int width = 12, height = 7, samples = 16;
+constexpr int tiny_width = 12, tiny_height = 7, tiny_samples = 16;
 
 std::string matte(const std::string& name, const std::string& cd) {
   return "<mattes><matte><name>" + name + "</name><ka>1</ka><kd>1</kd>" + cd + "</matte></mattes>";
@@ -33,7 +33,7 @@ std::string light(double radiance, double x, double z, const std::string& more =
 
 /// A plane that fills the view, of the material `m`.
 std::string wall(const std::string& lights, const std::string& materials, const std::string& objects = "") {
-  return scene_text(width, height, samples,
+  return scene_text(tiny_width, tiny_height, tiny_samples,
                     "<lights>" + lights + "</lights><materials>" + materials +
                         "</materials><objects><planes><plane><point x='0' y='0' z='0'/><normal x='0' y='0' z='1'/>"
                         "<material>m</material></plane></planes>" +
@@ -49,18 +49,18 @@ Rendered rendered_both_ways(const SceneDescription& description, const std::stri
   const auto scene = build_scene(description, {1, isa});
   const FilmSettings settings = film_settings(*scene, description, {1, 0, whole(description)});
   Rendered all{Film(settings), Film(settings, FilmContent::means), 0};
-  all.invalid = render(*scene, all.sums, samples, 1).invalid_samples.count;
-  all.invalid += render(*scene, all.means, samples, 1).invalid_samples.count;
+  all.invalid = render(*scene, all.sums, tiny_samples, 1).invalid_samples.count;
+  all.invalid += render(*scene, all.means, tiny_samples, 1).invalid_samples.count;
   return all;
 }
 
-/// The pixels of which a sum is not that of `samples` times the radiance, or a mean not the radiance.
+/// The pixels of which a sum is not that of tiny_samples times the radiance, or a mean not the radiance.
 int wrong_pixels(const Rendered& got, const Rgb<float>& radiance) {
   int wrong = 0;
   const double inverse_unit = 1 / got.sums.unit();
-  const auto sum = [&](float channel) { return samples * whole_units(channel, inverse_unit); };
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
+  const auto sum = [&](float channel) { return tiny_samples * whole_units(channel, inverse_unit); };
+  for (int y = 0; y < tiny_height; ++y)
+    for (int x = 0; x < tiny_width; ++x) {
       const PixelSum& low = got.sums.sum(x, y);
       const PixelSumHigh high = got.sums.high(x, y);
       wrong += from_limbs({low.red, high.red}) != sum(radiance.red) ||
@@ -91,7 +91,7 @@ TEST_CASE("ambient light below 0 gives its exact sums, whatever its size") {
 TEST_CASE("a background below 0 gives its exact sums, whatever its size and the integrator") {
   for (const std::string& isa : usable_isas())
     for (const double scale : {-1000.0, -1e-6, -1e13, -1e17}) {
-      SceneDescription description = parsed_scene(scene_text(width, height, samples, ""));
+      SceneDescription description = parsed_scene(scene_text(tiny_width, tiny_height, tiny_samples, ""));
       description.viewplane.background = Rgb<double>(1, -0.5, 0.25) * scale;
       for (const IntegratorParameters& integrator :
            {IntegratorParameters(Raycast::Parameters{}), IntegratorParameters(Normals::Parameters{})}) {
@@ -164,12 +164,12 @@ TEST_CASE("an albedo below 0 has its exact mean") {
     RenderSettings settings{1, 0, whole(description)};
     settings.aovs = aov_set({"albedo"});
     Film film(film_settings(*scene, description, settings));
-    render(*scene, film, samples, 1);
+    render(*scene, film, tiny_samples, 1);
     const double unit = std::ldexp(1.0, film.settings().aovs.mean_units.front());
     INFO(isa);
-    CHECK(static_cast<double>(film.aovs()->sum(3, 2, 0)) * unit == -1e4 * samples);
-    CHECK(static_cast<double>(film.aovs()->sum(3, 2, 1)) * unit == 0.5 * samples);
-    CHECK(static_cast<double>(film.aovs()->sum(3, 2, 2)) * unit == -2.0 * samples);
+    CHECK(static_cast<double>(film.aovs()->sum(3, 2, 0)) * unit == -1e4 * tiny_samples);
+    CHECK(static_cast<double>(film.aovs()->sum(3, 2, 1)) * unit == 0.5 * tiny_samples);
+    CHECK(static_cast<double>(film.aovs()->sum(3, 2, 2)) * unit == -2.0 * tiny_samples);
   }
 }
 

@@ -18,7 +18,7 @@ struct Tied {
 };
 
 /// One of each shape, in registry order.
-const std::vector<Tied> shapes = {
+const std::vector<Tied> tied_shapes = {
     {"planes", "<plane><point x='0' y='0' z='1'/><normal x='0' y='0' z='1'/>"},
     {"triangles",
      "<triangle><vertexposition1 x='-4' y='-4' z='1'/><vertexposition2 x='4' y='-4' z='1'/>"
@@ -38,13 +38,13 @@ std::uint32_t registry_index(const std::string& group) {
   return result;
 }
 
-std::string object(const Tied& shape, const std::string& material) {
+std::string tied_object(const Tied& shape, const std::string& material) {
   const std::string end = "</" + shape.group.substr(0, shape.group.size() - (shape.group == "toruses" ? 2 : 1)) + ">";
   return "<" + shape.group + ">" + shape.element + "<material>" + material + "</material>" + end + "</" + shape.group +
          ">";
 }
 
-std::string scene_of(const std::string& objects, int samples = 1) {
+std::string tied_scene(const std::string& objects, int samples = 1) {
   return scene_text(24, 16, samples,
                     "<lights><ambientlight/></lights><materials><mattes>"
                     "<matte><name>red</name><ka>1</ka><kd>0</kd><cd red='1' green='0' blue='0'/></matte>"
@@ -54,7 +54,7 @@ std::string scene_of(const std::string& objects, int samples = 1) {
                     "<eye x='0' y='0' z='5'/><lookat x='0' y='0' z='0'/>");
 }
 
-bool same(const ProbeHit& a, const ProbeHit& b) {
+bool same_hit(const ProbeHit& a, const ProbeHit& b) {
   return a.hit == b.hit && (!a.hit || (a.distance == b.distance && a.kind == b.kind && a.index == b.index));
 }
 
@@ -63,7 +63,7 @@ std::vector<ProbeHit> hits_of(const Probe& probe, const Vec3f& origin, const std
   const std::vector<ProbeHit> wanted = probe.intersect_packet(rays);
   const auto check = [&](const char* way, const std::vector<ProbeHit>& hits) {
     int wrong = 0;
-    for (std::size_t i = 0; i < rays.size(); ++i) wrong += !same(hits[i], wanted[i]);
+    for (std::size_t i = 0; i < rays.size(); ++i) wrong += !same_hit(hits[i], wanted[i]);
     INFO(way);
     CHECK(wrong == 0);
   };
@@ -76,7 +76,7 @@ std::vector<ProbeHit> hits_of(const Probe& probe, const Vec3f& origin, const std
 }
 
 /// Whose sums a film keeps, so that it can be rendered in passes.
-SampleRange all_samples(int count) { return {0, static_cast<std::uint32_t>(count), false}; }
+SampleRange whole_range(int count) { return {0, static_cast<std::uint32_t>(count), false}; }
 
 }  // namespace
 
@@ -84,10 +84,10 @@ TEST_CASE("of two surfaces at the same distance, that of the first shape is hit,
   const Vec3f eye(0, 0, 5);
   const std::vector<ProbeRay> ahead(16, ProbeRay{eye, {0, 0, -1}});
   for (const std::string& isa : usable_isas())
-    for (const Tied& a : shapes)
-      for (const Tied& b : shapes) {
+    for (const Tied& a : tied_shapes)
+      for (const Tied& b : tied_shapes) {
         INFO(isa << ": " << a.group << ", then " << b.group);
-        const Probe probe(parsed_scene(scene_of(object(a, "red") + object(b, "blue"))), isa);
+        const Probe probe(parsed_scene(tied_scene(tied_object(a, "red") + tied_object(b, "blue"))), isa);
         const ProbeHit first = hits_of(probe, eye, ahead).front();
         CHECK(first.distance == 4);
         CHECK(first.kind == std::min(registry_index(a.group), registry_index(b.group)));
@@ -101,11 +101,11 @@ TEST_CASE("wherever rays come from, copies of a surface are hit in the same orde
     return low + (high - low) * static_cast<double>(bits()) / 4294967296.0;
   };
   for (const std::string& isa : usable_isas())
-    for (const Tied& shape : shapes) {
+    for (const Tied& shape : tied_shapes) {
       if (shape.group == "planes") continue;
       std::string objects;
-      for (int i = 0; i < 40; ++i) objects += object(shape, "red");
-      const Probe probe(parsed_scene(scene_of(objects)), isa);
+      for (int i = 0; i < 40; ++i) objects += tied_object(shape, "red");
+      const Probe probe(parsed_scene(tied_scene(objects)), isa);
       const Vec3f eye(1, 2, 6);
       std::vector<ProbeRay> rays;
       for (int i = 0; i < 4000; ++i) {
@@ -119,7 +119,7 @@ TEST_CASE("wherever rays come from, copies of a surface are hit in the same orde
       for (std::size_t i = 0; i < rays.size(); ++i) {
         hits += wanted[i].hit;
         others += wanted[i].hit && wanted[i].index != 0;
-        CHECK(same(single[i], wanted[i]));
+        CHECK(same_hit(single[i], wanted[i]));
       }
       CHECK(hits > 500);
       CHECK(others == 0);
@@ -129,9 +129,9 @@ TEST_CASE("wherever rays come from, copies of a surface are hit in the same orde
 TEST_CASE("a picture of nothing but equal distances has the same bits in passes, with AOVs and without") {
   std::string objects;
   for (int i = 0; i < 12; ++i)
-    for (const Tied& shape : shapes) objects += object(shape, i % 2 == 0 ? "red" : "blue");
+    for (const Tied& shape : tied_shapes) objects += tied_object(shape, i % 2 == 0 ? "red" : "blue");
   for (const int samples : {2, 3, 8, 32}) {
-    const SceneDescription description = parsed_scene(scene_of(objects, samples));
+    const SceneDescription description = parsed_scene(tied_scene(objects, samples));
     for (const std::string& isa : usable_isas()) {
       INFO(isa << ", " << samples << " samples");
       const auto scene = build_scene(description, {1, isa});
@@ -141,7 +141,7 @@ TEST_CASE("a picture of nothing but equal distances has the same bits in passes,
       settings.aovs = aov_set({"object_id", "depth"});
       CHECK(identical(FloatPicture(render(*scene, description, settings, rays)), wanted));
       settings.aovs = {};
-      settings.samples = all_samples(samples);
+      settings.samples = whole_range(samples);
       Film film(film_settings(*scene, description, settings));
       for (int done = 1; done <= samples; ++done) render(*scene, film, static_cast<std::uint32_t>(done), 1);
       CHECK(identical(FloatPicture(film), wanted));
