@@ -302,7 +302,8 @@ BinaryBody::Outcome BinaryBody::read_fixed_faces(const Element& element, const F
         constexpr std::size_t size = sizeof load(at);
         for (std::size_t i = 0; i < count; ++i, at += rows.length, face += corners) {
           for (std::size_t k = 0; k < corners; ++k) {
-            face[k] = static_cast<std::uint32_t>(load(at + k * size));  // a large one, if it is negative
+            // Widened with its sign: a negative one becomes large.
+            face[k] = static_cast<std::uint32_t>(static_cast<std::int64_t>(load(at + k * size)));
             largest = std::max(largest, face[k]);
           }
           flat += is_degenerate(face, corners) ? 1U : 0U;
@@ -346,7 +347,7 @@ bool BinaryBody::read_face_blocks(const Element& element, std::size_t start, std
       polygon.resize(count);
       with_loader(type, big_endian_, [&](auto load) {
         for (std::uint32_t& corner : polygon) {
-          corner = static_cast<std::uint32_t>(load(from));
+          corner = static_cast<std::uint32_t>(static_cast<std::int64_t>(load(from)));
           if (corner >= mesh.vertex_count() && !wrong[block])
             wrong[block] = wrong_index(from, all.data(), 0, mesh.vertex_count());
           from += size_of(type);
