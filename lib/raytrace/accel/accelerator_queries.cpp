@@ -313,7 +313,8 @@ SurfaceInteraction<FloatN> Accelerator::surface(const Ray<FloatN>& rays, const H
   if (hits.one_primitive) {
     set(hits.first_geometry, LaneIndices(hits.first_primitive), result);
   } else {
-    SurfaceInteraction<FloatN> other;
+    SurfaceInteraction<FloatN> other{};
+    result = {};
     for (MaskN left = hits.hit; any(left);) {
       const auto first = static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(left)));
       const std::uint32_t geometry = hits.geometry.get(first);

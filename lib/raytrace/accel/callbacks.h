@@ -229,7 +229,7 @@ struct FilterIntersect {
     CallbackRays<F> packet(arguments, arguments->ray, first);
     packet.rays.far = infinity<F>();
     filter_packet<F>(arguments, first, packet, [&](const Mask<F>& lanes, std::uint32_t primitive) {
-      F u, v;
+      F u(0), v(0);
       const auto& record = record_of<Shape>(arguments->geometryUserPtr, primitive);
       const F t = Kernel<Shape>::template intersect<F>(record, packet.rays, lanes, u, v);
       const Mask<F> hit =
