@@ -2,23 +2,17 @@
 // a report of a sanitizer, or memory that follows from a claim. What is read can be rendered: indices are of vertices.
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
 
+#include "fuzz/require.h"
 #include "raytrace/import/read_mesh.h"
 #include "support/temporary_folder.h"
 
 namespace {
 
 using namespace raytrace;
-
-void require(bool condition, const char* what) {
-  if (condition) return;
-  std::fputs(what, stderr);
-  std::abort();
-}
 
 /// In memory where the system has such a folder.
 const test::TemporaryFolder& work_folder() {

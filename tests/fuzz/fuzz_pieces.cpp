@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
@@ -17,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "fuzz/require.h"
 #include "raytrace/batch/checkpoint.h"
 #include "raytrace/batch/merge_pieces.h"
 #include "support/exr_bytes.h"
@@ -78,12 +78,6 @@ void make_corpus(const fs::path& folder) {
   for (const SamplePiece& kind : kinds()) write_piece(folder / ("piece" + std::to_string(number++) + ".exr"), kind);
   for (const bool aovs : {false, true})
     write_checkpoint_of(folder / (aovs ? "checkpoint_aovs.exr" : "checkpoint.exr"), checkpoint_kind(aovs));
-}
-
-void require(bool condition, const char* what) {
-  if (condition) return;
-  std::fputs(what, stderr);
-  std::abort();
 }
 
 /// Pictures that a header may ask for with --partial, and that would only take time.

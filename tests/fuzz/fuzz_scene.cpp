@@ -3,24 +3,17 @@
 // the same scene again.
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <map>
 #include <sstream>
 #include <string>
 
+#include "fuzz/require.h"
 #include "raytrace/description/scene_description.h"
 
 namespace {
 
 using namespace raytrace;
-
-void require(bool condition, const char* what) {
-  if (condition) return;
-  std::fputs(what, stderr);
-  std::abort();
-}
 
 const std::map<std::string, std::string> known_variables = {
     {"size", "2"},

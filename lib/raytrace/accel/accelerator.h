@@ -42,8 +42,8 @@ class Accelerator {
   /// Nearest hits in the lanes of `active`, which then are where the rays end; of those at equal distances, the first
   /// by geometry and primitive. Rays that Embree cannot take (a component that is NaN, infinite or beyond 1.8e18, or a
   /// direction of length 0) hit nothing. origin_buffer: from the point that all rays start at, their directions being
-  /// of unit length; null if there is none. The same answer, sooner. Shapes
-  /// with bounds are hit from the origin on, where near is negative.
+  /// of unit length; null if there is none. The same answer, sooner. Where near is negative, shapes with bounds are hit
+  /// from the origin on.
   Hits intersect(Ray<FloatN>& rays, const MaskN& active, Coherence coherence,
                  const DirectionBuffer* origin_buffer = nullptr) const;
 

@@ -94,11 +94,8 @@ class ListsMaker {
         const std::optional<ProjectedBounds> view = perspective_.view(objects_[i]);
         here.all_seen = view.has_value();
         if (!view) continue;
-        // Of objects as near as each other, the first comes last: of surfaces at one distance, the last that is tested
-        // stays.
-        order_[objects_.size() - 1 - i] = {
-            std::bit_cast<std::uint32_t>(static_cast<float>(view->nearest * a_little_less)),
-            static_cast<std::uint32_t>(i)};
+        order_[i] = {std::bit_cast<std::uint32_t>(static_cast<float>(view->nearest * a_little_less)),
+                     static_cast<std::uint32_t>(i)};
         for_each_rectangle(perspective_, *view, [&](int face, const FaceRectangle& rectangle) {
           here.covered[static_cast<std::size_t>(face)].add(rectangle);
         });
@@ -297,7 +294,8 @@ class ListsMaker {
       const double inner = view.inner_cosine * cosine + view.inner_sine * sine;
       // Rounded up, as this is to be on the safe side.
       entry.inner = static_cast<float>((inner * inner * squared_length - entry.least) * (1 + 1e-6));
-      entry.behind = static_cast<float>(view.behind * (1 + 1e-6));
+      // As far as rays are followed that hit it there: what may lie at the same distance is listed, too.
+      entry.behind = static_cast<float>(view.behind * (1 + 0x1p-13));
     }
     for (int first = rows.low / rows_a_band * rows_a_band; first <= rows.high; first += rows_a_band) {
       entry.bottom = static_cast<std::uint32_t>(std::max(rows.low - first, 0)) & CellEntry::last_row;

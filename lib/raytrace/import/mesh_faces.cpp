@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "raytrace/import/unique_items.h"
 #include "raytrace/math/vec3.h"
 #include "raytrace/parallel/for_each_index.h"
 
@@ -23,6 +24,39 @@ double signed_area(const std::array<double, 2>& a, const std::array<double, 2>& 
 }
 
 }  // namespace
+
+void join_vertices(MeshData& mesh, const MeshBuffer<std::uint32_t>& uvs, const MeshBuffer<std::uint32_t>& normals,
+                   int threads) {
+  const auto index = [](const MeshBuffer<std::uint32_t>& of_corners, std::size_t i) {
+    return of_corners.empty() ? no_index : of_corners[i];
+  };
+  UniqueItems vertices = unique_items(
+      mesh.indices.size(), threads,
+      [&](std::size_t i) {
+        return mixed_bits((std::uint64_t{mesh.indices[i]} << 32U | index(uvs, i)) + mixed_bits(index(normals, i)));
+      },
+      [&](std::size_t i, std::size_t j) {
+        return mesh.indices[i] == mesh.indices[j] && index(uvs, i) == index(uvs, j) &&
+               index(normals, i) == index(normals, j);
+      });
+  const auto gather = [&](MeshBuffer<float>& values, std::size_t numbers, const MeshBuffer<std::uint32_t>& of_corners) {
+    if (values.empty()) return;
+    MeshBuffer<float> gathered(numbers * vertices.first.size());
+    for_each_chunk(vertices.first.size(), threads, [&](std::size_t, std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        const std::uint32_t from = of_corners[vertices.first[i]];
+        for (std::size_t k = 0; k < numbers; ++k)
+          gathered[numbers * i + k] = from == no_index ? 0 : values[numbers * std::size_t{from} + k];
+      }
+    });
+    values = std::move(gathered);
+  };
+  gather(mesh.positions, 3, mesh.indices);
+  gather(mesh.colors, 3, mesh.indices);
+  gather(mesh.uvs, 2, uvs);
+  gather(mesh.normals, 3, normals);
+  mesh.indices = std::move(vertices.number);
+}
 
 bool make_faces(const FaceCounts& counts, MeshData& mesh, Diagnostics& diagnostics) {
   mesh.corners = counts.corners();

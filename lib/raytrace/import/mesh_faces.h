@@ -41,6 +41,15 @@ struct FaceCounts {
   std::size_t faces(int corners) const { return triangles + cut + (corners == 4 ? quads : 2 * quads); }
 };
 
+/// Of a corner that has no such value.
+inline constexpr std::uint32_t no_index = 0xffffffff;
+
+/// Makes one vertex of each combination of position, uv and normal that corners of a mesh's faces have, where the file
+/// numbers each of them for itself. uvs, normals: of each corner, indices in the mesh's buffers, or no_index; empty:
+/// there are none.
+void join_vertices(MeshData& mesh, const MeshBuffer<std::uint32_t>& uvs, const MeshBuffer<std::uint32_t>& normals,
+                   int threads);
+
 /// Allocates the faces of a mesh. False, and an error, if they are more than Embree numbers, 2^32 - 1.
 bool make_faces(const FaceCounts& counts, MeshData& mesh, Diagnostics& diagnostics);
 

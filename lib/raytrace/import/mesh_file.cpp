@@ -14,21 +14,10 @@
 
 #include "raytrace/memory/process_status.h"
 #include "raytrace/parallel/for_each_index.h"
+#include "raytrace/parallel/read_file_at.h"
 
 namespace raytrace {
 namespace {
-
-/// Of an open file, as many as there are up to `count`.
-std::size_t read_file_at(int file, char* bytes, std::size_t count, std::size_t offset) {
-  std::size_t done = 0;
-  while (done < count) {
-    const ssize_t more = pread(file, bytes + done, count - done, static_cast<off_t>(offset + done));
-    if (more < 0 && errno == EINTR) continue;
-    if (more <= 0) break;
-    done += static_cast<std::size_t>(more);
-  }
-  return done;
-}
 
 struct Inflater {
   z_stream stream{};

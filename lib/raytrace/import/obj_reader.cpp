@@ -9,7 +9,6 @@
 #include "raytrace/import/mesh_faces.h"
 #include "raytrace/import/mesh_readers.h"
 #include "raytrace/import/mesh_text.h"
-#include "raytrace/import/unique_items.h"
 #include "raytrace/parallel/for_each_index.h"
 #include "raytrace/text/message.h"
 
@@ -17,7 +16,7 @@ namespace raytrace {
 namespace obj {
 namespace {
 
-constexpr std::uint32_t none = 0xffffffff;
+constexpr std::uint32_t none = no_index;
 constexpr std::size_t most_indices = std::size_t{1} << 31U;
 
 enum class Statement : std::uint8_t { empty, position, uv, normal, face, other };
@@ -320,35 +319,7 @@ bool Reader::join_indices() {
     diagnostics_.error({}, "has faces of more than 2147483647 corners");
     return false;
   }
-  const auto index = [&](std::size_t which, std::size_t i) {
-    return indices_[which].empty() ? none : indices_[which][i];
-  };
-  UniqueItems vertices = unique_items(
-      mesh_.indices.size(), settings_.threads,
-      [&](std::size_t i) {
-        return mixed_bits((std::uint64_t{mesh_.indices[i]} << 32U | index(1, i)) + mixed_bits(index(2, i)));
-      },
-      [&](std::size_t i, std::size_t j) {
-        return mesh_.indices[i] == mesh_.indices[j] && index(1, i) == index(1, j) && index(2, i) == index(2, j);
-      });
-  // The values of the vertices, by the index that a corner has of them.
-  const auto gather = [&](MeshBuffer<float>& values, std::size_t numbers, const MeshBuffer<std::uint32_t>& of_corner) {
-    if (values.empty()) return;
-    MeshBuffer<float> gathered(numbers * vertices.first.size());
-    for_each_chunk(vertices.first.size(), settings_.threads, [&](std::size_t, std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) {
-        const std::uint32_t from = of_corner[vertices.first[i]];
-        for (std::size_t k = 0; k < numbers; ++k)
-          gathered[numbers * i + k] = from == none ? 0 : values[numbers * std::size_t{from} + k];
-      }
-    });
-    values = std::move(gathered);
-  };
-  gather(mesh_.positions, 3, mesh_.indices);
-  gather(mesh_.colors, 3, mesh_.indices);
-  gather(mesh_.uvs, 2, indices_[1]);
-  gather(mesh_.normals, 3, indices_[2]);
-  mesh_.indices = std::move(vertices.number);
+  join_vertices(mesh_, indices_[1], indices_[2], settings_.threads);
   return true;
 }
 

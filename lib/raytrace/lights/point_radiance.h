@@ -13,7 +13,11 @@ namespace raytrace {
 class PointRadiance {
  public:
   PointRadiance(const Rgb<double>& radiance, Falloff falloff)
-      : at_distance_1_(radiance), inverse_square_(falloff == Falloff::inverse_square) {}
+      : at_distance_1_(radiance), inverse_square_(falloff == Falloff::inverse_square) {
+    const Rgb<float> size = abs(at_distance_1_);
+    const float largest = std::max({size.red, size.green, size.blue, 1.0F});
+    largest_share_ = std::numeric_limits<float>::max() / (largest * 2);  // no product with it leaves float's range
+  }
 
   const Rgb<float>& at_distance_1() const { return at_distance_1_; }
   bool falls_off() const { return inverse_square_; }
@@ -23,16 +27,16 @@ class PointRadiance {
   RAYTRACE_INLINE Rgb<F> at(const Vec3<F>& to_light) const {
     using std::max, std::min;  // of plain numbers
     const Rgb<F> radiance(at_distance_1_);
+    const F least(std::numeric_limits<float>::min());
     F share(1);
-    if (inverse_square_) share = F(1) / max(dot(to_light, to_light), F(std::numeric_limits<float>::min()));
-    const F most(std::numeric_limits<float>::max());
-    const auto finite = [&](const F& channel) { return max(min(channel, most), F(0) - most); };
-    return {finite(radiance.red * share), finite(radiance.green * share), finite(radiance.blue * share)};
+    if (inverse_square_) share = min(F(1) / max(dot(to_light, to_light), least), F(largest_share_));
+    return radiance * share;
   }
 
  private:
   Rgb<float> at_distance_1_;
   bool inverse_square_;
+  float largest_share_;
 };
 
 }  // namespace raytrace

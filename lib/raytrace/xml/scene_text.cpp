@@ -1,7 +1,5 @@
 #include "raytrace/xml/scene_text.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
@@ -15,6 +13,7 @@
 #include <utility>
 
 #include "raytrace/parallel/for_each_index.h"
+#include "raytrace/parallel/read_file_at.h"
 #include "raytrace/xml/diagnostics.h"
 #include "raytrace/xml/xml_characters.h"
 #include "raytrace/xml/xml_scanner.h"
@@ -31,18 +30,6 @@ struct Close {
   }
 };
 
-/// The bytes of the file from an offset on, as many as there are up to `count`.
-std::size_t read_at(int file, char* bytes, std::size_t count, std::size_t offset) {
-  std::size_t done = 0;
-  while (done < count) {
-    const ssize_t more = pread(file, bytes + done, count - done, static_cast<off_t>(offset + done));
-    if (more < 0 && errno == EINTR) continue;
-    if (more <= 0) break;
-    done += static_cast<std::size_t>(more);
-  }
-  return done;
-}
-
 /// A file of known size, by several threads: memory that is fresh from the system takes longer to get than the bytes to
 /// copy. No value if the file does not have that size, or cannot be read from an offset on.
 std::optional<TextBuffer> read_in_parallel(int file, std::size_t size, int threads) {
@@ -51,10 +38,10 @@ std::optional<TextBuffer> read_in_parallel(int file, std::size_t size, int threa
   std::atomic<bool> complete{true};
   for_each_index(static_cast<int>((size + block - 1) / block), threads, [&](int index) {
     const std::size_t offset = static_cast<std::size_t>(index) * block, count = std::min(block, size - offset);
-    if (read_at(file, text.data() + offset, count, offset) != count) complete = false;
+    if (read_file_at(file, text.data() + offset, count, offset) != count) complete = false;
   });
   char next = 0;
-  if (!complete || read_at(file, &next, 1, size) != 0) return std::nullopt;
+  if (!complete || read_file_at(file, &next, 1, size) != 0) return std::nullopt;
   text.lengthen_to(size);
   return text;
 }
