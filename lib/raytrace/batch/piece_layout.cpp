@@ -129,11 +129,18 @@ std::string options_of(const PieceExtent& piece) {
 }
 
 std::vector<std::string> overlaps(const std::vector<PieceExtent>& pieces) {
+  Pieces by_top;
+  for (const PieceExtent& piece : pieces) by_top.push_back(&piece);
+  std::stable_sort(by_top.begin(), by_top.end(),
+                   [](const auto* a, const auto* b) { return a->region.y0 < b->region.y0; });
   std::vector<std::string> problems;
-  // Each with each: to read a piece takes longer than to compare it with thousands.
-  for (auto a = pieces.begin(); a != pieces.end(); ++a)
-    for (auto b = std::next(a); b != pieces.end() && problems.size() < most_problems; ++b)
-      if (overlap(*a, *b)) problems.push_back(b->file + " holds what " + a->file + " holds, too");
+  for (auto a = by_top.begin(); a != by_top.end(); ++a)
+    for (auto b = std::next(a); b != by_top.end() && (*b)->region.y0 < (*a)->region.y1; ++b) {
+      if (!overlap(**a, **b)) continue;
+      const auto [first, second] = std::minmax(*a, *b);  // in the order that they were given in
+      problems.push_back(second->file + " holds what " + first->file + " holds, too");
+      if (problems.size() == most_problems) return problems;
+    }
   return problems;
 }
 
