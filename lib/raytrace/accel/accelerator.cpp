@@ -34,6 +34,18 @@ embree::Geometry make_triangles(RTCDevice device, std::span<const typename Shape
   return geometry;
 }
 
+/// Embree's triangles or quads, in the mesh's own buffers, behind each of which are 16 bytes that may be read.
+embree::Geometry make_mesh_geometry(RTCDevice device, const MeshTable& mesh) {
+  const bool is_triangles = mesh.corners() == 3;
+  embree::Geometry geometry(rtcNewGeometry(device, is_triangles ? RTC_GEOMETRY_TYPE_TRIANGLE : RTC_GEOMETRY_TYPE_QUAD));
+  rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh.positions(), 0,
+                             sizeof(Vec3f), mesh.vertex_count());
+  rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0,
+                             is_triangles ? RTC_FORMAT_UINT3 : RTC_FORMAT_UINT4, mesh.indices(), 0,
+                             static_cast<std::size_t>(mesh.corners()) * sizeof(std::uint32_t), mesh.face_count());
+  return geometry;
+}
+
 template <class Shape>
 BoundedObject placed_object(const typename ShapeTable<Shape>::Record& record, std::uint32_t primitive) {
   const Bounds bounds = Kernel<Shape>::bounds(record);
@@ -85,11 +97,14 @@ Accelerator::Accelerator(const GeometryTable& table, int threads, const char* is
   scene_.reset(rtcNewScene(device_.get()));
   rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_MEDIUM);
   rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);  // no misses at box borders far from the origin
+  const auto attach = [&](const embree::Geometry& geometry, std::size_t index) {
+    rtcCommitGeometry(geometry.get());
+    rtcAttachGeometryByID(scene_.get(), geometry.get(), static_cast<unsigned>(index));
+  };
   for_each_type(Shapes{}, [&](auto type) {
     using Shape = typename decltype(type)::type;
     constexpr std::size_t index = index_of<Shape>(Shapes{});
-    const Geometry& entry = table.geometry(index);
-    const std::span records = std::span(table.table<Shape>().records).subspan(entry.first_record, entry.primitives);
+    const std::span records(table.table<Shape>().records);
     records_in_memory_[index] = {std::as_bytes(records).data(), sizeof(typename ShapeTable<Shape>::Record)};
     if constexpr (!UnboundedShape<Shape>) {
       if (records.empty()) return;
@@ -100,10 +115,15 @@ Accelerator::Accelerator(const GeometryTable& table, int threads, const char* is
         geometry = make_triangles<Shape>(device_.get(), records);
       }
       set_callbacks<Shape>(geometry.get(), records);
-      rtcCommitGeometry(geometry.get());
-      rtcAttachGeometryByID(scene_.get(), geometry.get(), static_cast<unsigned>(index));
+      attach(geometry, index);
     }
   });
+  for (std::size_t i = Shapes::size; i < table.geometries().size(); ++i) {
+    const MeshTable& mesh = *table.geometries()[i].mesh;
+    const embree::Geometry geometry = make_mesh_geometry(device_.get(), mesh);
+    set_callbacks(geometry.get(), mesh);
+    attach(geometry, i);
+  }
   report_->throw_error();
 }
 

@@ -106,6 +106,22 @@ concept SurfaceOfOne = requires(typename ShapeTable<Shape>::Record record, Ray<F
   Kernel<Shape>::surface(record, rays, distance);
 };
 
+/// Takes the point and its error from the ray, where that is more precise.
+template <class F, class KernelType, class Record>
+void refine_on_ray(const Record& records, const Ray<F>& rays, const Mask<F>& hit, SurfaceInteraction<F>& result) {
+  // Next to a large object, what is precise for it is not for what stands on it, or for its shadow.
+  const F threshold = rays.far * F(0x1p-16F);
+  const Mask<F> coarse = result.error * result.error > threshold * threshold * dot(rays.direction, rays.direction);
+  if (none(coarse & hit)) return;
+  const auto on_ray = KernelType::template position_on_ray<F>(records, rays);
+  const Mask<F> finer = coarse & (on_ray.error < result.error * F(0.5F));
+  result.p = select(finer, on_ray.position, result.p);
+  result.error = select(finer, on_ray.error, result.error);
+}
+
+/// Adding it changes no number, 0 of either sign included.
+Vec3<FloatN> no_offset() { return Vec3<FloatN>(Vec3f(-0.0F, -0.0F, -0.0F)); }
+
 /// The surfaces of one shape, under the wide type of its table's precision: sets p, error, and ng to either side.
 template <class Shape>
 void set_surface(const ShapeTable<Shape>& table, const LaneIndices& primitive, const Ray<FloatN>& rays,
@@ -139,17 +155,45 @@ void set_surface(const ShapeTable<Shape>& table, const LaneIndices& primitive, c
       set(Kernel<Shape>::template surface<FloatN>(records, rays, rays.far));
     }
     if constexpr (requires { Kernel<Shape>::template position_on_ray<FloatN>(records, rays); }) {
-      // Next to a large object, what is precise for it is not for what stands on it, or for its shadow.
-      const FloatN threshold = rays.far * FloatN(0x1p-16F);
-      const MaskN coarse = result.error * result.error > threshold * threshold * dot(rays.direction, rays.direction);
-      if (any(coarse & hits.hit)) {
-        const auto on_ray = Kernel<Shape>::template position_on_ray<FloatN>(records, rays);
-        const MaskN finer = coarse & (on_ray.error < result.error * FloatN(0.5F));
-        result.p = select(finer, on_ray.position, result.p);
-        result.error = select(finer, on_ray.error, result.error);
-      }
+      refine_on_ray<FloatN, Kernel<Shape>>(records, rays, hits.hit, result);
     }
   }
+}
+
+/// The same of a mesh's faces, and ns, to the side that fits ng when it is the viewer's.
+void set_surface(const MeshTable& mesh, const IntN& faces, const Ray<FloatN>& rays, const Hits& hits,
+                 SurfaceInteraction<FloatN>& result) {
+  const LaneTriangles triangles = mesh.triangles(faces, hits);
+  const auto records = mesh.records(triangles);
+  const SurfacePoint<FloatN> points = Kernel<Triangle>::surface<FloatN>(records, triangles.u, triangles.v);
+  result.p = points.position;
+  result.ng = points.normal;
+  result.error = points.error;
+  refine_on_ray<FloatN, Kernel<Triangle>>(records, rays, hits.hit, result);
+  result.ng = select(dot(result.ng, rays.direction) > FloatN(0), -result.ng, result.ng);
+  if (!mesh.is_smooth()) return;
+
+  struct Corner {
+    Vec3<FloatN> normal;
+    const Vec3<FloatN>& position;
+    FloatN weight;
+  };
+  const Corner corners[] = {{mesh.normal(triangles.vertex1), records.vertex1, FloatN(1) - triangles.u - triangles.v},
+                            {mesh.normal(triangles.vertex2), records.vertex2, triangles.u},
+                            {mesh.normal(triangles.vertex3), records.vertex3, triangles.v}};
+  Vec3<FloatN> normal = corners[0].normal * corners[0].weight + corners[1].normal * corners[1].weight +
+                        corners[2].normal * corners[2].weight;
+  const FloatN side = select(dot(normal, result.ng) < FloatN(0), FloatN(-1), FloatN(1));
+  const FloatN squared_length = dot(normal, normal);
+  const MaskN has_normal = squared_length > FloatN(1e-12F);
+  result.ns = select(has_normal, normal * (side / sqrt(squared_length)), result.ng);
+  result.is_smooth = true;
+  Vec3<FloatN> below(Vec3f(0, 0, 0));
+  for (const Corner& corner : corners) {
+    const FloatN height = min(dot(result.p - corner.position, corner.normal) * side, FloatN(0));
+    below += corner.normal * (corner.weight * height * side);
+  }
+  result.to_smooth_surface = select(has_normal, -below, no_offset());
 }
 
 }  // namespace
@@ -306,7 +350,11 @@ MaskN Accelerator::occluded(const Ray<FloatN>& rays, const MaskN& active, Cohere
 SurfaceInteraction<FloatN> Accelerator::surface(const Ray<FloatN>& rays, const Hits& hits) const {
   SurfaceInteraction<FloatN> result;
   const auto set = [&](std::uint32_t geometry, const LaneIndices& primitive, SurfaceInteraction<FloatN>& surface) {
-    with_type(Shapes{}, table_.geometry(geometry).shape_type, [&]<class Shape>(std::type_identity<Shape>) {
+    if (const MeshTable* const mesh = table_.geometry(geometry).mesh; mesh != nullptr) {
+      set_surface(*mesh, primitive.lanes(), rays, hits, surface);
+      return;
+    }
+    with_type(Shapes{}, geometry, [&]<class Shape>(std::type_identity<Shape>) {
       set_surface<Shape>(table_.table<Shape>(), primitive, rays, hits, surface);
     });
   };
@@ -322,14 +370,29 @@ SurfaceInteraction<FloatN> Accelerator::surface(const Ray<FloatN>& rays, const H
       left = left & !here;
       // The other lanes follow the first of these, so that they read a record that exists, and no further ones.
       const IntN primitive = select_lanes(here, hits.primitive, IntN(hits.primitive.get(first)));
+      other.is_smooth = false;
       set(geometry, primitive, other);
+      if (other.is_smooth) {
+        if (!result.is_smooth) {
+          result.ns = Vec3<FloatN>(Vec3f(0, 0, 0));  // 0: the lane has none
+          result.to_smooth_surface = no_offset();
+          result.is_smooth = true;
+        }
+        result.ns = select(here, other.ns, result.ns);
+        result.to_smooth_surface = select(here, other.to_smooth_surface, result.to_smooth_surface);
+      }
       result.p = select(here, other.p, result.p);
       result.ng = select(here, other.ng, result.ng);
       result.error = select(here, other.error, result.error);
     }
   }
   result.ng = select(dot(result.ng, rays.direction) > FloatN(0), -result.ng, result.ng);
-  result.ns = result.ng;
+  if (result.is_smooth) {
+    const MaskN has_normal = dot(result.ns, result.ns) > FloatN(0);
+    result.ns = select(has_normal, result.ns, result.ng);
+  } else {
+    result.ns = result.ng;
+  }
   result.wo = -rays.direction;
   return result;
 }

@@ -219,8 +219,35 @@ RAYTRACE_INLINE void filter_packet(const RTCFilterFunctionNArguments* arguments,
     if ((bits >> lane & 1) == 0) arguments->valid[first + static_cast<unsigned>(lane)] = 0;
 }
 
-/// Embree has set tfar to its own distance. It takes what is written there, and u and v, as the hit's.
+/// The triangles of a shape's records. Their user pointer is the first record.
 template <class Shape>
+struct RecordTriangles {
+  template <class F>
+  RAYTRACE_INLINE static F intersect(void* records, std::uint32_t primitive, const Ray<F>& rays, const Mask<F>& active,
+                                     F& u, F& v) {
+    return Kernel<Shape>::template intersect<F>(record_of<Shape>(records, primitive), rays, active, u, v);
+  }
+};
+
+/// The faces of a mesh. Their user pointer is its MeshTable.
+struct MeshFaces {
+  template <class F>
+  RAYTRACE_INLINE static F intersect(void* table, std::uint32_t face, const Ray<F>& rays, const Mask<F>& active, F& u,
+                                     F& v) {
+    const MeshTable& mesh = *static_cast<const MeshTable*>(table);
+    const F t = Kernel<Triangle>::intersect<F>(mesh.triangle(face), rays, active, u, v);
+    if (mesh.corners() == 3) return t;
+    F second_u(0), second_v(0);
+    const F second = Kernel<Triangle>::intersect<F>(mesh.triangle(face, true), rays, active, second_u, second_v);
+    const Mask<F> nearer = second < t;
+    u = select(nearer, F(1) - second_u, u);
+    v = select(nearer, F(1) - second_v, v);
+    return select(nearer, second, t);
+  }
+};
+
+/// Embree has set tfar to its own distance. It takes what is written there, and u and v, as the hit's.
+template <class Triangles>
 struct FilterIntersect {
   using Arguments = RTCFilterFunctionNArguments;
 
@@ -230,8 +257,7 @@ struct FilterIntersect {
     packet.rays.far = infinity<F>();
     filter_packet<F>(arguments, first, packet, [&](const Mask<F>& lanes, std::uint32_t primitive) {
       F u(0), v(0);
-      const auto& record = record_of<Shape>(arguments->geometryUserPtr, primitive);
-      const F t = Kernel<Shape>::template intersect<F>(record, packet.rays, lanes, u, v);
+      const F t = Triangles::template intersect<F>(arguments->geometryUserPtr, primitive, packet.rays, lanes, u, v);
       const Mask<F> hit =
           packet.keep(t < infinity<F>(), t, RTCHitN_geomID(arguments->hit, arguments->N, first), primitive);
       if (none(hit)) return hit;
@@ -243,7 +269,7 @@ struct FilterIntersect {
   }
 };
 
-template <class Shape>
+template <class Triangles>
 struct FilterOcclude {
   using Arguments = RTCFilterFunctionNArguments;
 
@@ -252,7 +278,9 @@ struct FilterOcclude {
     CallbackRays<F> packet(arguments, arguments->ray, first);
     packet.rays.far = packet.distance();
     filter_packet<F>(arguments, first, packet, [&](const Mask<F>& lanes, std::uint32_t primitive) {
-      return occludes<Shape>(record_of<Shape>(arguments->geometryUserPtr, primitive), packet.rays, lanes);
+      F u(0), v(0);
+      return Triangles::template intersect<F>(arguments->geometryUserPtr, primitive, packet.rays, lanes, u, v) <
+             infinity<F>();
     });
   }
 };
@@ -289,15 +317,26 @@ void bounds_callback(const RTCBoundsFunctionArguments* arguments) {
 
 }  // namespace detail
 
+template <class Triangles>
+void set_filters(RTCGeometry geometry, const void* user_pointer) {
+  // Embree hands it to the callbacks, which only read.
+  rtcSetGeometryUserData(geometry, const_cast<void*>(user_pointer));
+  rtcSetGeometryIntersectFilterFunction(geometry, &detail::callback<detail::FilterIntersect<Triangles>>);
+  rtcSetGeometryOccludedFilterFunction(geometry, &detail::callback<detail::FilterOcclude<Triangles>>);
+}
+
+/// The callbacks of a mesh, which must outlive the geometry.
+inline void set_callbacks(RTCGeometry geometry, const MeshTable& mesh) {
+  set_filters<detail::MeshFaces>(geometry, &mesh);
+}
+
 /// The shape's callbacks, for a geometry of these records, which must outlive it.
 template <class Shape>
 void set_callbacks(RTCGeometry geometry, std::span<const typename ShapeTable<Shape>::Record> records) {
-  // Embree hands it to the callbacks, which only read.
-  rtcSetGeometryUserData(geometry, const_cast<typename ShapeTable<Shape>::Record*>(records.data()));
   if constexpr (EmbreeTriangle<Shape>) {
-    rtcSetGeometryIntersectFilterFunction(geometry, &detail::callback<detail::FilterIntersect<Shape>>);
-    rtcSetGeometryOccludedFilterFunction(geometry, &detail::callback<detail::FilterOcclude<Shape>>);
+    set_filters<detail::RecordTriangles<Shape>>(geometry, records.data());
   } else {
+    rtcSetGeometryUserData(geometry, const_cast<typename ShapeTable<Shape>::Record*>(records.data()));
     rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(records.size()));
     rtcSetGeometryBoundsFunction(geometry, &detail::bounds_callback<Shape>, nullptr);
     rtcSetGeometryIntersectFunction(geometry, &detail::callback<detail::Intersect<Shape>>);

@@ -8,8 +8,8 @@ TracedScene::TracedScene(const SceneDescription& description, int threads, const
     : tables_(description, threads), accelerator_(tables_.geometry(), threads, embree_isa), isa_name_(isa_name) {
   make_buffers(threads);
   // Embree's BVH of few objects takes no time. That of many waits for a ray that wants it: there may be none.
-  constexpr std::uint64_t few_objects = 1U << 14U;
-  if (tables_.geometry().object_count() <= few_objects) accelerator_.embree_scene();
+  constexpr std::uint64_t few_primitives = 1U << 14U;
+  if (tables_.geometry().primitive_count() <= few_primitives) accelerator_.embree_scene();
 }
 
 void TracedScene::make_buffers(int threads) {
@@ -19,6 +19,11 @@ void TracedScene::make_buffers(int threads) {
   const ViewPlane& viewplane = tables_.viewplane();
   const auto pixels = static_cast<std::uint64_t>(viewplane.hres) * static_cast<std::uint64_t>(viewplane.vres);
   const std::uint64_t affordable = std::min(objects_a_pixel * pixels, most_objects);
+  // They have no meshes, whose faces Embree finds as soon.
+  if (tables_.geometry().has_meshes()) {
+    light_buffers_.resize(tables_.lights().size());
+    return;
+  }
   std::vector<std::optional<BufferOrigin>> origins{tables_.camera_origin()};
   origins.insert(origins.end(), tables_.light_origins().begin(), tables_.light_origins().end());
   std::uint64_t objects = 0;
@@ -34,7 +39,7 @@ void TracedScene::make_buffers(int threads) {
 
 SceneStatistics TracedScene::statistics() const {
   SceneStatistics statistics;
-  statistics.primitives = tables_.geometry().object_count();
+  statistics.primitives = tables_.geometry().primitive_count();
   statistics.bvh_bytes = accelerator_.bvh_bytes();
   statistics.isa = isa_name_;
   statistics.lanes = packet_lanes;

@@ -158,8 +158,8 @@ void fill_aovs(ImageBand& band, std::size_t first_plane, const Film& film) {
 
 std::vector<std::string> object_names(const SceneDescription& description) {
   std::vector<std::string> names;
-  for_each_type(Shapes{}, [&]<class Shape>(std::type_identity<Shape>) {
-    for (const auto& item : std::get<ObjectItems<Shape>>(description.objects)) names.push_back(item.name);
+  for_each_type(Objects{}, [&]<class Object>(std::type_identity<Object>) {
+    for (const auto& item : std::get<ObjectItems<Object>>(description.objects)) names.push_back(item.name);
   });
   std::unordered_set<std::uint32_t> taken;
   taken.reserve(names.size());
@@ -167,11 +167,11 @@ std::vector<std::string> object_names(const SceneDescription& description) {
     if (!name.empty()) taken.insert(cryptomatte::id_of(name));
 
   auto name = names.begin();
-  for_each_type(Shapes{}, [&]<class Shape>(std::type_identity<Shape>) {
-    const std::size_t count = std::get<ObjectItems<Shape>>(description.objects).size();
+  for_each_type(Objects{}, [&]<class Object>(std::type_identity<Object>) {
+    const std::size_t count = std::get<ObjectItems<Object>>(description.objects).size();
     for (std::size_t number = 1; number <= count; ++number, ++name) {
       if (!name->empty()) continue;
-      const std::string usual = std::string(Shape::element) + '#' + std::to_string(number);
+      const std::string usual = std::string(Object::element) + '#' + std::to_string(number);
       *name = usual;
       for (int i = 2; !taken.insert(cryptomatte::id_of(*name)).second; ++i) *name = usual + '#' + std::to_string(i);
     }

@@ -78,6 +78,18 @@ Region render_window(const Region& crop_window, const RenderJob& job) {
   return tile_of(crop_window, job.tile->index, job.tile->count);
 }
 
+namespace {
+
+/// The files that the scene names are not to be written.
+void refuse_to_overwrite(const SceneDescription& description, const RenderJob& job) {
+  UsedFiles files;
+  for (const auto& mesh : std::get<ObjectItems<Mesh>>(description.objects))
+    if (!mesh.parameters.file.path.empty()) files.add({"a mesh", mesh.parameters.file.path, false});
+  for (const std::string& file : job.files()) files.add_or_refuse({"an output", file, true});
+}
+
+}  // namespace
+
 std::optional<SceneDescription> load_picture(const RenderJob& job, RenderObserver& observer, Phase& phase) {
   observer.on_stage(RenderStage::load);
   Diagnostics diagnostics(on_one_line(job.scene_name()));
@@ -85,6 +97,10 @@ std::optional<SceneDescription> load_picture(const RenderJob& job, RenderObserve
   {
     const PhaseTimer timer(phase);
     description = load_scene(job.scene, diagnostics, job.threads, {job.frame, job.variables});
+    if (description) {
+      refuse_to_overwrite(*description, job);
+      if (!load_meshes(*description, diagnostics, job.threads)) description.reset();
+    }
   }
   observer.on_diagnostics(diagnostics);
   if (!description) return std::nullopt;

@@ -64,7 +64,13 @@ class SceneChecker {
         check_taken<Section>(item.name);
       }
     }
-    if constexpr (requires { item.material; }) check_material(scene, item.material);
+    if constexpr (requires { item.materials; }) {
+      if (item.material != no_material) check_material(scene, item.material);
+      if (item.data == nullptr || item.materials.empty()) return error("has not been loaded (load_meshes())");
+      for (const MaterialReference& material : item.materials) check_material(scene, material);
+    } else if constexpr (requires { item.material; }) {
+      check_material(scene, item.material);
+    }
   }
 
   template <class T>

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <system_error>
+#include <utility>
 
 #include "raytrace/text/message.h"
 #include "raytrace/text/utf8.h"
@@ -143,6 +144,80 @@ OptionalMessage check_value(const ChoiceReference& choice, Range) {
 std::string value_text(const ChoiceReference& choice) {
   const std::size_t index = choice.index();
   return index < choice.words().size() ? std::string(choice.words()[index]) : std::to_string(index);
+}
+
+OptionalMessage parse_groups(std::string_view text, NumberGroups& groups) {
+  NumberGroups read;
+  std::size_t begin = 0;
+  const auto end_group = [&] {
+    if (read.numbers.size() == begin) return false;
+    begin = read.numbers.size();
+    read.ends.push_back(static_cast<std::uint32_t>(begin));
+    return true;
+  };
+  while (true) {
+    text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+    if (text.empty()) break;
+    if (text.front() == ',') {
+      if (!end_group()) return "has a comma without a number before it";
+      text.remove_prefix(1);
+      continue;
+    }
+    const std::string_view word = text.substr(0, text.find_first_of(" \t\r\n,"));
+    double number = 0;
+    if (const OptionalMessage message = parse_number(word, Range::any, number))
+      return "has " + in_quotes(word) + " as number " + std::to_string(read.numbers.size() + 1) + ", which " + *message;
+    read.numbers.push_back(number);
+    text.remove_prefix(word.size());
+  }
+  end_group();  // a comma at the end is fine
+  groups = std::move(read);
+  return std::nullopt;
+}
+
+OptionalMessage parse_word_or_groups(std::string_view text, WordOrGroups& value) {
+  text = xml::trimmed(text);
+  if (text.find_first_of("+-.0123456789") == 0) return parse_groups(text, value.groups);
+  const auto word = std::find(value.words.begin(), value.words.end(), text);
+  if (word == value.words.end()) return explain_no_choice(text, value.words) + " Or write numbers";
+  value.word = static_cast<std::size_t>(word - value.words.begin());
+  return std::nullopt;
+}
+
+OptionalMessage check_value(const WordOrGroups& value, Range range) {
+  if (!value.groups.empty() || value.word < value.words.size()) return check_value(value.groups, range);
+  return explain_no_choice({}, value.words);
+}
+
+std::string value_text(const WordOrGroups& value) {
+  if (!value.groups.empty()) return value_text(value.groups);
+  return value.word < value.words.size() ? std::string(value.words[value.word]) : std::to_string(value.word);
+}
+
+OptionalMessage check_value(const NumberGroups& value, Range) {
+  for (const double number : value.numbers)
+    if (const OptionalMessage message = check_value(number, Range::any)) return "has a number that " + *message;
+  std::uint32_t last = 0;
+  for (const std::uint32_t end : value.ends)
+    if (end <= std::exchange(last, end)) return "has groups without numbers";
+  if (last != value.numbers.size()) return "has numbers that are in no group";
+  return std::nullopt;
+}
+
+std::string value_text(const NumberGroups& value) {
+  std::string text;
+  std::size_t i = 0;
+  for (const std::uint32_t end : value.ends) {
+    if (i > 0) text += ',';
+    for (; i < end && i < value.numbers.size(); ++i)
+      text.append(text.empty() ? "" : " ").append(number_text(value.numbers[i]));
+  }
+  return text;
+}
+
+OptionalMessage check_value(const FileName& value, Range) {
+  // Empty: there is none. Its type says whether there may be none.
+  return value.path.empty() ? std::nullopt : check_value(value.path, Range::any);
 }
 
 OptionalMessage check_value(const std::string& value, Range) {

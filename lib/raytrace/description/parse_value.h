@@ -24,6 +24,13 @@ OptionalMessage parse_integer(std::string_view text, Range range, int& value);
 /// true, false, 1 or 0.
 OptionalMessage parse_boolean(std::string_view text, bool& value);
 
+/// Numbers with white space between them, and commas between groups of them: "0 1 2, 2 3 0". Without a comma all are
+/// one group.
+OptionalMessage parse_groups(std::string_view text, NumberGroups& groups);
+
+/// One of the value's words, or numbers as parse_groups() takes them.
+OptionalMessage parse_word_or_groups(std::string_view text, WordOrGroups& value);
+
 /// One of the choice's words.
 OptionalMessage parse_choice(std::string_view text, const ChoiceReference& choice);
 
@@ -34,6 +41,9 @@ OptionalMessage check_value(int value, Range range);
 inline OptionalMessage check_value(bool, Range) { return std::nullopt; }
 OptionalMessage check_value(const ChoiceReference& choice, Range range);
 OptionalMessage check_value(const std::string& value, Range range);  ///< a name
+OptionalMessage check_value(const FileName& value, Range range);
+OptionalMessage check_value(const NumberGroups& value, Range range);
+OptionalMessage check_value(const WordOrGroups& value, Range range);
 
 /// Of a text that XML allows and that has no white space at its ends, as one that was read.
 OptionalMessage check_label(std::string_view text);
@@ -52,6 +62,9 @@ inline std::string value_text(double value) { return number_text(value); }
 inline std::string value_text(int value) { return std::to_string(value); }
 inline std::string value_text(bool value) { return value ? "true" : "false"; }
 inline std::string value_text(const std::string& value) { return value; }
+inline std::string value_text(const FileName& value) { return value.path; }
+std::string value_text(const NumberGroups& value);
+std::string value_text(const WordOrGroups& value);
 std::string value_text(const ChoiceReference& choice);
 
 }  // namespace raytrace

@@ -58,7 +58,8 @@ class ScenePrinter : private XmlWriter {
   void print_group(const SceneDescription& scene) {
     const auto& items = items_of<Section, T>(scene);
     const auto print_items = [&] {
-      for (const auto& item : items) element(T::element, [&] { print_item<T>(scene, item); });
+      for (const auto& item : items)
+        if (!is_imported(item)) element(T::element, [&] { print_item<T>(scene, item); });
     };
     if (T::group.empty())
       print_items();
@@ -66,12 +67,19 @@ class ScenePrinter : private XmlWriter {
       element(T::group, print_items);
   }
 
+  template <class Item>
+  static bool is_imported(const Item& item) {
+    if constexpr (requires { item.imported; }) return item.imported;
+    return false;
+  }
+
   template <class T, class Item>
   void print_item(const SceneDescription& scene, const Item& item) {
     if constexpr (requires { item.name; })
       if (!item.name.empty()) print_value("name", item.name);
     print_parameters<T>(item.parameters);
-    if constexpr (requires { item.material; }) print_value("material", material_name(scene, item.material));
+    if constexpr (requires { item.material; })
+      if (item.material != no_material) print_value("material", material_name(scene, item.material));
   }
 
   static std::string material_name(const SceneDescription& scene, MaterialReference material) {
@@ -84,7 +92,17 @@ class ScenePrinter : private XmlWriter {
   void print_parameters(const typename T::Parameters& parameters) {
     static const auto fields = T::fields();
     for (const auto& field : fields)
-      field.visit(parameters, [&](const auto& value) { print_value(field.name, value); });
+      field.visit(parameters, [&](const auto& value) {
+        if (!is_absent(value)) print_value(field.name, value);
+      });
+  }
+
+  // No element is written without a value.
+  static bool is_absent(const FileName& value) { return value.path.empty(); }
+  static bool is_absent(const NumberGroups& value) { return value.empty(); }
+  template <class Value>
+  static bool is_absent(const Value&) {
+    return false;
   }
 
   template <class Value>

@@ -34,6 +34,9 @@ std::string type_name(Range range) {
   if constexpr (std::is_same_v<Value, double>) return number_name(range) + "orkeys";
   if constexpr (std::is_same_v<Value, int>) return std::string(limits(range).prefix) + "integer";
   if constexpr (std::is_same_v<Value, bool>) return "boolean";
+  if constexpr (std::is_same_v<Value, FileName> || std::is_same_v<Value, NumberGroups> ||
+                std::is_same_v<Value, WordOrGroups>)
+    return "text";
   if constexpr (std::is_same_v<Value, Vec3d>) return std::string(limits(range).prefix) + "vector";
   if constexpr (std::is_same_v<Value, Rgb<double>>) return std::string(limits(range).prefix) + "color";
 }
@@ -113,7 +116,7 @@ class SchemaPrinter : private XmlWriter {
     });
     for_each_type(Types{}, [&]<class T>(std::type_identity<T>) {
       if (!T::group.empty()) print_choice(T::group, [&] { child(T::element); });
-      print_item<T>(Section::labels);
+      print_item<T>(labels_of<Section, T>());
     });
   }
 

@@ -129,6 +129,7 @@ class TypedItemList final : public ItemList {
   bool take_labels(const Labels& labels, Item& item) const {
     if constexpr (requires { item.name; }) item.name = labels[0];
     if constexpr (has_material) {
+      if (labels[1].empty()) return true;  // it is optional
       const std::optional<std::size_t> material = materials_.names.find(labels[1]);
       if (!material) return false;
       item.material = materials_.references[*material];
@@ -137,7 +138,8 @@ class TypedItemList final : public ItemList {
   }
 
   const NamedMaterials& materials_;
-  FieldsReader<T> fields_{Section::labels, Section::may_skip};
+  static constexpr auto labels_ = labels_of<Section, T>();
+  FieldsReader<T> fields_{labels_, Section::may_skip};
   std::vector<Entry> entries_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 
 #include "raytrace/description/keyframes.h"
 
@@ -57,6 +58,23 @@ class ValueReader {
       *value = text;
       return check_label(text);
     });
+  }
+
+  bool operator()(FileName* file) const {
+    const Node text_node = single_text();
+    return read_text(text_node, [&](std::string_view text) -> OptionalMessage {
+      const SourceLocation location = text_node.location();
+      *file = {(std::filesystem::path(context_.folder) / text).string(), location.line, location.column};
+      return check_label(text);
+    });
+  }
+
+  bool operator()(NumberGroups* groups) const {
+    return read_text(single_text(), [&](std::string_view text) { return parse_groups(text, *groups); });
+  }
+
+  bool operator()(WordOrGroups* value) const {
+    return read_text(single_text(), [&](std::string_view text) { return parse_word_or_groups(text, *value); });
   }
 
   bool operator()(const ChoiceReference& choice) const {
@@ -279,10 +297,14 @@ std::string example_value(const FieldInfo& info, const FieldTarget& target) {
   if (std::holds_alternative<Rgb<double>*>(target))
     return example_of(info.name, component_fields<Rgb<double>>(nullptr, info.range));
   const auto* const choice = std::get_if<ChoiceReference>(&target);
-  const std::string value = choice != nullptr                                   ? std::string(choice->words()[0])
-                            : std::holds_alternative<bool*>(target)             ? "true"
-                            : std::holds_alternative<std::string_view*>(target) ? "..."
-                                                                                : "1";
+  const std::string value =
+      choice != nullptr                                   ? std::string(choice->words()[0])
+      : std::holds_alternative<bool*>(target)             ? "true"
+      : std::holds_alternative<std::string_view*>(target) ? "..."
+      : std::holds_alternative<FileName*>(target)         ? "model.ply"
+      : std::holds_alternative<NumberGroups*>(target) || std::holds_alternative<WordOrGroups*>(target)
+          ? "0 0 0, 1 0 0, 0 1 0"
+          : "1";
   return tag(info.name) + value + closing_tag(info.name);
 }
 

@@ -24,6 +24,7 @@ namespace raytrace {
 struct ReadContext {
   const Variables& variables;
   Diagnostics& diagnostics;
+  std::string folder = {};  ///< of the scene's file, which names of files are relative to
 };
 
 /// The index of the field of that name in `fields`, whose elements have names; their number if there is none.
@@ -94,7 +95,8 @@ bool read_attributes(Element element, std::span<const AttributeField> fields, bo
 std::string example_of(std::string_view element, std::span<const AttributeField> fields, Element source = Element());
 
 /// Where a field's value goes. A string_view is a label, such as a name: it views the Document's text.
-using FieldTarget = std::variant<double*, int*, bool*, ChoiceReference, std::string_view*, Vec3d*, Rgb<double>*>;
+using FieldTarget = std::variant<double*, int*, bool*, ChoiceReference, std::string_view*, Vec3d*, Rgb<double>*,
+                                 FileName*, NumberGroups*, WordOrGroups*>;
 
 /// The attributes of vectors and colors, in the order of their members; none of other values.
 std::span<const std::string_view> component_names(const FieldTarget& target);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,6 +14,7 @@
 #include "raytrace/cameras/registry.h"
 #include "raytrace/cameras/view_plane.h"
 #include "raytrace/description/variables.h"
+#include "raytrace/import/mesh_data.h"
 #include "raytrace/integrators/registry.h"
 #include "raytrace/lights/registry.h"
 #include "raytrace/materials/registry.h"
@@ -33,12 +35,15 @@ struct MaterialItem {
   typename Material::Parameters parameters;
   std::string name;
   std::uint32_t line = 0;
+  bool imported = false;  ///< from a mesh's file, which brings it again when it is read again
 };
 
 /// A material by its type (the index in the Materials registry) and its index among the items of that type.
 struct MaterialReference {
   std::uint32_t type = 0;
   std::uint32_t index = 0;
+
+  friend bool operator==(const MaterialReference&, const MaterialReference&) = default;
 };
 
 template <class Shape>
@@ -47,6 +52,21 @@ struct ObjectItem {
   std::string name;  ///< empty: unnamed
   MaterialReference material;
   std::uint32_t line = 0;
+};
+
+/// No material: that of its file, or none.
+inline constexpr MaterialReference no_material{0xffffffff, 0xffffffff};
+
+template <>
+struct ObjectItem<Mesh> {
+  Mesh::Parameters parameters;
+  std::string name;
+  MaterialReference material = no_material;  ///< where there is one, of all faces
+  std::uint32_t line = 0;
+
+  // From load_meshes().
+  std::shared_ptr<const MeshData> data = nullptr;
+  std::vector<MaterialReference> materials = {};  ///< those of the data, at least one
 };
 
 template <class T>
@@ -73,13 +93,13 @@ struct SceneDescription {
   std::optional<IntegratorParameters> integrator;     ///< none: the file leaves it open
   TupleOf<Lights, LightItems>::type lights;           ///< std::get<LightItems<PointLight>>(lights)
   TupleOf<Materials, MaterialItems>::type materials;  ///< std::get<MaterialItems<Matte>>(materials)
-  TupleOf<Shapes, ObjectItems>::type objects;         ///< std::get<ObjectItems<Sphere>>(objects)
+  TupleOf<Objects, ObjectItems>::type objects;        ///< std::get<ObjectItems<Sphere>>(objects)
 };
 
-/// Reads and validates a scene file ("-": standard input). All errors and warnings go to `diagnostics`; no value if
-/// there is an error. A file that cannot be read is an error at line 0.
-/// threads: so many at most share the work; 0: all that the machine has. The result does not depend on it.
-/// settings: variables that are not used are errors, as those that are not set.
+/// Reads and validates a scene file ("-": standard input), but not the files that it names. All errors and warnings go
+/// to `diagnostics`; no value if there is an error. A file that cannot be read is an error at line 0. threads: so many
+/// at most share the work; 0: all that the machine has. The result does not depend on it. settings: variables that are
+/// not used are errors, as those that are not set.
 std::optional<SceneDescription> load_scene(const std::string& file, Diagnostics& diagnostics, int threads = 0,
                                            const SceneSettings& settings = {});
 
@@ -87,8 +107,14 @@ std::optional<SceneDescription> load_scene(const std::string& file, Diagnostics&
 std::optional<SceneDescription> parse_scene(std::string_view text, Diagnostics& diagnostics, int threads = 0,
                                             const SceneSettings& settings = {});
 
+/// Reads the files of the meshes, and makes those whose values stand in the scene; adds materials for what has none in
+/// the scene: those of the file, else a matte grey. What is wrong with the files goes to `diagnostics`, with the files'
+/// names and lines. False if there is an error.
+bool load_meshes(SceneDescription& description, Diagnostics& diagnostics, int threads = 0);
+
 /// Writes the description as a scene file in canonical form: every value spelled out, defaults included; reading it
-/// back gives an equal description (all doubles round-trip). It has neither variables nor keys.
+/// back gives an equal description (all doubles round-trip). It has neither variables nor keys, nor what load_meshes()
+/// adds.
 std::string print_scene(const SceneDescription& description);
 
 /// An XML Schema 1.0 document, made from the registries' tables of fields, so that it knows every type there is. A file
@@ -99,8 +125,8 @@ std::string print_scene(const SceneDescription& description);
 std::string print_schema();
 
 /// 32 hexadecimal digits (XXH3, 128 bits) of all names and values of the description but the number of samples and
-/// where in which file they stood: two files that mean the same have the same. threads: so many at most share the work;
-/// 0: all that the machine has.
+/// where in which file they stood: two files that mean the same have the same. Of meshes, what load_meshes() read
+/// counts, not their files' names. threads: so many at most share the work; 0: all that the machine has.
 std::string scene_hash(const SceneDescription& description, int threads = 0);
 
 }  // namespace raytrace

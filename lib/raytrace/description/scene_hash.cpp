@@ -43,7 +43,11 @@ class SceneHash {
       SceneHash hash(1);
       for (std::size_t i = first; i < last; ++i) {
         const Item& item = items[i];
-        hash.add_parameters(fields, item.parameters);
+        if constexpr (requires { item.data; }) {
+          hash.add_mesh(fields, item);
+        } else {
+          hash.add_parameters(fields, item.parameters);
+        }
         if constexpr (requires { item.name; }) hash.add(item.name);
         if constexpr (requires { item.material; }) {
           hash.add(item.material.type);
@@ -60,10 +64,36 @@ class SceneHash {
     for (const auto& field : fields) field.visit(parameters, [&](const auto& value) { add(value); });
   }
 
+  /// By what it was read from a file, if it was.
+  template <class Parameters, class Item>
+  void add_mesh(const Fields<Parameters>& fields, const Item& item) {
+    const bool from_file = item.data != nullptr && !item.parameters.file.path.empty();
+    for (const auto& field : fields)
+      if (!from_file || field.name != "file") field.visit(item.parameters, [&](const auto& value) { add(value); });
+    if (!from_file) return;
+    const MeshData& data = *item.data;
+    for (const double coordinate : {data.origin.x, data.origin.y, data.origin.z}) add(coordinate);
+    add(data.corners);
+    add_values(data.positions);
+    add_values(data.indices);
+    add_values(data.normals);
+    add_values(data.uvs);
+    add_values(data.colors);
+    add_values(data.face_materials);
+  }
+
   template <class Value>
   void add(const Value& value) {
     if constexpr (HasComponents<Value>) {
       for (const auto member : Components<Value>::members) add(value.*member);
+    } else if constexpr (std::is_same_v<Value, NumberGroups>) {
+      add_values(value.numbers);
+      add_values(value.ends);
+    } else if constexpr (std::is_same_v<Value, WordOrGroups>) {
+      add(value.groups);
+      if (value.groups.empty() && value.word < value.words.size()) add(value.words[value.word]);
+    } else if constexpr (std::is_same_v<Value, FileName>) {
+      add(value.path);
     } else if constexpr (std::is_same_v<Value, ChoiceReference>) {
       add(value.words()[value.index()]);
     } else if constexpr (std::is_arithmetic_v<Value>) {
@@ -74,6 +104,12 @@ class SceneHash {
       add(static_cast<std::uint64_t>(text.size()));
       hash_.add(text.data(), text.size());
     }
+  }
+
+  template <class Values>
+  void add_values(const Values& values) {
+    add(static_cast<std::uint64_t>(values.size()));
+    hash_.add(values.data(), values.size() * sizeof(*values.data()));
   }
 
   ContentHash hash_;

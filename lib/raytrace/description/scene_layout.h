@@ -36,12 +36,20 @@ struct MaterialsSection {
 };
 
 struct ObjectsSection {
-  using Types = Shapes;
+  using Types = Objects;
   static constexpr std::string_view element = "objects", item = "object";
   static constexpr auto items = &SceneDescription::objects;
   static constexpr std::array<FieldInfo, 2> labels{{{"name", false}, {"material"}}};
   static constexpr bool may_skip = true;
 };
+
+/// The labels of a section's items of one type.
+template <class Section, class T>
+constexpr auto labels_of() {
+  auto labels = Section::labels;
+  if constexpr (requires { T::may_lack_material; }) labels[1].required = false;
+  return labels;
+}
 
 using Sections = TypeList<LightsSection, MaterialsSection, ObjectsSection>;
 

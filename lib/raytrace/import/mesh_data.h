@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "raytrace/math/color.h"
+#include "raytrace/math/vec3.h"
 #include "raytrace/memory/large_array.h"
 
 namespace raytrace {
@@ -64,7 +65,9 @@ struct MeshMaterial {
 struct MeshData {
   static constexpr std::uint32_t no_material = 0xffffffff;
 
-  /// x, y, z of each vertex, less the origin that the reader was given. All are finite, and at most 1e18 in magnitude.
+  Vec3d origin{0, 0, 0};  ///< the file's point that is (0, 0, 0) in the positions
+
+  /// x, y, z of each vertex, less the origin. All are finite, and at most 1e18 in magnitude.
   MeshBuffer<float> positions;
   /// `corners` vertices of each face, in the order of the file. A triangle in a mesh of quads repeats its last vertex.
   MeshBuffer<std::uint32_t> indices;

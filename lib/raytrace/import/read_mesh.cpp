@@ -1,8 +1,12 @@
 #include "raytrace/import/read_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <utility>
+#include <vector>
 
+#include "raytrace/import/mesh_faces.h"
 #include "raytrace/import/mesh_file.h"
 #include "raytrace/import/mesh_readers.h"
 
@@ -34,9 +38,55 @@ std::optional<MeshData> read_mesh(const std::string& name, const MeshReadSetting
   std::optional<MeshFile> file = MeshFile::open(name, diagnostics);
   if (!file) return std::nullopt;
   const std::string type = mesh_type(name);
-  if (type == ".ply") return read_ply(*file, settings, diagnostics);
-  if (type == ".stl") return read_stl(*file, settings, diagnostics);
-  return read_obj(*file, std::filesystem::path(name).parent_path().string(), settings, diagnostics);
+  std::optional<MeshData> mesh;
+  if (type == ".ply")
+    mesh = read_ply(*file, settings, diagnostics);
+  else if (type == ".stl")
+    mesh = read_stl(*file, settings, diagnostics);
+  else
+    mesh = read_obj(*file, std::filesystem::path(name).parent_path().string(), settings, diagnostics);
+  if (mesh) mesh->origin = settings.origin;
+  return mesh;
+}
+
+std::optional<MeshData> make_mesh(std::span<const double> positions, std::span<const double> corners,
+                                  std::span<const std::uint32_t> face_ends, std::span<const double> normals,
+                                  std::span<const double> uvs, Diagnostics& diagnostics) {
+  MeshData mesh;
+  const auto floats = [](std::span<const double> values, const Vec3d& origin) {
+    MeshBuffer<float> buffer(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i)
+      buffer[i] = rounded(values[i] - component(origin, static_cast<int>(i % 3)));
+    return buffer;
+  };
+  mesh.origin = near_origin(Vec3d(positions[0], positions[1], positions[2]));
+  mesh.positions = floats(positions, mesh.origin);
+  mesh.normals = floats(normals, {0, 0, 0});
+  mesh.uvs = floats(uvs, {0, 0, 0});
+
+  FaceCounts counts;
+  std::uint32_t first = 0;
+  for (const std::uint32_t end : face_ends) counts.add(end - std::exchange(first, end));
+  if (!make_faces(counts, mesh, diagnostics)) return std::nullopt;
+  FaceWriter writer(mesh, 0);
+  std::vector<std::uint32_t> polygon;
+  first = 0;
+  for (const std::uint32_t end : face_ends) {
+    polygon.clear();
+    for (; first < end; ++first) polygon.push_back(static_cast<std::uint32_t>(corners[first]));
+    writer.add(polygon);
+  }
+  MeshFaults faults;
+  faults.bad_vertices = mark_bad_positions(mesh.positions.data(), mesh.vertex_count());
+  faults.degenerate_faces = writer.degenerate();
+  if (!finish_mesh(mesh, faults, false, 1, diagnostics)) return std::nullopt;
+  return mesh;
+}
+
+Vec3d near_origin(const Vec3d& point) {
+  constexpr double near = 4096;  // there, a float's digits reach to 1 / 4096
+  if (std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)}) <= near) return {0, 0, 0};
+  return {std::round(point.x), std::round(point.y), std::round(point.z)};
 }
 
 std::optional<PointCloud> read_point_cloud(const std::string& name, const MeshReadSettings& settings,

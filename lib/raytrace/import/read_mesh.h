@@ -25,7 +25,9 @@
 // The result does not depend on the number of threads.
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "raytrace/import/mesh_data.h"
@@ -47,6 +49,16 @@ struct MeshReadSettings {
 /// No value, and errors, if the file cannot be read or is not what it should be. Errors have the line, or name the byte
 /// where the file is binary. diagnostics: of that file. Throws std::bad_alloc.
 std::optional<MeshData> read_mesh(const std::string& file, const MeshReadSettings& settings, Diagnostics& diagnostics);
+
+/// Of a mesh whose values are at hand, for make_mesh() and as MeshReadSettings has it: the origin of the world if the
+/// point is near it, else the point, rounded.
+Vec3d near_origin(const Vec3d& point);
+
+/// A mesh of values that are at hand. corners: of the faces, which end there, each of at least three; they are vertices
+/// that exist. normals, uvs: of each vertex; empty: none.
+std::optional<MeshData> make_mesh(std::span<const double> positions, std::span<const double> corners,
+                                  std::span<const std::uint32_t> face_ends, std::span<const double> normals,
+                                  std::span<const double> uvs, Diagnostics& diagnostics);
 
 /// The elements `vertex` of a PLY file, with x, y, z, radius and red, green, blue.
 std::optional<PointCloud> read_point_cloud(const std::string& file, const MeshReadSettings& settings,

@@ -15,6 +15,14 @@ struct TypeList {
   static constexpr std::size_t size = sizeof...(Types);
 };
 
+/// The list with T at its end.
+template <class List, class T>
+struct Appended;
+template <class... Types, class T>
+struct Appended<TypeList<Types...>, T> {
+  using type = TypeList<Types..., T>;
+};
+
 /// A tuple with one Container<T> for each T of a list.
 template <class List, template <class> class Container>
 struct TupleOf;

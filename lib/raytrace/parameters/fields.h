@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
@@ -88,13 +89,44 @@ class ChoiceReference {
   const Type* type_;
 };
 
+/// The name of a file that a scene reads. The scene's file gives it relative to its own folder; here it is as the
+/// program opens it.
+struct FileName {
+  std::string path;
+  std::uint32_t line = 0, column = 0;  ///< where the scene's file has it; 0: nowhere
+
+  friend bool operator==(const FileName& a, const FileName& b) { return a.path == b.path; }
+};
+
+/// Numbers in groups, such as the corners of faces: white space between the numbers, commas between the groups.
+struct NumberGroups {
+  std::vector<double> numbers;
+  std::vector<std::uint32_t> ends;  ///< of each group, among the numbers; no group is empty
+
+  bool empty() const { return numbers.empty(); }
+  friend bool operator==(const NumberGroups&, const NumberGroups&) = default;
+};
+
+/// One of some words, or numbers in place of it.
+struct WordOrGroups {
+  std::span<const std::string_view> words;
+  std::size_t word = 0;  ///< index in words; where there are numbers, it does not count
+  NumberGroups groups;
+
+  friend bool operator==(const WordOrGroups& a, const WordOrGroups& b) {
+    return a.groups == b.groups && (!a.groups.empty() || a.word == b.word);
+  }
+};
+
 /// The same, and where its value goes.
-/// double, int, bool, enumerations with Choices: the element's text. Vec3d and Rgb: attributes (see Components).
+/// double, int, bool, FileName, NumberGroups, WordOrGroups, enumerations with Choices: the element's text. Vec3d and
+/// Rgb: attributes (see Components).
 template <class Parameters>
 struct Field : FieldInfo {
   using Choice = std::function<ChoiceReference(Parameters&)>;
   using Member = std::variant<double Parameters::*, int Parameters::*, bool Parameters::*, Choice, Vec3d Parameters::*,
-                              Rgb<double> Parameters::*>;
+                              Rgb<double> Parameters::*, FileName Parameters::*, NumberGroups Parameters::*,
+                              WordOrGroups Parameters::*>;
   Member member;
 
   template <class Value>

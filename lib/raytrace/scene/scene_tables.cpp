@@ -139,8 +139,8 @@ float SceneTables::largest_albedo() const {
 
 template <class Answer>
 Rgb<FloatN> SceneTables::by_material(const Hits& hits, const Answer& answer) const {
-  if (hits.one_primitive) {
-    const std::int32_t number = geometry_->first_material(hits);
+  if (const std::optional<std::int32_t> only = geometry_->only_material(hits)) {
+    const std::int32_t number = *only;
     const auto type = std::upper_bound(first_material_.begin(), first_material_.end() - 1, number) - 1;
     return answer(*materials_[static_cast<std::size_t>(type - first_material_.begin())], LaneIndices(number - *type));
   }

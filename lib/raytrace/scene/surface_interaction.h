@@ -13,6 +13,12 @@ struct SurfaceInteraction {
   Vec3<F> ns;  ///< the normal for shading, likewise
   Vec3<F> wo;  ///< unit length, to where the ray came from
   F error;     ///< bound of the distance between p and the true surface
+
+  /// On meshes with normals at vertices, from p to the smooth surface that they stand for, where it bulges above the
+  /// flat faces: so far out, shadows are those of the smooth surface. Hanika, "Hacking the Shadow Terminator", Ray
+  /// Tracing Gems II, chapter 4.
+  Vec3<F> to_smooth_surface;
+  bool is_smooth = false;  ///< whether any lane has it
 };
 
 /// Where rays that leave the surface on ng's side start: p moved along ng just so far that neither its own rounding nor
@@ -22,7 +28,8 @@ struct SurfaceInteraction {
 /// distance must scale so.
 template <class F>
 RAYTRACE_INLINE Vec3<F> offset_ray_origin(const SurfaceInteraction<F>& surface) {
-  return surface.p + surface.ng * (surface.error * F(4));
+  const Vec3<F> origin = surface.p + surface.ng * (surface.error * F(4));
+  return surface.is_smooth ? origin + surface.to_smooth_surface : origin;
 }
 
 }  // namespace raytrace

@@ -5,6 +5,7 @@
 #include "raytrace/math/type_list.h"
 #include "raytrace/shapes/cylinder.h"
 #include "raytrace/shapes/disk.h"
+#include "raytrace/shapes/mesh.h"
 #include "raytrace/shapes/plane.h"
 #include "raytrace/shapes/rectangle.h"
 #include "raytrace/shapes/sphere.h"
@@ -14,5 +15,8 @@
 namespace raytrace {
 
 using Shapes = TypeList<Plane, Sphere, Triangle, Cylinder, Torus, Disk, Rectangle>;
+
+/// All that <objects> holds: the shapes, and meshes, which are many triangles or quads each.
+using Objects = Appended<Shapes, Mesh>::type;
 
 }  // namespace raytrace

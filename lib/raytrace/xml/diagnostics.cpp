@@ -27,6 +27,16 @@ void Diagnostics::count(const Diagnostics& other) {
   warning_count_ += other.warning_count_;
 }
 
+void Diagnostics::append(const Diagnostics& other) {
+  for (const Diagnostic& diagnostic : other.kept_) {
+    if (!keeps_another(diagnostic.severity)) continue;
+    kept_.push_back(diagnostic);
+    if (diagnostic.file.empty()) kept_.back().file = other.file_;
+  }
+  count(other);
+  repeat_count_ += other.repeat_count_;
+}
+
 void Diagnostics::add(Severity severity, SourceLocation location, std::string message) {
   if (keeps_another(severity)) kept_.push_back({severity, location, std::move(message)});
   ++(severity == Severity::error ? error_count_ : warning_count_);
@@ -48,12 +58,14 @@ void Diagnostics::print(std::ostream& out) const {
   for (const Diagnostic& diagnostic : kept_) sorted.push_back(&diagnostic);
   // At one location in the order of their discovery, which is that of their addresses.
   std::sort(sorted.begin(), sorted.end(), [](const Diagnostic* a, const Diagnostic* b) {
+    if (a->file.empty() != b->file.empty()) return a->file.empty();
+    if (!a->file.empty()) return a < b;
     return std::tie(a->location.line, a->location.column, a) < std::tie(b->location.line, b->location.column, b);
   });
 
   // Numbers by to_string: a stream's locale may group their digits.
   for (const Diagnostic* diagnostic : sorted) {
-    out << file_;
+    out << (diagnostic->file.empty() ? file_ : diagnostic->file);
     if (diagnostic->location.line > 0) out << ':' << std::to_string(diagnostic->location.line);
     if (diagnostic->location.column > 0) out << ':' << std::to_string(diagnostic->location.column);
     out << (diagnostic->severity == Severity::error ? ": error: " : ": warning: ") << diagnostic->message;

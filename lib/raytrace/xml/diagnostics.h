@@ -37,6 +37,7 @@ struct Diagnostic {
   SourceLocation location;
   std::string message;
   std::size_t repeats = 0;  ///< other locations with the same cause
+  std::string file = {};    ///< if it is another than the Diagnostics'
 };
 
 /// The diagnostics about one file.
@@ -80,6 +81,9 @@ class Diagnostics {
     if (!count_repeat(cause)) error(at, make_message);
   }
 
+  /// Appends those of another file.
+  void append(const Diagnostics& other);
+
   /// Counts the diagnostics of another, without keeping them.
   void count(const Diagnostics& other);
 
@@ -96,8 +100,8 @@ class Diagnostics {
     return (severity == Severity::error ? error_count_ - repeat_count_ : warning_count_) < limit_;
   }
 
-  /// One line each, "file:line:column: error: message", in the order of the file, then the counts of those not kept.
-  /// A line or column of 0 is left out.
+  /// One line each, "file:line:column: error: message", in the order of the file, those of other files behind, then the
+  /// counts of those not kept. A line or column of 0 is left out.
   void print(std::ostream& out) const;
 
  private:

@@ -1,0 +1,138 @@
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+
+#include "raytrace/description/scene_description.h"
+#include "raytrace/import/read_mesh.h"
+#include "raytrace/text/message.h"
+
+namespace raytrace {
+
+namespace {
+
+class MeshLoader {
+ public:
+  MeshLoader(SceneDescription& scene, Diagnostics& diagnostics, int threads)
+      : scene_(scene), diagnostics_(diagnostics), threads_(threads) {
+    for_each_type(Materials{}, [&]<class Material>(std::type_identity<Material>) {
+      for (const auto& item : std::get<MaterialItems<Material>>(scene.materials)) taken_names_.insert(item.name);
+    });
+  }
+
+  void load() {
+    for (auto& mesh : std::get<ObjectItems<Mesh>>(scene_.objects)) load(mesh);
+  }
+
+ private:
+  /// What several meshes have of one file.
+  struct LoadedFile {
+    std::shared_ptr<const MeshData> data;
+    std::vector<MaterialReference> materials;
+  };
+
+  void load(ObjectItem<Mesh>& mesh) {
+    LoadedFile loaded;
+    if (mesh.parameters.file.path.empty())
+      loaded.data = made(mesh);
+    else
+      loaded = from_file(mesh);
+    if (loaded.data == nullptr) return;
+    mesh.data = loaded.data;
+    mesh.materials = mesh.material == no_material ? std::move(loaded.materials) : std::vector{mesh.material};
+    if (mesh.materials.empty()) mesh.materials = {grey()};
+  }
+
+  std::shared_ptr<const MeshData> made(const ObjectItem<Mesh>& mesh) {
+    const auto& values = mesh.parameters;
+    Diagnostics found(diagnostics_.file());
+    std::optional<MeshData> data =
+        make_mesh(values.positions.numbers, values.faces.numbers, Mesh::face_ends(values.faces),
+                  values.normals.groups.numbers, values.uvs.numbers, found);
+    for (const Diagnostic& diagnostic : found.kept())
+      diagnostics_.add(diagnostic.severity, {mesh.line, 0}, "the mesh: " + diagnostic.message);
+    return data ? std::make_shared<const MeshData>(std::move(*data)) : nullptr;
+  }
+
+  const LoadedFile& from_file(const ObjectItem<Mesh>& mesh) {
+    const FileName& file = mesh.parameters.file;
+    const auto [known, is_new] = files_.try_emplace(file.path);
+    LoadedFile& loaded = known->second;
+    if (!is_new) return loaded;
+    std::optional<MeshData> data = read(file);
+    if (!data) return loaded;
+    if (mesh.material == no_material) {
+      for (const MeshMaterial& material : data->materials) loaded.materials.push_back(add(material));
+      // Faces without a material have the last one.
+      const auto& faces = data->face_materials;
+      if (std::find(faces.begin(), faces.end(), MeshData::no_material) != faces.end())
+        loaded.materials.push_back(grey());
+    }
+    loaded.data = std::make_shared<const MeshData>(std::move(*data));
+    return loaded;
+  }
+
+  std::optional<MeshData> read(const FileName& file) {
+    MeshReadSettings settings;
+    settings.threads = threads_;
+    Diagnostics found(on_one_line(file.path));
+    std::optional<MeshData> data = read_mesh(file.path, settings, found);
+    if (data) {
+      // Once more, less an origin, where floats have too few digits for it.
+      const float* const p = data->positions.data();
+      settings.origin = near_origin({p[0], p[1], p[2]});
+      if (length(settings.origin) > 0) {
+        data.reset();
+        found = Diagnostics(on_one_line(file.path));
+        data = read_mesh(file.path, settings, found);
+      }
+    }
+    const bool is_about_all = found.kept().size() == 1 && found.kept().front().location.line == 0;
+    if (!data && is_about_all && file.line > 0)
+      diagnostics_.error({file.line, file.column}, found.file() + ": " + found.kept().front().message);
+    else
+      diagnostics_.append(found);
+    return data;
+  }
+
+  /// A material of a file as the scene may have it. It keeps its name, if that is free.
+  MaterialReference add(const MeshMaterial& material) {
+    const Rgb<double> black(0, 0, 0), white(1, 1, 1);
+    const Rgb<double> diffuse = material.kd.value_or(white), specular = material.ks.value_or(black);
+    const bool is_glossy =
+        material.illum.value_or(2) >= 2 && std::max({specular.red, specular.green, specular.blue}) > 0;
+    if (!is_glossy) return add<Matte>({1, 1, diffuse}, material.name);
+    return add<Phong>({1, 1, 1, diffuse, specular, std::max(0.0, material.ns.value_or(20))}, material.name);
+  }
+
+  MaterialReference grey() {
+    if (grey_ == no_material) grey_ = add<Matte>({1, 1, {0.5, 0.5, 0.5}}, "grey");
+    return grey_;
+  }
+
+  template <class Material>
+  MaterialReference add(const typename Material::Parameters& parameters, const std::string& usual_name) {
+    std::string name = usual_name;
+    for (int i = 2; !taken_names_.insert(name).second; ++i) name = usual_name + '#' + std::to_string(i);
+    auto& items = std::get<MaterialItems<Material>>(scene_.materials);
+    items.push_back({parameters, name, 0, true});
+    return {static_cast<std::uint32_t>(index_of<Material>(Materials{})), static_cast<std::uint32_t>(items.size() - 1)};
+  }
+
+  SceneDescription& scene_;
+  Diagnostics& diagnostics_;
+  int threads_;
+  std::map<std::string, LoadedFile> files_;
+  std::set<std::string> taken_names_;
+  MaterialReference grey_ = no_material;
+};
+
+}  // namespace
+
+bool load_meshes(SceneDescription& description, Diagnostics& diagnostics, int threads) {
+  const std::size_t errors_before = diagnostics.error_count();
+  MeshLoader(description, diagnostics, threads).load();
+  return diagnostics.error_count() == errors_before;
+}
+
+}  // namespace raytrace

@@ -1,0 +1,94 @@
+#include "raytrace/import/vertex_normals.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+
+#include "raytrace/import/unique_items.h"
+
+namespace raytrace {
+
+namespace {
+
+/// Sums of unit vectors times angles, as integers: in whatever order threads add to them, they are the same.
+class NormalSums {
+ public:
+  explicit NormalSums(std::size_t count) : sums_(LargeArray<std::int64_t>::zeros(3 * count)) {}
+
+  void add(std::size_t i, const Vec3d& normal) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto term = static_cast<std::int64_t>(std::llrint(component(normal, axis) * unit));
+      std::atomic_ref(sums_[3 * i + static_cast<std::size_t>(axis)]).fetch_add(term, std::memory_order_relaxed);
+    }
+  }
+
+  Vec3d operator[](std::size_t i) const {
+    return {static_cast<double>(sums_[3 * i]), static_cast<double>(sums_[3 * i + 1]),
+            static_cast<double>(sums_[3 * i + 2])};
+  }
+
+ private:
+  static constexpr double unit = 0x1p28;  // a vertex may have 2^33 faces
+
+  LargeArray<std::int64_t> sums_;
+};
+
+double angle(const Vec3d& a, const Vec3d& b) { return std::atan2(length(cross(a, b)), dot(a, b)); }
+
+}  // namespace
+
+MeshBuffer<float> vertex_normals(const MeshData& mesh, const float* positions, int threads) {
+  const std::size_t vertices = mesh.vertex_count();
+  const auto bits = [&](std::size_t vertex, std::size_t axis) {
+    return std::bit_cast<std::uint32_t>(positions[3 * vertex + axis] + 0.0F);  // -0 is 0
+  };
+  const UniqueItems unique = unique_items(
+      vertices, threads,
+      [&](std::size_t i) { return mixed_bits(mixed_bits(bits(i, 0) | std::uint64_t{bits(i, 1)} << 32U) + bits(i, 2)); },
+      [&](std::size_t i, std::size_t j) {
+        return bits(i, 0) == bits(j, 0) && bits(i, 1) == bits(j, 1) && bits(i, 2) == bits(j, 2);
+      });
+
+  NormalSums sums(unique.first.size());
+  const auto add_triangle = [&](const std::uint32_t* face, int a, int b, int c) {
+    const std::uint32_t corners[] = {face[a], face[b], face[c]};
+    Vec3d p[3];
+    for (int i = 0; i < 3; ++i) {
+      const float* const position = positions + std::size_t{3} * corners[i];
+      p[i] = Vec3d(position[0], position[1], position[2]);
+    }
+    const Vec3d normal = cross(p[1] - p[0], p[2] - p[0]);
+    const double size = length(normal);
+    if (!(size > 0)) return;
+    for (int i = 0; i < 3; ++i) {
+      const double weight = angle(p[(i + 1) % 3] - p[i], p[(i + 2) % 3] - p[i]);
+      sums.add(unique.number[corners[i]], normal * (weight / size));
+    }
+  };
+  for_each_chunk(mesh.face_count(), threads, [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const std::uint32_t* const face = mesh.indices.data() + static_cast<std::size_t>(mesh.corners) * i;
+      if (mesh.corners == 3) {
+        add_triangle(face, 0, 1, 2);
+      } else {
+        add_triangle(face, 0, 1, 3);
+        add_triangle(face, 2, 3, 1);
+      }
+    }
+  });
+
+  MeshBuffer<float> normals(3 * vertices);
+  for_each_chunk(vertices, threads, [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const Vec3d sum = sums[unique.number[i]];
+      const double size = length(sum);
+      for (int axis = 0; axis < 3; ++axis)
+        normals[3 * i + static_cast<std::size_t>(axis)] =
+            size > 0 ? static_cast<float>(component(sum, axis) / size) : 0.0F;
+    }
+  });
+  return normals;
+}
+
+}  // namespace raytrace

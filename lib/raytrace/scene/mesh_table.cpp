@@ -1,0 +1,104 @@
+#include "raytrace/scene/mesh_table.h"
+
+#include <algorithm>
+
+#include "raytrace/import/vertex_normals.h"
+#include "raytrace/parallel/for_each_index.h"
+
+namespace raytrace {
+
+namespace {
+
+IntN indices_at(const std::uint32_t* indices, const IntN& places) {
+  return gather(reinterpret_cast<const std::int32_t*>(indices), places);
+}
+
+IntN select_vertex(const MaskN& mask, const IntN& a, const IntN& b) { return select_lanes(mask, a, b); }
+
+Vec3<FloatN> vectors_at(const float* values, const IntN& vertex) {
+  const IntN first = vertex * IntN(3);
+  return {gather(values, first), gather(values + 1, first), gather(values + 2, first)};
+}
+
+}  // namespace
+
+MeshTable::MeshTable(const ObjectItem<Mesh>& mesh, const Vec3d& origin, std::span<const std::int32_t> first_materials,
+                     int threads)
+    : data_(mesh.data) {
+  for (const MaterialReference& material : mesh.materials)
+    materials_.push_back(first_materials[material.type] + static_cast<std::int32_t>(material.index));
+
+  const Vec3d move = data_->origin - origin;
+  if (move.x != 0 || move.y != 0 || move.z != 0) {
+    moved_ = MeshBuffer<float>(data_->positions.size());
+    for_each_chunk(vertex_count(), threads, [&](std::size_t, std::size_t first, std::size_t last) {
+      for (std::size_t i = 3 * first; i < 3 * last; ++i)
+        moved_[i] = static_cast<float>(data_->positions[i] + component(move, static_cast<int>(i % 3)));
+    });
+  }
+  if (mesh.parameters.normals.groups.empty() && mesh.parameters.normals.word == Mesh::smooth) {
+    computed_normals_ = vertex_normals(*data_, positions(), threads);
+    normals_ = computed_normals_.data();
+  } else if (!data_->normals.empty() &&
+             (!mesh.parameters.normals.groups.empty() || mesh.parameters.normals.word == Mesh::of_file)) {
+    normals_ = data_->normals.data();
+  }
+  set_bounds(threads);
+}
+
+void MeshTable::set_bounds(int threads) {
+  std::vector<Bounds> chunks(chunk_count(vertex_count()), empty_bounds);
+  for_each_chunk(vertex_count(), threads, [&](std::size_t chunk, std::size_t first, std::size_t last) {
+    Bounds& bounds = chunks[chunk];
+    for (std::size_t i = first; i < last; ++i) bounds = join(bounds, {position(i), position(i)});
+  });
+  for (const Bounds& chunk : chunks) bounds_ = join(bounds_, chunk);
+}
+
+LaneTriangles MeshTable::triangles(const IntN& faces, const Hits& hits) const {
+  const IntN first = faces * IntN(corners());
+  const auto corner = [&](int number) { return indices_at(indices() + number, first); };
+  if (corners() == 3) return {corner(0), corner(1), corner(2), hits.u, hits.v};
+  const MaskN second = hits.u + hits.v > FloatN(1);
+  const IntN corner1 = corner(1), corner3 = corner(3);
+  return {select_vertex(second, corner(2), corner(0)), select_vertex(second, corner3, corner1),
+          select_vertex(second, corner1, corner3), select(second, FloatN(1) - hits.u, hits.u),
+          select(second, FloatN(1) - hits.v, hits.v)};
+}
+
+Kernel<Triangle>::Record<FloatN> MeshTable::records(const LaneTriangles& triangles) const {
+  return {vectors_at(positions(), triangles.vertex1), vectors_at(positions(), triangles.vertex2),
+          vectors_at(positions(), triangles.vertex3)};
+}
+
+Vec3<FloatN> MeshTable::normal(const IntN& vertex) const {
+  const Vec3<FloatN> normal = vectors_at(normals_, vertex);
+  const FloatN scale = inverse_power_of_2(largest_component(normal));  // floats do not hold the squares of all
+  const Vec3<FloatN> scaled = normal * scale;
+  const FloatN squared_length = dot(scaled, scaled);
+  return select(squared_length > FloatN(0), scaled * (FloatN(1) / sqrt(squared_length)), Vec3<FloatN>(Vec3f(0, 0, 0)));
+}
+
+std::optional<std::int32_t> MeshTable::only_material() const {
+  if (data_->face_materials.empty() || materials_.size() == 1) return materials_.front();
+  return std::nullopt;
+}
+
+std::int32_t MeshTable::material(std::size_t face) const {
+  if (const auto material = only_material()) return *material;
+  return materials_[std::min<std::size_t>(data_->face_materials[face], materials_.size() - 1)];
+}
+
+IntN MeshTable::material(const IntN& faces) const {
+  if (const auto material = only_material()) return IntN(*material);
+  // Faces without one have the last, as material() of a single face has it: compared without sign.
+  const UintN number = same_bits<UintN>(indices_at(data_->face_materials.data(), faces));
+  const UintN last(static_cast<std::uint32_t>(materials_.size() - 1));
+  return gather(materials_.data(), same_bits<IntN>(select_lanes(float_mask<FloatN>(number < last), number, last)));
+}
+
+void MeshTable::add_used_materials(std::vector<std::uint8_t>& used) const {
+  for (const std::int32_t material : materials_) used[static_cast<std::size_t>(material)] = 1;
+}
+
+}  // namespace raytrace

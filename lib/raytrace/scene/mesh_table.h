@@ -1,0 +1,78 @@
+// A mesh as the tracer reads it: buffers that Embree shares, and what shading takes from them.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "raytrace/description/scene_description.h"
+#include "raytrace/math/bounds.h"
+#include "raytrace/math/gather.h"
+#include "raytrace/math/ray.h"
+#include "raytrace/math/simd.h"
+#include "raytrace/scene/hits.h"
+#include "raytrace/shapes/kernels.h"
+
+namespace raytrace {
+
+/// One triangle for each lane: a face, or half of one.
+struct LaneTriangles {
+  IntN vertex1, vertex2, vertex3;  ///< in the mesh's buffers
+  FloatN u, v;                     ///< of the lane's hit, as Kernel<Triangle> has them
+};
+
+/// Quads are two triangles: the first with corners 0, 1 and 3, the second with corners 2, 3 and 1. Hits on the second
+/// have 1 - u and 1 - v of its own, as in Embree (doc/src/api/RTC_GEOMETRY_TYPE_QUAD.md).
+class MeshTable {
+ public:
+  /// origin: as GeometryTable's. first_materials: of each material type, the number of its first.
+  MeshTable(const ObjectItem<Mesh>& mesh, const Vec3d& origin, std::span<const std::int32_t> first_materials,
+            int threads);
+
+  const float* positions() const { return moved_.empty() ? data_->positions.data() : moved_.data(); }
+  const std::uint32_t* indices() const { return data_->indices.data(); }
+  std::size_t vertex_count() const { return data_->vertex_count(); }
+  std::size_t face_count() const { return data_->face_count(); }
+  int corners() const { return data_->corners; }
+  const Bounds& bounds() const { return bounds_; }
+
+  /// A face's triangle, or its second where `second`.
+  RAYTRACE_INLINE Kernel<Triangle>::Record<float> triangle(std::size_t face, bool second = false) const {
+    const std::uint32_t* const corner = indices() + static_cast<std::size_t>(corners()) * face;
+    if (corners() == 3) return {position(corner[0]), position(corner[1]), position(corner[2])};
+    if (!second) return {position(corner[0]), position(corner[1]), position(corner[3])};
+    return {position(corner[2]), position(corner[3]), position(corner[1])};
+  }
+
+  /// The triangles of the hits. faces: of each lane, for every lane one that exists.
+  LaneTriangles triangles(const IntN& faces, const Hits& hits) const;
+  Kernel<Triangle>::Record<FloatN> records(const LaneTriangles& triangles) const;
+
+  /// Whether it has normals at vertices.
+  bool is_smooth() const { return normals_ != nullptr; }
+  /// At those of the lanes: unit length, or 0 0 0 where a vertex has none.
+  Vec3<FloatN> normal(const IntN& vertex) const;
+
+  /// Of all faces; none if they differ.
+  std::optional<std::int32_t> only_material() const;
+  IntN material(const IntN& faces) const;
+  std::int32_t material(std::size_t face) const;
+  /// 1 in those that it has.
+  void add_used_materials(std::vector<std::uint8_t>& used) const;
+
+ private:
+  Vec3f position(std::size_t vertex) const {
+    const float* const p = positions() + 3 * vertex;
+    return {p[0], p[1], p[2]};
+  }
+  void set_bounds(int threads);
+
+  std::shared_ptr<const MeshData> data_;
+  MeshBuffer<float> moved_;  ///< positions, if they are not the data's
+  MeshBuffer<float> computed_normals_;
+  const float* normals_ = nullptr;
+  std::vector<std::int32_t> materials_;  ///< the numbers of those of the data
+  Bounds bounds_ = empty_bounds;
+};
+
+}  // namespace raytrace

@@ -1,0 +1,51 @@
+// A mesh of triangles or quads, from a file or from the scene itself.
+//
+//   <mesh>
+//     <file>bunny.ply</file> <normals>smooth</normals>
+//     <material>clay</material>
+//   </mesh>
+//
+//   <mesh>
+//     <positions>0 0 0, 1 0 0, 1 1 0, 0 1 0</positions> <faces>0 1 2 3</faces>
+//     <material>clay</material>
+//   </mesh>
+#pragma once
+
+#include "raytrace/parameters/fields.h"
+
+namespace raytrace {
+
+class Mesh {
+ public:
+  /// Which normals it is shaded with.
+  enum Normals : std::size_t {
+    of_file,  ///< those that it has, at vertices; faces where it has none
+    smooth,   ///< at vertices, the mean of the normals of the faces there, by their angles
+    flat,     ///< of faces
+  };
+  static constexpr std::array<std::string_view, 3> normals_words = {"file", "smooth", "flat"};
+
+  struct Parameters {
+    FileName file;           ///< .ply, .obj or .stl (import/read_mesh.h); or, in place of it:
+    NumberGroups positions;  ///< x y z of each vertex
+    NumberGroups faces;      ///< the vertices of each, from 0, counter-clockwise as its front shows them (face_ends())
+    WordOrGroups normals{normals_words};  ///< one of the words, or x y z of each vertex
+    NumberGroups uvs;                     ///< u v of each vertex; (0, 0) is the lower left of an image
+  };
+  static constexpr std::string_view group = "meshes";
+  static constexpr std::string_view element = "mesh";
+  static constexpr bool may_lack_material = true;  ///< then it has those of its file
+  static Fields<Parameters> fields() {
+    return {optional("file", &Parameters::file), optional("positions", &Parameters::positions),
+            optional("faces", &Parameters::faces), optional("normals", &Parameters::normals),
+            optional("uvs", &Parameters::uvs)};
+  }
+
+  static std::optional<ParameterDiagnostic> check(const Parameters& parameters);
+
+  /// Where each face ends among its corners: without commas, those of triangles, or of one face if their number is no
+  /// multiple of 3.
+  static std::vector<std::uint32_t> face_ends(const NumberGroups& faces);
+};
+
+}  // namespace raytrace
