@@ -41,13 +41,13 @@ SPHERE = """\
 """
 
 
-def write(name, comment, room=ROOM, lights=LIGHTS, mattes=CLAY, phongs="", floor=FLOOR, objects=SPHERE):
+def write(name, comment, room=ROOM, lights=LIGHTS, mattes=CLAY, phongs="", floor=FLOOR, objects=SPHERE, groups=""):
     materials = f"    <mattes>\n{FLOOR_MATERIAL}{mattes}    </mattes>\n"
     if phongs:
         materials += f"    <phongs>\n{phongs}    </phongs>\n"
     text = (
         f"<!-- {comment} -->\n<raytracer>\n{room}{lights}  <materials>\n{materials}  </materials>\n"
-        f"  <objects>\n{floor}{objects}  </objects>\n</raytracer>\n"
+        f"  <objects>\n{floor}{objects}  </objects>\n{groups}</raytracer>\n"
     )
     with open(os.path.join(HERE, name + ".xml"), "w", encoding="utf-8", newline="\n") as file:
         file.write(text)
@@ -175,6 +175,95 @@ shape(
         <material>glossy</material>
       </rectangle>
     </rectangles>
+""",
+)
+
+
+
+def knot(normals):
+    """A trefoil knot: a tube of quads."""
+    rings, sides, tube = 60, 8, 0.28
+    center = lambda t: (
+        0.42 * (math.sin(t) + 2 * math.sin(2 * t)), 0.42 * (math.cos(t) - 2 * math.cos(2 * t)), -0.5 * math.sin(3 * t))
+    cross = lambda a, b: (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+    def unit(a):
+        size = math.sqrt(sum(c * c for c in a))
+        return tuple(c / size for c in a)
+
+    positions, faces = [], []
+    for ring in range(rings):
+        t = 2 * math.pi * ring / rings
+        at, ahead = center(t), center(t + 1e-4)
+        along = unit([b - a for a, b in zip(at, ahead)])
+        side = unit(cross(along, (0.3, 0.4, 1)))
+        up = cross(side, along)
+        for i in range(sides):
+            angle = 2 * math.pi * i / sides
+            x = [c + tube * (math.cos(angle) * s + math.sin(angle) * u) for c, s, u in zip(at, side, up)]
+            positions.append(f"{x[0]:.4f} {x[1] + 1.45:.4f} {x[2]:.4f}")
+            j, next_ring = (i + 1) % sides, (ring + 1) % rings
+            faces.append(f"{ring * sides + i} {ring * sides + j} {next_ring * sides + j} {next_ring * sides + i}")
+    lines = lambda items: ",\n".join("          " + ", ".join(items[i : i + 5]) for i in range(0, len(items), 5))
+    return f"""\
+    <meshes>
+      <mesh>
+        <positions>
+{lines(positions)}
+        </positions>
+        <faces>
+{lines(faces)}
+        </faces>
+        <normals>{normals}</normals> <material>glossy</material>
+      </mesh>
+    </meshes>
+"""
+
+
+shape("mesh-flat", "A knot of 480 quads with the normals of its faces.", knot("flat"))
+shape("mesh-smooth", "The same knot with smooth normals.", knot("smooth"))
+pawns = "".join(
+    f"""\
+      <instance>
+        <group>pawn</group> <transform> <scale x="{size}" y="{height}" z="{size}"/> <translate x="{x}" y="0" z="{z}"/> </transform>
+      </instance>
+"""
+    for x, z, size, height in (
+        (-2, 1.6, 0.8, 0.8), (-0.7, 1.2, 0.8, 1.2), (0.7, 1.6, 0.8, 0.8), (2, 1.2, 0.8, 1), (-2.6, -0.6, 1, 1.6),
+        (-0.9, -1, 1, 1), (0.9, -0.6, 1, 1.6), (2.6, -1, 1, 1))
+)
+write(
+    "instances",
+    "Eight instances of a pawn, stretched: its sphere becomes an ellipsoid.",
+    mattes="",
+    phongs=GLOSSY,
+    objects=f"    <instances>\n{pawns}    </instances>\n",
+    groups="""\
+  <groups>
+    <group>
+      <name>pawn</name>
+      <objects>
+        <spheres>
+          <sphere> <center x="0" y="1.3" z="0"/> <radius>0.3</radius> <material>glossy</material> </sphere>
+        </spheres>
+        <cylinders>
+          <cylinder>
+            <bottom x="0" y="0" z="0"/> <top x="0" y="1.1" z="0"/> <radius>0.2</radius> <material>glossy</material>
+          </cylinder>
+        </cylinders>
+        <toruses>
+          <torus>
+            <center x="0" y="0.15" z="0"/> <sweptradius>0.3</sweptradius> <tuberadius>0.15</tuberadius>
+            <material>glossy</material>
+          </torus>
+          <torus>
+            <center x="0" y="1" z="0"/> <sweptradius>0.2</sweptradius> <tuberadius>0.08</tuberadius>
+            <material>glossy</material>
+          </torus>
+        </toruses>
+      </objects>
+    </group>
+  </groups>
 """,
 )
 

@@ -35,6 +35,20 @@ void randomize(Random& random, Range range, int& value) {
 }
 void randomize(Random& random, Range, bool& value) { value = below(random, 2) == 0; }
 void randomize(Random& random, Range, const ChoiceReference& value) { value.set(below(random, value.words().size())); }
+void randomize(Random& random, Range, FileName& value) {
+  value.path = below(random, 2) == 0 ? "" : "models/" + random_name(random) + ".ply";
+}
+void randomize(Random& random, Range, NumberGroups& value) {
+  // Such as a mesh takes for positions, faces, normals and uvs.
+  value = {};
+  if (below(random, 2) == 0) return;
+  for (std::size_t i = 0; i < 9; ++i) value.numbers.push_back(static_cast<double>(below(random, 3)));
+  value.ends = below(random, 2) == 0 ? std::vector<std::uint32_t>{9} : std::vector<std::uint32_t>{3, 9};
+}
+void randomize(Random& random, Range range, WordOrGroups& value) {
+  value.word = below(random, value.words.size());
+  randomize(random, range, value.groups);
+}
 void randomize(Random& random, Range range, Vec3d& value) {
   const Range each = range == Range::nonzero ? Range::any : range;
   value = {random_number(random, each), random_number(random, each),
@@ -67,6 +81,9 @@ bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::b
 bool same(int a, int b) { return a == b; }
 bool same(bool a, bool b) { return a == b; }
 bool same(const ChoiceReference& a, const ChoiceReference& b) { return a.index() == b.index(); }
+bool same(const FileName& a, const FileName& b) { return a == b; }
+bool same(const NumberGroups& a, const NumberGroups& b) { return a == b; }
+bool same(const WordOrGroups& a, const WordOrGroups& b) { return a == b; }
 bool same(const Vec3d& a, const Vec3d& b) { return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z); }
 bool same(const Rgb<double>& a, const Rgb<double>& b) {
   return same(a.red, b.red) && same(a.green, b.green) && same(a.blue, b.blue);
@@ -137,7 +154,7 @@ SceneDescription random_description(Random& random) {
   });
   if (materials.empty()) return scene;
   int named = 0;
-  for_each_type(Shapes{}, [&]<class T>(std::type_identity<T>) {
+  for_each_type(Objects{}, [&]<class T>(std::type_identity<T>) {
     for (std::size_t i = below(random, 8); i > 0; --i) {
       const std::string name = below(random, 2) == 0 ? "" : random_name(random) + std::to_string(++named);
       std::get<ObjectItems<T>>(scene.objects)
@@ -154,7 +171,7 @@ bool same_scene(const SceneDescription& a, const SceneDescription& b) {
          same_items(Lights{}, a.lights, b.lights, [](const auto&, const auto&) { return true; }) &&
          same_items(Materials{}, a.materials, b.materials,
                     [](const auto& x, const auto& y) { return x.name == y.name; }) &&
-         same_items(Shapes{}, a.objects, b.objects, [](const auto& x, const auto& y) {
+         same_items(Objects{}, a.objects, b.objects, [](const auto& x, const auto& y) {
            return x.name == y.name && x.material.type == y.material.type && x.material.index == y.material.index;
          });
 }

@@ -16,6 +16,12 @@ void change(double& value) { value += value == 0 ? 1 : value; }
 void change(int& value) { ++value; }
 void change(bool& value) { value = !value; }
 void change(std::string& value) { value += "x"; }
+void change(FileName& value) { value.path += "x"; }
+void change(NumberGroups& value) {
+  value.numbers.push_back(1);
+  value.ends.push_back(static_cast<std::uint32_t>(value.numbers.size()));
+}
+void change(WordOrGroups& value) { change(value.groups); }
 
 /// Calls changed() after each change of a number, alone; it is undone then.
 template <class Value, class Changed>
@@ -75,7 +81,7 @@ void change_everything(SceneDescription& scene, const Changed& changed) {
       change_each(material.name, changed);
     }
   });
-  for_each_type(Shapes{}, [&]<class T>(std::type_identity<T>) {
+  for_each_type(Objects{}, [&]<class T>(std::type_identity<T>) {
     auto& objects = std::get<ObjectItems<T>>(scene.objects);
     for (auto& object : objects) {
       change_fields<T>(object.parameters, changed);

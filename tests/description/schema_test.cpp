@@ -147,7 +147,7 @@ TEST_CASE("the schema has an element for each field and each part of the frame",
   for_each_type(Cameras{}, check_fields);
   for_each_type(Lights{}, check_fields);
   for_each_type(Materials{}, check_fields);
-  for_each_type(Shapes{}, check_fields);
+  for_each_type(Objects{}, check_fields);
 }
 
 TEST_CASE("every scene of the repository is valid and accepted", "[schema]") {

@@ -46,6 +46,11 @@ embree::Geometry make_mesh_geometry(RTCDevice device, const MeshTable& mesh) {
   return geometry;
 }
 
+void attach(const embree::Scene& scene, const embree::Geometry& geometry, std::size_t index) {
+  rtcCommitGeometry(geometry.get());
+  rtcAttachGeometryByID(scene.get(), geometry.get(), static_cast<unsigned>(index));
+}
+
 template <class Shape>
 BoundedObject placed_object(const typename ShapeTable<Shape>::Record& record, std::uint32_t primitive) {
   const Bounds bounds = Kernel<Shape>::bounds(record);
@@ -94,42 +99,60 @@ Accelerator::Accelerator(const GeometryTable& table, int threads, const char* is
   rtcSetDeviceErrorFunction(device_.get(), &Report::on_error, report_.get());
   rtcSetDeviceMemoryMonitorFunction(device_.get(), &Report::on_memory, report_.get());
 
-  scene_.reset(rtcNewScene(device_.get()));
-  rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_MEDIUM);
-  rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);  // no misses at box borders far from the origin
-  const auto attach = [&](const embree::Geometry& geometry, std::size_t index) {
-    rtcCommitGeometry(geometry.get());
-    rtcAttachGeometryByID(scene_.get(), geometry.get(), static_cast<unsigned>(index));
-  };
-  for_each_type(Shapes{}, [&](auto type) {
-    using Shape = typename decltype(type)::type;
-    constexpr std::size_t index = index_of<Shape>(Shapes{});
+  scene_ = make_scene(table, instance_callbacks_.world_shapes);
+  for_each_type(Shapes{}, [&]<class Shape>(std::type_identity<Shape>) {
     const std::span records(table.table<Shape>().records);
-    records_in_memory_[index] = {std::as_bytes(records).data(), sizeof(typename ShapeTable<Shape>::Record)};
+    records_in_memory_[index_of<Shape>(Shapes{})] = {std::as_bytes(records).data(),
+                                                     sizeof(typename ShapeTable<Shape>::Record)};
+  });
+  if (!table.instances().empty()) add_instances();
+  report_->throw_error();
+}
+
+embree::Scene Accelerator::make_scene(const GeometryTable& table, InstanceCallbacks::Shapes& shapes) const {
+  embree::Scene scene(rtcNewScene(device_.get()));
+  rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_MEDIUM);
+  rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);  // no misses at box borders far from the origin
+  for_each_type(Shapes{}, [&]<class Shape>(std::type_identity<Shape>) {
     if constexpr (!UnboundedShape<Shape>) {
-      if (records.empty()) return;
+      constexpr std::size_t index = index_of<Shape>(Shapes{});
+      const ShapeTable<Shape>& objects = table.table<Shape>();
+      shapes[index] = shape_callbacks(objects);
+      if (objects.records.empty()) return;
       embree::Geometry geometry;
       if constexpr (UserGeometry<Shape>) {
         geometry.reset(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER));
       } else {
-        geometry = make_triangles<Shape>(device_.get(), records);
+        geometry = make_triangles<Shape>(device_.get(), objects.records);
       }
-      set_callbacks<Shape>(geometry.get(), records);
-      attach(geometry, index);
+      set_callbacks(geometry.get(), objects);
+      attach(scene, geometry, index);
     }
   });
   for (std::size_t i = Shapes::size; i < table.geometries().size(); ++i) {
     const MeshTable& mesh = *table.geometries()[i].mesh;
     const embree::Geometry geometry = make_mesh_geometry(device_.get(), mesh);
     set_callbacks(geometry.get(), mesh);
-    attach(geometry, i);
+    attach(scene, geometry, i);
   }
-  report_->throw_error();
+  return scene;
+}
+
+void Accelerator::add_instances() {
+  instance_callbacks_.instances = &table_.instances();
+  for (const auto& group : table_.groups()) {
+    group_scenes_.push_back(make_scene(*group, instance_callbacks_.group_shapes.emplace_back()));
+    instance_callbacks_.groups.push_back(group_scenes_.back().get());
+  }
+  const embree::Geometry geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER));
+  set_callbacks(geometry.get(), instance_callbacks_);
+  attach(scene_, geometry, table_.geometries().size());
 }
 
 Accelerator::~Accelerator() = default;
 
 void Accelerator::build() const {
+  for (const embree::Scene& group : group_scenes_) rtcCommitScene(group.get());
   rtcCommitScene(scene_.get());
   report_->throw_error();
   is_built_.store(true, std::memory_order_release);

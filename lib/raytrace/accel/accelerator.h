@@ -15,6 +15,7 @@
 #include "raytrace/accel/callbacks.h"
 #include "raytrace/accel/direction_buffer.h"
 #include "raytrace/accel/embree.h"
+#include "raytrace/accel/instance_callbacks.h"
 #include "raytrace/scene/scene_tables.h"
 
 namespace raytrace {
@@ -80,12 +81,19 @@ class Accelerator {
     std::size_t record_size = 0;
   };
 
+  /// A scene of a table's own objects, without instances. shapes: receives their callbacks.
+  embree::Scene make_scene(const GeometryTable& table, InstanceCallbacks::Shapes& shapes) const;
+  void add_instances();
   void build() const;
   /// Asks for the memory of an object's record, without waiting for it.
   RAYTRACE_INLINE void fetch_record(const DirectionBuffer::Object& object) const {
     const RecordsInMemory& records = records_in_memory_[object.shape_type];
     __builtin_prefetch(records.first + object.primitive * records.record_size);
   }
+  /// The rays of lanes that hit instances, before the instances' transforms.
+  Ray<FloatN> in_instances(const Ray<FloatN>& rays, const Hits& hits) const;
+  /// And the way back, of what was hit.
+  void to_world(const Hits& hits, SurfaceInteraction<FloatN>& surface) const;
   // Those of candidates return the lanes that are left to Embree. distance: of the hits so far, or where the rays end;
   // rays.far: as far as they are followed.
   void intersect_bvh(const Ray<FloatN>& rays, const MaskN& active, Coherence coherence, FloatN& distance,
@@ -99,6 +107,8 @@ class Accelerator {
   const GeometryTable& table_;
   std::array<RecordsInMemory, Shapes::size> records_in_memory_;  ///< of each table
   embree::Device device_;
+  std::vector<embree::Scene> group_scenes_;
+  InstanceCallbacks instance_callbacks_;
   embree::Scene scene_;
   mutable std::atomic<bool> is_built_{false};
 };

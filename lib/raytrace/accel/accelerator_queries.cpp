@@ -75,8 +75,8 @@ RAYTRACE_INLINE void intersect_object(const typename ShapeTable<Shape>::Record& 
   }
   constexpr auto geometry = static_cast<std::uint32_t>(index_of<Shape>(Shapes{}));
   Hits& hits = nearest.hits;
-  const MaskN hit = comes_first<FloatN>(t, geometry, primitive, nearest.distance, [&]() RAYTRACE_INLINE_LAMBDA {
-    return std::pair(hits.geometry, same_bits<UintN>(hits.primitive));
+  const MaskN hit = comes_first<FloatN>(t, {0, geometry, primitive}, nearest.distance, [&]() RAYTRACE_INLINE_LAMBDA {
+    return HitIds<UintN>{UintN(0u), hits.geometry, same_bits<UintN>(hits.primitive)};
   });
   if (none(hit)) return;
   nearest.distance = select(hit, t, nearest.distance);
@@ -201,7 +201,7 @@ void set_surface(const MeshTable& mesh, const IntN& faces, const Ray<FloatN>& ra
 Hits Accelerator::intersect_unbounded(Ray<FloatN>& rays, const MaskN& active) const {
   Hits hits;
   hits.hit = MaskN(false);
-  hits.instance = UintN(Hits::no_instance);
+  hits.instance = UintN(0u);
   hits.geometry = UintN(RTC_INVALID_GEOMETRY_ID);
   hits.primitive = IntN(0);
   hits.u = hits.v = FloatN(0);
@@ -292,6 +292,7 @@ void Accelerator::intersect_bvh(const Ray<FloatN>& rays, const MaskN& active, Co
   distance.store_aligned(nearest.distance);
   hits.geometry.store_aligned(nearest.geometry);
   same_bits<UintN>(hits.primitive).store_aligned(nearest.primitive);
+  hits.instance.store_aligned(nearest.instance);
   if (coherence == Coherence::coherent) {
     const embree::ValidLanes valid(active);
     embree::for_each_packet(
@@ -312,6 +313,7 @@ void Accelerator::intersect_bvh(const Ray<FloatN>& rays, const MaskN& active, Co
   distance = FloatN::load_aligned(nearest.distance);
   hits.geometry = UintN::load_aligned(nearest.geometry);
   hits.primitive = same_bits<IntN>(UintN::load_aligned(nearest.primitive));
+  hits.instance = UintN::load_aligned(nearest.instance);
   hits.hit = hits.hit | (active & float_mask<FloatN>(hits.geometry != UintN(embree::NearestHits::none)));
   hits.u = embree::load<FloatN>([&](int i) { return packets[i].hit.u; });
   hits.v = embree::load<FloatN>([&](int i) { return packets[i].hit.v; });
@@ -349,29 +351,29 @@ MaskN Accelerator::occluded(const Ray<FloatN>& rays, const MaskN& active, Cohere
 
 SurfaceInteraction<FloatN> Accelerator::surface(const Ray<FloatN>& rays, const Hits& hits) const {
   SurfaceInteraction<FloatN> result;
-  const auto set = [&](std::uint32_t geometry, const LaneIndices& primitive, SurfaceInteraction<FloatN>& surface) {
-    if (const MeshTable* const mesh = table_.geometry(geometry).mesh; mesh != nullptr) {
-      set_surface(*mesh, primitive.lanes(), rays, hits, surface);
+  const auto set = [&](const GeometryTable& table, std::uint32_t geometry, const LaneIndices& primitive,
+                       const Ray<FloatN>& local_rays, SurfaceInteraction<FloatN>& surface) {
+    if (const MeshTable* const mesh = table.geometry(geometry).mesh; mesh != nullptr) {
+      set_surface(*mesh, primitive.lanes(), local_rays, hits, surface);
       return;
     }
     with_type(Shapes{}, geometry, [&]<class Shape>(std::type_identity<Shape>) {
-      set_surface<Shape>(table_.table<Shape>(), primitive, rays, hits, surface);
+      set_surface<Shape>(table.table<Shape>(), primitive, local_rays, hits, surface);
     });
   };
   if (hits.one_primitive) {
-    set(hits.first_geometry, LaneIndices(hits.first_primitive), result);
+    set(table_, hits.first_geometry, LaneIndices(hits.first_primitive), rays, result);
   } else {
     SurfaceInteraction<FloatN> other{};
     result = {};
-    for (MaskN left = hits.hit; any(left);) {
-      const auto first = static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(left)));
-      const std::uint32_t geometry = hits.geometry.get(first);
-      const MaskN here = left & float_mask<FloatN>(hits.geometry == UintN(geometry));
-      left = left & !here;
+    Ray<FloatN> local_rays = rays;
+    if (hits.in_instances) local_rays = in_instances(rays, hits);
+    table_.for_each_geometry(hits, [&](const GeometryTable& table, std::uint32_t geometry, const MaskN& here) {
       // The other lanes follow the first of these, so that they read a record that exists, and no further ones.
+      const auto first = static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(here)));
       const IntN primitive = select_lanes(here, hits.primitive, IntN(hits.primitive.get(first)));
       other.is_smooth = false;
-      set(geometry, primitive, other);
+      set(table, geometry, primitive, local_rays, other);
       if (other.is_smooth) {
         if (!result.is_smooth) {
           result.ns = Vec3<FloatN>(Vec3f(0, 0, 0));  // 0: the lane has none
@@ -384,7 +386,8 @@ SurfaceInteraction<FloatN> Accelerator::surface(const Ray<FloatN>& rays, const H
       result.p = select(here, other.p, result.p);
       result.ng = select(here, other.ng, result.ng);
       result.error = select(here, other.error, result.error);
-    }
+    });
+    if (hits.in_instances) to_world(hits, result);
   }
   result.ng = select(dot(result.ng, rays.direction) > FloatN(0), -result.ng, result.ng);
   if (result.is_smooth) {
@@ -395,6 +398,48 @@ SurfaceInteraction<FloatN> Accelerator::surface(const Ray<FloatN>& rays, const H
   }
   result.wo = -rays.direction;
   return result;
+}
+
+Ray<FloatN> Accelerator::in_instances(const Ray<FloatN>& rays, const Hits& hits) const {
+  const MaskN inside = hits.hit & float_mask<FloatN>(hits.instance != UintN(0u));
+  const auto affine = table_.instances().object_from_world(select_lanes(inside, hits.instance, UintN(0u)));
+  Ray<FloatN> local = rays;
+  local.origin = select(inside, apply_point(affine, rays.origin), rays.origin);
+  local.direction = select(inside, apply_vector(affine, rays.direction), rays.direction);
+  return local;
+}
+
+void Accelerator::to_world(const Hits& hits, SurfaceInteraction<FloatN>& surface) const {
+  const MaskN inside = hits.hit & float_mask<FloatN>(hits.instance != UintN(0u));
+  const UintN number = select_lanes(inside, hits.instance, UintN(0u));
+  const auto world_from_object = table_.instances().world_from_object(number);
+  const auto object_from_world = table_.instances().object_from_world(number);
+  // The transpose of the inverse. Of any scale, so that squares neither overflow nor vanish.
+  const auto turned = [&](const Vec3<FloatN>& n) {
+    const Vec3<FloatN> normal{dot(object_from_world.x, n), dot(object_from_world.y, n), dot(object_from_world.z, n)};
+    const Vec3<FloatN> scaled = normal * inverse_power_of_2(largest_component(normal));
+    const FloatN squared_length = dot(scaled, scaled);
+    return select(squared_length > FloatN(0), scaled * (FloatN(1) / sqrt(squared_length)), scaled);
+  };
+  const auto size = [](const AffineRecord<FloatN>& affine) {
+    return abs(affine.x.x) + abs(affine.x.y) + abs(affine.x.z) + abs(affine.y.x) + abs(affine.y.y) + abs(affine.y.z) +
+           abs(affine.z.x) + abs(affine.z.y) + abs(affine.z.z);
+  };
+  const Vec3<FloatN> p = apply_point(world_from_object, surface.p);
+  // The surface's own error, and the roundings of the point and of rays that come to it, on either side of the maps.
+  const FloatN scale = size(world_from_object);
+  const FloatN stretch = scale * size(object_from_world);
+  const FloatN reach = largest_component(p) + largest_component(world_from_object.origin);
+  const FloatN error = scale * surface.error + scale * largest_component(surface.p) * FloatN(0x1p-22F) +
+                       reach * stretch * FloatN(0x1p-23F);
+  surface.ng = select(inside, turned(surface.ng), surface.ng);
+  if (surface.is_smooth) {
+    surface.ns = select(inside, turned(surface.ns), surface.ns);
+    surface.to_smooth_surface =
+        select(inside, apply_vector(world_from_object, surface.to_smooth_surface), surface.to_smooth_surface);
+  }
+  surface.p = select(inside, p, surface.p);
+  surface.error = select(inside, error, surface.error);
 }
 
 }  // namespace raytrace

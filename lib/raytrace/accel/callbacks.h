@@ -59,18 +59,29 @@ RAYTRACE_INLINE F behind(const F& distance) {
   return distance * F(1 + 0x1p-14F);
 }
 
-/// Whether a hit at t, which may be infinite for none, comes before the one at `nearest` whose geometry and primitive
-/// ids() returns, as a pair. Where it has none, nearest is where the ray ends.
-template <class F, class Ids>
-RAYTRACE_INLINE Mask<F> comes_first(const F& t, std::uint32_t geometry, std::uint32_t primitive, const F& nearest,
-                                    const Ids& ids) {
+/// Of a hit, or of one for each lane: what decides at equal distances, the first number first.
+template <class T>
+struct HitIds {
+  T instance, geometry, primitive;
+};
+
+/// Whether a hit at t, which may be infinite for none, comes before the one at `nearest` whose ids nearest_ids()
+/// returns. Where it has none, nearest is where the ray ends.
+template <class F, class NearestIds>
+RAYTRACE_INLINE Mask<F> comes_first(const F& t, const HitIds<std::uint32_t>& ids, const F& nearest,
+                                    const NearestIds& nearest_ids) {
   const Mask<F> nearer = t < nearest, tie = (t == nearest) & (t < infinity<F>());
   if (none(tie)) return nearer;
-  const auto [nearest_geometry, nearest_primitive] = ids();
-  const Uints<F> g(geometry), p(primitive), nothing(embree::NearestHits::none);
+  const HitIds<Uints<F>> other = nearest_ids();
+  // Single shapes count as the world's.
+  const Uints<F> instance((ids.instance & InstanceTable::shape_of_world) != 0 ? 0 : ids.instance);
+  const Mask<F> is_shape = float_mask<F>(same_bits<Ints<F>>(other.instance) < Ints<F>(0));
+  const auto other_instance = same_bits<Uints<F>>(select(is_shape, F(0), same_bits<F>(other.instance)));
+  const Uints<F> g(ids.geometry), p(ids.primitive), nothing(embree::NearestHits::none);
   const auto first =
-      ((g < nearest_geometry) & (nearest_geometry != nothing)) | ((g == nearest_geometry) & (p < nearest_primitive));
-  return nearer | (tie & float_mask<F>(first));
+      (instance < other_instance) |
+      ((instance == other_instance) & ((g < other.geometry) | ((g == other.geometry) & (p < other.primitive))));
+  return nearer | (tie & float_mask<F>(first & (other.geometry != nothing)));
 }
 
 namespace detail {
@@ -152,22 +163,26 @@ struct CallbackRays {
 
   /// Keeps the hits at t, in the lanes of the mask, that come before those so far. The result: their lanes.
   Mask<F> keep(const Mask<F>& mask, const F& t, std::uint32_t geometry, std::uint32_t primitive) {
-    const Mask<F> kept = mask & comes_first<F>(t, geometry, primitive, distance(), [&] {
-                           return std::pair(load_lanes<Uints<F>>(nearest.geometry + id, count),
-                                            load_lanes<Uints<F>>(nearest.primitive + id, count));
+    const std::uint32_t instance = nearest.current_instance;
+    const Mask<F> kept = mask & comes_first<F>(t, {instance, geometry, primitive}, distance(), [&] {
+                           return HitIds<Uints<F>>{load_lanes<Uints<F>>(nearest.instance + id, count),
+                                                   load_lanes<Uints<F>>(nearest.geometry + id, count),
+                                                   load_lanes<Uints<F>>(nearest.primitive + id, count)};
                          });
     if (any(kept)) {
       store_lanes<F>(nearest.distance + id, count, kept, t);
       store_lanes<F>(nearest.geometry + id, count, kept, Uints<F>(geometry));
       store_lanes<F>(nearest.primitive + id, count, kept, Uints<F>(primitive));
+      store_lanes<F>(nearest.instance + id, count, kept, Uints<F>(instance));
     }
     return kept;
   }
 };
 
+/// The user pointer of a shape's geometry is its table.
 template <class Shape>
-const auto& record_of(void* records, unsigned primitive) {
-  return static_cast<const typename ShapeTable<Shape>::Record*>(records)[primitive];
+const auto& record_of(void* table, unsigned primitive) {
+  return static_cast<const ShapeTable<Shape>*>(table)->records[primitive];
 }
 
 template <class Shape>
@@ -219,13 +234,13 @@ RAYTRACE_INLINE void filter_packet(const RTCFilterFunctionNArguments* arguments,
     if ((bits >> lane & 1) == 0) arguments->valid[first + static_cast<unsigned>(lane)] = 0;
 }
 
-/// The triangles of a shape's records. Their user pointer is the first record.
+/// The triangles of a shape's table.
 template <class Shape>
 struct RecordTriangles {
   template <class F>
-  RAYTRACE_INLINE static F intersect(void* records, std::uint32_t primitive, const Ray<F>& rays, const Mask<F>& active,
+  RAYTRACE_INLINE static F intersect(void* table, std::uint32_t primitive, const Ray<F>& rays, const Mask<F>& active,
                                      F& u, F& v) {
-    return Kernel<Shape>::template intersect<F>(record_of<Shape>(records, primitive), rays, active, u, v);
+    return Kernel<Shape>::template intersect<F>(record_of<Shape>(table, primitive), rays, active, u, v);
   }
 };
 
@@ -302,17 +317,22 @@ void callback(const typename Callback::Arguments* arguments) {
   }
 }
 
-template <class Shape>
-void bounds_callback(const RTCBoundsFunctionArguments* arguments) {
-  const auto* records = static_cast<const typename ShapeTable<Shape>::Record*>(arguments->geometryUserPtr);
-  const Bounds bounds = Kernel<Shape>::bounds(records[arguments->primID]);
-  RTCBounds& box = *arguments->bounds_o;
+inline void set_bounds(RTCBounds& box, const Bounds& bounds) {
   box.lower_x = bounds.lower.x;
   box.lower_y = bounds.lower.y;
   box.lower_z = bounds.lower.z;
   box.upper_x = bounds.upper.x;
   box.upper_y = bounds.upper.y;
   box.upper_z = bounds.upper.z;
+}
+
+/// Objects with empty bounds stay out of the BVH.
+template <class Shape>
+void bounds_callback(const RTCBoundsFunctionArguments* arguments) {
+  const auto& table = *static_cast<const ShapeTable<Shape>*>(arguments->geometryUserPtr);
+  const unsigned primitive = arguments->primID;
+  set_bounds(*arguments->bounds_o,
+             table.is_instanced(primitive) ? empty_bounds : Kernel<Shape>::bounds(table.records[primitive]));
 }
 
 }  // namespace detail
@@ -330,14 +350,14 @@ inline void set_callbacks(RTCGeometry geometry, const MeshTable& mesh) {
   set_filters<detail::MeshFaces>(geometry, &mesh);
 }
 
-/// The shape's callbacks, for a geometry of these records, which must outlive it.
+/// The shape's callbacks, for a geometry of its table's objects, which must outlive it.
 template <class Shape>
-void set_callbacks(RTCGeometry geometry, std::span<const typename ShapeTable<Shape>::Record> records) {
+void set_callbacks(RTCGeometry geometry, const ShapeTable<Shape>& table) {
   if constexpr (EmbreeTriangle<Shape>) {
-    set_filters<detail::RecordTriangles<Shape>>(geometry, records.data());
+    set_filters<detail::RecordTriangles<Shape>>(geometry, &table);
   } else {
-    rtcSetGeometryUserData(geometry, const_cast<typename ShapeTable<Shape>::Record*>(records.data()));
-    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(records.size()));
+    rtcSetGeometryUserData(geometry, const_cast<ShapeTable<Shape>*>(&table));
+    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(table.records.size()));
     rtcSetGeometryBoundsFunction(geometry, &detail::bounds_callback<Shape>, nullptr);
     rtcSetGeometryIntersectFunction(geometry, &detail::callback<detail::Intersect<Shape>>);
     rtcSetGeometryOccludedFunction(geometry, &detail::callback<detail::Occlude<Shape>>);

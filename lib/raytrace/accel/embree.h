@@ -36,12 +36,15 @@ struct NearestHits {
   alignas(64) float distance[most_rays];          ///< where a ray ends: at its hit, or what it was given
   alignas(64) std::uint32_t geometry[most_rays];  ///< `none`: it has hit nothing
   alignas(64) std::uint32_t primitive[most_rays];
+  alignas(64) std::uint32_t instance[most_rays];  ///< as InstanceTable numbers them; 0: none
+  std::uint32_t current_instance = 0;             ///< whose scene the query is in
 
   /// Ray `id` ends at `end`, and has hit nothing.
   void start(unsigned id, float end) {
     distance[id] = end;
     geometry[id] = none;
     primitive[id] = 0;
+    instance[id] = 0;
   }
 };
 
@@ -118,6 +121,53 @@ inline void occluded1(RTCScene scene, Query& query, RTCRay& ray) { rtcOccluded1(
     }                                                                                     \
   };
 #endif
+
+/// The same of any size, single rays included, for queries in the callbacks of others, with their context.
+template <int size>
+struct AnyPacket;
+
+#if RTC_VERSION_MAJOR >= 4
+using QueryContext = RTCRayQueryContext;
+#define RAYTRACE_EMBREE_ANY_PACKET(size, suffix, valid_argument)                                                    \
+  template <>                                                                                                       \
+  struct AnyPacket<size> {                                                                                          \
+    using RayHit = RTCRayHit##suffix;                                                                               \
+    using Ray = RTCRay##suffix;                                                                                     \
+    static void intersect([[maybe_unused]] const int* valid, RTCScene scene, QueryContext* context, RayHit& rays) { \
+      RTCIntersectArguments arguments;                                                                              \
+      rtcInitIntersectArguments(&arguments);                                                                        \
+      arguments.context = context;                                                                                  \
+      rtcIntersect##size(valid_argument scene, &rays, &arguments);                                                  \
+    }                                                                                                               \
+    static void occluded([[maybe_unused]] const int* valid, RTCScene scene, QueryContext* context, Ray& rays) {     \
+      RTCOccludedArguments arguments;                                                                               \
+      rtcInitOccludedArguments(&arguments);                                                                         \
+      arguments.context = context;                                                                                  \
+      rtcOccluded##size(valid_argument scene, &rays, &arguments);                                                   \
+    }                                                                                                               \
+  };
+#else
+using QueryContext = RTCIntersectContext;
+#define RAYTRACE_EMBREE_ANY_PACKET(size, suffix, valid_argument)                                                    \
+  template <>                                                                                                       \
+  struct AnyPacket<size> {                                                                                          \
+    using RayHit = RTCRayHit##suffix;                                                                               \
+    using Ray = RTCRay##suffix;                                                                                     \
+    static void intersect([[maybe_unused]] const int* valid, RTCScene scene, QueryContext* context, RayHit& rays) { \
+      rtcIntersect##size(valid_argument scene, context, &rays);                                                     \
+    }                                                                                                               \
+    static void occluded([[maybe_unused]] const int* valid, RTCScene scene, QueryContext* context, Ray& rays) {     \
+      rtcOccluded##size(valid_argument scene, context, &rays);                                                      \
+    }                                                                                                               \
+  };
+#endif
+#define RAYTRACE_EMBREE_VALID valid,
+RAYTRACE_EMBREE_ANY_PACKET(1, , )
+RAYTRACE_EMBREE_ANY_PACKET(4, 4, RAYTRACE_EMBREE_VALID)
+RAYTRACE_EMBREE_ANY_PACKET(8, 8, RAYTRACE_EMBREE_VALID)
+RAYTRACE_EMBREE_ANY_PACKET(16, 16, RAYTRACE_EMBREE_VALID)
+#undef RAYTRACE_EMBREE_ANY_PACKET
+#undef RAYTRACE_EMBREE_VALID
 
 RAYTRACE_EMBREE_PACKET(4)
 RAYTRACE_EMBREE_PACKET(8)

@@ -19,8 +19,8 @@ void TracedScene::make_buffers(int threads) {
   const ViewPlane& viewplane = tables_.viewplane();
   const auto pixels = static_cast<std::uint64_t>(viewplane.hres) * static_cast<std::uint64_t>(viewplane.vres);
   const std::uint64_t affordable = std::min(objects_a_pixel * pixels, most_objects);
-  // They have no meshes, whose faces Embree finds as soon.
-  if (tables_.geometry().has_meshes()) {
+  // They have neither meshes, whose faces Embree finds as soon, nor instances.
+  if (!tables_.geometry().has_shapes_only()) {
     light_buffers_.resize(tables_.lights().size());
     return;
   }

@@ -83,8 +83,12 @@ namespace {
 /// The files that the scene names are not to be written.
 void refuse_to_overwrite(const SceneDescription& description, const RenderJob& job) {
   UsedFiles files;
-  for (const auto& mesh : std::get<ObjectItems<Mesh>>(description.objects))
-    if (!mesh.parameters.file.path.empty()) files.add({"a mesh", mesh.parameters.file.path, false});
+  const auto add_meshes = [&](const ObjectLists& objects) {
+    for (const auto& mesh : std::get<ObjectItems<Mesh>>(objects))
+      if (!mesh.parameters.file.path.empty()) files.add({"a mesh", mesh.parameters.file.path, false});
+  };
+  add_meshes(description.objects);
+  for (const Group& group : description.groups) add_meshes(group.objects);
   for (const std::string& file : job.files()) files.add_or_refuse({"an output", file, true});
 }
 

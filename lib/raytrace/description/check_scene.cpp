@@ -8,8 +8,10 @@
 #include <string_view>
 #include <type_traits>
 
+#include "raytrace/description/check_groups.h"
 #include "raytrace/description/parse_value.h"
 #include "raytrace/description/read_fields.h"
+#include "raytrace/description/read_transform.h"
 #include "raytrace/description/scene_layout.h"
 #include "raytrace/text/message.h"
 
@@ -22,6 +24,23 @@ class SceneChecker {
   explicit SceneChecker(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
   void check(const SceneDescription& scene) {
+    check_groups(scene,
+                 [&](SourceLocation location, const std::string& message) { diagnostics_.error(location, message); });
+    for (const Group& group : scene.groups) {
+      line_ = group.line;
+      item_ = {group_element, static_cast<std::size_t>(&group - scene.groups.data())};
+      check_field("name", group.name, Range::any);
+      for_each_type(Objects{}, [&]<class T>(std::type_identity<T>) {
+        std::size_t i = 0;
+        for (const auto& item : std::get<ObjectItems<T>>(group.objects)) {
+          item_ = {T::element, i++};
+          line_ = item.line;
+          check_references(scene, item);
+          check_parameters<T>(item.parameters, true);
+        }
+      });
+    }
+
     for_each_single(scene,
                     [&]<class T>(std::type_identity<T>, const auto& parameters) { check_single<T>(parameters); });
     for_each_item_type([&]<class Section, class T>(std::type_identity<Section>, std::type_identity<T>) {
@@ -64,10 +83,21 @@ class SceneChecker {
         check_taken<Section>(item.name);
       }
     }
+    check_references(scene, item);
+  }
+
+  template <class Item>
+  void check_references(const SceneDescription& scene, const Item& item) {
+    if constexpr (requires { item.transform; })
+      for (const TransformStep& step : item.transform.steps)
+        if (const OptionalMessage message = check_step(step))
+          error("has a transform whose " + tag(TransformStep::elements[step.type]) + " " + *message);
     if constexpr (requires { item.materials; }) {
       if (item.material != no_material) check_material(scene, item.material);
       if (item.data == nullptr || item.materials.empty()) return error("has not been loaded (load_meshes())");
       for (const MaterialReference& material : item.materials) check_material(scene, material);
+    } else if constexpr (std::is_same_v<Item, ObjectItem<Instance>>) {
+      if (item.material != no_material) check_material(scene, item.material);
     } else if constexpr (requires { item.material; }) {
       check_material(scene, item.material);
     }

@@ -30,7 +30,8 @@ bool read_plain(std::string_view text, Range range, std::size_t component, const
         else if constexpr (std::is_same_v<Target, std::string_view*>)
           return *value = text, !text.empty() && text.front() != ' ' && text.back() != ' ' && !check_label(text);
         else if constexpr (std::is_same_v<Target, FileName*> || std::is_same_v<Target, NumberGroups*> ||
-                           std::is_same_v<Target, WordOrGroups*>)
+                           std::is_same_v<Target, WordOrGroups*> || std::is_same_v<Target, Transform*> ||
+                           std::is_same_v<Target, Reference*>)
           return false;
         else
           return !parse_number(text, range_of_components(range),

@@ -75,7 +75,7 @@ class KeysReader {
     if (!fine_) return false;
     std::vector<Key> keys;
     for (const KeyElement& read : keys_) keys.push_back(read.key);
-    const std::array<double, 3> components = value_at(keys, context_.variables.frame());
+    const std::array<double, 4> components = value_at(keys, context_.variables.frame());
     for (std::size_t i = 0; i < values.size(); ++i) *values[i] = components[i];
     return true;
   }
@@ -163,14 +163,14 @@ class KeysReader {
 
 }  // namespace
 
-std::array<double, 3> value_at(const std::vector<Key>& keys, double frame) {
+std::array<double, 4> value_at(const std::vector<Key>& keys, double frame) {
   const auto next = std::upper_bound(keys.begin(), keys.end(), frame,
                                      [](double wanted, const Key& key) { return wanted < key.frame; });
   if (next == keys.begin()) return keys.front().components;
   if (next == keys.end()) return keys.back().components;
   const auto i = static_cast<std::size_t>(next - keys.begin()) - 1;
-  std::array<double, 3> components{};
-  for (std::size_t component = 0; component < 3; ++component)
+  std::array<double, 4> components{};
+  for (std::size_t component = 0; component < components.size(); ++component)
     components[component] = Curve(keys, component).at(i, frame);
   return components;
 }

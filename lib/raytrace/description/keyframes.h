@@ -26,7 +26,7 @@ struct Choices<Interpolation> {
 
 struct Key {
   double frame = 0;
-  std::array<double, 3> components{};  ///< a number's is the first
+  std::array<double, 4> components{};  ///< a number's is the first
   Interpolation interpolation = Interpolation::linear;
 };
 
@@ -38,7 +38,7 @@ inline constexpr double least_key_distance = 1e-6;
 /// Cubic Hermite interpolation. At a smooth key the slope is the weighted harmonic mean of those of the lines to its
 /// neighbours, or 0 (Fritsch, Butland: A Method for Constructing Local Monotone Piecewise Cubic Interpolants, 1984); at
 /// a linear key it is on each side that of the line.
-std::array<double, 3> value_at(const std::vector<Key>& keys, double frame);
+std::array<double, 4> value_at(const std::vector<Key>& keys, double frame);
 
 /// The attribute of a number's keys, where those of vectors have x, y and z.
 inline constexpr std::string_view number_component = "value";

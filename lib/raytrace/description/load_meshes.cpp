@@ -22,6 +22,8 @@ class MeshLoader {
 
   void load() {
     for (auto& mesh : std::get<ObjectItems<Mesh>>(scene_.objects)) load(mesh);
+    for (Group& group : scene_.groups)
+      for (auto& mesh : std::get<ObjectItems<Mesh>>(group.objects)) load(mesh);
   }
 
  private:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -12,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "raytrace/description/check_groups.h"
 #include "raytrace/description/read_items.h"
 #include "raytrace/parallel/worker_count.h"
 
@@ -46,7 +48,7 @@ class SceneReader {
       if (nearest_name(root.name(), {&root_element, 1}).empty()) return;
     }
     refuse_root_attributes(root);
-    std::vector<Element> object_sections;
+    std::vector<Element> object_sections, group_sections;
     for (Node node = root.first_child(); node; node = node.next()) {
       if (refuse_text(node, root, diagnostics_)) continue;
       const Element child = node.element();
@@ -56,6 +58,8 @@ class SceneReader {
         read_section<MaterialsSection>(child);
       else if (child.name() == ObjectsSection::element)
         object_sections.push_back(child);
+      else if (child.name() == groups_element)
+        group_sections.push_back(child);
       else if (child.name() == ViewPlane::element)
         read_single<ViewPlane>(ViewPlane::element, child, scene_.viewplane);
       else if (child.name() == integrator_element)
@@ -67,6 +71,10 @@ class SceneReader {
     report_taken(MaterialsSection::item, materials_.names);
     for (const Element section : object_sections) read_section<ObjectsSection>(section);
     report_taken(ObjectsSection::item, object_names_);
+    for (const Element section : group_sections) read_groups(section);
+    if (!diagnostics_.has_errors())
+      check_groups(scene_,
+                   [&](SourceLocation location, const std::string& message) { diagnostics_.error(location, message); });
     for (const std::string_view key : {ViewPlane::element, camera_key}) {
       if (firsts_.contains(key)) continue;
       diagnostics_.error(root, [&] { return "the scene has no " + tag(key) + "; add one"; });
@@ -110,6 +118,56 @@ class SceneReader {
     });
   }
 
+  void read_groups(Element section) {
+    refuse_attributes(section, {}, diagnostics_);
+    for (Node node = section.first_child(); node; node = node.next()) {
+      if (refuse_text(node, section, diagnostics_)) continue;
+      if (node.element().name() == group_element)
+        read_group_of_objects(node.element());
+      else
+        refuse_unknown(node.element(), groups_element);
+    }
+  }
+
+  void read_group_of_objects(Element element) {
+    Group group;
+    group.line = element.line();
+    refuse_attributes(element, {}, diagnostics_);
+    objects_ = &group.objects;
+    object_names_ = {};
+    Reference name;
+    for (Node node = element.first_child(); node; node = node.next()) {
+      if (refuse_text(node, element, diagnostics_)) continue;
+      const Element child = node.element();
+      if (child.name() == "name") {
+        if (name.name.empty() && read_value(child, {"name"}, &name, context_)) group.name = name.name;
+      } else if (child.name() == ObjectsSection::element) {
+        read_section<ObjectsSection>(child);
+      } else {
+        refuse_unknown(child, group_element);
+      }
+    }
+    report_taken(ObjectsSection::item, object_names_);
+    objects_ = &scene_.objects;
+    if (!element.child("name"))
+      diagnostics_.error(element, [&] { return "missing <name> in <group>; add <name>...</name>"; });
+    const auto [first, is_first] = group_lines_.try_emplace(group.name, group.line);
+    if (!is_first && !group.name.empty())
+      diagnostics_.error({name.line, name.column}, "the group name " + in_quotes(group.name) +
+                                                       " is taken by the <group> in line " +
+                                                       std::to_string(first->second) + "; choose another");
+    scene_.groups.push_back(std::move(group));
+  }
+
+  /// Of the scene, or of the group at hand.
+  template <class Section, class T>
+  auto& items() {
+    if constexpr (std::is_same_v<Section, ObjectsSection>)
+      return std::get<ObjectItems<T>>(*objects_);
+    else
+      return items_of<Section, T>(scene_);
+  }
+
   template <class Section>
   void read_section(Element section) {
     refuse_attributes(section, {}, diagnostics_);
@@ -145,7 +203,7 @@ class SceneReader {
     // What stands before the first item; that one and the rest are in the chunks.
     for (Node node = group.first_child(); node; node = node.next()) refuse_text(node, group, diagnostics_);
     const std::size_t elements = text_.chunks_of(group.offset()).items;
-    reserve_more(items_of<Section, T>(scene_), elements);
+    reserve_more(items<Section, T>(), elements);
     std::size_t read_elements = 0;
     read_items(
         {text_, context_.variables, group, T::element}, arena_, diagnostics_,
@@ -161,7 +219,7 @@ class SceneReader {
 
   template <class Section, class T>
   void store(typename TypedItemList<Section, T>::Entry& entry, ItemPosition position) {
-    auto& items = items_of<Section, T>(scene_);
+    auto& items = this->items<Section, T>();
     if constexpr (std::is_same_v<Section, MaterialsSection>) {
       // A faulty material keeps its name, so that the objects that use it are not reported too.
       materials_.complete = materials_.complete && !entry.item.name.empty();
@@ -254,7 +312,9 @@ class SceneReader {
   SceneDescription scene_;
   std::map<std::string_view, Element> firsts_;  // by key; false for what was meant by an element that was refused
   NamedMaterials materials_;
-  NameTable object_names_;
+  NameTable object_names_;                  // of the scene, or of the group at hand
+  ObjectLists* objects_ = &scene_.objects;  // likewise
+  std::map<std::string, std::uint32_t> group_lines_;
 };
 
 void report_unused(const Variables& variables, Diagnostics& diagnostics) {
@@ -263,12 +323,12 @@ void report_unused(const Variables& variables, Diagnostics& diagnostics) {
   }
 }
 
-std::optional<SceneDescription> read_scene(TextBuffer text, Diagnostics& diagnostics, int threads,
-                                           const SceneSettings& settings) {
+std::optional<SceneDescription> read_scene(TextBuffer text, const std::string& file, Diagnostics& diagnostics,
+                                           int threads, const SceneSettings& settings) {
   const SceneText scene_text(std::move(text), group_elements(), threads, diagnostics);
   if (!scene_text.well_formed()) return std::nullopt;
   const Variables variables(settings);
-  const ReadContext context{variables, diagnostics};
+  const ReadContext context{variables, diagnostics, std::filesystem::path(file).parent_path().string()};
   SceneReader reader(scene_text, context, threads);
   reader.read();
   // Where there are errors, not all that stands in the scene has been read.
@@ -281,14 +341,14 @@ std::optional<SceneDescription> read_scene(TextBuffer text, Diagnostics& diagnos
 
 std::optional<SceneDescription> parse_scene(std::string_view text, Diagnostics& diagnostics, int threads,
                                             const SceneSettings& settings) {
-  return read_scene(TextBuffer(text), diagnostics, threads, settings);
+  return read_scene(TextBuffer(text), {}, diagnostics, threads, settings);
 }
 
 std::optional<SceneDescription> load_scene(const std::string& file, Diagnostics& diagnostics, int threads,
                                            const SceneSettings& settings) {
   std::optional<TextBuffer> text = read_text_file(file, threads, diagnostics);
   if (!text) return std::nullopt;
-  std::optional<SceneDescription> scene = read_scene(std::move(*text), diagnostics, threads, settings);
+  std::optional<SceneDescription> scene = read_scene(std::move(*text), file, diagnostics, threads, settings);
   if (scene) scene->file = file;
   return scene;
 }

@@ -43,6 +43,7 @@ OptionalMessage check_value(const ChoiceReference& choice, Range range);
 OptionalMessage check_value(const std::string& value, Range range);  ///< a name
 OptionalMessage check_value(const FileName& value, Range range);
 OptionalMessage check_value(const NumberGroups& value, Range range);
+inline OptionalMessage check_value(const Reference& value, Range range) { return check_value(value.name, range); }
 OptionalMessage check_value(const WordOrGroups& value, Range range);
 
 /// Of a text that XML allows and that has no white space at its ends, as one that was read.
@@ -63,6 +64,7 @@ inline std::string value_text(int value) { return std::to_string(value); }
 inline std::string value_text(bool value) { return value ? "true" : "false"; }
 inline std::string value_text(const std::string& value) { return value; }
 inline std::string value_text(const FileName& value) { return value.path; }
+inline std::string value_text(const Reference& value) { return value.name; }
 std::string value_text(const NumberGroups& value);
 std::string value_text(const WordOrGroups& value);
 std::string value_text(const ChoiceReference& choice);

@@ -3,6 +3,7 @@
 #include <type_traits>
 
 #include "raytrace/description/parse_value.h"
+#include "raytrace/description/read_transform.h"
 #include "raytrace/description/scene_description.h"
 #include "raytrace/description/scene_layout.h"
 #include "raytrace/xml/xml_writer.h"
@@ -44,19 +45,33 @@ class ScenePrinter : private XmlWriter {
           print();
       });
       for_each_type(Sections{}, [&]<class Section>(std::type_identity<Section>) {
-        element(Section::element, [&] {
-          for_each_type(typename Section::Types{},
-                        [&]<class T>(std::type_identity<T>) { print_group<Section, T>(scene); });
-        });
+        print_section<Section>(scene, scene.*Section::items);
       });
+      if (!scene.groups.empty()) element(groups_element, [&] { print_groups(scene); });
     });
     return take();
   }
 
  private:
-  template <class Section, class T>
-  void print_group(const SceneDescription& scene) {
-    const auto& items = items_of<Section, T>(scene);
+  template <class Section, class Lists>
+  void print_section(const SceneDescription& scene, const Lists& lists) {
+    element(Section::element, [&] {
+      for_each_type(typename Section::Types{}, [&]<class T>(std::type_identity<T>) {
+        print_group<T>(scene, std::get<index_of<T>(typename Section::Types{})>(lists));
+      });
+    });
+  }
+
+  void print_groups(const SceneDescription& scene) {
+    for (const Group& group : scene.groups)
+      element(group_element, [&] {
+        print_value("name", group.name);
+        print_section<ObjectsSection>(scene, group.objects);
+      });
+  }
+
+  template <class T, class Items>
+  void print_group(const SceneDescription& scene, const Items& items) {
     const auto print_items = [&] {
       for (const auto& item : items)
         if (!is_imported(item)) element(T::element, [&] { print_item<T>(scene, item); });
@@ -78,8 +93,30 @@ class ScenePrinter : private XmlWriter {
     if constexpr (requires { item.name; })
       if (!item.name.empty()) print_value("name", item.name);
     print_parameters<T>(item.parameters);
+    if constexpr (requires { item.transform; })
+      if (!item.transform.empty()) print_transform(item.transform);
     if constexpr (requires { item.material; })
       if (item.material != no_material) print_value("material", material_name(scene, item.material));
+  }
+
+  void print_transform(const Transform& transform) {
+    element(transform_element, [&] {
+      for (const TransformStep& step : transform.steps) {
+        const std::string_view name = TransformStep::elements[step.type];
+        const auto attributes = step_attributes(step.type);
+        std::string text = "<" + std::string(name);
+        for (std::size_t i = 0; i < attributes.size(); ++i)
+          text.append(" ").append(attributes[i]).append("=\"").append(number_text(step.values[i])).append("\"");
+        if (attributes.empty()) {
+          text += ">";
+          for (const double value : step.values) text.append(text.back() == '>' ? "" : " ").append(number_text(value));
+          text += closing_tag(name);
+        } else {
+          text += "/>";
+        }
+        line(text);
+      }
+    });
   }
 
   static std::string material_name(const SceneDescription& scene, MaterialReference material) {

@@ -7,6 +7,7 @@
 
 #include "raytrace/description/keyframes.h"
 #include "raytrace/description/parse_value.h"
+#include "raytrace/description/read_transform.h"
 #include "raytrace/description/scene_description.h"
 #include "raytrace/description/scene_layout.h"
 #include "raytrace/xml/xml_writer.h"
@@ -35,7 +36,7 @@ std::string type_name(Range range) {
   if constexpr (std::is_same_v<Value, int>) return std::string(limits(range).prefix) + "integer";
   if constexpr (std::is_same_v<Value, bool>) return "boolean";
   if constexpr (std::is_same_v<Value, FileName> || std::is_same_v<Value, NumberGroups> ||
-                std::is_same_v<Value, WordOrGroups>)
+                std::is_same_v<Value, WordOrGroups> || std::is_same_v<Value, Reference>)
     return "text";
   if constexpr (std::is_same_v<Value, Vec3d>) return std::string(limits(range).prefix) + "vector";
   if constexpr (std::is_same_v<Value, Rgb<double>>) return std::string(limits(range).prefix) + "color";
@@ -54,6 +55,12 @@ class SchemaPrinter : private XmlWriter {
       for_each_type(Cameras{}, [&]<class T>(std::type_identity<T>) { print_item<T>({}); });
       element(named("complexType", integrator_element), [&] { print_one_of(Integrators{}); });
       for_each_type(Integrators{}, [&]<class T>(std::type_identity<T>) { print_item<T>({}); });
+      print_transform();
+      print_choice(groups_element, [&] { child(group_element); });
+      print_choice(group_element, [&] {
+        child("name", "text", true);
+        child(ObjectsSection::element);
+      });
       print_value_types();
     });
     return take();
@@ -93,6 +100,7 @@ class SchemaPrinter : private XmlWriter {
     element(any_number_of, [&] {
       for_each_type(Sections{}, [&]<class Section>(std::type_identity<Section>) { child(Section::element); });
       child(integrator_element);
+      child(groups_element);
     });
   }
 
@@ -132,7 +140,8 @@ class SchemaPrinter : private XmlWriter {
     const bool empty = labels.empty() && T::fields().empty();
     element(named("complexType", T::element) + (empty ? " mixed=\"true\"" : ""), [&] {
       element("xs:all", [&] {
-        for (const FieldInfo& label : labels) child(label.name, "text", label.required);
+        for (const FieldInfo& label : labels)
+          child(label.name, label.name == transform_element ? label.name : "text", label.required);
         typename T::Parameters parameters;
         for (const auto& field : T::fields())
           field.visit(parameters, [&]<class Value>(const Value& value) {
@@ -143,6 +152,23 @@ class SchemaPrinter : private XmlWriter {
           });
       });
     });
+  }
+
+  void print_transform() {
+    print_choice(transform_element, [&] {
+      for (std::size_t type = 0; type < TransformStep::elements.size(); ++type) child(TransformStep::elements[type]);
+    });
+    for (std::size_t type = 0; type < TransformStep::elements.size(); ++type) {
+      const auto attributes = step_attributes(static_cast<TransformStep::Type>(type));
+      if (attributes.empty()) {
+        print_restriction(TransformStep::elements[type], "text", {});
+        continue;
+      }
+      element(named("complexType", TransformStep::elements[type]), [&] {
+        print_keys(number_name(Range::any), attributes);
+        for (const std::string_view name : attributes) attribute(name, number_name(Range::any), false);
+      });
+    }
   }
 
   void print_value_types() {

@@ -42,14 +42,14 @@ class FieldsReader {
 
   /// labels: children that the elements have beside those of their parameters. may_skip: as in check_together().
   explicit FieldsReader(std::span<const FieldInfo> labels = {}, bool may_skip = false)
-      : label_count_(labels.size()), infos_(labels.begin(), labels.end()), may_skip_(may_skip) {
+      : infos_(labels.begin(), labels.end()), may_skip_(may_skip) {
     for (const auto& field : fields_) infos_.push_back(field);
     targets_.reserve(infos_.size());
   }
 
-  /// False if the element is of no use, which is reported. labels: receives the labels' texts, in the order of the
+  /// False if the element is of no use, which is reported. labels: where the labels' values go, in the order of the
   /// constructor's.
-  bool read(Element element, Parameters& parameters, std::span<std::string_view> labels, const ReadContext& context) {
+  bool read(Element element, Parameters& parameters, std::span<const FieldTarget> labels, const ReadContext& context) {
     if (!read_fields(element, infos_, targets(parameters, labels), context)) return false;
     return check_together<T>(parameters, may_skip_, [&](Severity severity, const std::string& message) {
       context.diagnostics.report(severity, element, [&] { return message; });
@@ -58,9 +58,8 @@ class FieldsReader {
 
   /// What read() gives read_fields(); targets are valid until the next call.
   std::span<const FieldInfo> infos() const { return infos_; }
-  std::span<const FieldTarget> targets(Parameters& parameters, std::span<std::string_view> labels) {
-    targets_.clear();
-    for (std::size_t i = 0; i < label_count_; ++i) targets_.emplace_back(&labels[i]);
+  std::span<const FieldTarget> targets(Parameters& parameters, std::span<const FieldTarget> labels) {
+    targets_.assign(labels.begin(), labels.end());
     for (const auto& field : fields_)
       field.visit(parameters, [&]<class Value>(Value&& value) {
         if constexpr (std::is_same_v<Value, ChoiceReference>)
@@ -73,7 +72,6 @@ class FieldsReader {
 
  private:
   Fields<Parameters> fields_ = T::fields();
-  std::size_t label_count_;
   std::vector<FieldInfo> infos_;
   std::vector<FieldTarget> targets_;  // of the element at hand
   bool may_skip_;

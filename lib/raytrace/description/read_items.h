@@ -89,7 +89,7 @@ class TypedItemList final : public ItemList {
   void read(Element element, std::uint32_t number, const ReadContext& context) override {
     Entry& entry = append(element.line(), number);
     Labels labels;
-    entry.usable = fields_.read(element, entry.item.parameters, labels, context);
+    entry.usable = fields_.read(element, entry.item.parameters, targets_of(labels, entry.item), context);
     if (take_labels(labels, entry.item)) return;
     entry.usable = false;
     if constexpr (has_material) materials_.report_unknown(element, labels[1], context.diagnostics);
@@ -99,7 +99,8 @@ class TypedItemList final : public ItemList {
                          std::uint32_t number) override {
     Entry& entry = append(line, number);
     Labels labels;
-    const std::size_t length = pattern.read(text, fields_.targets(entry.item.parameters, labels));
+    const std::size_t length =
+        pattern.read(text, fields_.targets(entry.item.parameters, targets_of(labels, entry.item)));
     const auto ignore = [](Severity, const std::string&) {};
     entry.usable =
         length > 0 && check_together<T>(entry.item.parameters, true, ignore) && take_labels(labels, entry.item);
@@ -109,14 +110,27 @@ class TypedItemList final : public ItemList {
   }
 
   std::optional<ItemPattern> pattern_of(std::string_view text, Element item) override {
-    typename T::Parameters parameters;
+    Item none;
     Labels labels;
-    return ItemPattern::of(text, item, fields_.infos(), fields_.targets(parameters, labels));
+    return ItemPattern::of(text, item, fields_.infos(), fields_.targets(none.parameters, targets_of(labels, none)));
   }
 
  private:
   static constexpr bool has_material = requires(Item item) { item.material; };
-  using Labels = std::array<std::string_view, Section::labels.size()>;
+  static constexpr auto labels_ = labels_of<Section, T>();
+  /// The texts of a name and of a material.
+  using Labels = std::array<std::string_view, labels_.size()>;
+
+  /// Where they go; a transform goes to the item at once.
+  static auto targets_of(Labels& labels, Item& item) {
+    std::array<FieldTarget, labels_.size()> targets;
+    for (std::size_t i = 0; i < labels_.size(); ++i) {
+      targets[i] = &labels[i];
+      if constexpr (requires { item.transform; })
+        if (labels_[i].name == transform_element) targets[i] = &item.transform;
+    }
+    return targets;
+  }
 
   Entry& append(std::uint32_t line, std::uint32_t number) {
     Entry& entry = entries_.emplace_back();
@@ -138,7 +152,6 @@ class TypedItemList final : public ItemList {
   }
 
   const NamedMaterials& materials_;
-  static constexpr auto labels_ = labels_of<Section, T>();
   FieldsReader<T> fields_{labels_, Section::may_skip};
   std::vector<Entry> entries_;
 };

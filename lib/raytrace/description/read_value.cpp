@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "raytrace/description/keyframes.h"
+#include "raytrace/description/read_transform.h"
 
 namespace raytrace {
 
@@ -69,9 +70,20 @@ class ValueReader {
     });
   }
 
+  bool operator()(Reference* reference) const {
+    const Node text_node = single_text();
+    return read_text(text_node, [&](std::string_view text) -> OptionalMessage {
+      const SourceLocation location = text_node.location();
+      *reference = {std::string(text), location.line, location.column};
+      return check_label(text);
+    });
+  }
+
   bool operator()(NumberGroups* groups) const {
     return read_text(single_text(), [&](std::string_view text) { return parse_groups(text, *groups); });
   }
+
+  bool operator()(Transform* transform) const { return read_transform(element_, *transform, context_); }
 
   bool operator()(WordOrGroups* value) const {
     return read_text(single_text(), [&](std::string_view text) { return parse_word_or_groups(text, *value); });
@@ -298,10 +310,10 @@ std::string example_value(const FieldInfo& info, const FieldTarget& target) {
     return example_of(info.name, component_fields<Rgb<double>>(nullptr, info.range));
   const auto* const choice = std::get_if<ChoiceReference>(&target);
   const std::string value =
-      choice != nullptr                                   ? std::string(choice->words()[0])
-      : std::holds_alternative<bool*>(target)             ? "true"
-      : std::holds_alternative<std::string_view*>(target) ? "..."
-      : std::holds_alternative<FileName*>(target)         ? "model.ply"
+      choice != nullptr                       ? std::string(choice->words()[0])
+      : std::holds_alternative<bool*>(target) ? "true"
+      : std::holds_alternative<std::string_view*>(target) || std::holds_alternative<Reference*>(target) ? "..."
+      : std::holds_alternative<FileName*>(target)                                                       ? "model.ply"
       : std::holds_alternative<NumberGroups*>(target) || std::holds_alternative<WordOrGroups*>(target)
           ? "0 0 0, 1 0 0, 0 1 0"
           : "1";

@@ -13,6 +13,7 @@
 
 #include "raytrace/description/parse_value.h"
 #include "raytrace/description/variables.h"
+#include "raytrace/parameters/transform.h"
 #include "raytrace/text/message.h"
 #include "raytrace/xml/diagnostics.h"
 #include "raytrace/xml/document.h"
@@ -96,7 +97,7 @@ std::string example_of(std::string_view element, std::span<const AttributeField>
 
 /// Where a field's value goes. A string_view is a label, such as a name: it views the Document's text.
 using FieldTarget = std::variant<double*, int*, bool*, ChoiceReference, std::string_view*, Vec3d*, Rgb<double>*,
-                                 FileName*, NumberGroups*, WordOrGroups*>;
+                                 FileName*, NumberGroups*, WordOrGroups*, Transform*, Reference*>;
 
 /// The attributes of vectors and colors, in the order of their members; none of other values.
 std::span<const std::string_view> component_names(const FieldTarget& target);

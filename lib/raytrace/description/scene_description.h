@@ -19,6 +19,7 @@
 #include "raytrace/lights/registry.h"
 #include "raytrace/materials/registry.h"
 #include "raytrace/math/type_list.h"
+#include "raytrace/parameters/transform.h"
 #include "raytrace/shapes/registry.h"
 #include "raytrace/xml/diagnostics.h"
 
@@ -52,6 +53,7 @@ struct ObjectItem {
   std::string name;  ///< empty: unnamed
   MaterialReference material;
   std::uint32_t line = 0;
+  Transform transform = {};  ///< of what the parameters say
 };
 
 /// No material: that of its file, or none.
@@ -63,10 +65,20 @@ struct ObjectItem<Mesh> {
   std::string name;
   MaterialReference material = no_material;  ///< where there is one, of all faces
   std::uint32_t line = 0;
+  Transform transform = {};
 
   // From load_meshes().
   std::shared_ptr<const MeshData> data = nullptr;
   std::vector<MaterialReference> materials = {};  ///< those of the data, at least one
+};
+
+template <>
+struct ObjectItem<Instance> {
+  Instance::Parameters parameters;
+  std::string name;
+  MaterialReference material = no_material;  ///< where there is one, of all its objects
+  std::uint32_t line = 0;
+  Transform transform = {};
 };
 
 template <class T>
@@ -86,6 +98,15 @@ struct ParametersVariant<TypeList<Types...>> {
 using CameraParameters = ParametersVariant<Cameras>::type;
 using IntegratorParameters = ParametersVariant<Integrators>::type;
 
+using ObjectLists = TupleOf<Objects, ObjectItems>::type;
+
+/// Objects that are in the picture where instances of them are. It may have instances of other groups.
+struct Group {
+  std::string name;
+  ObjectLists objects;
+  std::uint32_t line = 0;
+};
+
 struct SceneDescription {
   std::string file;  ///< as given on the command line; "-" for standard input
   ViewPlane viewplane;
@@ -93,7 +114,8 @@ struct SceneDescription {
   std::optional<IntegratorParameters> integrator;     ///< none: the file leaves it open
   TupleOf<Lights, LightItems>::type lights;           ///< std::get<LightItems<PointLight>>(lights)
   TupleOf<Materials, MaterialItems>::type materials;  ///< std::get<MaterialItems<Matte>>(materials)
-  TupleOf<Objects, ObjectItems>::type objects;        ///< std::get<ObjectItems<Sphere>>(objects)
+  ObjectLists objects;                                ///< std::get<ObjectItems<Sphere>>(objects)
+  std::vector<Group> groups;
 };
 
 /// Reads and validates a scene file ("-": standard input), but not the files that it names. All errors and warnings go

@@ -29,6 +29,14 @@ class SceneHash {
       add(T::element);
       add_items<T>(items_of<Section, T>(scene));
     });
+    for (const Group& group : scene.groups) {
+      add(group_element);
+      add(group.name);
+      for_each_type(Objects{}, [&]<class T>(std::type_identity<T>) {
+        add(T::element);
+        add_items<T>(std::get<ObjectItems<T>>(group.objects));
+      });
+    }
     return hash_.digits();
   }
 
@@ -47,6 +55,13 @@ class SceneHash {
           hash.add_mesh(fields, item);
         } else {
           hash.add_parameters(fields, item.parameters);
+        }
+        if constexpr (requires { item.transform; }) {
+          hash.add(static_cast<std::uint64_t>(item.transform.steps.size()));
+          for (const TransformStep& step : item.transform.steps) {
+            hash.add(static_cast<int>(step.type));
+            for (std::size_t k = 0; k < step.value_count(); ++k) hash.add(step.values[k]);
+          }
         }
         if constexpr (requires { item.name; }) hash.add(item.name);
         if constexpr (requires { item.material; }) {
@@ -94,6 +109,8 @@ class SceneHash {
       if (value.groups.empty() && value.word < value.words.size()) add(value.words[value.word]);
     } else if constexpr (std::is_same_v<Value, FileName>) {
       add(value.path);
+    } else if constexpr (std::is_same_v<Value, Reference>) {
+      add(value.name);
     } else if constexpr (std::is_same_v<Value, ChoiceReference>) {
       add(value.words()[value.index()]);
     } else if constexpr (std::is_arithmetic_v<Value>) {

@@ -29,6 +29,8 @@ std::vector<LayoutEntry> scene_layout() {
       layout.push_back({T::element, T::group.empty() ? Section::element : T::group});
     });
   });
+  layout.push_back({groups_element, root_element});
+  layout.push_back({group_element, groups_element});
   return layout;
 }
 
@@ -44,6 +46,7 @@ std::vector<std::string_view> elements_in(std::string_view parent) {
   std::vector<std::string_view> elements;
   for (const LayoutEntry& entry : scene_layout())
     if (entry.parent == parent) elements.push_back(entry.element);
+  if (parent == group_element) elements.insert(elements.end(), {"name", ObjectsSection::element});
   return elements;
 }
 

@@ -13,6 +13,8 @@
 namespace raytrace {
 
 inline constexpr std::string_view root_element = "raytracer";
+inline constexpr std::string_view groups_element = "groups", group_element = "group";
+inline constexpr std::string_view transform_element = "transform";
 inline constexpr std::string_view integrator_element = "integrator";  ///< holds one of Integrators
 
 // The sections: elements at the root that hold any number of items of the types in a registry. labels: the children
@@ -39,7 +41,7 @@ struct ObjectsSection {
   using Types = Objects;
   static constexpr std::string_view element = "objects", item = "object";
   static constexpr auto items = &SceneDescription::objects;
-  static constexpr std::array<FieldInfo, 2> labels{{{"name", false}, {"material"}}};
+  static constexpr std::array<FieldInfo, 3> labels{{{"name", false}, {"material"}, {transform_element, false}}};
   static constexpr bool may_skip = true;
 };
 

@@ -98,6 +98,14 @@ struct FileName {
   friend bool operator==(const FileName& a, const FileName& b) { return a.path == b.path; }
 };
 
+/// The name of something else in the scene.
+struct Reference {
+  std::string name;
+  std::uint32_t line = 0, column = 0;  ///< where the scene's file has it; 0: nowhere
+
+  friend bool operator==(const Reference& a, const Reference& b) { return a.name == b.name; }
+};
+
 /// Numbers in groups, such as the corners of faces: white space between the numbers, commas between the groups.
 struct NumberGroups {
   std::vector<double> numbers;
@@ -119,14 +127,14 @@ struct WordOrGroups {
 };
 
 /// The same, and where its value goes.
-/// double, int, bool, FileName, NumberGroups, WordOrGroups, enumerations with Choices: the element's text. Vec3d and
-/// Rgb: attributes (see Components).
+/// double, int, bool, FileName, Reference, NumberGroups, WordOrGroups, enumerations with Choices: the element's text.
+/// Vec3d and Rgb: attributes (see Components).
 template <class Parameters>
 struct Field : FieldInfo {
   using Choice = std::function<ChoiceReference(Parameters&)>;
   using Member = std::variant<double Parameters::*, int Parameters::*, bool Parameters::*, Choice, Vec3d Parameters::*,
                               Rgb<double> Parameters::*, FileName Parameters::*, NumberGroups Parameters::*,
-                              WordOrGroups Parameters::*>;
+                              WordOrGroups Parameters::*, Reference Parameters::*>;
   Member member;
 
   template <class Value>

@@ -1,50 +1,136 @@
 #include "raytrace/scene/geometry_table.h"
 
+#include <algorithm>
 #include <bit>
+#include <string_view>
+#include <unordered_map>
 
 #include "raytrace/memory/large_array.h"
 #include "raytrace/parallel/for_each_index.h"
+#include "raytrace/parameters/transformed.h"
 
 namespace raytrace {
 
+namespace {
+
+Affine moved(Affine affine, const Vec3d& origin) {
+  affine.origin += -origin;
+  return affine;
+}
+
+}  // namespace
+
+GeometryTable::GeometryTable(const ObjectLists& objects, const Vec3d& origin,
+                             std::span<const std::int32_t> first_materials, int threads) {
+  add_objects(objects, origin, first_materials, threads);
+}
+
 GeometryTable::GeometryTable(const SceneDescription& description, const Vec3d& origin,
                              std::span<const std::int32_t> first_materials, int threads) {
-  add_shapes(description, origin);
-  std::int32_t objects = geometries_.back().first_object + static_cast<std::int32_t>(geometries_.back().primitives);
-  for (const auto& item : std::get<ObjectItems<Mesh>>(description.objects)) {
+  add_objects(description.objects, origin, first_materials, threads);
+  for (const Group& group : description.groups)
+    groups_.push_back(std::make_unique<const GeometryTable>(group.objects, Vec3d(0, 0, 0), first_materials, threads));
+  add_instances(description, origin, first_materials);
+}
+
+void GeometryTable::add_objects(const ObjectLists& objects, const Vec3d& origin,
+                                std::span<const std::int32_t> first_materials, int threads) {
+  add_shapes(objects, origin);
+  std::int32_t count = geometries_.back().first_object + static_cast<std::int32_t>(geometries_.back().primitives);
+  for (const auto& item : std::get<ObjectItems<Mesh>>(objects)) {
     const MeshTable& mesh = meshes_.emplace_back(item, origin, first_materials, threads);
-    geometries_.push_back({static_cast<std::uint32_t>(mesh.face_count()), objects++, &mesh});
+    geometries_.push_back({static_cast<std::uint32_t>(mesh.face_count()), count++, &mesh});
   }
   for (const Geometry& geometry : geometries_) {
     first_objects_.push_back(geometry.first_object);
     primitive_masks_.push_back(geometry.mesh == nullptr ? -1 : 0);
   }
-  set_bounding_sphere(threads);
-  object_materials_.resize(static_cast<std::size_t>(objects));
-  set_object_materials(description, first_materials, threads);
+  set_bounds(threads);
+  object_materials_.resize(static_cast<std::size_t>(count));
+  set_object_materials(objects, first_materials, threads);
 }
 
-void GeometryTable::add_shapes(const SceneDescription& description, const Vec3d& origin) {
-  std::int32_t objects = 0;
+void GeometryTable::add_shapes(const ObjectLists& objects, const Vec3d& origin) {
+  std::int32_t count = 0;
   for_each_type(Shapes{}, [&]<class Shape>(std::type_identity<Shape>) {
-    const auto& items = std::get<ObjectItems<Shape>>(description.objects);
-    auto& records = std::get<ShapeTable<Shape>>(tables_).records;
+    constexpr std::uint32_t type = index_of<Shape>(Shapes{});
+    const auto& items = std::get<ObjectItems<Shape>>(objects);
+    auto& [records, instanced] = std::get<ShapeTable<Shape>>(tables_);
     reserve_large(records, items.size() + 1);  // Embree reads whole 16 byte words of the last vertex
     const auto points = point_members<Shape>();
     for (const auto& item : items) {
       typename Shape::Parameters parameters = item.parameters;
-      for (const auto point : points) parameters.*point += -origin;
+      bool is_in_place = true;
+      if (!item.transform.empty()) {
+        const Affine affine = item.transform.affine();
+        const auto transformed_shape = transformed<Shape>(parameters, affine);
+        is_in_place = transformed_shape.has_value();
+        if constexpr (requires { &Kernel<Shape>::bounds; }) {
+          if (!is_in_place) {
+            instanced.resize(items.size());
+            instanced[records.size()] = true;
+            transformed_.push_back({{InstanceTarget::no_group, true, type, static_cast<std::uint32_t>(records.size())},
+                                    affine,
+                                    empty_bounds});
+          }
+        }
+        parameters = transformed_shape.value_or(parameters);
+      }
+      if (is_in_place)
+        for (const auto point : points) parameters.*point += -origin;
       records.push_back(Kernel<Shape>::record(parameters));
+      if constexpr (requires { &Kernel<Shape>::bounds; })
+        if (!is_in_place) transformed_.back().bounds = Kernel<Shape>::bounds(records.back());
     }
-    geometries_.push_back({static_cast<std::uint32_t>(items.size()), objects, nullptr});
-    objects += static_cast<std::int32_t>(items.size());
+    geometries_.push_back({static_cast<std::uint32_t>(items.size()), count, nullptr});
+    count += static_cast<std::int32_t>(items.size());
   });
 }
 
-void GeometryTable::set_object_materials(const SceneDescription& description,
-                                         std::span<const std::int32_t> first_materials, int threads) {
+void GeometryTable::add_instances(const SceneDescription& description, const Vec3d& origin,
+                                  std::span<const std::int32_t> first_materials) {
+  std::unordered_map<std::string_view, std::size_t> numbers;
+  for (const Group& group : description.groups) numbers.emplace(group.name, numbers.size());
+  const auto material_number = [&](const ObjectItem<Instance>& item, std::int32_t outer) {
+    if (outer >= 0 || item.material == no_material) return outer;
+    return first_materials[item.material.type] + static_cast<std::int32_t>(item.material.index);
+  };
+  // An instance of a group is one of its own objects, and one of each instance in it.
+  const auto add_group = [&](const auto& self, const ObjectItem<Instance>& item, const Affine& outer,
+                             std::int32_t object, std::int32_t outer_material) -> void {
+    const std::size_t number = numbers.at(item.parameters.group.name);
+    const GeometryTable& group = *groups_[number];
+    const Affine affine = outer * item.transform.affine();
+    const std::int32_t material = material_number(item, outer_material);
+    if (group.bounds_.lower.x <= group.bounds_.upper.x)
+      instances_.add({static_cast<std::int32_t>(number)}, affine, transformed_bounds(affine, group.bounds_), object,
+                     material);
+    for (const TransformedShape& shape : group.transformed_) {
+      const Affine both = affine * shape.affine;
+      InstanceTarget target = shape.target;
+      target.group = static_cast<std::int32_t>(number);
+      instances_.add(target, both, transformed_bounds(both, shape.bounds), object, material);
+    }
+    for (const auto& inner : std::get<ObjectItems<Instance>>(description.groups[number].objects))
+      self(self, inner, affine, object, material);
+  };
+  const Affine to_origin = moved({}, origin);
+  for (const auto& item : std::get<ObjectItems<Instance>>(description.objects)) {
+    add_group(add_group, item, to_origin, static_cast<std::int32_t>(object_materials_.size()), -1);
+    object_materials_.push_back(std::max(0, material_number(item, -1)));
+  }
+  for (const TransformedShape& shape : transformed_) {
+    const Affine affine = to_origin * shape.affine;
+    const std::int32_t object =
+        geometries_[shape.target.shape_type].first_object + static_cast<std::int32_t>(shape.target.primitive);
+    instances_.add(shape.target, affine, transformed_bounds(affine, shape.bounds), object, -1);
+  }
+}
+
+void GeometryTable::set_object_materials(const ObjectLists& objects, std::span<const std::int32_t> first_materials,
+                                         int threads) {
   for_each_type(Shapes{}, [&]<class Shape>(std::type_identity<Shape>) {
-    const auto& items = std::get<ObjectItems<Shape>>(description.objects);
+    const auto& items = std::get<ObjectItems<Shape>>(objects);
     const auto first_object = static_cast<std::size_t>(geometries_[index_of<Shape>(Shapes{})].first_object);
     for_each_chunk(items.size(), threads, [&](std::size_t, std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) {
@@ -60,34 +146,45 @@ void GeometryTable::set_object_materials(const SceneDescription& description,
 }
 
 std::uint64_t GeometryTable::primitive_count() const {
-  std::uint64_t count = 0;
+  std::uint64_t count = instances_.size();
   for (const Geometry& geometry : geometries_) count += geometry.primitives;
+  for (const auto& group : groups_) count += group->primitive_count();
   return count;
 }
 
-void GeometryTable::set_bounding_sphere(int threads) {
-  Bounds all = empty_bounds;
+void GeometryTable::set_bounds(int threads) {
   for_each_type(Shapes{}, [&]<class Shape>(std::type_identity<Shape>) {
     if constexpr (requires { &Kernel<Shape>::bounds; }) {
       const auto& records = table<Shape>().records;
       std::vector<Bounds> chunks(chunk_count(records.size()), empty_bounds);
       for_each_chunk(records.size(), threads, [&](std::size_t chunk, std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
-          chunks[chunk] = join(chunks[chunk], Kernel<Shape>::bounds(records[i]));
+          if (!table<Shape>().is_instanced(i)) chunks[chunk] = join(chunks[chunk], Kernel<Shape>::bounds(records[i]));
       });
-      for (const Bounds& chunk : chunks) all = join(all, chunk);
+      for (const Bounds& chunk : chunks) bounds_ = join(bounds_, chunk);
     }
   });
-  for (const MeshTable& mesh : meshes_) all = join(all, mesh.bounds());
-  if (all.lower.x > all.upper.x) return;
+  for (const MeshTable& mesh : meshes_) bounds_ = join(bounds_, mesh.bounds());
+}
+
+BoundingSphere GeometryTable::bounding_sphere() const {
+  Bounds all = bounds_;
+  for (std::size_t i = 0; i < instances_.size(); ++i) all = join(all, instances_.bounds(i));
+  if (all.lower.x > all.upper.x) return {{0, 0, 0}, -1};
   const Vec3d lower(all.lower), upper(all.upper);
-  bounding_sphere_ = {(lower + upper) * 0.5, length(upper - lower) / 2 * (1 + 1e-6)};
+  return {(lower + upper) * 0.5, length(upper - lower) / 2 * (1 + 1e-6)};
 }
 
 std::vector<std::uint8_t> GeometryTable::used_materials(std::int32_t materials) const {
   std::vector<std::uint8_t> used(static_cast<std::size_t>(materials));
-  for (const std::int32_t material : object_materials_) used[static_cast<std::size_t>(material)] = 1;
-  for (const MeshTable& mesh : meshes_) mesh.add_used_materials(used);
+  const auto add = [&](const GeometryTable& table) {
+    for (const std::int32_t material : table.object_materials_) used[static_cast<std::size_t>(material)] = 1;
+    for (const MeshTable& mesh : table.meshes_) mesh.add_used_materials(used);
+  };
+  add(*this);
+  for (const auto& group : groups_) add(*group);
+  for (const std::int32_t material : instances_.materials())
+    if (material >= 0) used[static_cast<std::size_t>(material)] = 1;
   return used;
 }
 
@@ -97,9 +194,13 @@ IntN GeometryTable::object(const Hits& hits) const {
     const Geometry& geometry = geometries_[hits.first_geometry];
     return geometry.mesh != nullptr ? IntN(geometry.first_object) : primitive + IntN(geometry.first_object);
   }
-  const IntN geometry =
-      select_lanes(hits.hit, same_bits<IntN>(hits.geometry), IntN(static_cast<std::int32_t>(hits.first_geometry)));
-  return (primitive & gather(primitive_masks_.data(), geometry)) + gather(first_objects_.data(), geometry);
+  // Instances' lanes follow geometry 0, and others the first.
+  const MaskN instanced = float_mask<FloatN>(hits.instance != UintN(0u));
+  const IntN other(hits.in_instances ? 0 : static_cast<std::int32_t>(hits.first_geometry));
+  const IntN geometry = select_lanes(hits.hit & !instanced, same_bits<IntN>(hits.geometry), other);
+  const IntN own = (primitive & gather(primitive_masks_.data(), geometry)) + gather(first_objects_.data(), geometry);
+  if (!hits.in_instances) return own;
+  return select_lanes(hits.hit & instanced, instances_.object(hits.instance), own);
 }
 
 std::optional<std::int32_t> GeometryTable::only_material(const Hits& hits) const {
@@ -114,17 +215,21 @@ std::optional<std::int32_t> GeometryTable::only_material(const Hits& hits) const
 }
 
 IntN GeometryTable::material(const Hits& hits) const {
-  IntN material = gather(object_materials_.data(), object(hits));
-  if (meshes_.empty()) return material;
-  for (MaskN left = hits.hit; any(left);) {
-    const auto first = static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(left)));
-    const std::uint32_t geometry = hits.geometry.get(first);
-    const MaskN here = left & float_mask<FloatN>(hits.geometry == UintN(geometry));
-    left = left & !here;
-    const MeshTable* const mesh = geometries_[geometry].mesh;
-    if (mesh == nullptr || mesh->only_material()) continue;
-    const IntN face = select_lanes(here, hits.primitive, IntN(hits.primitive.get(first)));
-    material = select_lanes(here, mesh->material(face), material);
+  if (meshes_.empty() && !hits.in_instances) return gather(object_materials_.data(), object(hits));
+  IntN material(0);
+  for_each_geometry(hits, [&](const GeometryTable& table, std::uint32_t index, const MaskN& here) {
+    const auto first = static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(here)));
+    const IntN primitive = select_lanes(here, hits.primitive, IntN(hits.primitive.get(first)));
+    const Geometry& geometry = table.geometries_[index];
+    const IntN of_geometry = geometry.mesh != nullptr
+                                 ? geometry.mesh->material(primitive)
+                                 : gather(table.object_materials_.data() + geometry.first_object, primitive);
+    material = select_lanes(here, of_geometry, material);
+  });
+  if (hits.in_instances) {
+    const IntN instead = instances_.material(hits.instance);
+    const MaskN has = float_mask<FloatN>(hits.instance != UintN(0u)) & float_mask<FloatN>(instead >= IntN(0));
+    material = select_lanes(has, instead, material);
   }
   return material;
 }

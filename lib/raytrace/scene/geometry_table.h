@@ -1,8 +1,11 @@
 // The objects of a scene as the tracer keeps them: records by shape, and what each of Embree's geometries is made of.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <deque>
+#include <memory>
+#include <optional>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -12,6 +15,7 @@
 #include "raytrace/math/gather.h"
 #include "raytrace/math/simd.h"
 #include "raytrace/scene/hits.h"
+#include "raytrace/scene/instance_table.h"
 #include "raytrace/scene/mesh_table.h"
 #include "raytrace/shapes/kernels.h"
 
@@ -22,6 +26,9 @@ template <class Shape>
 struct ShapeTable {
   using Record = decltype(Kernel<Shape>::record(std::declval<typename Shape::Parameters>()));
   std::vector<Record> records;
+  std::vector<bool> instanced;  ///< those that rays meet by an instance alone; empty: none
+
+  bool is_instanced(std::size_t i) const { return !instanced.empty() && instanced[i]; }
 };
 
 /// One of Embree's geometries: all objects of a shape, each of which is a primitive, or the faces of a mesh, which is
@@ -32,12 +39,17 @@ struct Geometry {
   const MeshTable* mesh;      ///< null: a shape's
 };
 
+/// The objects of the world, or of a group.
+///
 /// Geometry i is that of the shape of index i in the Shapes registry; the meshes follow, in their order. One without
-/// objects has no counterpart in Embree's scene.
+/// objects has no counterpart in Embree's scene. Shapes that their transforms make other shapes are in the shape's
+/// table as they are before them; rays meet them by an instance each.
 class GeometryTable {
  public:
-  /// origin: subtracted from all points, in double. first_materials: of each material type, the number of its first
-  /// material, all counted together.
+  /// first_materials: of each material type, the number of its first material, all counted together.
+  GeometryTable(const ObjectLists& objects, const Vec3d& origin, std::span<const std::int32_t> first_materials,
+                int threads);
+  /// The world's: all objects and groups. origin: subtracted from all points, in double.
   GeometryTable(const SceneDescription& description, const Vec3d& origin, std::span<const std::int32_t> first_materials,
                 int threads);
 
@@ -47,11 +59,16 @@ class GeometryTable {
   const ShapeTable<Shape>& table() const {
     return std::get<ShapeTable<Shape>>(tables_);
   }
-  bool has_meshes() const { return !meshes_.empty(); }
+  /// Only of the world.
+  const std::vector<std::unique_ptr<const GeometryTable>>& groups() const { return groups_; }
+  const InstanceTable& instances() const { return instances_; }
+
+  /// Whether all that has bounds is a shape that rays meet as it stands in its table.
+  bool has_shapes_only() const { return meshes_.empty() && instances_.empty(); }
   std::uint64_t object_count() const { return object_materials_.size(); }
   std::uint64_t primitive_count() const;
   /// Around all objects that have bounds; of negative radius if there are none.
-  const BoundingSphere& bounding_sphere() const { return bounding_sphere_; }
+  BoundingSphere bounding_sphere() const;
   /// Of so many materials, those that objects have: 1, else 0.
   std::vector<std::uint8_t> used_materials(std::int32_t materials) const;
 
@@ -62,11 +79,25 @@ class GeometryTable {
   /// Of all lanes with a hit, if they hit the same primitive, or a mesh that has one material.
   std::optional<std::int32_t> only_material(const Hits& hits) const;
 
+  /// For lanes that hit the same geometry of the same table: f(table, geometry, those lanes).
+  template <class Function>
+  void for_each_geometry(const Hits& hits, const Function& f) const;
+
  private:
-  void add_shapes(const SceneDescription& description, const Vec3d& origin);
-  void set_object_materials(const SceneDescription& description, std::span<const std::int32_t> first_materials,
-                            int threads);
-  void set_bounding_sphere(int threads);
+  /// A shape that is another under its transform.
+  struct TransformedShape {
+    InstanceTarget target;
+    Affine affine;
+    Bounds bounds;  ///< before it
+  };
+
+  void add_objects(const ObjectLists& objects, const Vec3d& origin, std::span<const std::int32_t> first_materials,
+                   int threads);
+  void add_instances(const SceneDescription& description, const Vec3d& origin,
+                     std::span<const std::int32_t> first_materials);
+  void add_shapes(const ObjectLists& objects, const Vec3d& origin);
+  void set_object_materials(const ObjectLists& objects, std::span<const std::int32_t> first_materials, int threads);
+  void set_bounds(int threads);
 
   TupleOf<Shapes, ShapeTable>::type tables_;
   std::deque<MeshTable> meshes_;  ///< they stay where they are
@@ -74,7 +105,31 @@ class GeometryTable {
   // Of each geometry, side by side: its first object, and 0 if it is one object, else all bits.
   std::vector<std::int32_t> first_objects_, primitive_masks_;
   std::vector<std::int32_t> object_materials_;  ///< of each object; of a mesh, its first
-  BoundingSphere bounding_sphere_{{0, 0, 0}, -1};
+  std::vector<TransformedShape> transformed_;
+  Bounds bounds_ = empty_bounds;  ///< of all that is not an instance
+  std::vector<std::unique_ptr<const GeometryTable>> groups_;
+  InstanceTable instances_;
 };
+
+template <class Function>
+void GeometryTable::for_each_geometry(const Hits& hits, const Function& f) const {
+  const bool in_instances = hits.in_instances;
+  const IntN none(InstanceTarget::no_group);
+  const IntN group = !in_instances ? none
+                                   : select_lanes(float_mask<FloatN>(hits.instance == UintN(0u)), none,
+                                                  instances_.group(hits.instance));
+  for (MaskN left = hits.hit; any(left);) {
+    const auto first = static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(left)));
+    const std::uint32_t geometry = hits.geometry.get(first);
+    MaskN here = left & float_mask<FloatN>(hits.geometry == UintN(geometry));
+    const GeometryTable* table = this;
+    if (in_instances) {
+      here = here & float_mask<FloatN>(group == IntN(group.get(first)));
+      if (group.get(first) >= 0) table = groups_[static_cast<std::size_t>(group.get(first))].get();
+    }
+    left = left & !here;
+    f(*table, geometry, here);
+  }
+}
 
 }  // namespace raytrace

@@ -11,17 +11,16 @@ namespace raytrace {
 
 /// The nearest hits of a packet. Lanes that hit nothing hold anything.
 struct Hits {
-  /// Of lanes that hit no instance, as all do while scenes have none.
-  static constexpr std::uint32_t no_instance = ~0U;
-
   MaskN hit;
-  UintN instance;
-  UintN geometry;  ///< index in the scene's GeometryTable
+  UintN instance;  ///< as InstanceTable numbers them; 0: none
+  UintN geometry;  ///< index in the GeometryTable of the world or of the instance's group
   IntN primitive;  ///< index among the geometry's
   FloatN u, v;     ///< barycentric coordinates on triangles
 
-  // Of the first lane with a hit, and whether all others with one hit the same geometry, and the same primitive of it,
-  // as neighbours mostly do.
+  bool in_instances = false;  ///< whether any lane hit one
+
+  // Of the first lane with a hit, and whether all others with one hit the same geometry of the world, and the same
+  // primitive of it, as neighbours mostly do.
   std::uint32_t first_geometry = 0;
   std::int32_t first_primitive = 0;
   bool one_geometry = false, one_primitive = false;
@@ -29,11 +28,13 @@ struct Hits {
   /// Sets what is of the first lane with a hit, if there is one.
   RAYTRACE_INLINE void find_first() {
     const std::uint32_t lanes = bits_of<FloatN>(hit);
+    in_instances = false;
     if (lanes == 0) return;
     const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
     first_geometry = geometry.get(lane);
     first_primitive = primitive.get(lane);
-    one_geometry = none(hit & float_mask<FloatN>(geometry != UintN(first_geometry)));
+    in_instances = any(hit & float_mask<FloatN>(instance != UintN(0u)));
+    one_geometry = !in_instances && none(hit & float_mask<FloatN>(geometry != UintN(first_geometry)));
     one_primitive = one_geometry && none(hit & float_mask<FloatN>(primitive != IntN(first_primitive)));
   }
 };

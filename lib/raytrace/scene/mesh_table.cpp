@@ -28,22 +28,49 @@ MeshTable::MeshTable(const ObjectItem<Mesh>& mesh, const Vec3d& origin, std::spa
   for (const MaterialReference& material : mesh.materials)
     materials_.push_back(first_materials[material.type] + static_cast<std::int32_t>(material.index));
 
-  const Vec3d move = data_->origin - origin;
-  if (move.x != 0 || move.y != 0 || move.z != 0) {
-    moved_ = MeshBuffer<float>(data_->positions.size());
-    for_each_chunk(vertex_count(), threads, [&](std::size_t, std::size_t first, std::size_t last) {
-      for (std::size_t i = 3 * first; i < 3 * last; ++i)
-        moved_[i] = static_cast<float>(data_->positions[i] + component(move, static_cast<int>(i % 3)));
-    });
-  }
+  Affine affine = mesh.transform.affine();
+  affine.origin = affine.point(data_->origin) + -origin;
+  const bool is_transformed = !mesh.transform.empty();
+  if (is_transformed || length(affine.origin) > 0) move(affine, threads);
   if (mesh.parameters.normals.groups.empty() && mesh.parameters.normals.word == Mesh::smooth) {
     computed_normals_ = vertex_normals(*data_, positions(), threads);
     normals_ = computed_normals_.data();
   } else if (!data_->normals.empty() &&
              (!mesh.parameters.normals.groups.empty() || mesh.parameters.normals.word == Mesh::of_file)) {
     normals_ = data_->normals.data();
+    if (is_transformed) turn_normals(affine, threads);
   }
   set_bounds(threads);
+}
+
+void MeshTable::move(const Affine& affine, int threads) {
+  moved_ = MeshBuffer<float>(data_->positions.size());
+  for_each_chunk(vertex_count(), threads, [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t i = 3 * first; i < 3 * last; i += 3) {
+      const float* const p = data_->positions.data() + i;
+      const Vec3d moved = affine.point({p[0], p[1], p[2]});
+      for (int axis = 0; axis < 3; ++axis) {
+        // As far as Embree takes them.
+        const double most = 1e18, coordinate = std::clamp(component(moved, axis), -most, most);
+        moved_[i + static_cast<std::size_t>(axis)] = static_cast<float>(coordinate);
+      }
+    }
+  });
+}
+
+void MeshTable::turn_normals(const Affine& affine, int threads) {
+  computed_normals_ = MeshBuffer<float>(data_->normals.size());
+  for_each_chunk(vertex_count(), threads, [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t i = 3 * first; i < 3 * last; i += 3) {
+      const float* const n = data_->normals.data() + i;
+      const Vec3d turned = affine.normal({n[0], n[1], n[2]});
+      const double size = length(turned);
+      for (int axis = 0; axis < 3; ++axis)
+        computed_normals_[i + static_cast<std::size_t>(axis)] =
+            size > 0 ? static_cast<float>(component(turned, axis) / size) : 0.0F;
+    }
+  });
+  normals_ = computed_normals_.data();
 }
 
 void MeshTable::set_bounds(int threads) {

@@ -65,6 +65,8 @@ class MeshTable {
     const float* const p = positions() + 3 * vertex;
     return {p[0], p[1], p[2]};
   }
+  void move(const Affine& affine, int threads);
+  void turn_normals(const Affine& affine, int threads);
   void set_bounds(int threads);
 
   std::shared_ptr<const MeshData> data_;

@@ -32,7 +32,7 @@ SceneTables::SceneTables(const SceneDescription& description, int threads)
   add_materials(description);
   geometry_ = std::make_unique<const GeometryTable>(description, origin_, first_material_, threads);
   if (camera_is_far_from(geometry_->bounding_sphere(), description)) {
-    const Vec3d& center = geometry_->bounding_sphere().center;
+    const Vec3d center = geometry_->bounding_sphere().center;
     if (length(origin_) > 0) {
       origin_ += rounded(center);
       geometry_ = std::make_unique<const GeometryTable>(description, origin_, first_material_, threads);

@@ -3,6 +3,7 @@
 //   <plane> <point x="0" y="0" z="0"/> <normal x="0" y="1" z="0"/> <material>floor</material> </plane>
 #pragma once
 
+#include "raytrace/math/affine.h"
 #include "raytrace/parameters/fields.h"
 
 namespace raytrace {
@@ -15,6 +16,9 @@ class Plane {
   };
   static constexpr std::string_view group = "planes";
   static constexpr std::string_view element = "plane";
+  static Parameters transformed(const Parameters& parameters, const Affine& affine) {
+    return {affine.point(parameters.point), affine.normal(parameters.normal)};
+  }
   static Fields<Parameters> fields() {
     return {required("point", &Parameters::point, a_point), required("normal", &Parameters::normal, Range::nonzero)};
   }

@@ -6,6 +6,7 @@
 //   </rectangle>
 #pragma once
 
+#include "raytrace/math/affine.h"
 #include "raytrace/parameters/fields.h"
 
 namespace raytrace {
@@ -19,6 +20,10 @@ class Rectangle {
   };
   static constexpr std::string_view group = "rectangles";
   static constexpr std::string_view element = "rectangle";
+  /// A parallelogram stays one.
+  static Parameters transformed(const Parameters& parameters, const Affine& affine) {
+    return {affine.point(parameters.corner), affine.vector(parameters.edge1), affine.vector(parameters.edge2)};
+  }
   static Fields<Parameters> fields() {
     return {required("corner", &Parameters::corner, a_point), required("edge1", &Parameters::edge1, Range::nonzero),
             required("edge2", &Parameters::edge2, Range::nonzero)};

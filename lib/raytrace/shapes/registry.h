@@ -5,6 +5,7 @@
 #include "raytrace/math/type_list.h"
 #include "raytrace/shapes/cylinder.h"
 #include "raytrace/shapes/disk.h"
+#include "raytrace/shapes/instance.h"
 #include "raytrace/shapes/mesh.h"
 #include "raytrace/shapes/plane.h"
 #include "raytrace/shapes/rectangle.h"
@@ -16,7 +17,7 @@ namespace raytrace {
 
 using Shapes = TypeList<Plane, Sphere, Triangle, Cylinder, Torus, Disk, Rectangle>;
 
-/// All that <objects> holds: the shapes, and meshes, which are many triangles or quads each.
-using Objects = Appended<Shapes, Mesh>::type;
+/// All that <objects> holds: the shapes; meshes, which are many triangles or quads each; instances of groups.
+using Objects = Appended<Appended<Shapes, Mesh>::type, Instance>::type;
 
 }  // namespace raytrace

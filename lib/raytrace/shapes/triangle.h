@@ -6,6 +6,7 @@
 //   </triangle>
 #pragma once
 
+#include "raytrace/math/affine.h"
 #include "raytrace/parameters/fields.h"
 
 namespace raytrace {
@@ -17,6 +18,9 @@ class Triangle {
   };
   static constexpr std::string_view group = "triangles";
   static constexpr std::string_view element = "triangle";
+  static Parameters transformed(const Parameters& parameters, const Affine& affine) {
+    return {affine.point(parameters.vertex1), affine.point(parameters.vertex2), affine.point(parameters.vertex3)};
+  }
   static Fields<Parameters> fields() {
     return {required("vertexposition1", &Parameters::vertex1, a_point),
             required("vertexposition2", &Parameters::vertex2, a_point),

@@ -16,7 +16,10 @@ using namespace xml;
 
 constexpr std::size_t most_open = 64;
 constexpr std::size_t most_attributes = 64;
-constexpr std::size_t group_depth = 3;
+
+// What may be a group: an element in a section at the root, or in one of <groups> of objects.
+constexpr std::size_t group_depth = 3, nested_group_depth = 5;
+constexpr std::string_view groups_of_objects = "groups";
 
 /// Walks over a whole text. Throws TextError.
 class Scanner : private XmlCursor {
@@ -98,8 +101,12 @@ class Scanner : private XmlCursor {
       start_tag();
   }
 
+  bool in_group() const {
+    return open_.size() == group_depth || (open_.size() == nested_group_depth && open_[1].name == groups_of_objects);
+  }
+
   /// At the '<' of an item's start tag.
-  bool at_item() const { return open_.size() == group_depth && *here_ == '<' && is(here_[1], name_start); }
+  bool at_item() const { return in_group() && *here_ == '<' && is(here_[1], name_start); }
 
   /// From an item on: over as many as others have gone through.
   void pass_scanned_items() {
@@ -133,7 +140,7 @@ class Scanner : private XmlCursor {
     while (true) {
       skip_space();
       if (here_ > end_ || *here_ == '\0') return false;
-      const bool at_end_tag = open_.size() == group_depth && here_[0] == '<' && here_[1] == '/';
+      const bool at_end_tag = in_group() && here_[0] == '<' && here_[1] == '/';
       if (at_end_tag || (here_ >= to && at_item())) return true;
       scan_next();
     }
@@ -204,8 +211,7 @@ class Scanner : private XmlCursor {
     if (open_.size() == most_open) fail(start, "elements are nested more than 64 deep here; is a closing tag missing?");
     root_seen_ = true;
     note_node(start);
-    if (cutter && open_.size() == group_depth)
-      cutter->item(offset(open_.back().begin), open_.back().name, offset(start));
+    if (cutter && in_group()) cutter->item(offset(open_.back().begin), open_.back().name, offset(start));
     attributes_.clear();
     while (true) {
       const char* const before = here_;
@@ -246,7 +252,7 @@ class Scanner : private XmlCursor {
     skip_space();
     if (*here_ != '>') fail(start, "the tag </" + printable(found) + " never ends; add '>'");
     ++here_;
-    if (cutter && open_.size() == group_depth) cutter->end(offset(last.begin), offset(start));
+    if (cutter && in_group()) cutter->end(offset(last.begin), offset(start));
     open_.pop_back();
   }
 

@@ -1,0 +1,90 @@
+#include "raytrace/description/check_groups.h"
+
+#include <algorithm>
+#include <map>
+#include <string_view>
+
+#include "raytrace/text/message.h"
+
+namespace raytrace {
+
+namespace {
+
+class GroupChecker {
+ public:
+  using Report = std::function<void(SourceLocation, const std::string&)>;
+
+  GroupChecker(const SceneDescription& scene, const Report& report) : scene_(scene), report_(report) {
+    for (const Group& group : scene.groups) {
+      names_.push_back(group.name);
+      states_.try_emplace(group.name, State{&group});
+    }
+  }
+
+  void check() {
+    for (const Group& group : scene_.groups)
+      for (const auto& plane : std::get<ObjectItems<Plane>>(group.objects))
+        report_({plane.line, 0}, "a plane has no end, so it cannot be in a group; put it into the scene's <objects>");
+    std::uint64_t count = 0;
+    for (const Group& group : scene_.groups) count_of(states_.at(group.name));
+    for (const auto& instance : std::get<ObjectItems<Instance>>(scene_.objects)) count += count_of(instance);
+    if (count > most_instances)
+      report_({}, "the scene has " + std::to_string(count) +
+                      " instances, those in groups counted each time; the most is " + std::to_string(most_instances));
+  }
+
+ private:
+  struct State {
+    const Group* group;
+    enum { unknown, at_hand, known } progress = unknown;
+    std::uint64_t count = 0;  ///< of instances that one of the group is
+  };
+
+  std::uint64_t count_of(const ObjectItem<Instance>& instance) {
+    const Reference& name = instance.parameters.group;
+    const SourceLocation location =
+        name.line > 0 ? SourceLocation{name.line, name.column} : SourceLocation{instance.line, 0};
+    const auto found = states_.find(name.name);
+    if (found == states_.end()) {
+      const std::string_view nearest = nearest_name(name.name, names_);
+      report_(location,
+              "unknown group " + in_quotes(name.name) + " in <instance>; " +
+                  (nearest.empty() ? "add one of that name to <groups>" : "did you mean " + in_quotes(nearest) + "?"));
+      return 0;
+    }
+    if (found->second.progress == State::at_hand) {
+      report_(location, "the group " + in_quotes(name.name) + " would have itself in it");
+      return 0;
+    }
+    return count_of(found->second);
+  }
+
+  std::uint64_t count_of(State& state) {
+    if (state.progress != State::unknown) return state.count;
+    state.progress = State::at_hand;
+    std::uint64_t count = 1;
+    for_each_type(Shapes{}, [&]<class Shape>(std::type_identity<Shape>) {
+      for (const auto& item : std::get<ObjectItems<Shape>>(state.group->objects))
+        count += item.transform.empty() ? 0 : 1;
+    });
+    for (const auto& inner : std::get<ObjectItems<Instance>>(state.group->objects))
+      count = std::min(count + count_of(inner), std::uint64_t{1} << 40U);
+    state.count = count;
+    state.progress = State::known;
+    return count;
+  }
+
+  const SceneDescription& scene_;
+  const Report& report_;
+  std::vector<std::string_view> names_;
+  std::map<std::string_view, State> states_;
+};
+
+}  // namespace
+
+void check_groups(const SceneDescription& scene,
+                  const std::function<void(SourceLocation, const std::string&)>& report) {
+  GroupChecker(scene, report).check();
+}
+
+}  // namespace raytrace

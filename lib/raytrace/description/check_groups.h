@@ -1,0 +1,18 @@
+// What groups and their instances must keep.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "raytrace/description/scene_description.h"
+
+namespace raytrace {
+
+/// Calls report(line and column, message) for each instance of a group that is not there, each plane in a group, each
+/// instance that would have its own group in it, and if there would be more instances than a scene may have, those in
+/// groups counted each time.
+void check_groups(const SceneDescription& scene, const std::function<void(SourceLocation, const std::string&)>& report);
+
+inline constexpr std::uint64_t most_instances = std::uint64_t{1} << 24U;
+
+}  // namespace raytrace

@@ -1,0 +1,31 @@
+// Shapes under transforms that leave them what they are.
+#pragma once
+
+#include <optional>
+
+#include "raytrace/math/affine.h"
+#include "raytrace/parameters/fields.h"
+
+namespace raytrace {
+
+/// The parameters of the transformed shape, if it is still one of its type. A type that stays so under more transforms
+/// than those of the same scale in all directions, or under fewer, has a function of this name. In others, vectors that
+/// are no points are edges or directions of any length, and numbers are sizes.
+template <class Shape>
+std::optional<typename Shape::Parameters> transformed(typename Shape::Parameters parameters, const Affine& affine) {
+  if constexpr (requires { Shape::transformed(parameters, affine); }) {
+    return Shape::transformed(parameters, affine);
+  } else {
+    const std::optional<double> scale = affine.uniform_scale();
+    if (!scale) return std::nullopt;
+    for (const auto& field : Shape::fields())
+      field.visit(parameters, [&]<class Value>(Value&& value) {
+        if constexpr (std::is_same_v<Value, Vec3d&>)
+          value = field.is_point ? affine.point(value) : affine.vector(value);
+        if constexpr (std::is_same_v<Value, double&>) value *= *scale;
+      });
+    return parameters;
+  }
+}
+
+}  // namespace raytrace

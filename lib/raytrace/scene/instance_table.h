@@ -1,0 +1,99 @@
+// The instances of a scene: groups of objects, or single shapes, under transforms that only a ray can follow.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "raytrace/math/affine.h"
+#include "raytrace/math/bounds.h"
+#include "raytrace/math/gather.h"
+#include "raytrace/math/ray.h"
+#include "raytrace/math/simd.h"
+
+namespace raytrace {
+
+/// An affine map of lanes, or of one instance: the columns as Affine has them, in float.
+template <class T>
+struct AffineRecord {
+  Vec3<T> x, y, z, origin;
+};
+
+/// Every coordinate by the same three fused operations, for packets and single rays, so that both find the same.
+template <class F, class T>
+RAYTRACE_INLINE Vec3<F> apply_vector(const AffineRecord<T>& affine, const Vec3<F>& v) {
+  const auto row = [&](const T& x, const T& y, const T& z)
+                       RAYTRACE_INLINE_LAMBDA { return multiply_add(F(x), v.x, multiply_add(F(y), v.y, F(z) * v.z)); };
+  return {row(affine.x.x, affine.y.x, affine.z.x), row(affine.x.y, affine.y.y, affine.z.y),
+          row(affine.x.z, affine.y.z, affine.z.z)};
+}
+template <class F, class T>
+RAYTRACE_INLINE Vec3<F> apply_point(const AffineRecord<T>& affine, const Vec3<F>& p) {
+  const auto row = [&](const T& x, const T& y, const T& z, const T& origin) RAYTRACE_INLINE_LAMBDA {
+    return multiply_add(F(x), p.x, multiply_add(F(y), p.y, multiply_add(F(z), p.z, F(origin))));
+  };
+  return {row(affine.x.x, affine.y.x, affine.z.x, affine.origin.x),
+          row(affine.x.y, affine.y.y, affine.z.y, affine.origin.y),
+          row(affine.x.z, affine.y.z, affine.z.z, affine.origin.z)};
+}
+
+/// What is instanced.
+struct InstanceTarget {
+  static constexpr std::int32_t no_group = -1;
+
+  std::int32_t group = no_group;  ///< whose table it is in; none: the world's
+  bool is_shape = false;          ///< a single shape, as its table has it; else all that the group has beside such
+  std::uint32_t shape_type = 0, primitive = 0;  ///< of the single shape
+};
+
+/// Instances are numbered from 1: 0 stands for hits outside of them. Single shapes of the world have shape_of_world in
+/// theirs.
+class InstanceTable {
+ public:
+  /// At equal distances, the first by number counts, then by geometry and primitive; but single shapes of the
+  /// world count as its other objects do: as if their number were 0.
+  static constexpr std::uint32_t shape_of_world = 0x80000000;
+
+  /// material: in place of the objects' own; -1: none.
+  void add(const InstanceTarget& target, const Affine& world_from_object, const Bounds& bounds, std::int32_t object,
+           std::int32_t material);
+
+  bool empty() const { return targets_.empty(); }
+  std::size_t size() const { return targets_.size(); }
+
+  // Of instance i, whose number is:
+  std::uint32_t number(std::size_t i) const {
+    return static_cast<std::uint32_t>(i + 1) | (targets_[i].group == InstanceTarget::no_group ? shape_of_world : 0);
+  }
+  const InstanceTarget& target(std::size_t i) const { return targets_[i]; }
+  const Bounds& bounds(std::size_t i) const { return bounds_[i]; }  ///< in the world
+  const AffineRecord<float>& object_from_world(std::size_t i) const { return object_from_world_[i]; }
+  const std::vector<std::int32_t>& materials() const { return materials_; }
+
+  // Of lanes: number is 0 where they hit none. Those get what the first instance has.
+
+  IntN group(const UintN& number) const { return gather(groups_.data(), index(number)); }
+  IntN object(const UintN& number) const { return gather(objects_.data(), index(number)); }
+  IntN material(const UintN& number) const { return gather(materials_.data(), index(number)); }
+  AffineRecord<FloatN> object_from_world(const UintN& number) const {
+    return gather_records<AffineRecord, FloatN>(object_from_world_.data(), LaneIndices(index(number)));
+  }
+  AffineRecord<FloatN> world_from_object(const UintN& number) const {
+    return gather_records<AffineRecord, FloatN>(world_from_object_.data(), LaneIndices(index(number)));
+  }
+
+ private:
+  static IntN index(const UintN& number) {
+    return same_bits<IntN>(number & UintN(~shape_of_world)) -
+           select_lanes(float_mask<FloatN>(number == UintN(0u)), IntN(0), IntN(1));
+  }
+
+  std::vector<InstanceTarget> targets_;
+  std::vector<AffineRecord<float>> object_from_world_, world_from_object_;
+  std::vector<Bounds> bounds_;
+  std::vector<std::int32_t> groups_, objects_, materials_;
+};
+
+/// Around a box under a map.
+Bounds transformed_bounds(const Affine& affine, const Bounds& box);
+
+}  // namespace raytrace
