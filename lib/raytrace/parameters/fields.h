@@ -119,7 +119,7 @@ struct NumberGroups {
 struct WordOrGroups {
   std::span<const std::string_view> words;
   std::size_t word = 0;  ///< index in words; where there are numbers, it does not count
-  NumberGroups groups;
+  NumberGroups groups = {};
 
   friend bool operator==(const WordOrGroups& a, const WordOrGroups& b) {
     return a.groups == b.groups && (!a.groups.empty() || a.word == b.word);
