@@ -72,7 +72,7 @@ class FieldsReader {
   }
 
  private:
-  Fields<Parameters> fields_ = T::fields();
+  Fields<Parameters> fields_ = fields_in_files<T>();
   std::size_t label_count_;
   std::vector<FieldInfo> infos_;
   std::vector<FieldTarget> targets_;  // of the element at hand

@@ -103,18 +103,27 @@ class BlockRenderer {
     PixelSampler sampler(scramble_of(block), group_, base, settings.samples.centered);
     BlockSums<Block> sums(scale_);
     FirstHits first;
+    const FilterTable& filter = scene_.tables().pixel_filter();
     for (int packets = 1; base < left.last; base += group, ++packets) {
       const UintN sample = UintN(base) + slot;
       const bool all_wanted = base >= left.all_from && left.last - base >= group;
       const MaskN wanted = all_wanted ? active : active & in_range(sample, left.lane_first, UintN(left.last));
-      const PixelSampler::Point point = sampler.next();
+      Sample2D point = sampler.next();
+      if (filter.moves_samples()) [[unlikely]]
+        point = filtered(filter, point);
+      const auto lens_sample = [&] {
+        return get_2d(pixel_hash(UintN(column), UintN(row), settings.seed), sample, Dimension::lens);
+      };
       CameraRays camera;
-      scene_.tables().set_camera_rays(x + point.x, y + point.y, camera);
-      const RayResult result = Kernel<Integrator>::radiance(scene_, background_, camera, active, wanted, report_.rays,
-                                                            aovs != nullptr ? &first : nullptr);
+      const MaskN in_picture = scene_.tables().set_camera_rays(x + point.x, y + point.y, lens_sample, camera);
+      RayResult result =
+          Kernel<Integrator>::radiance(scene_, background_, camera, active & in_picture, wanted & in_picture,
+                                       report_.rays, aovs != nullptr ? &first : nullptr);
+      if (!all(in_picture)) [[unlikely]]
+        result.radiance = select(in_picture, result.radiance, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
       const MaskN large = sums.add(result, wanted);
       if (aovs != nullptr) aovs->add(AovInputs(scene_.tables(), camera, first.hits, first.surface), wanted, sample);
-      report_.rays.camera += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(wanted)));
+      report_.rays.camera += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(wanted & in_picture)));
       if (any(large)) add_invalid(sums.add_large(result, large), block, base);
       if (packets % packets_per_look == 0) {
         if (stopped()) break;
