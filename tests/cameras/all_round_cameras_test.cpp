@@ -52,7 +52,8 @@ TEST_CASE("a fisheye's angle from the view direction grows with the distance fro
         const double from_axis = angle / 2 * pi / 180 * radius / 150;
         const Vec3d aside = frame.u * std::cos(2 * pi * around) + frame.v * std::sin(2 * pi * around);
         INFO(angle << " degrees");
-        check_direction(camera, std::round(x), std::round(y), aside * std::sin(from_axis) - frame.w * std::cos(from_axis));
+        check_direction(camera, std::round(x), std::round(y),
+                        aside * std::sin(from_axis) - frame.w * std::cos(from_axis));
       }
   }
 }

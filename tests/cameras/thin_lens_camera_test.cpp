@@ -31,8 +31,9 @@ template <class Function>
 void for_each_point(int n, const Function& f) {
   for (int i = 0; i < n * n; i += static_cast<int>(lanes)) {
     const auto along = [&](int divisor) {
-      return batch_of<FloatN>(
-          [&](std::size_t lane) { return ((i + static_cast<int>(lane)) / divisor % n + 0.5) / static_cast<double>(n); });
+      return batch_of<FloatN>([&](std::size_t lane) {
+        return ((i + static_cast<int>(lane)) / divisor % n + 0.5) / static_cast<double>(n);
+      });
     };
     f(along(1), along(n));
   }
@@ -115,8 +116,8 @@ TEST_CASE("points of a bladed lens are uniform over the regular polygon with its
         double turns = (std::atan2(y, x) - rotation * std::numbers::pi / 180) / (2 * std::numbers::pi) * blades;
         turns = std::fmod(turns + 2 * blades, blades);
         const auto side = std::min<std::size_t>(sides.size() - 1, static_cast<std::size_t>(turns));
-        const double normal = ((static_cast<double>(side) + 0.5) * 2 * std::numbers::pi) / blades +
-                              rotation * std::numbers::pi / 180;
+        const double normal =
+            ((static_cast<double>(side) + 0.5) * 2 * std::numbers::pi) / blades + rotation * std::numbers::pi / 180;
         const double outwards = (x * std::cos(normal) + y * std::sin(normal)) / reach;
         beyond = std::max(beyond, outwards - 1);
         ++sides[side];
