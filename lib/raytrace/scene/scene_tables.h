@@ -42,18 +42,22 @@ class SceneTables {
   /// Raycast where the description leaves it open.
   const IntegratorParameters& integrator() const { return integrator_; }
   /// Sets rays through points of the picture, as cameras/kernels.h has them. lens_sample(): a Sample2D, for cameras
-  /// with a lens. The result: the lanes that have a ray.
+  /// with a lens.
   template <class LensSample>
-  RAYTRACE_INLINE MaskN set_camera_rays(const FloatN& x, const FloatN& y, const LensSample& lens_sample,
-                                        CameraRays& result) const {
+  RAYTRACE_INLINE void set_camera_rays(const FloatN& x, const FloatN& y, const LensSample& lens_sample,
+                                       CameraRays& result) const {
     // The first of the registry, which most scenes have, goes no way around.
     if (const auto* const camera = std::get_if<0>(&*camera_); camera != nullptr && !camera_is_far()) [[likely]] {
       result.rays = camera->template generate<FloatN>(x, y);
       result.skipped = FloatN(0);
-      return MaskN(true);
+    } else {
+      set_rays_of_any_camera(x, y, camera_has_lens_ ? lens_sample() : Sample2D{FloatN(0), FloatN(0)}, result);
     }
-    return set_rays_of_any_camera(x, y, camera_has_lens_ ? lens_sample() : Sample2D{FloatN(0), FloatN(0)}, result);
   }
+  /// Whether there are points of the picture without a ray; they are black.
+  bool camera_has_gaps() const { return camera_has_gaps_; }
+  /// Where there are, the points with one.
+  MaskN has_ray(const FloatN& x, const FloatN& y) const;
   /// Whether the camera is so far away from all objects with bounds that its rays start at them.
   bool camera_is_far() const { return camera_target_.has_value(); }
   /// Unit length.
@@ -100,7 +104,7 @@ class SceneTables {
     for (const auto member : point_members<Type>()) parameters.*member += -origin_;
     return parameters;
   }
-  MaskN set_rays_of_any_camera(const FloatN& x, const FloatN& y, const Sample2D& lens, CameraRays& result) const;
+  void set_rays_of_any_camera(const FloatN& x, const FloatN& y, const Sample2D& lens, CameraRays& result) const;
   void set_camera(const SceneDescription& description);
   bool camera_is_far_from(const BoundingSphere& sphere, const SceneDescription& description) const;
   void add_lights(const SceneDescription& description);
@@ -119,7 +123,7 @@ class SceneTables {
   std::optional<KernelVariant<Cameras>::type> camera_;
   std::optional<BoundingSphere> camera_target_;  ///< around all objects with bounds, if it is far
   Vec3f viewing_direction_{};
-  bool depth_is_distance_ = false, camera_has_lens_ = false;
+  bool depth_is_distance_ = false, camera_has_lens_ = false, camera_has_gaps_ = false;
   std::optional<BufferOrigin> camera_origin_;
   Rgb<float> ambient_radiance_{0, 0, 0};
   LightBounds light_bounds_;

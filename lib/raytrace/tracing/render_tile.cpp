@@ -111,19 +111,19 @@ class BlockRenderer {
       Sample2D point = sampler.next();
       if (filter.moves_samples()) [[unlikely]]
         point = filtered(filter, point);
-      const auto lens_sample = [&] {
-        return get_2d(pixel_hash(UintN(column), UintN(row), settings.seed), sample, Dimension::lens);
-      };
+      const FloatN px = x + point.x, py = y + point.y;
+      MaskN traced = active;
+      if (scene_.tables().camera_has_gaps()) [[unlikely]]
+        traced = active & scene_.tables().has_ray(px, py);
       CameraRays camera;
-      const MaskN in_picture = scene_.tables().set_camera_rays(x + point.x, y + point.y, lens_sample, camera);
-      RayResult result =
-          Kernel<Integrator>::radiance(scene_, background_, camera, active & in_picture, wanted & in_picture,
-                                       report_.rays, aovs != nullptr ? &first : nullptr);
-      if (!all(in_picture)) [[unlikely]]
-        result.radiance = select(in_picture, result.radiance, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
+      scene_.tables().set_camera_rays(px, py, [&] { return lens_sample(block, sample); }, camera);
+      RayResult result = Kernel<Integrator>::radiance(scene_, background_, camera, traced, wanted, report_.rays,
+                                                      aovs != nullptr ? &first : nullptr);
+      if (scene_.tables().camera_has_gaps()) [[unlikely]]
+        result.radiance = select(traced, result.radiance, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
       const MaskN large = sums.add(result, wanted);
       if (aovs != nullptr) aovs->add(AovInputs(scene_.tables(), camera, first.hits, first.surface), wanted, sample);
-      report_.rays.camera += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(wanted & in_picture)));
+      report_.rays.camera += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(wanted & traced)));
       if (any(large)) add_invalid(sums.add_large(result, large), block, base);
       if (packets % packets_per_look == 0) {
         if (stopped()) break;
@@ -131,6 +131,11 @@ class BlockRenderer {
       }
     }
     sums.add_to(film_, block, region_);
+  }
+
+  [[gnu::noinline]] Sample2D lens_sample(const Block& block, const UintN& sample) const {
+    const UintN pixel = pixel_hash(UintN(block.columns()), UintN(block.rows()), film_.settings().seed);
+    return get_2d(pixel, sample, Dimension::lens);
   }
 
   /// Pixels of the picture, and those beyond it that are wanted.
