@@ -457,6 +457,82 @@ write(
     objects=f"    <rectangles>\n{STAIRS}    </rectangles>\n",
 )
 
+# What the other cameras see: a row of spheres that goes away, and some around the camera.
+AVENUE = "    <spheres>\n" + "".join(
+    f'      <sphere> <center x="{x}" y="{y}" z="{z}"/> <radius>{y}</radius> <material>{material}</material> </sphere>\n'
+    for x, y, z, material in (
+        (-2.6, 0.6, -6, "glossy"),
+        (-1.5, 0.6, -3, "clay"),
+        (0, 0.6, 0, "glossy"),
+        (0.9, 0.5, 2, "clay"),
+        (1.2, 0.4, 4, "glossy"),
+        (-2.4, 0.8, 8.5, "clay"),
+        (2.8, 0.9, 9.5, "glossy"),
+        (0.5, 0.7, 12, "clay"),
+    )
+)
+AVENUE += "    </spheres>\n"
+VIEW = '<eye x="0" y="2.2" z="8"/> <lookat x="0" y="0.9" z="0"/>'
+PINHOLE = f"<camera> {VIEW} <viewdistance>520</viewdistance> </camera>"
+
+
+def camera(name, comment, element, replaced=None):
+    room = ROOM.replace(PINHOLE, element)
+    for old, new in replaced or ():
+        room = room.replace(old, new)
+    write(name, comment, room=room, phongs=GLOSSY, objects=AVENUE)
+
+
+camera(
+    "camera-thin-lens",
+    "A thin lens: what lies nearer or farther than the focal distance is blurred. Pixels have soft edges, too.",
+    f"<thinlenscamera> {VIEW} <fov>26</fov> <lensradius>0.35</lensradius> <focaldistance>8.1</focaldistance>\n"
+    "  </thinlenscamera>",
+    (("<samples>16</samples>", "<samples>64</samples> <filter>gaussian</filter>"),),
+)
+LAMPS = "    <spheres>\n" + "".join(
+    f'      <sphere> <center x="{-3 + 1.2 * i % 6:.4g}" y="{0.5 + 0.7 * i % 3.1:.4g}" z="{-2 - 0.9 * i:.4g}"/> '
+    "<radius>0.1</radius> <material>lamp</material> </sphere>\n"
+    for i in range(12)
+)
+LAMPS += """\
+      <sphere> <center x="0.4" y="0.5" z="4"/> <radius>0.5</radius> <material>clay</material> </sphere>
+    </spheres>
+"""
+write(
+    "camera-blades",
+    "A lens of five blades: small bright things that are out of focus have its shape.",
+    room=ROOM.replace(
+        PINHOLE,
+        f"<thinlenscamera> {VIEW} <fov>26</fov> <lensradius>0.3</lensradius> <focaldistance>4.1</focaldistance>\n"
+        "    <blades>5</blades> <bladerotation>90</bladerotation>\n  </thinlenscamera>",
+    ).replace("<samples>16</samples>", "<samples>256</samples>"),
+    mattes=CLAY + """\
+      <matte> <name>lamp</name> <ka>9</ka> <kd>0</kd> <cd red="1" green="0.8" blue="0.45"/> </matte>
+""",
+    objects=LAMPS,
+)
+camera(
+    "camera-fisheye",
+    "A fisheye camera: half of all directions in a circle.",
+    f"<fisheyecamera> {VIEW} <angle>180</angle> </fisheyecamera>",
+)
+camera(
+    "camera-spherical",
+    "A spherical camera: all directions, by longitude and latitude.",
+    f"<sphericalcamera> {VIEW} </sphericalcamera>",
+    (("<vres>240</vres>", "<vres>160</vres>"),),
+)
+write(
+    "filter-gaussian",
+    "The scene of samples-64.xml with a Gaussian pixel filter.",
+    room=ROOM.replace("<samples>16", "<filter>gaussian</filter> <samples>64").replace(
+        "<hres>320</hres> <vres>240</vres>", SMALL
+    ),
+    floor="",
+    objects=f"    <cylinders>\n{FAN}    </cylinders>\n",
+)
+
 # Integrator
 write(
     "normals",

@@ -25,7 +25,8 @@ SceneDescription scene() {
 }
 
 Matrices matrices(const SceneDescription& description) {
-  const auto& [camera, ndc] = camera_matrices(description);
+  const auto& [camera, ndc, is_projection] = camera_matrices(description);
+  REQUIRE(is_projection);
   Matrices result;
   std::copy(std::begin(camera), std::end(camera), result.world_to_camera.begin());
   std::copy(std::begin(ndc), std::end(ndc), result.world_to_ndc.begin());

@@ -44,6 +44,8 @@ TEST_CASE("a scene is printed with every value spelled out") {
     <pixelsize>1</pixelsize>
     <samples>1</samples>
     <background red="0" green="0" blue="0"/>
+    <filter>box</filter>
+    <filterwidth>0</filterwidth>
   </viewplane>
   <camera>
     <eye x="0" y="0" z="9"/>

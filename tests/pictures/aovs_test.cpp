@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include "pictures/comparison.h"
 #include "raytrace/aovs/aov_selection.h"
 #include "raytrace/aovs/aov_table.h"
 #include "reference/renderer.h"
@@ -61,7 +62,8 @@ std::vector<std::string> names_of(const reference::Scene& scene) {
 /// Whether all AOVs of the pixel are those of the reference's hit; `scale`: of the scene's coordinates.
 bool agrees(const Aovs& got, const reference::Scene& scene, const SceneDescription& description, int x, int y) {
   const reference::Ray ray = reference::camera_ray(scene, x, scene.vres - 1 - y, 0.5L, 0.5L);
-  const auto hit = reference::nearest_hit(scene, ray);
+  const auto hit =
+      reference::has_ray(scene, x, scene.vres - 1 - y, 0.5L, 0.5L) ? reference::nearest_hit(scene, ray) : std::nullopt;
   const auto id = got.at<std::uint32_t>("id.object", x, y);
   if (!hit) return id == 0 && got.at("Z", x, y) == 1e30F;
   const reference::Object& object = scene.objects[hit->object];
@@ -74,7 +76,10 @@ bool agrees(const Aovs& got, const reference::Scene& scene, const SceneDescripti
   const Vector point = ray.at(hit->distance);
   const Vector view = unit(scene.look_at - scene.eye);
   const Real distance = length(point - scene.eye);
-  if (std::fabs(Real(got.at("Z", x, y)) - dot(point - scene.eye, view)) > tolerance * distance) return false;
+  using Projection = reference::Scene::Projection;
+  const bool has_view_plane = scene.projection == Projection::pinhole || scene.projection == Projection::thin_lens;
+  const Real depth = has_view_plane ? dot(point - scene.eye, view) : distance;
+  if (std::fabs(Real(got.at("Z", x, y)) - depth) > tolerance * distance) return false;
   if (length(got.vector_at("P", "XYZ", x, y) - point) > tolerance * distance) return false;
   Vector normal = object.shape->normal(point);
   if (dot(normal, ray.direction) > 0) normal = -normal;
@@ -82,9 +87,11 @@ bool agrees(const Aovs& got, const reference::Scene& scene, const SceneDescripti
   return length(got.vector_at("albedo", "RGB", x, y) - material.kd * material.cd) < 1e-6L;
 }
 
-void check_aovs(unsigned first, unsigned last) {
+template <class ChangeScene>
+void check_aovs(unsigned first, unsigned last, const ChangeScene& change_scene) {
   for (unsigned seed = first; seed < last; ++seed) {
-    const reference::Scene scene = reference::random_scene(seed);
+    reference::Scene scene = reference::random_scene(seed);
+    change_scene(scene, seed);
     const SceneDescription description = parsed_scene(reference::scene_text(scene));
     for (const std::string& isa : usable_isas()) {
       const Aovs got(description, isa);
@@ -103,9 +110,14 @@ void check_aovs(unsigned first, unsigned last) {
   }
 }
 
+void check_aovs(unsigned first, unsigned last) {
+  check_aovs(first, last, [](reference::Scene&, unsigned) {});
+}
+
 }  // namespace
 
 TEST_CASE("AOVs of random scenes 0 to 5 equal the reference's") { check_aovs(0, 6); }
 TEST_CASE("AOVs of random scenes 6 to 11 equal the reference's") { check_aovs(6, 12); }
+TEST_CASE("AOVs of random scenes through other cameras equal the reference's") { check_aovs(0, 6, change_camera); }
 
 }  // namespace raytrace::test

@@ -3,12 +3,14 @@
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 #include <sstream>
 
 #include "raytrace/render/renderer.h"
+#include "raytrace/sampling/pixel_sampler.h"
 #include "reference/renderer.h"
 
 namespace raytrace::test {
@@ -52,6 +54,22 @@ Picture library_picture(const SceneDescription& description, const std::string& 
   Picture picture{plane.hres, plane.vres, {}};
   for (const Pixel& pixel : film.pixels()) picture.pixels.push_back({pixel.red, pixel.green, pixel.blue});
   return picture;
+}
+
+void change_camera(reference::Scene& scene, unsigned seed) {
+  using Projection = reference::Scene::Projection;
+  scene.projection = std::array{Projection::thin_lens, Projection::fisheye, Projection::spherical}[seed % 3];
+  const reference::Real distance = length(scene.eye - scene.look_at);
+  scene.lens_radius = static_cast<float>(distance / 16);
+  scene.focal_distance = static_cast<float>(distance * (seed % 2 == 0 ? 1 : 0.75L));
+  scene.blades = seed % 4 < 2 ? 0 : static_cast<int>(3 + seed % 6);
+  scene.blade_rotation = 17 * (static_cast<int>(seed) - 20);
+  scene.angle = std::array{180, 360, 60, 270}[seed / 3 % 4];
+  scene.lens_sample = [height = scene.vres](int column, int row) -> std::array<reference::Real, 2> {
+    const auto pixel = pixel_hash(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(height - 1 - row), 0);
+    const ScrambledPoint<std::uint32_t> point = scrambled_point(pixel, std::uint32_t{0}, Dimension::lens);
+    return {(point.x >> 8) * 0x1p-24L, (point.y >> 8) * 0x1p-24L};
+  };
 }
 
 Picture reference_picture(const reference::Scene& scene) { return {scene.hres, scene.vres, reference::render(scene)}; }

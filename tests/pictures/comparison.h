@@ -20,6 +20,10 @@ struct Picture {
 
 Picture library_picture(const SceneDescription& description, const std::string& isa);
 
+/// Gives a random scene a camera of another type than a pinhole, which looks the same way: by its number, a thin lens,
+/// a fisheye or a spherical one.
+void change_camera(reference::Scene& scene, unsigned seed);
+
 /// At one sample a pixel.
 Picture reference_picture(const reference::Scene& scene);
 

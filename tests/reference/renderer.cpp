@@ -1,6 +1,8 @@
 #include "renderer.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 namespace reference {
 
@@ -22,6 +24,25 @@ bool is_shadowed(const Scene& scene, std::size_t own, const Ray& ray, Real light
     }
   }
   return false;
+}
+
+/// The point of a lens of radius 1 that belongs to a point of the unit square: the square's halves, and its quarters
+/// between the diagonals, become those of the disk; a polygon's sides take equal strips of it.
+std::array<Real, 2> lens_point(int blades, Real rotation, Real u1, Real u2) {
+  if (blades == 0) {
+    const Real a = 2 * u1 - 1, b = 2 * u2 - 1;
+    if (a == 0 && b == 0) return {0, 0};
+    const bool wide = std::fabs(a) > std::fabs(b);
+    const Real radius = wide ? a : b, angle = wide ? pi / 4 * b / a : pi / 2 - pi / 4 * a / b;
+    return {radius * std::cos(angle), radius * std::sin(angle)};
+  }
+  const Real side = std::floor(u1 * blades), outwards = std::sqrt(u1 * blades - side);
+  const auto corner = [&](Real number) {
+    const Real angle = 2 * pi * number / blades + rotation / 180 * pi;
+    return std::array<Real, 2>{std::cos(angle), std::sin(angle)};
+  };
+  const auto first = corner(side), second = corner(side + 1);
+  return {outwards * ((1 - u2) * first[0] + u2 * second[0]), outwards * ((1 - u2) * first[1] + u2 * second[1])};
 }
 
 }  // namespace
@@ -57,13 +78,39 @@ Crossings crossings_leaving(const Shape& shape, const Ray& ray) {
   return result;
 }
 
+bool has_ray(const Scene& scene, int column, int row, Real px, Real py) {
+  if (scene.projection != Scene::Projection::fisheye) return true;
+  return std::hypot(column - scene.hres / Real(2) + px, row - scene.vres / Real(2) + py) <=
+         std::min(scene.hres, scene.vres) / Real(2);
+}
+
 Ray camera_ray(const Scene& scene, int column, int row, Real px, Real py) {
   const Vector w = unit(scene.eye - scene.look_at);
   const Vector u = unit(cross(scene.up, w));
   const Vector v = cross(w, u);
-  const Real xv = scene.pixel_size * (column - scene.hres / Real(2) + px);
-  const Real yv = scene.pixel_size * (row - scene.vres / Real(2) + py);
-  return {scene.eye, xv * u + yv * v - scene.view_distance * w};
+  const Real x = column - scene.hres / Real(2) + px, y = row - scene.vres / Real(2) + py;
+  const Vector through = scene.pixel_size * x * u + scene.pixel_size * y * v - scene.view_distance * w;
+  switch (scene.projection) {
+    case Scene::Projection::thin_lens: {
+      const auto [u1, u2] = scene.lens_sample(column, row);
+      const auto [right, up] = lens_point(scene.blades, scene.blade_rotation, u1, u2);
+      const Vector start = scene.eye + scene.lens_radius * (right * u + up * v);
+      return {start, scene.eye + scene.focal_distance / scene.view_distance * through - start};
+    }
+    case Scene::Projection::fisheye: {
+      const Real from_axis = scene.angle / 180 * pi * std::hypot(x, y) / std::min(scene.hres, scene.vres);
+      const Real around = std::atan2(y, x);
+      return {scene.eye, std::sin(from_axis) * (std::cos(around) * u + std::sin(around) * v) - std::cos(from_axis) * w};
+    }
+    case Scene::Projection::spherical: {
+      const Real longitude = 2 * pi * x / scene.hres, latitude = pi * y / scene.vres;
+      const Vector level = std::sin(longitude) * u - std::cos(longitude) * w;
+      return {scene.eye, std::cos(latitude) * level + std::sin(latitude) * v};
+    }
+    case Scene::Projection::pinhole:
+      break;
+  }
+  return {scene.eye, through};
 }
 
 Vector radiance(const Scene& scene, const Ray& ray) {
@@ -99,7 +146,8 @@ std::vector<Vector> render(const Scene& scene) {
   std::vector<Vector> picture;
   for (int row = scene.vres - 1; row >= 0; --row) {
     for (int column = 0; column < scene.hres; ++column) {
-      picture.push_back(radiance(scene, camera_ray(scene, column, row, 0.5L, 0.5L)));
+      const bool black = !has_ray(scene, column, row, 0.5L, 0.5L);
+      picture.push_back(black ? Vector{} : radiance(scene, camera_ray(scene, column, row, 0.5L, 0.5L)));
     }
   }
   return picture;

@@ -19,6 +19,9 @@ std::optional<Hit> nearest_hit(const Scene& scene, const Ray& ray);
 /// Of all crossings of a shape with a ray that starts at a point of it: those in front, without that point itself.
 Crossings crossings_leaving(const Shape& shape, const Ray& ray);
 
+/// Whether there is a ray through that point of the pixel: outside of a fisheye's circle the picture is black.
+bool has_ray(const Scene& scene, int column, int row, Real px, Real py);
+
 /// The ray through point (px, py), (0, 0) the lower left corner, of the pixel in `column` from the left and `row` from
 /// the bottom.
 Ray camera_ray(const Scene& scene, int column, int row, Real px, Real py);

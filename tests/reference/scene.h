@@ -1,6 +1,8 @@
 // A scene for the reference renderer, in the terms of the scene format.
 #pragma once
 
+#include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -39,6 +41,15 @@ struct Scene {
   Vector eye, look_at;
   Vector up{0, 1, 0};  ///< not parallel to the view: the scene format leaves open what happens then
   Real view_distance = 1;
+
+  enum class Projection { pinhole, thin_lens, fisheye, spherical };
+  Projection projection = Projection::pinhole;
+  Real lens_radius = 0, focal_distance = 1;  ///< of a thin lens
+  int blades = 0;
+  Real blade_rotation = 0;  ///< in degrees
+  Real angle = 180;         ///< of a fisheye, in degrees
+  /// The point of the unit square that a pixel (column from the left, row from the bottom) has for its lens.
+  std::function<std::array<Real, 2>(int column, int row)> lens_sample;
 
   bool has_ambient = false;
   Real ambient_scale = 1;

@@ -34,6 +34,27 @@ std::string material_text(const Material& material) {
   return "<phongs><phong>" + text + "</phong></phongs>\n";
 }
 
+std::string camera_text(const Scene& scene) {
+  using Projection = Scene::Projection;
+  std::string text =
+      vector_element("eye", scene.eye) + vector_element("lookat", scene.look_at) + vector_element("up", scene.up);
+  if (scene.projection == Projection::pinhole || scene.projection == Projection::thin_lens)
+    text += number_element("viewdistance", scene.view_distance);
+  std::string name = "camera";
+  if (scene.projection == Projection::thin_lens) {
+    name = "thinlenscamera";
+    text += number_element("lensradius", scene.lens_radius) + number_element("focaldistance", scene.focal_distance) +
+            "<blades>" + std::to_string(scene.blades) + "</blades>" +
+            number_element("bladerotation", scene.blade_rotation);
+  } else if (scene.projection == Projection::fisheye) {
+    name = "fisheyecamera";
+    text += number_element("angle", scene.angle);
+  } else if (scene.projection == Projection::spherical) {
+    name = "sphericalcamera";
+  }
+  return "<" + name + ">" + text + "</" + name + ">";
+}
+
 }  // namespace
 
 std::string vector_element(const std::string& name, Vector v) { return triple(name, v, "x", "y", "z"); }
@@ -46,9 +67,7 @@ std::string scene_text(const Scene& scene) {
   std::string text = "<raytracer>\n<viewplane>";
   text += "<hres>" + std::to_string(scene.hres) + "</hres><vres>" + std::to_string(scene.vres) + "</vres>";
   text += number_element("pixelsize", scene.pixel_size) + "<samples>" + std::to_string(scene.samples) + "</samples>";
-  text += color_element("background", scene.background) + "</viewplane>\n<camera>";
-  text += vector_element("eye", scene.eye) + vector_element("lookat", scene.look_at) + vector_element("up", scene.up);
-  text += number_element("viewdistance", scene.view_distance) + "</camera>\n<lights>\n";
+  text += color_element("background", scene.background) + "</viewplane>\n" + camera_text(scene) + "\n<lights>\n";
   if (scene.has_ambient) {
     text += "<ambientlight>" + number_element("scaleradiance", scene.ambient_scale) +
             color_element("color", scene.ambient_color) + "</ambientlight>\n";

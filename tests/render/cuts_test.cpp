@@ -290,14 +290,16 @@ TEST_CASE("packets of every shape give the same bits however a picture is cut") 
   // Numbers of samples that lead to packets of a single pixel, of two pixels and so on, up to as many pixels as lanes:
   // which leads to which depends on the instruction set's lanes (render_tile() in tracing/).
   const int samples = GENERATE(32, 16, 8, 4, 3);
-  const std::string file = RAYTRACE_SOURCE_DIR "/scenes/gallery/still-life.xml";
+  // The second has a lens and a pixel filter, the third pixels without rays.
+  const std::string scene = GENERATE("gallery/still-life", "camera-thin-lens", "camera-fisheye");
+  const std::string file = RAYTRACE_SOURCE_DIR "/scenes/" + scene + ".xml";
   for (const std::string& isa : usable_isas()) {
     CutRender cut(file, samples, samples == 16, isa, static_cast<unsigned>(samples));
     for (const std::string kind : {"threads of a crop", "threads of a crop", "threads of an overscan crop",
                                    "passes of a crop", "mixed", "mixed of an overscan crop"}) {
       std::string steps;
       const bool same = cut.same_after(kind, steps);
-      INFO(isa << ": " << steps);
+      INFO(scene << ", " << isa << ": " << steps);
       CHECK(same);
     }
   }

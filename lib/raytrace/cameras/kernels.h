@@ -5,9 +5,17 @@
 //   template <class F> Ray<F> generate(const F& x, const F& y) const;
 //                              rays through points of the picture: x to the right and y upwards from its center, in
 //                              pixels; directions of unit length. F: floats, or Doubles of them
+//   template <class F> Ray<F> generate(const F& x, const F& y, const FloatN& u1, const FloatN& u2) const;
+//                              or this, if rays to one point of the picture start at many points of a lens, uniformly
+//                              distributed if (u1, u2) are, over the unit square
+//   MaskN has_ray(const FloatN& x, const FloatN& y) const;
+//                              if the picture has points without a ray, which are black; generate() gives any there
 //   Vec3f origin() const;      if all rays start there
 #pragma once
 
+#include "raytrace/cameras/fisheye_camera_kernel.h"
 #include "raytrace/cameras/orthographic_camera_kernel.h"
 #include "raytrace/cameras/pinhole_camera_kernel.h"
 #include "raytrace/cameras/registry.h"
+#include "raytrace/cameras/spherical_camera_kernel.h"
+#include "raytrace/cameras/thin_lens_camera_kernel.h"

@@ -1,6 +1,7 @@
 // What leads camera rays through the picture.
 #pragma once
 
+#include "raytrace/cameras/view_frame.h"
 #include "raytrace/math/simd.h"
 #include "raytrace/math/vec3.h"
 
@@ -23,6 +24,8 @@ class PixelFrame {
     }
   };
 
+  /// A unit a pixel.
+  PixelFrame(const Vec3d& eye, const ViewFrame& frame) : PixelFrame(eye, -frame.w, frame.u, frame.v) {}
   PixelFrame(const Vec3d& eye, const Vec3d& forward, const Vec3d& right, const Vec3d& up)
       : in_float_{Vec3f(eye), Vec3f(forward), Vec3f(right), Vec3f(up)}, in_double_{eye, forward, right, up} {}
 

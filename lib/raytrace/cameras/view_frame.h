@@ -3,9 +3,11 @@
 
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <optional>
 
 #include "raytrace/cameras/camera_matrices.h"
+#include "raytrace/cameras/view_plane.h"
 #include "raytrace/parameters/fields.h"
 
 namespace raytrace {
@@ -27,11 +29,45 @@ struct ViewFrame {
   }
 };
 
+/// The fields of a camera that looks from a point at another.
+template <class Parameters>
+Fields<Parameters> view_fields() {
+  return {required("eye", &Parameters::eye, a_point), required("lookat", &Parameters::lookat, a_point),
+          optional("up", &Parameters::up, Range::nonzero)};
+}
+
+/// The same of one with a view plane at `viewdistance`.
+template <class Parameters>
+Fields<Parameters> perspective_fields() {
+  Fields<Parameters> fields = view_fields<Parameters>();
+  fields.push_back(required("viewdistance", &Parameters::viewdistance, Range::positive));
+  return fields;
+}
+template <class Parameters>
+Fields<Parameters> perspective_shorthands() {
+  return {shorthand("fov", &Parameters::fov, Range::positive, "viewdistance")};
+}
+
 /// What is wrong with a camera's eye and lookat.
 inline std::optional<ParameterDiagnostic> check_view(const Vec3d& eye, const Vec3d& lookat) {
   if (length(eye - lookat) >= smallest_size) return std::nullopt;
   return ParameterDiagnostic{ParameterDiagnostic::Effect::error,
                              "the camera's <eye> and <lookat> are the same point: it looks nowhere"};
+}
+
+/// The same, and with its field of view.
+template <class Parameters>
+std::optional<ParameterDiagnostic> check_perspective(const Parameters& parameters) {
+  constexpr double least = 1e-6;
+  if (parameters.fov == 0 || (parameters.fov >= least && parameters.fov < 180))
+    return check_view(parameters.eye, parameters.lookat);
+  return ParameterDiagnostic{ParameterDiagnostic::Effect::error,
+                             "the camera's <fov> is an angle of at least 0.000001 and less than 180 degrees"};
+}
+
+/// From the eye to the view plane on which the picture's height is seen under that angle, in degrees.
+inline double view_distance(double fov, const ViewPlane& viewplane) {
+  return viewplane.pixelsize * viewplane.vres / (2 * std::tan(fov * std::numbers::pi / 360));
 }
 
 /// screen: from camera space to the picture, as CameraMatrices has it.
@@ -47,6 +83,25 @@ inline CameraMatrices make_camera_matrices(const Vec3d& eye, const ViewFrame& fr
       matrices.world_to_camera[row * 4 + column] = static_cast<float>(camera[row][column]);
       matrices.world_to_ndc[row * 4 + column] = static_cast<float>(sum);
     }
+  return matrices;
+}
+
+/// Of a camera with a view plane at `viewdistance`.
+template <class Parameters>
+CameraMatrices perspective_matrices(const Parameters& parameters, const ViewPlane& viewplane) {
+  // The picture spans +-half on the view plane, and -z of camera space divides: x' = x * d / (width * -z) + 1/2.
+  const double x_scale = parameters.viewdistance / (viewplane.pixelsize * viewplane.hres);
+  const double y_scale = parameters.viewdistance / (viewplane.pixelsize * viewplane.vres);
+  return make_camera_matrices(parameters.eye, ViewFrame(parameters.eye, parameters.lookat, parameters.up),
+                              {{x_scale, 0, 0, 0}, {0, y_scale, 0, 0}, {-0.5, -0.5, -1, -1}, {0, 0, 0, 0}});
+}
+
+/// Of a camera whose picture no matrix leads to.
+template <class Parameters>
+CameraMatrices all_round_matrices(const Parameters& parameters) {
+  CameraMatrices matrices =
+      make_camera_matrices(parameters.eye, ViewFrame(parameters.eye, parameters.lookat, parameters.up), {});
+  matrices.is_projection = false;
   return matrices;
 }
 

@@ -67,6 +67,7 @@ class SceneReader {
       else if (!read_one_of(Cameras{}, camera_key, child, scene_.camera))
         refuse_unknown(child, root_element);
     }
+    resolve_field_of_view();
     // Objects name materials, which may come after them.
     report_taken(MaterialsSection::item, materials_.names);
     for (const Element section : object_sections) read_section<ObjectsSection>(section);
@@ -100,6 +101,25 @@ class SceneReader {
       read_single<T>(key, element, target);
     });
     return found;
+  }
+
+  /// A camera's angle of view becomes its view distance, and leaves no size of pixels open.
+  void resolve_field_of_view() {
+    std::visit(
+        [&]<class Parameters>(Parameters& camera) {
+          if constexpr (requires { camera.fov; }) {
+            if (camera.fov == 0) return;
+            if (const Element plane = firsts_[ViewPlane::element])
+              if (const Element pixelsize = plane.child("pixelsize"))
+                diagnostics_.error(pixelsize, [&] {
+                  return tag(pixelsize.name()) +
+                         " beside the camera's <fov>, which says how large pixels are; remove one of them";
+                });
+            camera.viewdistance = view_distance(camera.fov, scene_.viewplane);
+            camera.fov = 0;
+          }
+        },
+        scene_.camera);
   }
 
   void read_integrator(Element element) {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <climits>
 #include <span>
 #include <string_view>
@@ -143,12 +144,16 @@ class SchemaPrinter : private XmlWriter {
         for (const FieldInfo& label : labels)
           child(label.name, label.name == transform_element ? label.name : "text", label.required);
         typename T::Parameters parameters;
-        for (const auto& field : T::fields())
+        const auto fields = fields_in_files<T>();
+        const auto has_shorthand = [&](std::string_view name) {
+          return std::any_of(fields.begin(), fields.end(), [&](const auto& f) { return f.in_place_of == name; });
+        };
+        for (const auto& field : fields)
           field.visit(parameters, [&]<class Value>(const Value& value) {
             if constexpr (std::is_same_v<Value, ChoiceReference>)
               print_choice_of_words(field, value.words());
             else
-              child(field.name, type_name<Value>(field.range), field.required);
+              child(field.name, type_name<Value>(field.range), field.required && !has_shorthand(field.name));
           });
       });
     });

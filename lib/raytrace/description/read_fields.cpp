@@ -59,6 +59,16 @@ bool read_fields(Element element, std::span<const FieldInfo> infos, std::span<co
     if (!nearest.empty()) read |= std::uint64_t(1) << find_field(infos, nearest);
   }
   for (std::size_t i = 0; i < infos.size(); ++i) {
+    if (infos[i].in_place_of.empty() || !(read >> i & 1)) continue;
+    const std::uint64_t other = std::uint64_t(1) << find_field(infos, infos[i].in_place_of);
+    if (read & other) {
+      diagnostics.error(element.child(infos[i].name), [&] {
+        return tag(infos[i].name) + " stands in place of " + tag(infos[i].in_place_of) + "; remove one of them";
+      });
+    }
+    read |= other;
+  }
+  for (std::size_t i = 0; i < infos.size(); ++i) {
     if (!infos[i].required || (read >> i & 1)) continue;
     diagnostics.error(element, [&] {
       return "missing " + tag(infos[i].name) + " in " + tag(element.name()) + "; add " +

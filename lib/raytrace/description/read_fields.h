@@ -71,7 +71,7 @@ class FieldsReader {
   }
 
  private:
-  Fields<Parameters> fields_ = T::fields();
+  Fields<Parameters> fields_ = fields_in_files<T>();
   std::vector<FieldInfo> infos_;
   std::vector<FieldTarget> targets_;  // of the element at hand
   bool may_skip_;

@@ -111,6 +111,9 @@ class TwinBatch {
   friend RAYTRACE_INLINE TwinBatch operator>>(const TwinBatch& a, int bits) {
     return {a.lower_ >> bits, a.upper_ >> bits};
   }
+  friend RAYTRACE_INLINE TwinBatch operator<<(const TwinBatch& a, int bits) {
+    return {a.lower_ << bits, a.upper_ << bits};
+  }
 
   friend RAYTRACE_INLINE batch_bool_type operator<(const TwinBatch& a, const TwinBatch& b) {
     return {a.lower_ < b.lower_, a.upper_ < b.upper_};

@@ -97,7 +97,8 @@ Imf::Header header_of(const PictureExtent& extent, const std::vector<Channel>& c
   Imf::addUtcOffset(header, 0.0F);
   Imf::addChromaticities(header, Imf::Chromaticities());  // Rec. 709 is the default
   header.insert("worldToCamera", Imf::M44fAttribute(matrix_of(metadata.camera.world_to_camera)));
-  header.insert("worldToNDC", Imf::M44fAttribute(matrix_of(metadata.camera.world_to_ndc)));
+  if (metadata.camera.is_projection)
+    header.insert("worldToNDC", Imf::M44fAttribute(matrix_of(metadata.camera.world_to_ndc)));
   if (!metadata.software.empty()) header.insert("Software", Imf::StringAttribute(metadata.software));
   header.insert("raytrace:scene", Imf::StringAttribute(metadata.scene_file));
   header.insert("raytrace:samples", Imf::IntAttribute(metadata.samples));

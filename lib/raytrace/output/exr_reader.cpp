@@ -58,12 +58,14 @@ void refuse_impossible(const Imf::Header& header, const Region& region, std::uin
     throw InputError("it is not whole, or damaged: it is too small for its " + std::to_string(pixels) + " pixels");
 }
 
+/// False if there is none.
 template <class Array>
-void copy_matrix(const Imf::Header& header, const char* name, Array& values) {
-  if (const auto* attribute = header.findTypedAttribute<Imf::M44fAttribute>(name)) {
-    const float* const first = &attribute->value()[0][0];
-    std::copy(first, first + 16, std::begin(values));
-  }
+bool copy_matrix(const Imf::Header& header, const char* name, Array& values) {
+  const auto* const attribute = header.findTypedAttribute<Imf::M44fAttribute>(name);
+  if (attribute == nullptr) return false;
+  const float* const first = &attribute->value()[0][0];
+  std::copy(first, first + 16, std::begin(values));
+  return true;
 }
 
 std::vector<ImageAttribute> attributes_of(const Imf::Header& header) {
@@ -246,7 +248,7 @@ ExrReader::ExrReader(const std::string& file) : file_(file) {
       channels_.push_back({channel.name(), channel_type(channel.channel().type)});
     attributes_ = attributes_of(header);
     copy_matrix(header, "worldToCamera", camera_.world_to_camera);
-    copy_matrix(header, "worldToNDC", camera_.world_to_ndc);
+    camera_.is_projection = copy_matrix(header, "worldToNDC", camera_.world_to_ndc);
   } catch (const InputError& error) {
     refuse(file, error.what());
   } catch (const std::exception& exception) {

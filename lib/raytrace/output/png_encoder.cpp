@@ -63,7 +63,7 @@ std::vector<PngText> png_texts(const ImageMetadata& metadata, const ImageFileSet
   std::vector<PngText> all;
   if (!metadata.software.empty()) all.push_back({"Software", metadata.software});
   all.push_back({"worldToCamera", matrix_text(metadata.camera.world_to_camera)});
-  all.push_back({"worldToNDC", matrix_text(metadata.camera.world_to_ndc)});
+  if (metadata.camera.is_projection) all.push_back({"worldToNDC", matrix_text(metadata.camera.world_to_ndc)});
   all.push_back({"raytrace:scene", metadata.scene_file});
   all.push_back({"raytrace:samples", std::to_string(metadata.samples)});
   all.push_back({"raytrace:seed", std::to_string(metadata.seed)});

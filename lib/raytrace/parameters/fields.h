@@ -48,6 +48,7 @@ struct FieldInfo {
   bool required = true;
   Range range = Range::any;
   bool is_point = false;  ///< of world space: it moves with the world's origin, as no direction, edge or size does
+  std::string_view in_place_of{};  ///< of a shorthand: the required field that it stands for
 };
 
 /// An enumeration that fields may have: the words that scene files spell its values with, in their order from 0.
@@ -202,6 +203,22 @@ Field<Parameters> required(std::string_view name, Vec3d Parameters::* member, Po
 template <class Parameters>
 Field<Parameters> optional(std::string_view name, Vec3d Parameters::* member, PointTag) {
   return {{name, false, Range::any, true}, member};
+}
+
+/// Of a scene file alone: it may have this one in place of the required field `other`, which the reader then sets by
+/// it. A type lists such fields in shorthands(); descriptions are printed and checked without them.
+template <class Parameters, class Value>
+Field<Parameters> shorthand(std::string_view name, Value Parameters::* member, Range range, std::string_view other) {
+  return {{name, false, range, false, other}, member};
+}
+
+/// All fields that scene files may have.
+template <class Type>
+Fields<typename Type::Parameters> fields_in_files() {
+  Fields<typename Type::Parameters> fields = Type::fields();
+  if constexpr (requires { Type::shorthands(); })
+    for (const auto& field : Type::shorthands()) fields.push_back(field);
+  return fields;
 }
 
 /// The members of a type that are points.

@@ -5,11 +5,20 @@
 #include <bit>
 #include <cstdint>
 
+#include "raytrace/math/gather.h"
 #include "raytrace/math/simd.h"
 #include "raytrace/sampling/hash.h"
+#include "raytrace/sampling/pixel_filter.h"
+#include "raytrace/sampling/sampler.h"
 #include "raytrace/sampling/sobol_sequence.h"
 
 namespace raytrace {
+
+/// A hash of pixels, by their column and row in the whole picture.
+template <class Uints>
+RAYTRACE_INLINE Uints pixel_hash(const Uints& column, const Uints& row, std::uint64_t seed) {
+  return hash(column, row, Uints(static_cast<std::uint32_t>(seed)), Uints(static_cast<std::uint32_t>(seed >> 32)));
+}
 
 /// Random digits of pixels, with which each shifts the sequence. Uints: std::uint32_t or a batch of them.
 template <class Uints>
@@ -19,8 +28,7 @@ struct PixelScramble {
   PixelScramble(const Uints& shift_x, const Uints& shift_y) : x(shift_x), y(shift_y) {}
   /// column, row: of the pixel, in the whole picture.
   PixelScramble(const Uints& column, const Uints& row, std::uint64_t seed)
-      : x(hash(column, row, Uints(static_cast<std::uint32_t>(seed)), Uints(static_cast<std::uint32_t>(seed >> 32)))),
-        y(mix_bits(x + Uints(0x9e3779b9u))) {}
+      : x(pixel_hash(column, row, seed)), y(mix_bits(x + Uints(0x9e3779b9u))) {}
 };
 
 /// Those of one pixel after the other, made for a packet of neighbours at once.
@@ -66,9 +74,7 @@ class SampleGroup {
 /// and the sample's index alone.
 class PixelSampler {
  public:
-  struct Point {
-    FloatN x, y;  ///< in [0, 1)
-  };
+  using Point = Sample2D;
 
   /// shift: of the lanes' pixels, each lane's in UintN, or std::uint32_t where all lanes have the same. first: the
   /// index of the first group's first sample, a multiple of the group's size. centered: all samples are the pixel's
@@ -91,13 +97,22 @@ class PixelSampler {
   }
 
  private:
-  /// The 24 leading bits as a fraction: every float of the result is exact and below 1.
-  static FloatN to_unit(const UintN& bits) { return to_float(same_bits<IntN>(bits >> 8)) * FloatN(0x1p-24f); }
-
   SobolSequence sequence_;
   int group_bits_;
   UintN shift_x_, shift_y_;
   bool centered_, begun_ = false;
 };
+
+/// A sample of the pixel's square as the filter places it: from the same corner, and perhaps beyond the square.
+[[gnu::noinline]] inline Sample2D filtered(const FilterTable& filter, const Sample2D& sample) {
+  const auto along_axis = [&](const FloatN& u) {
+    const FloatN share = abs(u * FloatN(2) - FloatN(1)) * FloatN(float{FilterTable::intervals});
+    const IntN interval = min(to_int(share), IntN(std::int32_t{FilterTable::intervals} - 1));
+    const FloatN low = gather(filter.distances(), interval), high = gather(filter.distances() + 1, interval);
+    const FloatN distance = low + (high - low) * (share - to_float(interval));
+    return FloatN(0.5f) + select(u < FloatN(0.5f), -distance, distance);
+  };
+  return {along_axis(sample.x), along_axis(sample.y)};
+}
 
 }  // namespace raytrace

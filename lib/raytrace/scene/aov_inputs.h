@@ -16,10 +16,12 @@ class AovInputs {
 
   const MaskN& hit() const { return hits_.hit; }
 
-  /// From the eye, along the camera's viewing direction.
+  /// From the eye, along the camera's viewing direction; of a camera that has no view plane, along the ray.
   FloatN depth() const {
     const Ray<FloatN>& rays = camera_.rays;
-    return (camera_.skipped + rays.far) * dot(rays.direction, Vec3<FloatN>(scene_.viewing_direction()));
+    const FloatN distance = camera_.skipped + rays.far;
+    if (scene_.depth_is_distance()) return distance;
+    return distance * dot(rays.direction, Vec3<FloatN>(scene_.viewing_direction()));
   }
   /// In the world.
   Vec3<FloatN> position() const {

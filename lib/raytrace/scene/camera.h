@@ -14,12 +14,10 @@ struct CameraRays {
   FloatN skipped;  ///< rays.near may be as far before their origins
 };
 
-/// The rays of a camera that is far away from what it shows: computed in double up to where they come to the sphere, or
-/// closest to it, and in float from there on.
-template <class CameraKernel>
-CameraRays rays_at(const BoundingSphere& sphere, const CameraKernel& camera, const FloatN& x, const FloatN& y) {
+/// The rays of a camera that is far away from what it shows: in double up to where they come to the sphere, or closest
+/// to it, and in float from there on.
+inline CameraRays rays_at(const BoundingSphere& sphere, const Ray<Doubles<FloatN>>& rays) {
   using D = Doubles<FloatN>;
-  const Ray<D> rays = camera.template generate<D>(D(x), D(y));
   const Vec3<D> to_center = Vec3<D>(sphere.center) - rays.origin;
   const D closest = dot(to_center, rays.direction);
   const Vec3<D> across = to_center - rays.direction * closest;

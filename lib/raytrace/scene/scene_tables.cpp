@@ -28,6 +28,7 @@ Vec3d origin_of(const CameraParameters& camera) {
 SceneTables::SceneTables(const SceneDescription& description, int threads)
     : origin_(origin_of(description.camera)),
       viewplane_(description.viewplane),
+      pixel_filter_(description.viewplane),
       integrator_(description.integrator.value_or(Raycast::Parameters{})) {
   add_materials(description);
   geometry_ = std::make_unique<const GeometryTable>(description, origin_, first_material_, threads);
@@ -42,26 +43,6 @@ SceneTables::SceneTables(const SceneDescription& description, int threads)
   set_camera(description);
   add_lights(description);
   used_materials_ = geometry_->used_materials(first_material_.back());
-}
-
-void SceneTables::set_camera(const SceneDescription& description) {
-  for_each_type(Cameras{}, [&]<class Type>(std::type_identity<Type>) {
-    const auto* parameters = std::get_if<typename Type::Parameters>(&description.camera);
-    if (parameters == nullptr) return;
-    const Kernel<Type> camera(moved<Type>(*parameters), viewplane_);
-    camera_ = camera;
-    if constexpr (requires { camera.origin(); })
-      if (!camera_is_far()) camera_origin_ = BufferOrigin{camera.origin()};
-    const CameraMatrices matrices = Type::matrices(*parameters, viewplane_);
-    const float* const m = matrices.world_to_camera;  // its third column turns points into -z, behind the camera
-    viewing_direction_ = Vec3f(-m[2], -m[6], -m[10]);
-  });
-}
-
-bool SceneTables::camera_is_far_from(const BoundingSphere& sphere, const SceneDescription& description) const {
-  constexpr double far = 256;  // radii: a float's rounding at that distance is some 1 / 65,000 of one
-  const Vec3d eye = std::visit([](const auto& parameters) { return parameters.eye; }, description.camera) - origin_;
-  return sphere.radius >= 0 && length(eye - sphere.center) > far * sphere.radius;
 }
 
 template <class LightKernel, class Parameters>

@@ -11,6 +11,8 @@
 #include "raytrace/description/scene_description.h"
 #include "raytrace/lights/kernels.h"
 #include "raytrace/materials/kernels.h"
+#include "raytrace/sampling/pixel_filter.h"
+#include "raytrace/sampling/sampler.h"
 #include "raytrace/scene/camera.h"
 #include "raytrace/scene/geometry_table.h"
 #include "raytrace/scene/light_source.h"
@@ -39,23 +41,31 @@ class SceneTables {
   const ViewPlane& viewplane() const { return viewplane_; }
   /// Raycast where the description leaves it open.
   const IntegratorParameters& integrator() const { return integrator_; }
-  /// Sets rays through points of the picture, as cameras/kernels.h has them.
-  RAYTRACE_INLINE void set_camera_rays(const FloatN& x, const FloatN& y, CameraRays& result) const {
-    for_each_type(Cameras{}, [&]<class Type>(std::type_identity<Type>) RAYTRACE_INLINE_LAMBDA {
-      const auto* const camera = std::get_if<Kernel<Type>>(&*camera_);
-      if (camera == nullptr) return;
-      if (camera_is_far()) [[unlikely]] {
-        result = rays_at(*camera_target_, *camera, x, y);
-      } else {
-        result.rays = camera->template generate<FloatN>(x, y);
-        result.skipped = FloatN(0);
-      }
-    });
+  /// Sets rays through points of the picture, as cameras/kernels.h has them. lens_sample(): a Sample2D, for cameras
+  /// with a lens.
+  template <class LensSample>
+  RAYTRACE_INLINE void set_camera_rays(const FloatN& x, const FloatN& y, const LensSample& lens_sample,
+                                       CameraRays& result) const {
+    // The first of the registry, which most scenes have, goes no way around.
+    if (const auto* const camera = std::get_if<0>(&*camera_); camera != nullptr && !camera_is_far()) [[likely]] {
+      result.rays = camera->template generate<FloatN>(x, y);
+      result.skipped = FloatN(0);
+    } else {
+      set_rays_of_any_camera(x, y, camera_has_lens_ ? lens_sample() : Sample2D{FloatN(0), FloatN(0)}, result);
+    }
   }
+  /// Whether there are points of the picture without a ray; they are black.
+  bool camera_has_gaps() const { return camera_has_gaps_; }
+  /// Where there are, the points with one.
+  MaskN has_ray(const FloatN& x, const FloatN& y) const;
   /// Whether the camera is so far away from all objects with bounds that its rays start at them.
   bool camera_is_far() const { return camera_target_.has_value(); }
   /// Unit length.
   const Vec3f& viewing_direction() const { return viewing_direction_; }
+  /// Whether depths are distances from the eye: there is no view plane to measure them from.
+  bool depth_is_distance() const { return depth_is_distance_; }
+  /// Where samples lie about their pixels.
+  const FilterTable& pixel_filter() const { return pixel_filter_; }
   /// The point that all camera rays start at; none if there is none.
   const std::optional<BufferOrigin>& camera_origin() const { return camera_origin_; }
 
@@ -94,6 +104,7 @@ class SceneTables {
     for (const auto member : point_members<Type>()) parameters.*member += -origin_;
     return parameters;
   }
+  void set_rays_of_any_camera(const FloatN& x, const FloatN& y, const Sample2D& lens, CameraRays& result) const;
   void set_camera(const SceneDescription& description);
   bool camera_is_far_from(const BoundingSphere& sphere, const SceneDescription& description) const;
   void add_lights(const SceneDescription& description);
@@ -107,10 +118,12 @@ class SceneTables {
 
   Vec3d origin_;
   ViewPlane viewplane_;
+  FilterTable pixel_filter_;
   IntegratorParameters integrator_;
   std::optional<KernelVariant<Cameras>::type> camera_;
   std::optional<BoundingSphere> camera_target_;  ///< around all objects with bounds, if it is far
   Vec3f viewing_direction_{};
+  bool depth_is_distance_ = false, camera_has_lens_ = false, camera_has_gaps_ = false;
   std::optional<BufferOrigin> camera_origin_;
   Rgb<float> ambient_radiance_{0, 0, 0};
   LightBounds light_bounds_;

@@ -103,18 +103,27 @@ class BlockRenderer {
     PixelSampler sampler(scramble_of(block), group_, base, settings.samples.centered);
     BlockSums<Block> sums(scale_);
     FirstHits first;
+    const FilterTable& filter = scene_.tables().pixel_filter();
     for (int packets = 1; base < left.last; base += group, ++packets) {
       const UintN sample = UintN(base) + slot;
       const bool all_wanted = base >= left.all_from && left.last - base >= group;
       const MaskN wanted = all_wanted ? active : active & in_range(sample, left.lane_first, UintN(left.last));
-      const PixelSampler::Point point = sampler.next();
+      Sample2D point = sampler.next();
+      if (filter.moves_samples()) [[unlikely]]
+        point = filtered(filter, point);
+      const FloatN px = x + point.x, py = y + point.y;
+      MaskN traced = active;
+      if (scene_.tables().camera_has_gaps()) [[unlikely]]
+        traced = active & scene_.tables().has_ray(px, py);
       CameraRays camera;
-      scene_.tables().set_camera_rays(x + point.x, y + point.y, camera);
-      const RayResult result = Kernel<Integrator>::radiance(scene_, background_, camera, active, wanted, report_.rays,
-                                                            aovs != nullptr ? &first : nullptr);
+      scene_.tables().set_camera_rays(px, py, [&] { return lens_sample(block, sample); }, camera);
+      RayResult result = Kernel<Integrator>::radiance(scene_, background_, camera, traced, wanted, report_.rays,
+                                                      aovs != nullptr ? &first : nullptr);
+      if (scene_.tables().camera_has_gaps()) [[unlikely]]
+        result.radiance = select(traced, result.radiance, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
       const MaskN large = sums.add(result, wanted);
       if (aovs != nullptr) aovs->add(AovInputs(scene_.tables(), camera, first.hits, first.surface), wanted, sample);
-      report_.rays.camera += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(wanted)));
+      report_.rays.camera += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(wanted & traced)));
       if (any(large)) add_invalid(sums.add_large(result, large), block, base);
       if (packets % packets_per_look == 0) {
         if (stopped()) break;
@@ -122,6 +131,11 @@ class BlockRenderer {
       }
     }
     sums.add_to(film_, block, region_);
+  }
+
+  [[gnu::noinline]] Sample2D lens_sample(const Block& block, const UintN& sample) const {
+    const UintN pixel = pixel_hash(UintN(block.columns()), UintN(block.rows()), film_.settings().seed);
+    return get_2d(pixel, sample, Dimension::lens);
   }
 
   /// Pixels of the picture, and those beyond it that are wanted.

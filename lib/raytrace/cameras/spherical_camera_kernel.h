@@ -1,0 +1,39 @@
+// The rays of a spherical camera.
+#pragma once
+
+#include "raytrace/cameras/pixel_frame.h"
+#include "raytrace/cameras/spherical_camera.h"
+#include "raytrace/math/kernel.h"
+#include "raytrace/math/ray.h"
+#include "raytrace/math/simd.h"
+#include "raytrace/math/turns.h"
+
+namespace raytrace {
+
+template <>
+class Kernel<SphericalCamera> {
+ public:
+  Kernel(const SphericalCamera::Parameters& parameters, const ViewPlane& viewplane)
+      : frame_(parameters.eye, ViewFrame(parameters.eye, parameters.lookat, parameters.up)),
+        turns_right_(1.0 / viewplane.hres),
+        turns_up_(0.5 / viewplane.vres) {}
+
+  Vec3f origin() const { return frame_.vectors<float>().eye; }
+
+  template <class F>
+  Ray<F> generate(const F& x, const F& y) const {
+    using Number = LaneNumber<F>;
+    const auto& frame = frame_.vectors<F>();
+    const auto longitude = sin_cos_of_turns(x * F(static_cast<Number>(turns_right_)));
+    const auto latitude = sin_cos_of_turns(y * F(static_cast<Number>(turns_up_)));
+    const Vec3<F> forward = Vec3<F>(frame.forward) * (latitude.cosine * longitude.cosine);
+    const Vec3<F> across = frame.at_pixel(Vec3<Number>(0, 0, 0), latitude.cosine * longitude.sine, latitude.sine);
+    return {Vec3<F>(frame.eye), normalize(forward + across), F(0), infinity<F>()};
+  }
+
+ private:
+  PixelFrame frame_;
+  double turns_right_, turns_up_;  ///< from pixel to pixel
+};
+
+}  // namespace raytrace

@@ -1,0 +1,42 @@
+// The rays of a thin lens camera.
+#pragma once
+
+#include "raytrace/cameras/aperture.h"
+#include "raytrace/cameras/pixel_frame.h"
+#include "raytrace/cameras/thin_lens_camera.h"
+#include "raytrace/math/kernel.h"
+#include "raytrace/math/ray.h"
+#include "raytrace/math/simd.h"
+
+namespace raytrace {
+
+template <>
+class Kernel<ThinLensCamera> {
+ public:
+  Kernel(const ThinLensCamera::Parameters& parameters, const ViewPlane& viewplane)
+      : Kernel(parameters, {parameters.eye, parameters.lookat, parameters.up},
+               viewplane.pixelsize / parameters.viewdistance) {}
+
+  template <class F>
+  Ray<F> generate(const F& x, const F& y, const FloatN& u1, const FloatN& u2) const {
+    const auto& in_focus = in_focus_.vectors<F>();
+    const auto& lens = lens_.vectors<F>();
+    const auto [right, up] = aperture_.point(u1, u2);
+    const Vec3<F> start = lens.at_pixel(lens.forward, F(right), F(up));
+    return {Vec3<F>(lens.eye) + start, normalize(in_focus.at_pixel(in_focus.forward, x, y) - start), F(0),
+            infinity<F>()};
+  }
+
+ private:
+  /// The view plane at distance 1, where pixels are so wide.
+  Kernel(const ThinLensCamera::Parameters& parameters, const ViewFrame& frame, double pixel)
+      : in_focus_(parameters.eye, -frame.w * parameters.focaldistance, frame.u * (pixel * parameters.focaldistance),
+                  frame.v * (pixel * parameters.focaldistance)),
+        lens_(parameters.eye, {0, 0, 0}, frame.u * parameters.lensradius, frame.v * parameters.lensradius),
+        aperture_(parameters.blades, parameters.bladerotation) {}
+
+  PixelFrame in_focus_, lens_;  ///< the lens has one pixel
+  Aperture aperture_;
+};
+
+}  // namespace raytrace

@@ -1,0 +1,72 @@
+// The camera of SceneTables.
+#include <variant>
+
+#include "raytrace/scene/scene_tables.h"
+
+namespace raytrace {
+
+namespace {
+
+template <class CameraKernel>
+constexpr bool has_lens = requires(const CameraKernel& camera, const FloatN& f) { camera.generate(f, f, f, f); };
+
+template <class CameraKernel>
+constexpr bool has_gaps = requires(const CameraKernel& camera, const FloatN& f) { camera.has_ray(f, f); };
+
+template <class F, class CameraKernel>
+Ray<F> generate(const CameraKernel& camera, const F& x, const F& y, const Sample2D& lens) {
+  if constexpr (has_lens<CameraKernel>)
+    return camera.generate(x, y, lens.x, lens.y);
+  else
+    return camera.generate(x, y);
+}
+
+}  // namespace
+
+void SceneTables::set_camera(const SceneDescription& description) {
+  for_each_type(Cameras{}, [&]<class Type>(std::type_identity<Type>) {
+    const auto* parameters = std::get_if<typename Type::Parameters>(&description.camera);
+    if (parameters == nullptr) return;
+    const Kernel<Type> camera(moved<Type>(*parameters), viewplane_);
+    camera_ = camera;
+    camera_has_lens_ = has_lens<Kernel<Type>>;
+    camera_has_gaps_ = has_gaps<Kernel<Type>>;
+    if constexpr (requires { camera.origin(); })
+      if (!camera_is_far()) camera_origin_ = BufferOrigin{camera.origin()};
+    const CameraMatrices matrices = Type::matrices(*parameters, viewplane_);
+    const float* const m = matrices.world_to_camera;  // its third column turns points into -z, behind the camera
+    viewing_direction_ = Vec3f(-m[2], -m[6], -m[10]);
+    depth_is_distance_ = !matrices.is_projection;
+  });
+}
+
+bool SceneTables::camera_is_far_from(const BoundingSphere& sphere, const SceneDescription& description) const {
+  constexpr double far = 256;  // radii: a float's rounding at that distance is some 1 / 65,000 of one
+  const Vec3d eye = std::visit([](const auto& parameters) { return parameters.eye; }, description.camera) - origin_;
+  return sphere.radius >= 0 && length(eye - sphere.center) > far * sphere.radius;
+}
+
+void SceneTables::set_rays_of_any_camera(const FloatN& x, const FloatN& y, const Sample2D& lens,
+                                         CameraRays& result) const {
+  std::visit(
+      [&](const auto& camera) {
+        if (camera_is_far())
+          result = rays_at(*camera_target_, generate<Doubles<FloatN>>(camera, x, y, lens));
+        else
+          result = {generate<FloatN>(camera, x, y, lens), FloatN(0)};
+      },
+      *camera_);
+}
+
+MaskN SceneTables::has_ray(const FloatN& x, const FloatN& y) const {
+  return std::visit(
+      [&](const auto& camera) {
+        if constexpr (has_gaps<decltype(camera)>)
+          return camera.has_ray(x, y);
+        else
+          return MaskN(true);
+      },
+      *camera_);
+}
+
+}  // namespace raytrace
