@@ -84,7 +84,7 @@ std::optional<SceneDescription> load_picture(const RenderJob& job, RenderObserve
   std::optional<SceneDescription> description;
   {
     const PhaseTimer timer(phase);
-    description = load_scene(job.scene, diagnostics, job.threads, {job.frame, job.variables});
+    description = load_scene(job.scene, diagnostics, job.threads, {job.frame, job.variables, job.missing_texture});
   }
   observer.on_diagnostics(diagnostics);
   if (!description) return std::nullopt;

@@ -141,6 +141,9 @@ class TwinBatch {
     return {xsimd::max(a.lower_, b.lower_), xsimd::max(a.upper_, b.upper_)};
   }
   friend RAYTRACE_INLINE TwinBatch abs(const TwinBatch& a) { return {xsimd::abs(a.lower_), xsimd::abs(a.upper_)}; }
+  friend RAYTRACE_INLINE TwinBatch floor(const TwinBatch& a) {
+    return {xsimd::floor(a.lower_), xsimd::floor(a.upper_)};
+  }
   friend RAYTRACE_INLINE TwinBatch sqrt(const TwinBatch& a) { return {xsimd::sqrt(a.lower_), xsimd::sqrt(a.upper_)}; }
   friend RAYTRACE_INLINE TwinBatch exp(const TwinBatch& a) { return {xsimd::exp(a.lower_), xsimd::exp(a.upper_)}; }
   friend RAYTRACE_INLINE TwinBatch expm1(const TwinBatch& a) {
