@@ -150,6 +150,9 @@ class TwinBatch {
     return {xsimd::expm1(a.lower_), xsimd::expm1(a.upper_)};
   }
   friend RAYTRACE_INLINE TwinBatch log(const TwinBatch& a) { return {xsimd::log(a.lower_), xsimd::log(a.upper_)}; }
+  friend RAYTRACE_INLINE TwinBatch atan2(const TwinBatch& y, const TwinBatch& x) {
+    return {xsimd::atan2(y.lower_, x.lower_), xsimd::atan2(y.upper_, x.upper_)};
+  }
   friend RAYTRACE_INLINE TwinBatch pow(const TwinBatch& a, const TwinBatch& b) {
     return {xsimd::pow(a.lower_, b.lower_), xsimd::pow(a.upper_, b.upper_)};
   }
