@@ -76,6 +76,10 @@ int bit_depth(const std::string& text) {
   return integer(text, 8, 16);
 }
 
+MissingTexture missing_texture(const std::string& text) {
+  return one_of(text, {"error", "warn"}) == "warn" ? MissingTexture::warn : MissingTexture::error;
+}
+
 std::string one_of(const std::string& text, const Names& names) {
   if (std::find(names.begin(), names.end(), text) != names.end()) return text;
   throw UsageError(in_quotes(text) + " is not one of " + joined(names, ", ") + suggestion(text, names));

@@ -47,6 +47,7 @@ std::uint64_t natural_number(const std::string& text);
 
 /// 8 or 16.
 int bit_depth(const std::string& text);
+MissingTexture missing_texture(const std::string& text);
 
 /// The text, if it is one of the names.
 std::string one_of(const std::string& text, const Names& names);

@@ -102,6 +102,9 @@ void define_options(OptionParser& parser, Options& options) {
       options.frames, frame_numbers);
   parser.add_repeatable("-D,--define", "NAME=VALUE", "Set the variable $NAME of the scene; repeatable",
                         [&](const std::string& text) { define(text, options.variables); });
+  parser.add("--missing-texture", "error|warn",
+             "What a texture is whose file cannot be read: an error, or a warning and magenta (error)",
+             options.missing_texture, missing_texture, {"error", "warn"});
 
   parser.group("Output");
   parser.add_repeatable(

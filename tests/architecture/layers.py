@@ -20,7 +20,7 @@ LAYERS = [
     ["scene"],
     ["sampling", "aovs"],
     ["description"],
-    ["shapes", "lights", "materials", "integrators"],
+    ["shapes", "lights", "materials", "textures", "integrators"],
     ["bsdfs", "output", "display"],
     ["cameras"],
     ["film", "import"],

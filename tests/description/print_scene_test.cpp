@@ -55,6 +55,8 @@ TEST_CASE("a scene is printed with every value spelled out") {
   </camera>
   <lights>
   </lights>
+  <textures>
+  </textures>
   <materials>
     <mattes>
       <matte>

@@ -1,10 +1,12 @@
 #include "random_description.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 namespace raytrace::test {
 namespace {
@@ -54,6 +56,10 @@ void randomize(Random& random, Range range, Vec3d& value) {
   value = {random_number(random, each), random_number(random, each),
            range == Range::nonzero ? 1.5 : random_number(random, each)};
 }
+void randomize(Random& random, Range range, Vec2d& value) {
+  value = {random_number(random, range), random_number(random, range)};
+}
+void randomize(Random& random, Range, std::string& value) { value = random_name(random); }
 void randomize(Random& random, Range range, Rgb<double>& value) {
   value = {random_number(random, range), random_number(random, range), random_number(random, range)};
 }
@@ -85,6 +91,12 @@ bool same(const FileName& a, const FileName& b) { return a == b; }
 bool same(const NumberGroups& a, const NumberGroups& b) { return a == b; }
 bool same(const WordOrGroups& a, const WordOrGroups& b) { return a == b; }
 bool same(const Vec3d& a, const Vec3d& b) { return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z); }
+bool same(const Vec2d& a, const Vec2d& b) { return same(a.x, b.x) && same(a.y, b.y); }
+bool same(const std::string& a, const std::string& b) { return a == b; }
+bool same(const ItemReference& a, const ItemReference& b) { return a.type == b.type && a.index == b.index; }
+bool same(const TextureUse& a, const TextureUse& b) {
+  return a.field == b.field && same(a.texture, b.texture) && a.channel == b.channel;
+}
 bool same(const Rgb<double>& a, const Rgb<double>& b) {
   return same(a.red, b.red) && same(a.green, b.green) && same(a.blue, b.blue);
 }
@@ -125,6 +137,21 @@ bool same_items(List list, const Tuple& a, const Tuple& b, Equal equal) {
   return all;
 }
 
+/// One for about half of the material's fields that may have one.
+template <class T>
+std::vector<TextureUse> random_uses(Random& random, const std::vector<TextureReference>& textures) {
+  std::vector<TextureUse> uses;
+  const typename T::Parameters parameters;
+  const auto fields = T::fields();
+  for (std::uint32_t field = 0; !textures.empty() && field < fields.size(); ++field)
+    fields[field].visit(parameters, [&]<class Value>(const Value&) {
+      if (!may_be_textured<Value> || below(random, 2) == 0) return;
+      uses.push_back({field, textures[below(random, textures.size())], {}});
+      if (std::is_same_v<Value, double>) uses.back().channel = static_cast<TextureChannel>(below(random, 4));
+    });
+  return uses;
+}
+
 }  // namespace
 
 SceneDescription random_description(Random& random) {
@@ -143,6 +170,15 @@ SceneDescription random_description(Random& random) {
       std::get<LightItems<T>>(scene.lights).push_back({random_parameters<T>(random)});
     }
   });
+  std::vector<TextureReference> textures;
+  for_each_type(Textures{}, [&]<class T>(std::type_identity<T>) {
+    auto& items = std::get<TextureItems<T>>(scene.textures);
+    for (std::size_t i = below(random, 4); i > 0; --i) {
+      textures.push_back(
+          {static_cast<std::uint32_t>(index_of<T>(Textures{})), static_cast<std::uint32_t>(items.size())});
+      items.push_back({random_parameters<T>(random), random_name(random) + std::to_string(textures.size())});
+    }
+  });
   std::vector<MaterialReference> materials;
   for_each_type(Materials{}, [&]<class T>(std::type_identity<T>) {
     auto& items = std::get<MaterialItems<T>>(scene.materials);
@@ -150,6 +186,7 @@ SceneDescription random_description(Random& random) {
       materials.push_back(
           {static_cast<std::uint32_t>(index_of<T>(Materials{})), static_cast<std::uint32_t>(items.size())});
       items.push_back({random_parameters<T>(random), random_name(random) + std::to_string(materials.size())});
+      if (below(random, 2) == 0) items.back().textures = random_uses<T>(random, textures);
     }
   });
   if (materials.empty()) return scene;
@@ -169,11 +206,16 @@ bool same_scene(const SceneDescription& a, const SceneDescription& b) {
   if (a.integrator && !same_choice(Integrators{}, *a.integrator, *b.integrator)) return false;
   return same_choice(Cameras{}, a.camera, b.camera) && same_parameters<ViewPlane>(a.viewplane, b.viewplane) &&
          same_items(Lights{}, a.lights, b.lights, [](const auto&, const auto&) { return true; }) &&
-         same_items(Materials{}, a.materials, b.materials,
+         same_items(Textures{}, a.textures, b.textures,
                     [](const auto& x, const auto& y) { return x.name == y.name; }) &&
-         same_items(Objects{}, a.objects, b.objects, [](const auto& x, const auto& y) {
-           return x.name == y.name && x.material.type == y.material.type && x.material.index == y.material.index;
-         });
+         same_items(Materials{}, a.materials, b.materials,
+                    [](const auto& x, const auto& y) {
+                      return x.name == y.name &&
+                             std::equal(x.textures.begin(), x.textures.end(), y.textures.begin(), y.textures.end(),
+                                        [](const TextureUse& u, const TextureUse& v) { return same(u, v); });
+                    }) &&
+         same_items(Objects{}, a.objects, b.objects,
+                    [](const auto& x, const auto& y) { return x.name == y.name && same(x.material, y.material); });
 }
 
 }  // namespace raytrace::test

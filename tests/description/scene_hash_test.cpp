@@ -28,6 +28,8 @@ template <class Value, class Changed>
 void change_each(Value& value, const Changed& changed) {
   if constexpr (std::is_same_v<Value, Vec3d>) {
     for (double* part : {&value.x, &value.y, &value.z}) change_each(*part, changed);
+  } else if constexpr (std::is_same_v<Value, Vec2d>) {
+    for (double* part : {&value.x, &value.y}) change_each(*part, changed);
   } else if constexpr (std::is_same_v<Value, Rgb<double>>) {
     for (double* part : {&value.red, &value.green, &value.blue}) change_each(*part, changed);
   } else if constexpr (std::is_same_v<Value, ChoiceReference>) {
@@ -75,10 +77,25 @@ void change_everything(SceneDescription& scene, const Changed& changed) {
   for_each_type(Lights{}, [&]<class T>(std::type_identity<T>) {
     for (auto& light : std::get<LightItems<T>>(scene.lights)) change_fields<T>(light.parameters, changed);
   });
+  for_each_type(Textures{}, [&]<class T>(std::type_identity<T>) {
+    for (auto& texture : std::get<TextureItems<T>>(scene.textures)) {
+      change_fields<T>(texture.parameters, changed);
+      change_each(texture.name, changed);
+    }
+  });
   for_each_type(Materials{}, [&]<class T>(std::type_identity<T>) {
     for (auto& material : std::get<MaterialItems<T>>(scene.materials)) {
       change_fields<T>(material.parameters, changed);
       change_each(material.name, changed);
+      for (TextureUse& use : material.textures) {
+        for (std::uint32_t* part : {&use.field, &use.texture.type, &use.texture.index}) {
+          ++*part;
+          changed();
+          --*part;
+        }
+        ChoiceReference channel(use.channel);
+        change_each(channel, changed);
+      }
     }
   });
   for_each_type(Objects{}, [&]<class T>(std::type_identity<T>) {

@@ -96,7 +96,7 @@ template <class Material>
 void check_table(const std::vector<typename Material::Parameters>& parameters, double tolerance) {
   std::vector<typename Kernel<Material>::template Bsdf<float>> bsdfs;
   for (const auto& p : parameters) bsdfs.push_back(Kernel<Material>::bsdf(p));
-  const MaterialTableOf<Kernel<Material>> table(bsdfs);
+  const MaterialTableOf<Material> table(bsdfs);
   Random random(77);
   double worst = 0;
   for (int i = 0; i < 5000; ++i) {
@@ -135,7 +135,7 @@ TEST_CASE("each lane of a packet has the radiance of its own phong") {
 }
 
 TEST_CASE("without lights, materials reflect the ambient light alone") {
-  const MaterialTableOf<Kernel<Phong>> table({Kernel<Phong>::bsdf({0.5, 1, 1, {0.2, 0.4, 0.6}, {1, 1, 1}, 20})});
+  const MaterialTableOf<Phong> table({Kernel<Phong>::bsdf({0.5, 1, 1, {0.2, 0.4, 0.6}, {1, 1, 1}, 20})});
   const Vec3<FloatN> up = spread({0, 0, 1});
   const Rgb<FloatN> shaded = table.shade(IntN(0), up, up, {1, 1, 2}, {});
   CHECK(all(shaded.red == FloatN(0.1f)));

@@ -100,10 +100,10 @@ std::optional<SceneDescription> load_picture(const RenderJob& job, RenderObserve
   std::optional<SceneDescription> description;
   {
     const PhaseTimer timer(phase);
-    description = load_scene(job.scene, diagnostics, job.threads, {job.frame, job.variables});
+    description = load_scene(job.scene, diagnostics, job.threads, {job.frame, job.variables, job.missing_texture});
     if (description) {
       refuse_to_overwrite(*description, job);
-      if (!load_meshes(*description, diagnostics, job.threads)) description.reset();
+      if (!load_meshes(*description, diagnostics, job.threads, job.missing_texture)) description.reset();
     }
   }
   observer.on_diagnostics(diagnostics);

@@ -29,6 +29,7 @@ struct RenderJob {
   int frame = 1;
   bool is_one_of_frames = false;  ///< the picture says which frame it is
   std::map<std::string, std::string> variables;
+  MissingTexture missing_texture = MissingTexture::error;
 
   std::optional<Resolution> resolution;        ///< none: the scene's
   double scale = 1;                            ///< of the resolution

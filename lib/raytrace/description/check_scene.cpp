@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "raytrace/description/check_groups.h"
 #include "raytrace/description/parse_value.h"
@@ -50,6 +51,9 @@ class SceneChecker {
         line_ = item.line;
         if (T::group.empty() && i > 1) error("is a second one; a scene has one");
         check_labels<Section>(scene, item);
+        if constexpr (std::is_same_v<T, Image>)
+          if (item.image.hash.empty()) error("has a file that has not been loaded (load_images.h)");
+        if constexpr (requires { item.textures; }) check_textured_fields<T>(item.textures);
         check_parameters<T>(item.parameters, Section::may_skip);
       }
     });
@@ -93,14 +97,16 @@ class SceneChecker {
         if (const OptionalMessage message = check_step(step))
           error("has a transform whose " + tag(TransformStep::elements[step.type]) + " " + *message);
     if constexpr (requires { item.materials; }) {
-      if (item.material != no_material) check_material(scene, item.material);
+      if (item.material != no_material) check_reference<MaterialsSection>(scene, item.material);
       if (item.data == nullptr || item.materials.empty()) return error("has not been loaded (load_meshes())");
-      for (const MaterialReference& material : item.materials) check_material(scene, material);
+      for (const MaterialReference& material : item.materials) check_reference<MaterialsSection>(scene, material);
     } else if constexpr (std::is_same_v<Item, ObjectItem<Instance>>) {
-      if (item.material != no_material) check_material(scene, item.material);
+      if (item.material != no_material) check_reference<MaterialsSection>(scene, item.material);
     } else if constexpr (requires { item.material; }) {
-      check_material(scene, item.material);
+      check_reference<MaterialsSection>(scene, item.material);
     }
+    if constexpr (requires { item.textures; })
+      for (const TextureUse& use : item.textures) check_reference<TexturesSection>(scene, use.texture);
   }
 
   template <class T>
@@ -135,15 +141,36 @@ class SceneChecker {
           "; choose another");
   }
 
-  void check_material(const SceneDescription& scene, const MaterialReference& material) {
-    const bool is_type = material.type < Materials::size;
+  template <class Section>
+  void check_reference(const SceneDescription& scene, const ItemReference& item) {
+    using Types = typename Section::Types;
+    const bool is_type = item.type < Types::size;
     const std::size_t count =
-        is_type ? with_type(Materials{}, material.type,
-                            [&]<class T>(std::type_identity<T>) { return items_of<MaterialsSection, T>(scene).size(); })
+        is_type ? with_type(Types{}, item.type,
+                            [&]<class T>(std::type_identity<T>) { return items_of<Section, T>(scene).size(); })
                 : 0;
-    if (material.index < count) return;
-    error("refers to material " + std::to_string(material.index) + " of type " + std::to_string(material.type) +
-          ", which is not there" + (is_type ? "" : "; nor is that type"));
+    if (item.index < count) return;
+    error("refers to " + std::string(Section::item) + " " + std::to_string(item.index) + " of type " +
+          std::to_string(item.type) + ", which is not there" + (is_type ? "" : "; nor is that type"));
+  }
+
+  /// Each a number or a colour, and none twice.
+  template <class T>
+  void check_textured_fields(const std::vector<TextureUse>& uses) {
+    const auto fields = T::fields();
+    const typename T::Parameters parameters;
+    std::vector<bool> textured(fields.size());
+    for (const TextureUse& use : uses) {
+      const bool fine =
+          use.field < fields.size() && !textured[use.field] &&
+          fields[use.field].visit(parameters, []<class Value>(const Value&) { return may_be_textured<Value>; });
+      if (!fine)
+        error("has a texture for field " + std::to_string(use.field) + ", which takes none, or has another");
+      else
+        textured[use.field] = true;
+      if (static_cast<std::size_t>(use.channel) >= Choices<TextureChannel>::words.size())
+        error("has a texture of channel " + std::to_string(static_cast<int>(use.channel)) + "; there are 4");
+    }
   }
 
   Diagnostics& diagnostics_;

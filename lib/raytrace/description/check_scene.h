@@ -14,8 +14,8 @@ class SceneError : public std::runtime_error {
 };
 
 /// Reports what is wrong: sizes, radii and other numbers out of their ranges, directions of length 0, an eye at the
-/// point it looks at, materials without a name, names that are taken, and references to materials that there are not.
-/// Items are named by their indices, as in "<sphere> [2]".
+/// point it looks at, materials without a name, names that are taken, and references to textures and materials that
+/// there are not. Items are named by their indices, as in "<sphere> [2]".
 void check_scene(const SceneDescription& scene, Diagnostics& diagnostics);
 
 // The same as an exception, a SceneError. Warnings alone throw none.

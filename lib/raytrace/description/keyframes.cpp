@@ -58,8 +58,9 @@ struct KeyElement {
 
 class KeysReader {
  public:
-  KeysReader(Element element, std::span<const std::string_view> components, Range range, const ReadContext& context)
-      : element_(element), components_(components), range_(range), context_(context) {}
+  KeysReader(Element element, std::span<const std::string_view> components, Range range, const ReadContext& context,
+             TextureAttributes* texture)
+      : element_(element), components_(components), range_(range), context_(context), texture_(texture) {}
 
   bool read(std::span<double* const> values) {
     refuse_value();
@@ -88,6 +89,10 @@ class KeysReader {
   }
 
   void refuse_value() {
+    if (texture_ != nullptr) {
+      fine_ = read_attributes(element_, texture_fields(*texture_, components_.size() == 1), true, context_);
+      return;
+    }
     for (Attribute attribute = element_.first_attribute(); attribute; attribute = attribute.next()) {
       refuse(attribute, [&] {
         return "unexpected attribute " + in_quotes(attribute.name()) + " in " + tag(element_.name()) +
@@ -157,6 +162,7 @@ class KeysReader {
   std::span<const std::string_view> components_;
   Range range_;
   const ReadContext& context_;
+  TextureAttributes* texture_;  ///< null if the element has none
   std::vector<KeyElement> keys_;
   bool fine_ = true;
 };
@@ -178,8 +184,8 @@ std::array<double, 4> value_at(const std::vector<Key>& keys, double frame) {
 bool has_keys(Element element) { return static_cast<bool>(element.child(key_element)); }
 
 bool read_keys(Element element, std::span<const std::string_view> components, std::span<double* const> values,
-               Range range, const ReadContext& context) {
-  return KeysReader(element, components, range, context).read(values);
+               Range range, const ReadContext& context, TextureAttributes* texture) {
+  return KeysReader(element, components, range, context, texture).read(values);
 }
 
 }  // namespace raytrace

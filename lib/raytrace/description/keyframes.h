@@ -47,8 +47,9 @@ inline constexpr std::string_view number_component = "value";
 bool has_keys(Element element);
 
 /// Reads an element that has. components: their attributes, at most 3; values: receive what they are at the frame of
-/// the variables. False, with errors, if anything is wrong.
+/// the variables. False, with errors, if anything is wrong. texture: receives that of the element; null: textures are
+/// refused.
 bool read_keys(Element element, std::span<const std::string_view> components, std::span<double* const> values,
-               Range range, const ReadContext& context);
+               Range range, const ReadContext& context, TextureAttributes* texture = nullptr);
 
 }  // namespace raytrace

@@ -1,8 +1,11 @@
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <string>
 
+#include "raytrace/description/load_images.h"
+#include "raytrace/description/read_value.h"
 #include "raytrace/description/scene_description.h"
 #include "raytrace/import/read_mesh.h"
 #include "raytrace/text/message.h"
@@ -64,7 +67,8 @@ class MeshLoader {
     std::optional<MeshData> data = read(file);
     if (!data) return loaded;
     if (mesh.material == no_material) {
-      for (const MeshMaterial& material : data->materials) loaded.materials.push_back(add(material));
+      const auto folder = std::filesystem::absolute(file.path).parent_path();
+      for (const MeshMaterial& material : data->materials) loaded.materials.push_back(add(material, folder));
       // Faces without a material have the last one.
       const auto& faces = data->face_materials;
       if (std::find(faces.begin(), faces.end(), MeshData::no_material) != faces.end())
@@ -98,13 +102,36 @@ class MeshLoader {
   }
 
   /// A material of a file as the scene may have it. It keeps its name, if that is free.
-  MaterialReference add(const MeshMaterial& material) {
+  MaterialReference add(const MeshMaterial& material, const std::filesystem::path& folder) {
     const Rgb<double> black(0, 0, 0), white(1, 1, 1);
     const Rgb<double> diffuse = material.kd.value_or(white), specular = material.ks.value_or(black);
     const bool is_glossy =
         material.illum.value_or(2) >= 2 && std::max({specular.red, specular.green, specular.blue}) > 0;
-    if (!is_glossy) return add<Matte>({1, 1, diffuse}, material.name);
-    return add<Phong>({1, 1, 1, diffuse, specular, std::max(0.0, material.ns.value_or(20))}, material.name);
+    MaterialReference added{};
+    if (is_glossy)
+      added = add<Phong>({1, 1, 1, diffuse, specular, std::max(0.0, material.ns.value_or(20))}, material.name);
+    else
+      added = add<Matte>({1, 1, diffuse}, material.name);
+    if (!material.map_kd.file.empty()) set_texture(added, "cd", material.map_kd, folder);
+    return added;
+  }
+
+  void set_texture(const MaterialReference& material, std::string_view field, const MeshTexture& texture,
+                   const std::filesystem::path& folder) {
+    auto& images = std::get<TextureItems<Image>>(scene_.textures);
+    TextureItem<Image>& image = images.emplace_back();
+    image.parameters.file = (folder / texture.file).string();
+    image.parameters.uvscale = {texture.scale[0], texture.scale[1]};
+    image.parameters.uvoffset = {texture.offset[0], texture.offset[1]};
+    if (texture.clamp) image.parameters.wrap = Wrap::clamp;
+    image.name = image.parameters.file + '#' + std::to_string(images.size());
+    image.imported = true;
+    const TextureReference reference{index_of<Image>(Textures{}), static_cast<std::uint32_t>(images.size() - 1)};
+    with_type(Materials{}, material.type, [&]<class Material>(std::type_identity<Material>) {
+      auto& item = std::get<MaterialItems<Material>>(scene_.materials)[material.index];
+      item.textures.push_back(
+          {static_cast<std::uint32_t>(find_field(Material::fields(), field)), reference, TextureChannel::red});
+    });
   }
 
   MaterialReference grey() {
@@ -131,9 +158,11 @@ class MeshLoader {
 
 }  // namespace
 
-bool load_meshes(SceneDescription& description, Diagnostics& diagnostics, int threads) {
+bool load_meshes(SceneDescription& description, Diagnostics& diagnostics, int threads,
+                 MissingTexture missing_texture) {
   const std::size_t errors_before = diagnostics.error_count();
   MeshLoader(description, diagnostics, threads).load();
+  load_images(description, diagnostics, threads, missing_texture);
   return diagnostics.error_count() == errors_before;
 }
 

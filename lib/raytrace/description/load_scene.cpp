@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "raytrace/description/check_groups.h"
+#include "raytrace/description/load_images.h"
 #include "raytrace/description/read_items.h"
 #include "raytrace/parallel/worker_count.h"
 
@@ -48,14 +49,16 @@ class SceneReader {
       if (nearest_name(root.name(), {&root_element, 1}).empty()) return;
     }
     refuse_root_attributes(root);
-    std::vector<Element> object_sections, group_sections;
+    std::vector<Element> material_sections, object_sections, group_sections;
     for (Node node = root.first_child(); node; node = node.next()) {
       if (refuse_text(node, root, diagnostics_)) continue;
       const Element child = node.element();
       if (child.name() == LightsSection::element)
         read_section<LightsSection>(child);
+      else if (child.name() == TexturesSection::element)
+        read_section<TexturesSection>(child);
       else if (child.name() == MaterialsSection::element)
-        read_section<MaterialsSection>(child);
+        material_sections.push_back(child);
       else if (child.name() == ObjectsSection::element)
         object_sections.push_back(child);
       else if (child.name() == groups_element)
@@ -68,8 +71,10 @@ class SceneReader {
         refuse_unknown(child, root_element);
     }
     resolve_field_of_view();
-    // Objects name materials, which may come after them.
-    report_taken(MaterialsSection::item, materials_.names);
+    // Objects name materials, and those textures, which may come after them.
+    report_taken(TexturesSection::item, names_.textures.names);
+    for (const Element section : material_sections) read_section<MaterialsSection>(section);
+    report_taken(MaterialsSection::item, names_.materials.names);
     for (const Element section : object_sections) read_section<ObjectsSection>(section);
     report_taken(ObjectsSection::item, object_names_);
     for (const Element section : group_sections) read_groups(section);
@@ -211,7 +216,7 @@ class SceneReader {
   template <class Section, class T>
   void read_only_item(Element element) {
     if (!is_first(T::element, element)) return;
-    TypedItemList<Section, T> items(materials_);
+    TypedItemList<Section, T> items(names_);
     items.read(element, 0, context_);
     store<Section, T>(items.entries().front(), {});
   }
@@ -227,26 +232,36 @@ class SceneReader {
     std::size_t read_elements = 0;
     read_items(
         {text_, context_.variables, group, T::element}, arena_, diagnostics_,
-        [&] { return std::make_unique<Items>(materials_); },
+        [&] { return std::make_unique<Items>(names_); },
         [&](std::size_t chunk, ItemList& items) {
           for (auto& entry : static_cast<Items&>(items).entries()) {
             ++read_elements;
             store<Section, T>(entry, {static_cast<std::uint32_t>(chunk), entry.number});
           }
         });
-    if (read_elements < elements && std::is_same_v<Section, MaterialsSection>) materials_.complete = false;
+    if constexpr (is_named<Section>)
+      if (read_elements < elements) named<Section>().complete = false;
+  }
+
+  template <class Section>
+  static constexpr bool is_named =
+      std::is_same_v<Section, TexturesSection> || std::is_same_v<Section, MaterialsSection>;
+  template <class Section>
+  NamedItems& named() {
+    return std::is_same_v<Section, TexturesSection> ? names_.textures : names_.materials;
   }
 
   template <class Section, class T>
   void store(typename TypedItemList<Section, T>::Entry& entry, ItemPosition position) {
     auto& items = this->items<Section, T>();
-    if constexpr (std::is_same_v<Section, MaterialsSection>) {
-      // A faulty material keeps its name, so that the objects that use it are not reported too.
-      materials_.complete = materials_.complete && !entry.item.name.empty();
+    if constexpr (is_named<Section>) {
+      // A faulty one keeps its name, so that what uses it is not reported too.
+      NamedItems& all = named<Section>();
+      all.complete = all.complete && !entry.item.name.empty();
       if (!entry.item.name.empty()) {
-        materials_.names.add(entry.item.name, position);
-        materials_.references.push_back(
-            {static_cast<std::uint32_t>(index_of<T>(Materials{})), static_cast<std::uint32_t>(items.size())});
+        all.names.add(entry.item.name, position);
+        all.references.push_back({static_cast<std::uint32_t>(index_of<T>(typename Section::Types{})),
+                                  static_cast<std::uint32_t>(items.size())});
       }
     }
     if constexpr (std::is_same_v<Section, ObjectsSection>)
@@ -261,8 +276,8 @@ class SceneReader {
       bool is_camera = false;
       for_each_type(Cameras{}, [&]<class T>(std::type_identity<T>) { is_camera |= meant == T::element; });
       firsts_.try_emplace(is_camera ? camera_key : meant);
-      if (parent == MaterialsSection::element || belongs_to_section(meant, MaterialsSection::element))
-        materials_.complete = false;
+      for (NamedItems* const all : {&names_.textures, &names_.materials})
+        if (parent == all->section || belongs_to_section(meant, all->section)) all->complete = false;
     }
     diagnostics_.error(child, [&] { return explain_misplaced(child.name(), parent); });
   }
@@ -331,7 +346,7 @@ class SceneReader {
   tbb::task_arena arena_;
   SceneDescription scene_;
   std::map<std::string_view, Element> firsts_;  // by key; false for what was meant by an element that was refused
-  NamedMaterials materials_;
+  SceneNames names_;
   NameTable object_names_;                  // of the scene, or of the group at hand
   ObjectLists* objects_ = &scene_.objects;  // likewise
   std::map<std::string, std::uint32_t> group_lines_;
@@ -369,7 +384,9 @@ std::optional<SceneDescription> load_scene(const std::string& file, Diagnostics&
   std::optional<TextBuffer> text = read_text_file(file, threads, diagnostics);
   if (!text) return std::nullopt;
   std::optional<SceneDescription> scene = read_scene(std::move(*text), file, diagnostics, threads, settings);
-  if (scene) scene->file = file;
+  if (!scene) return std::nullopt;
+  scene->file = file;
+  if (!load_images(*scene, diagnostics, threads, settings.missing_texture)) return std::nullopt;
   return scene;
 }
 

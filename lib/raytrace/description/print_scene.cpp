@@ -1,9 +1,10 @@
+#include <map>
 #include <string>
 #include <string_view>
 #include <type_traits>
 
-#include "raytrace/description/parse_value.h"
 #include "raytrace/description/read_transform.h"
+#include "raytrace/description/read_value.h"
 #include "raytrace/description/scene_description.h"
 #include "raytrace/description/scene_layout.h"
 #include "raytrace/xml/xml_writer.h"
@@ -25,6 +26,9 @@ std::string escaped(std::string_view text) {
         break;
       case '>':
         result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
         break;
       default:
         result += c;
@@ -92,11 +96,14 @@ class ScenePrinter : private XmlWriter {
   void print_item(const SceneDescription& scene, const Item& item) {
     if constexpr (requires { item.name; })
       if (!item.name.empty()) print_value("name", item.name);
-    print_parameters<T>(item.parameters);
+    if constexpr (requires { item.textures; })
+      print_parameters<T>(item.parameters, texture_attributes(scene, item.textures));
+    else
+      print_parameters<T>(item.parameters);
     if constexpr (requires { item.transform; })
       if (!item.transform.empty()) print_transform(item.transform);
     if constexpr (requires { item.material; })
-      if (item.material != no_material) print_value("material", material_name(scene, item.material));
+      if (item.material != no_material) print_value("material", name_of<MaterialsSection>(scene, item.material));
   }
 
   void print_transform(const Transform& transform) {
@@ -119,19 +126,38 @@ class ScenePrinter : private XmlWriter {
     });
   }
 
-  static std::string material_name(const SceneDescription& scene, MaterialReference material) {
-    return with_type(Materials{}, material.type, [&]<class T>(std::type_identity<T>) {
-      return items_of<MaterialsSection, T>(scene).at(material.index).name;
-    });
+  template <class Section>
+  static std::string name_of(const SceneDescription& scene, ItemReference item) {
+    return with_type(typename Section::Types{}, item.type,
+                     [&]<class T>(std::type_identity<T>) { return items_of<Section, T>(scene).at(item.index).name; });
+  }
+
+  /// By field.
+  using AttributeTexts = std::map<std::size_t, std::string>;
+
+  static AttributeTexts texture_attributes(const SceneDescription& scene, const std::vector<TextureUse>& textures) {
+    AttributeTexts attributes;
+    for (const TextureUse& use : textures) {
+      std::string& text = attributes[use.field];
+      const auto add = [&](std::string_view name, std::string_view value) {
+        text.append(" ").append(name).append("=\"").append(value).append("\"");
+      };
+      add(texture_attribute, escaped(name_of<TexturesSection>(scene, use.texture)));
+      if (use.channel != TextureChannel::red)
+        add(channel_attribute, Choices<TextureChannel>::words[static_cast<std::size_t>(use.channel)]);
+    }
+    return attributes;
   }
 
   template <class T>
-  void print_parameters(const typename T::Parameters& parameters) {
+  void print_parameters(const typename T::Parameters& parameters, const AttributeTexts& attributes = {}) {
     static const auto fields = T::fields();
-    for (const auto& field : fields)
-      field.visit(parameters, [&](const auto& value) {
-        if (!is_absent(value)) print_value(field.name, value);
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      const auto more = attributes.find(i);
+      fields[i].visit(parameters, [&](const auto& value) {
+        if (!is_absent(value)) print_value(fields[i].name, value, more != attributes.end() ? more->second : std::string());
       });
+    }
   }
 
   // No element is written without a value.
@@ -143,7 +169,7 @@ class ScenePrinter : private XmlWriter {
   }
 
   template <class Value>
-  void print_value(std::string_view name, const Value& value) {
+  void print_value(std::string_view name, const Value& value, const std::string& attributes = {}) {
     std::string text = "<" + std::string(name);
     if constexpr (HasComponents<Value>) {
       using Parts = Components<Value>;
@@ -153,9 +179,9 @@ class ScenePrinter : private XmlWriter {
             .append("=\"")
             .append(number_text(value.*Parts::members[i]))
             .append("\"");
-      text += "/>";
+      text += attributes + "/>";
     } else {
-      text.append(">").append(escaped(value_text(value))).append("</").append(name).append(">");
+      text.append(attributes).append(">").append(escaped(value_text(value))).append("</").append(name).append(">");
     }
     line(text);
   }

@@ -37,9 +37,10 @@ std::string type_name(Range range) {
   if constexpr (std::is_same_v<Value, int>) return std::string(limits(range).prefix) + "integer";
   if constexpr (std::is_same_v<Value, bool>) return "boolean";
   if constexpr (std::is_same_v<Value, FileName> || std::is_same_v<Value, NumberGroups> ||
-                std::is_same_v<Value, WordOrGroups> || std::is_same_v<Value, Reference>)
+                std::is_same_v<Value, WordOrGroups> || std::is_same_v<Value, Reference> || std::is_same_v<Value, std::string>)
     return "text";
   if constexpr (std::is_same_v<Value, Vec3d>) return std::string(limits(range).prefix) + "vector";
+  if constexpr (std::is_same_v<Value, Vec2d>) return std::string(limits(range).prefix) + "pair";
   if constexpr (std::is_same_v<Value, Rgb<double>>) return std::string(limits(range).prefix) + "color";
 }
 
@@ -82,7 +83,8 @@ class SchemaPrinter : private XmlWriter {
         });
       });
     });
-    line("<!-- Names are unique among all materials, and among all objects. -->");
+    line("<!-- Names are unique among all textures, among all materials, and among all objects. -->");
+    print_constraint(R"(xs:key name="textures")", "textures/*/*", "name");
     print_constraint(R"(xs:key name="materials")", "materials/*/*", "name");
     print_constraint(R"(xs:unique name="objects")", "objects/*/*", "name");
   }
@@ -125,7 +127,7 @@ class SchemaPrinter : private XmlWriter {
     });
     for_each_type(Types{}, [&]<class T>(std::type_identity<T>) {
       if (!T::group.empty()) print_choice(T::group, [&] { child(T::element); });
-      print_item<T>(labels_of<Section, T>());
+      print_item<T>(labels_of<Section, T>(), std::is_same_v<Section, MaterialsSection>);
     });
   }
 
@@ -136,7 +138,7 @@ class SchemaPrinter : private XmlWriter {
   }
 
   template <class T>
-  void print_item(std::span<const FieldInfo> labels) {
+  void print_item(std::span<const FieldInfo> labels, bool may_have_textures = false) {
     // Without fields it would have to be empty, white space included, were it not mixed.
     const bool empty = labels.empty() && T::fields().empty();
     element(named("complexType", T::element) + (empty ? " mixed=\"true\"" : ""), [&] {
@@ -153,7 +155,9 @@ class SchemaPrinter : private XmlWriter {
             if constexpr (std::is_same_v<Value, ChoiceReference>)
               print_choice_of_words(field, value.words());
             else
-              child(field.name, type_name<Value>(field.range), field.required && !has_shorthand(field.name));
+              child(field.name,
+                    (may_have_textures && may_be_textured<Value> ? "textured" : "") + type_name<Value>(field.range),
+                    field.required && !has_shorthand(field.name));
           });
       });
     });
@@ -180,6 +184,7 @@ class SchemaPrinter : private XmlWriter {
     line("<!-- A variable, anywhere in a value. -->");
     print_restriction("variable", "xs:token", {{"pattern", R"(.*[$].*)"}});
     print_restriction("interpolation", "xs:token", word_facets(Choices<Interpolation>::words));
+    print_restriction("channel", "xs:token", word_facets(Choices<TextureChannel>::words));
     for (const Range range : {Range::any, Range::not_negative, Range::positive}) {
       const RangeLimits limit = limits(range);
       print_value_or_variable(number_name(range), "xs:double",
@@ -194,11 +199,28 @@ class SchemaPrinter : private XmlWriter {
       element(named("complexType", type_name<double>(range)) + " mixed=\"true\"",
               [&] { print_keys(number_name(range), {&number_component, 1}); });
       print_components<Vec3d>(range);
+      print_components<Vec2d>(range);
       print_components<Rgb<double>>(range);
+      print_textured<double>(range, R"( mixed="true")");
+      print_textured<Rgb<double>>(range, "");
     }
     line("<!-- A stray > before the value is a slip that is forgiven. -->");
     print_restriction("boolean", "xs:token", {{"pattern", R"(>? ?(true|false|1|0)|.*[$].*)"}});
     print_restriction("text", "xs:token", {{"minLength", "1"}});
+  }
+
+  /// The same with a texture.
+  template <class Value>
+  void print_textured(Range range, std::string_view mixed) {
+    const std::string type = type_name<Value>(range);
+    element(named("complexType", "textured" + type) + std::string(mixed), [&] {
+      element("xs:complexContent" + std::string(mixed), [&] {
+        element("xs:extension base=\"" + type + "\"", [&] {
+          attribute(texture_attribute, "text", false);
+          if (std::is_same_v<Value, double>) attribute(channel_attribute, "channel", false);
+        });
+      });
+    });
   }
 
   using Facets = std::vector<std::pair<std::string_view, std::string>>;

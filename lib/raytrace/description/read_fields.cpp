@@ -26,7 +26,7 @@ std::string explain_unknown(Element child, Element parent, std::span<const Field
 }  // namespace
 
 bool read_fields(Element element, std::span<const FieldInfo> infos, std::span<const FieldTarget> targets,
-                 const ReadContext& context) {
+                 const ReadContext& context, std::vector<FieldTexture>* textures) {
   Diagnostics& diagnostics = context.diagnostics;
   const std::size_t errors_before = diagnostics.error_count();
   refuse_attributes(element, infos, diagnostics);
@@ -44,7 +44,10 @@ bool read_fields(Element element, std::span<const FieldInfo> infos, std::span<co
                  std::to_string(element.child(infos[i].name).line());
         });
       } else {
-        read_value(child, infos[i], targets[i], context);
+        FieldTexture texture{i, {}, child};
+        if (read_value(child, infos[i], targets[i], context, textures != nullptr ? &texture.attributes : nullptr) &&
+            !texture.attributes.texture.empty())
+          textures->push_back(texture);
       }
       read |= bit;
       continue;

@@ -15,10 +15,18 @@
 
 namespace raytrace {
 
+/// The texture that the value of a field names.
+struct FieldTexture {
+  std::size_t field;  ///< in `infos`
+  TextureAttributes attributes;
+  Element element;
+};
+
 /// Reads the children of `element`: the value of infos[i] goes to targets[i]. Members of absent or faulty children keep
 /// their values. False if there was an error.
+/// textures: receives those that the values name; null: they are refused.
 bool read_fields(Element element, std::span<const FieldInfo> infos, std::span<const FieldTarget> targets,
-                 const ReadContext& context);
+                 const ReadContext& context, std::vector<FieldTexture>* textures = nullptr);
 
 /// Whether the parameters of a T, each of which is fine alone, go together; otherwise report(severity, message).
 /// may_skip: whether what they are for may be left out, with a warning, where the type says so.
@@ -48,9 +56,10 @@ class FieldsReader {
   }
 
   /// False if the element is of no use, which is reported. labels: where the labels' values go, in the order of the
-  /// constructor's.
-  bool read(Element element, Parameters& parameters, std::span<const FieldTarget> labels, const ReadContext& context) {
-    if (!read_fields(element, infos_, targets(parameters, labels), context)) return false;
+  /// constructor's. textures: as in read_fields().
+  bool read(Element element, Parameters& parameters, std::span<const FieldTarget> labels, const ReadContext& context,
+            std::vector<FieldTexture>* textures = nullptr) {
+    if (!read_fields(element, infos_, targets(parameters, labels), context, textures)) return false;
     return check_together<T>(parameters, may_skip_, [&](Severity severity, const std::string& message) {
       context.diagnostics.report(severity, element, [&] { return message; });
     });

@@ -135,15 +135,10 @@ void read_items(const ItemGroup& group, tbb::task_arena& arena, Diagnostics& dia
   in_order(chunks.count, workers, arena, read_quietly, report_and_take);
 }
 
-void NamedMaterials::report_unknown(Element object, std::string_view name, Diagnostics& diagnostics) const {
-  // A missing one has been reported, and an unknown one may be among those that were refused.
-  if (name.empty() || !complete) return;
-  diagnostics.error(object.child("material").first_child(), [&] {
-    const std::string_view nearest = nearest_name(name, names.names());
-    return "unknown material " + in_quotes(name) + " in " + tag(object.name()) + "; " +
-           (nearest.empty() ? "add one of that name to " + tag(MaterialsSection::element)
-                            : "did you mean " + in_quotes(nearest) + "?");
-  });
+std::string NamedItems::explain_unknown(std::string_view name, Element user) const {
+  const std::string_view nearest = nearest_name(name, names.names());
+  return "unknown " + std::string(item) + " " + in_quotes(name) + " in " + tag(user.name()) + "; " +
+         (nearest.empty() ? "add one of that name to " + tag(section) : "did you mean " + in_quotes(nearest) + "?");
 }
 
 }  // namespace raytrace

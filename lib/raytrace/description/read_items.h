@@ -60,13 +60,32 @@ void read_items(const ItemGroup& group, tbb::task_arena& arena, Diagnostics& dia
                 const std::function<std::unique_ptr<ItemList>()>& make,
                 const std::function<void(std::size_t chunk, ItemList& items)>& take);
 
-/// The materials that objects may name.
-struct NamedMaterials {
-  NameTable names;
-  std::vector<MaterialReference> references;  ///< in the order of names
-  bool complete = true;                       ///< false: a material was refused before its name was read
+/// The textures that materials may name, or the materials that objects may name.
+struct NamedItems {
+  std::string_view section, item;  ///< "textures", "texture"
+  NameTable names{};
+  std::vector<ItemReference> references{};  ///< in the order of names
+  bool complete = true;                     ///< false: one was refused before its name was read
 
-  void report_unknown(Element object, std::string_view name, Diagnostics& diagnostics) const;
+  std::optional<ItemReference> find(std::string_view name) const {
+    const std::optional<std::size_t> i = names.find(name);
+    return i ? std::optional(references[*i]) : std::nullopt;
+  }
+
+  /// at(): where the name is in what has it.
+  template <class At>
+  void report_unknown(std::string_view name, Element user, const At& at, Diagnostics& diagnostics) const {
+    // A missing one has been reported, and an unknown one may be among those that were refused.
+    if (!name.empty() && complete) diagnostics.error(at(), [&] { return explain_unknown(name, user); });
+  }
+
+ private:
+  std::string explain_unknown(std::string_view name, Element user) const;
+};
+
+struct SceneNames {
+  NamedItems textures{TexturesSection::element, TexturesSection::item};
+  NamedItems materials{MaterialsSection::element, MaterialsSection::item};
 };
 
 /// Items of the type T in one of the Sections.
@@ -80,7 +99,7 @@ class TypedItemList final : public ItemList {
     bool usable = false;  ///< free of errors, and not to be left out
   };
 
-  explicit TypedItemList(const NamedMaterials& materials) : materials_(materials) {}
+  explicit TypedItemList(const SceneNames& names) : names_(names) {}
 
   std::vector<Entry>& entries() { return entries_; }
 
@@ -89,10 +108,14 @@ class TypedItemList final : public ItemList {
   void read(Element element, std::uint32_t number, const ReadContext& context) override {
     Entry& entry = append(element.line(), number);
     Labels labels;
-    entry.usable = fields_.read(element, entry.item.parameters, targets_of(labels, entry.item), context);
+    textures_.clear();
+    entry.usable = fields_.read(element, entry.item.parameters, targets_of(labels, entry.item), context, has_textures ? &textures_ : nullptr);
+    if constexpr (has_textures) entry.usable &= take_textures(entry.item, context.diagnostics);
     if (take_labels(labels, entry.item)) return;
     entry.usable = false;
-    if constexpr (has_material) materials_.report_unknown(element, labels[1], context.diagnostics);
+    if constexpr (has_material)
+      names_.materials.report_unknown(
+          labels[1], element, [&] { return element.child("material").first_child(); }, context.diagnostics);
   }
 
   std::size_t read_alike(const ItemPattern& pattern, std::string_view text, std::uint32_t line,
@@ -117,6 +140,7 @@ class TypedItemList final : public ItemList {
 
  private:
   static constexpr bool has_material = requires(Item item) { item.material; };
+  static constexpr bool has_textures = requires(Item item) { item.textures; };
   static constexpr auto labels_ = labels_of<Section, T>();
   /// The texts of a name and of a material.
   using Labels = std::array<std::string_view, labels_.size()>;
@@ -144,15 +168,33 @@ class TypedItemList final : public ItemList {
     if constexpr (requires { item.name; }) item.name = labels[0];
     if constexpr (has_material) {
       if (labels[1].empty()) return true;  // it is optional
-      const std::optional<std::size_t> material = materials_.names.find(labels[1]);
+      const std::optional<ItemReference> material = names_.materials.find(labels[1]);
       if (!material) return false;
-      item.material = materials_.references[*material];
+      item.material = *material;
     }
     return true;
   }
 
-  const NamedMaterials& materials_;
+  /// False, with an error, if there is no texture of a name.
+  bool take_textures(Item& item, Diagnostics& diagnostics) const {
+    bool fine = true;
+    for (const FieldTexture& use : textures_) {
+      const auto& [name, channel] = use.attributes;
+      if (const std::optional<ItemReference> texture = names_.textures.find(name)) {
+        const std::size_t field = use.field - Section::labels.size();
+        item.textures.push_back({static_cast<std::uint32_t>(field), *texture, channel});
+        continue;
+      }
+      fine = false;
+      names_.textures.report_unknown(
+          name, use.element, [&] { return find_attribute(use.element, texture_attribute); }, diagnostics);
+    }
+    return fine;
+  }
+
+  const SceneNames& names_;
   FieldsReader<T> fields_{labels_, Section::may_skip};
+  std::vector<FieldTexture> textures_;  // of the item at hand
   std::vector<Entry> entries_;
 };
 

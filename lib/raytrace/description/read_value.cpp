@@ -13,11 +13,11 @@ namespace {
 
 /// value: null if the fields are for an example only.
 template <class Value>
-std::array<AttributeField, 3> component_fields(Value* value, Range range) {
-  std::array<AttributeField, 3> fields;
-  for (std::size_t i = 0; i < fields.size(); ++i) {
+std::vector<AttributeField> component_fields(Value* value, Range range) {
+  std::vector<AttributeField> fields;
+  for (std::size_t i = 0; i < Components<Value>::names.size(); ++i) {
     double* const component = value != nullptr ? &(value->*Components<Value>::members[i]) : nullptr;
-    fields[i] = {Components<Value>::names[i], component, range_of_components(range)};
+    fields.push_back({Components<Value>::names[i], component, range_of_components(range)});
   }
   return fields;
 }
@@ -25,13 +25,20 @@ std::array<AttributeField, 3> component_fields(Value* value, Range range) {
 /// Reads one child into its target. Each function returns false where it has reported an error.
 class ValueReader {
  public:
-  ValueReader(Element element, const FieldInfo& info, const ReadContext& context)
-      : element_(element), info_(info), context_(context) {}
+  /// texture: null where there is to be none.
+  ValueReader(Element element, const FieldInfo& info, const ReadContext& context, TextureAttributes* texture)
+      : element_(element), info_(info), context_(context), texture_(texture) {
+    if (texture != nullptr && !find_attribute(element, texture_attribute)) texture_ = nullptr;
+  }
 
   bool operator()(double* value) const {
     const Node text_node = single_text();
     if (!text_node && has_keys(element_))
-      return read_keys(element_, {&number_component, 1}, {&value, 1}, info_.range, context_);
+      return read_keys(element_, {&number_component, 1}, {&value, 1}, info_.range, context_, texture_);
+    if (texture_ != nullptr && !element_.first_child()) {
+      *value = 1;
+      return read_attributes(element_, texture_fields(*texture_, true), false, context_);
+    }
     return read_text(text_node, [&](std::string_view text) { return parse_number(text, info_.range, *value); });
   }
 
@@ -87,6 +94,11 @@ class ValueReader {
 
   bool operator()(WordOrGroups* value) const {
     return read_text(single_text(), [&](std::string_view text) { return parse_word_or_groups(text, *value); });
+  bool operator()(std::string* value) const {
+    std::string_view text;
+    if (!(*this)(&text)) return false;
+    *value = text;
+    return true;
   }
 
   bool operator()(const ChoiceReference& choice) const {
@@ -119,13 +131,14 @@ class ValueReader {
       });
       return false;
     }
-    const bool no_attributes = refuse_attributes(element_, {}, context_.diagnostics);
+    const bool fine = texture_ != nullptr ? read_attributes(element_, texture_fields(*texture_, true), false, context_)
+                                          : refuse_attributes(element_, {}, context_.diagnostics);
     if (text.empty()) {
       refuse_content();
       return false;
     }
     const auto where = [&] { return " in " + tag(info_.name) + " "; };
-    return parse_text(text, element_, node, parse, where, context_) && no_attributes;
+    return parse_text(text, element_, node, parse, where, context_) && fine;
   }
 
   /// The text of an element that has nothing else; false if it has.
@@ -156,11 +169,22 @@ class ValueReader {
 
   template <class Value>
   bool read_components(Value& value) const {
-    const auto fields = component_fields(&value, info_.range);
+    auto fields = component_fields(&value, info_.range);
     if (element_.first_child() && has_keys(element_)) {
-      std::array<double*, 3> values{};
-      for (std::size_t i = 0; i < 3; ++i) values[i] = std::get<double*>(fields[i].target);
-      return read_keys(element_, Components<Value>::names, values, info_.range, context_);
+      std::vector<double*> values;
+      for (const AttributeField& field : fields) values.push_back(std::get<double*>(field.target));
+      return read_keys(element_, Components<Value>::names, values, info_.range, context_, texture_);
+    }
+    if constexpr (std::is_same_v<Value, Rgb<double>>) {
+      if (texture_ != nullptr) {
+        fields.push_back(texture_fields(*texture_, false).front());
+        // All of a colour, or nothing but the texture.
+        const Attribute only = element_.first_attribute();
+        if (!only.next()) {
+          value = {1, 1, 1};
+          for (AttributeField& field : fields) field.required = false;
+        }
+      }
     }
     bool fine = true;
     for (Node node = element_.first_child(); node; node = node.next()) {
@@ -187,6 +211,7 @@ class ValueReader {
   Element element_;
   const FieldInfo& info_;
   const ReadContext& context_;
+  TextureAttributes* texture_;  ///< null if the element has none
 };
 
 bool is_number_or_variable(std::string_view word) {
@@ -265,10 +290,13 @@ std::uint64_t present_attributes(Element element, std::span<const AttributeField
 }
 
 bool read_attribute(Element element, Attribute attribute, const AttributeField& field, const ReadContext& context) {
-  const auto parse = [&](std::string_view text) {
-    const auto number = std::get_if<double*>(&field.target);
-    return number ? parse_number(text, field.range, **number)
-                  : parse_choice(text, std::get<ChoiceReference>(field.target));
+  const auto parse = [&](std::string_view text) -> OptionalMessage {
+    if (const auto* const number = std::get_if<double*>(&field.target))
+      return parse_number(text, field.range, **number);
+    if (const auto* const choice = std::get_if<ChoiceReference>(&field.target)) return parse_choice(text, *choice);
+    text = xml::trimmed(text);
+    *std::get<std::string_view*>(field.target) = text;
+    return text.empty() ? "is empty" : check_label(text);
   };
   const auto where = [&] { return " for " + std::string(field.name) + " in " + tag(element.name()) + " "; };
   return parse_text(attribute.value(), element, attribute, parse, where, context);
@@ -295,24 +323,35 @@ bool require_all(Element element, std::span<const AttributeField> fields, std::u
 
 std::span<const std::string_view> component_names(const FieldTarget& target) {
   if (std::holds_alternative<Vec3d*>(target)) return Components<Vec3d>::names;
+  if (std::holds_alternative<Vec2d*>(target)) return Components<Vec2d>::names;
   if (std::holds_alternative<Rgb<double>*>(target)) return Components<Rgb<double>>::names;
   return {};
 }
 
-bool read_value(Element element, const FieldInfo& info, const FieldTarget& target, const ReadContext& context) {
-  return std::visit(ValueReader(element, info, context), target);
+std::vector<AttributeField> texture_fields(TextureAttributes& texture, bool is_number) {
+  std::vector<AttributeField> fields{{texture_attribute, &texture.texture}};
+  if (is_number) fields.push_back({channel_attribute, ChoiceReference(texture.channel), Range::any, false});
+  return fields;
+}
+
+bool read_value(Element element, const FieldInfo& info, const FieldTarget& target, const ReadContext& context,
+                TextureAttributes* texture) {
+  return std::visit(ValueReader(element, info, context, texture), target);
 }
 
 std::string example_value(const FieldInfo& info, const FieldTarget& target) {
   if (std::holds_alternative<Vec3d*>(target))
     return example_of(info.name, component_fields<Vec3d>(nullptr, info.range));
+  if (std::holds_alternative<Vec2d*>(target))
+    return example_of(info.name, component_fields<Vec2d>(nullptr, info.range));
   if (std::holds_alternative<Rgb<double>*>(target))
     return example_of(info.name, component_fields<Rgb<double>>(nullptr, info.range));
   const auto* const choice = std::get_if<ChoiceReference>(&target);
   const std::string value =
       choice != nullptr                       ? std::string(choice->words()[0])
       : std::holds_alternative<bool*>(target) ? "true"
-      : std::holds_alternative<std::string_view*>(target) || std::holds_alternative<Reference*>(target) ? "..."
+      : std::holds_alternative<std::string_view*>(target) || std::holds_alternative<std::string*>(target) ||
+              std::holds_alternative<Reference*>(target) ? "..."
       : std::holds_alternative<FileName*>(target)                                                       ? "model.ply"
       : std::holds_alternative<NumberGroups*>(target) || std::holds_alternative<WordOrGroups*>(target)
           ? "0 0 0, 1 0 0, 0 1 0"

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "raytrace/description/parse_value.h"
+#include "raytrace/description/scene_description.h"
 #include "raytrace/description/variables.h"
 #include "raytrace/parameters/transform.h"
 #include "raytrace/text/message.h"
@@ -80,7 +81,7 @@ bool parse_text(std::string_view text, Element element, const At& at, const Pars
 /// An attribute of an element such as <center x="0" y="0" z="0"/>, and where its value goes.
 struct AttributeField {
   std::string_view name;
-  std::variant<double*, ChoiceReference> target;
+  std::variant<double*, std::string_view*, ChoiceReference> target;  ///< a string_view views the Document's text
   Range range = Range::any;
   bool required = true;
 };
@@ -90,20 +91,41 @@ struct AttributeField {
 bool read_attributes(Element element, std::span<const AttributeField> fields, bool example_shown,
                      const ReadContext& context);
 
+/// The texture that an element such as <cd texture="wood"/> or <ka texture="dirt" channel="alpha">0.5</ka> names.
+struct TextureAttributes {
+  std::string_view texture;  ///< empty: none
+  TextureChannel channel = TextureChannel::red;
+};
+inline constexpr std::string_view texture_attribute = "texture", channel_attribute = "channel";
+
+/// False if there is none of that name.
+inline Attribute find_attribute(Element element, std::string_view name) {
+  Attribute attribute = element.first_attribute();
+  while (attribute && attribute.name() != name) attribute = attribute.next();
+  return attribute;
+}
+
+/// Of an element with a texture: those of a colour name no channel.
+std::vector<AttributeField> texture_fields(TextureAttributes& texture, bool is_number);
+
 /// <name x="1" y="1" z="1"/>: how an element with these fields is written, as far as they are required; with the
 /// numbers that `source` has already, if given, in whichever way they are written there: in its text, in its children
 /// or in attributes of other names.
 std::string example_of(std::string_view element, std::span<const AttributeField> fields, Element source = Element());
 
 /// Where a field's value goes. A string_view is a label, such as a name: it views the Document's text.
-using FieldTarget = std::variant<double*, int*, bool*, ChoiceReference, std::string_view*, Vec3d*, Rgb<double>*,
-                                 FileName*, NumberGroups*, WordOrGroups*, Transform*, Reference*>;
+using FieldTarget =
+    std::variant<double*, int*, bool*, ChoiceReference, std::string_view*, std::string*, Vec3d*, Vec2d*, Rgb<double>*,
+                 FileName*, NumberGroups*, WordOrGroups*, Transform*, Reference*>;
 
 /// The attributes of vectors and colors, in the order of their members; none of other values.
 std::span<const std::string_view> component_names(const FieldTarget& target);
 
 /// Reads the element. Reports what is wrong with it as a value for that target; false if there was an error.
-bool read_value(Element element, const FieldInfo& info, const FieldTarget& target, const ReadContext& context);
+/// texture: receives the texture of a number or a colour, whose value then is 1 if the element has none; null: textures
+/// are refused.
+bool read_value(Element element, const FieldInfo& info, const FieldTarget& target, const ReadContext& context,
+                TextureAttributes* texture = nullptr);
 
 /// How such an element is written, for messages.
 std::string example_value(const FieldInfo& info, const FieldTarget& target);

@@ -3,6 +3,7 @@
 // It is made as a whole by load_scene (or by hand, in tests and tools), validated as a whole, and never changes after.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -21,6 +22,8 @@
 #include "raytrace/math/type_list.h"
 #include "raytrace/parameters/transform.h"
 #include "raytrace/shapes/registry.h"
+#include "raytrace/textures/registry.h"
+#include "raytrace/textures/texel_image.h"
 #include "raytrace/xml/diagnostics.h"
 
 namespace raytrace {
@@ -31,20 +34,43 @@ struct LightItem {
   std::uint32_t line = 0;
 };
 
+/// An item by its type (the index in the Textures or Materials registry) and its index among the items of that type.
+struct ItemReference {
+  std::uint32_t type = 0;
+  std::uint32_t index = 0;
+};
+using TextureReference = ItemReference;
+using MaterialReference = ItemReference;
+
+template <class Texture>
+struct TextureItem {
+  typename Texture::Parameters parameters;
+  std::string name;
+  std::uint32_t line = 0;
+  bool imported = false;  ///< from a mesh's file, which brings it again when it is read again
+  LoadedImage image{};  ///< of an Image, once its file has been loaded (load_images.h)
+};
+
+enum class TextureChannel { red, green, blue, alpha };
+template <>
+struct Choices<TextureChannel> {
+  static constexpr std::array<std::string_view, 4> words = {"red", "green", "blue", "alpha"};
+};
+
+/// A colour or a number of a material that is multiplied by a texture.
+struct TextureUse {
+  std::uint32_t field = 0;  ///< its index in the material's fields()
+  TextureReference texture;
+  TextureChannel channel = TextureChannel::red;  ///< for numbers
+};
+
 template <class Material>
 struct MaterialItem {
   typename Material::Parameters parameters;
   std::string name;
   std::uint32_t line = 0;
-  bool imported = false;  ///< from a mesh's file, which brings it again when it is read again
-};
-
-/// A material by its type (the index in the Materials registry) and its index among the items of that type.
-struct MaterialReference {
-  std::uint32_t type = 0;
-  std::uint32_t index = 0;
-
-  friend bool operator==(const MaterialReference&, const MaterialReference&) = default;
+  bool imported = false;              ///< from a mesh's file, which brings it again when it is read again
+  std::vector<TextureUse> textures{};  ///< of a field no more than one
 };
 
 template <class Shape>
@@ -84,6 +110,8 @@ struct ObjectItem<Instance> {
 template <class T>
 using LightItems = std::vector<LightItem<T>>;
 template <class T>
+using TextureItems = std::vector<TextureItem<T>>;
+template <class T>
 using MaterialItems = std::vector<MaterialItem<T>>;
 template <class T>
 using ObjectItems = std::vector<ObjectItem<T>>;
@@ -113,26 +141,28 @@ struct SceneDescription {
   CameraParameters camera;
   std::optional<IntegratorParameters> integrator;     ///< none: the file leaves it open
   TupleOf<Lights, LightItems>::type lights;           ///< std::get<LightItems<PointLight>>(lights)
+  TupleOf<Textures, TextureItems>::type textures;     ///< std::get<TextureItems<Checker>>(textures)
   TupleOf<Materials, MaterialItems>::type materials;  ///< std::get<MaterialItems<Matte>>(materials)
   ObjectLists objects;                                ///< std::get<ObjectItems<Sphere>>(objects)
   std::vector<Group> groups;
 };
 
-/// Reads and validates a scene file ("-": standard input), but not the files that it names. All errors and warnings go
-/// to `diagnostics`; no value if there is an error. A file that cannot be read is an error at line 0. threads: so many
-/// at most share the work; 0: all that the machine has. The result does not depend on it. settings: variables that are
-/// not used are errors, as those that are not set.
+/// Reads and validates a scene file ("-": standard input), but not the meshes that it names. All errors and warnings go
+/// to `diagnostics`; no value if there is an error. A file that cannot be read is an error at line 0. The files that
+/// textures name are loaded, too. threads: so many at most share the work; 0: all that the machine has. The result does
+/// not depend on it. settings: variables that are not used are errors, as those that are not set.
 std::optional<SceneDescription> load_scene(const std::string& file, Diagnostics& diagnostics, int threads = 0,
                                            const SceneSettings& settings = {});
 
-/// The same for a text that is already in memory.
+/// The same for a text that is already in memory. Files that textures name are left to load_images().
 std::optional<SceneDescription> parse_scene(std::string_view text, Diagnostics& diagnostics, int threads = 0,
                                             const SceneSettings& settings = {});
 
 /// Reads the files of the meshes, and makes those whose values stand in the scene; adds materials for what has none in
 /// the scene: those of the file, else a matte grey. What is wrong with the files goes to `diagnostics`, with the files'
 /// names and lines. False if there is an error.
-bool load_meshes(SceneDescription& description, Diagnostics& diagnostics, int threads = 0);
+bool load_meshes(SceneDescription& description, Diagnostics& diagnostics, int threads = 0,
+                 MissingTexture missing_texture = MissingTexture::error);
 
 /// Writes the description as a scene file in canonical form: every value spelled out, defaults included; reading it
 /// back gives an equal description (all doubles round-trip). It has neither variables nor keys, nor what load_meshes()

@@ -64,14 +64,25 @@ class SceneHash {
           }
         }
         if constexpr (requires { item.name; }) hash.add(item.name);
-        if constexpr (requires { item.material; }) {
-          hash.add(item.material.type);
-          hash.add(item.material.index);
+        if constexpr (requires { item.image; }) hash.add(item.image.hash);
+        if constexpr (requires { item.material; }) hash.add_reference(item.material);
+        if constexpr (requires { item.textures; }) {
+          hash.add(static_cast<std::uint64_t>(item.textures.size()));
+          for (const TextureUse& use : item.textures) {
+            hash.add(use.field);
+            hash.add_reference(use.texture);
+            hash.add(static_cast<std::uint32_t>(use.channel));
+          }
         }
       }
       hashes[chunk] = hash.hash_.digits();
     });
     for (const std::string& hash : hashes) add(hash);
+  }
+
+  void add_reference(const ItemReference& item) {
+    add(item.type);
+    add(item.index);
   }
 
   template <class Parameters>

@@ -29,6 +29,14 @@ struct LightsSection {
   static constexpr bool may_skip = true;
 };
 
+struct TexturesSection {
+  using Types = Textures;
+  static constexpr std::string_view element = "textures", item = "texture";
+  static constexpr auto items = &SceneDescription::textures;
+  static constexpr std::array<FieldInfo, 1> labels{{{"name"}}};
+  static constexpr bool may_skip = false;
+};
+
 struct MaterialsSection {
   using Types = Materials;
   static constexpr std::string_view element = "materials", item = "material";
@@ -53,7 +61,7 @@ constexpr auto labels_of() {
   return labels;
 }
 
-using Sections = TypeList<LightsSection, MaterialsSection, ObjectsSection>;
+using Sections = TypeList<LightsSection, TexturesSection, MaterialsSection, ObjectsSection>;
 
 /// What of a section's items of one type the description has: std::vector<ObjectItem<T>>, say. Scene: a
 /// SceneDescription, or a constant one.

@@ -17,10 +17,18 @@
 
 namespace raytrace {
 
+/// What a texture is whose file cannot be used: an error, or a warning and magenta.
+enum class MissingTexture { error, warn };
+template <>
+struct Choices<MissingTexture> {
+  static constexpr std::array<std::string_view, 2> words = {"error", "warn"};
+};
+
 /// What the values of a scene may depend on.
 struct SceneSettings {
   int frame = 1;                                 ///< the value of $frame, and the moment at which keys are evaluated
   std::map<std::string, std::string> variables;  ///< name -> value; none is called "frame" (see is_variable_name)
+  MissingTexture missing_texture = MissingTexture::error;
 };
 
 /// The variable that need not be set.

@@ -2,6 +2,7 @@
 //
 // A material's Kernel provides:
 //   template <class T> struct Bsdf { ... };   what the tracer keeps of a material: members of type T only
+//   template <class T, class Value> static Bsdf<T> bsdf_of(const Values<Value>&);   Values<double> are the Parameters
 //   static Bsdf<float> bsdf(const Parameters&);
 // and of Bsdf<T>, where T is a batch:
 //   Rgb<T> ambient_radiance(const Rgb<T>& radiance) const;   what leaves under ambient light of that radiance

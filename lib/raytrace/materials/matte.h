@@ -9,11 +9,14 @@ namespace raytrace {
 
 class Matte {
  public:
-  struct Parameters {
-    double ka = 0;     ///< ambient reflection coefficient
-    double kd = 0;     ///< diffuse reflection coefficient
-    Rgb<double> cd{};  ///< diffuse colour
+  /// T: double, or a batch for lanes with textures of their own.
+  template <class T>
+  struct Values {
+    T ka = T(0);  ///< ambient reflection coefficient
+    T kd = T(0);  ///< diffuse reflection coefficient
+    Rgb<T> cd{};  ///< diffuse colour
   };
+  using Parameters = Values<double>;
   static constexpr std::string_view group = "mattes";
   static constexpr std::string_view element = "matte";
   static Fields<Parameters> fields() {

@@ -25,9 +25,11 @@ class Kernel<Matte> {
     T pdf(const Vec3<T>& wo, const Vec3<T>& wi) const { return diffuse.pdf(wo, wi, local_normal<T>()); }
   };
 
-  static Bsdf<float> bsdf(const Matte::Parameters& parameters) {
-    return {{Rgb<float>(parameters.cd * parameters.ka)}, {Rgb<float>(parameters.cd * parameters.kd)}};
+  template <class T, class Value>
+  static Bsdf<T> bsdf_of(const Matte::Values<Value>& matte) {
+    return {{Rgb<T>(matte.cd * matte.ka)}, {Rgb<T>(matte.cd * matte.kd)}};
   }
+  static Bsdf<float> bsdf(const Matte::Parameters& parameters) { return bsdf_of<float>(parameters); }
 };
 
 }  // namespace raytrace

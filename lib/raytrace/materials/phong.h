@@ -12,14 +12,17 @@ namespace raytrace {
 
 class Phong {
  public:
-  struct Parameters {
-    double ka = 0;     ///< ambient reflection coefficient
-    double kd = 0;     ///< diffuse reflection coefficient
-    double ks = 0;     ///< specular reflection coefficient
-    Rgb<double> cd{};  ///< diffuse colour
-    Rgb<double> cs{};  ///< specular colour
-    double exp = 20;   ///< the larger, the smaller the highlight
+  /// T: double, or a batch for lanes with textures of their own.
+  template <class T>
+  struct Values {
+    T ka = T(0);    ///< ambient reflection coefficient
+    T kd = T(0);    ///< diffuse reflection coefficient
+    T ks = T(0);    ///< specular reflection coefficient
+    Rgb<T> cd{};    ///< diffuse colour
+    Rgb<T> cs{};    ///< specular colour
+    T exp = T(20);  ///< the larger, the smaller the highlight
   };
+  using Parameters = Values<double>;
   static constexpr std::string_view group = "phongs";
   static constexpr std::string_view element = "phong";
   static Fields<Parameters> fields() {

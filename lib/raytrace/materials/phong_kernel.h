@@ -43,11 +43,13 @@ class Kernel<Phong> {
     }
   };
 
-  static Bsdf<float> bsdf(const Phong::Parameters& parameters) {
-    return {{Rgb<float>(parameters.cd * parameters.ka)},
-            {Rgb<float>(parameters.cd * parameters.kd)},
-            {Rgb<float>(parameters.cs * parameters.ks), static_cast<float>(parameters.exp)}};
+  template <class T, class Value>
+  static Bsdf<T> bsdf_of(const Phong::Values<Value>& phong) {
+    return {{Rgb<T>(phong.cd * phong.ka)},
+            {Rgb<T>(phong.cd * phong.kd)},
+            {Rgb<T>(phong.cs * phong.ks), static_cast<T>(phong.exp)}};
   }
+  static Bsdf<float> bsdf(const Phong::Parameters& parameters) { return bsdf_of<float>(parameters); }
 };
 
 }  // namespace raytrace

@@ -144,12 +144,18 @@ class TwinBatch {
     return {xsimd::max(a.lower_, b.lower_), xsimd::max(a.upper_, b.upper_)};
   }
   friend RAYTRACE_INLINE TwinBatch abs(const TwinBatch& a) { return {xsimd::abs(a.lower_), xsimd::abs(a.upper_)}; }
+  friend RAYTRACE_INLINE TwinBatch floor(const TwinBatch& a) {
+    return {xsimd::floor(a.lower_), xsimd::floor(a.upper_)};
+  }
   friend RAYTRACE_INLINE TwinBatch sqrt(const TwinBatch& a) { return {xsimd::sqrt(a.lower_), xsimd::sqrt(a.upper_)}; }
   friend RAYTRACE_INLINE TwinBatch exp(const TwinBatch& a) { return {xsimd::exp(a.lower_), xsimd::exp(a.upper_)}; }
   friend RAYTRACE_INLINE TwinBatch expm1(const TwinBatch& a) {
     return {xsimd::expm1(a.lower_), xsimd::expm1(a.upper_)};
   }
   friend RAYTRACE_INLINE TwinBatch log(const TwinBatch& a) { return {xsimd::log(a.lower_), xsimd::log(a.upper_)}; }
+  friend RAYTRACE_INLINE TwinBatch atan2(const TwinBatch& y, const TwinBatch& x) {
+    return {xsimd::atan2(y.lower_, x.lower_), xsimd::atan2(y.upper_, x.upper_)};
+  }
   friend RAYTRACE_INLINE TwinBatch pow(const TwinBatch& a, const TwinBatch& b) {
     return {xsimd::pow(a.lower_, b.lower_), xsimd::pow(a.upper_, b.upper_)};
   }

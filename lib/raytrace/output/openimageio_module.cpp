@@ -36,7 +36,7 @@ void* load_module() {
     if (says_out_of_memory(reason) || reason.find("failed to map segment") != std::string::npos) throw std::bad_alloc();
     reasons += (reasons.empty() ? " " : "; ") + reason;
   }
-  throw OutputError("formats other than EXR and PNG need the module raytrace_openimageio.so, which cannot be loaded:" +
+  throw OutputError("textures, and formats other than EXR and PNG, need the module raytrace_openimageio.so, which cannot be loaded:" +
                     reasons);
 }
 
@@ -52,6 +52,13 @@ std::unique_ptr<ImageEncoder> make_openimageio_encoder(const std::string& file, 
                                                        const ImageFileSettings& settings) {
   static auto* const make = symbol<MakeOpenImageIOEncoder>("raytrace_make_openimageio_encoder");
   return std::unique_ptr<ImageEncoder>(make(file, extension, settings));
+}
+
+Picture read_picture(const std::string& file) {
+  static auto* const read = symbol<OpenImageIOReadPicture>("raytrace_openimageio_read_picture");
+  Picture picture;
+  read(file, picture);
+  return picture;
 }
 
 bool openimageio_reads_all_of(const std::string& file, int width, int height) {

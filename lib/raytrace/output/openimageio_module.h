@@ -7,6 +7,7 @@
 #include <string>
 
 #include "raytrace/output/image_encoder.h"
+#include "raytrace/output/picture.h"
 
 namespace raytrace {
 
@@ -24,5 +25,7 @@ using MakeOpenImageIOEncoder = ImageEncoder*(const std::string& file, const std:
 extern "C" MakeOpenImageIOEncoder raytrace_make_openimageio_encoder;
 using OpenImageIOReadsAllOf = bool(const std::string& file, int width, int height);
 extern "C" OpenImageIOReadsAllOf raytrace_openimageio_reads_all_of;
+using OpenImageIOReadPicture = void(const std::string& file, Picture& picture);
+extern "C" OpenImageIOReadPicture raytrace_openimageio_read_picture;
 
 }  // namespace raytrace

@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "raytrace/math/color.h"
+#include "raytrace/math/vec2.h"
 #include "raytrace/math/vec3.h"
 
 namespace raytrace {
@@ -128,12 +129,13 @@ struct WordOrGroups {
 };
 
 /// The same, and where its value goes.
-/// double, int, bool, FileName, Reference, NumberGroups, WordOrGroups, enumerations with Choices: the element's text.
-/// Vec3d and Rgb: attributes (see Components).
+/// double, int, bool, std::string, FileName, Reference, NumberGroups, WordOrGroups, enumerations with Choices: the element's text.
+/// Vec3d, Vec2d and Rgb: attributes (see Components).
 template <class Parameters>
 struct Field : FieldInfo {
   using Choice = std::function<ChoiceReference(Parameters&)>;
-  using Member = std::variant<double Parameters::*, int Parameters::*, bool Parameters::*, Choice, Vec3d Parameters::*,
+  using Member = std::variant<double Parameters::*, int Parameters::*, bool Parameters::*, std::string Parameters::*,
+                              Choice, Vec3d Parameters::*, Vec2d Parameters::*,
                               Rgb<double> Parameters::*, FileName Parameters::*, NumberGroups Parameters::*,
                               WordOrGroups Parameters::*, Reference Parameters::*>;
   Member member;
@@ -161,6 +163,12 @@ struct Field : FieldInfo {
   }
 };
 
+/// Whether a texture that multiplies the field gives one number, and no colour.
+template <class Parameters>
+bool is_number(const Field<Parameters>& field) {
+  return std::holds_alternative<double Parameters::*>(field.member);
+}
+
 template <class Parameters>
 using Fields = std::vector<Field<Parameters>>;
 
@@ -173,12 +181,21 @@ struct Components<Vec3d> {
   static constexpr std::array members = {&Vec3d::x, &Vec3d::y, &Vec3d::z};
 };
 template <>
+struct Components<Vec2d> {
+  static constexpr std::array<std::string_view, 2> names = {"x", "y"};
+  static constexpr std::array members = {&Vec2d::x, &Vec2d::y};
+};
+template <>
 struct Components<Rgb<double>> {
   static constexpr std::array<std::string_view, 3> names = {"red", "green", "blue"};
   static constexpr std::array members = {&Rgb<double>::red, &Rgb<double>::green, &Rgb<double>::blue};
 };
 template <class Value>
 concept HasComponents = requires { Components<Value>::names; };
+
+/// Whether a material's field of this type may be multiplied by a texture.
+template <class Value>
+inline constexpr bool may_be_textured = std::is_same_v<Value, double> || std::is_same_v<Value, Rgb<double>>;
 
 template <class Parameters, class Value>
 Field<Parameters> required(std::string_view name, Value Parameters::* member, Range range = Range::any) {

@@ -10,9 +10,10 @@ namespace raytrace {
 class AovInputs {
  public:
   /// camera: rays to what they hit. All must outlive it.
+  /// textures: null where no lane has any.
   AovInputs(const SceneTables& scene, const CameraRays& camera, const Hits& hits,
-            const SurfaceInteraction<FloatN>& surface)
-      : scene_(scene), camera_(camera), hits_(hits), surface_(surface) {}
+            const SurfaceInteraction<FloatN>& surface, const TexturePoint<FloatN>* textures)
+      : scene_(scene), camera_(camera), hits_(hits), surface_(surface), textures_(textures) {}
 
   const MaskN& hit() const { return hits_.hit; }
 
@@ -32,7 +33,7 @@ class AovInputs {
   }
   const Vec3<FloatN>& normal() const { return surface_.ns; }
   /// What the material reflects diffusely of light from all sides.
-  Rgb<FloatN> albedo() const { return scene_.albedo(hits_); }
+  Rgb<FloatN> albedo() const { return scene_.albedo(hits_, textures_); }
   /// The numbers of the object and its material, counted from 0, in the orders of object_names() and material_names().
   IntN object() const { return scene_.object(hits_); }
   IntN material() const { return scene_.material(hits_); }
@@ -45,6 +46,7 @@ class AovInputs {
   const CameraRays& camera_;
   const Hits& hits_;
   const SurfaceInteraction<FloatN>& surface_;
+  const TexturePoint<FloatN>* textures_;
 };
 
 }  // namespace raytrace

@@ -1,6 +1,7 @@
 // All materials of one type together: shaded for a packet in one call, whichever of them its lanes hit.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -15,6 +16,7 @@
 #include "raytrace/math/gather.h"
 #include "raytrace/math/simd.h"
 #include "raytrace/math/vec3.h"
+#include "raytrace/scene/texture_table.h"
 
 namespace raytrace {
 
@@ -45,24 +47,43 @@ class MaterialTable {
   /// back along its normal.
   virtual void add_to(RadianceRange& range, const LightBounds& lights, const std::uint8_t* used) const = 0;
 
+  // point: null where none of the lanes' materials has a texture.
+
   /// The albedo of each lane's material, and the most that any of those in use has, by magnitude.
-  virtual Rgb<FloatN> albedo(const LaneIndices& materials) const = 0;
+  virtual Rgb<FloatN> albedo(const LaneIndices& materials, const TexturePoint<FloatN>* point = nullptr) const = 0;
   virtual Rgb<float> largest_albedo(const std::uint8_t* used) const = 0;
 
   /// The radiance that leaves along wo, of unit length. materials: of each lane, for every lane one that exists.
   virtual Rgb<FloatN> shade(const LaneIndices& materials, const Vec3<FloatN>& wo, const Vec3<FloatN>& normal,
-                            const Rgb<float>& ambient_radiance, std::span<const IncidentLight> lights) const = 0;
+                            const Rgb<float>& ambient_radiance, std::span<const IncidentLight> lights,
+                            const TexturePoint<FloatN>* point = nullptr) const = 0;
 };
 
-template <class MaterialKernel>
+/// A material with textures.
+template <class Material>
+struct TexturedMaterial {
+  std::int32_t index;
+  typename Material::template Values<float> values;
+  std::vector<TextureFactor> factors;  ///< of the values
+};
+
+template <class Material>
 class MaterialTableOf final : public MaterialTable {
  public:
-  explicit MaterialTableOf(std::vector<typename MaterialKernel::template Bsdf<float>> bsdfs)
-      : bsdfs_(std::move(bsdfs)) {}
+  using MaterialKernel = Kernel<Material>;
+  using TexturedMaterials = std::vector<TexturedMaterial<Material>>;
+
+  /// bsdfs: those of materials with textures are the most that they can be. textured: by their indices; textures:
+  /// theirs.
+  explicit MaterialTableOf(std::vector<typename MaterialKernel::template Bsdf<float>> bsdfs,
+                           TexturedMaterials textured = {}, const TextureTable* textures = nullptr)
+      : bsdfs_(std::move(bsdfs)), textured_(std::move(textured)), textures_(textures) {}
 
   Rgb<FloatN> shade(const LaneIndices& materials, const Vec3<FloatN>& wo, const Vec3<FloatN>& normal,
-                    const Rgb<float>& ambient_radiance, std::span<const IncidentLight> lights) const override {
-    const auto bsdfs = gather_records<MaterialKernel::template Bsdf, FloatN>(bsdfs_.data(), materials);
+                    const Rgb<float>& ambient_radiance, std::span<const IncidentLight> lights,
+                    const TexturePoint<FloatN>* point) const override {
+    auto bsdfs = gather_records<MaterialKernel::template Bsdf, FloatN>(bsdfs_.data(), materials);
+    if (point != nullptr) set_textured(bsdfs, materials, *point);
     Rgb<FloatN> result = bsdfs.ambient_radiance(Rgb<FloatN>(ambient_radiance));
     for (const IncidentLight& light : lights)
       // The cosine first: where it is 0, a product beyond the range of floats would make it NaN.
@@ -86,8 +107,10 @@ class MaterialTableOf final : public MaterialTable {
     }
   }
 
-  Rgb<FloatN> albedo(const LaneIndices& materials) const override {
-    return gather_records<MaterialKernel::template Bsdf, FloatN>(bsdfs_.data(), materials).albedo();
+  Rgb<FloatN> albedo(const LaneIndices& materials, const TexturePoint<FloatN>* point) const override {
+    auto bsdfs = gather_records<MaterialKernel::template Bsdf, FloatN>(bsdfs_.data(), materials);
+    if (point != nullptr) set_textured(bsdfs, materials, *point);
+    return bsdfs.albedo();
   }
 
   Rgb<float> largest_albedo(const std::uint8_t* used) const override {
@@ -107,7 +130,31 @@ class MaterialTableOf final : public MaterialTable {
     return std::bit_cast<Bsdf>(numbers);
   }
 
+  /// Sets the BSDFs of lanes whose materials have textures, material by material.
+  [[gnu::noinline]] void set_textured(typename MaterialKernel::template Bsdf<FloatN>& bsdfs,
+                                      const LaneIndices& materials, const TexturePoint<FloatN>& point) const {
+    using Values = typename Material::template Values<FloatN>;
+    for (MaskN left(true); any(left);) {
+      const std::int32_t index =
+          materials.lanes().get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(left))));
+      const MaskN here = left & float_mask<FloatN>(materials.lanes() == IntN(index));
+      left = left & !here;
+      const auto found = std::lower_bound(textured_.begin(), textured_.end(), index,
+                                          [](const auto& material, std::int32_t i) { return material.index < i; });
+      if (found == textured_.end() || found->index != index) continue;
+      auto values = gather_records<Material::template Values, FloatN>(&found->values, LaneIndices(0));
+      static_assert(sizeof(Values) % sizeof(FloatN) == 0);
+      textures_->multiply(reinterpret_cast<FloatN*>(&values), found->factors, point);
+      const auto own = MaterialKernel::template bsdf_of<FloatN>(values);
+      const auto* const from = reinterpret_cast<const FloatN*>(&own);
+      auto* const to = reinterpret_cast<FloatN*>(&bsdfs);
+      for (std::size_t i = 0; i < sizeof own / sizeof(FloatN); ++i) to[i] = select(here, from[i], to[i]);
+    }
+  }
+
   std::vector<Bsdf> bsdfs_;
+  TexturedMaterials textured_;
+  const TextureTable* textures_;
 };
 
 }  // namespace raytrace

@@ -1,6 +1,7 @@
 #include "raytrace/scene/mesh_table.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "raytrace/import/vertex_normals.h"
 #include "raytrace/parallel/for_each_index.h"
@@ -104,6 +105,28 @@ Vec3<FloatN> MeshTable::normal(const IntN& vertex) const {
   const Vec3<FloatN> scaled = normal * scale;
   const FloatN squared_length = dot(scaled, scaled);
   return select(squared_length > FloatN(0), scaled * (FloatN(1) / sqrt(squared_length)), Vec3<FloatN>(Vec3f(0, 0, 0)));
+}
+
+SurfaceUv<FloatN> MeshTable::uv(const LaneTriangles& triangles) const {
+  const auto corners = records(triangles);
+  const SurfaceUv<FloatN> barycentric = Kernel<Triangle>::uv(corners, triangles.u, triangles.v);
+  if (data_->uvs.empty()) return barycentric;
+  const auto uv_at = [&](const IntN& vertex) {
+    const IntN first = vertex * IntN(2);
+    return std::pair(gather(data_->uvs.data(), first), gather(data_->uvs.data() + 1, first));
+  };
+  const auto [u1, v1] = uv_at(triangles.vertex1);
+  const auto [u2, v2] = uv_at(triangles.vertex2);
+  const auto [u3, v3] = uv_at(triangles.vertex3);
+  const FloatN du2 = u2 - u1, dv2 = v2 - v1, du3 = u3 - u1, dv3 = v3 - v1;
+  const FloatN determinant = du2 * dv3 - du3 * dv2;
+  // Where the coordinates are those of one point or a line, they say nothing of directions.
+  const MaskN fine = abs(determinant) > FloatN(0);
+  const FloatN scale = FloatN(1) / determinant;
+  const Vec3<FloatN>&edge2 = barycentric.dpdu, &edge3 = barycentric.dpdv;
+  return {u1 + du2 * triangles.u + du3 * triangles.v, v1 + dv2 * triangles.u + dv3 * triangles.v,
+          select(fine, (edge2 * dv3 - edge3 * dv2) * scale, edge2),
+          select(fine, (edge3 * du2 - edge2 * du3) * scale, edge3)};
 }
 
 std::optional<std::int32_t> MeshTable::only_material() const {

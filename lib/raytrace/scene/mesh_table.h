@@ -10,6 +10,7 @@
 #include "raytrace/math/gather.h"
 #include "raytrace/math/ray.h"
 #include "raytrace/math/simd.h"
+#include "raytrace/math/surface_uv.h"
 #include "raytrace/scene/hits.h"
 #include "raytrace/shapes/kernels.h"
 
@@ -52,6 +53,9 @@ class MeshTable {
   bool is_smooth() const { return normals_ != nullptr; }
   /// At those of the lanes: unit length, or 0 0 0 where a vertex has none.
   Vec3<FloatN> normal(const IntN& vertex) const;
+
+  /// By the file's coordinates at vertices; where it has none, barycentric ones.
+  SurfaceUv<FloatN> uv(const LaneTriangles& triangles) const;
 
   /// Of all faces; none if they differ.
   std::optional<std::int32_t> only_material() const;

@@ -31,6 +31,7 @@ void SceneTables::set_camera(const SceneDescription& description) {
     camera_ = camera;
     camera_has_lens_ = has_lens<Kernel<Type>>;
     camera_has_gaps_ = has_gaps<Kernel<Type>>;
+    set_ray_cone(camera);
     if constexpr (requires { camera.origin(); })
       if (!camera_is_far()) camera_origin_ = BufferOrigin{camera.origin()};
     const CameraMatrices matrices = Type::matrices(*parameters, viewplane_);
@@ -38,6 +39,17 @@ void SceneTables::set_camera(const SceneDescription& description) {
     viewing_direction_ = Vec3f(-m[2], -m[6], -m[10]);
     depth_is_distance_ = !matrices.is_projection;
   });
+}
+
+template <class CameraKernel>
+void SceneTables::set_ray_cone(const CameraKernel& camera) {
+  // By two rays in the middle of the picture, a pixel apart; in double, since they are almost the same.
+  using D = Doubles<FloatN>;
+  const Sample2D middle_of_lens{FloatN(0.5F), FloatN(0.5F)};
+  const Ray<D> middle = generate<D>(camera, D(0.0), D(0.0), middle_of_lens);
+  const Ray<D> beside = generate<D>(camera, D(1.0), D(0.0), middle_of_lens);
+  const auto apart = [](const Vec3<D>& a, const Vec3<D>& b) { return length(to_float(b - a)).get(0); };
+  ray_cone_ = {apart(middle.origin, beside.origin), apart(middle.direction, beside.direction)};
 }
 
 bool SceneTables::camera_is_far_from(const BoundingSphere& sphere, const SceneDescription& description) const {

@@ -30,6 +30,7 @@ SceneTables::SceneTables(const SceneDescription& description, int threads)
       viewplane_(description.viewplane),
       pixel_filter_(description.viewplane),
       integrator_(description.integrator.value_or(Raycast::Parameters{})) {
+  textures_ = std::make_unique<const TextureTable>(description);
   add_materials(description);
   geometry_ = std::make_unique<const GeometryTable>(description, origin_, first_material_, threads);
   if (camera_is_far_from(geometry_->bounding_sphere(), description)) {
@@ -84,15 +85,37 @@ void SceneTables::add_lights(const SceneDescription& description) {
   });
 }
 
+template <class Material>
+TexturedMaterial<Material> SceneTables::textured_material(const MaterialItem<Material>& item,
+                                                          std::int32_t index) const {
+  TexturedMaterial<Material> result{index, {}, textures_->factors<Material>(item.textures)};
+  const auto* const from = reinterpret_cast<const double*>(&item.parameters);
+  auto* const to = reinterpret_cast<float*>(&result.values);
+  for (std::size_t i = 0; i < sizeof(result.values) / sizeof(float); ++i) to[i] = static_cast<float>(from[i]);
+  return result;
+}
+
 void SceneTables::add_materials(const SceneDescription& description) {
   for_each_type(Materials{}, [&]<class Material>(std::type_identity<Material>) {
     constexpr std::size_t type = index_of<Material>(Materials{});
     std::vector<typename Kernel<Material>::template Bsdf<float>> bsdfs;
-    for (const auto& item : std::get<MaterialItems<Material>>(description.materials))
-      bsdfs.push_back(Kernel<Material>::bsdf(item.parameters));
+    typename MaterialTableOf<Material>::TexturedMaterials textured;
+    for (const auto& item : std::get<MaterialItems<Material>>(description.materials)) {
+      auto parameters = item.parameters;
+      if (!item.textures.empty()) {
+        textured.push_back(textured_material<Material>(item, static_cast<std::int32_t>(bsdfs.size())));
+        textures_->multiply_by_largest(reinterpret_cast<double*>(&parameters), textured.back().factors);
+      }
+      bsdfs.push_back(Kernel<Material>::bsdf(parameters));
+    }
     first_material_[type + 1] = first_material_[type] + static_cast<std::int32_t>(bsdfs.size());
-    materials_[type] = std::make_unique<MaterialTableOf<Kernel<Material>>>(std::move(bsdfs));
+    if (!textured.empty()) textured_.resize(static_cast<std::size_t>(first_material_[type]) + bsdfs.size());
+    for (const auto& material : textured)
+      textured_[static_cast<std::size_t>(first_material_[type] + material.index)] = 1;
+    materials_[type] =
+        std::make_unique<MaterialTableOf<Material>>(std::move(bsdfs), std::move(textured), textures_.get());
   });
+  if (!textured_.empty()) textured_.resize(static_cast<std::size_t>(first_material_.back()));
 }
 
 RadianceRange SceneTables::background_range() const {
@@ -141,15 +164,22 @@ Rgb<FloatN> SceneTables::by_material(const Hits& hits, const Answer& answer) con
   return result;
 }
 
-Rgb<FloatN> SceneTables::albedo(const Hits& hits) const {
-  return by_material(hits,
-                     [](const MaterialTable& table, const LaneIndices& materials) { return table.albedo(materials); });
+Rgb<FloatN> SceneTables::albedo(const Hits& hits, const TexturePoint<FloatN>* point) const {
+  return by_material(
+      hits, [&](const MaterialTable& table, const LaneIndices& materials) { return table.albedo(materials, point); });
+}
+
+bool SceneTables::has_textures(const Hits& hits) const {
+  if (textured_.empty()) return false;
+  if (const auto only = geometry_->only_material(hits)) return textured_[static_cast<std::size_t>(*only)] != 0;
+  return any(hits.hit & float_mask<FloatN>(gather(textured_.data(), material(hits)) != IntN(0)));
 }
 
 Rgb<FloatN> SceneTables::shade(const Hits& hits, const SurfaceInteraction<FloatN>& surface,
-                               const Rgb<float>& ambient_radiance, std::span<const IncidentLight> lights) const {
+                               const Rgb<float>& ambient_radiance, std::span<const IncidentLight> lights,
+                               const TexturePoint<FloatN>* point) const {
   return by_material(hits, [&](const MaterialTable& table, const LaneIndices& materials) {
-    return table.shade(materials, surface.wo, surface.ns, ambient_radiance, lights);
+    return table.shade(materials, surface.wo, surface.ns, ambient_radiance, lights, point);
   });
 }
 

@@ -27,6 +27,12 @@ struct BufferOrigin {
   bool infinitely_far = false;  ///< the unit direction towards one that is infinitely far
 };
 
+/// What a pixel covers across its ray.
+struct RayCone {
+  float width = 0;   ///< where the ray starts
+  float spread = 0;  ///< what is added for each unit of its length
+};
+
 /// Immutable.
 class SceneTables {
  public:
@@ -90,12 +96,18 @@ class SceneTables {
   IntN object(const Hits& hits) const { return geometry_->object(hits); }
   /// Each material's number, likewise.
   IntN material(const Hits& hits) const { return geometry_->material(hits); }
-  Rgb<FloatN> albedo(const Hits& hits) const;
+  /// point: as texture_point() gave it.
+  Rgb<FloatN> albedo(const Hits& hits, const TexturePoint<FloatN>* point) const;
 
   /// The radiance that leaves the surface along wo, each lane's by its own material: one call for each material type
   /// among the lanes.
   Rgb<FloatN> shade(const Hits& hits, const SurfaceInteraction<FloatN>& surface, const Rgb<float>& ambient_radiance,
-                    std::span<const IncidentLight> lights) const;
+                    std::span<const IncidentLight> lights, const TexturePoint<FloatN>* point) const;
+
+  /// Whether any of the lanes has a material with textures.
+  bool has_textures(const Hits& hits) const;
+  /// How wide a pixel is where the camera's rays start, and by how much it widens with their lengths.
+  const RayCone& ray_cone() const { return ray_cone_; }
 
  private:
   /// The parameters with all points less the origin.
@@ -110,6 +122,10 @@ class SceneTables {
   void add_lights(const SceneDescription& description);
   template <class LightKernel, class Parameters>
   void add_light_bounds(const LightKernel& light, const Parameters& parameters, const Vec3d& eye);
+  template <class Material>
+  TexturedMaterial<Material> textured_material(const MaterialItem<Material>& item, std::int32_t index) const;
+  template <class CameraKernel>
+  void set_ray_cone(const CameraKernel& camera);
   void add_materials(const SceneDescription& description);
 
   /// answer(table, materials) of each material type among the lanes, each lane's of its own.
@@ -129,10 +145,13 @@ class SceneTables {
   LightBounds light_bounds_;
   std::vector<std::unique_ptr<LightSource>> lights_;
   std::vector<std::optional<BufferOrigin>> light_origins_;
+  std::unique_ptr<const TextureTable> textures_;
   std::array<std::unique_ptr<MaterialTable>, Materials::size> materials_;
   std::array<std::int32_t, Materials::size + 1>
       first_material_{};  ///< of each type, all counted together; their number
   std::unique_ptr<const GeometryTable> geometry_;
+  std::vector<std::int32_t> textured_;  ///< 1 for materials with textures, else 0; empty if there are none
+  RayCone ray_cone_;
   std::vector<std::uint8_t> used_materials_;  ///< 1 for those that objects have, else 0
 };
 

@@ -9,6 +9,7 @@
 #include "raytrace/math/doubles.h"
 #include "raytrace/math/kernel.h"
 #include "raytrace/math/ray.h"
+#include "raytrace/math/surface_uv.h"
 #include "raytrace/shapes/cylinder.h"
 
 namespace raytrace {
@@ -36,6 +37,10 @@ class Kernel<Cylinder> {
   /// The surface at a distance that intersect() gave.
   template <class F>
   static SurfacePoint<F> surface(const Record<Doubles<F>>& cylinder, const Ray<F>& ray, const F& distance);
+
+  /// u: the angle about the axis; v: along it, from bottom to top.
+  template <class F>
+  static SurfaceUv<F> uv(const Record<Doubles<F>>& cylinder, const Vec3<F>& position, const Vec3<F>& normal);
 };
 
 template <class F>
@@ -82,6 +87,16 @@ SurfacePoint<F> Kernel<Cylinder>::surface(const Record<Doubles<F>>& cylinder, co
   const Vec3<D> on_surface = cylinder.bottom + cylinder.axis * height + normal * cylinder.radius;
   const Vec3<F> position = to_float(on_surface);
   return {position, to_float(normal), rounding_error(position, F(0))};
+}
+
+template <class F>
+SurfaceUv<F> Kernel<Cylinder>::uv(const Record<Doubles<F>>& cylinder, const Vec3<F>& position, const Vec3<F>&) {
+  using D = Doubles<F>;
+  const Vec3<D> from_bottom = Vec3<D>(position) - cylinder.bottom;
+  const D height = dot(from_bottom, cylinder.axis);
+  const Vec3<F> axis = to_float(cylinder.axis), across = to_float(from_bottom - cylinder.axis * height);
+  return {turns_about(axis, across), (height / cylinder.height).to_float(), cross(axis, across) * F(one_turn),
+          to_float(cylinder.axis * cylinder.height)};
 }
 
 inline Kernel<Cylinder>::Record<double> Kernel<Cylinder>::record(const Parameters& parameters) {

@@ -8,6 +8,7 @@
 #include "raytrace/math/doubles.h"
 #include "raytrace/math/kernel.h"
 #include "raytrace/math/ray.h"
+#include "raytrace/math/surface_uv.h"
 #include "raytrace/shapes/disk.h"
 
 namespace raytrace {
@@ -34,6 +35,13 @@ class Kernel<Disk> {
   /// The surface at a distance that intersect() gave.
   template <class F>
   static SurfacePoint<F> surface(const Record<Doubles<F>>& disk, const Ray<F>& ray, const F& distance);
+
+  /// u: the angle about the normal; v: the distance from the center, 1 at the rim.
+  template <class F>
+  static SurfaceUv<F> uv(const Record<Doubles<F>>& disk, const Vec3<F>& position, const Vec3<F>&) {
+    return ring_uv(to_float(disk.normal), to_float(Vec3<Doubles<F>>(position) - disk.center), F(0),
+                   disk.radius.to_float());
+  }
 };
 
 template <class F>

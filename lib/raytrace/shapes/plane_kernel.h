@@ -10,6 +10,7 @@
 #include "raytrace/math/doubles.h"
 #include "raytrace/math/kernel.h"
 #include "raytrace/math/ray.h"
+#include "raytrace/math/surface_uv.h"
 #include "raytrace/shapes/plane.h"
 
 namespace raytrace {
@@ -35,6 +36,13 @@ class Kernel<Plane> {
   /// The surface at a distance that intersect() gave.
   template <class F>
   static SurfacePoint<F> surface(const Record& plane, const Ray<F>& ray, const F& distance);
+
+  /// In units of the world, to the right and up (math/surface_uv.h).
+  template <class F>
+  static SurfaceUv<F> uv(const Record& plane, const Vec3<F>& position, const Vec3<F>&) {
+    const TangentFrame<F> frame{Vec3<F>(Vec3f(plane.normal))};
+    return {dot(frame.right, position), dot(frame.up, position), frame.right, frame.up};
+  }
 };
 
 template <class F>

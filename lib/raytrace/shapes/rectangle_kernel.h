@@ -8,6 +8,7 @@
 #include "raytrace/math/doubles.h"
 #include "raytrace/math/kernel.h"
 #include "raytrace/math/ray.h"
+#include "raytrace/math/surface_uv.h"
 #include "raytrace/shapes/rectangle.h"
 
 namespace raytrace {
@@ -34,7 +35,7 @@ class Kernel<Rectangle> {
   }
 
   static Bounds bounds(const Record<double>& rectangle) {
-    const Edges edges(rectangle);
+    const Edges<double> edges(rectangle);
     const auto reach = [](double a, double b) { return (std::abs(a) + std::abs(b)) / 2; };
     return bounds_around(rectangle.corner + (edges.first + edges.second) * 0.5,
                          {reach(edges.first.x, edges.second.x), reach(edges.first.y, edges.second.y),
@@ -42,7 +43,7 @@ class Kernel<Rectangle> {
   }
 
   static double bounding_radius(const Record<double>& rectangle) {
-    const Edges edges(rectangle);
+    const Edges<double> edges(rectangle);
     return std::max(length(edges.first + edges.second), length(edges.first - edges.second)) / 2;
   }
 
@@ -70,14 +71,25 @@ class Kernel<Rectangle> {
     return {position, to_float(rectangle.normal), rounding_error(position, F(0))};
   }
 
+  /// u along the first edge, v along the second.
+  template <class F>
+  static SurfaceUv<F> uv(const Record<Doubles<F>>& rectangle, const Vec3<F>& position, const Vec3<F>&) {
+    using D = Doubles<F>;
+    const Vec3<D> from_corner = Vec3<D>(position) - rectangle.corner;
+    const Edges<D> edges(rectangle);
+    return {dot(rectangle.along1, from_corner).to_float(), dot(rectangle.along2, from_corner).to_float(),
+            to_float(edges.first), to_float(edges.second)};
+  }
+
  private:
   /// The edges, from the vectors along them.
+  template <class T>
   struct Edges {
-    Vec3d first, second;
-    explicit Edges(const Record<double>& rectangle) {
-      const Vec3d &a = rectangle.along1, &b = rectangle.along2;
-      const Vec3d across = cross(a, b);
-      const double scale = 1 / dot(across, across);
+    Vec3<T> first, second;
+    explicit Edges(const Record<T>& rectangle) {
+      const Vec3<T>&a = rectangle.along1, &b = rectangle.along2;
+      const Vec3<T> across = cross(a, b);
+      const T scale = T(1.0) / dot(across, across);
       first = cross(b, across) * scale;
       second = cross(across, a) * scale;
     }

@@ -12,6 +12,7 @@
 #include "raytrace/math/doubles.h"
 #include "raytrace/math/kernel.h"
 #include "raytrace/math/ray.h"
+#include "raytrace/math/surface_uv.h"
 #include "raytrace/shapes/sphere.h"
 
 namespace raytrace {
@@ -40,6 +41,10 @@ class Kernel<Sphere> {
   /// The surface at a distance that intersect() gave.
   template <class F>
   static SurfacePoint<F> surface(const Record<F>& sphere, const Ray<F>& ray, const F& distance);
+
+  /// Longitude about y, from +z (0) over +x to +z (1), and latitude, from -y (0) to +y (1).
+  template <class F>
+  static SurfaceUv<F> uv(const Record<F>& sphere, const Vec3<F>& position, const Vec3<F>& normal);
 
   /// The surface's point on a ray that hits it from nearby, and its error: intersect() is as precise there as floats
   /// allow.
@@ -145,6 +150,17 @@ RAYTRACE_INLINE SurfacePoint<F> Kernel<Sphere>::surface(const Record<F>& sphere,
   const Vec3<F> normal = normalize(rounded + d * select(worth_it, step, F(0)));
   const Vec3<F> position = sphere.center + normal * sphere.radius;
   return {position, normal, rounding_error(position, sphere.radius)};
+}
+
+template <class F>
+SurfaceUv<F> Kernel<Sphere>::uv(const Record<F>& sphere, const Vec3<F>& position, const Vec3<F>& normal) {
+  // The normal, which is more precise than a position far from the origin.
+  const Vec3<F> n = select(dot(normal, position - sphere.center) < F(0), -normal, normal);
+  const F level = sqrt(n.x * n.x + n.z * n.z);
+  const F down = -n.y / max(level, F(1e-30F));
+  const F half_turn = F(one_turn / 2) * sphere.radius;
+  return {turns_about(Vec3<F>(F(0), F(1), F(0)), n), multiply_add(turns(n.y, level), F(2), F(0.5F)),
+          Vec3<F>(n.z, F(0), -n.x) * (F(2) * half_turn), Vec3<F>(n.x * down, level, n.z * down) * half_turn};
 }
 
 inline Kernel<Sphere>::Record<float> Kernel<Sphere>::record(const Parameters& parameters) {

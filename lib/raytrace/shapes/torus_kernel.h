@@ -8,6 +8,7 @@
 #include "raytrace/math/doubles.h"
 #include "raytrace/math/kernel.h"
 #include "raytrace/math/ray.h"
+#include "raytrace/math/surface_uv.h"
 #include "raytrace/shapes/torus.h"
 #include "raytrace/shapes/torus_ray.h"
 
@@ -39,6 +40,17 @@ class Kernel<Torus> {
   /// The surface at a distance that intersect() gave.
   template <class F>
   static SurfacePoint<F> surface(const Record<Doubles<F>>& torus, const Ray<F>& ray, const F& distance);
+
+  /// u: the angle about the axis; v: the angle around the tube, from the hole's side (0) below, outside (1/2) and
+  /// above.
+  template <class F>
+  static SurfaceUv<F> uv(const Record<Doubles<F>>& torus, const Vec3<F>& position, const Vec3<F>&);
+
+ private:
+  /// From the center to that of the tube's circle through a point: on either side of the axis where the tube is wider
+  /// than its hole.
+  template <class D>
+  static Vec3<D> tube_center(const Record<D>& torus, const Vec3<D>& from_center);
 };
 
 template <class F>
@@ -63,17 +75,34 @@ template <class F>
 SurfacePoint<F> Kernel<Torus>::surface(const Record<Doubles<F>>& torus, const Ray<F>& ray, const F& distance) {
   using D = Doubles<F>;
   const Vec3<D> p = Vec3<D>(ray.origin) - torus.center + Vec3<D>(ray.direction) * D(distance);
-  const D y = dot(p, torus.axis);
-  const Vec3<D> across = p - torus.axis * y;
+  const Vec3<D> middle = tube_center(torus, p);
+  const Vec3<D> normal = normalize(p - middle);
+  const Vec3<F> position = to_float(torus.center + middle + normal * torus.tube);
+  return {position, to_float(normal), rounding_error(position, F(0))};
+}
+
+template <class F>
+SurfaceUv<F> Kernel<Torus>::uv(const Record<Doubles<F>>& torus, const Vec3<F>& position, const Vec3<F>&) {
+  using D = Doubles<F>;
+  const Vec3<D> p = Vec3<D>(position) - torus.center;
+  const Vec3<D> middle = tube_center(torus, p);
+  const Vec3<F> axis = to_float(torus.axis), from_middle = to_float(p - middle);
+  const Vec3<F> out = to_float(middle * (D(1.0) / torus.swept));
+  const F above = dot(from_middle, axis), outside = dot(from_middle, out);
+  return {turns_about(axis, out), turns(above, outside) + F(0.5F), cross(axis, to_float(p)) * F(one_turn),
+          (axis * outside - out * above) * F(one_turn)};
+}
+
+template <class D>
+RAYTRACE_INLINE Vec3<D> Kernel<Torus>::tube_center(const Record<D>& torus, const Vec3<D>& from_center) {
+  const D y = dot(from_center, torus.axis);
+  const Vec3<D> across = from_center - torus.axis * y;
   const D rho = max(length(across), D(1e-300));
   const auto off_sheet = [&](const D& swept) {
     return abs((rho - swept) * (rho - swept) + (y - torus.tube) * (y + torus.tube));
   };
   const D swept = select(off_sheet(torus.swept) <= off_sheet(-torus.swept), torus.swept, -torus.swept);
-  const Vec3<D> tube_center = across * (swept / rho);
-  const Vec3<D> normal = normalize(p - tube_center);
-  const Vec3<F> position = to_float(torus.center + tube_center + normal * torus.tube);
-  return {position, to_float(normal), rounding_error(position, F(0))};
+  return across * (swept / rho);
 }
 
 inline Kernel<Torus>::Record<double> Kernel<Torus>::record(const Parameters& parameters) {

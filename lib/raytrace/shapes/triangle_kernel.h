@@ -11,6 +11,7 @@
 #include "raytrace/math/kernel.h"
 #include "raytrace/math/ray.h"
 #include "raytrace/math/simd.h"
+#include "raytrace/math/surface_uv.h"
 #include "raytrace/shapes/triangle.h"
 
 namespace raytrace {
@@ -39,6 +40,12 @@ class Kernel<Triangle> {
   /// The surface at barycentric coordinates: u of vertex 2, v of vertex 3.
   template <class F>
   static SurfacePoint<F> surface(const Record<F>& triangle, const F& u, const F& v);
+
+  /// The barycentric coordinates, as they are.
+  template <class F>
+  static SurfaceUv<F> uv(const Record<F>& triangle, const F& u, const F& v) {
+    return {u, v, triangle.vertex2 - triangle.vertex1, triangle.vertex3 - triangle.vertex1};
+  }
 
   /// The surface's point on a ray that hits it, and its error.
   template <class F>

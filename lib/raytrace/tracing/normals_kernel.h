@@ -1,6 +1,7 @@
 // Shading normals as colours.
 #pragma once
 
+#include "raytrace/accel/surface_uv.h"
 #include "raytrace/accel/traced_scene.h"
 #include "raytrace/integrators/normals.h"
 #include "raytrace/math/kernel.h"
@@ -22,10 +23,13 @@ class Kernel<Normals> {
   static RayResult radiance(const TracedScene& scene, const Rgb<float>& background, CameraRays& camera,
                             const MaskN& active, const MaskN&, RayCounts&, FirstHits* first) {
     const Hits hits = intersect_camera_rays(scene, camera, active);
-    if (first != nullptr) first->hits = hits;
+    if (first != nullptr) first->hits = hits, first->textures.reset();
     if (none(hits.hit)) return {Rgb<FloatN>(background), hits.hit};
     const SurfaceInteraction<FloatN> surface = scene.accelerator().surface(camera.rays, hits);
-    if (first != nullptr) first->surface = surface;
+    if (first != nullptr) {
+      first->surface = surface;
+      if (scene.tables().has_textures(hits)) first->textures = texture_point(scene.tables(), camera, hits, surface);
+    }
     const auto color = [](const FloatN& component) {
       return min(max(component * FloatN(0.5F) + FloatN(0.5F), FloatN(0)), FloatN(1));
     };

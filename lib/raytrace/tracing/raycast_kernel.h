@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 
+#include "raytrace/accel/surface_uv.h"
 #include "raytrace/accel/traced_scene.h"
 #include "raytrace/integrators/raycast.h"
 #include "raytrace/math/kernel.h"
@@ -33,18 +34,21 @@ inline RayResult Kernel<Raycast>::radiance(const TracedScene& scene, const Rgb<f
                                            FirstHits* first) {
   const SceneTables& tables = scene.tables();
   const Hits hits = intersect_camera_rays(scene, camera, active);
-  if (first != nullptr) first->hits = hits;
+  if (first != nullptr) first->hits = hits, first->textures.reset();
   if (none(hits.hit)) return {Rgb<FloatN>(background), hits.hit};
 
   const SurfaceInteraction<FloatN> surface = scene.accelerator().surface(camera.rays, hits);
-  if (first != nullptr) first->surface = surface;
+  std::optional<TexturePoint<FloatN>> textures;
+  if (tables.has_textures(hits)) [[unlikely]]
+    textures = texture_point(tables, camera, hits, surface);
+  if (first != nullptr) first->surface = surface, first->textures = textures;
 
   std::array<IncidentLight, lights_per_run> incident;
   std::size_t count = 0;
   Rgb<FloatN> radiance{Rgb<float>(0, 0, 0)};
   Rgb<float> ambient = tables.ambient_radiance();
   const auto shade_run = [&] {
-    radiance += tables.shade(hits, surface, ambient, {incident.data(), count});
+    radiance += tables.shade(hits, surface, ambient, {incident.data(), count}, textures ? &*textures : nullptr);
     ambient = Rgb<float>(0, 0, 0);
     count = 0;
   };

@@ -122,7 +122,10 @@ class BlockRenderer {
       if (scene_.tables().camera_has_gaps()) [[unlikely]]
         result.radiance = select(traced, result.radiance, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
       const MaskN large = sums.add(result, wanted);
-      if (aovs != nullptr) aovs->add(AovInputs(scene_.tables(), camera, first.hits, first.surface), wanted, sample);
+      if (aovs != nullptr) {
+        const auto* const textures = first.textures ? &*first.textures : nullptr;
+        aovs->add(AovInputs(scene_.tables(), camera, first.hits, first.surface, textures), wanted, sample);
+      }
       report_.rays.camera += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(wanted & traced)));
       if (any(large)) add_invalid(sums.add_large(result, large), block, base);
       if (packets % packets_per_look == 0) {

@@ -1,0 +1,125 @@
+#include "raytrace/accel/surface_uv.h"
+
+#include <bit>
+#include <type_traits>
+
+#include "raytrace/math/doubles.h"
+#include "raytrace/math/gather.h"
+
+namespace raytrace {
+
+namespace {
+
+/// Of surfaces with these records, each lane's own or one for all.
+template <class Shape, class Records>
+SurfaceUv<FloatN> uv_of(const Records& records, const Hits& hits, const Vec3<FloatN>& p) {
+  if constexpr (requires { Kernel<Shape>::template uv<FloatN>(records, hits.u, hits.v); }) {
+    return Kernel<Shape>::template uv<FloatN>(records, hits.u, hits.v);
+  } else if constexpr (requires { Kernel<Shape>::template uv<FloatN>(records, p); }) {
+    return Kernel<Shape>::template uv<FloatN>(records, p);
+  } else {
+    return {p.x, p.z, Vec3<FloatN>(Vec3f(1, 0, 0)), Vec3<FloatN>(Vec3f(0, 0, 1))};
+  }
+}
+
+/// Shapes whose kernels take the record of one object.
+template <class Shape>
+concept OneRecord = requires(typename ShapeTable<Shape>::Record record, Ray<FloatN> rays, FloatN distance) {
+  Kernel<Shape>::surface(record, rays, distance);
+};
+
+/// Sets those of the lanes of `here`, which hit one shape.
+template <class Shape>
+void set_uv(const ShapeTable<Shape>& table, const MaskN& here, const Hits& hits, const Vec3<FloatN>& p,
+            SurfaceUv<FloatN>& result) {
+  const auto set = [&](const MaskN& lanes, const SurfaceUv<FloatN>& own) { result = select(lanes, own, result); };
+  // The other lanes follow the first of these, so that they read a record that exists.
+  const auto first = [&](const MaskN& lanes) {
+    return hits.primitive.get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(lanes))));
+  };
+  if constexpr (OneRecord<Shape>) {
+    for (MaskN left = here; any(left);) {
+      const std::int32_t next = first(left);
+      const MaskN same = left & float_mask<FloatN>(hits.primitive == IntN(next));
+      set(same, uv_of<Shape>(table.records[static_cast<std::size_t>(next)], hits, p));
+      left = left & !same;
+    }
+  } else {
+    constexpr bool in_float =
+        std::is_same_v<typename ShapeTable<Shape>::Record, typename Kernel<Shape>::template Record<float>>;
+    using Wide = std::conditional_t<in_float, FloatN, Doubles<FloatN>>;
+    const IntN primitive = select_lanes(here, hits.primitive, IntN(first(here)));
+    set(here,
+        uv_of<Shape>(gather_records<Kernel<Shape>::template Record, Wide>(table.records.data(), primitive), hits, p));
+  }
+}
+
+SurfaceUv<FloatN> surface_uv(const GeometryTable& world, const Hits& hits, const Vec3<FloatN>& p) {
+  const FloatN zero(0);
+  SurfaceUv<FloatN> result{zero, zero, {zero, zero, zero}, {zero, zero, zero}};
+  const MaskN in_instance = hits.hit & float_mask<FloatN>(hits.instance != UintN(0u));
+  const UintN instance = select_lanes(in_instance, hits.instance, UintN(0u));
+  Vec3<FloatN> local = p;
+  if (hits.in_instances)
+    local = select(in_instance, apply_point(world.instances().object_from_world(instance), p), p);
+  world.for_each_geometry(hits, [&](const GeometryTable& table, std::uint32_t geometry, const MaskN& here) {
+    if (const MeshTable* const mesh = table.geometry(geometry).mesh; mesh != nullptr) {
+      const IntN other(hits.primitive.get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(here)))));
+      result = select(here, mesh->uv(mesh->triangles(select_lanes(here, hits.primitive, other), hits)), result);
+      return;
+    }
+    with_type(Shapes{}, geometry, [&]<class Shape>(std::type_identity<Shape>) {
+      set_uv<Shape>(table.table<Shape>(), here, hits, local, result);
+    });
+  });
+  if (hits.in_instances) {
+    const auto world_from_object = world.instances().world_from_object(instance);
+    result.dpdu = select(in_instance, apply_vector(world_from_object, result.dpdu), result.dpdu);
+    result.dpdv = select(in_instance, apply_vector(world_from_object, result.dpdv), result.dpdv);
+  }
+  return result;
+}
+
+/// What u and v change by along a way on the surface; 1, more than there is, where they say nothing, as at a pole.
+Vec2<FloatN> uv_along(const SurfaceUv<FloatN>& uv, const Vec3<FloatN>& way) {
+  const Vec3<FloatN> normal = cross(uv.dpdu, uv.dpdv);
+  const FloatN area = dot(normal, normal);
+  const MaskN fine = area > FloatN(0);
+  const FloatN scale = FloatN(1) / area;
+  return {select(fine, dot(cross(way, uv.dpdv), normal) * scale, FloatN(1)),
+          select(fine, dot(cross(uv.dpdu, way), normal) * scale, FloatN(1))};
+}
+
+}  // namespace
+
+TexturePoint<FloatN> texture_point(const SceneTables& scene, const CameraRays& camera, const Hits& hits,
+                                   const SurfaceInteraction<FloatN>& surface) {
+  // Half of a pixel, across the ray; stretched on the surface along the view, but not without end.
+  const RayCone& cone = scene.ray_cone();
+  const FloatN width =
+      multiply_add(FloatN(cone.spread), camera.skipped + camera.rays.far, FloatN(cone.width)) * FloatN(0.5F);
+  const FloatN cosine = dot(surface.ng, surface.wo);
+  const Vec3<FloatN> view = surface.wo - surface.ng * cosine;
+  const FloatN sine = length(view);
+  const MaskN slanted = sine > FloatN(1e-4F);
+  const MaskN upright = abs(surface.ng.z) > FloatN(0.5F);
+  const Vec3<FloatN> x(Vec3f(1, 0, 0)), z(Vec3f(0, 0, 1));
+  const Vec3<FloatN> along =
+      normalize(select(slanted, view * (FloatN(1) / sine), cross(surface.ng, select(upright, x, z))));
+  TexturePoint<FloatN> point;
+  point.p = surface.p;
+  const Vec3d& origin = scene.origin();
+  if (origin.x != 0 || origin.y != 0 || origin.z != 0) {
+    using D = Doubles<FloatN>;
+    point.p = to_float(Vec3<D>(surface.p) + Vec3<D>(origin));
+  }
+  point.p_across = cross(surface.ng, along) * width;
+  point.p_along = along * (width / max(cosine, FloatN(1e-3F)));
+  const SurfaceUv<FloatN> uv = surface_uv(scene.geometry(), hits, surface.p);
+  point.uv = {uv.u, uv.v};
+  point.uv_across = uv_along(uv, point.p_across);
+  point.uv_along = uv_along(uv, point.p_along);
+  return point;
+}
+
+}  // namespace raytrace

@@ -1,0 +1,104 @@
+#include "raytrace/description/load_images.h"
+
+#include <array>
+#include <cstddef>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "raytrace/math/content_hash.h"
+#include "raytrace/output/image_file.h"
+#include "raytrace/output/picture.h"
+#include "raytrace/text/message.h"
+
+namespace raytrace {
+namespace {
+
+/// Of the file's bytes. Throws PictureError.
+std::string file_hash(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status)) throw PictureError("there is no such file");
+  if (!std::filesystem::is_regular_file(status)) throw PictureError("it is no file");
+  std::ifstream stream(file, std::ios::binary);
+  ContentHash hash;
+  std::string bytes(std::size_t{1} << 20U, '\0');
+  while (stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size())) || stream.gcount() > 0)
+    hash.add(bytes.data(), static_cast<std::size_t>(stream.gcount()));
+  if (!stream.is_open() || stream.bad()) throw PictureError("it cannot be read");
+  return hash.digits();
+}
+
+/// Whether an image's use as a colour, and as a number, is sRGB.
+std::array<bool, 2> is_srgb(ColorSpace space, TexelFormat format) {
+  if (space == ColorSpace::automatic) return {format == TexelFormat::bytes, false};
+  return {space == ColorSpace::srgb, space == ColorSpace::srgb};
+}
+
+class ImageLoader {
+ public:
+  ImageLoader(const std::filesystem::path& folder, int threads) : folder_(folder), threads_(threads) {}
+
+  /// used: as a colour, as a number. Throws PictureError.
+  LoadedImage load(const Image::Parameters& image, const std::array<bool, 2>& used) {
+    const std::filesystem::path file = folder_ / image.file;
+    LoadedImage loaded{file_hash(file), nullptr, nullptr};
+    const Picture picture = read_picture(file.string());
+    const std::array<bool, 2> srgb = is_srgb(image.colorspace, picture.format);
+    const std::array<std::shared_ptr<const TexelImage>*, 2> wanted{&loaded.color, &loaded.number};
+    for (std::size_t use = 0; use < 2; ++use) {
+      if (!used[use]) continue;
+      auto& texels = texels_[{loaded.hash, srgb[use]}];
+      if (!texels) texels = std::make_shared<const TexelImage>(picture, srgb[use], threads_);
+      *wanted[use] = texels;
+    }
+    return loaded;
+  }
+
+ private:
+  std::filesystem::path folder_;
+  int threads_;
+  std::map<std::pair<std::string, bool>, std::shared_ptr<const TexelImage>> texels_;  ///< by hash and colour space
+};
+
+/// For each image, whether materials use it as a colour, and as a number.
+std::vector<std::array<bool, 2>> image_uses(const SceneDescription& scene) {
+  std::vector<std::array<bool, 2>> uses(std::get<TextureItems<Image>>(scene.textures).size());
+  for_each_type(Materials{}, [&]<class T>(std::type_identity<T>) {
+    const auto fields = T::fields();
+    for (const auto& item : std::get<MaterialItems<T>>(scene.materials))
+      for (const TextureUse& use : item.textures)
+        if (use.texture.type == index_of<Image>(Textures{}))
+          uses[use.texture.index][is_number(fields[use.field]) ? 1 : 0] = true;
+  });
+  return uses;
+}
+
+}  // namespace
+
+bool load_images(SceneDescription& scene, Diagnostics& diagnostics, int threads, MissingTexture missing) {
+  auto& images = std::get<TextureItems<Image>>(scene.textures);
+  const auto uses = image_uses(scene);
+  ImageLoader loader(std::filesystem::path(scene.file).parent_path(), threads);
+  bool fine = true;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    TextureItem<Image>& item = images[i];
+    if (!item.image.hash.empty()) continue;
+    try {
+      item.image = loader.load(item.parameters, uses[i]);
+    } catch (const std::runtime_error& error) {
+      const bool warns = missing == MissingTexture::warn;
+      fine = fine && warns;
+      diagnostics.add(warns ? Severity::warning : Severity::error, {item.line, 0},
+                      "the texture " + in_quotes(item.parameters.file) + " cannot be used: " + error.what() +
+                          (warns ? "; it is magenta" : ""));
+      if (warns) item.image = {"missing", TexelImage::of_color(255, 0, 255), TexelImage::of_color(255, 0, 255)};
+    }
+  }
+  return fine;
+}
+
+}  // namespace raytrace

@@ -1,0 +1,40 @@
+// A picture that was read from a file.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+#include "raytrace/memory/large_array.h"
+
+namespace raytrace {
+
+/// A file that is no picture, or not a whole one. What it says follows the file's name and a colon.
+class PictureError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// What a channel of a pixel is kept as: 0 to 255, 0 to 65535 or a floating-point number.
+enum class TexelFormat : std::uint8_t { bytes, shorts, halves, floats };
+
+inline std::size_t bytes_of(TexelFormat format) {
+  return format == TexelFormat::bytes ? 1 : format == TexelFormat::floats ? 4 : 2;
+}
+
+/// Rows from the top, without gaps.
+struct Picture {
+  int width = 0, height = 0;
+  int channels = 0;  ///< 1: grey; 4: red, green, blue and alpha, which does not multiply the others
+  TexelFormat format = TexelFormat::bytes;
+  LargeArray<std::byte> pixels;
+};
+
+/// The largest picture that can be read, in pixels: 16,384 times 16,384.
+inline constexpr std::int64_t most_picture_pixels = std::int64_t{1} << 28;
+
+/// Any format that OpenImageIO reads. Throws PictureError, std::bad_alloc, or OutputError if OpenImageIO is missing.
+Picture read_picture(const std::string& file);
+
+}  // namespace raytrace

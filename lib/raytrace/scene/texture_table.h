@@ -1,0 +1,110 @@
+// All textures of a scene, and what materials make of them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "raytrace/description/scene_description.h"
+#include "raytrace/math/rgba.h"
+#include "raytrace/textures/kernels.h"
+
+namespace raytrace {
+
+/// A texture that multiplies a parameter of a material.
+struct TextureFactor {
+  std::size_t texture;    ///< its number in the TextureTable
+  std::size_t parameter;  ///< the first number that it multiplies, among all of the material's parameters
+  bool is_color;          ///< it multiplies three of them
+  TextureChannel channel;
+};
+
+/// Immutable.
+class TextureTable {
+ public:
+  explicit TextureTable(const SceneDescription& description) {
+    for_each_type(Textures{}, [&]<class T>(std::type_identity<T>) {
+      first_.push_back(textures_.size());
+      for (const auto& item : std::get<TextureItems<T>>(description.textures)) add<T>(item);
+    });
+  }
+
+  /// uses: those of a material of this type.
+  template <class Material>
+  std::vector<TextureFactor> factors(std::span<const TextureUse> uses) const {
+    using Parameters = typename Material::Parameters;
+    static_assert(std::is_same_v<Parameters, typename Material::template Values<double>>);
+    std::vector<TextureFactor> factors;
+    const auto fields = Material::fields();
+    const Parameters parameters;
+    const auto* const first = reinterpret_cast<const double*>(&parameters);
+    for (const TextureUse& use : uses) {
+      const auto& field = fields.at(use.field);
+      const bool is_color = !is_number(field);
+      field.visit(parameters, [&]<class Value>(const Value& value) {
+        if constexpr (may_be_textured<Value>)
+          factors.push_back({number(use.texture, is_color),
+                             static_cast<std::size_t>(reinterpret_cast<const double*>(&value) - first), is_color,
+                             use.channel});
+      });
+    }
+    return factors;
+  }
+
+  /// Multiplies a material's parameters, which are numbers of one type beside each other, by the textures.
+  void multiply(FloatN* parameters, std::span<const TextureFactor> factors, const TexturePoint<FloatN>& point) const {
+    for (const TextureFactor& factor : factors) {
+      const Rgba<FloatN> value =
+          std::visit([&](const auto& texture) { return texture.at(point); }, textures_[factor.texture]);
+      const Rgb<FloatN>& color = value.color;
+      FloatN* const first = parameters + factor.parameter;
+      if (factor.is_color) {
+        first[0] = first[0] * color.red;
+        first[1] = first[1] * color.green;
+        first[2] = first[2] * color.blue;
+      } else {
+        const FloatN& number = factor.channel == TextureChannel::red     ? color.red
+                               : factor.channel == TextureChannel::green ? color.green
+                               : factor.channel == TextureChannel::blue  ? color.blue
+                                                                         : value.alpha;
+        *first = *first * max(number, FloatN(0));
+      }
+    }
+  }
+
+  /// The same by the most that the textures are, by magnitude.
+  void multiply_by_largest(double* parameters, std::span<const TextureFactor> factors) const {
+    for (const TextureFactor& factor : factors) {
+      const double largest =
+          std::visit([](const auto& texture) { return texture.largest(); }, textures_[factor.texture]);
+      for (std::size_t i = 0; i < (factor.is_color ? 3U : 1U); ++i) parameters[factor.parameter + i] *= largest;
+    }
+  }
+
+ private:
+  using AnyTexture = KernelVariant<Textures>::type;
+
+  template <class T>
+  void add(const TextureItem<T>& item) {
+    if constexpr (std::is_same_v<T, Image>) {
+      textures_.push_back(Kernel<Image>(item.parameters, item.image.color));
+      textures_.push_back(Kernel<Image>(item.parameters, item.image.number));
+    } else {
+      textures_.push_back(Kernel<T>(item.parameters));
+    }
+  }
+
+  /// Of an image there are two: for colours, and for numbers.
+  std::size_t number(const TextureReference& texture, bool is_color) const {
+    const std::size_t first = first_[texture.type], index = texture.index;
+    return texture.type == index_of<Image>(Textures{}) ? first + 2 * index + (is_color ? 0 : 1) : first + index;
+  }
+
+  std::vector<std::size_t> first_;  ///< of each type
+  std::vector<AnyTexture> textures_;
+};
+
+}  // namespace raytrace

@@ -1,0 +1,69 @@
+// Image: a picture file as a texture.
+//
+//   <image>
+//     <name>wood</name> <file>wood.jpg</file> <wrap>mirror</wrap> <uvscale x="4" y="4"/> <uvrotation>90</uvrotation>
+//   </image>
+//
+// (0, 0) is the picture's lower left corner and (1, 1) its upper right one, with u to the right and v upwards. The
+// place in the picture is the surface's, scaled, then turned, then moved.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "raytrace/parameters/fields.h"
+
+namespace raytrace {
+
+/// Whether the numbers of the file are sRGB's, which follow the eye, or proportional to light.
+enum class ColorSpace {
+  automatic,  ///< sRGB for colours of 8 bits; linear for all else, and wherever a number is wanted
+  srgb,
+  linear,
+};
+template <>
+struct Choices<ColorSpace> {
+  static constexpr std::array<std::string_view, 3> words = {"auto", "srgb", "linear"};
+};
+
+/// What is beyond the picture's edges.
+enum class Wrap { repeat, mirror, clamp, black };
+template <>
+struct Choices<Wrap> {
+  static constexpr std::array<std::string_view, 4> words = {"repeat", "mirror", "clamp", "black"};
+};
+
+enum class TextureFilter {
+  smart,    ///< between texels from near, means of them from afar
+  nearest,  ///< the texel at hand
+};
+template <>
+struct Choices<TextureFilter> {
+  static constexpr std::array<std::string_view, 2> words = {"smart", "nearest"};
+};
+
+class Image {
+ public:
+  struct Parameters {
+    std::string file;  ///< relative to the folder of the scene's file
+    ColorSpace colorspace = ColorSpace::automatic;
+    Wrap wrap = Wrap::repeat;
+    TextureFilter filter = TextureFilter::smart;
+    Vec2d uvscale{1, 1};    ///< how often the picture fits into one unit of u and v
+    Vec2d uvoffset{0, 0};   ///< added to the place in the picture
+    double uvrotation = 0;  ///< degrees by which the place turns about (0, 0), from u to v
+  };
+  static constexpr std::string_view group = "images";
+  static constexpr std::string_view element = "image";
+  static Fields<Parameters> fields() {
+    return {required("file", &Parameters::file),
+            optional("colorspace", &Parameters::colorspace),
+            optional("wrap", &Parameters::wrap),
+            optional("filter", &Parameters::filter),
+            optional("uvscale", &Parameters::uvscale),
+            optional("uvoffset", &Parameters::uvoffset),
+            optional("uvrotation", &Parameters::uvrotation)};
+  }
+};
+
+}  // namespace raytrace

@@ -1,0 +1,227 @@
+// Look-ups in the texels of images: between four texels, and between two of the ever smaller pictures.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <numbers>
+#include <utility>
+
+#include "raytrace/math/gather.h"
+#include "raytrace/math/kernel.h"
+#include "raytrace/math/rgba.h"
+#include "raytrace/math/simd.h"
+#include "raytrace/textures/image.h"
+#include "raytrace/textures/texel_image.h"
+#include "raytrace/textures/texture_point.h"
+
+namespace raytrace {
+
+template <>
+class Kernel<Image> {
+ public:
+  /// texels: null of an image that has not been loaded, which is magenta.
+  Kernel(const Image::Parameters& image, std::shared_ptr<const TexelImage> texels)
+      : texels_(texels ? std::move(texels) : TexelImage::of_color(255, 0, 255)),
+        wrap_(image.wrap),
+        filter_(image.filter),
+        offset_{static_cast<float>(image.uvoffset.x), static_cast<float>(image.uvoffset.y)} {
+    const double angle = image.uvrotation * std::numbers::pi / 180, c = std::cos(angle), s = std::sin(angle);
+    across_ = {static_cast<float>(c * image.uvscale.x), static_cast<float>(-s * image.uvscale.y)};
+    up_ = {static_cast<float>(s * image.uvscale.x), static_cast<float>(c * image.uvscale.y)};
+  }
+
+  float largest() const { return texels_->largest(); }
+
+  Rgba<FloatN> at(const TexturePoint<FloatN>& point) const {
+    const Vec2<FloatN> turned = in_picture(point.uv);
+    const Vec2<FloatN> uv{turned.x + FloatN(offset_.x), turned.y + FloatN(offset_.y)};
+    if (filter_ == TextureFilter::nearest) return nearest(uv);
+    const auto last = static_cast<std::int32_t>(texels_->levels().size()) - 1;
+    // What the view stretches most is left to the samples of the pixel, up to a factor of two.
+    const FloatN a = texels_covered(point.uv_across), b = texels_covered(point.uv_along);
+    const FloatN wide = max(min(a, b), max(a, b) * FloatN(0.5F));
+    const FloatN level = min(max(log(max(wide, FloatN(1))) * FloatN(std::numbers::log2e_v<float>), FloatN(0)),
+                             FloatN(static_cast<float>(last)));
+    const IntN lower = clamped(to_int(level), IntN(last));
+    const FloatN part = level - to_float(lower);
+    const Rgba<FloatN> sharper = between_texels(lower, uv);
+    if (none(part > FloatN(0))) return sharper;
+    return mix(sharper, between_texels(min(lower + IntN(1), IntN(last)), uv), part);
+  }
+
+ private:
+  /// The texels of a row or column that a look-up is between, those left out being black.
+  struct Neighbours {
+    IntN low, high;
+    FloatN part;  ///< of the higher one
+    MaskN has_low, has_high;
+  };
+
+  static IntN clamped(const IntN& number, const IntN& largest) { return min(max(number, IntN(0)), largest); }
+
+  Vec2<FloatN> in_picture(const Vec2<FloatN>& uv) const {
+    return {multiply_add(FloatN(across_.x), uv.x, FloatN(across_.y) * uv.y),
+            multiply_add(FloatN(up_.x), uv.x, FloatN(up_.y) * uv.y)};
+  }
+
+  FloatN texels_covered(const Vec2<FloatN>& axis) const {
+    const Vec2<FloatN> turned = in_picture(axis);
+    const TexelImage::Level& picture = texels_->levels()[0];
+    return covered(turned.x * FloatN(static_cast<float>(picture.width)),
+                   turned.y * FloatN(static_cast<float>(picture.height)));
+  }
+
+  /// The coordinate in [0, 1], or near it where what lies beyond has its own rule.
+  FloatN wrapped(const FloatN& u) const {
+    if (wrap_ == Wrap::repeat) return u - floor(u);
+    if (wrap_ == Wrap::mirror) return FloatN(1) - abs(u - FloatN(2) * floor(u * FloatN(0.5F)) - FloatN(1));
+    return min(max(u, FloatN(-1)), FloatN(2));
+  }
+
+  /// u: wrapped. Whatever it is, even not a number, the texels are there.
+  Neighbours neighbours(const FloatN& u, const IntN& size) const {
+    const FloatN x = u * to_float(size) - FloatN(0.5F), left = floor(x);
+    IntN low = to_int(left), high = low + IntN(1);
+    const IntN last = size - IntN(1);
+    const auto is_there = [&](const IntN& i) { return float_mask<FloatN>(clamped(i, last) == i); };
+    Neighbours result{low, high, x - left, MaskN(true), MaskN(true)};
+    if (wrap_ == Wrap::black) {
+      result.has_low = is_there(low);
+      result.has_high = is_there(high);
+    } else if (wrap_ == Wrap::repeat) {
+      low = select_lanes(is_there(low), low, last);
+      high = select_lanes(is_there(high), high, IntN(0));
+    }
+    result.low = clamped(low, last);
+    result.high = clamped(high, last);
+    return result;
+  }
+
+  /// A level's numbers for each lane.
+  struct Levels {
+    IntN width, height, blocks, first;
+  };
+  Levels levels(const LaneIndices& level) const {
+    static_assert(sizeof(TexelImage::Level) == 4 * sizeof(std::int32_t));
+    const TexelImage::Level* const all = texels_->levels().data();
+    if (level.all_same()) {
+      const TexelImage::Level& one = all[level.first()];
+      return {IntN(one.width), IntN(one.height), IntN(one.blocks), IntN(one.first)};
+    }
+    const IntN at = level.lanes() * IntN(4);
+    const auto number = [&](const std::int32_t TexelImage::Level::* member) { return gather(&(all->*member), at); };
+    return {number(&TexelImage::Level::width), number(&TexelImage::Level::height), number(&TexelImage::Level::blocks),
+            number(&TexelImage::Level::first)};
+  }
+
+  static IntN index(const Levels& level, const IntN& x, const IntN& y) {
+    static_assert(TexelImage::block_edge == 4);
+    const IntN block = (y >> 2) * level.blocks + (x >> 2);
+    return level.first + block * IntN(TexelImage::block_texels) + (y & IntN(3)) * IntN(TexelImage::block_edge) +
+           (x & IntN(3));
+  }
+
+  Rgba<FloatN> between_texels(const IntN& number, const Vec2<FloatN>& uv) const {
+    const Levels level = levels(number);
+    const Neighbours x = neighbours(wrapped(uv.x), level.width), y = neighbours(wrapped(uv.y), level.height);
+    const auto texel = [&](const IntN& column, const IntN& row, const MaskN& is_there) {
+      const Rgba<FloatN> found = texels(index(level, column, row));
+      if (wrap_ != Wrap::black) return found;
+      const FloatN zero(0);
+      return select(is_there, found, Rgba<FloatN>{{zero, zero, zero}, zero});
+    };
+    const auto row = [&](const IntN& number, const MaskN& is_there) {
+      return mix(texel(x.low, number, is_there & x.has_low), texel(x.high, number, is_there & x.has_high), x.part);
+    };
+    return mix(row(y.low, y.has_low), row(y.high, y.has_high), y.part);
+  }
+
+  Rgba<FloatN> nearest(const Vec2<FloatN>& uv) const {
+    const Levels level = levels(LaneIndices(0));
+    const auto column = [&](const FloatN& u, const IntN& size, MaskN& is_there) {
+      const IntN i = to_int(floor(wrapped(u) * to_float(size))), inside = clamped(i, size - IntN(1));
+      is_there = is_there & float_mask<FloatN>(i == inside);
+      return inside;
+    };
+    MaskN is_there(true);
+    const IntN x = column(uv.x, level.width, is_there), y = column(uv.y, level.height, is_there);
+    const Rgba<FloatN> found = texels(index(level, x, y));
+    if (wrap_ != Wrap::black) return found;
+    const FloatN zero(0);
+    return select(is_there, found, Rgba<FloatN>{{zero, zero, zero}, zero});
+  }
+
+  /// In linear light.
+  Rgba<FloatN> texels(const IntN& index) const {
+    const std::byte* const all = texels_->texels();
+    switch (texels_->format()) {
+      case TexelFormat::bytes:
+        return texels_->channels() == 4 ? byte_texels(index) : each_texel<std::uint8_t>(index);
+      case TexelFormat::shorts:
+        return each_texel<std::uint16_t>(index);
+      case TexelFormat::halves:
+        return each_texel<Half>(index);
+      default:
+        break;
+    }
+    if (texels_->channels() == 4) {
+      const IntN first = index * IntN(4);
+      const auto* const floats = reinterpret_cast<const float*>(all);
+      return {{gather(floats, first), gather(floats + 1, first), gather(floats + 2, first)}, gather(floats + 3, first)};
+    }
+    const FloatN grey = gather(reinterpret_cast<const float*>(all), index);
+    return {{grey, grey, grey}, FloatN(1)};
+  }
+
+  Rgba<FloatN> byte_texels(const IntN& index) const {
+    const UintN word = same_bits<UintN>(gather(reinterpret_cast<const std::int32_t*>(texels_->texels()), index));
+    const auto decoded = [&](const UintN& code) {
+      return gather(texels_->decoded_bytes().data(), same_bits<IntN>(code & UintN(255U)));
+    };
+    return {{decoded(word), decoded(word >> 8), decoded(word >> 16)},
+            to_float(same_bits<IntN>(word >> 24)) * FloatN(1.0F / 255)};
+  }
+
+  struct Half {
+    std::uint16_t bits;
+  };
+  float number(std::uint8_t code, std::size_t channel) const {
+    return channel < 3 ? texels_->decoded_bytes()[code] : static_cast<float>(code) * (1.0F / 255);
+  }
+  static float number(std::uint16_t code, std::size_t) { return static_cast<float>(code) * (1.0F / 65535); }
+  /// Finite.
+  static float number(Half half, std::size_t) {
+    const auto magnitude = std::bit_cast<float>(static_cast<std::uint32_t>(half.bits & 0x7fffU) << 13U) * 0x1p112F;
+    return half.bits >> 15U ? -magnitude : magnitude;
+  }
+
+  template <class Stored>
+  Rgba<FloatN> each_texel(const IntN& index) const {
+    alignas(64) std::array<std::int32_t, packet_lanes> indices;
+    index.store_aligned(indices.data());
+    alignas(64) std::array<std::array<float, packet_lanes>, 4> numbers{};
+    const auto channels = static_cast<std::size_t>(texels_->channels());
+    const std::byte* const all = texels_->texels();
+    for (std::size_t lane = 0; lane < packet_lanes; ++lane)
+      for (std::size_t channel = 0; channel < channels; ++channel) {
+        Stored stored;
+        std::memcpy(&stored, all + (static_cast<std::size_t>(indices[lane]) * channels + channel) * sizeof stored,
+                    sizeof stored);
+        numbers[channel][lane] = number(stored, channel);
+      }
+    const auto loaded = [&](std::size_t channel) { return FloatN::load_aligned(numbers[channel].data()); };
+    if (channels == 1) return {{loaded(0), loaded(0), loaded(0)}, FloatN(1)};
+    return {{loaded(0), loaded(1), loaded(2)}, loaded(3)};
+  }
+
+  std::shared_ptr<const TexelImage> texels_;
+  Wrap wrap_;
+  TextureFilter filter_;
+  Vec2<float> across_{}, up_{};  ///< of the place in the picture: what u and v give to its coordinates
+  Vec2<float> offset_;
+};
+
+}  // namespace raytrace

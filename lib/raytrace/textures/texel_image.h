@@ -1,0 +1,71 @@
+// The picture of an image texture, and ever smaller ones of it (mip maps), in the form that look-ups want.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "raytrace/memory/large_array.h"
+#include "raytrace/output/picture.h"
+
+namespace raytrace {
+
+/// Texels keep the format of the file. Rows count from the bottom. Texels of each 4 x 4 lie together, so that those of
+/// one look-up are in one or two cache lines. Immutable.
+class TexelImage {
+ public:
+  static constexpr std::int32_t block_edge = 4, block_texels = block_edge * block_edge;
+
+  /// A picture half as wide and high as the one before, rounded down; the last has one texel.
+  struct Level {
+    std::int32_t width, height;
+    std::int32_t blocks;  ///< a row
+    std::int32_t first;   ///< the number of its first texel among all
+  };
+
+  /// srgb: its colours are sRGB's. Each texel of a smaller picture is the mean of what it covers of the larger one, in
+  /// linear light. threads: so many at most share the work. Throws std::bad_alloc.
+  TexelImage(const Picture& picture, bool srgb, int threads);
+
+  /// Of one opaque colour.
+  static std::shared_ptr<const TexelImage> of_color(std::uint8_t red, std::uint8_t green, std::uint8_t blue);
+
+  TexelFormat format() const { return format_; }
+  int channels() const { return channels_; }  ///< 1 or 4
+  const std::vector<Level>& levels() const { return levels_; }
+  const std::byte* texels() const { return texels_.data(); }
+  /// Of colours in bytes: what each of the 256 means.
+  const std::array<float, 256>& decoded_bytes() const { return decoded_bytes_; }
+  /// No number is larger by magnitude.
+  float largest() const { return largest_; }
+
+  /// The number of a texel among all.
+  static std::int64_t index(const Level& level, std::int32_t x, std::int32_t y) {
+    const std::int64_t block = std::int64_t{y / block_edge} * level.blocks + x / block_edge;
+    return level.first + block * block_texels + y % block_edge * block_edge + x % block_edge;
+  }
+
+ private:
+  template <class Numbers>
+  void fill(const Picture& picture, const Numbers& numbers, int threads);
+  template <class Numbers>
+  void fill_level(std::size_t level, const Numbers& numbers, int threads);
+
+  TexelFormat format_;
+  int channels_;
+  std::vector<Level> levels_;
+  LargeArray<std::byte> texels_;
+  std::array<float, 256> decoded_bytes_{};
+  float largest_ = 1;
+};
+
+/// What the file of an image texture has.
+struct LoadedImage {
+  std::string hash;  ///< of its bytes
+  /// For where it is used as a colour, and as a number; the same if both mean the same.
+  std::shared_ptr<const TexelImage> color, number;
+};
+
+}  // namespace raytrace
