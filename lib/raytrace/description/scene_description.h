@@ -38,6 +38,8 @@ struct LightItem {
 struct ItemReference {
   std::uint32_t type = 0;
   std::uint32_t index = 0;
+
+  friend bool operator==(const ItemReference&, const ItemReference&) = default;
 };
 using TextureReference = ItemReference;
 using MaterialReference = ItemReference;
