@@ -10,18 +10,6 @@ namespace raytrace {
 
 namespace {
 
-/// Of surfaces with these records, each lane's own or one for all.
-template <class Shape, class Records>
-SurfaceUv<FloatN> uv_of(const Records& records, const Hits& hits, const Vec3<FloatN>& p) {
-  if constexpr (requires { Kernel<Shape>::template uv<FloatN>(records, hits.u, hits.v); }) {
-    return Kernel<Shape>::template uv<FloatN>(records, hits.u, hits.v);
-  } else if constexpr (requires { Kernel<Shape>::template uv<FloatN>(records, p); }) {
-    return Kernel<Shape>::template uv<FloatN>(records, p);
-  } else {
-    return {p.x, p.z, Vec3<FloatN>(Vec3f(1, 0, 0)), Vec3<FloatN>(Vec3f(0, 0, 1))};
-  }
-}
-
 /// Shapes whose kernels take the record of one object.
 template <class Shape>
 concept OneRecord = requires(typename ShapeTable<Shape>::Record record, Ray<FloatN> rays, FloatN distance) {
@@ -30,12 +18,8 @@ concept OneRecord = requires(typename ShapeTable<Shape>::Record record, Ray<Floa
 
 /// Sets those of the lanes of `here`, which hit one shape.
 template <class Shape>
-void set_uv(const ShapeTable<Shape>& table, const MaskN& here, const Hits& hits, const Vec3<FloatN>& p,
-            SurfaceUv<FloatN>& result) {
-  const auto set = [&](const MaskN& lanes, const SurfaceUv<FloatN>& own) {
-    result = {select(lanes, own.u, result.u), select(lanes, own.v, result.v), select(lanes, own.dpdu, result.dpdu),
-              select(lanes, own.dpdv, result.dpdv)};
-  };
+void set_uv(const ShapeTable<Shape>& table, const MaskN& here, const Hits& hits,
+            const SurfaceInteraction<FloatN>& surface, SurfaceUv<FloatN>& result) {
   // The other lanes follow the first of these, so that they read a record that exists.
   const auto first = [&](const MaskN& lanes) {
     return hits.primitive.get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(lanes))));
@@ -44,7 +28,8 @@ void set_uv(const ShapeTable<Shape>& table, const MaskN& here, const Hits& hits,
     for (MaskN left = here; any(left);) {
       const std::int32_t next = first(left);
       const MaskN same = left & float_mask<FloatN>(hits.primitive == IntN(next));
-      set(same, uv_of<Shape>(table.records[static_cast<std::size_t>(next)], hits, p));
+      const auto& record = table.records[static_cast<std::size_t>(next)];
+      result = select<FloatN>(same, Kernel<Shape>::template uv<FloatN>(record, surface.p, surface.ng), result);
       left = left & !same;
     }
   } else {
@@ -52,12 +37,18 @@ void set_uv(const ShapeTable<Shape>& table, const MaskN& here, const Hits& hits,
         std::is_same_v<typename ShapeTable<Shape>::Record, typename Kernel<Shape>::template Record<float>>;
     using Wide = std::conditional_t<in_float, FloatN, Doubles<FloatN>>;
     const IntN primitive = select_lanes(here, hits.primitive, IntN(first(here)));
-    set(here,
-        uv_of<Shape>(gather_records<Kernel<Shape>::template Record, Wide>(table.records.data(), primitive), hits, p));
+    const auto records = gather_records<Kernel<Shape>::template Record, Wide>(table.records.data(), primitive);
+    if constexpr (EmbreeTriangle<Shape>) {
+      // (0, 0), (1, 0) and (0, 1) at its vertices.
+      const SurfaceUv<FloatN> own{hits.u, hits.v, records.vertex2 - records.vertex1, records.vertex3 - records.vertex1};
+      result = select<FloatN>(here, own, result);
+    } else {
+      result = select<FloatN>(here, Kernel<Shape>::template uv<FloatN>(records, surface.p, surface.ng), result);
+    }
   }
 }
 
-SurfaceUv<FloatN> surface_uv(const GeometryTable& table, const Hits& hits, const Vec3<FloatN>& p) {
+SurfaceUv<FloatN> surface_uv(const GeometryTable& table, const Hits& hits, const SurfaceInteraction<FloatN>& surface) {
   const FloatN zero(0);
   SurfaceUv<FloatN> result{zero, zero, {zero, zero, zero}, {zero, zero, zero}};
   for (MaskN left = hits.hit; any(left);) {
@@ -66,7 +57,7 @@ SurfaceUv<FloatN> surface_uv(const GeometryTable& table, const Hits& hits, const
     const MaskN here = left & float_mask<FloatN>(hits.geometry == UintN(geometry));
     left = left & !here;
     with_type(Shapes{}, table.geometry(geometry).shape_type, [&]<class Shape>(std::type_identity<Shape>) {
-      set_uv<Shape>(table.table<Shape>(), here, hits, p, result);
+      set_uv<Shape>(table.table<Shape>(), here, hits, surface, result);
     });
   }
   return result;
@@ -74,12 +65,14 @@ SurfaceUv<FloatN> surface_uv(const GeometryTable& table, const Hits& hits, const
 
 /// What u and v change by along a way on the surface; 1, more than there is, where they say nothing, as at a pole.
 Vec2<FloatN> uv_along(const SurfaceUv<FloatN>& uv, const Vec3<FloatN>& way) {
-  const Vec3<FloatN> normal = cross(uv.dpdu, uv.dpdv);
+  // By unit vectors, so that no product of large objects' overflows.
+  const FloatN u_scale = FloatN(1) / length(uv.dpdu), v_scale = FloatN(1) / length(uv.dpdv);
+  const Vec3<FloatN> u = uv.dpdu * u_scale, v = uv.dpdv * v_scale, normal = cross(u, v);
   const FloatN area = dot(normal, normal);
   const MaskN fine = area > FloatN(0);
   const FloatN scale = FloatN(1) / area;
-  return {select(fine, dot(cross(way, uv.dpdv), normal) * scale, FloatN(1)),
-          select(fine, dot(cross(uv.dpdu, way), normal) * scale, FloatN(1))};
+  return {select(fine, dot(cross(way, v), normal) * scale * u_scale, FloatN(1)),
+          select(fine, dot(cross(u, way), normal) * scale * v_scale, FloatN(1))};
 }
 
 }  // namespace
@@ -107,7 +100,7 @@ TexturePoint<FloatN> texture_point(const SceneTables& scene, const CameraRays& c
   }
   point.p_across = cross(surface.ng, along) * width;
   point.p_along = along * (width / max(cosine, FloatN(1e-3F)));
-  const SurfaceUv<FloatN> uv = surface_uv(scene.geometry(), hits, surface.p);
+  const SurfaceUv<FloatN> uv = surface_uv(scene.geometry(), hits, surface);
   point.uv = {uv.u, uv.v};
   point.uv_across = uv_along(uv, point.p_across);
   point.uv_along = uv_along(uv, point.p_along);
