@@ -2,6 +2,8 @@
 """Writes the small scenes beside this file, one a feature: the pictures of docs/scene-format.md."""
 import math
 import os
+import struct
+import zlib
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 
@@ -41,12 +43,15 @@ SPHERE = """\
 """
 
 
-def write(name, comment, room=ROOM, lights=LIGHTS, mattes=CLAY, phongs="", floor=FLOOR, objects=SPHERE, groups=""):
+def write(name, comment, room=ROOM, lights=LIGHTS, mattes=CLAY, phongs="", floor=FLOOR, objects=SPHERE, textures="",
+          groups=""):
     materials = f"    <mattes>\n{FLOOR_MATERIAL}{mattes}    </mattes>\n"
     if phongs:
         materials += f"    <phongs>\n{phongs}    </phongs>\n"
+    if textures:
+        textures = f"  <textures>\n{textures}  </textures>\n"
     text = (
-        f"<!-- {comment} -->\n<raytracer>\n{room}{lights}  <materials>\n{materials}  </materials>\n"
+        f"<!-- {comment} -->\n<raytracer>\n{room}{lights}{textures}  <materials>\n{materials}  </materials>\n"
         f"  <objects>\n{floor}{objects}  </objects>\n{groups}</raytracer>\n"
     )
     with open(os.path.join(HERE, name + ".xml"), "w", encoding="utf-8", newline="\n") as file:
@@ -264,6 +269,127 @@ write(
       </objects>
     </group>
   </groups>
+""",
+)
+
+# Textures
+def png(name, width, height, color):
+    """color(x, y): red, green and blue of a pixel, 0 to 255; y counts from the top."""
+    rows = b"".join(b"\0" + bytes(c for x in range(width) for c in color(x, y)) for y in range(height))
+    chunks = ((b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)), (b"IDAT", zlib.compress(rows, 9)),
+              (b"IEND", b""))
+    os.makedirs(os.path.join(HERE, "images"), exist_ok=True)
+    with open(os.path.join(HERE, "images", name), "wb") as file:
+        file.write(b"\x89PNG\r\n\x1a\n")
+        for kind, data in chunks:
+            file.write(struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data)))
+
+
+def bricks(x, y):
+    """128 x 128 pixels, which fit to themselves on all sides: four courses of two bricks, every other one shifted."""
+    course = y // 32
+    along = (x + 32 * (course % 2)) % 128
+    edge = min(along % 64, 63 - along % 64, y % 32, 31 - y % 32)
+    if edge < 2:
+        return 176, 170, 160
+    shade = (course * 5 + along // 64 * 3) % 7 / 6
+    worn = 0.8 if edge < 4 else 1
+    return tuple(int(worn * (a + shade * (b - a))) for a, b in ((150, 190), (60, 92), (44, 66)))
+
+
+png("bricks.png", 128, 128, bricks)
+BRICKS = """\
+    <images>
+      <image> <name>bricks</name> <file>images/bricks.png</file> <uvscale x="3" y="2"/> </image>
+    </images>
+"""
+write(
+    "texture-image",
+    "A picture of bricks on a wall and about a cylinder, and for how brightly a sphere shines.",
+    textures=BRICKS,
+    mattes="""\
+      <matte> <name>wall</name> <ka>0.12</ka> <kd>0.9</kd> <cd texture="bricks"/> </matte>
+""",
+    phongs="""\
+      <phong>
+        <name>stamped</name> <ka>0.12</ka> <kd>0.7</kd> <ks texture="bricks" channel="green">0.9</ks>
+        <cd red="0.3" green="0.4" blue="0.6"/> <cs red="1" green="1" blue="1"/> <exp>20</exp>
+      </phong>
+""",
+    objects="""\
+    <rectangles>
+      <rectangle>
+        <corner x="-2.6" y="0" z="-1.2"/> <edge1 x="5.2" y="0" z="0"/> <edge2 x="0" y="2" z="0"/> <material>wall</material>
+      </rectangle>
+    </rectangles>
+    <cylinders>
+      <cylinder>
+        <bottom x="-1.3" y="0" z="0.6"/> <top x="-1.3" y="1.5" z="0.6"/> <radius>0.5</radius> <material>wall</material>
+      </cylinder>
+    </cylinders>
+    <spheres> <sphere> <center x="1" y="0.8" z="0.4"/> <radius>0.8</radius> <material>stamped</material> </sphere> </spheres>
+""",
+)
+write(
+    "texture-checker",
+    "Squares to the horizon and about a sphere, and cubes that a torus is cut from.",
+    textures="""\
+    <checkers>
+      <checker>
+        <name>tiles</name> <color1 red="0.8" green="0.8" blue="0.75"/> <color2 red="0.15" green="0.2" blue="0.3"/>
+      </checker>
+      <checker>
+        <name>squares</name> <color1 red="0.9" green="0.9" blue="0.9"/> <color2 red="0.8" green="0.1" blue="0.1"/>
+        <uvscale x="16" y="8"/>
+      </checker>
+      <checker>
+        <name>cubes</name> <color1 red="0.9" green="0.7" blue="0.2"/> <color2 red="0.3" green="0.15" blue="0.05"/>
+        <scale>0.25</scale>
+      </checker>
+    </checkers>
+""",
+    mattes="""\
+      <matte> <name>tiled</name> <ka>0.12</ka> <kd>0.8</kd> <cd texture="tiles"/> </matte>
+      <matte> <name>ball</name> <ka>0.12</ka> <kd>0.9</kd> <cd texture="squares"/> </matte>
+      <matte> <name>inlaid</name> <ka>0.12</ka> <kd>0.9</kd> <cd texture="cubes"/> </matte>
+""",
+    floor="",
+    objects="""\
+    <planes>
+      <plane> <point x="0" y="0" z="0"/> <normal x="0" y="1" z="0"/> <material>tiled</material> </plane>
+    </planes>
+    <spheres> <sphere> <center x="-1.1" y="0.9" z="0"/> <radius>0.9</radius> <material>ball</material> </sphere> </spheres>
+    <toruses>
+      <torus>
+        <center x="1.2" y="0.75" z="0"/> <axis x="0.3" y="0.9" z="0.6"/> <sweptradius>0.75</sweptradius>
+        <tuberadius>0.35</tuberadius> <material>inlaid</material>
+      </torus>
+    </toruses>
+""",
+)
+write(
+    "texture-noise",
+    "Noise: as a colour, and as what dims a colour.",
+    textures="""\
+    <noises>
+      <noise>
+        <name>clouds</name> <color1 red="0.1" green="0.25" blue="0.6"/> <color2 red="1" green="1" blue="1"/>
+        <scale>0.6</scale> <octaves>6</octaves>
+      </noise>
+      <noise> <name>stains</name> <color1 red="0.3" green="0.3" blue="0.3"/> <scale>0.25</scale> </noise>
+    </noises>
+""",
+    mattes="""\
+      <matte> <name>sky</name> <ka>0.12</ka> <kd>0.9</kd> <cd texture="clouds"/> </matte>
+      <matte>
+        <name>stained</name> <ka>0.12</ka> <kd texture="stains">0.95</kd> <cd red="0.85" green="0.28" blue="0.12"/>
+      </matte>
+""",
+    objects="""\
+    <spheres>
+      <sphere> <center x="-1.1" y="1" z="0"/> <radius>1</radius> <material>sky</material> </sphere>
+      <sphere> <center x="1.1" y="1" z="0"/> <radius>1</radius> <material>stained</material> </sphere>
+    </spheres>
 """,
 )
 

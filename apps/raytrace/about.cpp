@@ -17,6 +17,7 @@
 #include "raytrace/render/renderer.h"
 #include "raytrace/shapes/registry.h"
 #include "raytrace/text/message.h"
+#include "raytrace/textures/registry.h"
 
 namespace raytrace {
 
@@ -39,8 +40,9 @@ std::string version() {
 }
 
 std::vector<std::pair<std::string, Names>> listings() {
-  return {{"shapes", names_in(Shapes())},   {"materials", names_in(Materials())},     {"lights", names_in(Lights())},
-          {"cameras", names_in(Cameras())}, {"integrators", names_in(Integrators())}, {"aovs", aov_names()}};
+  return {{"shapes", names_in(Shapes())}, {"textures", names_in(Textures())}, {"materials", names_in(Materials())},
+          {"lights", names_in(Lights())}, {"cameras", names_in(Cameras())},   {"integrators", names_in(Integrators())},
+          {"aovs", aov_names()}};
 }
 
 struct OptionForWord {

@@ -165,7 +165,7 @@ TEST_CASE("incomplete command lines are refused with what to type") {
     CHECK(std::find(lines.begin(), lines.end(), "Examples:") != lines.end());
   }
   CHECK_REFUSED(parse({"-q"}), "no scene given");
-  CHECK_REFUSED(parse({"--list"}), "--list needs a value: one of shapes, materials, lights, ");
+  CHECK_REFUSED(parse({"--list"}), "--list needs a value: one of shapes, textures, materials, ");
   CHECK_REFUSED(parse({"--progress"}), "--progress needs a value: one of auto, bar, ");
   CHECK_REFUSED(parse({"my.xml"}), "raytrace my.xml -o picture.exr");
   CHECK_REFUSED(parse({"my.xml", "-o"}), "--output needs a value: FILE");

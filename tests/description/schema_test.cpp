@@ -36,9 +36,10 @@ std::vector<fs::path> scenes_in(const fs::path& folder) {
   return scenes;
 }
 
+/// Whatever the files that its textures name.
 bool program_accepts(const fs::path& file) {
   Diagnostics diagnostics(file.string());
-  return load_scene(file.string(), diagnostics).has_value();
+  return parse_scene(bytes_of(file), diagnostics).has_value();
 }
 
 /// Those of the files that xmllint finds valid.

@@ -1,5 +1,6 @@
 // Textured scenes: the same bits however a picture is cut, no aliasing, and what AOVs and the film's unit know of them.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -115,6 +116,40 @@ TEST_CASE("a checkered plane to the horizon has no aliasing at 4 samples") {
     }
   CHECK(sum / count < 0.02);
   CHECK(worst_far < 0.15);
+}
+
+TEST_CASE("an image lies upright on a rectangle, and its upper half is that of a sphere") {
+  const auto picture_of = [](const std::string& object) {
+    const std::string parts =
+        std::string(ambient_only) +
+        "<textures><images><image><name>i</name><file>made</file><colorspace>linear</colorspace><filter>nearest</"
+        "filter>"
+        "</image></images></textures><materials><mattes><matte><name>m</name><ka>1</ka><kd>0</kd><cd texture='i'/>"
+        "</matte></mattes></materials><objects>" +
+        object + "</objects>";
+    SceneDescription scene =
+        parsed_scene(scene_text(32, 32, 1, parts, "<eye x='0' y='0' z='20'/><lookat x='0' y='0' z='0'/>"));
+    Picture picture{2, 2, 4, TexelFormat::bytes, LargeArray<std::byte>::zeros(16)};
+    const std::array<unsigned char, 16> texels{255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 255, 255};
+    for (std::size_t i = 0; i < texels.size(); ++i) picture.pixels[i] = static_cast<std::byte>(texels[i]);
+    const auto made = std::make_shared<const TexelImage>(picture, false, 1);
+    std::get<TextureItems<Image>>(scene.textures).at(0).image = {"made", made, made};
+    return rendered(scene);
+  };
+  const FloatPicture rectangle = picture_of(
+      "<rectangles><rectangle><corner x='-8' y='-8' z='0'/><edge1 x='16' y='0' z='0'/><edge2 x='0' y='16' z='0'/>"
+      "<material>m</material></rectangle></rectangles>");
+  const auto color = [](const Pixel& p) { return std::array{p.red, p.green, p.blue}; };
+  CHECK(color(rectangle.at(11, 11)) == std::array{1.0F, 0.0F, 0.0F});
+  CHECK(color(rectangle.at(20, 11)) == std::array{0.0F, 1.0F, 0.0F});
+  CHECK(color(rectangle.at(11, 20)) == std::array{0.0F, 0.0F, 1.0F});
+  CHECK(color(rectangle.at(20, 20)) == std::array{1.0F, 1.0F, 1.0F});
+  const FloatPicture sphere = picture_of(
+      "<spheres><sphere><center x='0' y='0' z='0'/><radius>8</radius><material>m</material></sphere></spheres>");
+  CHECK(sphere.at(11, 10).blue == 0);
+  CHECK(sphere.at(20, 10).blue == 0);
+  CHECK(sphere.at(11, 21).blue == 1);
+  CHECK(sphere.at(20, 21).blue == 1);
 }
 
 TEST_CASE("the albedo of a textured surface is the texture's, times its own") {

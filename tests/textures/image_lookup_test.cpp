@@ -121,7 +121,7 @@ TEST_CASE("from near, an image is bilinear between its texels: all formats, wrap
           }
           INFO(width << " x " << height << ", " << channels << " channels, format " << static_cast<int>(format)
                      << ", wrap " << static_cast<int>(wrap));
-          CHECK(worst < 3e-5);
+          CHECK(worst < (srgb ? 2e-4 : 3e-5));  // the kernel's polynomial for sRGB
         }
       }
 }

@@ -10,18 +10,6 @@ namespace raytrace {
 
 namespace {
 
-/// Of surfaces with these records, each lane's own or one for all.
-template <class Shape, class Records>
-SurfaceUv<FloatN> uv_of(const Records& records, const Hits& hits, const Vec3<FloatN>& p) {
-  if constexpr (requires { Kernel<Shape>::template uv<FloatN>(records, hits.u, hits.v); }) {
-    return Kernel<Shape>::template uv<FloatN>(records, hits.u, hits.v);
-  } else if constexpr (requires { Kernel<Shape>::template uv<FloatN>(records, p); }) {
-    return Kernel<Shape>::template uv<FloatN>(records, p);
-  } else {
-    return {p.x, p.z, Vec3<FloatN>(Vec3f(1, 0, 0)), Vec3<FloatN>(Vec3f(0, 0, 1))};
-  }
-}
-
 /// Shapes whose kernels take the record of one object.
 template <class Shape>
 concept OneRecord = requires(typename ShapeTable<Shape>::Record record, Ray<FloatN> rays, FloatN distance) {
@@ -30,9 +18,8 @@ concept OneRecord = requires(typename ShapeTable<Shape>::Record record, Ray<Floa
 
 /// Sets those of the lanes of `here`, which hit one shape.
 template <class Shape>
-void set_uv(const ShapeTable<Shape>& table, const MaskN& here, const Hits& hits, const Vec3<FloatN>& p,
-            SurfaceUv<FloatN>& result) {
-  const auto set = [&](const MaskN& lanes, const SurfaceUv<FloatN>& own) { result = select(lanes, own, result); };
+void set_uv(const ShapeTable<Shape>& table, const MaskN& here, const Hits& hits,
+            const SurfaceInteraction<FloatN>& surface, SurfaceUv<FloatN>& result) {
   // The other lanes follow the first of these, so that they read a record that exists.
   const auto first = [&](const MaskN& lanes) {
     return hits.primitive.get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(lanes))));
@@ -41,7 +28,8 @@ void set_uv(const ShapeTable<Shape>& table, const MaskN& here, const Hits& hits,
     for (MaskN left = here; any(left);) {
       const std::int32_t next = first(left);
       const MaskN same = left & float_mask<FloatN>(hits.primitive == IntN(next));
-      set(same, uv_of<Shape>(table.records[static_cast<std::size_t>(next)], hits, p));
+      const auto& record = table.records[static_cast<std::size_t>(next)];
+      result = select<FloatN>(same, Kernel<Shape>::template uv<FloatN>(record, surface.p, surface.ng), result);
       left = left & !same;
     }
   } else {
@@ -49,23 +37,34 @@ void set_uv(const ShapeTable<Shape>& table, const MaskN& here, const Hits& hits,
         std::is_same_v<typename ShapeTable<Shape>::Record, typename Kernel<Shape>::template Record<float>>;
     using Wide = std::conditional_t<in_float, FloatN, Doubles<FloatN>>;
     const IntN primitive = select_lanes(here, hits.primitive, IntN(first(here)));
-    set(here,
-        uv_of<Shape>(gather_records<Kernel<Shape>::template Record, Wide>(table.records.data(), primitive), hits, p));
+    const auto records = gather_records<Kernel<Shape>::template Record, Wide>(table.records.data(), primitive);
+    if constexpr (EmbreeTriangle<Shape>) {
+      const SurfaceUv<FloatN> own = Kernel<Shape>::template uv<FloatN>(records, hits.u, hits.v);
+      result = select<FloatN>(here, own, result);
+    } else {
+      result = select<FloatN>(here, Kernel<Shape>::template uv<FloatN>(records, surface.p, surface.ng), result);
+    }
   }
 }
 
-SurfaceUv<FloatN> surface_uv(const GeometryTable& world, const Hits& hits, const Vec3<FloatN>& p) {
+SurfaceUv<FloatN> surface_uv(const GeometryTable& world, const Hits& hits, const SurfaceInteraction<FloatN>& surface) {
   const FloatN zero(0);
   SurfaceUv<FloatN> result{zero, zero, {zero, zero, zero}, {zero, zero, zero}};
   const MaskN in_instance = hits.hit & float_mask<FloatN>(hits.instance != UintN(0u));
   const UintN instance = select_lanes(in_instance, hits.instance, UintN(0u));
-  Vec3<FloatN> local = p;
-  if (hits.in_instances)
-    local = select(in_instance, apply_point(world.instances().object_from_world(instance), p), p);
+  SurfaceInteraction<FloatN> local = surface;
+  if (hits.in_instances) {
+    const auto to_world = world.instances().world_from_object(instance);
+    const Vec3<FloatN>& n = surface.ng;
+    const Vec3<FloatN> normal{dot(to_world.x, n), dot(to_world.y, n), dot(to_world.z, n)};
+    local.p = select(in_instance, apply_point(world.instances().object_from_world(instance), surface.p), surface.p);
+    local.ng = select(in_instance, normalize(normal), n);
+  }
   world.for_each_geometry(hits, [&](const GeometryTable& table, std::uint32_t geometry, const MaskN& here) {
     if (const MeshTable* const mesh = table.geometry(geometry).mesh; mesh != nullptr) {
       const IntN other(hits.primitive.get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(here)))));
-      result = select(here, mesh->uv(mesh->triangles(select_lanes(here, hits.primitive, other), hits)), result);
+      const LaneTriangles triangles = mesh->triangles(select_lanes(here, hits.primitive, other), hits);
+      result = select<FloatN>(here, mesh->uv(triangles), result);
       return;
     }
     with_type(Shapes{}, geometry, [&]<class Shape>(std::type_identity<Shape>) {
@@ -82,12 +81,14 @@ SurfaceUv<FloatN> surface_uv(const GeometryTable& world, const Hits& hits, const
 
 /// What u and v change by along a way on the surface; 1, more than there is, where they say nothing, as at a pole.
 Vec2<FloatN> uv_along(const SurfaceUv<FloatN>& uv, const Vec3<FloatN>& way) {
-  const Vec3<FloatN> normal = cross(uv.dpdu, uv.dpdv);
+  // By unit vectors, so that no product of large objects' overflows.
+  const FloatN u_scale = FloatN(1) / length(uv.dpdu), v_scale = FloatN(1) / length(uv.dpdv);
+  const Vec3<FloatN> u = uv.dpdu * u_scale, v = uv.dpdv * v_scale, normal = cross(u, v);
   const FloatN area = dot(normal, normal);
   const MaskN fine = area > FloatN(0);
   const FloatN scale = FloatN(1) / area;
-  return {select(fine, dot(cross(way, uv.dpdv), normal) * scale, FloatN(1)),
-          select(fine, dot(cross(uv.dpdu, way), normal) * scale, FloatN(1))};
+  return {select(fine, dot(cross(way, v), normal) * scale * u_scale, FloatN(1)),
+          select(fine, dot(cross(u, way), normal) * scale * v_scale, FloatN(1))};
 }
 
 }  // namespace
@@ -115,7 +116,7 @@ TexturePoint<FloatN> texture_point(const SceneTables& scene, const CameraRays& c
   }
   point.p_across = cross(surface.ng, along) * width;
   point.p_along = along * (width / max(cosine, FloatN(1e-3F)));
-  const SurfaceUv<FloatN> uv = surface_uv(scene.geometry(), hits, surface.p);
+  const SurfaceUv<FloatN> uv = surface_uv(scene.geometry(), hits, surface);
   point.uv = {uv.u, uv.v};
   point.uv_across = uv_along(uv, point.p_across);
   point.uv_along = uv_along(uv, point.p_along);

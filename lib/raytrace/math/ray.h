@@ -42,13 +42,6 @@ struct SurfacePosition {
   F error;
 };
 
-/// A surface's own coordinates at a point, and how the point moves with them.
-template <class F>
-struct SurfaceUv {
-  F u, v;
-  Vec3<F> dpdu, dpdv;
-};
-
 /// Lane by lane: a where the mask is true, else b.
 template <class F, class MaskType>
 RAYTRACE_INLINE SurfacePoint<F> select(const MaskType& mask, const SurfacePoint<F>& a, const SurfacePoint<F>& b) {

@@ -31,8 +31,9 @@ struct Picture {
   LargeArray<std::byte> pixels;
 };
 
-/// The largest picture that can be read, in pixels: 16,384 times 16,384.
+/// The largest picture that can be read: as many pixels as 16,384 times 16,384 has.
 inline constexpr std::int64_t most_picture_pixels = std::int64_t{1} << 28;
+inline constexpr int largest_picture_edge = 65536;
 
 /// Any format that OpenImageIO reads. Throws PictureError, std::bad_alloc, or OutputError if OpenImageIO is missing.
 Picture read_picture(const std::string& file);

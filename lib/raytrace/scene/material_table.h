@@ -50,13 +50,13 @@ class MaterialTable {
   // point: null where none of the lanes' materials has a texture.
 
   /// The albedo of each lane's material, and the most that any of those in use has, by magnitude.
-  virtual Rgb<FloatN> albedo(const LaneIndices& materials, const TexturePoint<FloatN>* point = nullptr) const = 0;
+  virtual Rgb<FloatN> albedo(const LaneIndices& materials, const TexturePoint<FloatN>* point) const = 0;
   virtual Rgb<float> largest_albedo(const std::uint8_t* used) const = 0;
 
   /// The radiance that leaves along wo, of unit length. materials: of each lane, for every lane one that exists.
   virtual Rgb<FloatN> shade(const LaneIndices& materials, const Vec3<FloatN>& wo, const Vec3<FloatN>& normal,
                             const Rgb<float>& ambient_radiance, std::span<const IncidentLight> lights,
-                            const TexturePoint<FloatN>* point = nullptr) const = 0;
+                            const TexturePoint<FloatN>* point) const = 0;
 };
 
 /// A material with textures.

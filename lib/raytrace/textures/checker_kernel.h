@@ -15,7 +15,7 @@ namespace raytrace {
 /// The mean over [x - width / 2, x + width / 2] of what is 1 from 0 to 1, -1 from 1 to 2, and so on.
 template <class F>
 F mean_square_wave(const F& x, const F& wanted_width) {
-  const F width = max(wanted_width, F(1e-6F));
+  const F width = min(max(wanted_width, F(1e-6F)), F(1e6F));
   const F half = floor(x), period = x - F(2) * floor(x * F(0.5F));
   const F to_edge = F(0.5F) - abs(x - half - F(0.5F));
   const F sign = select(period < F(1), F(1), F(-1));
@@ -34,7 +34,7 @@ class Kernel<Checker> {
         color2_(checker.color2),
         uvscale_{static_cast<float>(checker.uvscale.x), static_cast<float>(checker.uvscale.y)},
         in_space_(checker.scale > 0),
-        frequency_(in_space_ ? static_cast<float>(1 / checker.scale) : 0) {}
+        frequency_(in_space_ ? static_cast<float>(1 / std::max(checker.scale, smallest_size)) : 0) {}
 
   float largest() const {
     const Rgb<float> both = max(abs(color1_), abs(color2_));

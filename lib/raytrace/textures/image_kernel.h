@@ -47,9 +47,13 @@ class Kernel<Image> {
                              FloatN(static_cast<float>(last)));
     const IntN lower = clamped(to_int(level), IntN(last));
     const FloatN part = level - to_float(lower);
-    const Rgba<FloatN> sharper = between_texels(lower, uv);
+    // Most images by code of their own, without a choice of the format for each texel.
+    const auto level_at = [&](const IntN& number) {
+      return is_usual() ? between_texels<true>(number, uv) : between_texels<false>(number, uv);
+    };
+    const Rgba<FloatN> sharper = level_at(lower);
     if (none(part > FloatN(0))) return sharper;
-    return mix(sharper, between_texels(min(lower + IntN(1), IntN(last)), uv), part);
+    return mix(sharper, level_at(min(lower + IntN(1), IntN(last))), part);
   }
 
  private:
@@ -75,14 +79,14 @@ class Kernel<Image> {
   }
 
   /// The coordinate in [0, 1], or near it where what lies beyond has its own rule.
-  FloatN wrapped(const FloatN& u) const {
+  RAYTRACE_INLINE FloatN wrapped(const FloatN& u) const {
     if (wrap_ == Wrap::repeat) return u - floor(u);
     if (wrap_ == Wrap::mirror) return FloatN(1) - abs(u - FloatN(2) * floor(u * FloatN(0.5F)) - FloatN(1));
     return min(max(u, FloatN(-1)), FloatN(2));
   }
 
   /// u: wrapped. Whatever it is, even not a number, the texels are there.
-  Neighbours neighbours(const FloatN& u, const IntN& size) const {
+  RAYTRACE_INLINE Neighbours neighbours(const FloatN& u, const IntN& size) const {
     const FloatN x = u * to_float(size) - FloatN(0.5F), left = floor(x);
     IntN low = to_int(left), high = low + IntN(1);
     const IntN last = size - IntN(1);
@@ -104,7 +108,7 @@ class Kernel<Image> {
   struct Levels {
     IntN width, height, blocks, first;
   };
-  Levels levels(const LaneIndices& level) const {
+  Levels levels_of(const LaneIndices& level) const {
     static_assert(sizeof(TexelImage::Level) == 4 * sizeof(std::int32_t));
     const TexelImage::Level* const all = texels_->levels().data();
     if (level.all_same()) {
@@ -117,30 +121,36 @@ class Kernel<Image> {
             number(&TexelImage::Level::first)};
   }
 
-  static IntN index(const Levels& level, const IntN& x, const IntN& y) {
+  static RAYTRACE_INLINE IntN index(const Levels& level, const IntN& x, const IntN& y) {
     static_assert(TexelImage::block_edge == 4);
     const IntN block = (y >> 2) * level.blocks + (x >> 2);
     return level.first + block * IntN(TexelImage::block_texels) + (y & IntN(3)) * IntN(TexelImage::block_edge) +
            (x & IntN(3));
   }
 
+  bool is_usual() const {
+    return texels_->format() == TexelFormat::bytes && texels_->channels() == 4 && wrap_ != Wrap::black;
+  }
+
+  template <bool usual>
   Rgba<FloatN> between_texels(const IntN& number, const Vec2<FloatN>& uv) const {
-    const Levels level = levels(number);
+    const Levels level = levels_of(number);
     const Neighbours x = neighbours(wrapped(uv.x), level.width), y = neighbours(wrapped(uv.y), level.height);
-    const auto texel = [&](const IntN& column, const IntN& row, const MaskN& is_there) {
+    const auto texel = [&](const IntN& column, const IntN& row, const MaskN& is_there) RAYTRACE_INLINE_LAMBDA {
+      if constexpr (usual) return byte_texels(index(level, column, row));
       const Rgba<FloatN> found = texels(index(level, column, row));
       if (wrap_ != Wrap::black) return found;
       const FloatN zero(0);
       return select(is_there, found, Rgba<FloatN>{{zero, zero, zero}, zero});
     };
-    const auto row = [&](const IntN& number, const MaskN& is_there) {
-      return mix(texel(x.low, number, is_there & x.has_low), texel(x.high, number, is_there & x.has_high), x.part);
+    const auto row = [&](const IntN& at, const MaskN& is_there) RAYTRACE_INLINE_LAMBDA {
+      return mix(texel(x.low, at, is_there & x.has_low), texel(x.high, at, is_there & x.has_high), x.part);
     };
     return mix(row(y.low, y.has_low), row(y.high, y.has_high), y.part);
   }
 
   Rgba<FloatN> nearest(const Vec2<FloatN>& uv) const {
-    const Levels level = levels(LaneIndices(0));
+    const Levels level = levels_of(LaneIndices(0));
     const auto column = [&](const FloatN& u, const IntN& size, MaskN& is_there) {
       const IntN i = to_int(floor(wrapped(u) * to_float(size))), inside = clamped(i, size - IntN(1));
       is_there = is_there & float_mask<FloatN>(i == inside);
@@ -176,24 +186,31 @@ class Kernel<Image> {
     return {{grey, grey, grey}, FloatN(1)};
   }
 
-  Rgba<FloatN> byte_texels(const IntN& index) const {
+  RAYTRACE_INLINE Rgba<FloatN> byte_texels(const IntN& index) const {
     const UintN word = same_bits<UintN>(gather(reinterpret_cast<const std::int32_t*>(texels_->texels()), index));
-    const auto decoded = [&](const UintN& code) {
-      return gather(texels_->decoded_bytes().data(), same_bits<IntN>(code & UintN(255U)));
-    };
-    return {{decoded(word), decoded(word >> 8), decoded(word >> 16)},
-            to_float(same_bits<IntN>(word >> 24)) * FloatN(1.0F / 255)};
+    const auto number = [&](const UintN& code) { return to_float(same_bits<IntN>(code)) * FloatN(1.0F / 255); };
+    const UintN byte(255U);
+    return {{light(number(word & byte)), light(number((word >> 8) & byte)), light(number((word >> 16) & byte))},
+            number(word >> 24)};
+  }
+
+  /// That a colour's number in [0, 1] stands for. Of sRGB within 0.0002, and a thousandth of it.
+  RAYTRACE_INLINE FloatN light(const FloatN& x) const {
+    if (!texels_->srgb()) return x;
+    constexpr std::array powers{0.0898338859F, -0.313210738F, 0.671128477F,
+                                0.518562483F,  0.0327671605F, 0.000918731261F};
+    FloatN sum(powers[0]);
+    for (std::size_t i = 1; i < powers.size(); ++i) sum = multiply_add(sum, x, FloatN(powers[i]));
+    return select(x < FloatN(0.04045F), x * FloatN(1 / 12.92F), sum);
   }
 
   struct Half {
     std::uint16_t bits;
   };
-  float number(std::uint8_t code, std::size_t channel) const {
-    return channel < 3 ? texels_->decoded_bytes()[code] : static_cast<float>(code) * (1.0F / 255);
-  }
-  static float number(std::uint16_t code, std::size_t) { return static_cast<float>(code) * (1.0F / 65535); }
+  static float number(std::uint8_t code) { return static_cast<float>(code) * (1.0F / 255); }
+  static float number(std::uint16_t code) { return static_cast<float>(code) * (1.0F / 65535); }
   /// Finite.
-  static float number(Half half, std::size_t) {
+  static float number(Half half) {
     const auto magnitude = std::bit_cast<float>(static_cast<std::uint32_t>(half.bits & 0x7fffU) << 13U) * 0x1p112F;
     return half.bits >> 15U ? -magnitude : magnitude;
   }
@@ -210,11 +227,12 @@ class Kernel<Image> {
         Stored stored;
         std::memcpy(&stored, all + (static_cast<std::size_t>(indices[lane]) * channels + channel) * sizeof stored,
                     sizeof stored);
-        numbers[channel][lane] = number(stored, channel);
+        numbers[channel][lane] = number(stored);
       }
     const auto loaded = [&](std::size_t channel) { return FloatN::load_aligned(numbers[channel].data()); };
-    if (channels == 1) return {{loaded(0), loaded(0), loaded(0)}, FloatN(1)};
-    return {{loaded(0), loaded(1), loaded(2)}, loaded(3)};
+    if (channels == 4) return {{light(loaded(0)), light(loaded(1)), light(loaded(2))}, loaded(3)};
+    const FloatN grey = light(loaded(0));
+    return {{grey, grey, grey}, FloatN(1)};
   }
 
   std::shared_ptr<const TexelImage> texels_;

@@ -22,8 +22,15 @@ float to_srgb(float light) {
 /// How numbers are kept, and what they mean.
 struct Bytes {
   using Stored = std::uint8_t;
-  const std::array<float, 256>& decoded;
   bool srgb;
+  std::array<float, 256> decoded{};
+
+  explicit Bytes(bool is_srgb) : srgb(is_srgb) {
+    for (std::size_t code = 0; code < decoded.size(); ++code) {
+      const float number = static_cast<float>(code) / 255;
+      decoded[code] = srgb ? from_srgb(number) : number;
+    }
+  }
   float light(Stored code, std::size_t channel) const {
     return channel < 3 ? decoded[code] : static_cast<float>(code) / 255;
   }
@@ -91,14 +98,10 @@ Picture linear_floats(const Picture& picture) {
 }  // namespace
 
 TexelImage::TexelImage(const Picture& picture, bool srgb, int threads)
-    : format_(picture.format), channels_(picture.channels) {
+    : format_(picture.format), channels_(picture.channels), srgb_(srgb) {
   if (srgb && format_ != TexelFormat::bytes) {
     *this = TexelImage(linear_floats(picture), false, threads);
     return;
-  }
-  for (std::size_t code = 0; code < decoded_bytes_.size(); ++code) {
-    const float number = static_cast<float>(code) / 255;
-    decoded_bytes_[code] = srgb ? from_srgb(number) : number;
   }
   std::int32_t texels = 0;
   for (std::int32_t width = picture.width, height = picture.height;;
@@ -112,7 +115,7 @@ TexelImage::TexelImage(const Picture& picture, bool srgb, int threads)
                                          bytes_of(format_));
   switch (format_) {
     case TexelFormat::bytes:
-      fill(picture, Bytes{decoded_bytes_, srgb}, threads);
+      fill(picture, Bytes(srgb), threads);
       break;
     case TexelFormat::shorts:
       fill(picture, Shorts{}, threads);

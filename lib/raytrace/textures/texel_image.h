@@ -36,8 +36,8 @@ class TexelImage {
   int channels() const { return channels_; }  ///< 1 or 4
   const std::vector<Level>& levels() const { return levels_; }
   const std::byte* texels() const { return texels_.data(); }
-  /// Of colours in bytes: what each of the 256 means.
-  const std::array<float, 256>& decoded_bytes() const { return decoded_bytes_; }
+  /// Whether colours are sRGB's, as those of bytes may be; else they are linear light.
+  bool srgb() const { return srgb_; }
   /// No number is larger by magnitude.
   float largest() const { return largest_; }
 
@@ -57,7 +57,7 @@ class TexelImage {
   int channels_;
   std::vector<Level> levels_;
   LargeArray<std::byte> texels_;
-  std::array<float, 256> decoded_bytes_{};
+  bool srgb_;
   float largest_ = 1;
 };
 

@@ -62,9 +62,10 @@ void raytrace_openimageio_read_picture(const std::string& file, Picture& picture
   const OIIO::ImageSpec& spec = input->spec();
   if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 || spec.deep)
     throw PictureError("it is no picture with rows and columns");
-  if (std::int64_t{spec.width} * spec.height > most_picture_pixels)
+  if (std::max(spec.width, spec.height) > largest_picture_edge ||
+      std::int64_t{spec.width} * spec.height > most_picture_pixels)
     throw PictureError("it has " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
-                       " pixels; a texture has 16384 x 16384 at most");
+                       " pixels; a texture has 16384 x 16384 at most, or as many");
   picture.width = spec.width;
   picture.height = spec.height;
   picture.channels = spec.nchannels == 1 ? 1 : 4;
