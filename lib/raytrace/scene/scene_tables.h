@@ -57,7 +57,8 @@ class SceneTables {
       result.rays = camera->template generate<FloatN>(x, y);
       result.skipped = FloatN(0);
     } else {
-      set_rays_of_any_camera(x, y, camera_has_lens_ ? lens_sample() : Sample2D{FloatN(0), FloatN(0)}, result);
+      const FloatN at_x = x, at_y = y;  // so that x and y themselves may stay in registers
+      set_rays_of_any_camera(at_x, at_y, camera_has_lens_ ? lens_sample() : Sample2D{FloatN(0), FloatN(0)}, result);
     }
   }
   /// Whether there are points of the picture without a ray; they are black.

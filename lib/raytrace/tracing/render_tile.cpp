@@ -110,11 +110,11 @@ class BlockRenderer {
       const MaskN wanted = all_wanted ? active : active & in_range(sample, left.lane_first, UintN(left.last));
       Sample2D point = sampler.next();
       if (filter.moves_samples()) [[unlikely]]
-        point = filtered(filter, point);
+        point = filtered(filter, Sample2D(point));  // copies, so that the points themselves stay in registers
       const FloatN px = x + point.x, py = y + point.y;
       MaskN traced = active;
       if (scene_.tables().camera_has_gaps()) [[unlikely]]
-        traced = active & scene_.tables().has_ray(px, py);
+        traced = active & scene_.tables().has_ray(FloatN(px), FloatN(py));
       CameraRays camera;
       scene_.tables().set_camera_rays(px, py, [&] { return lens_sample(block, sample); }, camera);
       RayResult result = Kernel<Integrator>::radiance(scene_, background_, camera, traced, wanted, report_.rays,
