@@ -174,7 +174,8 @@ TEST_CASE("the schema refuses most of the bad scenes, the program all", "[schema
       "cylinder_without_length", "eye_at_lookat",       "instruction",     "name_with_line_break",
       "other_encoding",          "second_ambientlight", "too_many_pixels", "utf16",
       "edge_too_long",           "zero_direction",      "zero_normal",     "zero_up",
-      "internal_subset",         "second_integrator"};
+      "internal_subset",         "second_integrator",   "box_inside_out",  "cone_without_length",
+      "cone_without_width",      "annulus_without_area"};
   // What it cannot say since numbers and vectors may have keys, and values variables.
   expected.insert({"degenerate_triangle_without_material",
                    "dollar_without_name",

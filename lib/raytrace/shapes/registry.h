@@ -3,6 +3,9 @@
 #pragma once
 
 #include "raytrace/math/type_list.h"
+#include "raytrace/shapes/annulus.h"
+#include "raytrace/shapes/box.h"
+#include "raytrace/shapes/cone.h"
 #include "raytrace/shapes/cylinder.h"
 #include "raytrace/shapes/disk.h"
 #include "raytrace/shapes/plane.h"
@@ -13,6 +16,6 @@
 
 namespace raytrace {
 
-using Shapes = TypeList<Plane, Sphere, Triangle, Cylinder, Torus, Disk, Rectangle>;
+using Shapes = TypeList<Plane, Sphere, Triangle, Cylinder, Torus, Disk, Rectangle, Box, Cone, Annulus>;
 
 }  // namespace raytrace
