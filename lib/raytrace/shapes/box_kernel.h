@@ -78,7 +78,7 @@ class Kernel<Box> {
       coordinate = select(axis.x + axis.y + axis.z < F(0), at + F(1), at);
       derivative = axis * extent;
     };
-    SurfaceUv<F> result;
+    SurfaceUv<F> result{};
     along(frame.right, result.u, result.dpdu);
     along(frame.up, result.v, result.dpdv);
     return result;
