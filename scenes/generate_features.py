@@ -130,6 +130,28 @@ shape(
 """,
 )
 shape(
+    "caps",
+    "Cylinders and a truncated cone with caps.",
+    """\
+    <cylinders>
+      <cylinder>
+        <bottom x="-1.2" y="0" z="0"/> <top x="-1.2" y="1.6" z="0"/> <radius>0.6</radius> <caps>true</caps>
+        <material>glossy</material>
+      </cylinder>
+      <cylinder>
+        <bottom x="-0.3" y="0.5" z="1.2"/> <top x="0.7" y="0.5" z="0.4"/> <radius>0.5</radius> <caps>true</caps>
+        <material>glossy</material>
+      </cylinder>
+    </cylinders>
+    <cones>
+      <cone>
+        <bottom x="1.6" y="0" z="-0.3"/> <top x="1.6" y="1.4" z="-0.3"/> <radius>0.8</radius>
+        <topradius>0.4</topradius> <caps>true</caps> <material>glossy</material>
+      </cone>
+    </cones>
+""",
+)
+shape(
     "torus",
     "Toruses: a thick one that lies, a thin one about a slanted axis, a spindle.",
     """\
@@ -180,6 +202,52 @@ shape(
         <material>glossy</material>
       </rectangle>
     </rectangles>
+""",
+)
+shape(
+    "box",
+    "Boxes: a tower, a slab and a cube that lies on it.",
+    """\
+    <boxes>
+      <box> <min x="-1.9" y="0" z="-0.8"/> <max x="-0.9" y="2.2" z="0.2"/> <material>glossy</material> </box>
+      <box> <min x="-0.5" y="0" z="-0.6"/> <max x="2" y="0.4" z="1.2"/> <material>glossy</material> </box>
+      <box> <min x="0.6" y="0.4" z="-0.2"/> <max x="1.4" y="1.2" z="0.6"/> <material>glossy</material> </box>
+    </boxes>
+""",
+)
+shape(
+    "cone",
+    "Cones: one with a tip, a truncated one, an open one that lies and can be looked into.",
+    """\
+    <cones>
+      <cone>
+        <bottom x="-1.4" y="0" z="0"/> <top x="-1.4" y="2" z="0"/> <radius>0.8</radius> <material>glossy</material>
+      </cone>
+      <cone>
+        <bottom x="0.2" y="0" z="-0.6"/> <top x="0.2" y="1.2" z="-0.6"/> <radius>0.7</radius>
+        <topradius>0.35</topradius> <material>glossy</material>
+      </cone>
+      <cone>
+        <bottom x="1.2" y="0.65" z="1"/> <top x="2" y="0.15" z="-0.8"/> <radius>0.65</radius> <topradius>0.1</topradius>
+        <material>glossy</material>
+      </cone>
+    </cones>
+""",
+)
+shape(
+    "annulus",
+    "Annuli: one floats, one stands.",
+    """\
+    <annuli>
+      <annulus>
+        <center x="-1" y="0.8" z="0.3"/> <normal x="0.2" y="1" z="0.3"/>
+        <innerradius>0.5</innerradius> <outerradius>0.9</outerradius> <material>glossy</material>
+      </annulus>
+      <annulus>
+        <center x="1.2" y="1" z="-0.3"/> <normal x="-0.5" y="0.1" z="1"/>
+        <innerradius>0.7</innerradius> <outerradius>1</outerradius> <material>glossy</material>
+      </annulus>
+    </annuli>
 """,
 )
 

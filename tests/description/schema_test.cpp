@@ -175,7 +175,8 @@ TEST_CASE("the schema refuses most of the bad scenes, the program all", "[schema
       "cylinder_without_length", "eye_at_lookat",       "instruction",     "name_with_line_break",
       "other_encoding",          "second_ambientlight", "too_many_pixels", "utf16",
       "edge_too_long",           "zero_direction",      "zero_normal",     "zero_up",
-      "internal_subset",         "second_integrator"};
+      "internal_subset",         "second_integrator",   "box_inside_out",  "cone_without_length",
+      "cone_without_width",      "annulus_without_area"};
   // Nor that one element stands in place of another, or goes with some only.
   expected.insert({"filter_too_wide", "fisheye_beyond_all", "fov_and_pixelsize", "fov_and_viewdistance", "fov_too_wide",
                    "lens_of_two_blades", "missing_viewdistance"});

@@ -135,6 +135,11 @@ TEST_CASE("rays that leave a triangle") { check_leaving("triangle"); }
 TEST_CASE("rays that leave a disk") { check_leaving("disk"); }
 TEST_CASE("rays that leave a rectangle") { check_leaving("rectangle"); }
 TEST_CASE("rays that leave a cylinder") { check_leaving("cylinder"); }
+TEST_CASE("rays that leave a box") { check_leaving("box"); }
+TEST_CASE("rays that leave a cone") { check_leaving("cone"); }
+TEST_CASE("rays that leave an annulus") { check_leaving("annulus"); }
+TEST_CASE("rays that leave a cylinder with caps") { check_leaving("capped cylinder"); }
+TEST_CASE("rays that leave a cone with caps") { check_leaving("capped cone"); }
 TEST_CASE("rays that leave a torus") { check_leaving("torus"); }
 
 }  // namespace raytrace::test

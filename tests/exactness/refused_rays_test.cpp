@@ -52,7 +52,8 @@ bool same(const ProbeHit& a, const ProbeHit& b) {
 TEST_CASE("rays that Embree cannot take miss and leave the other lanes alone") {
   Random random(21);
   std::vector<reference::ShapePointer> shapes;
-  for (const char* kind : {"plane", "sphere", "triangle", "disk", "rectangle", "cylinder", "torus", "spindle"}) {
+  for (const char* kind : {"plane", "sphere", "triangle", "disk", "rectangle", "cylinder", "torus", "spindle", "box",
+                           "cone", "annulus", "capped cylinder", "capped cone"}) {
     shapes.push_back(random_shape_case(kind, random).shape);
   }
   const ShapeCase target = random_shape_case("sphere", random);

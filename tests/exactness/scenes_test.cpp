@@ -109,7 +109,8 @@ void check_against_brute_force(const std::vector<reference::ShapePointer>& shape
 TEST_CASE("the nearest of many objects of all shapes") {
   Random random(11);
   std::vector<reference::ShapePointer> shapes;
-  for (const char* kind : {"sphere", "triangle", "disk", "rectangle", "cylinder", "torus"}) {
+  for (const char* kind : {"sphere", "triangle", "disk", "rectangle", "cylinder", "torus", "box", "cone", "annulus",
+                           "capped cylinder", "capped cone"}) {
     for (int i = 0; i < 12; ++i) {
       // Shapes of like size near each other: those of random_shape_case, moved by drawing until they are so.
       ShapeCase shape = random_shape_case(kind, random);

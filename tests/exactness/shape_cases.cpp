@@ -78,6 +78,35 @@ ShapeCase disk_case(Random& random, const Vector& place, double size) {
           [=](Random& r) { return place + radius * frame.circle(random_angle(r)); }};
 }
 
+ShapeCase annulus_case(Random& random, const Vector& place, double size) {
+  const Vector normal = in_float(random.log_between(0.01, 100) * random.direction());
+  const Frame frame(reference::unit(normal));
+  const Real outer = as_float(size), inner = as_float(size * (1 - random.log_between(0.01, 1)));
+  return {std::make_shared<reference::Annulus>(place, normal, outer, inner), place, size,
+          [=](Random& r) { return place + (inner + (outer - inner) * r.unit()) * frame.circle(random_angle(r)); },
+          [=](Random& r) { return place + (r.chance(0.5) ? inner : outer) * frame.circle(random_angle(r)); }};
+}
+
+ShapeCase box_case(Random& random, const Vector& place, double size) {
+  // Cubes, slabs and beams.
+  const auto extent = [&] { return size * (random.chance(0.5) ? 1 : random.log_between(0.01, 1)); };
+  Vector far = in_float(place + Vector{extent(), extent(), extent()});
+  far = {std::fmax(far.x, std::nextafter(as_float(place.x), 2e4F)),
+         std::fmax(far.y, std::nextafter(as_float(place.y), 2e4F)),
+         std::fmax(far.z, std::nextafter(as_float(place.z), 2e4F))};
+  const Vector span = far - place;
+  const auto inside = [=](Random& r) { return Vector{r.unit() * span.x, r.unit() * span.y, r.unit() * span.z}; };
+  // Of a point inside, one coordinate or two are moved to their ends.
+  const auto moved = [=](Random& r, int ends) {
+    Vector p = inside(r);
+    for (int axis = r.below(3); ends > 0; --ends, axis = (axis + 1) % 3)
+      (axis == 0 ? p.x : axis == 1 ? p.y : p.z) = r.below(2) * (axis == 0 ? span.x : axis == 1 ? span.y : span.z);
+    return place + p;
+  };
+  return {std::make_shared<reference::Box>(place, far), place + 0.5L * span, size,
+          [=](Random& r) { return moved(r, 1); }, [=](Random& r) { return moved(r, 2); }};
+}
+
 ShapeCase rectangle_case(Random& random, const Vector& place, double size) {
   // Squares, slabs and parallelograms.
   const Vector first = random.direction();
@@ -106,6 +135,37 @@ ShapeCase cylinder_case(Random& random, const Vector& place, double size) {
   return {std::make_shared<reference::Cylinder>(place, top, radius), place, size,
           [=](Random& r) { return place + r.unit() * along + radius * frame.circle(random_angle(r)); },
           [=](Random& r) { return place + (r.chance(0.5) ? 1 : 0) * along + radius * frame.circle(random_angle(r)); }};
+}
+
+/// Closed ones, or open ones; a cylinder if both radii are one.
+ShapeCase cone_case(Random& random, const Vector& place, double size, bool caps, bool cylinder) {
+  const bool tall = random.chance(0.7);
+  const double height = tall ? size : size * random.log_between(1e-2, 1);
+  const Real radius = as_float(tall ? size * random.log_between(1e-2, 1) : size);
+  Real top_radius = cylinder ? radius : random.chance(0.5) ? 0 : as_float(radius * random.log_between(1e-2, 1));
+  Vector bottom = place;
+  Vector top = in_float(place + height * (random.chance(0.3) ? Vector{0, 1, 0} : random.direction()));
+  if (length(top - place) == 0) top.y = std::nextafter(as_float(place.y), 2e4F);
+  Real bottom_radius = radius;
+  if (random.chance(0.5)) std::swap(bottom_radius, top_radius), std::swap(bottom, top);
+  const Vector along = top - bottom;
+  const Frame frame(reference::unit(along));
+  const auto ring = [=](Random& r, Real height, Real share) {
+    return bottom + height * along +
+           share * (bottom_radius + height * (top_radius - bottom_radius)) * frame.circle(random_angle(r));
+  };
+  reference::ShapePointer shape;
+  if (cylinder) {
+    shape = std::make_shared<reference::CappedCylinder>(bottom, top, radius);
+  } else {
+    shape = std::make_shared<reference::Cone>(bottom, top, bottom_radius, top_radius, caps);
+  }
+  return {shape, bottom + 0.5L * along, size,
+          [=](Random& r) {
+            const bool cap = caps && r.chance(0.4);
+            return cap ? ring(r, r.below(2), std::sqrt(r.unit())) : ring(r, r.unit(), 1);
+          },
+          [=](Random& r) { return ring(r, r.below(2), 1); }};
 }
 
 ShapeCase torus_case(Random& random, const Vector& place, double size, double least_ratio, double most_ratio) {
@@ -137,6 +197,11 @@ ShapeCase random_shape_case(const std::string& kind, Random& random) {
   if (kind == "disk") return disk_case(random, place, size);
   if (kind == "rectangle") return rectangle_case(random, place, size);
   if (kind == "cylinder") return cylinder_case(random, place, size);
+  if (kind == "annulus") return annulus_case(random, place, size);
+  if (kind == "box") return box_case(random, place, size);
+  if (kind == "cone") return cone_case(random, place, size, false, false);
+  if (kind == "capped cone") return cone_case(random, place, size, true, false);
+  if (kind == "capped cylinder") return cone_case(random, place, size, true, true);
   if (kind == "torus") return torus_case(random, place, size, 1e-4, 1);
   return torus_case(random, place, size, 1, 10);
 }

@@ -138,7 +138,8 @@ TEST_CASE("the random scenes show every kind of thing") {
   }
   CHECK(covered >= 44);
   CHECK(shadowed >= 20);
-  for (const char* element : {"plane", "sphere", "triangle", "cylinder", "torus", "disk", "rectangle"}) {
+  for (const char* element :
+       {"plane", "sphere", "triangle", "cylinder", "torus", "disk", "rectangle", "box", "cone", "annulus"}) {
     INFO(element);
     CHECK(std::count(elements.begin(), elements.end(), element) >
           30);  // compilers draw the numbers in orders of their own

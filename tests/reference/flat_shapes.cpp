@@ -1,4 +1,4 @@
-// Plane, disk, rectangle, triangle.
+// Plane, disk, annulus, rectangle, triangle, box.
 #include <algorithm>
 
 #include "shapes.h"
@@ -41,8 +41,8 @@ std::string Plane::parameters() const {
   return vector_element("point", point_) + vector_element("normal", given_normal_);
 }
 
-Disk::Disk(Vector center, Vector normal, Real radius)
-    : center_(center), given_normal_(normal), normal_(unit(normal)), radius_(radius) {}
+Disk::Disk(Vector center, Vector normal, Real radius, Real inner_radius)
+    : center_(center), given_normal_(normal), normal_(unit(normal)), radius_(radius), inner_radius_(inner_radius) {}
 
 Crossings Disk::crossings(const Ray& ray) const {
   Crossings result;
@@ -52,9 +52,10 @@ Crossings Disk::crossings(const Ray& ray) const {
     return result;
   }
   const Real from_center = length(ray.at(t) - center_);
-  if (from_center <= radius_) result.add(t);
+  if (from_center <= radius_ && from_center >= inner_radius_) result.add(t);
   const Real cosine = std::fabs(dot(ray.direction, normal_)) / length(ray.direction);
   result.limit_clearance(std::fabs(from_center - radius_) * cosine);
+  if (inner_radius_ > 0) result.limit_clearance(std::fabs(from_center - inner_radius_) * cosine);
   return result;
 }
 
@@ -63,6 +64,11 @@ Vector Disk::normal(Vector) const { return normal_; }
 std::string Disk::parameters() const {
   return vector_element("center", center_) + vector_element("normal", given_normal_) +
          number_element("radius", radius_);
+}
+
+std::string Annulus::parameters() const {
+  return vector_element("center", center_) + vector_element("normal", given_normal_) +
+         number_element("innerradius", inner_radius_) + number_element("outerradius", radius_);
 }
 
 Rectangle::Rectangle(Vector corner, Vector edge1, Vector edge2)
@@ -127,5 +133,46 @@ std::string Triangle::parameters() const {
   return vector_element("vertexposition1", vertices_[0]) + vector_element("vertexposition2", vertices_[1]) +
          vector_element("vertexposition3", vertices_[2]);
 }
+
+Crossings Box::crossings(const Ray& ray) const {
+  // Six rectangles, of which a line through the box crosses two.
+  Crossings result;
+  const Vector size = max_ - min_;
+  const Vector x{size.x, 0, 0}, y{0, size.y, 0}, z{0, 0, size.z};
+  for (const Rectangle& face : {Rectangle(min_, x, y), Rectangle(min_, y, z), Rectangle(min_, z, x),
+                                Rectangle(max_, -x, -y), Rectangle(max_, -y, -z), Rectangle(max_, -z, -x)}) {
+    const Crossings crossing = face.crossings(ray);
+    result.limit_clearance(crossing.clearance);
+    if (crossing.count > 0 && result.count < 2) result.add(crossing.distances[0]);
+  }
+  if (result.count == 2 && result.distances[0] > result.distances[1])
+    std::swap(result.distances[0], result.distances[1]);
+  return result;
+}
+
+Real Box::distance(Vector point) const {
+  const Vector below = min_ - point, above = point - max_;
+  return std::max({below.x, below.y, below.z, above.x, above.y, above.z});
+}
+
+Vector Box::normal(Vector point) const {
+  const Real outside = distance(point);
+  const Vector below = min_ - point, above = point - max_;
+  const auto along = [&](Real low, Real high) { return Real(high >= outside) - Real(low >= outside); };
+  const Vector all{along(below.x, above.x), along(below.y, above.y), along(below.z, above.z)};
+  return all.x != 0 ? Vector{all.x, 0, 0} : all.y != 0 ? Vector{0, all.y, 0} : Vector{0, 0, all.z};
+}
+
+Real Box::smallest_extent() const {
+  const Vector size = max_ - min_;
+  return std::min({size.x, size.y, size.z});
+}
+
+Real Box::largest_extent() const {
+  const Vector size = max_ - min_;
+  return std::max({size.x, size.y, size.z});
+}
+
+std::string Box::parameters() const { return vector_element("min", min_) + vector_element("max", max_); }
 
 }  // namespace reference

@@ -42,6 +42,18 @@ ShapePointer random_shape(Random& random, int kind, Vector place, Real size) {
     case 4:
       return std::make_shared<Rectangle>(near_place(1), exact(size * random.direction()),
                                          exact(size * random.direction()));
+    case 5: {
+      const Vector corner = near_place(1);
+      return std::make_shared<Box>(corner,
+                                   exact(corner + Vector{number(0.2L, 1.5L), number(0.2L, 1.5L), number(0.2L, 1.5L)}));
+    }
+    case 6:
+      return std::make_shared<Cone>(near_place(1), near_place(1), number(0.1L, 0.6L),
+                                    random.chance(0.5L) ? 0 : number(0.1L, 0.6L), random.chance(0.5L));
+    case 7:
+      return std::make_shared<Annulus>(exact(place), exact(random.direction()), number(0.6L, 1), number(0.1L, 0.5L));
+    case 8:
+      return std::make_shared<CappedCylinder>(near_place(1), near_place(1), number(0.1L, 0.6L));
     default:
       return std::make_shared<Disk>(exact(place), exact(random.direction()), number(0.3L, 1));
   }
@@ -89,7 +101,7 @@ Scene random_scene(unsigned seed) {
   };
   for (int i = 8 + random.below(12); i > 0; --i) {
     const Vector place = middle + 2.5L * scale * random.in_cube(1);
-    add(random_shape(random, random.below(6), place, scale * random.log_between(0.3L, 1)));
+    add(random_shape(random, random.below(10), place, scale * random.log_between(0.3L, 1)));
   }
   for (int i = random.below(3); i > 0; --i) {
     add(std::make_shared<Plane>(exact(middle + random.between(2, 5) * scale * random.direction()),

@@ -75,7 +75,7 @@ class Plane : public Shape {
 
 class Disk : public Shape {
  public:
-  Disk(Vector center, Vector normal, Real radius);
+  Disk(Vector center, Vector normal, Real radius, Real inner_radius = 0);
   Crossings crossings(const Ray& ray) const override;
   Real distance(Vector point) const override;
   Vector normal(Vector point) const override;
@@ -85,9 +85,34 @@ class Disk : public Shape {
   std::string group() const override { return "disks"; }
   std::string parameters() const override;
 
- private:
+ protected:
   Vector center_, given_normal_, normal_;
-  Real radius_;
+  Real radius_, inner_radius_;
+};
+
+class Annulus : public Disk {
+ public:
+  using Disk::Disk;
+  Real smallest_extent() const override { return radius_ - inner_radius_; }
+  std::string element() const override { return "annulus"; }
+  std::string group() const override { return "annuli"; }
+  std::string parameters() const override;
+};
+
+class Box : public Shape {
+ public:
+  Box(Vector min, Vector max) : min_(min), max_(max) {}
+  Crossings crossings(const Ray& ray) const override;
+  Real distance(Vector point) const override;
+  Vector normal(Vector point) const override;
+  Real smallest_extent() const override;
+  Real largest_extent() const override;
+  std::string element() const override { return "box"; }
+  std::string group() const override { return "boxes"; }
+  std::string parameters() const override;
+
+ private:
+  Vector min_, max_;
 };
 
 class Rectangle : public Shape {
@@ -156,6 +181,43 @@ class Cylinder : public Shape {
  private:
   Vector bottom_, top_, axis_;
   Real radius_, height_;
+};
+
+/// Truncated or not, with caps or without.
+class Cone : public Shape {
+ public:
+  Cone(Vector bottom, Vector top, Real radius, Real top_radius, bool caps);
+  Crossings crossings(const Ray& ray) const override;
+  Real distance(Vector point) const override;
+  Vector normal(Vector point) const override;
+  Real smallest_extent() const override;
+  Real largest_extent() const override { return std::fmax(height_, std::fmax(radius_, top_radius_)); }
+  std::string element() const override { return "cone"; }
+  std::string group() const override { return "cones"; }
+  std::string parameters() const override;
+
+ protected:
+  Vector bottom_, top_, axis_;
+  Real radius_, top_radius_, height_;
+  bool caps_;
+
+ private:
+  /// In the half plane through the axis and a point: the distance from the axis, the height, and how far it is outside
+  /// of the side.
+  struct Place {
+    Real rho, height, outside;
+  };
+  Place place(Vector point) const;
+  Real radius_at(Real height) const { return radius_ + (top_radius_ - radius_) * height / height_; }
+  Vector side_normal(Vector point) const;
+};
+
+class CappedCylinder : public Cone {
+ public:
+  CappedCylinder(Vector bottom, Vector top, Real radius) : Cone(bottom, top, radius, radius, true) {}
+  std::string element() const override { return "cylinder"; }
+  std::string group() const override { return "cylinders"; }
+  std::string parameters() const override;
 };
 
 /// The circle of the tube radius, turned about the axis. Where the tube is wider than the swept radius the surface

@@ -28,6 +28,12 @@ const std::vector<Tied> tied_shapes = {
     {"toruses", "<torus><axis x='0' y='1' z='0'/><sweptradius>0.75</sweptradius><tuberadius>0.25</tuberadius>"},
     {"disks", "<disk><center x='0' y='0' z='1'/><normal x='0' y='0' z='1'/><radius>2</radius>"},
     {"rectangles", "<rectangle><corner x='-1' y='-1' z='1'/><edge1 x='2' y='0' z='0'/><edge2 x='0' y='2' z='0'/>"},
+    {"boxes", "<box><min x='-1' y='-1' z='-1'/><max x='1' y='1' z='1'/>"},
+    {"cones",
+     "<cone><bottom x='0' y='-1' z='0'/><top x='0' y='1' z='0'/><radius>1.5</radius><topradius>0.5</topradius>"},
+    {"annuli",
+     "<annulus><center x='2' y='0' z='1'/><normal x='0' y='0' z='1'/><innerradius>1</innerradius>"
+     "<outerradius>3</outerradius>"},
     {"meshes", "<mesh><positions>-4 -4 1, 4 -4 1, 0 4 1</positions><faces>0 1 2</faces>"}};
 
 std::uint32_t registry_index(const std::string& group) {
@@ -40,9 +46,7 @@ std::uint32_t registry_index(const std::string& group) {
 }
 
 std::string tied_object(const Tied& shape, const std::string& material) {
-  const std::string end =
-      "</" + shape.group.substr(0, shape.group.size() - (shape.group == "toruses" || shape.group == "meshes" ? 2 : 1)) +
-      ">";
+  const std::string end = "</" + shape.element.substr(1, shape.element.find('>') - 1) + ">";
   return "<" + shape.group + ">" + shape.element + "<material>" + material + "</material>" + end + "</" + shape.group +
          ">";
 }

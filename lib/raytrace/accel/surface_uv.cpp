@@ -79,6 +79,19 @@ SurfaceUv<FloatN> surface_uv(const GeometryTable& world, const Hits& hits, const
   return result;
 }
 
+Rgb<FloatN> vertex_color(const GeometryTable& world, const Hits& hits) {
+  Rgb<FloatN> result(Rgb<float>(1, 1, 1));
+  if (world.has_shapes_only()) return result;
+  world.for_each_geometry(hits, [&](const GeometryTable& table, std::uint32_t geometry, const MaskN& here) {
+    const MeshTable* const mesh = table.geometry(geometry).mesh;
+    if (mesh == nullptr || !mesh->has_colors()) return;
+    const IntN other(hits.primitive.get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(here)))));
+    const LaneTriangles triangles = mesh->triangles(select_lanes(here, hits.primitive, other), hits);
+    result = select(here, mesh->color(triangles), result);
+  });
+  return result;
+}
+
 /// What u and v change by along a way on the surface; 1, more than there is, where they say nothing, as at a pole.
 Vec2<FloatN> uv_along(const SurfaceUv<FloatN>& uv, const Vec3<FloatN>& way) {
   // By unit vectors, so that no product of large objects' overflows.
@@ -120,6 +133,7 @@ TexturePoint<FloatN> texture_point(const SceneTables& scene, const CameraRays& c
   point.uv = {uv.u, uv.v};
   point.uv_across = uv_along(uv, point.p_across);
   point.uv_along = uv_along(uv, point.p_along);
+  point.vertex_color = vertex_color(scene.geometry(), hits);
   return point;
 }
 

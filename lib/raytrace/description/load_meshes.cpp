@@ -45,7 +45,7 @@ class MeshLoader {
     if (loaded.data == nullptr) return;
     mesh.data = loaded.data;
     mesh.materials = mesh.material == no_material ? std::move(loaded.materials) : std::vector{mesh.material};
-    if (mesh.materials.empty()) mesh.materials = {grey()};
+    if (mesh.materials.empty()) mesh.materials = {mesh.data->colors.empty() ? grey() : painted()};
   }
 
   std::shared_ptr<const MeshData> made(const ObjectItem<Mesh>& mesh) {
@@ -139,6 +139,18 @@ class MeshLoader {
     return grey_;
   }
 
+  /// White, times the colours at vertices.
+  MaterialReference painted() {
+    if (painted_ != no_material) return painted_;
+    painted_ = add<Matte>({1, 1, {1, 1, 1}}, "painted");
+    auto& textures = std::get<TextureItems<VertexColor>>(scene_.textures);
+    textures.push_back({{}, "vertex colors", 0, true});
+    std::get<MaterialItems<Matte>>(scene_.materials)[painted_.index].textures = {
+        {static_cast<std::uint32_t>(find_field(Matte::fields(), "cd")),
+         {index_of<VertexColor>(Textures{}), static_cast<std::uint32_t>(textures.size() - 1)}}};
+    return painted_;
+  }
+
   template <class Material>
   MaterialReference add(const typename Material::Parameters& parameters, const std::string& usual_name) {
     std::string name = usual_name;
@@ -153,7 +165,7 @@ class MeshLoader {
   int threads_;
   std::map<std::string, LoadedFile> files_;
   std::set<std::string> taken_names_;
-  MaterialReference grey_ = no_material;
+  MaterialReference grey_ = no_material, painted_ = no_material;
 };
 
 }  // namespace

@@ -60,7 +60,8 @@ RAYTRACE_INLINE F turns_about(const Vec3<F>& axis, const Vec3<F>& v) {
 template <class F>
 RAYTRACE_INLINE SurfaceUv<F> ring_uv(const Vec3<F>& axis, const Vec3<F>& from_center, const F& inner, const F& outer) {
   const F rho = length(from_center), width = outer - inner;
-  return {turns_about(axis, from_center), (rho - inner) / width, cross(axis, from_center) * F(one_turn),
+  const F v = (rho - inner) / max(width, F(1e-30F));
+  return {turns_about(axis, from_center), min(max(v, F(0)), F(1)), cross(axis, from_center) * F(one_turn),
           from_center * (width / max(rho, F(1e-30F)))};
 }
 

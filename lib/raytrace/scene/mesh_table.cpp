@@ -129,6 +129,13 @@ SurfaceUv<FloatN> MeshTable::uv(const LaneTriangles& triangles) const {
           select(fine, (edge3 * du2 - edge2 * du3) * scale, edge3)};
 }
 
+Rgb<FloatN> MeshTable::color(const LaneTriangles& triangles) const {
+  const Vec3<FloatN> mean = vectors_at(data_->colors.data(), triangles.vertex1) * (FloatN(1) - triangles.u - triangles.v) +
+                            vectors_at(data_->colors.data(), triangles.vertex2) * triangles.u +
+                            vectors_at(data_->colors.data(), triangles.vertex3) * triangles.v;
+  return {mean.x, mean.y, mean.z};
+}
+
 std::optional<std::int32_t> MeshTable::only_material() const {
   if (data_->face_materials.empty() || materials_.size() == 1) return materials_.front();
   return std::nullopt;

@@ -57,6 +57,10 @@ class MeshTable {
   /// By the file's coordinates at vertices; where it has none, barycentric ones.
   SurfaceUv<FloatN> uv(const LaneTriangles& triangles) const;
 
+  /// Whether it has colours at vertices, and what they are between those of the lanes' triangles.
+  bool has_colors() const { return !data_->colors.empty(); }
+  Rgb<FloatN> color(const LaneTriangles& triangles) const;
+
   /// Of all faces; none if they differ.
   std::optional<std::int32_t> only_material() const;
   IntN material(const IntN& faces) const;

@@ -1,4 +1,4 @@
-// Open cylinder (no caps) between two points (Suffern, chapter 19.5).
+// Cylinder between two points, open unless it has caps (Suffern, chapter 19.5).
 //
 //   <cylinder>
 //     <bottom x="0" y="0" z="0"/> <top x="0" y="2" z="0"/> <radius>0.5</radius> <material>red</material>
@@ -14,12 +14,13 @@ class Cylinder {
   struct Parameters {
     Vec3d bottom{}, top{};  ///< ends of the axis; they differ
     double radius = 0;
+    bool caps = false;  ///< whether disks close it at both ends
   };
   static constexpr std::string_view group = "cylinders";
   static constexpr std::string_view element = "cylinder";
   static Fields<Parameters> fields() {
     return {required("bottom", &Parameters::bottom, a_point), required("top", &Parameters::top, a_point),
-            required("radius", &Parameters::radius, Range::positive)};
+            required("radius", &Parameters::radius, Range::positive), optional("caps", &Parameters::caps)};
   }
 
   static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {

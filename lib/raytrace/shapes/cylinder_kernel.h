@@ -1,5 +1,5 @@
 // Where rays meet cylinders: solved in double, since the part of the ray along the axis cancels, and the axis may be
-// long and thin.
+// long and thin. With caps it is a frustum.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 #include "raytrace/math/doubles.h"
 #include "raytrace/math/kernel.h"
 #include "raytrace/math/ray.h"
-#include "raytrace/math/surface_uv.h"
 #include "raytrace/shapes/cylinder.h"
+#include "raytrace/shapes/frustum.h"
 
 namespace raytrace {
 
@@ -25,6 +25,7 @@ class Kernel<Cylinder> {
     Vec3<T> axis;  ///< unit length, from bottom to top
     T height;
     T radius;
+    T caps;  ///< 1 if it has any, else 0
   };
   static Record<double> record(const Parameters& parameters);
   static Bounds bounds(const Record<double>& cylinder);
@@ -38,15 +39,32 @@ class Kernel<Cylinder> {
   template <class F>
   static SurfacePoint<F> surface(const Record<Doubles<F>>& cylinder, const Ray<F>& ray, const F& distance);
 
-  /// u: the angle about the axis; v: along it, from bottom to top.
+  /// u: the angle about the axis; v: along it, from bottom to top. On a cap v is the distance from the axis.
   template <class F>
-  static SurfaceUv<F> uv(const Record<Doubles<F>>& cylinder, const Vec3<F>& position, const Vec3<F>& normal);
+  static SurfaceUv<F> uv(const Record<Doubles<F>>& cylinder, const Vec3<F>& position, const Vec3<F>& normal) {
+    return frustum_uv<F>(frustum<Doubles<F>>(cylinder), position, normal);
+  }
+
+ private:
+  /// N: double or D; D: Doubles.
+  template <class D, class N>
+  static Frustum<D> frustum(const Record<N>& cylinder) {
+    return {Vec3<D>(cylinder.bottom), Vec3<D>(cylinder.axis), D(cylinder.height), D(cylinder.radius), D(0.0),
+            D(cylinder.caps)};
+  }
+  template <class D, class N, class F>
+  static FrustumRay<D> frustum_ray(const Record<N>& cylinder, const Ray<F>& ray) {
+    return {frustum<D>(cylinder), Vec3<D>(ray.origin), Vec3<D>(ray.direction)};
+  }
 };
 
 template <class F>
 RAYTRACE_INLINE F Kernel<Cylinder>::intersect(const Record<double>& cylinder, const Ray<F>& ray,
                                               const Mask<F>& active) {
   using D = Doubles<F>;
+  if (cylinder.caps > 0)
+    return select(active, frustum_ray<D>(cylinder, ray).nearest(true, D(ray.near), D(ray.far)).to_float(),
+                  infinity<F>());
   const Vec3<D> axis(cylinder.axis);
   const Vec3<D> from_bottom = Vec3<D>(ray.origin) - Vec3<D>(cylinder.bottom);
   const Vec3<D> d(ray.direction);
@@ -86,22 +104,15 @@ SurfacePoint<F> Kernel<Cylinder>::surface(const Record<Doubles<F>>& cylinder, co
   const Vec3<D> normal = normalize(from_bottom - cylinder.axis * height);
   const Vec3<D> on_surface = cylinder.bottom + cylinder.axis * height + normal * cylinder.radius;
   const Vec3<F> position = to_float(on_surface);
-  return {position, to_float(normal), rounding_error(position, F(0))};
-}
-
-template <class F>
-SurfaceUv<F> Kernel<Cylinder>::uv(const Record<Doubles<F>>& cylinder, const Vec3<F>& position, const Vec3<F>&) {
-  using D = Doubles<F>;
-  const Vec3<D> from_bottom = Vec3<D>(position) - cylinder.bottom;
-  const D height = dot(from_bottom, cylinder.axis);
-  const Vec3<F> axis = to_float(cylinder.axis), across = to_float(from_bottom - cylinder.axis * height);
-  return {turns_about(axis, across), (height / cylinder.height).to_float(), cross(axis, across) * F(one_turn),
-          to_float(cylinder.axis * cylinder.height)};
+  const SurfacePoint<F> side{position, to_float(normal), rounding_error(position, F(0))};
+  const auto has_caps = cylinder.caps > D(0.0);
+  if (!any(has_caps)) return side;
+  return select(D::float_mask(has_caps), frustum_ray<D>(cylinder, ray).template surface<F>(D(distance)), side);
 }
 
 inline Kernel<Cylinder>::Record<double> Kernel<Cylinder>::record(const Parameters& parameters) {
   const Vec3d span = parameters.top - parameters.bottom;
-  return {parameters.bottom, normalize(span), length(span), parameters.radius};
+  return {parameters.bottom, normalize(span), length(span), parameters.radius, parameters.caps ? 1.0 : 0.0};
 }
 
 inline Bounds Kernel<Cylinder>::bounds(const Record<double>& cylinder) {

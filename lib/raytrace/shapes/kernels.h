@@ -13,6 +13,9 @@
 // A Record that is no template is of a shape whose objects are few: surface() then takes one of them.
 #pragma once
 
+#include "raytrace/shapes/annulus_kernel.h"
+#include "raytrace/shapes/box_kernel.h"
+#include "raytrace/shapes/cone_kernel.h"
 #include "raytrace/shapes/cylinder_kernel.h"
 #include "raytrace/shapes/disk_kernel.h"
 #include "raytrace/shapes/plane_kernel.h"

@@ -3,6 +3,9 @@
 #pragma once
 
 #include "raytrace/math/type_list.h"
+#include "raytrace/shapes/annulus.h"
+#include "raytrace/shapes/box.h"
+#include "raytrace/shapes/cone.h"
 #include "raytrace/shapes/cylinder.h"
 #include "raytrace/shapes/disk.h"
 #include "raytrace/shapes/instance.h"
@@ -15,7 +18,7 @@
 
 namespace raytrace {
 
-using Shapes = TypeList<Plane, Sphere, Triangle, Cylinder, Torus, Disk, Rectangle>;
+using Shapes = TypeList<Plane, Sphere, Triangle, Cylinder, Torus, Disk, Rectangle, Box, Cone, Annulus>;
 
 /// All that <objects> holds: the shapes; meshes, which are many triangles or quads each; instances of groups.
 using Objects = Appended<Appended<Shapes, Mesh>::type, Instance>::type;

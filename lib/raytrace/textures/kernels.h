@@ -11,3 +11,4 @@
 #include "raytrace/textures/image_kernel.h"
 #include "raytrace/textures/noise_kernel.h"
 #include "raytrace/textures/registry.h"
+#include "raytrace/textures/vertex_color_kernel.h"

@@ -6,9 +6,10 @@
 #include "raytrace/textures/checker.h"
 #include "raytrace/textures/image.h"
 #include "raytrace/textures/noise.h"
+#include "raytrace/textures/vertex_color.h"
 
 namespace raytrace {
 
-using Textures = TypeList<Image, Checker, Noise>;
+using Textures = TypeList<Image, Checker, Noise, VertexColor>;
 
 }  // namespace raytrace

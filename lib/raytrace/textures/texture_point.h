@@ -1,6 +1,7 @@
 // Where a surface point lies for its textures.
 #pragma once
 
+#include "raytrace/math/color.h"
 #include "raytrace/math/vec2.h"
 #include "raytrace/math/vec3.h"
 
@@ -15,6 +16,7 @@ struct TexturePoint {
   Vec3<F> p_across, p_along;
   Vec2<F> uv;
   Vec2<F> uv_across, uv_along;
+  Rgb<F> vertex_color;  ///< between those of the mesh's vertices; white where there are none
 };
 
 /// How much of a coordinate is covered, of which the axes cover so much.
