@@ -184,9 +184,8 @@ class CeilingOfVariant final : public Ceiling {
       if (sample < first_sample) continue;
       const MaskN all(true);
       CameraRays made;
-      const auto lens_center = [] { return Sample2D{FloatN(0.5f), FloatN(0.5f)}; };
       scene_.tables().set_camera_rays(FloatN::load_aligned(xs) + point.x, FloatN::load_aligned(ys) + point.y,
-                                      lens_center, made);
+                                      {FloatN(0), FloatN(0)}, made);
       Ray<FloatN>& rays = made.rays;
       CameraPacket& packet = camera.emplace_back();
       embree::store_rays(rays, packet.ray());

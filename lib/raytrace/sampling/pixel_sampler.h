@@ -104,7 +104,7 @@ class PixelSampler {
 };
 
 /// A sample of the pixel's square as the filter places it: from the same corner, and perhaps beyond the square.
-[[gnu::noinline]] inline Sample2D filtered(const FilterTable& filter, const Sample2D& sample) {
+inline Sample2D filtered(const FilterTable& filter, const Sample2D& sample) {
   const auto along_axis = [&](const FloatN& u) {
     const FloatN share = abs(u * FloatN(2) - FloatN(1)) * FloatN(float{FilterTable::intervals});
     const IntN interval = min(to_int(share), IntN(std::int32_t{FilterTable::intervals} - 1));

@@ -10,9 +10,6 @@ namespace {
 template <class CameraKernel>
 constexpr bool has_lens = requires(const CameraKernel& camera, const FloatN& f) { camera.generate(f, f, f, f); };
 
-template <class CameraKernel>
-constexpr bool has_gaps = requires(const CameraKernel& camera, const FloatN& f) { camera.has_ray(f, f); };
-
 template <class F, class CameraKernel>
 Ray<F> generate(const CameraKernel& camera, const F& x, const F& y, const Sample2D& lens) {
   if constexpr (has_lens<CameraKernel>)
@@ -30,8 +27,11 @@ void SceneTables::set_camera(const SceneDescription& description) {
     const Kernel<Type> camera(moved<Type>(*parameters), viewplane_);
     camera_ = camera;
     camera_has_lens_ = has_lens<Kernel<Type>>;
+<<<<<<< HEAD
     camera_has_gaps_ = has_gaps<Kernel<Type>>;
     set_ray_cone(camera);
+=======
+>>>>>>> cameras
     if constexpr (requires { camera.origin(); })
       if (!camera_is_far()) camera_origin_ = BufferOrigin{camera.origin()};
     const CameraMatrices matrices = Type::matrices(*parameters, viewplane_);
@@ -58,22 +58,14 @@ bool SceneTables::camera_is_far_from(const BoundingSphere& sphere, const SceneDe
   return sphere.radius >= 0 && length(eye - sphere.center) > far * sphere.radius;
 }
 
-void SceneTables::set_rays_of_any_camera(const FloatN& x, const FloatN& y, const Sample2D& lens,
-                                         CameraRays& result) const {
-  std::visit(
+MaskN SceneTables::set_camera_rays(const FloatN& x, const FloatN& y, const Sample2D& lens, CameraRays& result) const {
+  return std::visit(
       [&](const auto& camera) {
         if (camera_is_far())
           result = rays_at(*camera_target_, generate<Doubles<FloatN>>(camera, x, y, lens));
         else
           result = {generate<FloatN>(camera, x, y, lens), FloatN(0)};
-      },
-      *camera_);
-}
-
-MaskN SceneTables::has_ray(const FloatN& x, const FloatN& y) const {
-  return std::visit(
-      [&](const auto& camera) {
-        if constexpr (has_gaps<decltype(camera)>)
+        if constexpr (requires { camera.has_ray(x, y); })
           return camera.has_ray(x, y);
         else
           return MaskN(true);

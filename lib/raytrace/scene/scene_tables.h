@@ -47,24 +47,12 @@ class SceneTables {
   const ViewPlane& viewplane() const { return viewplane_; }
   /// Raycast where the description leaves it open.
   const IntegratorParameters& integrator() const { return integrator_; }
-  /// Sets rays through points of the picture, as cameras/kernels.h has them. lens_sample(): a Sample2D, for cameras
-  /// with a lens.
-  template <class LensSample>
-  RAYTRACE_INLINE void set_camera_rays(const FloatN& x, const FloatN& y, const LensSample& lens_sample,
-                                       CameraRays& result) const {
-    // The first of the registry, which most scenes have, goes no way around.
-    if (const auto* const camera = std::get_if<0>(&*camera_); camera != nullptr && !camera_is_far()) [[likely]] {
-      result.rays = camera->template generate<FloatN>(x, y);
-      result.skipped = FloatN(0);
-    } else {
-      const FloatN at_x = x, at_y = y;  // so that x and y themselves may stay in registers
-      set_rays_of_any_camera(at_x, at_y, camera_has_lens_ ? lens_sample() : Sample2D{FloatN(0), FloatN(0)}, result);
-    }
-  }
-  /// Whether there are points of the picture without a ray; they are black.
-  bool camera_has_gaps() const { return camera_has_gaps_; }
-  /// Where there are, the points with one.
-  MaskN has_ray(const FloatN& x, const FloatN& y) const;
+  /// Sets rays through points of the picture, as cameras/kernels.h has them. lens: where on the camera's lens, if
+  /// camera_has_lens(). The result: the lanes that have a ray; the picture is black in the others.
+  MaskN set_camera_rays(const FloatN& x, const FloatN& y, const Sample2D& lens, CameraRays& result) const;
+  bool camera_has_lens() const { return camera_has_lens_; }
+  /// The camera, if it is of the first type, whose rays always exist, and is not far away, as most are; else null.
+  const auto* usual_camera() const { return camera_is_far() ? nullptr : std::get_if<0>(&*camera_); }
   /// Whether the camera is so far away from all objects with bounds that its rays start at them.
   bool camera_is_far() const { return camera_target_.has_value(); }
   /// Unit length.
@@ -117,7 +105,6 @@ class SceneTables {
     for (const auto member : point_members<Type>()) parameters.*member += -origin_;
     return parameters;
   }
-  void set_rays_of_any_camera(const FloatN& x, const FloatN& y, const Sample2D& lens, CameraRays& result) const;
   void set_camera(const SceneDescription& description);
   bool camera_is_far_from(const BoundingSphere& sphere, const SceneDescription& description) const;
   void add_lights(const SceneDescription& description);
@@ -140,7 +127,7 @@ class SceneTables {
   std::optional<KernelVariant<Cameras>::type> camera_;
   std::optional<BoundingSphere> camera_target_;  ///< around all objects with bounds, if it is far
   Vec3f viewing_direction_{};
-  bool depth_is_distance_ = false, camera_has_lens_ = false, camera_has_gaps_ = false;
+  bool depth_is_distance_ = false, camera_has_lens_ = false;
   std::optional<BufferOrigin> camera_origin_;
   Rgb<float> ambient_radiance_{0, 0, 0};
   LightBounds light_bounds_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include "raytrace/sampling/pixel_sampler.h"
 #include "raytrace/tracing/block_aovs.h"
@@ -32,7 +33,8 @@ class BlockRenderer {
                                                 : Rgb<float>(scene.tables().viewplane().background)),
         scale_(film.settings().unit_exponent),
         group_(Block::slots(), shape.samples),
-        scrambles_(film.settings().seed) {}
+        scrambles_(film.settings().seed),
+        usual_camera_(scene.tables().pixel_filter().moves_samples() ? nullptr : scene.tables().usual_camera()) {}
 
   /// Continues all pixels to `samples` each; returns early if it is stopped.
   RenderReport render(std::uint32_t samples) {
@@ -103,24 +105,21 @@ class BlockRenderer {
     PixelSampler sampler(scramble_of(block), group_, base, settings.samples.centered);
     BlockSums<Block> sums(scale_);
     FirstHits first;
-    const FilterTable& filter = scene_.tables().pixel_filter();
     for (int packets = 1; base < left.last; base += group, ++packets) {
       const UintN sample = UintN(base) + slot;
       const bool all_wanted = base >= left.all_from && left.last - base >= group;
       const MaskN wanted = all_wanted ? active : active & in_range(sample, left.lane_first, UintN(left.last));
-      Sample2D point = sampler.next();
-      if (filter.moves_samples()) [[unlikely]]
-        point = filtered(filter, Sample2D(point));  // copies, so that the points themselves stay in registers
-      const FloatN px = x + point.x, py = y + point.y;
-      MaskN traced = active;
-      if (scene_.tables().camera_has_gaps()) [[unlikely]]
-        traced = active & scene_.tables().has_ray(FloatN(px), FloatN(py));
+      const Sample2D point = sampler.next();
       CameraRays camera;
-      scene_.tables().set_camera_rays(px, py, [&] { return lens_sample(block, sample); }, camera);
+      MaskN traced = active;
+      if (usual_camera_ != nullptr) [[likely]] {
+        camera = {usual_camera_->template generate<FloatN>(x + point.x, y + point.y), FloatN(0)};
+      } else {
+        traced = active & set_camera_rays(block, FloatN(x), FloatN(y), Sample2D(point), UintN(sample), camera);
+      }
       RayResult result = Kernel<Integrator>::radiance(scene_, background_, camera, traced, wanted, report_.rays,
                                                       aovs != nullptr ? &first : nullptr);
-      if (scene_.tables().camera_has_gaps()) [[unlikely]]
-        result.radiance = select(traced, result.radiance, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
+      if (usual_camera_ == nullptr) result.radiance = select(traced, result.radiance, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
       const MaskN large = sums.add(result, wanted);
       if (aovs != nullptr) {
         const auto* const textures = first.textures ? &*first.textures : nullptr;
@@ -136,9 +135,17 @@ class BlockRenderer {
     sums.add_to(film_, block, region_);
   }
 
-  [[gnu::noinline]] Sample2D lens_sample(const Block& block, const UintN& sample) const {
-    const UintN pixel = pixel_hash(UintN(block.columns()), UintN(block.rows()), film_.settings().seed);
-    return get_2d(pixel, sample, Dimension::lens);
+  /// Of any camera and pixel filter. The arguments are copies of the innermost loop's, which stay in registers there.
+  [[gnu::noinline]] MaskN set_camera_rays(const Block& block, const FloatN& x, const FloatN& y, const Sample2D& point,
+                                          const UintN& sample, CameraRays& camera) const {
+    const SceneTables& tables = scene_.tables();
+    const Sample2D placed = tables.pixel_filter().moves_samples() ? filtered(tables.pixel_filter(), point) : point;
+    Sample2D lens{FloatN(0), FloatN(0)};
+    if (tables.camera_has_lens()) {
+      const UintN pixel = pixel_hash(UintN(block.columns()), UintN(block.rows()), film_.settings().seed);
+      lens = get_2d(pixel, sample, Dimension::lens);
+    }
+    return tables.set_camera_rays(x + placed.x, y + placed.y, lens, camera);
   }
 
   /// Pixels of the picture, and those beyond it that are wanted.
@@ -189,6 +196,7 @@ class BlockRenderer {
   SumScale scale_;
   SampleGroup group_;
   PixelScrambles scrambles_;
+  decltype(std::declval<SceneTables>().usual_camera()) usual_camera_;  ///< if samples stay in their pixels
   RenderReport report_;
 };
 
