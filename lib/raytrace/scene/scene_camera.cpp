@@ -27,11 +27,7 @@ void SceneTables::set_camera(const SceneDescription& description) {
     const Kernel<Type> camera(moved<Type>(*parameters), viewplane_);
     camera_ = camera;
     camera_has_lens_ = has_lens<Kernel<Type>>;
-<<<<<<< HEAD
-    camera_has_gaps_ = has_gaps<Kernel<Type>>;
     set_ray_cone(camera);
-=======
->>>>>>> cameras
     if constexpr (requires { camera.origin(); })
       if (!camera_is_far()) camera_origin_ = BufferOrigin{camera.origin()};
     const CameraMatrices matrices = Type::matrices(*parameters, viewplane_);
