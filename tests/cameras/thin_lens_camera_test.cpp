@@ -26,16 +26,13 @@ ThinLensCamera::Parameters lens_at(const Vec3d& eye, const Vec3d& lookat, double
   return parameters;
 }
 
-/// n x n points of the unit square, packet by packet: f(u1, u2).
+/// So many points, evenly over the unit square, packet by packet: f(u1, u2).
 template <class Function>
-void for_each_point(int n, const Function& f) {
-  for (int i = 0; i < n * n; i += static_cast<int>(lanes)) {
-    const auto along = [&](int divisor) {
-      return batch_of<FloatN>([&](std::size_t lane) {
-        return ((i + static_cast<int>(lane)) / divisor % n + 0.5) / static_cast<double>(n);
-      });
-    };
-    f(along(1), along(n));
+void for_each_point(int count, const Function& f) {
+  for (int i = 0; i < count; i += static_cast<int>(lanes)) {
+    const auto number = [&](std::size_t lane) { return i + static_cast<double>(lane); };
+    f(batch_of<FloatN>([&](std::size_t lane) { return (number(lane) + 0.5) / count; }),
+      batch_of<FloatN>([&](std::size_t lane) { return std::fmod(number(lane) * 0.6180339887498949, 1); }));
   }
 }
 
@@ -53,7 +50,7 @@ TEST_CASE("rays from all over a lens meet where the pinhole's ray meets the plan
       for (const float y : {-120.0f, 0.5f}) {
         const Vec3d to = frame.u * (0.8 * double{x}) + frame.v * (0.8 * double{y}) - frame.w * 400.0;
         const Vec3d in_focus = eye + to * (7.0 / 400);
-        for_each_point(8, [&](const FloatN& u1, const FloatN& u2) {
+        for_each_point(64, [&](const FloatN& u1, const FloatN& u2) {
           const Ray<FloatN> rays = camera.generate(FloatN(x), FloatN(y), u1, u2);
           for (std::size_t lane = 0; lane < lanes; ++lane) {
             const Vec3d origin = lane_of(rays.origin, lane), direction = lane_of(rays.direction, lane);
@@ -85,7 +82,7 @@ TEST_CASE("a lens of no size is a pinhole") {
 TEST_CASE("points of a round lens are uniform, and in the middle where the square's are") {
   const Aperture aperture(0, 0);
   std::vector<double> rings(8), sectors(16);
-  for_each_point(256, [&](const FloatN& u1, const FloatN& u2) {
+  for_each_point(65536, [&](const FloatN& u1, const FloatN& u2) {
     const auto [right, up] = aperture.point(u1, u2);
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       const double x = double{right.get(lane)}, y = double{up.get(lane)}, squared = x * x + y * y;
@@ -109,7 +106,7 @@ TEST_CASE("points of a bladed lens are uniform over the regular polygon with its
     const double reach = std::cos(std::numbers::pi / blades);  // from the middle to a side
     std::vector<double> sides(static_cast<std::size_t>(blades)), rings(4);
     double beyond = 0;
-    for_each_point(256, [&](const FloatN& u1, const FloatN& u2) {
+    for_each_point(65536, [&](const FloatN& u1, const FloatN& u2) {
       const auto [right, up] = aperture.point(u1, u2);
       for (std::size_t lane = 0; lane < lanes; ++lane) {
         const double x = double{right.get(lane)}, y = double{up.get(lane)};
