@@ -48,6 +48,8 @@ void LeavingTally::count(const ShapeCase& shape, const ProbeRay& ray, const Prob
   // surroundings.
   const Real offset = length(exact_vector(leaving.origin) - p);
   if (offset * 64 > shape.shape->smallest_extent()) return;
+  // At an edge the point may be on either face, and leave one of them through the other.
+  if (arriving.clearance < 4 * offset) return;
 
   ++rays;
   const reference::Crossings ahead = reference::crossings_leaving(*shape.shape, {p, direction});
