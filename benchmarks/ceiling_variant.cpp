@@ -132,6 +132,7 @@ class CeilingOfVariant final : public Ceiling {
     embree::Query query(true);
     embree::load<FloatN>([&](int i) { return packet.rays[i].ray.tfar; }).store_aligned(query.nearest.distance);
     UintN(embree::NearestHits::none).store_aligned(query.nearest.geometry);
+    UintN(0u).store_aligned(query.nearest.instance);
     const embree::ValidLanes valid(packet.valid);
     embree::for_each_packet(packet.valid, [&](int i) {
       embree::RegisterPacket::intersect(valid.lanes[i], embree_scene(), query, packet.rays[i]);
@@ -158,7 +159,7 @@ class CeilingOfVariant final : public Ceiling {
     for (const auto& item : std::get<ObjectItems<Plane>>(description.objects))
       planes_.records.push_back(Kernel<Plane>::record(item.parameters));
     const embree::Geometry planes(rtcNewGeometry(rtcGetSceneDevice(embree_scene()), RTC_GEOMETRY_TYPE_USER));
-    set_callbacks<BoxedPlane>(planes.get(), planes_.records);
+    set_callbacks(planes.get(), planes_);
     rtcCommitGeometry(planes.get());
     rtcAttachGeometry(embree_scene(), planes.get());
     rtcCommitScene(embree_scene());
