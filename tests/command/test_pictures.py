@@ -199,6 +199,17 @@ class Pictures(CommandTest):
         self.assertAlmostEqual(seen[0] / seen[3], 0.5, delta=1e-5)
         self.assertAlmostEqual(seen[1] / seen[3], 0.5, delta=1e-5)
 
+    def test_pictures_that_no_matrix_leads_to_say_none(self):
+        fisheye = support.SCENE.replace("<viewdistance>80</viewdistance>", "").replace("camera>", "fisheyecamera>")
+        self.write("scene.xml", fisheye)
+        self.succeed("scene.xml", "-q", "--tile", "0/2", "-o", "a.exr", "-o", "a.png")
+        self.succeed("scene.xml", "-q", "--tile", "1/2", "-o", "b.exr")
+        self.succeed("merge", "-q", "a.exr", "b.exr", "-o", "merged.exr")
+        for attributes in (Exr(self.read("a.exr")).attributes, Exr(self.read("merged.exr")).attributes,
+                           Png(self.read("a.png")).text):
+            self.assertIn("worldToCamera", attributes)
+            self.assertNotIn("worldToNDC", attributes)
+
     def test_metadata_has_frame_and_variables(self):
         self.write("scene.xml", support.SCENE.replace("<radius>1</radius>", "<name>$who</name><radius>$size</radius>"))
         self.succeed("scene.xml", "-q", "--frames", "-3", "-D", "who=a b\\=c", "-D", "size=2", "-o", "a.exr", "-o", "a.png")

@@ -62,10 +62,10 @@ std::vector<std::string> names_of(const reference::Scene& scene) {
 /// Whether all AOVs of the pixel are those of the reference's hit; `scale`: of the scene's coordinates.
 bool agrees(const Aovs& got, const reference::Scene& scene, const SceneDescription& description, int x, int y) {
   const reference::Ray ray = reference::camera_ray(scene, x, scene.vres - 1 - y, 0.5L, 0.5L);
-  const auto hit =
-      reference::has_ray(scene, x, scene.vres - 1 - y, 0.5L, 0.5L) ? reference::nearest_hit(scene, ray) : std::nullopt;
+  const auto hit = reference::nearest_hit(scene, ray);
   const auto id = got.at<std::uint32_t>("id.object", x, y);
-  if (!hit) return id == 0 && got.at("Z", x, y) == 1e30F;
+  if (!hit || !reference::has_ray(scene, x, scene.vres - 1 - y, 0.5L, 0.5L))
+    return id == 0 && got.at("Z", x, y) == 1e30F;
   const reference::Object& object = scene.objects[hit->object];
   const reference::Material& material = scene.materials[object.material];
   if (id == 0 || object_names(description).at(id - 1) != names_of(scene)[hit->object]) return false;

@@ -15,7 +15,7 @@ namespace raytrace::test {
 
 namespace {
 
-ScrambledPoint<std::uint32_t> point(std::uint32_t column, std::uint32_t index) {
+ScrambledPoint<std::uint32_t> lens_point_of(std::uint32_t column, std::uint32_t index) {
   return scrambled_point(pixel_hash(column, std::uint32_t{7}, 3), index, Dimension::lens);
 }
 
@@ -34,7 +34,7 @@ TEST_CASE("each run of 2^k samples of a pixel has one in each of its boxes") {
         for (int a = 0; a <= k; ++a) {
           std::set<std::pair<std::uint64_t, std::uint64_t>> boxes;
           for (std::uint32_t i = 0; i < count; ++i) {
-            const auto [x, y] = point(column, run * count + i);
+            const auto [x, y] = lens_point_of(column, run * count + i);
             boxes.emplace(std::uint64_t{x} << a >> 32, std::uint64_t{y} << (k - a) >> 32);
           }
           INFO("pixel " << column << ", run " << run << " of 2^" << k << ", boxes 2^" << a << " across");
@@ -61,11 +61,11 @@ TEST_CASE("over pixels, each sample is uniform, and has nothing to do with its n
     std::vector<double> square(256), next_pixel(256), next_sample(256), in_pixel_x(256), in_pixel_y(256);
     SobolSequence sequence(index);
     for (std::uint32_t column = 0; column < pixels; ++column) {
-      const auto [x, y] = point(column, index);
+      const auto [x, y] = lens_point_of(column, index);
       ++square[box(x) * 16 + box(y)];
-      if (column % 2 == 0) ++next_pixel[box(x) * 16 + box(point(column + 1, index).x)];
+      if (column % 2 == 0) ++next_pixel[box(x) * 16 + box(lens_point_of(column + 1, index).x)];
       // Samples 2k and 2k + 1 lie in different halves: another pair.
-      ++next_sample[box(x) * 16 + box(point(column, index + 1024).y)];
+      ++next_sample[box(x) * 16 + box(lens_point_of(column, index + 1024).y)];
       const PixelScramble<std::uint32_t> shift(column, std::uint32_t{7}, 3);
       ++in_pixel_x[box(x) * 16 + box(sequence.point().x ^ shift.x)];
       ++in_pixel_y[box(y) * 16 + box(sequence.point().y ^ shift.y)];
@@ -87,7 +87,7 @@ TEST_CASE("a smooth mean over a pixel's place and its lens together converges fa
     double sum = 0;
     for (std::uint32_t i = 0; i < samples; ++i) {
       const SobolSequence sequence(i);
-      const auto [u, v] = point(column, i);
+      const auto [u, v] = lens_point_of(column, i);
       sum += std::cos(fraction(sequence.point().x ^ shift.x) + fraction(u)) *
              std::cos(fraction(sequence.point().y ^ shift.y) + fraction(v));
     }
