@@ -57,6 +57,27 @@ TEST_CASE("reference: a cylinder has no caps") {
   CHECK(at(through_the_top, 0) == 2);
 }
 
+TEST_CASE("reference: boxes, cones, annuli and caps are crossed where the formula says") {
+  const auto check = [](const Shape& shape, const Ray& ray, double first, double second) {
+    INFO(shape.element() << shape.parameters());
+    const Crossings crossings = shape.crossings(ray);
+    REQUIRE(crossings.count == 2);
+    CHECK(at(crossings, 0) == Approx(first));
+    CHECK(at(crossings, 1) == Approx(second));
+  };
+  check(Box({0, 0, 0}, {1, 2, 4}), {{0.5L, 0.5L, -2}, {0, 0, 2}}, 1, 3);
+  CHECK(Box({0, 0, 0}, {1, 2, 4}).crossings({{0.5L, 2.5L, -2}, {0, 0, 2}}).count == 0);
+  check(CappedCylinder({0, -1, 0}, {0, 3, 0}, 2), {{1, -5, 0}, {0, 1, 0}}, 4, 8);
+  check(CappedCylinder({0, -1, 0}, {0, 3, 0}, 2), {{0, 4, 0}, {1, -1, 0}}, 1, 2);
+  for (const bool caps : {false, true}) check(Cone({0, 0, 0}, {0, 4, 0}, 2, 0, caps), {{-5, 2, 0}, {1, 0, 0}}, 4, 6);
+  check(Cone({0, 0, 0}, {0, 4, 0}, 2, 0, true), {{1, 9, 0}, {0, -1, 0}}, 7, 9);
+  CHECK(Cone({0, 0, 0}, {0, 4, 0}, 2, 0, false).crossings({{1, 9, 0}, {0, -1, 0}}).count == 1);
+  CHECK(Cone({0, 0, 0}, {0, 4, 0}, 2, 0, true).crossings({{-5, 4.5L, 0}, {1, 0, 0}}).count == 0);
+  const Annulus annulus({0, 0, 0}, {0, 1, 0}, 2, 1);
+  CHECK(at(annulus.crossings({{1.5L, 3, 0}, {0, -1, 0}}), 0) == 3);
+  CHECK(annulus.crossings({{0.5L, 3, 0}, {0, -1, 0}}).count == 0);
+}
+
 TEST_CASE("reference: a torus is crossed four times through its plane, twice along its axis's side") {
   const Torus torus({1, 1, 1}, {0, 0, 5}, 3, 0.5L);
   const Crossings through = torus.crossings({{-9, 1, 1}, {1, 0, 0}});
