@@ -56,15 +56,18 @@ class Kernel<Cylinder> {
   static FrustumRay<D> frustum_ray(const Record<N>& cylinder, const Ray<F>& ray) {
     return {frustum<D>(cylinder), Vec3<D>(ray.origin), Vec3<D>(ray.direction)};
   }
+  template <class F>
+  static F intersect_closed(const Record<double>& cylinder, const Ray<F>& ray) {
+    using D = Doubles<F>;
+    return frustum_ray<D>(cylinder, ray).nearest(true, D(ray.near), D(ray.far)).to_float();
+  }
 };
 
 template <class F>
 RAYTRACE_INLINE F Kernel<Cylinder>::intersect(const Record<double>& cylinder, const Ray<F>& ray,
                                               const Mask<F>& active) {
   using D = Doubles<F>;
-  if (cylinder.caps > 0)
-    return select(active, frustum_ray<D>(cylinder, ray).nearest(true, D(ray.near), D(ray.far)).to_float(),
-                  infinity<F>());
+  if (cylinder.caps > 0) return select(active, intersect_closed(cylinder, ray), infinity<F>());
   const Vec3<D> axis(cylinder.axis);
   const Vec3<D> from_bottom = Vec3<D>(ray.origin) - Vec3<D>(cylinder.bottom);
   const Vec3<D> d(ray.direction);
