@@ -59,7 +59,6 @@ void randomize(Random& random, Range range, Vec3d& value) {
 void randomize(Random& random, Range range, Vec2d& value) {
   value = {random_number(random, range), random_number(random, range)};
 }
-void randomize(Random& random, Range, std::string& value) { value = random_name(random); }
 void randomize(Random& random, Range range, Rgb<double>& value) {
   value = {random_number(random, range), random_number(random, range), random_number(random, range)};
 }
@@ -92,7 +91,6 @@ bool same(const NumberGroups& a, const NumberGroups& b) { return a == b; }
 bool same(const WordOrGroups& a, const WordOrGroups& b) { return a == b; }
 bool same(const Vec3d& a, const Vec3d& b) { return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z); }
 bool same(const Vec2d& a, const Vec2d& b) { return same(a.x, b.x) && same(a.y, b.y); }
-bool same(const std::string& a, const std::string& b) { return a == b; }
 bool same(const ItemReference& a, const ItemReference& b) { return a.type == b.type && a.index == b.index; }
 bool same(const TextureUse& a, const TextureUse& b) {
   return a.field == b.field && same(a.texture, b.texture) && a.channel == b.channel;

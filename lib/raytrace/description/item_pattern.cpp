@@ -27,7 +27,7 @@ bool read_plain(std::string_view text, Range range, std::size_t component, const
           return !parse_boolean(text, *value);
         else if constexpr (std::is_same_v<Target, ChoiceReference>)
           return !parse_choice(text, value);
-        else if constexpr (std::is_same_v<Target, std::string_view*> || std::is_same_v<Target, std::string*>)
+        else if constexpr (std::is_same_v<Target, std::string_view*>)
           return *value = text, !text.empty() && text.front() != ' ' && text.back() != ' ' && !check_label(text);
         else if constexpr (std::is_same_v<Target, FileName*> || std::is_same_v<Target, NumberGroups*> ||
                            std::is_same_v<Target, WordOrGroups*> || std::is_same_v<Target, Transform*> ||

@@ -40,11 +40,11 @@ std::array<bool, 2> is_srgb(ColorSpace space, TexelFormat format) {
 
 class ImageLoader {
  public:
-  ImageLoader(const std::filesystem::path& folder, int threads) : folder_(folder), threads_(threads) {}
+  explicit ImageLoader(int threads) : threads_(threads) {}
 
   /// used: as a colour, as a number. Throws PictureError.
   LoadedImage load(const Image::Parameters& image, const std::array<bool, 2>& used) {
-    const std::filesystem::path file = folder_ / image.file;
+    const std::filesystem::path file = image.file.path;
     LoadedImage loaded{file_hash(file), nullptr, nullptr};
     const Picture picture = read_picture(file.string());
     const std::array<bool, 2> srgb = is_srgb(image.colorspace, picture.format);
@@ -59,7 +59,6 @@ class ImageLoader {
   }
 
  private:
-  std::filesystem::path folder_;
   int threads_;
   std::map<std::pair<std::string, bool>, std::shared_ptr<const TexelImage>> texels_;  ///< by hash and colour space
 };
@@ -82,7 +81,7 @@ std::vector<std::array<bool, 2>> image_uses(const SceneDescription& scene) {
 bool load_images(SceneDescription& scene, Diagnostics& diagnostics, int threads, MissingTexture missing) {
   auto& images = std::get<TextureItems<Image>>(scene.textures);
   const auto uses = image_uses(scene);
-  ImageLoader loader(std::filesystem::path(scene.file).parent_path(), threads);
+  ImageLoader loader(threads);
   bool fine = true;
   for (std::size_t i = 0; i < images.size(); ++i) {
     TextureItem<Image>& item = images[i];
@@ -92,8 +91,11 @@ bool load_images(SceneDescription& scene, Diagnostics& diagnostics, int threads,
     } catch (const std::runtime_error& error) {
       const bool warns = missing == MissingTexture::warn;
       fine = fine && warns;
-      diagnostics.add(warns ? Severity::warning : Severity::error, {item.line, 0},
-                      "the texture " + in_quotes(item.parameters.file) + " cannot be used: " + error.what() +
+      const FileName& file = item.parameters.file;
+      const SourceLocation location =
+          file.line > 0 ? SourceLocation{file.line, file.column} : SourceLocation{item.line, 0};
+      diagnostics.add(warns ? Severity::warning : Severity::error, location,
+                      "the texture " + in_quotes(file.path) + " cannot be used: " + error.what() +
                           (warns ? "; it is magenta" : ""));
       if (warns) item.image = {"missing", TexelImage::of_color(255, 0, 255), TexelImage::of_color(255, 0, 255)};
     }

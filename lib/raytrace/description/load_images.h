@@ -5,9 +5,9 @@
 
 namespace raytrace {
 
-/// Loads the files of all images that have not been loaded, relative to the folder of the scene's own file. What cannot
-/// be read is an error in the line of its image or, where `missing` says so, a warning, and magenta. threads: so many
-/// at most share the work; 0: all that the machine has. False if there are errors.
+/// Loads the files of all images that have not been loaded. What cannot be read is an error where the scene names it
+/// or, where `missing` says so, a warning, and magenta. threads: so many at most share the work; 0: all that the
+/// machine has. False if there are errors.
 bool load_images(SceneDescription& scene, Diagnostics& diagnostics, int threads, MissingTexture missing);
 
 }  // namespace raytrace

@@ -120,11 +120,11 @@ class MeshLoader {
                    const std::filesystem::path& folder) {
     auto& images = std::get<TextureItems<Image>>(scene_.textures);
     TextureItem<Image>& image = images.emplace_back();
-    image.parameters.file = (folder / texture.file).string();
+    image.parameters.file.path = (folder / texture.file).string();
     image.parameters.uvscale = {texture.scale[0], texture.scale[1]};
     image.parameters.uvoffset = {texture.offset[0], texture.offset[1]};
     if (texture.clamp) image.parameters.wrap = Wrap::clamp;
-    image.name = image.parameters.file + '#' + std::to_string(images.size());
+    image.name = image.parameters.file.path + '#' + std::to_string(images.size());
     image.imported = true;
     const TextureReference reference{index_of<Image>(Textures{}), static_cast<std::uint32_t>(images.size() - 1)};
     with_type(Materials{}, material.type, [&]<class Material>(std::type_identity<Material>) {
@@ -170,8 +170,7 @@ class MeshLoader {
 
 }  // namespace
 
-bool load_meshes(SceneDescription& description, Diagnostics& diagnostics, int threads,
-                 MissingTexture missing_texture) {
+bool load_meshes(SceneDescription& description, Diagnostics& diagnostics, int threads, MissingTexture missing_texture) {
   const std::size_t errors_before = diagnostics.error_count();
   MeshLoader(description, diagnostics, threads).load();
   load_images(description, diagnostics, threads, missing_texture);

@@ -37,7 +37,7 @@ std::string type_name(Range range) {
   if constexpr (std::is_same_v<Value, int>) return std::string(limits(range).prefix) + "integer";
   if constexpr (std::is_same_v<Value, bool>) return "boolean";
   if constexpr (std::is_same_v<Value, FileName> || std::is_same_v<Value, NumberGroups> ||
-                std::is_same_v<Value, WordOrGroups> || std::is_same_v<Value, Reference> || std::is_same_v<Value, std::string>)
+                std::is_same_v<Value, WordOrGroups> || std::is_same_v<Value, Reference>)
     return "text";
   if constexpr (std::is_same_v<Value, Vec3d>) return std::string(limits(range).prefix) + "vector";
   if constexpr (std::is_same_v<Value, Vec2d>) return std::string(limits(range).prefix) + "pair";

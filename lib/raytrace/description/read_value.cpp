@@ -94,11 +94,6 @@ class ValueReader {
 
   bool operator()(WordOrGroups* value) const {
     return read_text(single_text(), [&](std::string_view text) { return parse_word_or_groups(text, *value); });
-  bool operator()(std::string* value) const {
-    std::string_view text;
-    if (!(*this)(&text)) return false;
-    *value = text;
-    return true;
   }
 
   bool operator()(const ChoiceReference& choice) const {
@@ -350,8 +345,7 @@ std::string example_value(const FieldInfo& info, const FieldTarget& target) {
   const std::string value =
       choice != nullptr                       ? std::string(choice->words()[0])
       : std::holds_alternative<bool*>(target) ? "true"
-      : std::holds_alternative<std::string_view*>(target) || std::holds_alternative<std::string*>(target) ||
-              std::holds_alternative<Reference*>(target) ? "..."
+      : std::holds_alternative<std::string_view*>(target) || std::holds_alternative<Reference*>(target) ? "..."
       : std::holds_alternative<FileName*>(target)                                                       ? "model.ply"
       : std::holds_alternative<NumberGroups*>(target) || std::holds_alternative<WordOrGroups*>(target)
           ? "0 0 0, 1 0 0, 0 1 0"

@@ -114,9 +114,8 @@ std::vector<AttributeField> texture_fields(TextureAttributes& texture, bool is_n
 std::string example_of(std::string_view element, std::span<const AttributeField> fields, Element source = Element());
 
 /// Where a field's value goes. A string_view is a label, such as a name: it views the Document's text.
-using FieldTarget =
-    std::variant<double*, int*, bool*, ChoiceReference, std::string_view*, std::string*, Vec3d*, Vec2d*, Rgb<double>*,
-                 FileName*, NumberGroups*, WordOrGroups*, Transform*, Reference*>;
+using FieldTarget = std::variant<double*, int*, bool*, ChoiceReference, std::string_view*, Vec3d*, Vec2d*, Rgb<double>*,
+                                 FileName*, NumberGroups*, WordOrGroups*, Transform*, Reference*>;
 
 /// The attributes of vectors and colors, in the order of their members; none of other values.
 std::span<const std::string_view> component_names(const FieldTarget& target);

@@ -53,6 +53,11 @@ class SceneHash {
         const Item& item = items[i];
         if constexpr (requires { item.data; }) {
           hash.add_mesh(fields, item);
+        } else if constexpr (requires { item.image; }) {
+          for (const auto& field : fields)
+            if (field.name != "file" || item.image.hash.empty())
+              field.visit(item.parameters, [&](const auto& value) { hash.add(value); });
+          hash.add(item.image.hash);
         } else {
           hash.add_parameters(fields, item.parameters);
         }
@@ -64,7 +69,6 @@ class SceneHash {
           }
         }
         if constexpr (requires { item.name; }) hash.add(item.name);
-        if constexpr (requires { item.image; }) hash.add(item.image.hash);
         if constexpr (requires { item.material; }) hash.add_reference(item.material);
         if constexpr (requires { item.textures; }) {
           hash.add(static_cast<std::uint64_t>(item.textures.size()));

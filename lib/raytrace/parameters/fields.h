@@ -129,15 +129,14 @@ struct WordOrGroups {
 };
 
 /// The same, and where its value goes.
-/// double, int, bool, std::string, FileName, Reference, NumberGroups, WordOrGroups, enumerations with Choices: the element's text.
+/// double, int, bool, FileName, Reference, NumberGroups, WordOrGroups, enumerations with Choices: the element's text.
 /// Vec3d, Vec2d and Rgb: attributes (see Components).
 template <class Parameters>
 struct Field : FieldInfo {
   using Choice = std::function<ChoiceReference(Parameters&)>;
-  using Member = std::variant<double Parameters::*, int Parameters::*, bool Parameters::*, std::string Parameters::*,
-                              Choice, Vec3d Parameters::*, Vec2d Parameters::*,
-                              Rgb<double> Parameters::*, FileName Parameters::*, NumberGroups Parameters::*,
-                              WordOrGroups Parameters::*, Reference Parameters::*>;
+  using Member = std::variant<double Parameters::*, int Parameters::*, bool Parameters::*, Choice, Vec3d Parameters::*,
+                              Vec2d Parameters::*, Rgb<double> Parameters::*, FileName Parameters::*,
+                              NumberGroups Parameters::*, WordOrGroups Parameters::*, Reference Parameters::*>;
   Member member;
 
   template <class Value>

@@ -45,7 +45,7 @@ struct Choices<TextureFilter> {
 class Image {
  public:
   struct Parameters {
-    std::string file;  ///< relative to the folder of the scene's file
+    FileName file;
     ColorSpace colorspace = ColorSpace::automatic;
     Wrap wrap = Wrap::repeat;
     TextureFilter filter = TextureFilter::smart;
@@ -63,6 +63,10 @@ class Image {
             optional("uvscale", &Parameters::uvscale),
             optional("uvoffset", &Parameters::uvoffset),
             optional("uvrotation", &Parameters::uvrotation)};
+  }
+  static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {
+    if (!parameters.file.path.empty()) return std::nullopt;
+    return ParameterDiagnostic{ParameterDiagnostic::Effect::error, "an image needs a <file>"};
   }
 };
 
