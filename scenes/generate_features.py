@@ -594,7 +594,7 @@ SMALL = "<hres>160</hres> <vres>120</vres> <pixelsize>2</pixelsize>"
 for samples in (1, 4, 16, 64):
     write(
         f"samples-{samples}",
-        f"{samples} sample{'s' if samples > 1 else ''} a pixel, on thin spokes.",
+        f"{samples} sample{'s' if samples > 1 else ''} per pixel, on thin spokes.",
         room=ROOM.replace("<samples>16", f"<samples>{samples}").replace("<hres>320</hres> <vres>240</vres>", SMALL),
         floor="",
         objects=f"    <cylinders>\n{FAN}    </cylinders>\n",
