@@ -177,8 +177,8 @@ TEST_CASE("the albedo of a textured surface is the texture's, times its own") {
     red += std::abs(value(0) - 0.45) < 1e-3 && std::abs(value(1) - 0.05) < 1e-3 && std::abs(value(2) - 0.05) < 1e-3;
     black += value(0) == 0 && value(1) == 0;
   }
-  CHECK(red > 30);
-  CHECK(black > 30);
+  CHECK(red > 10);
+  CHECK(black > 10);
 }
 
 TEST_CASE("the film's unit leaves room for what textures multiply") {

@@ -36,8 +36,9 @@ void* load_module() {
     if (says_out_of_memory(reason) || reason.find("failed to map segment") != std::string::npos) throw std::bad_alloc();
     reasons += (reasons.empty() ? " " : "; ") + reason;
   }
-  throw OutputError("textures, and formats other than EXR and PNG, need the module raytrace_openimageio.so, which cannot be loaded:" +
-                    reasons);
+  throw OutputError(
+      "textures, and formats other than EXR and PNG, need the module raytrace_openimageio.so, which cannot be loaded:" +
+      reasons);
 }
 
 template <class Function>
