@@ -24,14 +24,14 @@ class Textures(CommandTest):
 
     def test_files_are_relative_to_the_scene_and_its_printed_form_is_the_same_scene(self):
         wanted = Exr(self.render("there/scene.xml", "a.exr")).rows
-        self.write("there/printed.xml", self.succeed("there/scene.xml", "--print-scene").stdout)
-        self.assertEqual(Exr(self.render("there/printed.xml", "b.exr")).rows, wanted)
+        self.write("printed.xml", self.succeed("there/scene.xml", "--print-scene").stdout)
+        self.assertEqual(Exr(self.render("printed.xml", "b.exr")).rows, wanted)
 
     def test_a_missing_picture_is_an_error_before_anything_is_rendered(self):
         os.remove(self.picture)
         for option in (["--validate"], ["-o", "a.png"]):
             message = self.fail_with(1, "there/scene.xml", *option)
-            self.assertRegex(message, r"there/scene\.xml:[0-9]+: error: the texture 'images/bricks\.png' cannot be used")
+            self.assertRegex(message, r"there/scene\.xml:[0-9]+:[0-9]+: error: the texture 'there/images/bricks\.png' cannot be used")
         self.assertFalse(os.path.exists(self.path("a.png")))
 
     def test_or_magenta(self):
