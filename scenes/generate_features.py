@@ -269,7 +269,7 @@ def knot(normals):
         t = 2 * math.pi * ring / rings
         at, ahead = center(t), center(t + 1e-4)
         along = unit([b - a for a, b in zip(at, ahead)])
-        side = unit(cross(along, (0.3, 0.4, 1)))
+        side = unit(cross(along, (0, 0, 1)))
         up = cross(side, along)
         for i in range(sides):
             angle = 2 * math.pi * i / sides
@@ -302,8 +302,8 @@ pawns = "".join(
       </instance>
 """
     for x, z, size, height in (
-        (-2, 1.6, 0.8, 0.8), (-0.7, 1.2, 0.8, 1.2), (0.7, 1.6, 0.8, 0.8), (2, 1.2, 0.8, 1), (-2.6, -0.6, 1, 1.6),
-        (-0.9, -1, 1, 1), (0.9, -0.6, 1, 1.6), (2.6, -1, 1, 1))
+        (-1.6, 1.6, 0.8, 0.8), (-0.6, 1.2, 0.8, 1.1), (0.5, 1.6, 0.8, 0.8), (1.5, 1.2, 0.8, 1), (-2, -0.8, 1, 1.2),
+        (-0.8, -1.2, 1, 1), (0.7, -0.8, 1, 1.2), (2, -1.2, 1, 1))
 )
 write(
     "instances",
