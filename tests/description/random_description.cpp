@@ -6,7 +6,10 @@
 #include <cstdint>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
+
+#include "raytrace/description/read_transform.h"
 
 namespace raytrace::test {
 namespace {
@@ -40,6 +43,7 @@ void randomize(Random& random, Range, const ChoiceReference& value) { value.set(
 void randomize(Random& random, Range, FileName& value) {
   value.path = below(random, 2) == 0 ? "" : "models/" + random_name(random) + ".ply";
 }
+void randomize(Random&, Range, Reference& value) { value.name = "a group"; }
 void randomize(Random& random, Range, NumberGroups& value) {
   // Such as a mesh takes for positions, faces, normals and uvs.
   value = {};
@@ -87,6 +91,7 @@ bool same(int a, int b) { return a == b; }
 bool same(bool a, bool b) { return a == b; }
 bool same(const ChoiceReference& a, const ChoiceReference& b) { return a.index() == b.index(); }
 bool same(const FileName& a, const FileName& b) { return a == b; }
+bool same(const Reference& a, const Reference& b) { return a == b; }
 bool same(const NumberGroups& a, const NumberGroups& b) { return a == b; }
 bool same(const WordOrGroups& a, const WordOrGroups& b) { return a == b; }
 bool same(const Vec3d& a, const Vec3d& b) { return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z); }
@@ -150,6 +155,49 @@ std::vector<TextureUse> random_uses(Random& random, const std::vector<TextureRef
   return uses;
 }
 
+Transform random_transform(Random& random) {
+  Transform transform;
+  for (std::size_t i = below(random, 3); i > 0; --i) {
+    TransformStep step;
+    do {
+      step = {static_cast<TransformStep::Type>(below(random, 4)), {}};
+      for (std::size_t k = 0; k < step.value_count(); ++k) step.values[k] = random_number(random, Range::any);
+      if (step.type == TransformStep::matrix)
+        step.values = {2, 0, 0, step.values[3], 0, 3, 0, 0, 0, 0, 4, 0, 0, 0, 0, 1};
+    } while (check_step(step));
+    transform.steps.push_back(step);
+  }
+  return transform;
+}
+
+/// Instances are of groups that the scene has.
+ObjectLists random_objects(Random& random, const SceneDescription& scene,
+                           const std::vector<MaterialReference>& materials) {
+  ObjectLists objects;
+  int named = 0;
+  for_each_type(Objects{}, [&]<class T>(std::type_identity<T>) {
+    for (std::size_t i = below(random, 8); i > 0; --i) {
+      const std::string name = below(random, 2) == 0 ? "" : random_name(random) + std::to_string(++named);
+      ObjectItem<T> item{random_parameters<T>(random), name, materials[below(random, materials.size())]};
+      item.transform = random_transform(random);
+      if constexpr (std::is_same_v<T, Instance>) {
+        if (scene.groups.empty()) continue;
+        item.parameters.group.name = scene.groups[below(random, scene.groups.size())].name;
+      }
+      if constexpr (requires { T::may_lack_material; })
+        if (below(random, 2) == 0) item.material = no_material;
+      std::get<ObjectItems<T>>(objects).push_back(std::move(item));
+    }
+  });
+  return objects;
+}
+
+bool same_objects(const ObjectLists& a, const ObjectLists& b) {
+  return same_items(Objects{}, a, b, [](const auto& x, const auto& y) {
+    return x.name == y.name && same(x.material, y.material) && x.transform == y.transform;
+  });
+}
+
 }  // namespace
 
 SceneDescription random_description(Random& random) {
@@ -188,14 +236,11 @@ SceneDescription random_description(Random& random) {
     }
   });
   if (materials.empty()) return scene;
-  int named = 0;
-  for_each_type(Objects{}, [&]<class T>(std::type_identity<T>) {
-    for (std::size_t i = below(random, 8); i > 0; --i) {
-      const std::string name = below(random, 2) == 0 ? "" : random_name(random) + std::to_string(++named);
-      std::get<ObjectItems<T>>(scene.objects)
-          .push_back({random_parameters<T>(random), name, materials[below(random, materials.size())]});
-    }
-  });
+  for (std::size_t i = below(random, 3); i > 0; --i) {
+    scene.groups.push_back({random_name(random) + std::to_string(i), random_objects(random, scene, materials)});
+    std::get<ObjectItems<Plane>>(scene.groups.back().objects).clear();
+  }
+  scene.objects = random_objects(random, scene, materials);
   return scene;
 }
 
@@ -212,8 +257,10 @@ bool same_scene(const SceneDescription& a, const SceneDescription& b) {
                              std::equal(x.textures.begin(), x.textures.end(), y.textures.begin(), y.textures.end(),
                                         [](const TextureUse& u, const TextureUse& v) { return same(u, v); });
                     }) &&
-         same_items(Objects{}, a.objects, b.objects,
-                    [](const auto& x, const auto& y) { return x.name == y.name && same(x.material, y.material); });
+         same_objects(a.objects, b.objects) &&
+         std::equal(
+             a.groups.begin(), a.groups.end(), b.groups.begin(), b.groups.end(),
+             [](const Group& x, const Group& y) { return x.name == y.name && same_objects(x.objects, y.objects); });
 }
 
 }  // namespace raytrace::test

@@ -17,6 +17,7 @@ void change(int& value) { ++value; }
 void change(bool& value) { value = !value; }
 void change(std::string& value) { value += "x"; }
 void change(FileName& value) { value.path += "x"; }
+void change(Reference& value) { value.name += "x"; }
 void change(NumberGroups& value) {
   value.numbers.push_back(1);
   value.ends.push_back(static_cast<std::uint32_t>(value.numbers.size()));
@@ -103,6 +104,8 @@ void change_everything(SceneDescription& scene, const Changed& changed) {
     for (auto& object : objects) {
       change_fields<T>(object.parameters, changed);
       change_each(object.name, changed);
+      for (TransformStep& step : object.transform.steps)
+        for (std::size_t k = 0; k < step.value_count(); ++k) change_each(step.values[k], changed);
       for (std::uint32_t* part : {&object.material.type, &object.material.index}) {
         ++*part;
         changed();
