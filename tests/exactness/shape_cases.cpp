@@ -150,9 +150,9 @@ ShapeCase cone_case(Random& random, const Vector& place, double size, bool caps,
   if (random.chance(0.5)) std::swap(bottom_radius, top_radius), std::swap(bottom, top);
   const Vector along = top - bottom;
   const Frame frame(reference::unit(along));
-  const auto ring = [=](Random& r, Real height, Real share) {
-    return bottom + height * along +
-           share * (bottom_radius + height * (top_radius - bottom_radius)) * frame.circle(random_angle(r));
+  const auto ring = [=](Random& r, Real part, Real share) {  // part: of the way up
+    return bottom + part * along +
+           share * (bottom_radius + part * (top_radius - bottom_radius)) * frame.circle(random_angle(r));
   };
   reference::ShapePointer shape;
   if (cylinder) {

@@ -40,7 +40,7 @@ std::string camera_text(const Scene& scene) {
       vector_element("eye", scene.eye) + vector_element("lookat", scene.look_at) + vector_element("up", scene.up);
   if (scene.projection == Projection::pinhole || scene.projection == Projection::thin_lens)
     text += number_element("viewdistance", scene.view_distance);
-  std::string name = "camera";
+  const char* name = "camera";
   if (scene.projection == Projection::thin_lens) {
     name = "thinlenscamera";
     text += number_element("lensradius", scene.lens_radius) + number_element("focaldistance", scene.focal_distance) +
@@ -52,7 +52,7 @@ std::string camera_text(const Scene& scene) {
   } else if (scene.projection == Projection::spherical) {
     name = "sphericalcamera";
   }
-  return "<" + name + ">" + text + "</" + name + ">";
+  return std::string("<") + name + ">" + text + "</" + name + ">";
 }
 
 }  // namespace
