@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "raytrace/aovs/aov_selection.h"
+#include "raytrace/description/check_scene.h"
 #include "render/scenes.h"
 #include "support/catch.h"
 #include "support/temporary_folder.h"
