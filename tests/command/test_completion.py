@@ -51,7 +51,7 @@ class Completion(CommandTest):
         self.assertEqual(self.bash("scene.xml", "--check"), ["--checkpoint", "--checkpoint-interval"])
 
     def test_bash_offers_values(self):
-        self.assertEqual(self.bash("--list", ""), ["aovs", "cameras", "integrators", "lights", "materials", "shapes"])
+        self.assertEqual(self.bash("--list", ""), ["aovs", "cameras", "integrators", "lights", "materials", "shapes", "textures"])
         self.assertEqual(self.bash("--progress", "=", "p"), ["plain"])
         self.assertEqual(self.bash("--progress", "="), ["alf", "auto", "bar", "json", "none", "openjd", "plain"])
         self.assertEqual(self.bash("--isa", ""), sorted(self.isas()))

@@ -55,7 +55,7 @@ class Meshes(CommandTest):
         os.remove(self.path("there/models/one.ply"))
         for option in (["--validate"], ["-o", "a.png"]):
             message = self.fail_with(1, "there/scene.xml", *option)
-            self.assertIn("there/scene.xml:6:76: error: there/models/one.ply: cannot read it: No such file", message)
+            self.assertIn("there/scene.xml:6:69: error: there/models/one.ply: cannot read it: No such file", message)
         self.assertFalse(os.path.exists(self.path("a.png")))
 
     def test_what_is_wrong_in_a_mesh_has_its_own_line(self):

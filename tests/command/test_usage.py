@@ -23,7 +23,7 @@ class Usage(CommandTest):
         self.assertEqual(self.succeed("help", "merge").stdout, self.succeed("merge", "--help").stdout)
         self.assertIn("\nUsage: raytrace SCENE.xml", self.refused())
         self.assertIn("\nUsage: raytrace merge PIECES", self.refused("merge"))
-        self.assertIn("one of shapes, materials", self.refused("--list"))
+        self.assertIn("one of shapes, textures, materials", self.refused("--list"))
         self.assertIn("did you mean 'raytrace merge'?", self.refused("mrege", "a.exr", "b.exr", "-o", "c.exr"))
         self.assertIn("did you mean '--resolution'?", self.refused("scene.xml", "+W640", "+H480", "-o", "a.exr"))
 

@@ -101,7 +101,7 @@ TEST_CASE("the message for an element that stands elsewhere says where it belong
         "unknown element <directionalligth> in <lights>; did you mean <directionallights>?");
   CHECK(explain_misplaced("matt", "raytracer") ==
         "unknown element <matt> in <raytracer>; did you mean <matte>, which belongs in <mattes>?");
-  CHECK(explain_misplaced("cone", "spheres") == "unknown element <cone> in <spheres>; it takes <sphere>");
+  CHECK(explain_misplaced("prism", "spheres") == "unknown element <prism> in <spheres>; it takes <sphere>");
 }
 
 TEST_CASE("a degenerate triangle is a warning and is left out, its name stays taken") {

@@ -165,6 +165,8 @@ std::uint64_t Accelerator::bvh_bytes() const {
 std::vector<std::optional<DirectionBuffer>> Accelerator::direction_buffers(
     std::span<const std::optional<BufferOrigin>> origins, int threads) const {
   std::vector<std::optional<DirectionBuffer>> buffers(origins.size());
+  // Faces of meshes are found as soon by Embree.
+  if (!table_.has_shapes_only()) return buffers;
   if (std::none_of(origins.begin(), origins.end(), [](const auto& origin) { return origin.has_value(); }))
     return buffers;
   auto objects = LargeArray<BoundedObject>::unset(table_.object_count());

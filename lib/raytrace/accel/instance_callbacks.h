@@ -110,10 +110,17 @@ void intersect_instance(const RTCIntersectFunctionNArguments* arguments) {
     }
   }
   RTCRayN* const outer = RTCRayHitN_RayN(arguments->rayhit, size);
+  RTCHitN* const outer_hit = RTCRayHitN_HitN(arguments->rayhit, size);
+  RTCHitN* const inner_hit = RTCRayHitN_HitN(reinterpret_cast<RTCRayHitN*>(&packet), size);
   for (int lane = 0; lane < size; ++lane) {
-    const unsigned id = RTCRayN_id(outer, size, static_cast<unsigned>(lane));
+    const auto i = static_cast<unsigned>(lane);
+    const unsigned id = RTCRayN_id(outer, size, i);
     const bool hit = arguments->valid[lane] != 0 && nearest.instance[id] == number;
-    if (hit) RTCRayN_tfar(outer, size, static_cast<unsigned>(lane)) = behind(nearest.distance[id]);
+    if (hit) {
+      RTCRayN_tfar(outer, size, i) = behind(nearest.distance[id]);
+      RTCHitN_u(outer_hit, size, i) = RTCHitN_u(inner_hit, size, i);
+      RTCHitN_v(outer_hit, size, i) = RTCHitN_v(inner_hit, size, i);
+    }
     if (embree::callback_reports_hits) arguments->valid[lane] = hit ? -1 : 0;
   }
 }

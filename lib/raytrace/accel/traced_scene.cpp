@@ -19,11 +19,6 @@ void TracedScene::make_buffers(int threads) {
   const ViewPlane& viewplane = tables_.viewplane();
   const auto pixels = static_cast<std::uint64_t>(viewplane.hres) * static_cast<std::uint64_t>(viewplane.vres);
   const std::uint64_t affordable = std::min(objects_a_pixel * pixels, most_objects);
-  // They have neither meshes, whose faces Embree finds as soon, nor instances.
-  if (!tables_.geometry().has_shapes_only()) {
-    light_buffers_.resize(tables_.lights().size());
-    return;
-  }
   std::vector<std::optional<BufferOrigin>> origins{tables_.camera_origin()};
   origins.insert(origins.end(), tables_.light_origins().begin(), tables_.light_origins().end());
   std::uint64_t objects = 0;

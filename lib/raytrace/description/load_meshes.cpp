@@ -172,8 +172,10 @@ class MeshLoader {
 
 bool load_meshes(SceneDescription& description, Diagnostics& diagnostics, int threads, MissingTexture missing_texture) {
   const std::size_t errors_before = diagnostics.error_count();
+  const std::size_t images_before = std::get<TextureItems<Image>>(description.textures).size();
   MeshLoader(description, diagnostics, threads).load();
-  load_images(description, diagnostics, threads, missing_texture);
+  if (std::get<TextureItems<Image>>(description.textures).size() > images_before)
+    load_images(description, diagnostics, threads, missing_texture);
   return diagnostics.error_count() == errors_before;
 }
 

@@ -231,7 +231,7 @@ class SceneReader {
     reserve_more(items<Section, T>(), elements);
     std::size_t read_elements = 0;
     read_items(
-        {text_, context_.variables, group, T::element}, arena_, diagnostics_,
+        {text_, context_.variables, context_.folder, group, T::element}, arena_, diagnostics_,
         [&] { return std::make_unique<Items>(names_); },
         [&](std::size_t chunk, ItemList& items) {
           for (auto& entry : static_cast<Items&>(items).entries()) {
@@ -363,7 +363,8 @@ std::optional<SceneDescription> read_scene(TextBuffer text, const std::string& f
   const SceneText scene_text(std::move(text), group_elements(), threads, diagnostics);
   if (!scene_text.well_formed()) return std::nullopt;
   const Variables variables(settings);
-  const ReadContext context{variables, diagnostics, std::filesystem::path(file).parent_path().string()};
+  const std::string folder = std::filesystem::path(file).parent_path().string();
+  const ReadContext context{variables, diagnostics, folder};
   SceneReader reader(scene_text, context, threads);
   reader.read();
   // Where there are errors, not all that stands in the scene has been read.

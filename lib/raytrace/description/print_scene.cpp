@@ -155,7 +155,8 @@ class ScenePrinter : private XmlWriter {
     for (std::size_t i = 0; i < fields.size(); ++i) {
       const auto more = attributes.find(i);
       fields[i].visit(parameters, [&](const auto& value) {
-        if (!is_absent(value)) print_value(fields[i].name, value, more != attributes.end() ? more->second : std::string());
+        if (!is_absent(value))
+          print_value(fields[i].name, value, more != attributes.end() ? more->second : std::string());
       });
     }
   }

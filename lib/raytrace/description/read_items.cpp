@@ -69,7 +69,7 @@ class ChunkReader {
       if (refuse_text(node, group_.element, diagnostics)) continue;
       const Element child = node.element();
       if (child.name() == group_.item_name)
-        items_->read(child, number_, {group_.variables, diagnostics});
+        items_->read(child, number_, {group_.variables, diagnostics, group_.folder});
       else
         diagnostics.error(child, [&] { return explain_misplaced(child.name(), group_.element.name()); });
       ++number_;

@@ -49,6 +49,7 @@ class ItemList {
 struct ItemGroup {
   const SceneText& text;
   const Variables& variables;
+  std::string_view folder;     ///< as ReadContext has it
   Element element;             ///< the group's
   std::string_view item_name;  ///< of its items' elements
 };
@@ -109,7 +110,8 @@ class TypedItemList final : public ItemList {
     Entry& entry = append(element.line(), number);
     Labels labels;
     textures_.clear();
-    entry.usable = fields_.read(element, entry.item.parameters, targets_of(labels, entry.item), context, has_textures ? &textures_ : nullptr);
+    entry.usable = fields_.read(element, entry.item.parameters, targets_of(labels, entry.item), context,
+                                has_textures ? &textures_ : nullptr);
     if constexpr (has_textures) entry.usable &= take_textures(entry.item, context.diagnostics);
     if (take_labels(labels, entry.item)) return;
     entry.usable = false;

@@ -50,7 +50,7 @@ struct TextureItem {
   std::string name;
   std::uint32_t line = 0;
   bool imported = false;  ///< from a mesh's file, which brings it again when it is read again
-  LoadedImage image{};  ///< of an Image, once its file has been loaded (load_images.h)
+  LoadedImage image{};    ///< of an Image, once its file has been loaded (load_images.h)
 };
 
 enum class TextureChannel { red, green, blue, alpha };
@@ -71,7 +71,7 @@ struct MaterialItem {
   typename Material::Parameters parameters;
   std::string name;
   std::uint32_t line = 0;
-  bool imported = false;              ///< from a mesh's file, which brings it again when it is read again
+  bool imported = false;               ///< from a mesh's file, which brings it again when it is read again
   std::vector<TextureUse> textures{};  ///< of a field no more than one
 };
 
