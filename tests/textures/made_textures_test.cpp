@@ -66,7 +66,7 @@ TEST_CASE("a checker has its first colour from (0, 0) to (1, 1) and its second b
     const Rgba<FloatN> squares = Kernel<Checker>(on_surface).at(point_at(points, 0));
     const Rgba<FloatN> cubes = Kernel<Checker>(in_space).at(point_at(points, 0));
     for (std::size_t lane = 0; lane < lanes; ++lane) {
-      const Vec3d p(Vec3f(points[lane]));
+      const Vec3d p{Vec3f(points[lane])};
       const auto blue = [](double sign) { return sign > 0 ? 0.25F : 0.75F; };
       wrong += squares.color.blue.get(lane) != blue(wave(2 * p.x) * wave(3 * p.y));
       wrong += cubes.color.blue.get(lane) != blue(wave(2 * p.x) * wave(2 * p.y) * wave(2 * p.z));
