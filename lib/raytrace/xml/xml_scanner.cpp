@@ -284,13 +284,32 @@ class Scanner : private XmlCursor {
     } else if (starts_with("<!DOCTYPE") && is(here_[9], space)) {
       if (root_seen_ || doctype_seen_) fail(start, "<!DOCTYPE> must stand once, before <raytracer>; remove it");
       doctype_seen_ = true;
-      here_ += std::strcspn(here_, "[>");
-      if (*here_ == '[') fail(here_, "declarations inside <!DOCTYPE> are not part of the scene format; remove them");
-      if (*here_ == '\0') fail(start, "the <!DOCTYPE that starts here never ends; add '>'");
-      ++here_;
+      here_ += 9;
+      document_type(start);
     } else {
       fail(start, "'<!' starts neither a comment (<!-- ... -->) nor anything else that a scene may have");
     }
+  }
+
+  /// The rest of <!DOCTYPE name SYSTEM "file">.
+  void document_type(const char* start) {
+    skip_space();
+    if (is(*here_, name_start)) name();
+    skip_space();
+    const int literals = starts_with("SYSTEM") ? 1 : starts_with("PUBLIC") ? 2 : 0;
+    if (literals > 0) here_ += 6;
+    for (int i = 0; i < literals; ++i) {
+      skip_space();
+      if (*here_ != '"' && *here_ != '\'') break;
+      const char* const end = std::strchr(here_ + 1, *here_);
+      if (end == nullptr) break;
+      here_ = end + 1;
+    }
+    skip_space();
+    if (*here_ == '[') fail(here_, "declarations inside <!DOCTYPE> are not part of the scene format; remove them");
+    if (*here_ == '\0' || *here_ == '<') fail(start, "the <!DOCTYPE that starts here never ends; add '>'");
+    if (*here_ != '>') fail(here_, "unexpected text in <!DOCTYPE>; write <!DOCTYPE raytracer>, or leave it out");
+    ++here_;
   }
 
   [[noreturn]] void refuse_instruction() {
