@@ -60,7 +60,7 @@ class Meshes(CommandTest):
 
     def test_what_is_wrong_in_a_mesh_has_its_own_line(self):
         self.write("there/models/one.ply", (PLY % 0).replace("3 0 1 2", "3 0 1 7"))
-        self.assertIn("there/models/one.ply:15", self.fail_with(1, "there/scene.xml", "--validate"))
+        self.assertIn("there/models/one.ply:16: error", self.fail_with(1, "there/scene.xml", "--validate"))
 
     def test_an_output_is_no_mesh_of_the_scene(self):
         os.rename(self.path("there/models/one.ply"), self.path("there/models/one.png.ply"))
