@@ -130,9 +130,10 @@ SurfaceUv<FloatN> MeshTable::uv(const LaneTriangles& triangles) const {
 }
 
 Rgb<FloatN> MeshTable::color(const LaneTriangles& triangles) const {
-  const Vec3<FloatN> mean = vectors_at(data_->colors.data(), triangles.vertex1) * (FloatN(1) - triangles.u - triangles.v) +
-                            vectors_at(data_->colors.data(), triangles.vertex2) * triangles.u +
-                            vectors_at(data_->colors.data(), triangles.vertex3) * triangles.v;
+  const Vec3<FloatN> mean =
+      vectors_at(data_->colors.data(), triangles.vertex1) * (FloatN(1) - triangles.u - triangles.v) +
+      vectors_at(data_->colors.data(), triangles.vertex2) * triangles.u +
+      vectors_at(data_->colors.data(), triangles.vertex3) * triangles.v;
   return {mean.x, mean.y, mean.z};
 }
 

@@ -30,7 +30,7 @@ class Mesh {
     NumberGroups positions;  ///< x y z of each vertex
     NumberGroups faces;      ///< the vertices of each, from 0, counter-clockwise as its front shows them (face_ends())
     WordOrGroups normals{normals_words, of_file, {}};  ///< one of the words, or x y z of each vertex
-    NumberGroups uvs;                     ///< u v of each vertex; (0, 0) is the lower left of an image
+    NumberGroups uvs;                                  ///< u v of each vertex; (0, 0) is the lower left of an image
   };
   static constexpr std::string_view group = "meshes";
   static constexpr std::string_view element = "mesh";
