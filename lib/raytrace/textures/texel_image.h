@@ -44,7 +44,8 @@ class TexelImage {
   /// The number of a texel among all.
   static std::int64_t index(const Level& level, std::int32_t x, std::int32_t y) {
     const std::int64_t block = std::int64_t{y / block_edge} * level.blocks + x / block_edge;
-    return level.first + block * block_texels + y % block_edge * block_edge + x % block_edge;
+    const std::int64_t in_block = std::int64_t{y % block_edge} * block_edge + x % block_edge;
+    return level.first + block * block_texels + in_block;
   }
 
  private:
