@@ -350,7 +350,7 @@ MaskN Accelerator::occluded(const Ray<FloatN>& rays, const MaskN& active, Cohere
 }
 
 SurfaceInteraction<FloatN> Accelerator::surface(const Ray<FloatN>& rays, const Hits& hits) const {
-  SurfaceInteraction<FloatN> result;
+  SurfaceInteraction<FloatN> result{};
   const auto set = [&](const GeometryTable& table, std::uint32_t geometry, const LaneIndices& primitive,
                        const Ray<FloatN>& local_rays, SurfaceInteraction<FloatN>& surface) {
     if (const MeshTable* const mesh = table.geometry(geometry).mesh; mesh != nullptr) {
