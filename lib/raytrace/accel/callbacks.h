@@ -38,6 +38,12 @@ concept UnboundedShape = !requires { &Kernel<Shape>::bounds; };
 template <class Shape>
 concept UserGeometry = !EmbreeTriangle<Shape> && !UnboundedShape<Shape>;
 
+/// Shapes whose objects are few and large: their surface() takes one, so that it can be of the plain numbers.
+template <class Shape>
+concept SurfaceOfOne = requires(typename ShapeTable<Shape>::Record record, Ray<FloatN> rays, FloatN distance) {
+  Kernel<Shape>::surface(record, rays, distance);
+};
+
 /// Whether the object lies on the rays, in the lanes of `active`. Kernel::occludes(), where there is one, need not find
 /// out where.
 template <class Shape, class Record, class F>

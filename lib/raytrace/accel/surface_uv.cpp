@@ -10,12 +10,6 @@ namespace raytrace {
 
 namespace {
 
-/// Shapes whose kernels take the record of one object.
-template <class Shape>
-concept OneRecord = requires(typename ShapeTable<Shape>::Record record, Ray<FloatN> rays, FloatN distance) {
-  Kernel<Shape>::surface(record, rays, distance);
-};
-
 /// Sets those of the lanes of `here`, which hit one shape.
 template <class Shape>
 void set_uv(const ShapeTable<Shape>& table, const MaskN& here, const Hits& hits,
@@ -24,7 +18,7 @@ void set_uv(const ShapeTable<Shape>& table, const MaskN& here, const Hits& hits,
   const auto first = [&](const MaskN& lanes) {
     return hits.primitive.get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(lanes))));
   };
-  if constexpr (OneRecord<Shape>) {
+  if constexpr (SurfaceOfOne<Shape>) {
     for (MaskN left = here; any(left);) {
       const std::int32_t next = first(left);
       const MaskN same = left & float_mask<FloatN>(hits.primitive == IntN(next));
