@@ -188,6 +188,11 @@ TEST_CASE("what cannot be instanced is refused") {
     return diagnostics.kept().empty() ? "" : diagnostics.kept().front().message;
   };
   CHECK(refused(instance_of("thin", ""), group_of("thing", thing)).find("did you mean 'thing'?") != std::string::npos);
+  // Beside another error, too.
+  Diagnostics both("s");
+  CHECK_FALSE(parse_scene(
+      instances_scene(instance_of("thin", "") + ball("x='0' y='0' z='0'", "-1"), group_of("thing", thing)), both));
+  CHECK(both.error_count() == 2);
   CHECK(refused("", group_of("a", instance_of("b", "")) + group_of("b", instance_of("a", "")))
             .find("would have itself in it") != std::string::npos);
   CHECK(refused("", group_of("a", thing) + group_of("a", thing)).find("is taken by the <group>") != std::string::npos);

@@ -78,7 +78,7 @@ class SceneReader {
     for (const Element section : object_sections) read_section<ObjectsSection>(section);
     report_taken(ObjectsSection::item, object_names_);
     for (const Element section : group_sections) read_groups(section);
-    if (!diagnostics_.has_errors())
+    if (groups_complete_)
       check_groups(scene_,
                    [&](SourceLocation location, const std::string& message) { diagnostics_.error(location, message); });
     for (const std::string_view key : {ViewPlane::element, camera_key}) {
@@ -150,8 +150,13 @@ class SceneReader {
       if (node.element().name() == group_element)
         read_group_of_objects(node.element());
       else
-        refuse_unknown(node.element(), groups_element);
+        refuse_group(node.element());
     }
+  }
+
+  void refuse_group(Element element) {
+    groups_complete_ = false;
+    refuse_unknown(element, groups_element);
   }
 
   void read_group_of_objects(Element element) {
@@ -174,6 +179,7 @@ class SceneReader {
     }
     report_taken(ObjectsSection::item, object_names_);
     objects_ = &scene_.objects;
+    groups_complete_ = groups_complete_ && !group.name.empty();
     if (!element.child("name"))
       diagnostics_.error(element, [&] { return "missing <name> in <group>; add <name>...</name>"; });
     const auto [first, is_first] = group_lines_.try_emplace(group.name, group.line);
@@ -350,6 +356,7 @@ class SceneReader {
   NameTable object_names_;                  // of the scene, or of the group at hand
   ObjectLists* objects_ = &scene_.objects;  // likewise
   std::map<std::string, std::uint32_t> group_lines_;
+  bool groups_complete_ = true;  // false: one was refused before its name was read
 };
 
 void report_unused(const Variables& variables, Diagnostics& diagnostics) {
