@@ -58,7 +58,7 @@ function(raytrace_add_variants target)
     target_compile_definitions(${objects} PRIVATE RAYTRACE_VARIANT=${variant} RAYTRACE_ISA="${isa}")
     target_compile_options(${objects} PRIVATE
       $<$<NOT:$<STREQUAL:${isa},generic>>:-march=${isa}>
-      # Rays are traced here, whatever the rest is built with (the preset "run": -O2).
+      # Rays are traced here, whatever the rest is built with (the preset "run": -O1).
       $<$<CONFIG:Release>:-O3>
       # Without it, the compiler's choices are those for all processors: toruses take 4 % longer.
       $<$<STREQUAL:${isa},x86-64-v3>:-mtune=haswell>

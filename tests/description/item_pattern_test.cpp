@@ -180,9 +180,9 @@ TEST_CASE("a pattern reads what is alike, and nothing else") {
   Document document(source);
   document.parse_items(source.chunk(0), diagnostics);
 
-  FieldsReader<Sphere> fields;
+  FieldsReader fields(element_type<Sphere>());
   Sphere::Parameters parameters;
-  const auto targets = [&] { return fields.targets(parameters, {}); };
+  const auto targets = [&] { return fields.targets(&parameters, {}); };
   const auto pattern = ItemPattern::of(first, document.root().first_child().element(), fields.infos(), targets());
   REQUIRE(pattern);
   CHECK(pattern->line_ends() == 1);

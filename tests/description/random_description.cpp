@@ -67,22 +67,17 @@ void randomize(Random& random, Range range, Rgb<double>& value) {
   value = {random_number(random, range), random_number(random, range), random_number(random, range)};
 }
 
-/// Whether the type itself has nothing against the parameters.
-template <class T>
-bool allowed(const typename T::Parameters& parameters) {
-  if constexpr (requires { T::check(parameters); })
-    return !T::check(parameters);
-  else
-    return true;
+void randomize(Random& random, const ElementType& type, void* parameters) {
+  do {
+    for (const Field& field : type.fields)
+      field.visit(parameters, [&](auto& value) { randomize(random, field.range, value); });
+  } while (type.check != nullptr && type.check(parameters));
 }
 
 template <class T>
 typename T::Parameters random_parameters(Random& random) {
   typename T::Parameters parameters;
-  do {
-    for (const auto& field : T::fields())
-      field.visit(parameters, [&](auto&& value) { randomize(random, field.range, value); });
-  } while (!allowed<T>(parameters));
+  randomize(random, element_type<T>(), &parameters);
   return parameters;
 }
 
@@ -104,16 +99,20 @@ bool same(const Rgb<double>& a, const Rgb<double>& b) {
   return same(a.red, b.red) && same(a.green, b.green) && same(a.blue, b.blue);
 }
 
-template <class T>
-bool same_parameters(const typename T::Parameters& a, const typename T::Parameters& b) {
-  bool all = true;
-  for (const auto& field : T::fields())
-    field.visit(a, [&]<class Value>(const Value& one) {
-      field.visit(b, [&]<class Other>(const Other& other) {
-        if constexpr (std::is_same_v<Value, Other>) all = all && same(one, other);
+bool same_parameters(const Fields& fields, const void* a, const void* b) {
+  return std::all_of(fields.begin(), fields.end(), [&](const Field& field) {
+    return field.visit(a, [&]<class Value>(const Value& one) {
+      return field.visit(b, [&]<class Other>(const Other& other) {
+        if constexpr (std::is_same_v<Value, Other>) return same(one, other);
+        return false;
       });
     });
-  return all;
+  });
+}
+
+template <class T>
+bool same_parameters(const typename T::Parameters& a, const typename T::Parameters& b) {
+  return same_parameters(element_type<T>().fields, &a, &b);
 }
 
 /// Of variants that hold the parameters of one type in the list.
@@ -141,17 +140,14 @@ bool same_items(List list, const Tuple& a, const Tuple& b, Equal equal) {
 }
 
 /// One for about half of the material's fields that may have one.
-template <class T>
-std::vector<TextureUse> random_uses(Random& random, const std::vector<TextureReference>& textures) {
+std::vector<TextureUse> random_uses(Random& random, const Fields& fields,
+                                    const std::vector<TextureReference>& textures) {
   std::vector<TextureUse> uses;
-  const typename T::Parameters parameters;
-  const auto fields = T::fields();
-  for (std::uint32_t field = 0; !textures.empty() && field < fields.size(); ++field)
-    fields[field].visit(parameters, [&]<class Value>(const Value&) {
-      if (!may_be_textured<Value> || below(random, 2) == 0) return;
-      uses.push_back({field, textures[below(random, textures.size())], {}});
-      if (std::is_same_v<Value, double>) uses.back().channel = static_cast<TextureChannel>(below(random, 4));
-    });
+  for (std::uint32_t i = 0; !textures.empty() && i < fields.size(); ++i) {
+    if (!fields[i].may_be_textured() || below(random, 2) == 0) continue;
+    uses.push_back({i, textures[below(random, textures.size())], {}});
+    if (fields[i].is<double>()) uses.back().channel = static_cast<TextureChannel>(below(random, 4));
+  }
   return uses;
 }
 
@@ -232,7 +228,7 @@ SceneDescription random_description(Random& random) {
       materials.push_back(
           {static_cast<std::uint32_t>(index_of<T>(Materials{})), static_cast<std::uint32_t>(items.size())});
       items.push_back({random_parameters<T>(random), random_name(random) + std::to_string(materials.size())});
-      if (below(random, 2) == 0) items.back().textures = random_uses<T>(random, textures);
+      if (below(random, 2) == 0) items.back().textures = random_uses(random, element_type<T>().fields, textures);
     }
   });
   if (materials.empty()) return scene;

@@ -1,4 +1,5 @@
 // Scenes that look different have different hashes, and others the same.
+#include <functional>
 #include <set>
 #include <string>
 #include <type_traits>
@@ -33,7 +34,7 @@ void change_each(Value& value, const Changed& changed) {
     for (double* part : {&value.x, &value.y}) change_each(*part, changed);
   } else if constexpr (std::is_same_v<Value, Rgb<double>>) {
     for (double* part : {&value.red, &value.green, &value.blue}) change_each(*part, changed);
-  } else if constexpr (std::is_same_v<Value, ChoiceReference>) {
+  } else if constexpr (std::is_same_v<std::remove_const_t<Value>, ChoiceReference>) {
     const std::size_t before = value.index();
     for (std::size_t other = 0; other < value.words().size(); ++other) {
       value.set(other);
@@ -48,13 +49,17 @@ void change_each(Value& value, const Changed& changed) {
   }
 }
 
-template <class T, class Changed>
-void change_fields(typename T::Parameters& parameters, const Changed& changed) {
-  for (const auto& field : T::fields()) {
-    if (std::is_same_v<T, ViewPlane> && field.name == "samples") continue;
+void change_fields(const ElementType& type, void* parameters, const std::function<void()>& changed) {
+  for (const Field& field : type.fields) {
+    if (type.element == ViewPlane::element && field.name == "samples") continue;
     INFO("field " << field.name);
-    field.visit(parameters, [&](auto&& value) { change_each(value, changed); });
+    field.visit(parameters, [&](auto& value) { change_each(value, changed); });
   }
+}
+
+template <class T>
+void change_fields(typename T::Parameters& parameters, const std::function<void()>& changed) {
+  change_fields(element_type<T>(), &parameters, changed);
 }
 
 /// Calls changed() after each change that makes another scene.

@@ -55,7 +55,7 @@ void check_scenes(unsigned first, unsigned last) {
 void move(SceneDescription& description, const Vec3d& by) {
   const auto move_items = [&]<class Type>(std::type_identity<Type>, auto& items) {
     for (auto& item : items)
-      for (const auto point : point_members<Type>()) item.parameters.*point += by;
+      for (const Field& point : point_fields<Type>()) point.get<Vec3d>(&item.parameters) += by;
   };
   for_each_type(Shapes{}, [&]<class Shape>(std::type_identity<Shape> type) {
     move_items(type, std::get<ObjectItems<Shape>>(description.objects));
@@ -65,7 +65,7 @@ void move(SceneDescription& description, const Vec3d& by) {
   });
   for_each_type(Cameras{}, [&]<class Camera>(std::type_identity<Camera>) {
     if (auto* camera = std::get_if<typename Camera::Parameters>(&description.camera))
-      for (const auto point : point_members<Camera>()) camera->*point += by;
+      for (const Field& point : point_fields<Camera>()) point.get<Vec3d>(camera) += by;
   });
 }
 

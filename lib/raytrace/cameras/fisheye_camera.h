@@ -21,8 +21,8 @@ class FisheyeCamera {
   };
   static constexpr std::string_view name = "fisheye";  ///< as --list cameras shows it
   static constexpr std::string_view element = "fisheyecamera";
-  static Fields<Parameters> fields() {
-    Fields<Parameters> fields = view_fields<Parameters>();
+  static Fields fields() {
+    Fields fields = view_fields<Parameters>();
     fields.push_back(optional("angle", &Parameters::angle, Range::positive));
     return fields;
   }

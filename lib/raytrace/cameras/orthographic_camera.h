@@ -18,7 +18,7 @@ class OrthographicCamera {
   };
   static constexpr std::string_view name = "orthographic";  ///< as --list cameras shows it
   static constexpr std::string_view element = "orthographiccamera";
-  static Fields<Parameters> fields() { return view_fields<Parameters>(); }
+  static Fields fields() { return view_fields<Parameters>(); }
   static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {
     return check_view(parameters.eye, parameters.lookat);
   }

@@ -22,8 +22,8 @@ class PinholeCamera {
   };
   static constexpr std::string_view name = "pinhole";  ///< as --list cameras shows it
   static constexpr std::string_view element = "camera";
-  static Fields<Parameters> fields() { return perspective_fields<Parameters>(); }
-  static Fields<Parameters> shorthands() { return perspective_shorthands<Parameters>(); }
+  static Fields fields() { return perspective_fields<Parameters>(); }
+  static Fields shorthands() { return perspective_shorthands<Parameters>(); }
   static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {
     return check_perspective(parameters);
   }

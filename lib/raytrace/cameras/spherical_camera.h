@@ -17,7 +17,7 @@ class SphericalCamera {
   };
   static constexpr std::string_view name = "spherical";  ///< as --list cameras shows it
   static constexpr std::string_view element = "sphericalcamera";
-  static Fields<Parameters> fields() { return view_fields<Parameters>(); }
+  static Fields fields() { return view_fields<Parameters>(); }
   static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {
     return check_view(parameters.eye, parameters.lookat);
   }

@@ -28,15 +28,15 @@ class ThinLensCamera {
   };
   static constexpr std::string_view name = "thinlens";  ///< as --list cameras shows it
   static constexpr std::string_view element = "thinlenscamera";
-  static Fields<Parameters> fields() {
-    Fields<Parameters> fields = perspective_fields<Parameters>();
+  static Fields fields() {
+    Fields fields = perspective_fields<Parameters>();
     fields.push_back(required("lensradius", &Parameters::lensradius, Range::not_negative));
     fields.push_back(required("focaldistance", &Parameters::focaldistance, Range::positive));
     fields.push_back(optional("blades", &Parameters::blades, Range::not_negative));
     fields.push_back(optional("bladerotation", &Parameters::bladerotation));
     return fields;
   }
-  static Fields<Parameters> shorthands() { return perspective_shorthands<Parameters>(); }
+  static Fields shorthands() { return perspective_shorthands<Parameters>(); }
   static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {
     if (parameters.blades == 1 || parameters.blades == 2)
       return ParameterDiagnostic{ParameterDiagnostic::Effect::error,

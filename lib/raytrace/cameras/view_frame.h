@@ -31,20 +31,20 @@ struct ViewFrame {
 
 /// The fields of a camera that looks from a point at another.
 template <class Parameters>
-Fields<Parameters> view_fields() {
+Fields view_fields() {
   return {required("eye", &Parameters::eye, a_point), required("lookat", &Parameters::lookat, a_point),
           optional("up", &Parameters::up, Range::nonzero)};
 }
 
 /// The same of one with a view plane at `viewdistance`.
 template <class Parameters>
-Fields<Parameters> perspective_fields() {
-  Fields<Parameters> fields = view_fields<Parameters>();
+Fields perspective_fields() {
+  Fields fields = view_fields<Parameters>();
   fields.push_back(required("viewdistance", &Parameters::viewdistance, Range::positive));
   return fields;
 }
 template <class Parameters>
-Fields<Parameters> perspective_shorthands() {
+Fields perspective_shorthands() {
   return {shorthand("fov", &Parameters::fov, Range::positive, "viewdistance")};
 }
 

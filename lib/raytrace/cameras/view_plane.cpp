@@ -6,7 +6,7 @@
 
 namespace raytrace {
 
-Fields<ViewPlane> ViewPlane::fields() {
+Fields ViewPlane::fields() {
   return {required("hres", &ViewPlane::hres, Range::positive),
           required("vres", &ViewPlane::vres, Range::positive),
           optional("pixelsize", &ViewPlane::pixelsize, Range::positive),

@@ -33,7 +33,7 @@ struct ViewPlane {
 
   using Parameters = ViewPlane;
   static constexpr std::string_view element = "viewplane";
-  static Fields<ViewPlane> fields();
+  static Fields fields();
   static std::optional<ParameterDiagnostic> check(const ViewPlane& viewplane);
 };
 

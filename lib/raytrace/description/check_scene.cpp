@@ -37,7 +37,7 @@ class SceneChecker {
           item_ = {T::element, i++};
           line_ = item.line;
           check_references(scene, item);
-          check_parameters<T>(item.parameters, true);
+          check_parameters(element_type<T>(), &item.parameters, true);
         }
       });
     }
@@ -53,8 +53,8 @@ class SceneChecker {
         check_labels<Section>(scene, item);
         if constexpr (std::is_same_v<T, Image>)
           if (item.image.hash.empty()) error("has a file that has not been loaded (load_images.h)");
-        if constexpr (requires { item.textures; }) check_textured_fields<T>(item.textures);
-        check_parameters<T>(item.parameters, Section::may_skip);
+        if constexpr (requires { item.textures; }) check_textured_fields(element_type<T>().fields, item.textures);
+        check_parameters(element_type<T>(), &item.parameters, Section::may_skip);
       }
     });
   }
@@ -64,7 +64,7 @@ class SceneChecker {
   void check_single(const typename T::Parameters& parameters) {
     item_ = {T::element, std::nullopt};
     line_ = 0;
-    check_parameters<T>(parameters, false);
+    check_parameters(element_type<T>(), &parameters, false);
   }
 
  private:
@@ -109,14 +109,12 @@ class SceneChecker {
       for (const TextureUse& use : item.textures) check_reference<TexturesSection>(scene, use.texture);
   }
 
-  template <class T>
-  void check_parameters(const typename T::Parameters& parameters, bool may_skip) {
-    static const auto fields = T::fields();
+  void check_parameters(const ElementType& type, const void* parameters, bool may_skip) {
     const std::size_t errors_before = diagnostics_.error_count();
-    for (const auto& field : fields)
+    for (const Field& field : type.fields)
       field.visit(parameters, [&](const auto& value) { check_field(field.name, value, field.range); });
     if (diagnostics_.error_count() > errors_before) return;
-    check_together<T>(parameters, may_skip, [&](Severity severity, const std::string& message) {
+    check_together(type, parameters, may_skip, [&](Severity severity, const std::string& message) {
       diagnostics_.add(severity, {line_, 0}, item_.text() + ": " + message);
     });
   }
@@ -155,15 +153,10 @@ class SceneChecker {
   }
 
   /// Each a number or a colour, and none twice.
-  template <class T>
-  void check_textured_fields(const std::vector<TextureUse>& uses) {
-    const auto fields = T::fields();
-    const typename T::Parameters parameters;
+  void check_textured_fields(const Fields& fields, const std::vector<TextureUse>& uses) {
     std::vector<bool> textured(fields.size());
     for (const TextureUse& use : uses) {
-      const bool fine =
-          use.field < fields.size() && !textured[use.field] &&
-          fields[use.field].visit(parameters, []<class Value>(const Value&) { return may_be_textured<Value>; });
+      const bool fine = use.field < fields.size() && !textured[use.field] && fields[use.field].may_be_textured();
       if (!fine)
         error("has a texture for field " + std::to_string(use.field) + ", which takes none, or has another");
       else

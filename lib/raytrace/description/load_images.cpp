@@ -67,11 +67,11 @@ class ImageLoader {
 std::vector<std::array<bool, 2>> image_uses(const SceneDescription& scene) {
   std::vector<std::array<bool, 2>> uses(std::get<TextureItems<Image>>(scene.textures).size());
   for_each_type(Materials{}, [&]<class T>(std::type_identity<T>) {
-    const auto fields = T::fields();
+    const Fields& fields = element_type<T>().fields;
     for (const auto& item : std::get<MaterialItems<T>>(scene.materials))
       for (const TextureUse& use : item.textures)
         if (use.texture.type == index_of<Image>(Textures{}))
-          uses[use.texture.index][is_number(fields[use.field]) ? 1 : 0] = true;
+          uses[use.texture.index][fields[use.field].template is<double>() ? 1 : 0] = true;
   });
   return uses;
 }

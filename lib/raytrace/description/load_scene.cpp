@@ -92,7 +92,7 @@ class SceneReader {
   void read_single(std::string_view key, Element element, Target& target) {
     if (!is_first(key, element)) return;
     typename T::Parameters parameters;
-    FieldsReader<T>().read(element, parameters, {}, context_);
+    FieldsReader(element_type<T>()).read(element, &parameters, {}, context_);
     target = parameters;
   }
 

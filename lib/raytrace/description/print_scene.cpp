@@ -42,7 +42,7 @@ class ScenePrinter : private XmlWriter {
   std::string print(const SceneDescription& scene) {
     element(root_element, [&] {
       for_each_single(scene, [&]<class T>(std::type_identity<T>, const auto& parameters) {
-        const auto print = [&] { element(T::element, [&] { print_parameters<T>(parameters); }); };
+        const auto print = [&] { element(T::element, [&] { print_parameters(element_type<T>(), &parameters); }); };
         if constexpr (has_type<T>(Integrators{}))
           element(integrator_element, print);
         else
@@ -97,9 +97,9 @@ class ScenePrinter : private XmlWriter {
     if constexpr (requires { item.name; })
       if (!item.name.empty()) print_value("name", item.name);
     if constexpr (requires { item.textures; })
-      print_parameters<T>(item.parameters, texture_attributes(scene, item.textures));
+      print_parameters(element_type<T>(), &item.parameters, texture_attributes(scene, item.textures));
     else
-      print_parameters<T>(item.parameters);
+      print_parameters(element_type<T>(), &item.parameters);
     if constexpr (requires { item.transform; })
       if (!item.transform.empty()) print_transform(item.transform);
     if constexpr (requires { item.material; })
@@ -149,9 +149,8 @@ class ScenePrinter : private XmlWriter {
     return attributes;
   }
 
-  template <class T>
-  void print_parameters(const typename T::Parameters& parameters, const AttributeTexts& attributes = {}) {
-    static const auto fields = T::fields();
+  void print_parameters(const ElementType& type, const void* parameters, const AttributeTexts& attributes = {}) {
+    const Fields& fields = type.fields;
     for (std::size_t i = 0; i < fields.size(); ++i) {
       const auto more = attributes.find(i);
       fields[i].visit(parameters, [&](const auto& value) {

@@ -35,13 +35,19 @@ template <class Value>
 std::string type_name(Range range) {
   if constexpr (std::is_same_v<Value, double>) return number_name(range) + "orkeys";
   if constexpr (std::is_same_v<Value, int>) return std::string(limits(range).prefix) + "integer";
-  if constexpr (std::is_same_v<Value, bool>) return "boolean";
-  if constexpr (std::is_same_v<Value, FileName> || std::is_same_v<Value, NumberGroups> ||
-                std::is_same_v<Value, WordOrGroups> || std::is_same_v<Value, Reference>)
-    return "text";
   if constexpr (std::is_same_v<Value, Vec3d>) return std::string(limits(range).prefix) + "vector";
   if constexpr (std::is_same_v<Value, Vec2d>) return std::string(limits(range).prefix) + "pair";
   if constexpr (std::is_same_v<Value, Rgb<double>>) return std::string(limits(range).prefix) + "color";
+}
+
+std::string type_name(const Field& field) {
+  if (field.is<double>()) return type_name<double>(field.range);
+  if (field.is<int>()) return type_name<int>(field.range);
+  if (field.is<bool>()) return "boolean";
+  if (field.is<Vec3d>()) return type_name<Vec3d>(field.range);
+  if (field.is<Vec2d>()) return type_name<Vec2d>(field.range);
+  if (field.is<Rgb<double>>()) return type_name<Rgb<double>>(field.range);
+  return "text";
 }
 
 class SchemaPrinter : private XmlWriter {
@@ -53,10 +59,10 @@ class SchemaPrinter : private XmlWriter {
     element(R"(xs:schema xmlns:xs="http://www.w3.org/2001/XMLSchema" elementFormDefault="qualified")", [&] {
       element(R"(xs:element name="raytracer")", [&] { print_root(); });
       for_each_type(Sections{}, [&]<class Section>(std::type_identity<Section>) { print_section<Section>(); });
-      print_item<ViewPlane>({});
-      for_each_type(Cameras{}, [&]<class T>(std::type_identity<T>) { print_item<T>({}); });
+      print_item(element_type<ViewPlane>(), {});
+      for_each_type(Cameras{}, [&]<class T>(std::type_identity<T>) { print_item(element_type<T>(), {}); });
       element(named("complexType", integrator_element), [&] { print_one_of(Integrators{}); });
-      for_each_type(Integrators{}, [&]<class T>(std::type_identity<T>) { print_item<T>({}); });
+      for_each_type(Integrators{}, [&]<class T>(std::type_identity<T>) { print_item(element_type<T>(), {}); });
       print_transform();
       print_choice(groups_element, [&] { child(group_element); });
       print_choice(group_element, [&] {
@@ -127,7 +133,7 @@ class SchemaPrinter : private XmlWriter {
     });
     for_each_type(Types{}, [&]<class T>(std::type_identity<T>) {
       if (!T::group.empty()) print_choice(T::group, [&] { child(T::element); });
-      print_item<T>(labels_of<Section, T>(), std::is_same_v<Section, MaterialsSection>);
+      print_item(element_type<T>(), labels_of<Section, T>(), std::is_same_v<Section, MaterialsSection>);
     });
   }
 
@@ -137,28 +143,25 @@ class SchemaPrinter : private XmlWriter {
     element(named("complexType", name), [&] { element(any_number_of, print_children); });
   }
 
-  template <class T>
-  void print_item(std::span<const FieldInfo> labels, bool may_have_textures = false) {
+  void print_item(const ElementType& type, std::span<const FieldInfo> labels, bool may_have_textures = false) {
     // Without fields it would have to be empty, white space included, were it not mixed.
-    const bool empty = labels.empty() && T::fields().empty();
-    element(named("complexType", T::element) + (empty ? " mixed=\"true\"" : ""), [&] {
+    const bool empty = labels.empty() && type.fields.empty();
+    element(named("complexType", type.element) + (empty ? " mixed=\"true\"" : ""), [&] {
       element("xs:all", [&] {
         for (const FieldInfo& label : labels)
           child(label.name, label.name == transform_element ? label.name : "text", label.required);
-        typename T::Parameters parameters;
-        const auto fields = fields_in_files<T>();
         const auto has_shorthand = [&](std::string_view name) {
-          return std::any_of(fields.begin(), fields.end(), [&](const auto& f) { return f.in_place_of == name; });
+          return std::any_of(type.fields_in_files.begin(), type.fields_in_files.end(),
+                             [&](const Field& field) { return field.in_place_of == name; });
         };
-        for (const auto& field : fields)
-          field.visit(parameters, [&]<class Value>(const Value& value) {
-            if constexpr (std::is_same_v<Value, ChoiceReference>)
-              print_choice_of_words(field, value.words());
-            else
-              child(field.name,
-                    (may_have_textures && may_be_textured<Value> ? "textured" : "") + type_name<Value>(field.range),
-                    field.required && !has_shorthand(field.name));
-          });
+        for (const Field& field : type.fields_in_files) {
+          const bool required = field.required && !has_shorthand(field.name);
+          if (!field.words().empty())
+            print_choice_of_words(field, field.words());
+          else
+            child(field.name, (may_have_textures && field.may_be_textured() ? "textured" : "") + type_name(field),
+                  required);
+        }
       });
     });
   }

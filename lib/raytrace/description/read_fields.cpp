@@ -81,4 +81,25 @@ bool read_fields(Element element, std::span<const FieldInfo> infos, std::span<co
   return diagnostics.error_count() == errors_before;
 }
 
+FieldsReader::FieldsReader(const ElementType& type, std::span<const FieldInfo> labels, bool may_skip)
+    : type_(type), infos_(labels.begin(), labels.end()), may_skip_(may_skip) {
+  for (const Field& field : type.fields_in_files) infos_.push_back(field);
+  targets_.reserve(infos_.size());
+}
+
+bool FieldsReader::read(Element element, void* parameters, std::span<const FieldTarget> labels,
+                        const ReadContext& context, std::vector<FieldTexture>* textures) {
+  if (!read_fields(element, infos_, targets(parameters, labels), context, textures)) return false;
+  return check_together(type_, parameters, may_skip_, [&](Severity severity, const std::string& message) {
+    context.diagnostics.report(severity, element, [&] { return message; });
+  });
+}
+
+std::span<const FieldTarget> FieldsReader::targets(void* parameters, std::span<const FieldTarget> labels) {
+  targets_.assign(labels.begin(), labels.end());
+  for (const Field& field : type_.fields_in_files)
+    std::visit([&](const auto& value) { targets_.emplace_back(value); }, field.value(parameters));
+  return targets_;
+}
+
 }  // namespace raytrace

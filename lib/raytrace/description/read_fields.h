@@ -28,59 +28,34 @@ struct FieldTexture {
 bool read_fields(Element element, std::span<const FieldInfo> infos, std::span<const FieldTarget> targets,
                  const ReadContext& context, std::vector<FieldTexture>* textures = nullptr);
 
-/// Whether the parameters of a T, each of which is fine alone, go together; otherwise report(severity, message).
+/// Whether the parameters, each of which is fine alone, go together; otherwise report(severity, message).
 /// may_skip: whether what they are for may be left out, with a warning, where the type says so.
-template <class T, class Report>
-bool check_together(const typename T::Parameters& parameters, bool may_skip, const Report& report) {
-  if constexpr (requires { T::check(parameters); }) {
-    if (const std::optional<ParameterDiagnostic> diagnostic = T::check(parameters)) {
-      const bool skip = diagnostic->effect == ParameterDiagnostic::Effect::skip && may_skip;
-      report(skip ? Severity::warning : Severity::error, diagnostic->message);
-      return false;
-    }
-  }
-  return true;
+template <class Report>
+bool check_together(const ElementType& type, const void* parameters, bool may_skip, const Report& report) {
+  const std::optional<ParameterDiagnostic> diagnostic = type.check != nullptr ? type.check(parameters) : std::nullopt;
+  if (!diagnostic) return true;
+  const bool skip = diagnostic->effect == ParameterDiagnostic::Effect::skip && may_skip;
+  report(skip ? Severity::warning : Severity::error, diagnostic->message);
+  return false;
 }
 
-/// Reads elements of the type T, one after the other.
-template <class T>
+/// Reads elements of one type, one after the other. Their parameters are of that type.
 class FieldsReader {
  public:
-  using Parameters = typename T::Parameters;
-
   /// labels: children that the elements have beside those of their parameters. may_skip: as in check_together().
-  explicit FieldsReader(std::span<const FieldInfo> labels = {}, bool may_skip = false)
-      : infos_(labels.begin(), labels.end()), may_skip_(may_skip) {
-    for (const auto& field : fields_) infos_.push_back(field);
-    targets_.reserve(infos_.size());
-  }
+  explicit FieldsReader(const ElementType& type, std::span<const FieldInfo> labels = {}, bool may_skip = false);
 
   /// False if the element is of no use, which is reported. labels: where the labels' values go, in the order of the
   /// constructor's. textures: as in read_fields().
-  bool read(Element element, Parameters& parameters, std::span<const FieldTarget> labels, const ReadContext& context,
-            std::vector<FieldTexture>* textures = nullptr) {
-    if (!read_fields(element, infos_, targets(parameters, labels), context, textures)) return false;
-    return check_together<T>(parameters, may_skip_, [&](Severity severity, const std::string& message) {
-      context.diagnostics.report(severity, element, [&] { return message; });
-    });
-  }
+  bool read(Element element, void* parameters, std::span<const FieldTarget> labels, const ReadContext& context,
+            std::vector<FieldTexture>* textures = nullptr);
 
   /// What read() gives read_fields(); targets are valid until the next call.
   std::span<const FieldInfo> infos() const { return infos_; }
-  std::span<const FieldTarget> targets(Parameters& parameters, std::span<const FieldTarget> labels) {
-    targets_.assign(labels.begin(), labels.end());
-    for (const auto& field : fields_)
-      field.visit(parameters, [&]<class Value>(Value&& value) {
-        if constexpr (std::is_same_v<Value, ChoiceReference>)
-          targets_.emplace_back(value);
-        else
-          targets_.emplace_back(&value);
-      });
-    return targets_;
-  }
+  std::span<const FieldTarget> targets(void* parameters, std::span<const FieldTarget> labels);
 
  private:
-  Fields<Parameters> fields_ = fields_in_files<T>();
+  const ElementType& type_;
   std::vector<FieldInfo> infos_;
   std::vector<FieldTarget> targets_;  // of the element at hand
   bool may_skip_;

@@ -110,7 +110,7 @@ class TypedItemList final : public ItemList {
     Entry& entry = append(element.line(), number);
     Labels labels;
     textures_.clear();
-    entry.usable = fields_.read(element, entry.item.parameters, targets_of(labels, entry.item), context,
+    entry.usable = fields_.read(element, &entry.item.parameters, targets_of(labels, entry.item), context,
                                 has_textures ? &textures_ : nullptr);
     if constexpr (has_textures) entry.usable &= take_textures(entry.item, context.diagnostics);
     if (take_labels(labels, entry.item)) return;
@@ -125,10 +125,10 @@ class TypedItemList final : public ItemList {
     Entry& entry = append(line, number);
     Labels labels;
     const std::size_t length =
-        pattern.read(text, fields_.targets(entry.item.parameters, targets_of(labels, entry.item)));
+        pattern.read(text, fields_.targets(&entry.item.parameters, targets_of(labels, entry.item)));
     const auto ignore = [](Severity, const std::string&) {};
-    entry.usable =
-        length > 0 && check_together<T>(entry.item.parameters, true, ignore) && take_labels(labels, entry.item);
+    entry.usable = length > 0 && check_together(element_type<T>(), &entry.item.parameters, true, ignore) &&
+                   take_labels(labels, entry.item);
     if (entry.usable) return length;
     entries_.pop_back();
     return 0;
@@ -137,7 +137,7 @@ class TypedItemList final : public ItemList {
   std::optional<ItemPattern> pattern_of(std::string_view text, Element item) override {
     Item none;
     Labels labels;
-    return ItemPattern::of(text, item, fields_.infos(), fields_.targets(none.parameters, targets_of(labels, none)));
+    return ItemPattern::of(text, item, fields_.infos(), fields_.targets(&none.parameters, targets_of(labels, none)));
   }
 
  private:
@@ -195,7 +195,7 @@ class TypedItemList final : public ItemList {
   }
 
   const SceneNames& names_;
-  FieldsReader<T> fields_{labels_, Section::may_skip};
+  FieldsReader fields_{element_type<T>(), labels_, Section::may_skip};
   std::vector<FieldTexture> textures_;  // of the item at hand
   std::vector<Entry> entries_;
 };

@@ -21,9 +21,7 @@ class SceneHash {
       // The view plane is always the same type, and its samples do not count.
       constexpr bool is_viewplane = std::is_same_v<T, ViewPlane>;
       if (!is_viewplane) add(T::element);
-      auto fields = T::fields();
-      std::erase_if(fields, [&](const auto& field) { return is_viewplane && field.name == "samples"; });
-      add_parameters(fields, parameters);
+      add_parameters(element_type<T>().fields, &parameters, is_viewplane ? "samples" : "");
     });
     for_each_item_type([&]<class Section, class T>(std::type_identity<Section>, std::type_identity<T>) {
       add(T::element);
@@ -45,7 +43,7 @@ class SceneHash {
   template <class T, class Item>
   void add_items(const std::vector<Item>& items) {
     add(static_cast<std::uint64_t>(items.size()));
-    const auto fields = T::fields();
+    const Fields& fields = element_type<T>().fields;
     std::vector<std::string> hashes(chunk_count(items.size()));
     for_each_chunk(items.size(), threads_, [&](std::size_t chunk, std::size_t first, std::size_t last) {
       SceneHash hash(1);
@@ -54,12 +52,10 @@ class SceneHash {
         if constexpr (requires { item.data; }) {
           hash.add_mesh(fields, item);
         } else if constexpr (requires { item.image; }) {
-          for (const auto& field : fields)
-            if (field.name != "file" || item.image.hash.empty())
-              field.visit(item.parameters, [&](const auto& value) { hash.add(value); });
+          hash.add_parameters(fields, &item.parameters, item.image.hash.empty() ? "" : "file");
           hash.add(item.image.hash);
         } else {
-          hash.add_parameters(fields, item.parameters);
+          hash.add_parameters(fields, &item.parameters);
         }
         if constexpr (requires { item.transform; }) {
           hash.add(static_cast<std::uint64_t>(item.transform.steps.size()));
@@ -89,17 +85,16 @@ class SceneHash {
     add(item.index);
   }
 
-  template <class Parameters>
-  void add_parameters(const Fields<Parameters>& fields, const Parameters& parameters) {
-    for (const auto& field : fields) field.visit(parameters, [&](const auto& value) { add(value); });
+  /// left_out: the name of a field that does not count.
+  void add_parameters(const Fields& fields, const void* parameters, std::string_view left_out = {}) {
+    for (const Field& field : fields)
+      if (field.name != left_out) field.visit(parameters, [&](const auto& value) { add(value); });
   }
 
   /// By what it was read from a file, if it was.
-  template <class Parameters, class Item>
-  void add_mesh(const Fields<Parameters>& fields, const Item& item) {
+  void add_mesh(const Fields& fields, const ObjectItem<Mesh>& item) {
     const bool from_file = item.data != nullptr && !item.parameters.file.path.empty();
-    for (const auto& field : fields)
-      if (!from_file || field.name != "file") field.visit(item.parameters, [&](const auto& value) { add(value); });
+    add_parameters(fields, &item.parameters, from_file ? "file" : "");
     if (!from_file) return;
     const MeshData& data = *item.data;
     for (const double coordinate : {data.origin.x, data.origin.y, data.origin.z}) add(coordinate);

@@ -12,7 +12,7 @@ class Normals {
  public:
   struct Parameters {};
   static constexpr std::string_view element = "normals";
-  static Fields<Parameters> fields() { return {}; }
+  static Fields fields() { return {}; }
 };
 
 }  // namespace raytrace

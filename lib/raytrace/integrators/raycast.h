@@ -12,7 +12,7 @@ class Raycast {
  public:
   struct Parameters {};
   static constexpr std::string_view element = "raycast";
-  static Fields<Parameters> fields() { return {}; }
+  static Fields fields() { return {}; }
 };
 
 }  // namespace raytrace

@@ -15,7 +15,7 @@ class AmbientLight {
   };
   static constexpr std::string_view group = "";  ///< stands in <lights> itself, at most once
   static constexpr std::string_view element = "ambientlight";
-  static Fields<Parameters> fields() {
+  static Fields fields() {
     return {optional("scaleradiance", &Parameters::scaleradiance), optional("color", &Parameters::color)};
   }
 };

@@ -20,7 +20,7 @@ class DirectionalLight {
   };
   static constexpr std::string_view group = "directionallights";
   static constexpr std::string_view element = "directionallight";
-  static Fields<Parameters> fields() {
+  static Fields fields() {
     return {required("direction", &Parameters::direction, Range::nonzero),
             optional("scaleradiance", &Parameters::scaleradiance), optional("color", &Parameters::color),
             optional("shadows", &Parameters::shadows)};

@@ -21,7 +21,7 @@ class PointLight {
   };
   static constexpr std::string_view group = "pointlights";
   static constexpr std::string_view element = "pointlight";
-  static Fields<Parameters> fields() {
+  static Fields fields() {
     return {required("location", &Parameters::location, a_point), optional("scaleradiance", &Parameters::scaleradiance),
             optional("color", &Parameters::color), optional("shadows", &Parameters::shadows),
             optional("falloff", &Parameters::falloff)};

@@ -24,7 +24,7 @@ class SpotLight {
   };
   static constexpr std::string_view group = "spotlights";
   static constexpr std::string_view element = "spotlight";
-  static Fields<Parameters> fields() {
+  static Fields fields() {
     return {required("location", &Parameters::location, a_point),
             required("lookat", &Parameters::lookat, a_point),
             required("coneangle", &Parameters::coneangle, Range::positive),

@@ -19,7 +19,7 @@ class Matte {
   using Parameters = Values<double>;
   static constexpr std::string_view group = "mattes";
   static constexpr std::string_view element = "matte";
-  static Fields<Parameters> fields() {
+  static Fields fields() {
     return {required("ka", &Parameters::ka, Range::not_negative), required("kd", &Parameters::kd, Range::not_negative),
             required("cd", &Parameters::cd)};
   }

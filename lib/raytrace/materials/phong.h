@@ -25,7 +25,7 @@ class Phong {
   using Parameters = Values<double>;
   static constexpr std::string_view group = "phongs";
   static constexpr std::string_view element = "phong";
-  static Fields<Parameters> fields() {
+  static Fields fields() {
     return {required("ka", &Parameters::ka, Range::not_negative),
             required("kd", &Parameters::kd, Range::not_negative),
             required("ks", &Parameters::ks, Range::not_negative),

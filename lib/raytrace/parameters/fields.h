@@ -2,7 +2,7 @@
 //
 //   struct Sphere {
 //     struct Parameters { Vec3d center; double radius = 0; };
-//     static Fields<Parameters> fields() {
+//     static Fields fields() {
 //       return {required("center", &Parameters::center), required("radius", &Parameters::radius, Range::positive)};
 //     }
 //   };
@@ -14,12 +14,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -128,48 +128,95 @@ struct WordOrGroups {
   }
 };
 
-/// The same, and where its value goes.
+/// A field's value in the parameters of some type, whichever its own.
+using FieldValue = std::variant<double*, int*, bool*, ChoiceReference, Vec3d*, Vec2d*, Rgb<double>*, FileName*,
+                                NumberGroups*, WordOrGroups*, Reference*>;
+
+/// The same, and where its value is. It knows the member by its offset, so that what reads, checks and prints
+/// parameters is one function for all types.
 /// double, int, bool, FileName, Reference, NumberGroups, WordOrGroups, enumerations with Choices: the element's text.
 /// Vec3d, Vec2d and Rgb: attributes (see Components).
-template <class Parameters>
-struct Field : FieldInfo {
-  using Choice = std::function<ChoiceReference(Parameters&)>;
-  using Member = std::variant<double Parameters::*, int Parameters::*, bool Parameters::*, Choice, Vec3d Parameters::*,
-                              Vec2d Parameters::*, Rgb<double> Parameters::*, FileName Parameters::*,
-                              NumberGroups Parameters::*, WordOrGroups Parameters::*, Reference Parameters::*>;
-  Member member;
-
-  template <class Value>
-  Field(const FieldInfo& info, Value Parameters::* value) : FieldInfo(info) {
-    if constexpr (HasChoices<Value>)
-      member = Choice([value](Parameters& parameters) { return ChoiceReference(parameters.*value); });
-    else
-      member = value;
+class Field : public FieldInfo {
+ public:
+  template <class Parameters, class Value>
+  Field(const FieldInfo& info, Value Parameters::* member)
+      : FieldInfo(info), offset_(offset_of(member)), value_at_(&value_at<Value>), index_(index_of<Value>()) {
+    if constexpr (HasChoices<Value>) words_ = Choices<Value>::words;
   }
 
-  /// visit(a reference to the value), which of a choice is a ChoiceReference; what it returns. parameters: may be
-  /// constant, if `visit` sets no choice.
-  template <class AnyParameters, class Visit>
-  decltype(auto) visit(AnyParameters& parameters, const Visit& visit) const {
+  // parameters: of the type whose field this is.
+
+  FieldValue value(void* parameters) const { return value_at_(static_cast<std::byte*>(parameters) + offset_); }
+
+  /// visit(a reference to the value), which of a choice is a ChoiceReference; what it returns.
+  template <class Visit>
+  decltype(auto) visit(void* parameters, const Visit& visit) const {
     return std::visit(
         [&]<class Any>(const Any& any) -> decltype(auto) {
-          if constexpr (std::is_same_v<Any, Choice>)
-            return visit(any(const_cast<Parameters&>(parameters)));
+          if constexpr (std::is_same_v<Any, ChoiceReference>)
+            return visit(any);
           else
-            return visit(parameters.*any);
+            return visit(*any);
         },
-        member);
+        value(parameters));
   }
+  /// The same of a value that does not change.
+  template <class Visit>
+  decltype(auto) visit(const void* parameters, const Visit& visit) const {
+    return this->visit(const_cast<void*>(parameters),
+                       [&]<class Value>(Value& value) -> decltype(auto) { return visit(std::as_const(value)); });
+  }
+
+  template <class Value>
+  bool is() const {
+    return index_ == index_of<Value>();
+  }
+  /// The value, which is of that type.
+  template <class Value>
+  Value& get(void* parameters) const {
+    return *reinterpret_cast<Value*>(static_cast<std::byte*>(parameters) + offset_);
+  }
+
+  /// Whether a texture may multiply the field of a material: one number, or a colour.
+  bool may_be_textured() const { return is<double>() || is<Rgb<double>>(); }
+  std::size_t offset() const { return offset_; }
+  /// Of an enumeration; none of others.
+  std::span<const std::string_view> words() const { return words_; }
+
+ private:
+  /// In FieldValue.
+  template <class Value>
+  static constexpr std::size_t index_of() {
+    if constexpr (HasChoices<Value>)
+      return 3;
+    else
+      return FieldValue(static_cast<Value*>(nullptr)).index();
+  }
+  static_assert(std::is_same_v<std::variant_alternative_t<3, FieldValue>, ChoiceReference>);
+
+  template <class Value>
+  static FieldValue value_at(std::byte* at) {
+    auto* const value = reinterpret_cast<Value*>(at);
+    if constexpr (HasChoices<Value>)
+      return ChoiceReference(*value);
+    else
+      return value;
+  }
+
+  template <class Parameters, class Value>
+  static std::size_t offset_of(Value Parameters::* member) {
+    alignas(Parameters) static constexpr std::byte storage[sizeof(Parameters)] = {};
+    const auto* const parameters = reinterpret_cast<const Parameters*>(storage);
+    return static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&(parameters->*member)) - storage);
+  }
+
+  std::size_t offset_;
+  FieldValue (*value_at_)(std::byte* at);
+  std::size_t index_;
+  std::span<const std::string_view> words_;
 };
 
-/// Whether a texture that multiplies the field gives one number, and no colour.
-template <class Parameters>
-bool is_number(const Field<Parameters>& field) {
-  return std::holds_alternative<double Parameters::*>(field.member);
-}
-
-template <class Parameters>
-using Fields = std::vector<Field<Parameters>>;
+using Fields = std::vector<Field>;
 
 /// Vectors and colors: their attributes, and the member for each.
 template <class Value>
@@ -192,17 +239,13 @@ struct Components<Rgb<double>> {
 template <class Value>
 concept HasComponents = requires { Components<Value>::names; };
 
-/// Whether a material's field of this type may be multiplied by a texture.
-template <class Value>
-inline constexpr bool may_be_textured = std::is_same_v<Value, double> || std::is_same_v<Value, Rgb<double>>;
-
 template <class Parameters, class Value>
-Field<Parameters> required(std::string_view name, Value Parameters::* member, Range range = Range::any) {
+Field required(std::string_view name, Value Parameters::* member, Range range = Range::any) {
   return {FieldInfo{name, true, range}, member};
 }
 
 template <class Parameters, class Value>
-Field<Parameters> optional(std::string_view name, Value Parameters::* member, Range range = Range::any) {
+Field optional(std::string_view name, Value Parameters::* member, Range range = Range::any) {
   return {FieldInfo{name, false, range}, member};
 }
 
@@ -212,38 +255,37 @@ inline constexpr struct PointTag {
 } a_point;
 
 template <class Parameters>
-Field<Parameters> required(std::string_view name, Vec3d Parameters::* member, PointTag) {
+Field required(std::string_view name, Vec3d Parameters::* member, PointTag) {
   return {{name, true, Range::any, true}, member};
 }
 
 template <class Parameters>
-Field<Parameters> optional(std::string_view name, Vec3d Parameters::* member, PointTag) {
+Field optional(std::string_view name, Vec3d Parameters::* member, PointTag) {
   return {{name, false, Range::any, true}, member};
 }
 
 /// Of a scene file alone: it may have this one in place of the required field `other`, which the reader then sets by
 /// it. A type lists such fields in shorthands(); descriptions are printed and checked without them.
 template <class Parameters, class Value>
-Field<Parameters> shorthand(std::string_view name, Value Parameters::* member, Range range, std::string_view other) {
+Field shorthand(std::string_view name, Value Parameters::* member, Range range, std::string_view other) {
   return {{name, false, range, false, other}, member};
 }
 
 /// All fields that scene files may have.
 template <class Type>
-Fields<typename Type::Parameters> fields_in_files() {
-  Fields<typename Type::Parameters> fields = Type::fields();
+Fields fields_in_files() {
+  Fields fields = Type::fields();
   if constexpr (requires { Type::shorthands(); })
-    for (const auto& field : Type::shorthands()) fields.push_back(field);
+    for (const Field& field : Type::shorthands()) fields.push_back(field);
   return fields;
 }
 
-/// The members of a type that are points.
+/// Those of a type that are points.
 template <class Type>
-std::vector<Vec3d Type::Parameters::*> point_members() {
-  std::vector<Vec3d Type::Parameters::*> members;
-  for (const auto& field : Type::fields())
-    if (field.is_point) members.push_back(std::get<Vec3d Type::Parameters::*>(field.member));
-  return members;
+Fields point_fields() {
+  Fields fields = Type::fields();
+  std::erase_if(fields, [](const Field& field) { return !field.is_point; });
+  return fields;
 }
 
 /// Why a combination of a type's parameters, each of which is fine alone, is refused. A type that has such conditions
@@ -256,5 +298,27 @@ struct ParameterDiagnostic {
   Effect effect;
   std::string message;
 };
+
+/// What readers, checkers and printers know of a type of elements.
+struct ElementType {
+  std::string_view element;
+  Fields fields;
+  Fields fields_in_files;
+  /// Null: any parameters go together.
+  std::optional<ParameterDiagnostic> (*check)(const void* parameters) = nullptr;
+};
+
+template <class Type>
+const ElementType& element_type() {
+  static const ElementType type = [] {
+    ElementType made{Type::element, Type::fields(), fields_in_files<Type>()};
+    if constexpr (requires(const typename Type::Parameters& parameters) { Type::check(parameters); })
+      made.check = [](const void* parameters) {
+        return Type::check(*static_cast<const typename Type::Parameters*>(parameters));
+      };
+    return made;
+  }();
+  return type;
+}
 
 }  // namespace raytrace

@@ -18,12 +18,12 @@ std::optional<typename Shape::Parameters> transformed(typename Shape::Parameters
   } else {
     const std::optional<double> scale = affine.uniform_scale();
     if (!scale) return std::nullopt;
-    for (const auto& field : Shape::fields())
-      field.visit(parameters, [&]<class Value>(Value&& value) {
-        if constexpr (std::is_same_v<Value, Vec3d&>)
-          value = field.is_point ? affine.point(value) : affine.vector(value);
-        if constexpr (std::is_same_v<Value, double&>) value *= *scale;
-      });
+    for (const Field& field : element_type<Shape>().fields) {
+      if (field.is<double>()) field.get<double>(&parameters) *= *scale;
+      if (!field.is<Vec3d>()) continue;
+      Vec3d& vector = field.get<Vec3d>(&parameters);
+      vector = field.is_point ? affine.point(vector) : affine.vector(vector);
+    }
     return parameters;
   }
 }

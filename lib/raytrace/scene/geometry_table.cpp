@@ -57,7 +57,7 @@ void GeometryTable::add_shapes(const ObjectLists& objects, const Vec3d& origin) 
     const auto& items = std::get<ObjectItems<Shape>>(objects);
     auto& [records, instanced] = std::get<ShapeTable<Shape>>(tables_);
     reserve_large(records, items.size() + 1);  // Embree reads whole 16 byte words of the last vertex
-    const auto points = point_members<Shape>();
+    const Fields points = point_fields<Shape>();
     for (const auto& item : items) {
       typename Shape::Parameters parameters = item.parameters;
       bool is_in_place = true;
@@ -77,7 +77,7 @@ void GeometryTable::add_shapes(const ObjectLists& objects, const Vec3d& origin) 
         parameters = transformed_shape.value_or(parameters);
       }
       if (is_in_place)
-        for (const auto point : points) parameters.*point += -origin;
+        for (const Field& point : points) point.get<Vec3d>(&parameters) += -origin;
       records.push_back(Kernel<Shape>::record(parameters));
       if constexpr (requires { &Kernel<Shape>::bounds; })
         if (!is_in_place) transformed_.back().bounds = Kernel<Shape>::bounds(records.back());

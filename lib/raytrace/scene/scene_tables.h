@@ -102,7 +102,7 @@ class SceneTables {
   /// The parameters with all points less the origin.
   template <class Type>
   typename Type::Parameters moved(typename Type::Parameters parameters) const {
-    for (const auto member : point_members<Type>()) parameters.*member += -origin_;
+    for (const Field& point : point_fields<Type>()) point.get<Vec3d>(&parameters) += -origin_;
     return parameters;
   }
   void set_camera(const SceneDescription& description);

@@ -38,18 +38,10 @@ class TextureTable {
     using Parameters = typename Material::Parameters;
     static_assert(std::is_same_v<Parameters, typename Material::template Values<double>>);
     std::vector<TextureFactor> factors;
-    const auto fields = Material::fields();
-    const Parameters parameters;
-    const auto* const first = reinterpret_cast<const double*>(&parameters);
     for (const TextureUse& use : uses) {
-      const auto& field = fields.at(use.field);
-      const bool is_color = !is_number(field);
-      field.visit(parameters, [&]<class Value>(const Value& value) {
-        if constexpr (may_be_textured<Value>)
-          factors.push_back({number(use.texture, is_color),
-                             static_cast<std::size_t>(reinterpret_cast<const double*>(&value) - first), is_color,
-                             use.channel});
-      });
+      const Field& field = element_type<Material>().fields.at(use.field);
+      const bool is_color = !field.is<double>();
+      factors.push_back({number(use.texture, is_color), field.offset() / sizeof(double), is_color, use.channel});
     }
     return factors;
   }

@@ -20,7 +20,7 @@ class Annulus {
   };
   static constexpr std::string_view group = "annuli";
   static constexpr std::string_view element = "annulus";
-  static Fields<Parameters> fields() {
+  static Fields fields() {
     return {required("center", &Parameters::center, a_point), required("normal", &Parameters::normal, Range::nonzero),
             required("innerradius", &Parameters::innerradius, Range::not_negative),
             required("outerradius", &Parameters::outerradius, Range::positive)};

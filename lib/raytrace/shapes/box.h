@@ -17,7 +17,7 @@ class Box {
   };
   static constexpr std::string_view group = "boxes";
   static constexpr std::string_view element = "box";
-  static Fields<Parameters> fields() {
+  static Fields fields() {
     return {required("min", &Parameters::min, a_point), required("max", &Parameters::max, a_point)};
   }
 

@@ -19,7 +19,7 @@ class Cone {
   };
   static constexpr std::string_view group = "cones";
   static constexpr std::string_view element = "cone";
-  static Fields<Parameters> fields() {
+  static Fields fields() {
     return {required("bottom", &Parameters::bottom, a_point), required("top", &Parameters::top, a_point),
             required("radius", &Parameters::radius, Range::not_negative),
             optional("topradius", &Parameters::topradius, Range::not_negative), optional("caps", &Parameters::caps)};

@@ -18,7 +18,7 @@ class Cylinder {
   };
   static constexpr std::string_view group = "cylinders";
   static constexpr std::string_view element = "cylinder";
-  static Fields<Parameters> fields() {
+  static Fields fields() {
     return {required("bottom", &Parameters::bottom, a_point), required("top", &Parameters::top, a_point),
             required("radius", &Parameters::radius, Range::positive), optional("caps", &Parameters::caps)};
   }

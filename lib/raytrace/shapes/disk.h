@@ -19,7 +19,7 @@ class Disk {
   };
   static constexpr std::string_view group = "disks";
   static constexpr std::string_view element = "disk";
-  static Fields<Parameters> fields() {
+  static Fields fields() {
     return {required("center", &Parameters::center, a_point), required("normal", &Parameters::normal, Range::nonzero),
             required("radius", &Parameters::radius, Range::positive)};
   }

@@ -15,7 +15,7 @@ class Instance {
   static constexpr std::string_view group = "instances";
   static constexpr std::string_view element = "instance";
   static constexpr bool may_lack_material = true;  ///< then its objects have their own
-  static Fields<Parameters> fields() { return {required("group", &Parameters::group)}; }
+  static Fields fields() { return {required("group", &Parameters::group)}; }
 };
 
 }  // namespace raytrace

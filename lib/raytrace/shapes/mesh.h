@@ -35,7 +35,7 @@ class Mesh {
   static constexpr std::string_view group = "meshes";
   static constexpr std::string_view element = "mesh";
   static constexpr bool may_lack_material = true;  ///< then it has those of its file
-  static Fields<Parameters> fields() {
+  static Fields fields() {
     return {optional("file", &Parameters::file), optional("positions", &Parameters::positions),
             optional("faces", &Parameters::faces), optional("normals", &Parameters::normals),
             optional("uvs", &Parameters::uvs)};

@@ -19,7 +19,7 @@ class Plane {
   static Parameters transformed(const Parameters& parameters, const Affine& affine) {
     return {affine.point(parameters.point), affine.normal(parameters.normal)};
   }
-  static Fields<Parameters> fields() {
+  static Fields fields() {
     return {required("point", &Parameters::point, a_point), required("normal", &Parameters::normal, Range::nonzero)};
   }
 };

@@ -24,7 +24,7 @@ class Rectangle {
   static Parameters transformed(const Parameters& parameters, const Affine& affine) {
     return {affine.point(parameters.corner), affine.vector(parameters.edge1), affine.vector(parameters.edge2)};
   }
-  static Fields<Parameters> fields() {
+  static Fields fields() {
     return {required("corner", &Parameters::corner, a_point), required("edge1", &Parameters::edge1, Range::nonzero),
             required("edge2", &Parameters::edge2, Range::nonzero)};
   }

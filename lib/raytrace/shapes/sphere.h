@@ -15,7 +15,7 @@ class Sphere {
   };
   static constexpr std::string_view group = "spheres";
   static constexpr std::string_view element = "sphere";
-  static Fields<Parameters> fields() {
+  static Fields fields() {
     return {required("center", &Parameters::center, a_point), required("radius", &Parameters::radius, Range::positive)};
   }
 };

@@ -20,7 +20,7 @@ class Torus {
   };
   static constexpr std::string_view group = "toruses";
   static constexpr std::string_view element = "torus";
-  static Fields<Parameters> fields() {
+  static Fields fields() {
     return {optional("center", &Parameters::center, a_point), optional("axis", &Parameters::axis, Range::nonzero),
             required("sweptradius", &Parameters::sweptradius, Range::positive),
             required("tuberadius", &Parameters::tuberadius, Range::positive)};

@@ -21,7 +21,7 @@ class Triangle {
   static Parameters transformed(const Parameters& parameters, const Affine& affine) {
     return {affine.point(parameters.vertex1), affine.point(parameters.vertex2), affine.point(parameters.vertex3)};
   }
-  static Fields<Parameters> fields() {
+  static Fields fields() {
     return {required("vertexposition1", &Parameters::vertex1, a_point),
             required("vertexposition2", &Parameters::vertex2, a_point),
             required("vertexposition3", &Parameters::vertex3, a_point)};

@@ -22,7 +22,7 @@ class Checker {
   };
   static constexpr std::string_view group = "checkers";
   static constexpr std::string_view element = "checker";
-  static Fields<Parameters> fields() {
+  static Fields fields() {
     return {optional("color1", &Parameters::color1), optional("color2", &Parameters::color2),
             optional("uvscale", &Parameters::uvscale), optional("scale", &Parameters::scale, Range::not_negative)};
   }

@@ -55,7 +55,7 @@ class Image {
   };
   static constexpr std::string_view group = "images";
   static constexpr std::string_view element = "image";
-  static Fields<Parameters> fields() {
+  static Fields fields() {
     return {required("file", &Parameters::file),
             optional("colorspace", &Parameters::colorspace),
             optional("wrap", &Parameters::wrap),

@@ -25,7 +25,7 @@ class Noise {
   static constexpr int most_octaves = 16;
   static constexpr std::string_view group = "noises";
   static constexpr std::string_view element = "noise";
-  static Fields<Parameters> fields() {
+  static Fields fields() {
     return {optional("color1", &Parameters::color1), optional("color2", &Parameters::color2),
             optional("scale", &Parameters::scale, Range::positive),
             optional("octaves", &Parameters::octaves, Range::positive)};

@@ -13,7 +13,7 @@ class VertexColor {
   struct Parameters {};
   static constexpr std::string_view group = "vertexcolors";
   static constexpr std::string_view element = "vertexcolor";
-  static Fields<Parameters> fields() { return {}; }
+  static Fields fields() { return {}; }
 };
 
 }  // namespace raytrace
