@@ -460,6 +460,40 @@ write(
     </spheres>
 """,
 )
+write(
+    "opacity",
+    "A veil that passes two of three rays, a sphere with square holes, and a lattice; their shadows have the same holes.",
+    room=ROOM.replace("<samples>16</samples>", "<samples>64</samples>"),
+    textures="""\
+    <checkers>
+      <checker> <name>holes</name> <uvscale x="16" y="8"/> </checker>
+      <checker> <name>lattice</name> <uvscale x="6" y="6"/> </checker>
+    </checkers>
+""",
+    mattes="""\
+      <matte>
+        <name>veil</name> <ka>0.12</ka> <kd>0.9</kd> <cd red="0.9" green="0.9" blue="0.9"/> <opacity>0.33</opacity>
+      </matte>
+      <matte>
+        <name>shell</name> <ka>0.12</ka> <kd>0.9</kd> <cd red="0.85" green="0.28" blue="0.12"/> <opacity texture="holes"/>
+      </matte>
+      <matte>
+        <name>slats</name> <ka>0.12</ka> <kd>0.9</kd> <cd red="0.3" green="0.5" blue="0.2"/> <opacity texture="lattice"/>
+      </matte>
+""",
+    objects="""\
+    <spheres>
+      <sphere> <center x="-0.1" y="0.85" z="0.2"/> <radius>0.85</radius> <material>shell</material> </sphere>
+      <sphere> <center x="-1.6" y="0.65" z="0.2"/> <radius>0.65</radius> <material>veil</material> </sphere>
+    </spheres>
+    <rectangles>
+      <rectangle>
+        <corner x="0.9" y="0" z="0.4"/> <edge1 x="1.2" y="0" z="-0.6"/> <edge2 x="0" y="1.5" z="0"/>
+        <material>slats</material>
+      </rectangle>
+    </rectangles>
+""",
+)
 
 # Lights
 light(

@@ -51,6 +51,17 @@ TEST_CASE("a value with a texture is 1 where it has none of its own, which the t
   CHECK(item.textures[2].texture.type == index_of<Image>(Textures{}));
 }
 
+TEST_CASE("of an opacity's texture the channel may be left open, as the printed scene says") {
+  const std::string rest = R"(<ka>0</ka> <kd>1</kd> <cd red="1" green="1" blue="1"/>)";
+  const SceneDescription open = accepted(textured(rest + R"(<opacity texture="wood"/>)"));
+  REQUIRE(matte(open).textures.size() == 1);
+  CHECK(matte(open).textures[0].channel == TextureChannel::automatic);
+  CHECK(contains(print_scene(open), R"(<opacity texture="wood">1</opacity>)"));
+  const SceneDescription red = accepted(textured(rest + R"(<opacity texture="wood" channel="red"/>)"));
+  CHECK(matte(red).textures[0].channel == TextureChannel::red);
+  CHECK(contains(print_scene(red), R"(<opacity texture="wood" channel="red">1</opacity>)"));
+}
+
 TEST_CASE("a colour may have its own value beside a texture, and keys") {
   const SceneDescription colour =
       accepted(textured(R"(<ka>0</ka> <kd>1</kd> <cd red="1" green="0.5" blue="0" texture="wood"/>)"));

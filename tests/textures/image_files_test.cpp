@@ -97,6 +97,18 @@ TEST_CASE("pictures of all depths and channels are kept as they are") {
   CHECK(image_of(loaded(folder, scene_of("d.exr"))).color->format() == TexelFormat::floats);
 }
 
+TEST_CASE("a picture's alpha is known from that of 1 which others get") {
+  const TemporaryFolder folder;
+  write_picture<std::uint8_t>(folder.file("a.png"), 1, 1, 3, OIIO::TypeUInt8, {1, 2, 3});
+  CHECK_FALSE(image_of(loaded(folder, scene_of("a.png"))).number->has_alpha());
+  write_picture<std::uint8_t>(folder.file("b.png"), 1, 1, 4, OIIO::TypeUInt8, {1, 2, 3, 255});
+  CHECK(image_of(loaded(folder, scene_of("b.png"))).number->has_alpha());
+  write_picture<std::uint8_t>(folder.file("c.png"), 1, 1, 2, OIIO::TypeUInt8, {1, 2});
+  CHECK(image_of(loaded(folder, scene_of("c.png"))).number->has_alpha());
+  write_picture<std::uint16_t>(folder.file("d.png"), 1, 1, 3, OIIO::TypeUInt16, {1, 2, 3});
+  CHECK_FALSE(image_of(loaded(folder, scene_of("d.png", "<colorspace>srgb</colorspace>"))).color->has_alpha());
+}
+
 TEST_CASE("a picture that cannot be read is an error in the line of its image, or magenta") {
   const TemporaryFolder folder;
   std::string messages;

@@ -61,7 +61,21 @@ struct Nearest {
   Hits& hits;
   FloatN& distance;  ///< of the hits, or where the rays end
   FloatN& far;       ///< as far as the rays are followed: those that have hit something, to behind(distance)
+  const CutoutQuery* cutouts = nullptr;
 };
+
+/// Where rays meet an object without end.
+template <class Shape>
+FloatN distance_to_cutout(const typename ShapeTable<Shape>::Record& record, std::uint32_t primitive,
+                          const Ray<FloatN>& rays, const MaskN& active, const CutoutQuery& query) {
+  const auto find = [&](const Ray<FloatN>& some, const MaskN& lanes, FloatN&, FloatN&) {
+    return Kernel<Shape>::template intersect<FloatN>(record, some, lanes);
+  };
+  FloatN u(0), v(0);
+  constexpr auto geometry = static_cast<std::uint32_t>(index_of<Shape>(Shapes{}));
+  return without_passed<FloatN>(query, 0, packet_lanes, {0, geometry, primitive, 0}, rays, find(rays, active, u, v), u,
+                                v, find);
+}
 
 /// Keeps the hits with an object that come first. rays: their far is nearest.far.
 template <class Shape, class Rays>
@@ -72,6 +86,9 @@ RAYTRACE_INLINE void intersect_object(const typename ShapeTable<Shape>::Record& 
     t = Kernel<Shape>::template intersect<FloatN>(record, rays, active, u, v);
   } else {
     t = Kernel<Shape>::template intersect<FloatN>(record, rays, active);
+    if constexpr (UnboundedShape<Shape>)
+      if (nearest.cutouts != nullptr) [[unlikely]]
+        t = distance_to_cutout<Shape>(record, primitive, rays, active, *nearest.cutouts);
   }
   constexpr auto geometry = static_cast<std::uint32_t>(index_of<Shape>(Shapes{}));
   Hits& hits = nearest.hits;
@@ -102,7 +119,7 @@ RAYTRACE_INLINE MaskN is_occluded(const Tables& tables, const DirectionBuffer::O
 
 }  // namespace
 
-Hits Accelerator::intersect_unbounded(Ray<FloatN>& rays, const MaskN& active) const {
+Hits Accelerator::intersect_unbounded(Ray<FloatN>& rays, const MaskN& active, const CutoutQuery* cutouts) const {
   Hits hits;
   hits.hit = MaskN(false);
   hits.instance = UintN(0u);
@@ -111,16 +128,20 @@ Hits Accelerator::intersect_unbounded(Ray<FloatN>& rays, const MaskN& active) co
   hits.u = hits.v = FloatN(0);
   // They come in the order that decides at equal distances: what lies where the rays end so far comes too late.
   for_each_unbounded(table_, [&](auto type, std::uint32_t primitive, const auto& record) RAYTRACE_INLINE_LAMBDA {
-    intersect_object<typename decltype(type)::type>(record, primitive, rays, active, {hits, rays.far, rays.far});
+    intersect_object<typename decltype(type)::type>(record, primitive, rays, active,
+                                                    {hits, rays.far, rays.far, cutouts});
   });
   return hits;
 }
 
-MaskN Accelerator::occluded_unbounded(const Ray<FloatN>& rays, const MaskN& active) const {
+MaskN Accelerator::occluded_unbounded(const Ray<FloatN>& rays, const MaskN& active, const CutoutQuery* cutouts) const {
   MaskN occluded(false);
-  for_each_unbounded(table_, [&](auto type, std::uint32_t, const auto& record) RAYTRACE_INLINE_LAMBDA {
+  for_each_unbounded(table_, [&](auto type, std::uint32_t primitive, const auto& record) RAYTRACE_INLINE_LAMBDA {
     using Shape = typename decltype(type)::type;
-    occluded = occluded | occludes<Shape>(record, rays, active);
+    if (cutouts == nullptr) [[likely]]
+      occluded = occluded | occludes<Shape>(record, rays, active);
+    else
+      occluded = occluded | (distance_to_cutout<Shape>(record, primitive, rays, active, *cutouts) < infinity<FloatN>());
   });
   return occluded;
 }
@@ -167,23 +188,23 @@ MaskN Accelerator::occluded_by_candidates(const DirectionBuffer& buffer, const R
 }
 
 Hits Accelerator::intersect(Ray<FloatN>& rays, const MaskN& active, Coherence coherence,
-                            const DirectionBuffer* origin_buffer) const {
+                            const DirectionBuffer* origin_buffer, const CutoutQuery* cutouts) const {
   // All rays that start where the origin is can be taken.
   MaskN valid_lanes = origin_buffer != nullptr ? active : active & embree_takes(rays);
   // First the shapes without end: what lies behind their hits need not be looked for.
-  Hits hits = intersect_unbounded(rays, valid_lanes);
+  Hits hits = intersect_unbounded(rays, valid_lanes, cutouts);
   rays.near = max(rays.near, FloatN(0));
   FloatN distance = rays.far;
   rays.far = select(hits.hit, behind(distance), distance);
   if (origin_buffer != nullptr) valid_lanes = intersect_candidates(*origin_buffer, rays, valid_lanes, distance, hits);
-  if (any(valid_lanes)) intersect_bvh(rays, valid_lanes, coherence, distance, hits);
+  if (any(valid_lanes)) intersect_bvh(rays, valid_lanes, coherence, cutouts, distance, hits);
   rays.far = distance;
   hits.find_first();
   return hits;
 }
 
-void Accelerator::intersect_bvh(const Ray<FloatN>& rays, const MaskN& active, Coherence coherence, FloatN& distance,
-                                Hits& hits) const {
+void Accelerator::intersect_bvh(const Ray<FloatN>& rays, const MaskN& active, Coherence coherence,
+                                const CutoutQuery* cutouts, FloatN& distance, Hits& hits) const {
   const RTCScene scene = embree_scene();
   embree::Query query(coherence == Coherence::coherent);
   alignas(64) embree::RegisterPacket::RayHit packets[embree::packets];
@@ -193,6 +214,7 @@ void Accelerator::intersect_bvh(const Ray<FloatN>& rays, const MaskN& active, Co
   embree::store(hits.u, [&](int i) { return packets[i].hit.u; });
   embree::store(hits.v, [&](int i) { return packets[i].hit.v; });
   embree::NearestHits& nearest = query.nearest;
+  nearest.cutouts = cutouts;
   distance.store_aligned(nearest.distance);
   hits.geometry.store_aligned(nearest.geometry);
   same_bits<UintN>(hits.primitive).store_aligned(nearest.primitive);
@@ -224,11 +246,11 @@ void Accelerator::intersect_bvh(const Ray<FloatN>& rays, const MaskN& active, Co
 }
 
 MaskN Accelerator::occluded(const Ray<FloatN>& rays, const MaskN& active, Coherence coherence,
-                            const DirectionBuffer* end_buffer) const {
+                            const DirectionBuffer* end_buffer, const CutoutQuery* cutouts) const {
   MaskN in_reach(false), takeable = active;  // those in reach can be taken
   if (end_buffer != nullptr) in_reach = end_buffer->in_reach(rays.origin, rays.direction);
   if (any(active & !in_reach)) takeable = active & (in_reach | embree_takes(rays));
-  MaskN found = occluded_unbounded(rays, takeable);
+  MaskN found = occluded_unbounded(rays, takeable, cutouts);
   MaskN valid_lanes = takeable & !found;
   if (end_buffer != nullptr) valid_lanes = occluded_by_candidates(*end_buffer, rays, valid_lanes, in_reach, found);
   if (none(valid_lanes)) return found;
@@ -239,6 +261,7 @@ MaskN Accelerator::occluded(const Ray<FloatN>& rays, const MaskN& active, Cohere
   const Ray<FloatN> followed{rays.origin, rays.direction, max(rays.near, FloatN(0)), behind(rays.far)};
   embree::store_rays(followed, [&](int i) -> auto& { return packets[i]; });
   rays.far.store_aligned(query.nearest.distance);
+  query.nearest.cutouts = cutouts;
   if (coherence == Coherence::coherent) {
     const embree::ValidLanes valid(valid_lanes);
     embree::for_each_packet(valid_lanes,

@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "raytrace/accel/cutouts.h"
 #include "raytrace/accel/embree.h"
 #include "raytrace/math/bounds.h"
 #include "raytrace/math/ray.h"
@@ -167,6 +168,16 @@ struct CallbackRays {
 
   F distance() const { return load_lanes<F>(nearest.distance + id, count); }
 
+  /// The distances at which the rays, in those lanes, meet a primitive of opacity. find(rays, lanes, u, v): its hits.
+  template <class Find>
+  F meet(const Mask<F>& lanes, F& u, F& v, std::uint32_t geometry, std::uint32_t primitive, const Find& find) {
+    const F t = find(rays, lanes, u, v);
+    if (nearest.cutouts == nullptr) [[likely]]
+      return t;
+    return without_passed<F>(*nearest.cutouts, id, std::min(count, lane_count<F>),
+                             {nearest.current_instance, geometry, primitive, 0}, rays, t, u, v, find);
+  }
+
   /// Keeps the hits at t, in the lanes of the mask, that come before those so far. The result: their lanes.
   Mask<F> keep(const Mask<F>& mask, const F& t, std::uint32_t geometry, std::uint32_t primitive) {
     const std::uint32_t instance = nearest.current_instance;
@@ -200,7 +211,11 @@ struct Intersect {
     RTCRayN* const all = RTCRayHitN_RayN(arguments->rayhit, arguments->N);
     CallbackRays<F> packet(arguments, all, first);
     const auto& record = record_of<Shape>(arguments->geometryUserPtr, arguments->primID);
-    const F t = Kernel<Shape>::template intersect<F>(record, packet.rays, packet.active);
+    F u(0), v(0);
+    const F t = packet.meet(packet.active, u, v, arguments->geomID, arguments->primID,
+                            [&](const Ray<F>& rays, const Mask<F>& active, F&, F&) RAYTRACE_INLINE_LAMBDA {
+                              return Kernel<Shape>::template intersect<F>(record, rays, active);
+                            });
     const Mask<F> hit = packet.keep(t < infinity<F>(), t, arguments->geomID, arguments->primID);
     if (any(hit)) store_lanes<F>(&RTCRayN_tfar(all, arguments->N, first), packet.count, hit, behind(t));
     report_hits<F>(arguments->valid + first, packet.count, hit);
@@ -216,7 +231,16 @@ struct Occlude {
     CallbackRays<F> packet(arguments, arguments->ray, first);
     packet.rays.far = packet.distance();
     const auto& record = record_of<Shape>(arguments->geometryUserPtr, arguments->primID);
-    const Mask<F> hit = occludes<Shape>(record, packet.rays, packet.active);
+    Mask<F> hit(false);
+    if (packet.nearest.cutouts == nullptr) [[likely]] {
+      hit = occludes<Shape>(record, packet.rays, packet.active);
+    } else {
+      F u(0), v(0);
+      hit = packet.meet(packet.active, u, v, arguments->geomID, arguments->primID,
+                        [&](const Ray<F>& rays, const Mask<F>& active, F&, F&) {
+                          return Kernel<Shape>::template intersect<F>(record, rays, active);
+                        }) < infinity<F>();
+    }
     if (any(hit)) store_lanes<F>(&RTCRayN_tfar(arguments->ray, arguments->N, first), packet.count, hit, -infinity<F>());
     report_hits<F>(arguments->valid + first, packet.count, hit);
   }
@@ -267,6 +291,13 @@ struct MeshFaces {
   }
 };
 
+/// How rays hit one of a geometry's triangles, for CallbackRays::meet().
+template <class Triangles>
+RAYTRACE_INLINE auto find(const RTCFilterFunctionNArguments* arguments, std::uint32_t primitive) {
+  return [table = arguments->geometryUserPtr, primitive]<class F>(const Ray<F>& rays, const Mask<F>& lanes, F& u, F& v)
+             RAYTRACE_INLINE_LAMBDA { return Triangles::template intersect<F>(table, primitive, rays, lanes, u, v); };
+}
+
 /// Embree has set tfar to its own distance. It takes what is written there, and u and v, as the hit's.
 template <class Triangles>
 struct FilterIntersect {
@@ -278,9 +309,9 @@ struct FilterIntersect {
     packet.rays.far = infinity<F>();
     filter_packet<F>(arguments, first, packet, [&](const Mask<F>& lanes, std::uint32_t primitive) {
       F u(0), v(0);
-      const F t = Triangles::template intersect<F>(arguments->geometryUserPtr, primitive, packet.rays, lanes, u, v);
-      const Mask<F> hit =
-          packet.keep(t < infinity<F>(), t, RTCHitN_geomID(arguments->hit, arguments->N, first), primitive);
+      const unsigned geometry = RTCHitN_geomID(arguments->hit, arguments->N, first);
+      const F t = packet.meet(lanes, u, v, geometry, primitive, find<Triangles>(arguments, primitive));
+      const Mask<F> hit = packet.keep(t < infinity<F>(), t, geometry, primitive);
       if (none(hit)) return hit;
       store_lanes<F>(&RTCRayN_tfar(arguments->ray, arguments->N, first), packet.count, hit, behind(t));
       store_lanes<F>(&RTCHitN_u(arguments->hit, arguments->N, first), packet.count, hit, u);
@@ -300,8 +331,8 @@ struct FilterOcclude {
     packet.rays.far = packet.distance();
     filter_packet<F>(arguments, first, packet, [&](const Mask<F>& lanes, std::uint32_t primitive) {
       F u(0), v(0);
-      return Triangles::template intersect<F>(arguments->geometryUserPtr, primitive, packet.rays, lanes, u, v) <
-             infinity<F>();
+      return packet.meet(lanes, u, v, RTCHitN_geomID(arguments->hit, arguments->N, first), primitive,
+                         find<Triangles>(arguments, primitive)) < infinity<F>();
     });
   }
 };

@@ -100,12 +100,9 @@ Vec2<FloatN> uv_along(const SurfaceUv<FloatN>& uv, const Vec3<FloatN>& way) {
 
 }  // namespace
 
-TexturePoint<FloatN> texture_point(const SceneTables& scene, const CameraRays& camera, const Hits& hits,
+TexturePoint<FloatN> texture_point(const SceneTables& scene, const FloatN& radius, const Hits& hits,
                                    const SurfaceInteraction<FloatN>& surface) {
-  // Half of a pixel, across the ray; stretched on the surface along the view, but not without end.
-  const RayCone& cone = scene.ray_cone();
-  const FloatN width =
-      multiply_add(FloatN(cone.spread), camera.skipped + camera.rays.far, FloatN(cone.width)) * FloatN(0.5F);
+  // Stretched on the surface along the view, but not without end.
   const FloatN cosine = dot(surface.ng, surface.wo);
   const Vec3<FloatN> view = surface.wo - surface.ng * cosine;
   const FloatN sine = length(view);
@@ -121,8 +118,8 @@ TexturePoint<FloatN> texture_point(const SceneTables& scene, const CameraRays& c
     using D = Doubles<FloatN>;
     point.p = to_float(Vec3<D>(surface.p) + Vec3<D>(origin));
   }
-  point.p_across = cross(surface.ng, along) * width;
-  point.p_along = along * (width / max(cosine, FloatN(1e-3F)));
+  point.p_across = cross(surface.ng, along) * radius;
+  point.p_along = along * (radius / max(cosine, FloatN(1e-3F)));
   const SurfaceUv<FloatN> uv = surface_uv(scene.geometry(), hits, surface);
   point.uv = {uv.u, uv.v};
   point.uv_across = uv_along(uv, point.p_across);

@@ -6,8 +6,13 @@
 
 namespace raytrace {
 
-/// Of what camera rays of unit length hit; at least one lane must have a hit.
-TexturePoint<FloatN> texture_point(const SceneTables& scene, const CameraRays& camera, const Hits& hits,
+/// Of what rays of unit length hit, which cover a circle of that radius there; at least one lane must have a hit.
+TexturePoint<FloatN> texture_point(const SceneTables& scene, const FloatN& radius, const Hits& hits,
                                    const SurfaceInteraction<FloatN>& surface);
+/// The same of camera rays.
+inline TexturePoint<FloatN> texture_point(const SceneTables& scene, const CameraRays& camera, const Hits& hits,
+                                          const SurfaceInteraction<FloatN>& surface) {
+  return texture_point(scene, scene.ray_cone().half_width(camera.skipped + camera.rays.far), hits, surface);
+}
 
 }  // namespace raytrace

@@ -23,6 +23,7 @@ void TracedScene::make_buffers(int threads) {
   origins.insert(origins.end(), tables_.light_origins().begin(), tables_.light_origins().end());
   std::uint64_t objects = 0;
   for (auto& origin : origins) {
+    if (tables_.has_cutouts()) origin.reset();  // they know nothing of rays that pass
     if (!origin) continue;
     objects += tables_.geometry().object_count();
     if (objects > affordable) origin.reset();

@@ -161,7 +161,8 @@ class SceneChecker {
         error("has a texture for field " + std::to_string(use.field) + ", which takes none, or has another");
       else
         textured[use.field] = true;
-      if (static_cast<std::size_t>(use.channel) >= Choices<TextureChannel>::words.size())
+      if (use.channel > TextureChannel::automatic ||
+          (use.channel == TextureChannel::automatic && !(fine && fields[use.field].prefers_alpha)))
         error("has a texture of channel " + std::to_string(static_cast<int>(use.channel)) + "; there are 4");
     }
   }

@@ -113,6 +113,11 @@ class MeshLoader {
     else
       added = add<Matte>({1, 1, diffuse}, material.name);
     if (!material.map_kd.file.empty()) set_texture(added, "cd", material.map_kd, folder);
+    if (!material.map_d.file.empty()) set_texture(added, opacity_field, material.map_d, folder);
+    with_type(Materials{}, added.type, [&]<class Material>(std::type_identity<Material>) {
+      std::get<MaterialItems<Material>>(scene_.materials)[added.index].parameters.opacity =
+          std::max(0.0, material.d.value_or(1));
+    });
     return added;
   }
 
@@ -129,8 +134,10 @@ class MeshLoader {
     const TextureReference reference{index_of<Image>(Textures{}), static_cast<std::uint32_t>(images.size() - 1)};
     with_type(Materials{}, material.type, [&]<class Material>(std::type_identity<Material>) {
       auto& item = std::get<MaterialItems<Material>>(scene_.materials)[material.index];
+      const Fields& fields = element_type<Material>().fields;
+      const std::size_t number = find_field(fields, field);
       item.textures.push_back(
-          {static_cast<std::uint32_t>(find_field(Material::fields(), field)), reference, TextureChannel::red});
+          {static_cast<std::uint32_t>(number), reference, channel_of(fields[number], TextureChannel::automatic)});
     });
   }
 

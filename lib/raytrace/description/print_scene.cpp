@@ -97,7 +97,8 @@ class ScenePrinter : private XmlWriter {
     if constexpr (requires { item.name; })
       if (!item.name.empty()) print_value("name", item.name);
     if constexpr (requires { item.textures; })
-      print_parameters(element_type<T>(), &item.parameters, texture_attributes(scene, item.textures));
+      print_parameters(element_type<T>(), &item.parameters,
+                       texture_attributes(scene, element_type<T>().fields, item.textures));
     else
       print_parameters(element_type<T>(), &item.parameters);
     if constexpr (requires { item.transform; })
@@ -135,7 +136,8 @@ class ScenePrinter : private XmlWriter {
   /// By field.
   using AttributeTexts = std::map<std::size_t, std::string>;
 
-  static AttributeTexts texture_attributes(const SceneDescription& scene, const std::vector<TextureUse>& textures) {
+  static AttributeTexts texture_attributes(const SceneDescription& scene, const Fields& fields,
+                                           const std::vector<TextureUse>& textures) {
     AttributeTexts attributes;
     for (const TextureUse& use : textures) {
       std::string& text = attributes[use.field];
@@ -143,7 +145,7 @@ class ScenePrinter : private XmlWriter {
         text.append(" ").append(name).append("=\"").append(value).append("\"");
       };
       add(texture_attribute, escaped(name_of<TexturesSection>(scene, use.texture)));
-      if (use.channel != TextureChannel::red)
+      if (use.channel != channel_of(fields[use.field], TextureChannel::automatic))
         add(channel_attribute, Choices<TextureChannel>::words[static_cast<std::size_t>(use.channel)]);
     }
     return attributes;

@@ -184,7 +184,8 @@ class TypedItemList final : public ItemList {
       const auto& [name, channel] = use.attributes;
       if (const std::optional<ItemReference> texture = names_.textures.find(name)) {
         const std::size_t field = use.field - Section::labels.size();
-        item.textures.push_back({static_cast<std::uint32_t>(field), *texture, channel});
+        item.textures.push_back(
+            {static_cast<std::uint32_t>(field), *texture, channel_of(element_type<T>().fields[field], channel)});
         continue;
       }
       fine = false;

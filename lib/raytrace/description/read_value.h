@@ -93,8 +93,8 @@ bool read_attributes(Element element, std::span<const AttributeField> fields, bo
 
 /// The texture that an element such as <cd texture="wood"/> or <ka texture="dirt" channel="alpha">0.5</ka> names.
 struct TextureAttributes {
-  std::string_view texture;  ///< empty: none
-  TextureChannel channel = TextureChannel::red;
+  std::string_view texture;                            ///< empty: none
+  TextureChannel channel = TextureChannel::automatic;  ///< which is red where a field prefers no alpha
 };
 inline constexpr std::string_view texture_attribute = "texture", channel_attribute = "channel";
 

@@ -53,7 +53,13 @@ struct TextureItem {
   LoadedImage image{};    ///< of an Image, once its file has been loaded (load_images.h)
 };
 
-enum class TextureChannel { red, green, blue, alpha };
+enum class TextureChannel {
+  red,
+  green,
+  blue,
+  alpha,
+  automatic,  ///< alpha where the texture has it, else red: of fields that prefer it, where the scene names none
+};
 template <>
 struct Choices<TextureChannel> {
   static constexpr std::array<std::string_view, 4> words = {"red", "green", "blue", "alpha"};
@@ -65,6 +71,11 @@ struct TextureUse {
   TextureReference texture;
   TextureChannel channel = TextureChannel::red;  ///< for numbers
 };
+
+/// What `automatic` means for a field.
+inline TextureChannel channel_of(const FieldInfo& field, TextureChannel channel) {
+  return channel == TextureChannel::automatic && !field.prefers_alpha ? TextureChannel::red : channel;
+}
 
 template <class Material>
 struct MaterialItem {

@@ -29,6 +29,7 @@ struct Picture {
   int channels = 0;  ///< 1: grey; 4: red, green, blue and alpha, which does not multiply the others
   TexelFormat format = TexelFormat::bytes;
   LargeArray<std::byte> pixels;
+  bool has_alpha = false;  ///< whether the file has it; else it is 1
 };
 
 /// The largest picture that can be read: as many pixels as 16,384 times 16,384 has.

@@ -50,6 +50,7 @@ struct FieldInfo {
   Range range = Range::any;
   bool is_point = false;  ///< of world space: it moves with the world's origin, as no direction, edge or size does
   std::string_view in_place_of{};  ///< of a shorthand: the required field that it stands for
+  bool prefers_alpha = false;      ///< of a texture without a channel: alpha where it has it, else red
 };
 
 /// An enumeration that fields may have: the words that scene files spell its values with, in their order from 0.

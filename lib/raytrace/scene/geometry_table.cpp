@@ -214,6 +214,19 @@ std::optional<std::int32_t> GeometryTable::only_material(const Hits& hits) const
   return object_materials_[static_cast<std::size_t>(geometry.first_object + hits.first_primitive)];
 }
 
+std::int32_t GeometryTable::material_of(std::uint32_t instance, std::uint32_t geometry, std::uint32_t primitive) const {
+  const GeometryTable* table = this;
+  if (instance != 0) {
+    const std::size_t i = InstanceTable::index_of(instance);
+    if (instances_.materials()[i] >= 0) return instances_.materials()[i];
+    if (const std::int32_t group = instances_.target(i).group; group >= 0)
+      table = groups_[static_cast<std::size_t>(group)].get();
+  }
+  const Geometry& hit = table->geometry(geometry);
+  if (hit.mesh != nullptr) return hit.mesh->material(std::size_t{primitive});
+  return table->object_materials_[static_cast<std::size_t>(hit.first_object) + primitive];
+}
+
 IntN GeometryTable::material(const Hits& hits) const {
   if (meshes_.empty() && !hits.in_instances) return gather(object_materials_.data(), object(hits));
   IntN material(0);

@@ -76,6 +76,8 @@ class GeometryTable {
 
   IntN object(const Hits& hits) const;
   IntN material(const Hits& hits) const;
+  /// Of what one ray hit: its instance, geometry and primitive, as Hits have them.
+  std::int32_t material_of(std::uint32_t instance, std::uint32_t geometry, std::uint32_t primitive) const;
   /// Of all lanes with a hit, if they hit the same primitive, or a mesh that has one material.
   std::optional<std::int32_t> only_material(const Hits& hits) const;
 

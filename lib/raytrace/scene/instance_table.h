@@ -64,6 +64,7 @@ class InstanceTable {
   std::uint32_t number(std::size_t i) const {
     return static_cast<std::uint32_t>(i + 1) | (targets_[i].group == InstanceTarget::no_group ? shape_of_world : 0);
   }
+  static std::size_t index_of(std::uint32_t number) { return (number & ~shape_of_world) - 1; }
   const InstanceTarget& target(std::size_t i) const { return targets_[i]; }
   const Bounds& bounds(std::size_t i) const { return bounds_[i]; }  ///< in the world
   const AffineRecord<float>& object_from_world(std::size_t i) const { return object_from_world_[i]; }

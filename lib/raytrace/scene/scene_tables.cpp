@@ -44,6 +44,8 @@ SceneTables::SceneTables(const SceneDescription& description, int threads)
   set_camera(description);
   add_lights(description);
   used_materials_ = geometry_->used_materials(first_material_.back());
+  for (std::size_t i = 0; i < opacities_.size(); ++i)
+    has_cutouts_ |= used_materials_[i] != 0 && opacities_[i].is_cutout();
 }
 
 template <class LightKernel, class Parameters>
@@ -107,6 +109,9 @@ void SceneTables::add_materials(const SceneDescription& description) {
         textures_->multiply_by_largest(reinterpret_cast<double*>(&parameters), textured.back().factors);
       }
       bsdfs.push_back(Kernel<Material>::bsdf(parameters));
+      opacities_.push_back({static_cast<float>(parameters.opacity), {}});
+      for (const TextureUse& use : item.textures)
+        if (element_type<Material>().fields[use.field].name == opacity_field) opacities_.back().texture = use;
     }
     first_material_[type + 1] = first_material_[type] + static_cast<std::int32_t>(bsdfs.size());
     if (!textured.empty()) textured_.resize(static_cast<std::size_t>(first_material_[type]) + bsdfs.size());

@@ -31,6 +31,10 @@ struct BufferOrigin {
 struct RayCone {
   float width = 0;   ///< where the ray starts
   float spread = 0;  ///< what is added for each unit of its length
+
+  FloatN half_width(const FloatN& distance) const {
+    return multiply_add(FloatN(spread), distance, FloatN(width)) * FloatN(0.5F);
+  }
 };
 
 /// Immutable.
@@ -93,12 +97,31 @@ class SceneTables {
   Rgb<FloatN> shade(const Hits& hits, const SurfaceInteraction<FloatN>& surface, const Rgb<float>& ambient_radiance,
                     std::span<const IncidentLight> lights, const TexturePoint<FloatN>* point) const;
 
+  /// Whether some rays pass a surface of the scene, since its material has an opacity.
+  bool has_cutouts() const { return has_cutouts_; }
+  /// Whether that may be of a material.
+  bool is_cutout(std::int32_t material) const { return opacities_[static_cast<std::size_t>(material)].is_cutout(); }
+  /// A material's opacity, at least 1 where all rays meet the surface. point(): where the surface is hit.
+  template <class Point>
+  FloatN opacity(std::int32_t material, const Point& point) const {
+    const Opacity& opacity = opacities_[static_cast<std::size_t>(material)];
+    if (!opacity.texture) return FloatN(opacity.value);
+    return FloatN(opacity.value) * textures_->number_at(*opacity.texture, point());
+  }
+
   /// Whether any of the lanes has a material with textures.
   bool has_textures(const Hits& hits) const;
   /// How wide a pixel is where the camera's rays start, and by how much it widens with their lengths.
   const RayCone& ray_cone() const { return ray_cone_; }
 
  private:
+  struct Opacity {
+    float value;
+    std::optional<TextureUse> texture;  ///< it multiplies the value
+
+    bool is_cutout() const { return value < 1 || texture; }
+  };
+
   /// The parameters with all points less the origin.
   template <class Type>
   typename Type::Parameters moved(typename Type::Parameters parameters) const {
@@ -138,6 +161,8 @@ class SceneTables {
   std::array<std::int32_t, Materials::size + 1>
       first_material_{};  ///< of each type, all counted together; their number
   std::unique_ptr<const GeometryTable> geometry_;
+  std::vector<Opacity> opacities_;  ///< of all materials
+  bool has_cutouts_ = false;
   std::vector<std::int32_t> textured_;  ///< 1 for materials with textures, else 0; empty if there are none
   RayCone ray_cone_;
   std::vector<std::uint8_t> used_materials_;  ///< 1 for those that objects have, else 0

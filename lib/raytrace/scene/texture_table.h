@@ -40,6 +40,7 @@ class TextureTable {
     std::vector<TextureFactor> factors;
     for (const TextureUse& use : uses) {
       const Field& field = element_type<Material>().fields.at(use.field);
+      if (field.name == opacity_field) continue;
       const bool is_color = !field.is<double>();
       factors.push_back({number(use.texture, is_color), field.offset() / sizeof(double), is_color, use.channel});
     }
@@ -58,11 +59,7 @@ class TextureTable {
         first[1] = first[1] * color.green;
         first[2] = first[2] * color.blue;
       } else {
-        const FloatN& number = factor.channel == TextureChannel::red     ? color.red
-                               : factor.channel == TextureChannel::green ? color.green
-                               : factor.channel == TextureChannel::blue  ? color.blue
-                                                                         : value.alpha;
-        *first = *first * max(number, FloatN(0));
+        *first = *first * max(channel_of(value, factor.channel), FloatN(0));
       }
     }
   }
@@ -76,8 +73,27 @@ class TextureTable {
     }
   }
 
+  /// The numbers of a texture that a field which is one names.
+  FloatN number_at(const TextureUse& use, const TexturePoint<FloatN>& point) const {
+    return std::visit(
+        [&](const auto& texture) {
+          TextureChannel channel = use.channel;
+          if (channel == TextureChannel::automatic) channel = TextureChannel::red;
+          if constexpr (requires { texture.has_alpha(); })
+            if (use.channel == TextureChannel::automatic && texture.has_alpha()) channel = TextureChannel::alpha;
+          return channel_of(texture.at(point), channel);
+        },
+        textures_[number(use.texture, false)]);
+  }
+
  private:
   using AnyTexture = KernelVariant<Textures>::type;
+
+  static FloatN channel_of(const Rgba<FloatN>& value, TextureChannel channel) {
+    if (channel == TextureChannel::red) return value.color.red;
+    if (channel == TextureChannel::green) return value.color.green;
+    return channel == TextureChannel::blue ? value.color.blue : value.alpha;
+  }
 
   template <class T>
   void add(const TextureItem<T>& item) {

@@ -34,6 +34,7 @@ class Kernel<Image> {
   }
 
   float largest() const { return texels_->largest(); }
+  bool has_alpha() const { return texels_->has_alpha(); }
 
   Rgba<FloatN> at(const TexturePoint<FloatN>& point) const {
     const Vec2<FloatN> turned = in_picture(point.uv);

@@ -71,7 +71,7 @@ struct Cover {
 
 /// A copy in floats, in which colours are linear light.
 Picture linear_floats(const Picture& picture) {
-  Picture result{picture.width, picture.height, picture.channels, TexelFormat::floats, {}};
+  Picture result{picture.width, picture.height, picture.channels, TexelFormat::floats, {}, picture.has_alpha};
   const std::size_t numbers = static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height) *
                               static_cast<std::size_t>(picture.channels);
   result.pixels = LargeArray<std::byte>::unset(numbers * sizeof(float));
@@ -98,7 +98,7 @@ Picture linear_floats(const Picture& picture) {
 }  // namespace
 
 TexelImage::TexelImage(const Picture& picture, bool srgb, int threads)
-    : format_(picture.format), channels_(picture.channels), srgb_(srgb) {
+    : format_(picture.format), channels_(picture.channels), has_alpha_(picture.has_alpha), srgb_(srgb) {
   if (srgb && format_ != TexelFormat::bytes) {
     *this = TexelImage(linear_floats(picture), false, threads);
     return;

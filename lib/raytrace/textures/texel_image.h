@@ -34,6 +34,7 @@ class TexelImage {
 
   TexelFormat format() const { return format_; }
   int channels() const { return channels_; }  ///< 1 or 4
+  bool has_alpha() const { return has_alpha_; }
   const std::vector<Level>& levels() const { return levels_; }
   const std::byte* texels() const { return texels_.data(); }
   /// Whether colours are sRGB's, as those of bytes may be; else they are linear light.
@@ -56,6 +57,7 @@ class TexelImage {
 
   TexelFormat format_;
   int channels_;
+  bool has_alpha_;
   std::vector<Level> levels_;
   LargeArray<std::byte> texels_;
   bool srgb_;

@@ -9,12 +9,18 @@ namespace raytrace {
 /// something that is closer to it than to where they started: floats are more precise there.
 inline Hits intersect_camera_rays(const TracedScene& scene, CameraRays& camera, const MaskN& active) {
   Ray<FloatN>& rays = camera.rays;
-  Hits hits = scene.accelerator().intersect(rays, active, Coherence::coherent, scene.camera_buffer());
+  const auto intersect = [&](Ray<FloatN>& some, const MaskN& lanes, const DirectionBuffer* buffer) {
+    if (!scene.tables().has_cutouts()) [[likely]]
+      return scene.accelerator().intersect(some, lanes, Coherence::coherent, buffer);
+    const CutoutQuery query{scene.tables(), scene.accelerator(), some, camera.key, &camera};
+    return scene.accelerator().intersect(some, lanes, Coherence::coherent, nullptr, &query);
+  };
+  Hits hits = intersect(rays, active, scene.camera_buffer());
   if (!scene.tables().camera_is_far()) return hits;
   const MaskN near_eye = hits.hit & (rays.far < camera.skipped * FloatN(-0.5F));
   if (none(near_eye)) return hits;
   Ray<FloatN> from_eye{rays.origin - rays.direction * camera.skipped, rays.direction, FloatN(0), infinity<FloatN>()};
-  const Hits near_hits = scene.accelerator().intersect(from_eye, near_eye, Coherence::coherent);
+  const Hits near_hits = intersect(from_eye, near_eye, nullptr);
   rays.origin = select(near_eye, from_eye.origin, rays.origin);
   rays.near = select(near_eye, from_eye.near, rays.near);
   rays.far = select(near_eye, from_eye.far, rays.far);

@@ -23,7 +23,10 @@ class Kernel<Normals> {
   static RayResult radiance(const TracedScene& scene, const Rgb<float>& background, CameraRays& camera,
                             const MaskN& active, const MaskN&, RayCounts&, FirstHits* first) {
     const Hits hits = intersect_camera_rays(scene, camera, active);
-    if (first != nullptr) first->hits = hits, first->textures.reset();
+    if (first != nullptr) {
+      first->hits = hits;
+      first->textures.reset();
+    }
     if (none(hits.hit)) return {Rgb<FloatN>(background), hits.hit};
     const SurfaceInteraction<FloatN> surface = scene.accelerator().surface(camera.rays, hits);
     if (first != nullptr) {

@@ -23,6 +23,14 @@ class Kernel<Raycast> {
                             const MaskN& active, const MaskN& counted, RayCounts& counts, FirstHits* first);
 
  private:
+  [[gnu::noinline]] static MaskN occluded_with_cutouts(const TracedScene& scene, const Ray<FloatN>& rays,
+                                                       const MaskN& active, const UintN& key, std::size_t light) {
+    // What a ray meets on its way to one light says nothing of that to another, nor of the camera ray's.
+    const UintN keys = key + UintN(0x9e3779b9U * static_cast<std::uint32_t>(light + 1));
+    const CutoutQuery query{scene.tables(), scene.accelerator(), rays, keys};
+    return scene.accelerator().occluded(rays, active, Coherence::coherent, nullptr, &query);
+  }
+
   /// Lights are gathered in runs of this many before the materials get them, so that each material reads its parameters
   /// once a run. Runs are counted with the lights that reach no lane: how a lane's radiance is summed must not depend
   /// on the others.
@@ -34,14 +42,20 @@ inline RayResult Kernel<Raycast>::radiance(const TracedScene& scene, const Rgb<f
                                            FirstHits* first) {
   const SceneTables& tables = scene.tables();
   const Hits hits = intersect_camera_rays(scene, camera, active);
-  if (first != nullptr) first->hits = hits, first->textures.reset();
+  if (first != nullptr) {
+    first->hits = hits;
+    first->textures.reset();
+  }
   if (none(hits.hit)) return {Rgb<FloatN>(background), hits.hit};
 
   const SurfaceInteraction<FloatN> surface = scene.accelerator().surface(camera.rays, hits);
   std::optional<TexturePoint<FloatN>> textures;
   if (tables.has_textures(hits)) [[unlikely]]
     textures = texture_point(tables, camera, hits, surface);
-  if (first != nullptr) first->surface = surface, first->textures = textures;
+  if (first != nullptr) {
+    first->surface = surface;
+    first->textures = textures;
+  }
 
   std::array<IncidentLight, lights_per_run> incident;
   std::size_t count = 0;
@@ -66,8 +80,9 @@ inline RayResult Kernel<Raycast>::radiance(const TracedScene& scene, const Rgb<f
     MaskN lit = hits.hit & (dot(surface.ns, shadow_rays.direction) > FloatN(0));
     if (shadows && any(lit)) {
       counts.shadow += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(lit & counted)));
-      const MaskN occluded =
-          scene.accelerator().occluded(shadow_rays, lit, Coherence::coherent, scene.light_buffer(number));
+      const MaskN occluded = tables.has_cutouts() ? occluded_with_cutouts(scene, shadow_rays, lit, camera.key, number)
+                                                  : scene.accelerator().occluded(shadow_rays, lit, Coherence::coherent,
+                                                                                 scene.light_buffer(number));
       lit = lit & !occluded;
     }
     if (none(lit)) continue;

@@ -69,6 +69,7 @@ void raytrace_openimageio_read_picture(const std::string& file, Picture& picture
   picture.width = spec.width;
   picture.height = spec.height;
   picture.channels = spec.nchannels == 1 ? 1 : 4;
+  picture.has_alpha = spec.nchannels == 2 || spec.nchannels >= 4;
   picture.format = format_of(spec);
   const std::size_t bytes = bytes_of(picture.format), stride = bytes * static_cast<std::size_t>(picture.channels);
   const std::size_t pixels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);

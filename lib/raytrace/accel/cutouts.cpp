@@ -1,0 +1,53 @@
+#include "raytrace/accel/cutouts.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "raytrace/accel/accelerator.h"
+#include "raytrace/accel/surface_uv.h"
+#include "raytrace/sampling/hash.h"
+#include "raytrace/sampling/sampler.h"
+
+namespace raytrace {
+
+bool is_cutout(const CutoutQuery& query, const CutoutSurface& surface) {
+  return query.scene.is_cutout(
+      query.scene.geometry().material_of(surface.instance, surface.geometry, surface.primitive));
+}
+
+std::uint32_t passing_rays(const CutoutQuery& query, unsigned first, std::uint32_t hit, const CutoutSurface& surface,
+                           std::span<const float> t, std::span<const float> u, std::span<const float> v) {
+  alignas(64) std::array<float, packet_lanes> far{}, hit_u{}, hit_v{};
+  alignas(64) std::array<std::int32_t, packet_lanes> is_hit{};
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    if ((hit >> i & 1) == 0) continue;
+    far[first + i] = t[i];
+    hit_u[first + i] = u[i];
+    hit_v[first + i] = v[i];
+    is_hit[first + i] = -1;
+  }
+  Hits hits;
+  hits.hit = float_mask<FloatN>(IntN::load_aligned(is_hit.data()) != IntN(0));
+  hits.instance = UintN(surface.instance);
+  hits.geometry = UintN(surface.geometry);
+  hits.primitive = IntN(static_cast<std::int32_t>(surface.primitive));
+  hits.u = FloatN::load_aligned(hit_u.data());
+  hits.v = FloatN::load_aligned(hit_v.data());
+  hits.find_first();
+  const SceneTables& scene = query.scene;
+  const std::int32_t material = scene.geometry().material_of(surface.instance, surface.geometry, surface.primitive);
+  const FloatN opacity = scene.opacity(material, [&] {
+    Ray<FloatN> rays = query.rays;
+    rays.far = FloatN::load_aligned(far.data());
+    FloatN width(0);
+    if (query.camera != nullptr) width = scene.ray_cone().half_width(query.camera->skipped + rays.far);
+    return texture_point(scene, width, hits, query.accelerator.surface(rays, hits));
+  });
+  const UintN key = hash(query.keys, UintN(surface.instance), UintN(surface.geometry),
+                         UintN(mix_bits(surface.primitive) + surface.crossing));
+  // What is not a number meets nothing.
+  return bits_of<FloatN>(hits.hit & !(to_unit(key) < opacity)) >> first;
+}
+
+}  // namespace raytrace

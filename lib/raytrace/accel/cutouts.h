@@ -1,0 +1,73 @@
+// Surfaces that some rays pass, as the opacity of their materials says.
+//
+// Whether a ray meets the surface that it hits is decided by a hash of the ray and of the surface, not by its order
+// among others: so the answer does not depend on how Embree comes to it, and needs no state.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "raytrace/math/ray.h"
+#include "raytrace/math/simd.h"
+#include "raytrace/scene/camera.h"
+
+namespace raytrace {
+
+class Accelerator;
+class SceneTables;
+
+/// The rays of a query, as its callbacks want them there.
+struct CutoutQuery {
+  const SceneTables& scene;
+  const Accelerator& accelerator;
+  const Ray<FloatN>& rays;             ///< in world space; ray `id` is lane `id`
+  UintN keys;                          ///< a hash for each of them
+  const CameraRays* camera = nullptr;  ///< what camera rays cover, textures are filtered by; null: other rays
+};
+
+/// A primitive that rays hit, and which crossing of its surface that is, counted along the rays.
+struct CutoutSurface {
+  std::uint32_t instance, geometry, primitive, crossing;
+};
+
+/// Whether rays may pass the surface at all.
+bool is_cutout(const CutoutQuery& query, const CutoutSurface& surface);
+
+/// Which of the rays pass the surface that they hit at distance t[i], where the bits of `hit` say so; bit i is that of
+/// ray first + i. u, v: barycentric coordinates, on triangles.
+std::uint32_t passing_rays(const CutoutQuery& query, unsigned first, std::uint32_t hit, const CutoutSurface& surface,
+                           std::span<const float> t, std::span<const float> u, std::span<const float> v);
+
+/// The distances t at which rays hit a primitive, or those of their next hits, where they pass what they hit there.
+/// The rays are `count` from `first` on. find(rays, lanes, u, v): their hits behind rays.near.
+template <class F, class Find>
+F without_passed(const CutoutQuery& query, unsigned first, int count, CutoutSurface surface, Ray<F> rays, F t, F& u,
+                 F& v, const Find& find) {
+  if (!is_cutout(query, surface)) return t;
+  // No shape is crossed more often; what rounding finds beyond that is passed.
+  constexpr std::uint32_t most_crossings = 8;
+  const std::uint32_t present = count >= 32 ? ~0U : (1U << static_cast<unsigned>(count)) - 1;
+  std::uint32_t open = bits_of<F>(t < infinity<F>()) & present;
+  for (; open != 0; ++surface.crossing) {
+    alignas(64) float at[3][lane_count<F>];
+    t.store_aligned(at[0]);
+    u.store_aligned(at[1]);
+    v.store_aligned(at[2]);
+    open = surface.crossing < most_crossings ? passing_rays(query, first, open, surface, at[0], at[1], at[2]) : open;
+    if (open == 0) break;
+    alignas(64) std::int32_t lanes[lane_count<F>];
+    for (int i = 0; i < lane_count<F>; ++i) lanes[i] = (open >> i & 1) != 0 ? -1 : 0;
+    const Mask<F> passed = float_mask<F>(Ints<F>::load_aligned(lanes) != Ints<F>(0));
+    if (surface.crossing >= most_crossings) return select(passed, infinity<F>(), t);
+    rays.near = select(passed, same_bits<F>(same_bits<Uints<F>>(t) + Uints<F>(1u)), rays.near);
+    F next_u = u, next_v = v;
+    const F next = find(rays, passed, next_u, next_v);
+    t = select(passed, next, t);
+    u = select(passed, next_u, u);
+    v = select(passed, next_v, v);
+    open &= bits_of<F>(t < infinity<F>());
+  }
+  return t;
+}
+
+}  // namespace raytrace

@@ -1,0 +1,156 @@
+// Surfaces that some rays pass: how many, and that it does not depend on how the picture is made.
+#include <cmath>
+#include <string>
+
+#include "render/scenes.h"
+#include "support/catch.h"
+#include "support/usable_isas.h"
+
+namespace raytrace::test {
+
+namespace {
+
+struct Crossed {
+  const char* group;
+  const char* element;  ///< all of it but its material
+  int crossings;        ///< of its surface by rays close to the z axis
+};
+
+const Crossed crossed_shapes[] = {
+    {"planes", "<plane><point x='0' y='0' z='1'/><normal x='0' y='0' z='1'/>", 1},
+    {"triangles",
+     "<triangle><vertexposition1 x='-4' y='-4' z='1'/><vertexposition2 x='4' y='-4' z='1'/>"
+     "<vertexposition3 x='0' y='4' z='1'/>",
+     1},
+    {"spheres", "<sphere><center x='0' y='0' z='0'/><radius>1</radius>", 2},
+    {"spheres",
+     "<sphere><center x='0' y='0' z='0'/><radius>1</radius><transform><scale x='1' y='2' z='1'/></transform>", 2},
+    {"cylinders", "<cylinder><bottom x='0' y='-1' z='0'/><top x='0' y='1' z='0'/><radius>1</radius>", 2},
+    {"cylinders", "<cylinder><bottom x='0' y='0' z='-1'/><top x='0' y='0' z='1'/><radius>1</radius><caps>true</caps>",
+     2},
+    {"toruses", "<torus><axis x='0' y='1' z='0'/><sweptradius>0.75</sweptradius><tuberadius>0.25</tuberadius>", 4},
+    {"disks", "<disk><center x='0' y='0' z='1'/><normal x='0' y='0' z='1'/><radius>2</radius>", 1},
+    {"rectangles", "<rectangle><corner x='-1' y='-1' z='1'/><edge1 x='2' y='0' z='0'/><edge2 x='0' y='2' z='0'/>", 1},
+    {"boxes", "<box><min x='-1' y='-1' z='-1'/><max x='1' y='1' z='1'/>", 2},
+    {"cones",
+     "<cone><bottom x='0' y='-1' z='0'/><top x='0' y='1' z='0'/><radius>1.5</radius><topradius>0.5</topradius>", 2},
+    {"annuli",
+     "<annulus><center x='2' y='0' z='1'/><normal x='0' y='0' z='1'/><innerradius>1</innerradius>"
+     "<outerradius>3</outerradius>",
+     1},
+    {"meshes", "<mesh><positions>-4 -4 1, 4 -4 1, 0 4 1, -4 -4 0, 4 -4 0, 0 4 0</positions><faces>0 1 2, 3 4 5</faces>",
+     2},
+    {"meshes", "<mesh><positions>-4 -4 1, 4 -4 1, 4 4 1, -4 4 1</positions><faces>0 1 2 3</faces>", 1}};
+
+std::string object(const Crossed& shape, const std::string& material = "veil") {
+  const std::string element(shape.element);
+  const std::string end = "</" + element.substr(1, element.find('>') - 1) + ">";
+  return "<" + std::string(shape.group) + ">" + element + "<material>" + material + "</material>" + end + "</" +
+         shape.group + ">";
+}
+
+std::string material(const std::string& name, const std::string& opacity, double kd = 0) {
+  return "<matte><name>" + name + "</name><ka>1</ka><kd>" + std::to_string(kd) +
+         "</kd><cd red='1' green='1' blue='1'/>" + opacity + "</matte>";
+}
+
+/// 16 x 16 pixels about the z axis, from z = 5, over a black background.
+SceneDescription axial_scene(const std::string& materials, const std::string& objects, const std::string& rest = {}) {
+  return parsed_scene(
+      "<raytracer><viewplane><hres>16</hres><vres>16</vres><pixelsize>0.01</pixelsize><samples>64</samples></viewplane>"
+      "<orthographiccamera><eye x='0' y='0' z='5'/><lookat x='0' y='0' z='0'/></orthographiccamera>" +
+      rest + "<materials><mattes>" + materials + "</mattes></materials><objects>" + objects + "</objects></raytracer>");
+}
+
+constexpr double all_samples = 16 * 16 * 64;
+const std::string ambient =
+    "<ambientlight><scaleradiance>1</scaleradiance><color red='1' green='1' blue='1'/></ambientlight>";
+const std::string light_from_camera =
+    "<directionallights><directionallight><direction x='0' y='0' z='1'/><scaleradiance>1</scaleradiance>"
+    "<color red='1' green='1' blue='1'/><shadows>true</shadows></directionallight></directionallights>";
+
+double mean(const FloatPicture& picture) {
+  double sum = 0;
+  for (const Pixel& pixel : picture.pixels()) sum += double{pixel.red};
+  return sum / static_cast<double>(picture.pixels().size());
+}
+
+/// 4.5 standard deviations of the share of all samples.
+double tolerance(double share) { return 4.5 * std::sqrt(share * (1 - share) / all_samples); }
+
+}  // namespace
+
+TEST_CASE("rays meet each crossing of a surface with the chance that its opacity is") {
+  constexpr double opacity = 0.3;
+  for (const Crossed& shape : crossed_shapes) {
+    const SceneDescription scene =
+        axial_scene(material("veil", "<opacity>0.3</opacity>"), object(shape), "<lights>" + ambient + "</lights>");
+    const double share = 1 - std::pow(1 - opacity, shape.crossings);
+    for (const std::string& isa : usable_isas()) {
+      INFO(shape.element << ", " << isa);
+      CHECK(std::abs(mean(rendered(scene, 1, isa)) - share) < tolerance(share));
+    }
+  }
+}
+
+TEST_CASE("in instances, too, by the instance's own material") {
+  const std::string group = "<groups><group><name>g</name><objects>" + object(crossed_shapes[2], "wall") +
+                            object(crossed_shapes[13], "wall") + "</objects></group></groups>";
+  const SceneDescription scene =
+      axial_scene(material("veil", "<opacity>0.2</opacity>") + material("wall", ""),
+                  "<instances><instance><group>g</group><material>veil</material><transform>"
+                  "<rotate x='0' y='0' z='1' angle='30'/></transform></instance></instances>",
+                  "<lights>" + ambient + "</lights>" + group);
+  const double share = 1 - std::pow(0.8, 3);
+  CHECK(std::abs(mean(rendered(scene)) - share) < tolerance(share));
+}
+
+TEST_CASE("a shadow ray's chance has nothing to do with the camera ray's, nor with that of another light") {
+  const std::string lights = GENERATE(as<std::string>{}, "one", "two");
+  std::string all = light_from_camera;
+  if (lights == "two") all += light_from_camera;
+  const std::string floor =
+      "<planes><plane><point x='0' y='0' z='0'/><normal x='0' y='0' z='1'/>"
+      "<material>floor</material></plane></planes>";
+  SceneDescription scene = axial_scene(material("veil", "<opacity>0.5</opacity>") + material("floor", "", 1),
+                                       floor + object(crossed_shapes[7]), "<lights>" + all + "</lights>");
+  // A quarter of the samples sees the floor lit by a light: through the disk on both ways.
+  const double lit = (lights == "one" ? 1 : 2) / 3.14159265358979;
+  const double share = mean(rendered(scene)) / lit;
+  CHECK(std::abs(share - 0.25) < tolerance(0.25));
+}
+
+TEST_CASE("what rays pass does not depend on threads, samples at once, or how the picture is cut") {
+  std::string text = busy_scene(61, 47, 16);
+  // Every other material is a veil.
+  int number = 0;
+  for (const std::string& end : {std::string("</matte>"), std::string("</phong>")})
+    for (std::size_t at = text.find(end); at != std::string::npos; at = text.find(end, at)) {
+      const std::string veil = number++ % 2 == 0 ? "<opacity>0.6</opacity>" : "";
+      text.insert(at, veil);
+      at += veil.size() + end.size();
+    }
+  REQUIRE(number >= 2);
+  const SceneDescription description = parsed_scene(text);
+  for (const std::string& isa : usable_isas()) {
+    const auto scene = build_scene(description, {1, isa});
+    const FloatPicture whole_picture = rendered(description, 1, isa);
+    CHECK(identical(rendered(description, 3, isa), whole_picture));
+
+    // In passes of samples that packets of other shapes trace.
+    const RenderSettings settings{1, 0, whole(description)};
+    Film film(film_settings(*scene, description, settings), FilmContent::sums);
+    for (const std::uint32_t samples : {1U, 2U, 7U, 16U}) render(*scene, film, samples, 1);
+    CHECK(identical(film, whole_picture));
+
+    RayCounts rays;
+    const Region part{13, 9, 40, 30};
+    const FloatPicture cut = render(*scene, description, {1, 0, part}, rays);
+    int wrong = 0;
+    for (int y = part.y0; y < part.y1; ++y)
+      for (int x = part.x0; x < part.x1; ++x) wrong += !identical(cut.at(x, y), whole_picture.at(x, y));
+    CHECK(wrong == 0);
+  }
+}
+
+}  // namespace raytrace::test
