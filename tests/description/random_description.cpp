@@ -146,9 +146,21 @@ std::vector<TextureUse> random_uses(Random& random, const Fields& fields,
   for (std::uint32_t i = 0; !textures.empty() && i < fields.size(); ++i) {
     if (!fields[i].may_be_textured() || below(random, 2) == 0) continue;
     uses.push_back({i, textures[below(random, textures.size())], {}});
-    if (fields[i].is<double>()) uses.back().channel = static_cast<TextureChannel>(below(random, 4));
+    if (fields[i].is<double>() && !fields[i].whole_color)
+      uses.back().channel = static_cast<TextureChannel>(below(random, 4));
   }
   return uses;
+}
+
+/// Numbers of textures have their default without one.
+template <class Material>
+void reset_unused(MaterialItem<Material>& item) {
+  const Fields& fields = element_type<Material>().fields;
+  for (std::uint32_t i = 0; i < fields.size(); ++i) {
+    const bool used =
+        std::any_of(item.textures.begin(), item.textures.end(), [&](const TextureUse& use) { return use.field == i; });
+    if (!fields[i].number_attribute.empty() && !used) fields[i].template get<double>(&item.parameters) = 1;
+  }
 }
 
 Transform random_transform(Random& random) {
@@ -229,6 +241,7 @@ SceneDescription random_description(Random& random) {
           {static_cast<std::uint32_t>(index_of<T>(Materials{})), static_cast<std::uint32_t>(items.size())});
       items.push_back({random_parameters<T>(random), random_name(random) + std::to_string(materials.size())});
       if (below(random, 2) == 0) items.back().textures = random_uses(random, element_type<T>().fields, textures);
+      reset_unused(items.back());
     }
   });
   if (materials.empty()) return scene;

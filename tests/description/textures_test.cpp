@@ -62,6 +62,23 @@ TEST_CASE("of an opacity's texture the channel may be left open, as the printed 
   CHECK(contains(print_scene(red), R"(<opacity texture="wood" channel="red">1</opacity>)"));
 }
 
+TEST_CASE("normal maps and bumps are textures with a number beside them") {
+  const std::string rest = R"(<ka>0</ka> <kd>1</kd> <cd red="1" green="1" blue="1"/>)";
+  const SceneDescription scene = accepted(textured(
+      rest + R"(<normalmap texture="wood" strength="0.5"/> <bump texture="tiles" channel="green" height="2"/>)"));
+  CHECK(matte(scene).parameters.normalmap == 0.5);
+  CHECK(matte(scene).parameters.bump == 2);
+  REQUIRE(matte(scene).textures.size() == 2);
+  CHECK(matte(scene).textures[1].channel == TextureChannel::green);
+  CHECK(contains(print_scene(scene), R"(<bump texture="tiles" channel="green" height="2"/>)"));
+  CHECK(matte(accepted(textured(rest + R"(<bump texture="tiles"/>)"))).parameters.bump == 1);
+  const auto error = [&](const std::string& fields) { return reported(textured(rest + fields)); };
+  CHECK(contains(error(R"(<bump height="2"/>)"), "missing attribute 'texture' in <bump>"));
+  CHECK(contains(error(R"(<bump texture="tiles">2</bump>)"), R"(write it as <bump texture="..." height="1"/>)"));
+  CHECK(contains(error(R"(<normalmap texture="wood" channel="red"/>)"), "unknown attribute 'channel' in <normalmap>"));
+  CHECK(contains(error(R"(<normalmap texture="wood" strenght="1"/>)"), "did you mean 'strength'?"));
+}
+
 TEST_CASE("a colour may have its own value beside a texture, and keys") {
   const SceneDescription colour =
       accepted(textured(R"(<ka>0</ka> <kd>1</kd> <cd red="1" green="0.5" blue="0" texture="wood"/>)"));

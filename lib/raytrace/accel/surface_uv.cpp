@@ -124,6 +124,8 @@ TexturePoint<FloatN> texture_point(const SceneTables& scene, const FloatN& radiu
   point.uv = {uv.u, uv.v};
   point.uv_across = uv_along(uv, point.p_across);
   point.uv_along = uv_along(uv, point.p_along);
+  point.dpdu = uv.dpdu;
+  point.dpdv = uv.dpdv;
   point.vertex_color = vertex_color(scene.geometry(), hits);
   return point;
 }

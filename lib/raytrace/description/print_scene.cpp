@@ -156,11 +156,21 @@ class ScenePrinter : private XmlWriter {
     for (std::size_t i = 0; i < fields.size(); ++i) {
       const auto more = attributes.find(i);
       fields[i].visit(parameters, [&](const auto& value) {
-        if (!is_absent(value))
+        if (!fields[i].number_attribute.empty())
+          print_number_of_texture(fields[i], value, more != attributes.end() ? more->second : std::string());
+        else if (!is_absent(value))
           print_value(fields[i].name, value, more != attributes.end() ? more->second : std::string());
       });
     }
   }
+
+  void print_number_of_texture(const FieldInfo& info, double value, const std::string& texture) {
+    if (texture.empty()) return;
+    line("<" + std::string(info.name) + texture + " " + std::string(info.number_attribute) + "=\"" +
+         number_text(value) + "\"/>");
+  }
+  template <class Value>
+  void print_number_of_texture(const FieldInfo&, const Value&, const std::string&) {}
 
   // No element is written without a value.
   static bool is_absent(const FileName& value) { return value.path.empty(); }

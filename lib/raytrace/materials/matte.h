@@ -3,7 +3,7 @@
 //   <matte> <name>clay</name> <ka>0.25</ka> <kd>0.75</kd> <cd red="1" green="1" blue="0"/> </matte>
 #pragma once
 
-#include "raytrace/materials/opacity.h"
+#include "raytrace/materials/surface_detail.h"
 
 namespace raytrace {
 
@@ -12,18 +12,18 @@ class Matte {
   /// T: double, or a batch for lanes with textures of their own.
   template <class T>
   struct Values {
-    T ka = T(0);       ///< ambient reflection coefficient
-    T kd = T(0);       ///< diffuse reflection coefficient
-    Rgb<T> cd{};       ///< diffuse colour
-    T opacity = T(1);  ///< the share of rays that meet it; the others pass
+    T ka = T(0);                                      ///< ambient reflection coefficient
+    T kd = T(0);                                      ///< diffuse reflection coefficient
+    Rgb<T> cd{};                                      ///< diffuse colour
+    T opacity = T(1), normalmap = T(1), bump = T(1);  ///< of surface_detail.h
   };
   using Parameters = Values<double>;
   static constexpr std::string_view group = "mattes";
   static constexpr std::string_view element = "matte";
   static Fields fields() {
-    return with_opacity<Parameters>({required("ka", &Parameters::ka, Range::not_negative),
-                                     required("kd", &Parameters::kd, Range::not_negative),
-                                     required("cd", &Parameters::cd)});
+    return with_surface_detail<Parameters>({required("ka", &Parameters::ka, Range::not_negative),
+                                            required("kd", &Parameters::kd, Range::not_negative),
+                                            required("cd", &Parameters::cd)});
   }
 };
 

@@ -6,7 +6,7 @@
 //   </phong>
 #pragma once
 
-#include "raytrace/materials/opacity.h"
+#include "raytrace/materials/surface_detail.h"
 
 namespace raytrace {
 
@@ -15,19 +15,19 @@ class Phong {
   /// T: double, or a batch for lanes with textures of their own.
   template <class T>
   struct Values {
-    T ka = T(0);       ///< ambient reflection coefficient
-    T kd = T(0);       ///< diffuse reflection coefficient
-    T ks = T(0);       ///< specular reflection coefficient
-    Rgb<T> cd{};       ///< diffuse colour
-    Rgb<T> cs{};       ///< specular colour
-    T exp = T(20);     ///< the larger, the smaller the highlight
-    T opacity = T(1);  ///< the share of rays that meet it; the others pass
+    T ka = T(0);                                      ///< ambient reflection coefficient
+    T kd = T(0);                                      ///< diffuse reflection coefficient
+    T ks = T(0);                                      ///< specular reflection coefficient
+    Rgb<T> cd{};                                      ///< diffuse colour
+    Rgb<T> cs{};                                      ///< specular colour
+    T exp = T(20);                                    ///< the larger, the smaller the highlight
+    T opacity = T(1), normalmap = T(1), bump = T(1);  ///< of surface_detail.h
   };
   using Parameters = Values<double>;
   static constexpr std::string_view group = "phongs";
   static constexpr std::string_view element = "phong";
   static Fields fields() {
-    return with_opacity<Parameters>(
+    return with_surface_detail<Parameters>(
         {required("ka", &Parameters::ka, Range::not_negative), required("kd", &Parameters::kd, Range::not_negative),
          required("ks", &Parameters::ks, Range::not_negative), required("cd", &Parameters::cd),
          required("cs", &Parameters::cs), optional("exp", &Parameters::exp, Range::not_negative)});

@@ -51,6 +51,9 @@ struct FieldInfo {
   bool is_point = false;  ///< of world space: it moves with the world's origin, as no direction, edge or size does
   std::string_view in_place_of{};  ///< of a shorthand: the required field that it stands for
   bool prefers_alpha = false;      ///< of a texture without a channel: alpha where it has it, else red
+  /// Of a number that means nothing without a texture: the attribute beside the texture's that it stands in.
+  std::string_view number_attribute{};
+  bool whole_color = false;  ///< it takes the texture's colour, and no channel of it
 };
 
 /// An enumeration that fields may have: the words that scene files spell its values with, in their order from 0.

@@ -44,8 +44,10 @@ SceneTables::SceneTables(const SceneDescription& description, int threads)
   set_camera(description);
   add_lights(description);
   used_materials_ = geometry_->used_materials(first_material_.back());
-  for (std::size_t i = 0; i < opacities_.size(); ++i)
-    has_cutouts_ |= used_materials_[i] != 0 && opacities_[i].is_cutout();
+  for (std::size_t i = 0; i < details_.size(); ++i) {
+    has_cutouts_ |= used_materials_[i] != 0 && details_[i].is_cutout();
+    has_relief_ |= used_materials_[i] != 0 && details_[i].has_relief();
+  }
 }
 
 template <class LightKernel, class Parameters>
@@ -97,6 +99,20 @@ TexturedMaterial<Material> SceneTables::textured_material(const MaterialItem<Mat
   return result;
 }
 
+template <class Material>
+SceneTables::SurfaceDetail SceneTables::surface_detail(const MaterialItem<Material>& item) {
+  SurfaceDetail detail{{static_cast<float>(item.parameters.opacity)},
+                       {static_cast<float>(item.parameters.normalmap)},
+                       {static_cast<float>(item.parameters.bump)}};
+  for (const TextureUse& use : item.textures) {
+    const std::string_view field = element_type<Material>().fields[use.field].name;
+    if (field == opacity_field) detail.opacity.texture = use;
+    if (field == normalmap_field) detail.normalmap.texture = use;
+    if (field == bump_field) detail.bump.texture = use;
+  }
+  return detail;
+}
+
 void SceneTables::add_materials(const SceneDescription& description) {
   for_each_type(Materials{}, [&]<class Material>(std::type_identity<Material>) {
     constexpr std::size_t type = index_of<Material>(Materials{});
@@ -104,14 +120,11 @@ void SceneTables::add_materials(const SceneDescription& description) {
     typename MaterialTableOf<Material>::TexturedMaterials textured;
     for (const auto& item : std::get<MaterialItems<Material>>(description.materials)) {
       auto parameters = item.parameters;
-      if (!item.textures.empty()) {
-        textured.push_back(textured_material<Material>(item, static_cast<std::int32_t>(bsdfs.size())));
-        textures_->multiply_by_largest(reinterpret_cast<double*>(&parameters), textured.back().factors);
-      }
+      details_.push_back(surface_detail<Material>(item));
+      auto textured_item = textured_material<Material>(item, static_cast<std::int32_t>(bsdfs.size()));
+      textures_->multiply_by_largest(reinterpret_cast<double*>(&parameters), textured_item.factors);
+      if (!textured_item.factors.empty() || details_.back().has_relief()) textured.push_back(std::move(textured_item));
       bsdfs.push_back(Kernel<Material>::bsdf(parameters));
-      opacities_.push_back({static_cast<float>(parameters.opacity), {}});
-      for (const TextureUse& use : item.textures)
-        if (element_type<Material>().fields[use.field].name == opacity_field) opacities_.back().texture = use;
     }
     first_material_[type + 1] = first_material_[type] + static_cast<std::int32_t>(bsdfs.size());
     if (!textured.empty()) textured_.resize(static_cast<std::size_t>(first_material_[type]) + bsdfs.size());

@@ -100,14 +100,19 @@ class SceneTables {
   /// Whether some rays pass a surface of the scene, since its material has an opacity.
   bool has_cutouts() const { return has_cutouts_; }
   /// Whether that may be of a material.
-  bool is_cutout(std::int32_t material) const { return opacities_[static_cast<std::size_t>(material)].is_cutout(); }
+  bool is_cutout(std::int32_t material) const { return details_[static_cast<std::size_t>(material)].is_cutout(); }
   /// A material's opacity, at least 1 where all rays meet the surface. point(): where the surface is hit.
   template <class Point>
   FloatN opacity(std::int32_t material, const Point& point) const {
-    const Opacity& opacity = opacities_[static_cast<std::size_t>(material)];
+    const TexturedNumber& opacity = details_[static_cast<std::size_t>(material)].opacity;
     if (!opacity.texture) return FloatN(opacity.value);
     return FloatN(opacity.value) * textures_->number_at(*opacity.texture, point());
   }
+
+  /// Whether materials have normal maps or bumps.
+  bool has_relief() const { return has_relief_; }
+  /// Turns the shading normals as they say.
+  void add_relief(const Hits& hits, const TexturePoint<FloatN>& point, SurfaceInteraction<FloatN>& surface) const;
 
   /// Whether any of the lanes has a material with textures.
   bool has_textures(const Hits& hits) const;
@@ -115,11 +120,15 @@ class SceneTables {
   const RayCone& ray_cone() const { return ray_cone_; }
 
  private:
-  struct Opacity {
+  struct TexturedNumber {
     float value;
-    std::optional<TextureUse> texture;  ///< it multiplies the value
+    std::optional<TextureUse> texture = std::nullopt;  ///< it multiplies the value
+  };
+  struct SurfaceDetail {
+    TexturedNumber opacity, normalmap, bump;
 
-    bool is_cutout() const { return value < 1 || texture; }
+    bool is_cutout() const { return opacity.value < 1 || opacity.texture; }
+    bool has_relief() const { return normalmap.texture || bump.texture; }
   };
 
   /// The parameters with all points less the origin.
@@ -135,6 +144,8 @@ class SceneTables {
   void add_light_bounds(const LightKernel& light, const Parameters& parameters, const Vec3d& eye);
   template <class Material>
   TexturedMaterial<Material> textured_material(const MaterialItem<Material>& item, std::int32_t index) const;
+  template <class Material>
+  static SurfaceDetail surface_detail(const MaterialItem<Material>& item);
   template <class CameraKernel>
   void set_ray_cone(const CameraKernel& camera);
   void add_materials(const SceneDescription& description);
@@ -161,8 +172,8 @@ class SceneTables {
   std::array<std::int32_t, Materials::size + 1>
       first_material_{};  ///< of each type, all counted together; their number
   std::unique_ptr<const GeometryTable> geometry_;
-  std::vector<Opacity> opacities_;  ///< of all materials
-  bool has_cutouts_ = false;
+  std::vector<SurfaceDetail> details_;  ///< of all materials
+  bool has_cutouts_ = false, has_relief_ = false;
   std::vector<std::int32_t> textured_;  ///< 1 for materials with textures, else 0; empty if there are none
   RayCone ray_cone_;
   std::vector<std::uint8_t> used_materials_;  ///< 1 for those that objects have, else 0

@@ -19,7 +19,20 @@ struct SurfaceInteraction {
   /// Tracing Gems II, chapter 4.
   Vec3<F> to_smooth_surface;
   bool is_smooth = false;  ///< whether any lane has it
+
+  /// Whether a normal map or a bump has turned a lane's ns.
+  bool has_relief = false;
 };
+
+/// The share of the light from wi, of unit length, that reaches a surface whose relief is not there for rays: it ends
+/// softly where the true surface turns away, in place of at a hard edge. Chiang, Li and Burley, "Taming the Shadow
+/// Terminator", SIGGRAPH Talks 2019.
+template <class F>
+RAYTRACE_INLINE F relief_shadow(const SurfaceInteraction<F>& surface, const Vec3<F>& wi) {
+  const F product = dot(surface.ns, wi) * dot(surface.ng, surface.ns);
+  const F g = min(max(dot(surface.ng, wi), F(0)) / max(product, F(1e-6F)), F(1));
+  return ((F(1) - g) * g + F(1)) * g;
+}
 
 /// Where rays that leave the surface on ng's side start: p moved along ng just so far that neither its own rounding nor
 /// that of an intersection with the surface it lies on can put it on the other side: a few units in the last place of

@@ -40,7 +40,7 @@ class TextureTable {
     std::vector<TextureFactor> factors;
     for (const TextureUse& use : uses) {
       const Field& field = element_type<Material>().fields.at(use.field);
-      if (field.name == opacity_field) continue;
+      if (is_surface_detail(field.name)) continue;
       const bool is_color = !field.is<double>();
       factors.push_back({number(use.texture, is_color), field.offset() / sizeof(double), is_color, use.channel});
     }
@@ -71,6 +71,12 @@ class TextureTable {
           std::visit([](const auto& texture) { return texture.largest(); }, textures_[factor.texture]);
       for (std::size_t i = 0; i < (factor.is_color ? 3U : 1U); ++i) parameters[factor.parameter + i] *= largest;
     }
+  }
+
+  /// The numbers of a texture that are no colour.
+  Rgb<FloatN> vector_at(const TextureUse& use, const TexturePoint<FloatN>& point) const {
+    return std::visit([&](const auto& texture) { return texture.at(point).color; },
+                      textures_[number(use.texture, false)]);
   }
 
   /// The numbers of a texture that a field which is one names.

@@ -16,6 +16,7 @@ struct TexturePoint {
   Vec3<F> p_across, p_along;
   Vec2<F> uv;
   Vec2<F> uv_across, uv_along;
+  Vec3<F> dpdu, dpdv;   ///< how the point moves with u and v
   Rgb<F> vertex_color;  ///< between those of the mesh's vertices; white where there are none
 };
 

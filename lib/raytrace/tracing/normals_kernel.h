@@ -28,11 +28,13 @@ class Kernel<Normals> {
       first->textures.reset();
     }
     if (none(hits.hit)) return {Rgb<FloatN>(background), hits.hit};
-    const SurfaceInteraction<FloatN> surface = scene.accelerator().surface(camera.rays, hits);
-    if (first != nullptr) {
-      first->surface = surface;
-      if (scene.tables().has_textures(hits)) first->textures = texture_point(scene.tables(), camera, hits, surface);
+    SurfaceInteraction<FloatN> surface = scene.accelerator().surface(camera.rays, hits);
+    if (const SceneTables& tables = scene.tables(); tables.has_textures(hits)) {
+      const TexturePoint<FloatN> textures = texture_point(tables, camera, hits, surface);
+      if (tables.has_relief()) tables.add_relief(hits, textures, surface);
+      if (first != nullptr) first->textures = textures;
     }
+    if (first != nullptr) first->surface = surface;
     const auto color = [](const FloatN& component) {
       return min(max(component * FloatN(0.5F) + FloatN(0.5F), FloatN(0)), FloatN(1));
     };

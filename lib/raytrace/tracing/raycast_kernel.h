@@ -48,10 +48,12 @@ inline RayResult Kernel<Raycast>::radiance(const TracedScene& scene, const Rgb<f
   }
   if (none(hits.hit)) return {Rgb<FloatN>(background), hits.hit};
 
-  const SurfaceInteraction<FloatN> surface = scene.accelerator().surface(camera.rays, hits);
+  SurfaceInteraction<FloatN> surface = scene.accelerator().surface(camera.rays, hits);
   std::optional<TexturePoint<FloatN>> textures;
-  if (tables.has_textures(hits)) [[unlikely]]
+  if (tables.has_textures(hits)) [[unlikely]] {
     textures = texture_point(tables, camera, hits, surface);
+    if (tables.has_relief()) tables.add_relief(hits, *textures, surface);
+  }
   if (first != nullptr) {
     first->surface = surface;
     first->textures = textures;
@@ -88,6 +90,8 @@ inline RayResult Kernel<Raycast>::radiance(const TracedScene& scene, const Rgb<f
     if (none(lit)) continue;
     here.wi = normalize(shadow_rays.direction);
     here.cosine = select(lit, max(dot(surface.ns, here.wi), FloatN(0)), FloatN(0));
+    if (surface.has_relief) [[unlikely]]
+      here.cosine = here.cosine * relief_shadow(surface, here.wi);
     ++count;
   }
   if (count > 0 || tables.lights().size() <= lights_per_run) shade_run();

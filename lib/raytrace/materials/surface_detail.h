@@ -1,0 +1,42 @@
+// What materials of all types have: opacity, normal maps and bumps.
+//
+//   <matte> ... <opacity texture="leaf"/> <normalmap texture="tiles" strength="0.8"/> </matte>
+//   <phong> ... <opacity>0.5</opacity> <bump texture="bark" height="0.02"/> </phong>
+#pragma once
+
+#include <utility>
+
+#include "raytrace/parameters/fields.h"
+
+namespace raytrace {
+
+// The names of their fields, and of the members for them in a material's parameters.
+inline constexpr std::string_view opacity_field = "opacity", normalmap_field = "normalmap", bump_field = "bump";
+
+/// A material's own fields, and
+///   opacity: the share of the rays, camera and shadow rays alike, that meet the surface. The others pass as if there
+///     were none; where a picture cuts leaves out of their squares, a sample sees a leaf or what is behind it;
+///   normalmap: a texture of shading normals, x along u, y along v and z out of the surface, each from -1 at 0 to 1 at
+///     1; x and y are multiplied by its strength;
+///   bump: a texture of heights in space over the surface, multiplied by its height, that shading follows.
+template <class Parameters>
+Fields with_surface_detail(Fields fields) {
+  FieldInfo opacity{opacity_field, false, Range::not_negative};
+  opacity.prefers_alpha = true;
+  fields.emplace_back(opacity, &Parameters::opacity);
+  FieldInfo normalmap{normalmap_field, false};
+  normalmap.number_attribute = "strength";
+  normalmap.whole_color = true;
+  fields.emplace_back(normalmap, &Parameters::normalmap);
+  FieldInfo bump{bump_field, false};
+  bump.number_attribute = "height";
+  fields.emplace_back(bump, &Parameters::bump);
+  return fields;
+}
+
+/// Whether a field of this name is one of those, and none of the material's own.
+inline bool is_surface_detail(std::string_view field) {
+  return field == opacity_field || field == normalmap_field || field == bump_field;
+}
+
+}  // namespace raytrace

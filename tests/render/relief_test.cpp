@@ -1,0 +1,134 @@
+// Normal maps and bumps turn shading normals as their textures say.
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "raytrace/description/load_images.h"
+#include "render/scenes.h"
+#include "support/catch.h"
+#include "support/temporary_folder.h"
+
+namespace raytrace::test {
+
+namespace {
+
+const std::string panel =
+    "<rectangles><rectangle><corner x='-1' y='-1' z='0'/><edge1 x='2' y='0' z='0'/><edge2 x='0' y='2' z='0'/>"
+    "<material>m</material></rectangle></rectangles>";
+/// The same panel, with u to the left.
+const std::string mirrored_panel =
+    "<meshes><mesh><positions>-1 -1 0, 1 -1 0, 1 1 0, -1 1 0</positions><faces>0 1 2 3</faces>"
+    "<uvs>1 0, 0 0, 0 1, 1 1</uvs><material>m</material></mesh></meshes>";
+
+/// A texture of one colour.
+std::string constant(double red, double green, double blue) {
+  const std::string color =
+      " red='" + std::to_string(red) + "' green='" + std::to_string(green) + "' blue='" + std::to_string(blue) + "'/>";
+  return "<textures><checkers><checker><name>t</name><color1" + color + "<color2" + color +
+         "</checker></checkers></textures>";
+}
+
+/// 8 x 8 pixels at the middle of the objects, from z = 5.
+std::string relief_scene(const std::string& textures, const std::string& detail, const std::string& objects,
+                         const std::string& integrator = "<normals/>") {
+  return "<raytracer><viewplane><hres>8</hres><vres>8</vres><pixelsize>0.01</pixelsize></viewplane>"
+         "<orthographiccamera><eye x='0.2' y='0.1' z='5'/><lookat x='0.2' y='0.1' z='0'/></orthographiccamera>"
+         "<integrator>" +
+         integrator +
+         "</integrator><lights><directionallights><directionallight><direction x='1' y='0.5' z='1'/>"
+         "<scaleradiance>3</scaleradiance><color red='1' green='1' blue='1'/></directionallight></directionallights>"
+         "</lights>" +
+         textures + "<materials><mattes><matte><name>m</name><ka>0</ka><kd>1</kd><cd red='1' green='1' blue='1'/>" +
+         detail + "</matte></mattes></materials><objects>" + objects + "</objects></raytracer>";
+}
+
+/// The mean of the normals in the picture.
+Vec3d normal_of(const FloatPicture& picture) {
+  Vec3d sum(0, 0, 0);
+  for (const Pixel& pixel : picture.pixels())
+    sum += Vec3d(2 * double{pixel.red} - 1, 2 * double{pixel.green} - 1, 2 * double{pixel.blue} - 1);
+  return sum / static_cast<double>(picture.pixels().size());
+}
+
+void check_normal(const FloatPicture& picture, const Vec3d& wanted, double tolerance = 1e-5) {
+  const Vec3d got = normal_of(picture);
+  INFO(got.x << " " << got.y << " " << got.z);
+  CHECK(length(got - wanted) < tolerance);
+}
+
+}  // namespace
+
+TEST_CASE("a normal map's x is along u, its y along v") {
+  const double s = std::sin(0.5), c = std::cos(0.5);
+  const std::string map = "<normalmap texture='t'/>";
+  const std::string to_u = constant(0.5 + s / 2, 0.5, 0.5 + c / 2), to_v = constant(0.5, 0.5 + s / 2, 0.5 + c / 2);
+  check_normal(rendered(relief_scene(to_u, map, panel)), {s, 0, c});
+  check_normal(rendered(relief_scene(to_v, map, panel)), {0, s, c});
+  check_normal(rendered(relief_scene(to_u, map, mirrored_panel)), {-s, 0, c});
+  check_normal(rendered(relief_scene(to_v, map, mirrored_panel)), {0, s, c});
+
+  const Vec3d half(s / 2, 0, c);
+  check_normal(rendered(relief_scene(to_u, "<normalmap texture='t' strength='0.5'/>", panel)), half / length(half));
+}
+
+TEST_CASE("in instances, normal maps turn with the object") {
+  const double s = std::sin(0.5), c = std::cos(0.5);
+  std::string turned = panel;
+  turned.insert(turned.find("<material>"), "<transform><rotate x='0' y='0' z='1' angle='90'/></transform>");
+  check_normal(rendered(relief_scene(constant(0.5 + s / 2, 0.5, 0.5 + c / 2), "<normalmap texture='t'/>", turned)),
+               {0, s, c});
+}
+
+TEST_CASE("a normal map of nothing but up leaves the picture as it is") {
+  const std::string map = constant(0.5, 0.5, 1);
+  const FloatPicture plain = rendered(relief_scene(map, "", panel, "<raycast/>"));
+  const FloatPicture mapped = rendered(relief_scene(map, "<normalmap texture='t'/>", panel, "<raycast/>"));
+  for (std::size_t i = 0; i < plain.pixels().size(); ++i)
+    REQUIRE(difference(plain.pixels()[i], mapped.pixels()[i]) < 1e-5);
+}
+
+TEST_CASE("a bump's normal is that of the surface of its heights") {
+  const TemporaryFolder folder;
+  constexpr int width = 256;
+  std::vector<std::uint16_t> ramp;
+  for (int x = 0; x < width; ++x) ramp.push_back(static_cast<std::uint16_t>(65535 * x / (width - 1)));
+  const auto output = OIIO::ImageOutput::create(folder.file("ramp.png"));
+  REQUIRE(output);
+  REQUIRE(output->open(folder.file("ramp.png"), OIIO::ImageSpec(width, 1, 1, OIIO::TypeUInt16)));
+  REQUIRE(output->write_image(OIIO::TypeUInt16, ramp.data()));
+  REQUIRE(output->close());
+
+  const std::string textures = "<textures><images><image><name>t</name><file>" + folder.file("ramp.png") +
+                               "</file><wrap>clamp</wrap></image></images></textures>";
+  SceneDescription scene = parsed_scene(relief_scene(textures, "<bump texture='t' height='0.5'/>", panel));
+  Diagnostics diagnostics("s");
+  REQUIRE(load_images(scene, diagnostics, 1, MissingTexture::error));
+  // The panel is 2 wide: it rises by 0.5 of 1 texel in 255 from one of 256 to the next.
+  const Vec3d slope(-0.5 / 2 * 256 / 255, 0, 1);
+  check_normal(rendered(scene), slope / length(slope), 2e-3);
+}
+
+TEST_CASE("where relief turns a surface towards the light more than its shape is, the light ends softly") {
+  // Light that grazes the panel from +x; the map leans towards it, so that the normal alone would leave a hard edge.
+  const auto radiance = [&](double height) {
+    const double s = std::sin(0.8), c = std::cos(0.8);
+    std::string text =
+        relief_scene(constant(0.5 + s / 2, 0.5, 0.5 + c / 2), "<normalmap texture='t'/>", panel, "<raycast/>");
+    const std::string direction = "<direction x='1' y='0.5' z='1'/>";
+    text.replace(text.find(direction), direction.size(), "<direction x='1' y='0' z='" + std::to_string(height) + "'/>");
+    return double{rendered(text).pixels()[0].red};
+  };
+  CHECK(radiance(-0.01) == 0);
+  double before = 0;
+  for (const double height : {0.002, 0.02, 0.1, 0.4}) {
+    const double now = radiance(height);
+    CHECK(now > before);
+    before = now;
+  }
+  CHECK(radiance(0.002) < 0.02);
+}
+
+}  // namespace raytrace::test
