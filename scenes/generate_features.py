@@ -494,6 +494,45 @@ write(
     </rectangles>
 """,
 )
+write(
+    "relief",
+    "Heights that shading follows: of noise on a sphere and on the floor, and of the tiles' edges on a cylinder.",
+    textures="""\
+    <checkers> <checker> <name>blocks</name> <uvscale x="12" y="5"/> </checker> </checkers>
+    <noises>
+      <noise> <name>orange</name> <scale>0.12</scale> <octaves>2</octaves> </noise>
+      <noise> <name>waves</name> <scale>0.5</scale> <octaves>3</octaves> </noise>
+    </noises>
+""",
+    mattes="""\
+      <matte>
+        <name>sand</name> <ka>0.12</ka> <kd>0.75</kd> <cd red="0.55" green="0.62" blue="0.68"/>
+        <bump texture="waves" height="0.25"/>
+      </matte>
+      <matte>
+        <name>carved</name> <ka>0.12</ka> <kd>0.9</kd> <cd red="0.9" green="0.85" blue="0.7"/>
+        <bump texture="blocks" height="0.02"/>
+      </matte>
+""",
+    phongs="""\
+      <phong>
+        <name>peel</name> <ka>0.12</ka> <kd>0.8</kd> <ks>0.2</ks> <cd red="0.95" green="0.45" blue="0.05"/>
+        <cs red="1" green="1" blue="1"/> <exp>40</exp> <bump texture="orange" height="0.06"/>
+      </phong>
+""",
+    floor="",
+    objects="""\
+    <planes>
+      <plane> <point x="0" y="0" z="0"/> <normal x="0" y="1" z="0"/> <material>sand</material> </plane>
+    </planes>
+    <spheres> <sphere> <center x="-0.9" y="0.95" z="0"/> <radius>0.95</radius> <material>peel</material> </sphere> </spheres>
+    <cylinders>
+      <cylinder>
+        <bottom x="1.2" y="0" z="0"/> <top x="1.2" y="1.6" z="0"/> <radius>0.6</radius> <material>carved</material>
+      </cylinder>
+    </cylinders>
+""",
+)
 
 # Lights
 light(

@@ -64,6 +64,7 @@ TEST_CASE("a scene is printed with every value spelled out") {
         <ka>0</ka>
         <kd>1</kd>
         <cd red="1" green="1" blue="1"/>
+        <opacity>1</opacity>
       </matte>
     </mattes>
     <phongs>
@@ -75,6 +76,7 @@ TEST_CASE("a scene is printed with every value spelled out") {
         <cd red="1" green="1" blue="1"/>
         <cs red="1" green="1" blue="1"/>
         <exp>20</exp>
+        <opacity>1</opacity>
       </phong>
     </phongs>
   </materials>

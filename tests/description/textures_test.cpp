@@ -153,7 +153,7 @@ TEST_CASE("a made description's textures are checked") {
   const TextureReference tiles{static_cast<std::uint32_t>(index_of<Checker>(Textures{})), 0};
   CHECK(error({0, tiles, {}}) == "");
   CHECK(contains(error({2, tiles, {}}), "texture for field 2"));
-  CHECK(contains(error({3, tiles, {}}), "texture for field 3"));
+  CHECK(contains(error({6, tiles, {}}), "texture for field 6"));
   CHECK(contains(error({0, {tiles.type, 1}, {}}), "refers to texture 1 of type 1, which is not there"));
   CHECK(contains(error({0, {9, 0}, {}}), "nor is that type"));
   CHECK(contains(error({0, tiles, static_cast<TextureChannel>(4)}), "channel 4"));

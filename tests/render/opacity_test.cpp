@@ -63,7 +63,7 @@ SceneDescription axial_scene(const std::string& materials, const std::string& ob
 }
 
 constexpr double all_samples = 16 * 16 * 64;
-const std::string ambient =
+const std::string white_ambient =
     "<ambientlight><scaleradiance>1</scaleradiance><color red='1' green='1' blue='1'/></ambientlight>";
 const std::string light_from_camera =
     "<directionallights><directionallight><direction x='0' y='0' z='1'/><scaleradiance>1</scaleradiance>"
@@ -84,7 +84,7 @@ TEST_CASE("rays meet each crossing of a surface with the chance that its opacity
   constexpr double opacity = 0.3;
   for (const Crossed& shape : crossed_shapes) {
     const SceneDescription scene =
-        axial_scene(material("veil", "<opacity>0.3</opacity>"), object(shape), "<lights>" + ambient + "</lights>");
+        axial_scene(material("veil", "<opacity>0.3</opacity>"), object(shape), "<lights>" + white_ambient + "</lights>");
     const double share = 1 - std::pow(1 - opacity, shape.crossings);
     for (const std::string& isa : usable_isas()) {
       INFO(shape.element << ", " << isa);
@@ -100,7 +100,7 @@ TEST_CASE("in instances, too, by the instance's own material") {
       axial_scene(material("veil", "<opacity>0.2</opacity>") + material("wall", ""),
                   "<instances><instance><group>g</group><material>veil</material><transform>"
                   "<rotate x='0' y='0' z='1' angle='30'/></transform></instance></instances>",
-                  "<lights>" + ambient + "</lights>" + group);
+                  "<lights>" + white_ambient + "</lights>" + group);
   const double share = 1 - std::pow(0.8, 3);
   CHECK(std::abs(mean(rendered(scene)) - share) < tolerance(share));
 }

@@ -50,7 +50,7 @@ Vec3d normal_of(const FloatPicture& picture) {
   Vec3d sum(0, 0, 0);
   for (const Pixel& pixel : picture.pixels())
     sum += Vec3d(2 * double{pixel.red} - 1, 2 * double{pixel.green} - 1, 2 * double{pixel.blue} - 1);
-  return sum / static_cast<double>(picture.pixels().size());
+  return sum * (1 / static_cast<double>(picture.pixels().size()));
 }
 
 void check_normal(const FloatPicture& picture, const Vec3d& wanted, double tolerance = 1e-5) {
@@ -71,7 +71,7 @@ TEST_CASE("a normal map's x is along u, its y along v") {
   check_normal(rendered(relief_scene(to_v, map, mirrored_panel)), {0, s, c});
 
   const Vec3d half(s / 2, 0, c);
-  check_normal(rendered(relief_scene(to_u, "<normalmap texture='t' strength='0.5'/>", panel)), half / length(half));
+  check_normal(rendered(relief_scene(to_u, "<normalmap texture='t' strength='0.5'/>", panel)), half * (1 / length(half)));
 }
 
 TEST_CASE("in instances, normal maps turn with the object") {
@@ -108,7 +108,7 @@ TEST_CASE("a bump's normal is that of the surface of its heights") {
   REQUIRE(load_images(scene, diagnostics, 1, MissingTexture::error));
   // The panel is 2 wide: it rises by 0.5 of 1 texel in 255 from one of 256 to the next.
   const Vec3d slope(-0.5 / 2 * 256 / 255, 0, 1);
-  check_normal(rendered(scene), slope / length(slope), 2e-3);
+  check_normal(rendered(scene), slope * (1 / length(slope)), 2e-3);
 }
 
 TEST_CASE("where relief turns a surface towards the light more than its shape is, the light ends softly") {

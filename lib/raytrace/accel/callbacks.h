@@ -19,45 +19,13 @@
 
 #include "raytrace/accel/cutouts.h"
 #include "raytrace/accel/embree.h"
+#include "raytrace/accel/primitives.h"
 #include "raytrace/math/bounds.h"
 #include "raytrace/math/ray.h"
 #include "raytrace/math/simd.h"
 #include "raytrace/scene/geometry_table.h"
 
 namespace raytrace {
-
-/// Shapes whose records are Embree's triangles.
-template <class Shape>
-concept EmbreeTriangle = requires { &Kernel<Shape>::template Record<float>::vertex1; };
-
-/// Shapes without end: every ray is tested against them, and they stay out of the BVH. There all boxes on the way to
-/// them would be without end.
-template <class Shape>
-concept UnboundedShape = !requires { &Kernel<Shape>::bounds; };
-
-/// All others: they bring their own intersection, and bounds for a BVH to keep them in.
-template <class Shape>
-concept UserGeometry = !EmbreeTriangle<Shape> && !UnboundedShape<Shape>;
-
-/// Shapes whose objects are few and large: their surface() takes one, so that it can be of the plain numbers.
-template <class Shape>
-concept SurfaceOfOne = requires(typename ShapeTable<Shape>::Record record, Ray<FloatN> rays, FloatN distance) {
-  Kernel<Shape>::surface(record, rays, distance);
-};
-
-/// Whether the object lies on the rays, in the lanes of `active`. Kernel::occludes(), where there is one, need not find
-/// out where.
-template <class Shape, class Record, class F>
-RAYTRACE_INLINE Mask<F> occludes(const Record& record, const Ray<F>& ray, const Mask<F>& active) {
-  if constexpr (requires { Kernel<Shape>::template occludes<F>(record, ray, active); }) {
-    return Kernel<Shape>::template occludes<F>(record, ray, active);
-  } else if constexpr (EmbreeTriangle<Shape>) {
-    F u, v;
-    return Kernel<Shape>::template intersect<F>(record, ray, active, u, v) < infinity<F>();
-  } else {
-    return Kernel<Shape>::template intersect<F>(record, ray, active) < infinity<F>();
-  }
-}
 
 /// How far Embree follows a ray that has hit something: behind it by more than the roundings of its boxes, of its
 /// triangles' distances and of our spheres' (2^-17), so that it finds all that may lie as near.
@@ -196,12 +164,6 @@ struct CallbackRays {
   }
 };
 
-/// The user pointer of a shape's geometry is its table.
-template <class Shape>
-const auto& record_of(void* table, unsigned primitive) {
-  return static_cast<const ShapeTable<Shape>*>(table)->records[primitive];
-}
-
 template <class Shape>
 struct Intersect {
   using Arguments = RTCIntersectFunctionNArguments;
@@ -263,33 +225,6 @@ RAYTRACE_INLINE void filter_packet(const RTCFilterFunctionNArguments* arguments,
   for (int lane = 0; lane < std::min(packet.count, lane_count<F>); ++lane)
     if ((bits >> lane & 1) == 0) arguments->valid[first + static_cast<unsigned>(lane)] = 0;
 }
-
-/// The triangles of a shape's table.
-template <class Shape>
-struct RecordTriangles {
-  template <class F>
-  RAYTRACE_INLINE static F intersect(void* table, std::uint32_t primitive, const Ray<F>& rays, const Mask<F>& active,
-                                     F& u, F& v) {
-    return Kernel<Shape>::template intersect<F>(record_of<Shape>(table, primitive), rays, active, u, v);
-  }
-};
-
-/// The faces of a mesh. Their user pointer is its MeshTable.
-struct MeshFaces {
-  template <class F>
-  RAYTRACE_INLINE static F intersect(void* table, std::uint32_t face, const Ray<F>& rays, const Mask<F>& active, F& u,
-                                     F& v) {
-    const MeshTable& mesh = *static_cast<const MeshTable*>(table);
-    const F t = Kernel<Triangle>::intersect<F>(mesh.triangle(face), rays, active, u, v);
-    if (mesh.corners() == 3) return t;
-    F second_u(0), second_v(0);
-    const F second = Kernel<Triangle>::intersect<F>(mesh.triangle(face, true), rays, active, second_u, second_v);
-    const Mask<F> nearer = second < t;
-    u = select(nearer, F(1) - second_u, u);
-    v = select(nearer, F(1) - second_v, v);
-    return select(nearer, second, t);
-  }
-};
 
 /// How rays hit one of a geometry's triangles, for CallbackRays::meet().
 template <class Triangles>
