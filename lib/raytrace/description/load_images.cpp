@@ -17,6 +17,12 @@
 namespace raytrace {
 namespace {
 
+std::string hash_of(std::string_view bytes) {
+  ContentHash hash;
+  hash.add(bytes.data(), bytes.size());
+  return hash.digits();
+}
+
 /// Of the file's bytes. Throws PictureError.
 std::string file_hash(const std::filesystem::path& file) {
   std::error_code error;
@@ -42,11 +48,11 @@ class ImageLoader {
  public:
   explicit ImageLoader(int threads) : threads_(threads) {}
 
-  /// used: as a colour, as a number. Throws PictureError.
-  LoadedImage load(const Image::Parameters& image, const std::array<bool, 2>& used) {
-    const std::filesystem::path file = image.file.path;
-    LoadedImage loaded{file_hash(file), nullptr, nullptr};
-    const Picture picture = read_picture(file.string());
+  /// bytes: of the file; null: they are read. used: as a colour, as a number. Throws PictureError.
+  LoadedImage load(const Image::Parameters& image, const std::string* bytes, const std::array<bool, 2>& used) {
+    const std::string& file = image.file.path;
+    LoadedImage loaded{bytes != nullptr ? hash_of(*bytes) : file_hash(file), nullptr, nullptr};
+    const Picture picture = bytes != nullptr ? decode_picture(*bytes) : read_picture(file);
     const std::array<bool, 2> srgb = is_srgb(image.colorspace, picture.format);
     const std::array<std::shared_ptr<const TexelImage>*, 2> wanted{&loaded.color, &loaded.number};
     for (std::size_t use = 0; use < 2; ++use) {
@@ -87,7 +93,7 @@ bool load_images(SceneDescription& scene, Diagnostics& diagnostics, int threads,
     TextureItem<Image>& item = images[i];
     if (!item.image.hash.empty()) continue;
     try {
-      item.image = loader.load(item.parameters, uses[i]);
+      item.image = loader.load(item.parameters, item.image.bytes.get(), uses[i]);
     } catch (const std::runtime_error& error) {
       const bool warns = missing == MissingTexture::warn;
       fine = fine && warns;
