@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -52,13 +53,23 @@ class ImageLoader {
   LoadedImage load(const Image::Parameters& image, const std::string* bytes, const std::array<bool, 2>& used) {
     const std::string& file = image.file.path;
     LoadedImage loaded{bytes != nullptr ? hash_of(*bytes) : file_hash(file), nullptr, nullptr};
-    const Picture picture = bytes != nullptr ? decode_picture(*bytes) : read_picture(file);
-    const std::array<bool, 2> srgb = is_srgb(image.colorspace, picture.format);
+    std::optional<Picture> picture;
+    const auto need_picture = [&] {
+      if (!picture) picture = bytes != nullptr ? decode_picture(*bytes) : read_picture(file);
+      return picture->format;
+    };
+    const auto known = formats_.find(loaded.hash);
+    const TexelFormat format =
+        known != formats_.end() ? known->second : formats_.emplace(loaded.hash, need_picture()).first->second;
+    const std::array<bool, 2> srgb = is_srgb(image.colorspace, format);
     const std::array<std::shared_ptr<const TexelImage>*, 2> wanted{&loaded.color, &loaded.number};
     for (std::size_t use = 0; use < 2; ++use) {
       if (!used[use]) continue;
       auto& texels = texels_[{loaded.hash, srgb[use]}];
-      if (!texels) texels = std::make_shared<const TexelImage>(picture, srgb[use], threads_);
+      if (!texels) {
+        need_picture();
+        texels = std::make_shared<const TexelImage>(*picture, srgb[use], threads_);
+      }
       *wanted[use] = texels;
     }
     return loaded;
@@ -66,6 +77,7 @@ class ImageLoader {
 
  private:
   int threads_;
+  std::map<std::string, TexelFormat> formats_;                                        ///< by hash
   std::map<std::pair<std::string, bool>, std::shared_ptr<const TexelImage>> texels_;  ///< by hash and colour space
 };
 

@@ -9,6 +9,7 @@
 #include <limits>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include "raytrace/import/gltf_bytes.h"
 #include "raytrace/parallel/for_each_index.h"

@@ -24,6 +24,13 @@ json parsed(std::string_view text) {
   }
 }
 
+std::string file_name(const Item& uri) {
+  std::string name = percent_decoded(uri.text());
+  std::replace(name.begin(), name.end(), '\\', '/');
+  if (name.find('\0') != std::string::npos) uri.fail("is no name of a file");
+  return name;
+}
+
 class ModelReader {
  public:
   ModelReader(std::string_view file, std::string name, int threads)
@@ -187,6 +194,7 @@ std::vector<Primitive> ModelReader::primitives_of(const Item& mesh) {
       primitive.indices = accessor(*indices);
       check(*primitive.indices, 1, 1, *indices);
       if (!primitive.indices->elements.has_whole_numbers()) indices->fail("its accessor is none of whole numbers");
+      primitive.indices->elements.normalized = primitive.indices->changed_values.normalized = false;
     }
     if (primitive.faces() == 0) continue;
     if (const auto number = item.find("material")) primitive.material = material(*number);
@@ -282,8 +290,7 @@ std::string_view ModelReader::buffer(const Item& number) {
       uri->fail(error.what());
     }
   } else {
-    const std::string name = percent_decoded(uri->text());
-    if (name.find('\0') != std::string::npos) uri->fail("is no name of a file");
+    const std::string name = file_name(*uri);
     auto file = model_.files.find(name);
     if (file == model_.files.end()) {
       const std::string path = (std::filesystem::path(name_).parent_path() / name).string();
@@ -333,17 +340,17 @@ MeshTexture ModelReader::texture(const Item& info) {
     constexpr std::uint64_t repeat = 10497, mirrored_repeat = 33648, clamp_to_edge = 33071;
     const Item sampler = listed("samplers", *number);
     const std::uint64_t u = sampler.whole("wrapS", repeat), v = sampler.whole("wrapT", repeat);
-    if (u == clamp_to_edge || v == clamp_to_edge)
+    // Where one repeats the image, coordinates are more likely to be beyond it.
+    if (u == clamp_to_edge && v == clamp_to_edge)
       texture.edge = MeshTexture::Edge::clamp;
-    else if (u == mirrored_repeat || v == mirrored_repeat)
+    else if (u != repeat && v != repeat && (u == mirrored_repeat || v == mirrored_repeat))
       texture.edge = MeshTexture::Edge::mirror;
-    if (u != v) warnings_.push_back(sampler.place() + ": has one wrap mode in place of two");
+    if (u != v) warnings_.push_back(sampler.place() + ": has two wrap modes, of which one is used for both directions");
   }
   const Item image = listed("images", *source);
   const std::optional<Item> uri = image.find("uri");
   if (uri && !uri->text().starts_with("data:")) {
-    texture.file = percent_decoded(uri->text());
-    if (texture.file.find('\0') != std::string::npos) uri->fail("is no name of a file");
+    texture.file = file_name(*uri);
     return texture;
   }
   texture.file = std::filesystem::path(name_).filename().string() + '#' + image.place();
