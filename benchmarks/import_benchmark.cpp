@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
   int runs = 7;
   MeshReadSettings settings;
   CLI::App parser("Times the readers of mesh files.");
-  parser.add_option("FILES", files, "PLY, OBJ and STL files")->required();
+  parser.add_option("FILES", files, "PLY, OBJ, STL and glTF files")->required();
   parser.add_option("-t,--threads", settings.threads, "0: all processors")->capture_default_str();
   parser.add_option("--runs", runs, "Runs of which the median counts")
       ->check(CLI::PositiveNumber)

@@ -27,7 +27,7 @@ const test::TemporaryFolder& work_folder() {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
-  static const char* const names[] = {"a.ply", "a.obj", "a.stl", "a.ply.gz", "a.mtl"};
+  static const char* const names[] = {"a.ply", "a.obj", "a.stl", "a.ply.gz", "a.mtl", "a.gltf", "a.glb"};
   const std::string name = names[data[0] % std::size(names)];
   const std::string bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
   test::write_text(work_folder().file(name), bytes);

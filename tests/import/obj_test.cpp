@@ -60,7 +60,7 @@ TEST_CASE("an OBJ file's materials come from its MTL files") {
   CHECK(red.map_kd.file == "textures/a wood.png");
   CHECK(red.map_kd.scale == std::array<double, 2>{2, 3});
   CHECK(red.map_kd.offset == std::array<double, 2>{0.5, 0});
-  CHECK(red.map_kd.clamp);
+  CHECK(red.map_kd.edge == MeshTexture::Edge::clamp);
   CHECK(red.map_bump.strength == 0.5);
   CHECK(mesh->materials[1].name == "missing");
   CHECK(printed(diagnostics, folder.path().string()) ==

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -16,6 +17,12 @@
 
 namespace raytrace {
 namespace {
+
+std::string hash_of(std::string_view bytes) {
+  ContentHash hash;
+  hash.add(bytes.data(), bytes.size());
+  return hash.digits();
+}
 
 /// Of the file's bytes. Throws PictureError.
 std::string file_hash(const std::filesystem::path& file) {
@@ -42,17 +49,27 @@ class ImageLoader {
  public:
   explicit ImageLoader(int threads) : threads_(threads) {}
 
-  /// used: as a colour, as a number. Throws PictureError.
-  LoadedImage load(const Image::Parameters& image, const std::array<bool, 2>& used) {
-    const std::filesystem::path file = image.file.path;
-    LoadedImage loaded{file_hash(file), nullptr, nullptr};
-    const Picture picture = read_picture(file.string());
-    const std::array<bool, 2> srgb = is_srgb(image.colorspace, picture.format);
+  /// bytes: of the file; null: they are read. used: as a colour, as a number. Throws PictureError.
+  LoadedImage load(const Image::Parameters& image, const std::string* bytes, const std::array<bool, 2>& used) {
+    const std::string& file = image.file.path;
+    LoadedImage loaded{bytes != nullptr ? hash_of(*bytes) : file_hash(file), nullptr, nullptr};
+    std::optional<Picture> picture;
+    const auto need_picture = [&] {
+      if (!picture) picture = bytes != nullptr ? decode_picture(*bytes) : read_picture(file);
+      return picture->format;
+    };
+    const auto known = formats_.find(loaded.hash);
+    const TexelFormat format =
+        known != formats_.end() ? known->second : formats_.emplace(loaded.hash, need_picture()).first->second;
+    const std::array<bool, 2> srgb = is_srgb(image.colorspace, format);
     const std::array<std::shared_ptr<const TexelImage>*, 2> wanted{&loaded.color, &loaded.number};
     for (std::size_t use = 0; use < 2; ++use) {
       if (!used[use]) continue;
       auto& texels = texels_[{loaded.hash, srgb[use]}];
-      if (!texels) texels = std::make_shared<const TexelImage>(picture, srgb[use], threads_);
+      if (!texels) {
+        need_picture();
+        texels = std::make_shared<const TexelImage>(*picture, srgb[use], threads_);
+      }
       *wanted[use] = texels;
     }
     return loaded;
@@ -60,6 +77,7 @@ class ImageLoader {
 
  private:
   int threads_;
+  std::map<std::string, TexelFormat> formats_;                                        ///< by hash
   std::map<std::pair<std::string, bool>, std::shared_ptr<const TexelImage>> texels_;  ///< by hash and colour space
 };
 
@@ -87,7 +105,7 @@ bool load_images(SceneDescription& scene, Diagnostics& diagnostics, int threads,
     TextureItem<Image>& item = images[i];
     if (!item.image.hash.empty()) continue;
     try {
-      item.image = loader.load(item.parameters, uses[i]);
+      item.image = loader.load(item.parameters, item.image.bytes.get(), uses[i]);
     } catch (const std::runtime_error& error) {
       const bool warns = missing == MissingTexture::warn;
       fine = fine && warns;

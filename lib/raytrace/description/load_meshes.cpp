@@ -68,11 +68,14 @@ class MeshLoader {
     if (!data) return loaded;
     if (mesh.material == no_material) {
       const auto folder = std::filesystem::absolute(file.path).parent_path();
-      for (const MeshMaterial& material : data->materials) loaded.materials.push_back(add(material, folder));
+      for (MeshMaterial& material : data->materials) {
+        loaded.materials.push_back(add(material, folder));
+        material.map_kd.bytes = nullptr;  // the texture has them
+      }
       // Faces without a material have the last one.
       const auto& faces = data->face_materials;
       if (std::find(faces.begin(), faces.end(), MeshData::no_material) != faces.end())
-        loaded.materials.push_back(grey());
+        loaded.materials.push_back(data->colors.empty() ? grey() : painted());
     }
     loaded.data = std::make_shared<const MeshData>(std::move(*data));
     return loaded;
@@ -112,32 +115,47 @@ class MeshLoader {
       added = add<Phong>({1, 1, 1, diffuse, specular, std::max(0.0, material.ns.value_or(20))}, material.name);
     else
       added = add<Matte>({1, 1, diffuse}, material.name);
-    if (!material.map_kd.file.empty()) set_texture(added, "cd", material.map_kd, folder);
-    if (!material.map_d.file.empty()) set_texture(added, opacity_field, material.map_d, folder);
+    if (!material.map_kd.file.empty())
+      set_texture(added, "cd", image(material.map_kd, folder));
+    else if (material.vertex_colors)
+      set_texture(added, "cd", vertex_colors());
+    if (!material.map_d.file.empty()) set_texture(added, opacity_field, image(material.map_d, folder));
+    if (!material.norm.file.empty()) set_texture(added, normalmap_field, image(material.norm, folder));
     with_type(Materials{}, added.type, [&]<class Material>(std::type_identity<Material>) {
-      std::get<MaterialItems<Material>>(scene_.materials)[added.index].parameters.opacity =
-          std::max(0.0, material.d.value_or(1));
+      auto& parameters = std::get<MaterialItems<Material>>(scene_.materials)[added.index].parameters;
+      parameters.opacity = std::max(0.0, material.d.value_or(1));
+      parameters.normalmap = material.norm.strength;
     });
     return added;
   }
 
-  void set_texture(const MaterialReference& material, std::string_view field, const MeshTexture& texture,
-                   const std::filesystem::path& folder) {
+  TextureReference image(const MeshTexture& texture, const std::filesystem::path& folder) {
     auto& images = std::get<TextureItems<Image>>(scene_.textures);
     TextureItem<Image>& image = images.emplace_back();
     image.parameters.file.path = (folder / texture.file).string();
     image.parameters.uvscale = {texture.scale[0], texture.scale[1]};
     image.parameters.uvoffset = {texture.offset[0], texture.offset[1]};
-    if (texture.clamp) image.parameters.wrap = Wrap::clamp;
+    if (texture.edge != MeshTexture::Edge::repeat)
+      image.parameters.wrap = texture.edge == MeshTexture::Edge::clamp ? Wrap::clamp : Wrap::mirror;
+    image.image.bytes = texture.bytes;
     image.name = image.parameters.file.path + '#' + std::to_string(images.size());
     image.imported = true;
-    const TextureReference reference{index_of<Image>(Textures{}), static_cast<std::uint32_t>(images.size() - 1)};
+    return {index_of<Image>(Textures{}), static_cast<std::uint32_t>(images.size() - 1)};
+  }
+
+  TextureReference vertex_colors() {
+    auto& textures = std::get<TextureItems<VertexColor>>(scene_.textures);
+    if (textures.empty()) textures.push_back({{}, "vertex colors", 0, true});
+    return {index_of<VertexColor>(Textures{}), 0};
+  }
+
+  void set_texture(const MaterialReference& material, std::string_view field, const TextureReference& texture) {
     with_type(Materials{}, material.type, [&]<class Material>(std::type_identity<Material>) {
       auto& item = std::get<MaterialItems<Material>>(scene_.materials)[material.index];
       const Fields& fields = element_type<Material>().fields;
       const std::size_t number = find_field(fields, field);
       item.textures.push_back(
-          {static_cast<std::uint32_t>(number), reference, channel_of(fields[number], TextureChannel::automatic)});
+          {static_cast<std::uint32_t>(number), texture, channel_of(fields[number], TextureChannel::automatic)});
     });
   }
 
@@ -150,11 +168,7 @@ class MeshLoader {
   MaterialReference painted() {
     if (painted_ != no_material) return painted_;
     painted_ = add<Matte>({1, 1, {1, 1, 1}}, "painted");
-    auto& textures = std::get<TextureItems<VertexColor>>(scene_.textures);
-    textures.push_back({{}, "vertex colors", 0, true});
-    std::get<MaterialItems<Matte>>(scene_.materials)[painted_.index].textures = {
-        {static_cast<std::uint32_t>(find_field(Matte::fields(), "cd")),
-         {index_of<VertexColor>(Textures{}), static_cast<std::uint32_t>(textures.size() - 1)}}};
+    set_texture(painted_, "cd", vertex_colors());
     return painted_;
   }
 

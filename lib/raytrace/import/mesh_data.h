@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,20 +46,25 @@ class MeshBuffer {
   std::size_t size_ = 0;
 };
 
-/// An image that a material names, with the options before the name (Wavefront's MTL).
+/// An image that a material names.
 struct MeshTexture {
+  enum class Edge { repeat, mirror, clamp };
+
   std::string file;  ///< as in the file, with '/' between folders; empty: none
   std::array<double, 2> scale{1, 1}, offset{0, 0};
-  double strength = 1;  ///< of a bump map
-  bool clamp = false;   ///< does not repeat
+  double strength = 1;       ///< of a bump or normal map
+  Edge edge = Edge::repeat;  ///< what is beyond
+  /// The picture's file, where it is within the model's; `file` is then a name for messages.
+  std::shared_ptr<const std::string> bytes{};
 };
 
-/// What an MTL file says of a material, by its names there. No value: not said.
+/// A material by the names of Wavefront's MTL. No value: the file does not say.
 struct MeshMaterial {
   std::string name;
   std::optional<Rgb<double>> ka, kd, ks, ke, tf;
   std::optional<double> ns, d, ni, pr, pm;
   std::optional<int> illum;
+  bool vertex_colors = false;  ///< multiply kd
   MeshTexture map_ka, map_kd, map_ks, map_ke, map_ns, map_d, map_bump, map_pr, map_pm, norm;
 };
 

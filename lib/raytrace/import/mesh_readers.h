@@ -20,6 +20,10 @@ std::optional<MeshData> read_stl(MeshFile& file, const MeshReadSettings& setting
 std::optional<MeshData> read_obj(MeshFile& file, const std::string& folder, const MeshReadSettings& settings,
                                  Diagnostics& diagnostics);
 
+/// name: the file's, beside which its buffers are.
+std::optional<MeshData> read_gltf(MeshFile& file, const std::string& name, const MeshReadSettings& settings,
+                                  Diagnostics& diagnostics);
+
 /// Adds the materials of the MTL files that a statement names, in the line of an OBJ file in the folder: one file whose
 /// name may have spaces, or several. What is wrong with them are warnings of that line.
 void read_material_libraries(std::string_view names, const std::string& folder, std::uint32_t line,

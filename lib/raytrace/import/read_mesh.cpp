@@ -27,12 +27,13 @@ std::string mesh_type(const std::string& file) {
 
 bool is_mesh_file(const std::string& file) {
   const std::string type = mesh_type(file);
-  return type == ".ply" || type == ".obj" || type == ".stl";
+  return type == ".ply" || type == ".obj" || type == ".stl" || type == ".gltf" || type == ".glb";
 }
 
 std::optional<MeshData> read_mesh(const std::string& name, const MeshReadSettings& settings, Diagnostics& diagnostics) {
   if (!is_mesh_file(name)) {
-    diagnostics.error({}, "is no mesh by its name, which ends in none of .ply, .obj and .stl, perhaps with .gz behind");
+    diagnostics.error(
+        {}, "is no mesh by its name, which ends in none of .ply, .obj, .stl, .gltf and .glb, perhaps with .gz behind");
     return std::nullopt;
   }
   std::optional<MeshFile> file = MeshFile::open(name, diagnostics);
@@ -43,6 +44,8 @@ std::optional<MeshData> read_mesh(const std::string& name, const MeshReadSetting
     mesh = read_ply(*file, settings, diagnostics);
   else if (type == ".stl")
     mesh = read_stl(*file, settings, diagnostics);
+  else if (type == ".gltf" || type == ".glb")
+    mesh = read_gltf(*file, name, settings, diagnostics);
   else
     mesh = read_obj(*file, std::filesystem::path(name).parent_path().string(), settings, diagnostics);
   if (mesh) mesh->origin = settings.origin;

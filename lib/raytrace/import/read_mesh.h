@@ -6,6 +6,10 @@
 //   OBJ  .obj: polygons (v, vt, vn, f; negative indices; colours after a position); materials from MTL files. Groups,
 //        objects and smoothing groups are not kept; lines, points, curves and free-form surfaces are skipped.
 //   STL  .stl: ASCII and binary.
+//   glTF .gltf, .glb: 2.0, the meshes of the default scene's nodes, in world space; materials, of which the base colour
+//        and its texture are read. Buffers and images may be files, URIs "data:" or parts of a GLB file. Skins,
+//        morph targets, animations, cameras, lights and extensions but KHR_mesh_quantization are not read; points and
+//        lines are skipped.
 //
 // Each may be compressed by gzip, with .gz behind the name.
 //
@@ -16,11 +20,11 @@
 // ears are cut off one by one. Faces whose corners repeat, so that they have no area, are left out with one warning
 // that counts them, and so are those at a vertex that is not finite or beyond 1e18.
 //
-// Colours of integer type are sRGB, from 0 to 255 (of 16 bits: to 65535), and become linear; those of type float are
-// linear already.
+// Colours of integer type are sRGB, from 0 to 255 (of 16 bits: to 65535), and become linear; those of type float, and
+// all of glTF, are linear already.
 //
 // Memory. No array is allocated before it is known that the file has the values for it. A compressed file may become as
-// large as a quarter of the memory that is available; more is an error.
+// large as a quarter of the memory that is available, and so may a glTF mesh that many nodes have; more is an error.
 //
 // The result does not depend on the number of threads.
 #pragma once
@@ -47,7 +51,8 @@ struct MeshReadSettings {
 };
 
 /// No value, and errors, if the file cannot be read or is not what it should be. Errors have the line, or name the byte
-/// where the file is binary. diagnostics: of that file. Throws std::bad_alloc.
+/// where the file is binary, or the value of glTF's JSON, such as accessors[3]. diagnostics: of that file. Throws
+/// std::bad_alloc.
 std::optional<MeshData> read_mesh(const std::string& file, const MeshReadSettings& settings, Diagnostics& diagnostics);
 
 /// Of a mesh whose values are at hand, for make_mesh() and as MeshReadSettings has it: the origin of the world if the

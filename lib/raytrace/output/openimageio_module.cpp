@@ -55,11 +55,24 @@ std::unique_ptr<ImageEncoder> make_openimageio_encoder(const std::string& file, 
   return std::unique_ptr<ImageEncoder>(make(file, extension, settings));
 }
 
-Picture read_picture(const std::string& file) {
+namespace {
+
+/// bytes: of the file, which has no more than a name then; empty: it is read.
+Picture read_picture(const std::string& file, std::string_view bytes) {
   static auto* const read = symbol<OpenImageIOReadPicture>("raytrace_openimageio_read_picture");
   Picture picture;
-  read(file, picture);
+  read(file, bytes, picture);
   return picture;
+}
+
+}  // namespace
+
+Picture read_picture(const std::string& file) { return read_picture(file, {}); }
+
+Picture decode_picture(std::string_view bytes) {
+  if (bytes.starts_with("\x89PNG")) return read_picture("picture.png", bytes);
+  if (bytes.starts_with("\xff\xd8")) return read_picture("picture.jpg", bytes);
+  throw PictureError("it is neither PNG nor JPEG");
 }
 
 bool openimageio_reads_all_of(const std::string& file, int width, int height) {

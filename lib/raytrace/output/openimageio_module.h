@@ -25,7 +25,7 @@ using MakeOpenImageIOEncoder = ImageEncoder*(const std::string& file, const std:
 extern "C" MakeOpenImageIOEncoder raytrace_make_openimageio_encoder;
 using OpenImageIOReadsAllOf = bool(const std::string& file, int width, int height);
 extern "C" OpenImageIOReadsAllOf raytrace_openimageio_reads_all_of;
-using OpenImageIOReadPicture = void(const std::string& file, Picture& picture);
+using OpenImageIOReadPicture = void(const std::string& file, std::string_view bytes, Picture& picture);
 extern "C" OpenImageIOReadPicture raytrace_openimageio_read_picture;
 
 }  // namespace raytrace

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "raytrace/memory/large_array.h"
 
@@ -38,5 +39,8 @@ inline constexpr int largest_picture_edge = 65536;
 
 /// Any format that OpenImageIO reads. Throws PictureError, std::bad_alloc, or OutputError if OpenImageIO is missing.
 Picture read_picture(const std::string& file);
+
+/// The same of the bytes of a PNG or JPEG file.
+Picture decode_picture(std::string_view bytes);
 
 }  // namespace raytrace

@@ -26,7 +26,7 @@ class Mesh {
   static constexpr std::array<std::string_view, 3> normals_words = {"file", "smooth", "flat"};
 
   struct Parameters {
-    FileName file;           ///< .ply, .obj or .stl (import/read_mesh.h); or, in place of it:
+    FileName file;           ///< .ply, .obj, .stl, .gltf or .glb (import/read_mesh.h); or:
     NumberGroups positions;  ///< x y z of each vertex
     NumberGroups faces;      ///< the vertices of each, from 0, counter-clockwise as its front shows them (face_ends())
     WordOrGroups normals{normals_words, of_file, {}};  ///< one of the words, or x y z of each vertex

@@ -66,9 +66,11 @@ class TexelImage {
 
 /// What the file of an image texture has.
 struct LoadedImage {
-  std::string hash;  ///< of its bytes
+  std::string hash;  ///< of its bytes; empty: it has not been loaded
   /// For where it is used as a colour, and as a number; the same if both mean the same.
   std::shared_ptr<const TexelImage> color, number;
+  /// Until it is loaded: the bytes, where they are within another file.
+  std::shared_ptr<const std::string> bytes{};
 };
 
 }  // namespace raytrace

@@ -1,4 +1,5 @@
 // Pictures of all formats that OpenImageIO reads.
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
@@ -54,10 +55,11 @@ std::string latest_error(OIIO::ImageInput* input) { return input != nullptr ? in
 
 }  // namespace
 
-void raytrace_openimageio_read_picture(const std::string& file, Picture& picture) {
+void raytrace_openimageio_read_picture(const std::string& file, std::string_view bytes, Picture& picture) {
   OIIO::ImageSpec wishes;
   wishes["oiio:UnassociatedAlpha"] = 1;
-  const auto input = OIIO::ImageInput::open(file, &wishes);
+  OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());  // which `input` needs for as long as it lives
+  const auto input = OIIO::ImageInput::open(file, &wishes, bytes.empty() ? nullptr : &memory);
   if (!input) fail_to_read(latest_error(nullptr));
   const OIIO::ImageSpec& spec = input->spec();
   if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 || spec.deep)

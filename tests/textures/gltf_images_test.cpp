@@ -1,0 +1,120 @@
+// The images of glTF files, and what else their materials become.
+#include <string>
+
+#include "raytrace/description/scene_description.h"
+#include "raytrace/import/gltf_bytes.h"
+#include "support/catch.h"
+#include "support/contains.h"
+#include "support/gltf.h"
+#include "support/temporary_folder.h"
+#include "textures/made_pictures.h"
+
+namespace raytrace::test {
+
+namespace {
+
+const std::string made_gltf_members =
+    R"("scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"textures":[{"source":0,"sampler":0}],"samplers":[{"wrapS":33071,"wrapT":33071}],
+       "meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1,"COLOR_0":2},"material":0},
+                                {"attributes":{"POSITION":0},"material":1}, {"attributes":{"POSITION":0}}]}],
+       "materials":[{"name":"wood","pbrMetallicRoughness":{"baseColorFactor":[0.5,0.25,1,1],"baseColorTexture":{"index":0}}},
+                    {"name":"paint","pbrMetallicRoughness":{"baseColorFactor":[1,0,0,1]}}],"images":)";
+
+GltfFile made_triangle() {
+  GltfFile file;
+  file.add(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3", 5126, 3);
+  file.add(std::vector<float>{0, 0, 1, 0, 0, 1}, "VEC2", 5126, 3);
+  file.add(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1}, "VEC3", 5126, 3);
+  return file;
+}
+
+/// Red and green above blue and white.
+const std::string made_png_base64 =
+    "iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAIAAAD91JpzAAAAEklEQVR42mP4z8DAAMIM/4EAAB/uBfvxq7p3AAAAAElFTkSuQmCC";
+
+/// The scene with that mesh, and what was said of it.
+struct LoadedGltf {
+  std::optional<SceneDescription> scene;
+  std::string messages;
+  bool fine = false;
+};
+
+LoadedGltf loaded_gltf(const TemporaryFolder& folder, const std::string& name) {
+  write_text(folder.path() / "scene.xml",
+             "<raytracer><viewplane><hres>4</hres><vres>3</vres></viewplane><camera><eye x='0' y='0' z='9'/><lookat "
+             "x='0' y='0' z='0'/><viewdistance>4</viewdistance></camera><objects><meshes><mesh><file>" +
+                 name + "</file></mesh></meshes></objects></raytracer>");
+  Diagnostics diagnostics("scene.xml");
+  LoadedGltf loaded{load_scene(folder.file("scene.xml"), diagnostics, 1), "", false};
+  REQUIRE(loaded.scene);
+  loaded.fine = load_meshes(*loaded.scene, diagnostics, 1);
+  for (const Diagnostic& diagnostic : diagnostics.kept()) loaded.messages += diagnostic.message + "\n";
+  return loaded;
+}
+
+}  // namespace
+
+TEST_CASE("a glTF image is the same in a file, in a URI and within a GLB file") {
+  const TemporaryFolder folder;
+  const std::string png = *gltf::data_of_uri("data:image/png;base64," + made_png_base64);
+  write_text(folder.file("two by two.png"), png);
+  GltfFile with_png = made_triangle();
+  with_png.add_view(png);
+  write_text(folder.file("a.gltf"), made_triangle().text(made_gltf_members + R"([{"uri":"two%20by%20two.png"}])"));
+  write_text(folder.file("b.gltf"), made_triangle().text(made_gltf_members + R"([{"uri":"data:image/png;base64,)" +
+                                                         made_png_base64 + R"("}])"));
+  write_text(folder.file("c.glb"), with_png.glb(made_gltf_members + R"([{"bufferView":3,"mimeType":"image/png"}])"));
+  std::string first_hash;
+  for (const char* const name : {"a.gltf", "b.gltf", "c.glb"}) {
+    INFO(name);
+    const LoadedGltf loaded = loaded_gltf(folder, name);
+    INFO(loaded.messages);
+    REQUIRE(loaded.fine);
+    const auto& images = std::get<TextureItems<Image>>(loaded.scene->textures);
+    REQUIRE(images.size() == 1);
+    CHECK(images[0].parameters.wrap == Wrap::clamp);
+    if (first_hash.empty()) first_hash = images[0].image.hash;
+    CHECK(images[0].image.hash == first_hash);
+    CHECK(images[0].image.bytes == nullptr);
+    const TexelImage& texels = *images[0].image.color;
+    CHECK(texels.srgb());
+    CHECK(texel_of(texels, 0, 0, 0, false) == Color4{0, 0, 1, 1});
+    CHECK(texel_of(texels, 0, 1, 1, false) == Color4{0, 1, 0, 1});
+  }
+}
+
+TEST_CASE("a glTF material is a matte with a texture, or with the colours at vertices") {
+  const TemporaryFolder folder;
+  write_text(folder.file("a.gltf"), made_triangle().text(made_gltf_members + R"([{"uri":"data:image/png;base64,)" +
+                                                         made_png_base64 + R"("}])"));
+  const LoadedGltf loaded = loaded_gltf(folder, "a.gltf");
+  INFO(loaded.messages);
+  REQUIRE(loaded.fine);
+  const auto& mattes = std::get<MaterialItems<Matte>>(loaded.scene->materials);
+  REQUIRE(mattes.size() == 3);
+  const auto texture_type = [&](std::size_t matte) { return mattes[matte].textures.at(0).texture.type; };
+  CHECK(mattes[0].name == "wood");
+  CHECK(mattes[0].parameters.cd.green == 0.25);
+  CHECK(texture_type(0) == index_of<Image>(Textures{}));
+  CHECK(mattes[1].name == "paint");
+  CHECK(mattes[1].parameters.cd.green == 0);
+  CHECK(texture_type(1) == index_of<VertexColor>(Textures{}));
+  CHECK(mattes[2].parameters.cd.green == 1);  // of what has no material
+  CHECK(texture_type(2) == index_of<VertexColor>(Textures{}));
+}
+
+TEST_CASE("an image within a glTF file that is none is an error that names it") {
+  const TemporaryFolder folder;
+  const auto message = [&](const std::string& bytes) {
+    write_text(folder.file("a.gltf"), made_triangle().text(made_gltf_members + R"([{"uri":"data:image/png;base64,)" +
+                                                           base64(bytes) + R"("}])"));
+    const LoadedGltf loaded = loaded_gltf(folder, "a.gltf");
+    CHECK_FALSE(loaded.fine);
+    return loaded.messages;
+  };
+  CHECK(contains(message("GIF89a"), "a.gltf#images[0]' cannot be used: it is neither PNG nor JPEG"));
+  CHECK(contains(message("\x89PNG\r\n\x1a\n"), "a.gltf#images[0]' cannot be used: "));
+  CHECK(contains(message("\xff\xd8\xff\xe0"), "a.gltf#images[0]' cannot be used: "));
+}
+
+}  // namespace raytrace::test
