@@ -24,7 +24,7 @@ void TracedScene::make_buffers(int threads) {
   std::uint64_t objects = 0;
   for (auto& origin : origins) {
     if (!origin) continue;
-    objects += tables_.geometry().object_count();
+    objects += tables_.geometry().primitive_count();
     if (objects > affordable) origin.reset();
   }
   light_buffers_ = accelerator_.direction_buffers(origins, threads);
