@@ -199,6 +199,7 @@ class MeshLoader {
 }  // namespace
 
 bool load_meshes(SceneDescription& description, Diagnostics& diagnostics, int threads, MissingTexture missing_texture) {
+  diagnostics.add_files(description.included);
   const std::size_t errors_before = diagnostics.error_count();
   const std::size_t images_before = std::get<TextureItems<Image>>(description.textures).size();
   MeshLoader(description, diagnostics, threads).load();

@@ -149,6 +149,7 @@ struct SceneDescription {
   TupleOf<Materials, MaterialItems>::type materials;  ///< std::get<MaterialItems<Matte>>(materials)
   ObjectLists objects;                                ///< std::get<ObjectItems<Sphere>>(objects)
   std::vector<Group> groups;
+  std::vector<IncludedFile> included;  ///< by the lines of items; their names are as the program opens them
 };
 
 /// Reads and validates a scene file ("-": standard input), but not the meshes and clouds that it names. All errors and
@@ -177,7 +178,7 @@ std::string print_scene(const SceneDescription& description);
 /// that it refuses is one that load_scene refuses. The reverse does not hold: no schema can say that a direction is not
 /// 0, that a camera's eye is not where it looks, or that there is one ambient light in all; nor, since they may have
 /// keys, that a number is one and a vector whole; nor, since names may have variables, that an object's material
-/// exists.
+/// exists; nor, since files may be included, that there is a camera.
 std::string print_schema();
 
 /// 32 hexadecimal digits (XXH3, 128 bits) of all names and values of the description but the number of samples and
