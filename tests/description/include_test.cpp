@@ -11,22 +11,22 @@ namespace raytrace::test {
 
 namespace {
 
-const std::string frame =
+const std::string view_sections =
     "<viewplane><hres>8</hres><vres>8</vres></viewplane>\n"
     "<camera><eye x='0' y='0' z='5'/><lookat x='0' y='0' z='0'/><viewdistance>8</viewdistance></camera>\n";
-const std::string red =
+const std::string red_material =
     "<materials><mattes><matte><name>red</name><ka>1</ka><kd>1</kd><cd red='1' green='0' "
     "blue='0'/></matte></mattes></materials>\n";
 
-std::string ball(const std::string& name, const std::string& material = "red") {
+std::string ball_section(const std::string& name, const std::string& material = "red") {
   return "<objects><spheres><sphere><name>" + name + "</name><center x='0' y='0' z='0'/><radius>1</radius><material>" +
          material + "</material></sphere></spheres></objects>\n";
 }
 
-std::string include(const std::string& file) { return "<include><file>" + file + "</file></include>\n"; }
+std::string include_of(const std::string& file) { return "<include><file>" + file + "</file></include>\n"; }
 
 /// A scene of several files in a folder of its own.
-class Files {
+class SceneFolder {
  public:
   void write(const std::string& name, const std::string& sections) const {
     std::filesystem::create_directories(std::filesystem::path(folder_.file(name)).parent_path());
@@ -59,11 +59,12 @@ class Files {
 }  // namespace
 
 TEST_CASE("a scene of several files is that of one with their sections in their order") {
-  Files files;
-  files.write("main.xml", include("parts/all.xml") + ball("a") + frame + include("last.xml"));
-  files.write("parts/all.xml", include("red.xml") + ball("b", "$paint"));
-  files.write("parts/red.xml", red);
-  files.write("last.xml", "<groups><group><name>g</name>" + ball("c") + "</group></groups>" + ball("d") +
+  SceneFolder files;
+  files.write("main.xml", include_of("parts/all.xml") + ball_section("a") + view_sections + include_of("last.xml"));
+  files.write("parts/all.xml", include_of("red.xml") + ball_section("b", "$paint"));
+  files.write("parts/red.xml", red_material);
+  files.write("last.xml", "<groups><group><name>g</name>" + ball_section("c") + "</group></groups>" +
+                              ball_section("d") +
                               "<objects><instances><instance><group>g</group></instance></instances></objects>");
   const SceneSettings settings{1, {{"paint", "red"}}};
   const auto scene = files.load(settings);
@@ -77,9 +78,10 @@ TEST_CASE("a scene of several files is that of one with their sections in their 
   for (const auto& sphere : std::get<ObjectItems<Sphere>>(scene->objects)) names.push_back(sphere.name);
   CHECK(names == std::vector<std::string>{"b", "a", "d"});
 
-  Files merged;
-  merged.write("main.xml", red + ball("b", "$paint") + ball("a") + frame + "<groups><group><name>g</name>" + ball("c") +
-                               "</group></groups>" + ball("d") +
+  SceneFolder merged;
+  merged.write("main.xml", red_material + ball_section("b", "$paint") + ball_section("a") + view_sections +
+                               "<groups><group><name>g</name>" + ball_section("c") + "</group></groups>" +
+                               ball_section("d") +
                                "<objects><instances><instance><group>g</group></instance></instances></objects>");
   const auto one = merged.load(settings);
   REQUIRE(one);
@@ -87,13 +89,13 @@ TEST_CASE("a scene of several files is that of one with their sections in their 
   CHECK(print_scene(*scene) == print_scene(*one));
 }
 
-TEST_CASE("what is wrong in an included file is told by its own name and lines") {
-  Files files;
-  files.write("main.xml", frame + include("b.xml") + "<lihgts/>\n");
-  files.write("b.xml", red +
+TEST_CASE("what is wrong in an included file has that file's name and lines") {
+  SceneFolder files;
+  files.write("main.xml", view_sections + include_of("b.xml") + "<lihgts/>\n");
+  files.write("b.xml", red_material +
                            "<objects><spheres>\n<sphere><center x='0' y='0' z='0'/><radius>-1</radius>"
                            "<material>red</material></sphere></spheres></objects>\n" +
-                           ball("x", "blue"));
+                           ball_section("x", "blue"));
   CHECK(files.errors() ==
         "main.xml:5:1: error: unknown element <lihgts> in <raytracer>; did you mean <lights>?\n"
         "b.xml:4:44: error: '-1' in <radius> must be greater than 0\n"
@@ -101,10 +103,10 @@ TEST_CASE("what is wrong in an included file is told by its own name and lines")
 }
 
 TEST_CASE("names are unique, and what a scene has once it has once, over all files") {
-  Files files;
-  files.write("main.xml", frame + red + ball("a") + include("b.xml"));
-  files.write("b.xml",
-              "\n" + frame + red + ball("a") + "<groups><group><name>g</name></group></groups>" + include("c.xml"));
+  SceneFolder files;
+  files.write("main.xml", view_sections + red_material + ball_section("a") + include_of("b.xml"));
+  files.write("b.xml", "\n" + view_sections + red_material + ball_section("a") +
+                           "<groups><group><name>g</name></group></groups>" + include_of("c.xml"));
   files.write("c.xml", "<groups><group><name>g</name></group></groups>");
   CHECK(files.errors() ==
         "b.xml:3:1: error: a second <viewplane>; a scene has one, and the first is in line 2 of main.xml\n"
@@ -113,15 +115,15 @@ TEST_CASE("names are unique, and what a scene has once it has once, over all fil
         "b.xml:6:33: error: the object name 'a' is taken by the <sphere> in line 5 of main.xml; choose another\n"
         "c.xml:2:22: error: the group name 'g' is taken by the <group> in line 7 of b.xml; choose another\n");
   // One file twice is no special case.
-  files.write("main.xml", frame + include("red.xml") + include("red.xml"));
-  files.write("red.xml", red);
+  files.write("main.xml", view_sections + include_of("red.xml") + include_of("red.xml"));
+  files.write("red.xml", red_material);
   CHECK(files.errors() ==
         "red.xml:2:33: error: the material name 'red' is taken by the <matte> in line 2 of red.xml; choose another\n");
 }
 
 TEST_CASE("a texture or mesh of an included file is looked for beside it, and missed there") {
-  Files files;
-  files.write("main.xml", frame + include("parts/b.xml"));
+  SceneFolder files;
+  files.write("main.xml", view_sections + include_of("parts/b.xml"));
   files.write("parts/b.xml",
               "<textures><images>\n<image><name>wood</name><file>wood.png</file></image></images></textures>\n");
   CHECK(files.errors().starts_with("parts/b.xml:3:31: error: the texture 'parts/wood.png' cannot be used"));
@@ -136,9 +138,9 @@ TEST_CASE("a texture or mesh of an included file is looked for beside it, and mi
 }
 
 TEST_CASE("files that cannot be included are errors where they are named, and nothing else is") {
-  Files files;
+  SceneFolder files;
   const auto error_of = [&](const std::string& name) {
-    files.write("main.xml", include(name) + ball("a"));
+    files.write("main.xml", include_of(name) + ball_section("a"));
     return files.errors();
   };
   std::filesystem::create_directory(files.file("folder"));
@@ -152,31 +154,31 @@ TEST_CASE("files that cannot be included are errors where they are named, and no
   std::ofstream(files.file("svg.xml")) << "\n<svg/>";
   CHECK(error_of("svg.xml") == "svg.xml:2:1: error: the scene starts with <svg>; it must be <raytracer>\n");
   // Nor is the camera missed where it may be in what was meant by this.
-  files.write("main.xml", "<inculde><file>a.xml</file></inculde>" + ball("a"));
+  files.write("main.xml", "<inculde><file>a.xml</file></inculde>" + ball_section("a"));
   CHECK(files.errors() == "main.xml:2:1: error: unknown element <inculde> in <raytracer>; did you mean <include>?\n");
 }
 
 TEST_CASE("files that include each other without end are refused, and ten thousand are not") {
-  Files files;
-  files.write("main.xml", frame + include("b.xml"));
-  files.write("b.xml", "\n" + include("./main.xml"));
+  SceneFolder files;
+  files.write("main.xml", view_sections + include_of("b.xml"));
+  files.write("b.xml", "\n" + include_of("./main.xml"));
   CHECK(files.errors() == "b.xml:3:16: error: ./main.xml: it would include itself\n");
 
-  for (int i = 0; i < 70; ++i) files.write("deep" + std::to_string(i), include("deep" + std::to_string(i + 1)));
-  files.write("main.xml", frame + include("deep0"));
+  for (int i = 0; i < 70; ++i) files.write("deep" + std::to_string(i), include_of("deep" + std::to_string(i + 1)));
+  files.write("main.xml", view_sections + include_of("deep0"));
   CHECK(files.errors() ==
         "deep62:2:16: error: deep63: a file that is included may include others, but not more than 64 one in the "
         "other\n");
 
   std::string all;
-  for (int i = 0; i < 10000; ++i) all += include("empty.xml");
+  for (int i = 0; i < 10000; ++i) all += include_of("empty.xml");
   files.write("empty.xml", "");
   files.write("many.xml", all);
-  files.write("main.xml", frame + include("many.xml"));
+  files.write("main.xml", view_sections + include_of("many.xml"));
   const auto scene = files.load();
   REQUIRE(scene);
   CHECK(scene->included.size() == 10001);
-  files.write("main.xml", frame + include("many.xml") + include("many.xml"));
+  files.write("main.xml", view_sections + include_of("many.xml") + include_of("many.xml"));
   CHECK(files.errors().find("a scene has at most 20000 files") != std::string::npos);
 }
 

@@ -176,6 +176,18 @@ TEST_CASE("a cloud without radii, of another type, or stretched is refused where
   CHECK_THROWS_AS(build_scene(*unloaded, {1, {}}), SceneError);
 }
 
+TEST_CASE("a cloud counts in the scene's hash by what its file holds") {
+  const TemporaryFolder folder;
+  const auto hash_of = [&](const std::string& name, const std::string& rows) {
+    return scene_hash(
+        parsed_scene(cloud_scene(cloud_element(folder, name, ply_text(1, "radius red green blue", rows), ""))));
+  };
+  const std::string hash = hash_of("a.ply", "0 0 0 1 1 1 1\n");
+  CHECK(hash_of("b.ply", "0 0 0 1 1 1 1\n") == hash);
+  for (const std::string rows : {"0 0 1 1 1 1 1\n", "0 0 0 2 1 1 1\n", "0 0 0 1 1 1 0\n"})
+    CHECK(hash_of("a.ply", rows) != hash);
+}
+
 TEST_CASE("points that are no spheres are left out with one warning, and counts that lie are refused") {
   const TemporaryFolder folder;
   const auto load = [&](const std::string& text, Diagnostics& diagnostics) {
