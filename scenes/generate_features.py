@@ -295,6 +295,42 @@ def knot(normals):
 
 shape("mesh-flat", "A knot of 480 quads with the normals of its faces.", knot("flat"))
 shape("mesh-smooth", "The same knot with smooth normals.", knot("smooth"))
+
+
+def double_helix(file):
+    """Two strands and what joins them, as points with a radius and a colour."""
+    points = []
+    for step in range(120):
+        t = step / 119
+        angle, height = 4.5 * math.pi * t, 2.3 * t - 1.15
+        strands = [(0.7 * math.cos(angle + a), height, 0.7 * math.sin(angle + a)) for a in (0, math.pi)]
+        colors = ((int(235 - 160 * t), 90, 60), (50, 110, int(90 + 150 * t)))
+        points += [(*at, 0.1, *color) for at, color in zip(strands, colors)]
+        if step % 8 == 4:
+            mix = lambda k: (a + (b - a) * k for a, b in zip(*strands))
+            points += [(*mix(k / 10), 0.05, 225, 200, 150) for k in range(1, 10)]
+    head = "ply\nformat ascii 1.0\n" + f"element vertex {len(points)}\n"
+    head += "".join(f"property float {name}\n" for name in ("x", "y", "z", "radius"))
+    head += "".join(f"property uchar {name}\n" for name in ("red", "green", "blue")) + "end_header\n"
+    rows = "".join("%.4f %.4f %.4f %g %d %d %d\n" % point for point in points)
+    os.makedirs(os.path.join(HERE, "models"), exist_ok=True)
+    with open(os.path.join(HERE, file), "w", encoding="ascii", newline="\n") as out:
+        out.write(head + rows)
+
+
+double_helix("models/helix.ply")
+write(
+    "sphere-cloud",
+    "A cloud of spheres from a file of points, with their radii and colours.",
+    objects="""\
+    <sphereclouds>
+      <spherecloud>
+        <file>models/helix.ply</file>
+        <transform> <rotate x="0" y="0" z="1" angle="-65"/> <translate x="0" y="1.2" z="0"/> </transform>
+      </spherecloud>
+    </sphereclouds>
+""",
+)
 pawns = "".join(
     f"""\
       <instance>

@@ -69,6 +69,15 @@ class Meshes(CommandTest):
         self.fail_with(2, "there/scene.xml", "-o", "there/models/link.exr")
         self.assertTrue(self.read("there/models/one.png.ply").startswith(b"ply"))
 
+    def test_a_scene_that_includes_another_is_that_one_and_does_not_overwrite_it(self):
+        self.write("main.xml", "<raytracer> <include> <file>there/scene.xml</file> </include> </raytracer>")
+        self.assertEqual(self.render("main.xml", "a.exr"), self.render("there/scene.xml", "b.exr"))
+        os.symlink("scene.xml", self.path("there/link.exr"))
+        self.fail_with(2, "main.xml", "-o", "there/link.exr")
+        os.remove(self.path("there/models/one.ply"))
+        message = self.fail_with(1, "main.xml", "--validate")
+        self.assertIn("there/scene.xml:6:69: error: there/models/one.ply: cannot read it: No such file", message)
+
     def test_pieces_with_another_mesh_are_not_merged(self):
         self.render("there/scene.xml", "1.exr", "--tile", "0/2")
         self.write("there/models/one.ply", PLY % 1)

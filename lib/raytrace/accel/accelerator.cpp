@@ -169,7 +169,7 @@ std::vector<std::optional<DirectionBuffer>> Accelerator::direction_buffers(
   if (!table_.has_shapes_only()) return buffers;
   if (std::none_of(origins.begin(), origins.end(), [](const auto& origin) { return origin.has_value(); }))
     return buffers;
-  auto objects = LargeArray<BoundedObject>::unset(table_.object_count());
+  auto objects = LargeArray<BoundedObject>::unset(table_.primitive_count());
   std::size_t count = 0;
   for_each_type(Shapes{}, [&](auto type) {
     using Shape = typename decltype(type)::type;

@@ -75,8 +75,17 @@ SurfaceUv<FloatN> surface_uv(const GeometryTable& world, const Hits& hits, const
 
 Rgb<FloatN> vertex_color(const GeometryTable& world, const Hits& hits) {
   Rgb<FloatN> result(Rgb<float>(1, 1, 1));
-  if (world.has_shapes_only()) return result;
+  if (world.has_shapes_only() && !world.has_clouds()) return result;
   world.for_each_geometry(hits, [&](const GeometryTable& table, std::uint32_t geometry, const MaskN& here) {
+    if (geometry == index_of<Sphere>(Shapes{})) {
+      table.for_each_cloud(hits.primitive, here, [&](const CloudSpheres& cloud, const MaskN& lanes) {
+        const float* const colors = cloud.data->colors.data();
+        if (colors == nullptr) return;
+        const IntN red = select_lanes(lanes, hits.primitive - IntN(cloud.first), IntN(0)) * IntN(3);
+        result = select(lanes, {gather(colors, red), gather(colors + 1, red), gather(colors + 2, red)}, result);
+      });
+      return;
+    }
     const MeshTable* const mesh = table.geometry(geometry).mesh;
     if (mesh == nullptr || !mesh->has_colors()) return;
     const IntN other(hits.primitive.get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(here)))));

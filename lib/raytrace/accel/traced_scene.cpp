@@ -25,7 +25,7 @@ void TracedScene::make_buffers(int threads) {
   for (auto& origin : origins) {
     if (tables_.has_cutouts()) origin.reset();  // they know nothing of rays that pass
     if (!origin) continue;
-    objects += tables_.geometry().object_count();
+    objects += tables_.geometry().primitive_count();
     if (objects > affordable) origin.reset();
   }
   light_buffers_ = accelerator_.direction_buffers(origins, threads);

@@ -86,9 +86,12 @@ void refuse_to_overwrite(const SceneDescription& description, const RenderJob& j
   const auto add_meshes = [&](const ObjectLists& objects) {
     for (const auto& mesh : std::get<ObjectItems<Mesh>>(objects))
       if (!mesh.parameters.file.path.empty()) files.add({"a mesh", mesh.parameters.file.path, false});
+    for (const auto& cloud : std::get<ObjectItems<SphereCloud>>(objects))
+      files.add({"a cloud of spheres", cloud.parameters.file.path, false});
   };
   for (const auto& image : std::get<TextureItems<Image>>(description.textures))
     files.add({"a texture", image.parameters.file.path, false});
+  for (const IncludedFile& file : description.included) files.add({"an included scene", file.name, false});
   add_meshes(description.objects);
   for (const Group& group : description.groups) add_meshes(group.objects);
   for (const std::string& file : job.files()) files.add_or_refuse({"an output", file, true});

@@ -189,6 +189,7 @@ void check_scene(const SceneDescription& scene, Diagnostics& diagnostics) { Scen
 
 void require_good_scene(const SceneDescription& scene) {
   Diagnostics diagnostics(scene.file.empty() ? "scene" : scene.file);
+  diagnostics.add_files(scene.included);
   check_scene(scene, diagnostics);
   throw_errors(diagnostics);
 }

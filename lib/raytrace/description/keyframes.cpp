@@ -153,7 +153,8 @@ class KeysReader {
       if (key.frame - before.frame >= least_key_distance) continue;
       refuse(keys_[i].element, [&] {
         return "a second key of frame " + number_text(key.frame) + " in " + tag(element_.name()) +
-               "; the first one is in line " + std::to_string(keys_[i - 1].element.line());
+               "; the first one is in " +
+               context_.diagnostics.line_name(keys_[i - 1].element.line(), keys_[i].element.line());
       });
     }
   }

@@ -98,6 +98,7 @@ std::vector<std::array<bool, 2>> image_uses(const SceneDescription& scene) {
 
 bool load_images(SceneDescription& scene, Diagnostics& diagnostics, int threads, MissingTexture missing) {
   auto& images = std::get<TextureItems<Image>>(scene.textures);
+  diagnostics.add_files(scene.included);
   const auto uses = image_uses(scene);
   ImageLoader loader(threads);
   bool fine = true;

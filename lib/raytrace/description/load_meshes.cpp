@@ -24,12 +24,16 @@ class MeshLoader {
   }
 
   void load() {
-    for (auto& mesh : std::get<ObjectItems<Mesh>>(scene_.objects)) load(mesh);
-    for (Group& group : scene_.groups)
-      for (auto& mesh : std::get<ObjectItems<Mesh>>(group.objects)) load(mesh);
+    load(scene_.objects);
+    for (Group& group : scene_.groups) load(group.objects);
   }
 
  private:
+  void load(ObjectLists& objects) {
+    for (auto& mesh : std::get<ObjectItems<Mesh>>(objects)) load(mesh);
+    for (auto& cloud : std::get<ObjectItems<SphereCloud>>(objects)) load(cloud);
+  }
+
   /// What several meshes have of one file.
   struct LoadedFile {
     std::shared_ptr<const MeshData> data;
@@ -48,6 +52,26 @@ class MeshLoader {
     if (mesh.materials.empty()) mesh.materials = {mesh.data->colors.empty() ? grey() : painted()};
   }
 
+  void load(ObjectItem<SphereCloud>& cloud) {
+    const auto& [file, radius] = cloud.parameters;
+    const auto [known, is_new] = clouds_.try_emplace(file.path);
+    if (is_new)
+      if (std::optional<PointCloud> data = read(file, read_point_cloud))
+        known->second = std::make_shared<const PointCloud>(std::move(*data));
+    if (known->second == nullptr) return;
+    cloud.data = known->second;
+    if (cloud.data->radii.empty() && radius < smallest_size)
+      diagnostics_.error({file.line, file.column},
+                         on_one_line(file.path) + ": has no radii; add <radius> to the <spherecloud>");
+    if (!cloud.transform.affine().uniform_scale())
+      diagnostics_.error(
+          {cloud.line, 0},
+          "a <spherecloud> stays one of spheres: its <transform> cannot stretch it; put it into a <group>, "
+          "and stretch an <instance> of that");
+    const MaterialReference own = cloud.material;
+    cloud.materials = {own != no_material ? own : cloud.data->colors.empty() ? grey() : painted()};
+  }
+
   std::shared_ptr<const MeshData> made(const ObjectItem<Mesh>& mesh) {
     const auto& values = mesh.parameters;
     Diagnostics found(diagnostics_.file());
@@ -64,7 +88,7 @@ class MeshLoader {
     const auto [known, is_new] = files_.try_emplace(file.path);
     LoadedFile& loaded = known->second;
     if (!is_new) return loaded;
-    std::optional<MeshData> data = read(file);
+    std::optional<MeshData> data = read(file, read_mesh);
     if (!data) return loaded;
     if (mesh.material == no_material) {
       const auto folder = std::filesystem::absolute(file.path).parent_path();
@@ -81,11 +105,14 @@ class MeshLoader {
     return loaded;
   }
 
-  std::optional<MeshData> read(const FileName& file) {
+  /// reader: read_mesh() or read_point_cloud().
+  template <class Data>
+  std::optional<Data> read(const FileName& file,
+                           std::optional<Data> (*reader)(const std::string&, const MeshReadSettings&, Diagnostics&)) {
     MeshReadSettings settings;
     settings.threads = threads_;
     Diagnostics found(on_one_line(file.path));
-    std::optional<MeshData> data = read_mesh(file.path, settings, found);
+    std::optional<Data> data = reader(file.path, settings, found);
     if (data) {
       // Once more, less an origin, where floats have too few digits for it.
       const float* const p = data->positions.data();
@@ -93,7 +120,7 @@ class MeshLoader {
       if (length(settings.origin) > 0) {
         data.reset();
         found = Diagnostics(on_one_line(file.path));
-        data = read_mesh(file.path, settings, found);
+        data = reader(file.path, settings, found);
       }
     }
     const bool is_about_all = found.kept().size() == 1 && found.kept().front().location.line == 0;
@@ -185,6 +212,7 @@ class MeshLoader {
   Diagnostics& diagnostics_;
   int threads_;
   std::map<std::string, LoadedFile> files_;
+  std::map<std::string, std::shared_ptr<const PointCloud>> clouds_;
   std::set<std::string> taken_names_;
   MaterialReference grey_ = no_material, painted_ = no_material;
 };
@@ -192,6 +220,7 @@ class MeshLoader {
 }  // namespace
 
 bool load_meshes(SceneDescription& description, Diagnostics& diagnostics, int threads, MissingTexture missing_texture) {
+  diagnostics.add_files(description.included);
   const std::size_t errors_before = diagnostics.error_count();
   const std::size_t images_before = std::get<TextureItems<Image>>(description.textures).size();
   MeshLoader(description, diagnostics, threads).load();

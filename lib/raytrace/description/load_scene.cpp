@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -14,8 +13,10 @@
 #include <vector>
 
 #include "raytrace/description/check_groups.h"
+#include "raytrace/description/include.h"
 #include "raytrace/description/load_images.h"
 #include "raytrace/description/read_items.h"
+#include "raytrace/description/scene_files.h"
 #include "raytrace/parallel/worker_count.h"
 
 namespace raytrace {
@@ -23,33 +24,47 @@ namespace {
 
 class SceneReader {
  public:
-  SceneReader(const SceneText& text, const ReadContext& context, int threads)
-      : text_(text),
-        context_(context),
-        diagnostics_(context.diagnostics),
-        skeleton_(text),
-        arena_(worker_count(threads)) {
+  SceneReader(const Variables& variables, Diagnostics& diagnostics, int threads)
+      : diagnostics_(diagnostics), files_(variables, diagnostics, threads), arena_(worker_count(threads)) {
     scene_.file = diagnostics_.file();
   }
 
-  void read() {
-    skeleton_.parse_skeleton(diagnostics_);
-    if (const Element root = skeleton_.root()) read(root);
+  void read(TextBuffer text, const std::string& file) {
+    file_ = files_.open(std::move(text), file);
+    if (file_ == nullptr) return;
+    const Element root = file_->skeleton.root();
+    read_root(root);
+    resolve_field_of_view();
+    // Objects name materials, and those textures, which may come after them.
+    report_taken(TexturesSection::item, names_.textures.names);
+    read_all(material_sections_, [&](Element section) { read_section<MaterialsSection>(section); });
+    report_taken(MaterialsSection::item, names_.materials.names);
+    read_all(object_sections_, [&](Element section) { read_section<ObjectsSection>(section); });
+    report_taken(ObjectsSection::item, object_names_);
+    read_all(group_sections_, [&](Element section) { read_groups(section); });
+    const auto report = [&](SourceLocation location, const std::string& m) { diagnostics_.error(location, m); };
+    if (groups_complete_) check_groups(scene_, report);
+    for (const std::string_view key : {ViewPlane::element, camera_key}) {
+      if (firsts_.contains(key)) continue;
+      diagnostics_.error(root, [&] { return "the scene has no " + tag(key) + "; add one"; });
+    }
   }
 
-  SceneDescription take() { return std::move(scene_); }
+  SceneDescription take() {
+    scene_.included = files_.included();
+    return std::move(scene_);
+  }
 
  private:
   static constexpr std::string_view camera_key = "camera", integrator_key = "integrator type";
 
-  void read(Element root) {
-    if (root.name() != root_element) {
-      diagnostics_.error(
-          root, [&] { return "the scene starts with " + tag(root.name()) + "; it must be " + tag(root_element); });
-      if (nearest_name(root.name(), {&root_element, 1}).empty()) return;
-    }
-    refuse_root_attributes(root);
-    std::vector<Element> material_sections, object_sections, group_sections;
+  /// A section that is read when all files are known.
+  struct LaterSection {
+    const SceneFile* file;
+    Element element;
+  };
+
+  void read_root(Element root) {
     for (Node node = root.first_child(); node; node = node.next()) {
       if (refuse_text(node, root, diagnostics_)) continue;
       const Element child = node.element();
@@ -58,32 +73,45 @@ class SceneReader {
       else if (child.name() == TexturesSection::element)
         read_section<TexturesSection>(child);
       else if (child.name() == MaterialsSection::element)
-        material_sections.push_back(child);
+        material_sections_.push_back({file_, child});
       else if (child.name() == ObjectsSection::element)
-        object_sections.push_back(child);
+        object_sections_.push_back({file_, child});
       else if (child.name() == groups_element)
-        group_sections.push_back(child);
+        group_sections_.push_back({file_, child});
       else if (child.name() == ViewPlane::element)
         read_single<ViewPlane>(ViewPlane::element, child, scene_.viewplane);
       else if (child.name() == integrator_element)
         read_integrator(child);
+      else if (child.name() == Include::element)
+        read_include(child);
       else if (!read_one_of(Cameras{}, camera_key, child, scene_.camera))
         refuse_unknown(child, root_element);
     }
-    resolve_field_of_view();
-    // Objects name materials, and those textures, which may come after them.
-    report_taken(TexturesSection::item, names_.textures.names);
-    for (const Element section : material_sections) read_section<MaterialsSection>(section);
-    report_taken(MaterialsSection::item, names_.materials.names);
-    for (const Element section : object_sections) read_section<ObjectsSection>(section);
-    report_taken(ObjectsSection::item, object_names_);
-    for (const Element section : group_sections) read_groups(section);
-    if (groups_complete_)
-      check_groups(scene_,
-                   [&](SourceLocation location, const std::string& message) { diagnostics_.error(location, message); });
-    for (const std::string_view key : {ViewPlane::element, camera_key}) {
-      if (firsts_.contains(key)) continue;
-      diagnostics_.error(root, [&] { return "the scene has no " + tag(key) + "; add one"; });
+  }
+
+  void read_include(Element element) {
+    Include::Parameters parameters;
+    const bool is_fine = FieldsReader(element_type<Include>()).read(element, &parameters, {}, file_->context);
+    const SceneFile* const included = is_fine ? files_.include(parameters.file) : nullptr;
+    if (included == nullptr) return expect_anything();
+    const SceneFile* const outer = std::exchange(file_, included);
+    read_root(included->skeleton.root());
+    file_ = outer;
+    files_.leave();
+  }
+
+  /// What a file that is not read may have is not reported as missing, too.
+  void expect_anything() {
+    names_.textures.complete = names_.materials.complete = groups_complete_ = false;
+    firsts_.try_emplace(ViewPlane::element);
+    firsts_.try_emplace(camera_key);
+  }
+
+  template <class Read>
+  void read_all(const std::vector<LaterSection>& sections, const Read& read) {
+    for (const auto& [file, element] : sections) {
+      file_ = file;
+      read(element);
     }
   }
 
@@ -92,7 +120,7 @@ class SceneReader {
   void read_single(std::string_view key, Element element, Target& target) {
     if (!is_first(key, element)) return;
     typename T::Parameters parameters;
-    FieldsReader(element_type<T>()).read(element, &parameters, {}, context_);
+    FieldsReader(element_type<T>()).read(element, &parameters, {}, file_->context);
     target = parameters;
   }
 
@@ -150,13 +178,8 @@ class SceneReader {
       if (node.element().name() == group_element)
         read_group_of_objects(node.element());
       else
-        refuse_group(node.element());
+        refuse_unknown(node.element(), groups_element);
     }
-  }
-
-  void refuse_group(Element element) {
-    groups_complete_ = false;
-    refuse_unknown(element, groups_element);
   }
 
   void read_group_of_objects(Element element) {
@@ -170,7 +193,7 @@ class SceneReader {
       if (refuse_text(node, element, diagnostics_)) continue;
       const Element child = node.element();
       if (child.name() == "name") {
-        if (name.name.empty() && read_value(child, {"name"}, &name, context_)) group.name = name.name;
+        if (name.name.empty() && read_value(child, {"name"}, &name, file_->context)) group.name = name.name;
       } else if (child.name() == ObjectsSection::element) {
         read_section<ObjectsSection>(child);
       } else {
@@ -184,9 +207,9 @@ class SceneReader {
       diagnostics_.error(element, [&] { return "missing <name> in <group>; add <name>...</name>"; });
     const auto [first, is_first] = group_lines_.try_emplace(group.name, group.line);
     if (!is_first && !group.name.empty())
-      diagnostics_.error({name.line, name.column}, "the group name " + in_quotes(group.name) +
-                                                       " is taken by the <group> in line " +
-                                                       std::to_string(first->second) + "; choose another");
+      diagnostics_.error({name.line, name.column},
+                         "the group name " + in_quotes(group.name) + " is taken by the <group> in " +
+                             diagnostics_.line_name(first->second, name.line) + "; choose another");
     scene_.groups.push_back(std::move(group));
   }
 
@@ -223,7 +246,7 @@ class SceneReader {
   void read_only_item(Element element) {
     if (!is_first(T::element, element)) return;
     TypedItemList<Section, T> items(names_);
-    items.read(element, 0, context_);
+    items.read(element, 0, file_->context);
     store<Section, T>(items.entries().front(), {});
   }
 
@@ -233,16 +256,16 @@ class SceneReader {
     refuse_attributes(group, {}, diagnostics_);
     // What stands before the first item; that one and the rest are in the chunks.
     for (Node node = group.first_child(); node; node = node.next()) refuse_text(node, group, diagnostics_);
-    const std::size_t elements = text_.chunks_of(group.offset()).items;
+    const std::size_t elements = file_->text.chunks_of(group.offset()).items;
     reserve_more(items<Section, T>(), elements);
     std::size_t read_elements = 0;
     read_items(
-        {text_, context_.variables, context_.folder, group, T::element}, arena_, diagnostics_,
+        {file_->text, file_->context.variables, file_->context.folder, group, T::element}, arena_, diagnostics_,
         [&] { return std::make_unique<Items>(names_); },
         [&](std::size_t chunk, ItemList& items) {
           for (auto& entry : static_cast<Items&>(items).entries()) {
             ++read_elements;
-            store<Section, T>(entry, {static_cast<std::uint32_t>(chunk), entry.number});
+            store<Section, T>(entry, {static_cast<std::uint32_t>(file_->first_chunk + chunk), entry.number});
           }
         });
     if constexpr (is_named<Section>)
@@ -277,11 +300,13 @@ class SceneReader {
 
   /// One slip, one message: what was only misspelt, or is in the wrong element, is not reported as missing, too.
   void refuse_unknown(Element child, std::string_view parent) {
+    if (parent == groups_element) groups_complete_ = false;
     if (diagnostics_.keeps_another(Severity::error)) {
       const std::string_view meant = meant_element(child.name(), parent);
       bool is_camera = false;
       for_each_type(Cameras{}, [&]<class T>(std::type_identity<T>) { is_camera |= meant == T::element; });
       firsts_.try_emplace(is_camera ? camera_key : meant);
+      if (meant == Include::element) expect_anything();
       for (NamedItems* const all : {&names_.textures, &names_.materials})
         if (parent == all->section || belongs_to_section(meant, all->section)) all->complete = false;
     }
@@ -303,55 +328,33 @@ class SceneReader {
       return true;
     }
     diagnostics_.error(element, [&] {
-      return "a second " + tag(element.name()) + "; a scene has one, and the first is in line " +
-             std::to_string(first.line());
+      return "a second " + tag(element.name()) + "; a scene has one, and the first is in " +
+             diagnostics_.line_name(first.line(), element.line());
     });
     return false;
   }
 
   void report_taken(std::string_view what, NameTable& names) {
-    Document first_document(text_), other_document(text_);
-    names.finish(arena_.max_concurrency(),
-                 [&](std::string_view name, ItemPosition first_position, ItemPosition other_position) {
-                   if (!diagnostics_.keeps_another(Severity::error)) return diagnostics_.error({}, {});
-                   const Element first = item_at(first_position, first_document);
-                   const Element other = item_at(other_position, other_document);
-                   diagnostics_.error(other.child("name").first_child(), [&] {
-                     return "the " + std::string(what) + " name " + in_quotes(name) + " is taken by the " +
-                            tag(first.name()) + " in line " + std::to_string(first.line()) + "; choose another";
-                   });
-                 });
+    std::unique_ptr<Document> first_document, other_document;
+    names.finish(
+        arena_.max_concurrency(), [&](std::string_view name, ItemPosition first_position, ItemPosition other_position) {
+          if (!diagnostics_.keeps_another(Severity::error)) return diagnostics_.error({}, {});
+          const Element first = files_.item_at(first_position, first_document);
+          const Element other = files_.item_at(other_position, other_document);
+          diagnostics_.error(other.child("name").first_child(), [&] {
+            return "the " + std::string(what) + " name " + in_quotes(name) + " is taken by the " + tag(first.name()) +
+                   " in " + diagnostics_.line_name(first.line(), other.line()) + "; choose another";
+          });
+        });
   }
 
-  /// The item once more, parsed by `document`.
-  Element item_at(ItemPosition position, Document& document) const {
-    Diagnostics none = Diagnostics::counter();
-    document.parse_items(text_.chunk(position.chunk), none);
-    std::uint32_t number = 0;
-    Node node = document.root().first_child();
-    while (!node.element() || number++ < position.number) node = node.next();
-    return node.element();
-  }
-
-  /// The root may name its schema, as editors like it.
-  void refuse_root_attributes(Element root) {
-    for (Attribute attribute = root.first_attribute(); attribute; attribute = attribute.next()) {
-      const bool declaration =
-          attribute.name() == "xmlns:xsi" && attribute.value() == "http://www.w3.org/2001/XMLSchema-instance";
-      if (declaration || attribute.name() == "xsi:noNamespaceSchemaLocation") continue;
-      diagnostics_.error(attribute, [&] {
-        return "unexpected attribute " + in_quotes(attribute.name()) + " in " + tag(root.name()) + "; remove it";
-      });
-    }
-  }
-
-  const SceneText& text_;
-  const ReadContext& context_;
   Diagnostics& diagnostics_;
-  Document skeleton_;
+  SceneFiles files_;
+  const SceneFile* file_ = nullptr;  // at hand
   tbb::task_arena arena_;
   SceneDescription scene_;
   std::map<std::string_view, Element> firsts_;  // by key; false for what was meant by an element that was refused
+  std::vector<LaterSection> material_sections_, object_sections_, group_sections_;
   SceneNames names_;
   NameTable object_names_;                  // of the scene, or of the group at hand
   ObjectLists* objects_ = &scene_.objects;  // likewise
@@ -367,13 +370,9 @@ void report_unused(const Variables& variables, Diagnostics& diagnostics) {
 
 std::optional<SceneDescription> read_scene(TextBuffer text, const std::string& file, Diagnostics& diagnostics,
                                            int threads, const SceneSettings& settings) {
-  const SceneText scene_text(std::move(text), group_elements(), threads, diagnostics);
-  if (!scene_text.well_formed()) return std::nullopt;
   const Variables variables(settings);
-  const std::string folder = std::filesystem::path(file).parent_path().string();
-  const ReadContext context{variables, diagnostics, folder};
-  SceneReader reader(scene_text, context, threads);
-  reader.read();
+  SceneReader reader(variables, diagnostics, threads);
+  reader.read(std::move(text), file);
   // Where there are errors, not all that stands in the scene has been read.
   if (!diagnostics.has_errors()) report_unused(variables, diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;

@@ -15,7 +15,7 @@ namespace raytrace {
 
 /// Where an item stands.
 struct ItemPosition {
-  std::uint32_t chunk;   ///< of the SceneText
+  std::uint32_t chunk;   ///< of all the scene's files
   std::uint32_t number;  ///< among the elements of the chunk, from 0
 };
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "raytrace/description/include.h"
 #include "raytrace/description/keyframes.h"
 #include "raytrace/description/parse_value.h"
 #include "raytrace/description/read_transform.h"
@@ -63,6 +64,7 @@ class SchemaPrinter : private XmlWriter {
       for_each_type(Cameras{}, [&]<class T>(std::type_identity<T>) { print_item(element_type<T>(), {}); });
       element(named("complexType", integrator_element), [&] { print_one_of(Integrators{}); });
       for_each_type(Integrators{}, [&]<class T>(std::type_identity<T>) { print_item(element_type<T>(), {}); });
+      print_item(element_type<Include>(), {});
       print_transform();
       print_choice(groups_element, [&] { child(group_element); });
       print_choice(group_element, [&] {
@@ -79,11 +81,11 @@ class SchemaPrinter : private XmlWriter {
 
   void print_root() {
     element("xs:complexType", [&] {
-      // Sections in any order and number, but one view plane and one camera. That there is one integrator at most
-      // would take as many sequences again.
+      // Sections in any order and number, but one view plane and one camera, or none: they may be in files that are
+      // included. That there is one integrator at most would take as many sequences again.
       element("xs:sequence", [&] {
         print_sections();
-        element("xs:choice", [&] {
+        element(R"(xs:choice minOccurs="0")", [&] {
           print_pair([&] { child(ViewPlane::element); }, [&] { print_one_of(Cameras{}); });
           print_pair([&] { print_one_of(Cameras{}); }, [&] { child(ViewPlane::element); });
         });
@@ -100,8 +102,10 @@ class SchemaPrinter : private XmlWriter {
     element("xs:sequence", [&] {
       print_first();
       print_sections();
-      print_second();
-      print_sections();
+      element(R"(xs:sequence minOccurs="0")", [&] {
+        print_second();
+        print_sections();
+      });
     });
   }
 
@@ -110,6 +114,7 @@ class SchemaPrinter : private XmlWriter {
       for_each_type(Sections{}, [&]<class Section>(std::type_identity<Section>) { child(Section::element); });
       child(integrator_element);
       child(groups_element);
+      child(Include::element);
     });
   }
 

@@ -40,8 +40,8 @@ bool read_fields(Element element, std::span<const FieldInfo> infos, std::span<co
       const std::uint64_t bit = std::uint64_t(1) << i;
       if (read & bit) {
         diagnostics.error(child, [&] {
-          return "a second " + tag(infos[i].name) + " in " + tag(element.name()) + "; the first one is in line " +
-                 std::to_string(element.child(infos[i].name).line());
+          return "a second " + tag(infos[i].name) + " in " + tag(element.name()) + "; the first one is in " +
+                 diagnostics.line_name(element.child(infos[i].name).line(), child.line());
         });
       } else {
         FieldTexture texture{i, {}, child};

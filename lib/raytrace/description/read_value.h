@@ -26,7 +26,7 @@ namespace raytrace {
 struct ReadContext {
   const Variables& variables;
   Diagnostics& diagnostics;
-  std::string_view folder = {};  ///< of the scene's file, which names of files are relative to
+  std::string_view folder = {};  ///< of the file at hand, which names of files are relative to
 };
 
 /// The index of the field of that name in `fields`, whose elements have names; their number if there is none.

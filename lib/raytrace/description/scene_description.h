@@ -98,16 +98,18 @@ struct ObjectItem {
 /// No material: that of its file, or none.
 inline constexpr MaterialReference no_material{0xffffffff, 0xffffffff};
 
-template <>
-struct ObjectItem<Mesh> {
-  Mesh::Parameters parameters;
+/// What files hold, or may hold: meshes and clouds of spheres.
+template <class Shape>
+  requires requires { typename Shape::Data; }
+struct ObjectItem<Shape> {
+  typename Shape::Parameters parameters;
   std::string name;
-  MaterialReference material = no_material;  ///< where there is one, of all faces
+  MaterialReference material = no_material;  ///< where there is one, of all faces or spheres
   std::uint32_t line = 0;
   Transform transform = {};
 
   // From load_meshes().
-  std::shared_ptr<const MeshData> data = nullptr;
+  std::shared_ptr<const typename Shape::Data> data = nullptr;
   std::vector<MaterialReference> materials = {};  ///< those of the data, at least one
 };
 
@@ -158,12 +160,13 @@ struct SceneDescription {
   TupleOf<Materials, MaterialItems>::type materials;  ///< std::get<MaterialItems<Matte>>(materials)
   ObjectLists objects;                                ///< std::get<ObjectItems<Sphere>>(objects)
   std::vector<Group> groups;
+  std::vector<IncludedFile> included;  ///< by the lines of items; their names are as the program opens them
 };
 
-/// Reads and validates a scene file ("-": standard input), but not the meshes that it names. All errors and warnings go
-/// to `diagnostics`; no value if there is an error. A file that cannot be read is an error at line 0. The files that
-/// textures name are loaded, too. threads: so many at most share the work; 0: all that the machine has. The result does
-/// not depend on it. settings: variables that are not used are errors, as those that are not set.
+/// Reads and validates a scene file ("-": standard input), but not the meshes and clouds that it names. All errors and
+/// warnings go to `diagnostics`; no value if there is an error. A file that cannot be read is an error at line 0. The
+/// files that textures name are loaded, too. threads: so many at most share the work; 0: all that the machine has. The
+/// result does not depend on it. settings: variables that are not used are errors, as those that are not set.
 std::optional<SceneDescription> load_scene(const std::string& file, Diagnostics& diagnostics, int threads = 0,
                                            const SceneSettings& settings = {});
 
@@ -171,9 +174,9 @@ std::optional<SceneDescription> load_scene(const std::string& file, Diagnostics&
 std::optional<SceneDescription> parse_scene(std::string_view text, Diagnostics& diagnostics, int threads = 0,
                                             const SceneSettings& settings = {});
 
-/// Reads the files of the meshes, and makes those whose values stand in the scene; adds materials for what has none in
-/// the scene: those of the file, else a matte grey. What is wrong with the files goes to `diagnostics`, with the files'
-/// names and lines. False if there is an error.
+/// Reads the files of meshes and clouds, and makes the meshes whose values stand in the scene; adds materials for what
+/// has none in the scene: those of the file, else a matte grey. What is wrong with the files goes to `diagnostics`,
+/// with the files' names and lines. False if there is an error.
 bool load_meshes(SceneDescription& description, Diagnostics& diagnostics, int threads = 0,
                  MissingTexture missing_texture = MissingTexture::error);
 
@@ -186,12 +189,12 @@ std::string print_scene(const SceneDescription& description);
 /// that it refuses is one that load_scene refuses. The reverse does not hold: no schema can say that a direction is not
 /// 0, that a camera's eye is not where it looks, or that there is one ambient light in all; nor, since they may have
 /// keys, that a number is one and a vector whole; nor, since names may have variables, that an object's material
-/// exists.
+/// exists; nor, since files may be included, that there is a camera.
 std::string print_schema();
 
 /// 32 hexadecimal digits (XXH3, 128 bits) of all names and values of the description but the number of samples and
-/// where in which file they stood: two files that mean the same have the same. Of meshes, what load_meshes() read
-/// counts, not their files' names. threads: so many at most share the work; 0: all that the machine has.
+/// where in which file they stood: two files that mean the same have the same. Of meshes and clouds, what load_meshes()
+/// read counts, not their files' names. threads: so many at most share the work; 0: all that the machine has.
 std::string scene_hash(const SceneDescription& description, int threads = 0);
 
 }  // namespace raytrace

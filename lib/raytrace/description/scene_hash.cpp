@@ -50,7 +50,7 @@ class SceneHash {
       for (std::size_t i = first; i < last; ++i) {
         const Item& item = items[i];
         if constexpr (requires { item.data; }) {
-          hash.add_mesh(fields, item);
+          hash.add_loaded(fields, item);
         } else if constexpr (requires { item.image; }) {
           hash.add_parameters(fields, &item.parameters, item.image.hash.empty() ? "" : "file");
           hash.add(item.image.hash);
@@ -92,12 +92,16 @@ class SceneHash {
   }
 
   /// By what it was read from a file, if it was.
-  void add_mesh(const Fields& fields, const ObjectItem<Mesh>& item) {
+  template <class Item>
+  void add_loaded(const Fields& fields, const Item& item) {
     const bool from_file = item.data != nullptr && !item.parameters.file.path.empty();
     add_parameters(fields, &item.parameters, from_file ? "file" : "");
     if (!from_file) return;
-    const MeshData& data = *item.data;
-    for (const double coordinate : {data.origin.x, data.origin.y, data.origin.z}) add(coordinate);
+    add(item.data->origin);
+    add(*item.data);
+  }
+
+  void add(const MeshData& data) {
     add(data.corners);
     add_values(data.positions);
     add_values(data.indices);
@@ -105,6 +109,12 @@ class SceneHash {
     add_values(data.uvs);
     add_values(data.colors);
     add_values(data.face_materials);
+  }
+
+  void add(const PointCloud& data) {
+    add_values(data.positions);
+    add_values(data.radii);
+    add_values(data.colors);
   }
 
   template <class Value>

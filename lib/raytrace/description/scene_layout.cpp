@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "raytrace/description/include.h"
 #include "raytrace/text/message.h"
 
 namespace raytrace {
@@ -20,6 +21,7 @@ std::vector<LayoutEntry> scene_layout() {
   std::vector<LayoutEntry> layout{{ViewPlane::element, root_element}};
   for_each_type(Cameras{}, [&]<class T>(std::type_identity<T>) { layout.push_back({T::element, root_element}); });
   layout.push_back({integrator_element, root_element});
+  layout.push_back({Include::element, root_element});
   for_each_type(Integrators{},
                 [&]<class T>(std::type_identity<T>) { layout.push_back({T::element, integrator_element}); });
   for_each_type(Sections{}, [&]<class Section>(std::type_identity<Section>) {

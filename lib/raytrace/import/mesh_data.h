@@ -94,8 +94,9 @@ struct MeshData {
 
 /// Points with perhaps a radius and a colour each.
 struct PointCloud {
+  Vec3d origin{0, 0, 0};        ///< as a mesh's
   MeshBuffer<float> positions;  ///< as a mesh's
-  MeshBuffer<float> radii;      ///< greater than 0; empty where the file has none
+  MeshBuffer<float> radii;      ///< as sizes in scenes may be; empty where the file has none
   MeshBuffer<float> colors;     ///< as a mesh's
 
   std::size_t size() const { return positions.size() / 3; }

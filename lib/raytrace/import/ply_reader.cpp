@@ -6,6 +6,7 @@
 
 #include "raytrace/import/mesh_readers.h"
 #include "raytrace/import/ply_body.h"
+#include "raytrace/parameters/fields.h"
 #include "raytrace/text/message.h"
 
 namespace raytrace {
@@ -120,7 +121,7 @@ std::optional<PointCloud> read_ply_cloud(MeshFile& file, const MeshReadSettings&
   };
   for (std::size_t i = 0; i < open.vertices; ++i) {
     if (std::isnan(cloud.positions[3 * i])) continue;
-    if (has_radii && !(cloud.radii[i] > 0 && std::isfinite(cloud.radii[i]))) continue;
+    if (has_radii && !(cloud.radii[i] >= smallest_size && cloud.radii[i] <= largest_number)) continue;
     if (kept < i) {
       move(cloud.positions, i, 3);
       if (has_radii) move(cloud.radii, i, 1);

@@ -94,9 +94,15 @@ Vec3d near_origin(const Vec3d& point) {
 
 std::optional<PointCloud> read_point_cloud(const std::string& name, const MeshReadSettings& settings,
                                            Diagnostics& diagnostics) {
+  if (mesh_type(name) != ".ply") {
+    diagnostics.error({}, "is no cloud by its name, which does not end in .ply, perhaps with .gz behind");
+    return std::nullopt;
+  }
   std::optional<MeshFile> file = MeshFile::open(name, diagnostics);
   if (!file) return std::nullopt;
-  return read_ply_cloud(*file, settings, diagnostics);
+  std::optional<PointCloud> cloud = read_ply_cloud(*file, settings, diagnostics);
+  if (cloud) cloud->origin = settings.origin;
+  return cloud;
 }
 
 }  // namespace raytrace

@@ -13,6 +13,8 @@ namespace raytrace {
 
 namespace {
 
+constexpr auto sphere_geometry = static_cast<std::uint32_t>(index_of<Sphere>(Shapes{}));
+
 Affine moved(Affine affine, const Vec3d& origin) {
   affine.origin += -origin;
   return affine;
@@ -41,6 +43,7 @@ void GeometryTable::add_objects(const ObjectLists& objects, const Vec3d& origin,
     const MeshTable& mesh = meshes_.emplace_back(item, origin, first_materials, threads);
     geometries_.push_back({static_cast<std::uint32_t>(mesh.face_count()), count++, &mesh});
   }
+  for (CloudSpheres& cloud : clouds_) cloud.object = count++;
   for (const Geometry& geometry : geometries_) {
     first_objects_.push_back(geometry.first_object);
     primitive_masks_.push_back(geometry.mesh == nullptr ? -1 : 0);
@@ -82,9 +85,32 @@ void GeometryTable::add_shapes(const ObjectLists& objects, const Vec3d& origin) 
       if constexpr (requires { &Kernel<Shape>::bounds; })
         if (!is_in_place) transformed_.back().bounds = Kernel<Shape>::bounds(records.back());
     }
-    geometries_.push_back({static_cast<std::uint32_t>(items.size()), count, nullptr});
+    if constexpr (std::is_same_v<Shape, Sphere>) add_clouds(std::get<ObjectItems<SphereCloud>>(objects), origin);
+    geometries_.push_back({static_cast<std::uint32_t>(records.size()), count, nullptr});
     count += static_cast<std::int32_t>(items.size());
   });
+}
+
+void GeometryTable::add_clouds(const std::vector<ObjectItem<SphereCloud>>& clouds, const Vec3d& origin) {
+  auto& [records, instanced] = std::get<ShapeTable<Sphere>>(tables_);
+  std::size_t count = records.size();
+  for (const auto& cloud : clouds) count += cloud.data->size();
+  reserve_large(records, count);
+  for (const auto& cloud : clouds) {
+    const PointCloud& data = *cloud.data;
+    const auto first = static_cast<std::int32_t>(records.size());
+    const Affine affine = cloud.transform.affine();
+    const double scale = cloud.transform.empty() ? 1 : affine.uniform_scale().value_or(1);
+    for (std::size_t i = 0; i < data.size(); ++i) {
+      const float* const p = data.positions.data() + 3 * i;
+      const double radius = data.radii.empty() ? cloud.parameters.radius : static_cast<double>(data.radii[i]);
+      Vec3d center = Vec3d(p[0], p[1], p[2]) + data.origin;
+      if (!cloud.transform.empty()) center = affine.point(center);
+      records.push_back(Kernel<Sphere>::record({center + -origin, radius * scale}));
+    }
+    clouds_.push_back({first, static_cast<std::int32_t>(records.size()), 0, cloud.data});
+  }
+  if (!instanced.empty()) instanced.resize(records.size());
 }
 
 void GeometryTable::add_instances(const SceneDescription& description, const Vec3d& origin,
@@ -143,6 +169,11 @@ void GeometryTable::set_object_materials(const ObjectLists& objects, std::span<c
   for (const Geometry& geometry : geometries_)
     if (geometry.mesh != nullptr)
       object_materials_[static_cast<std::size_t>(geometry.first_object)] = geometry.mesh->material(std::size_t{0});
+  for (std::size_t i = 0; i < clouds_.size(); ++i) {
+    const MaterialReference& material = std::get<ObjectItems<SphereCloud>>(objects)[i].materials.front();
+    object_materials_[static_cast<std::size_t>(clouds_[i].object)] =
+        first_materials[material.type] + static_cast<std::int32_t>(material.index);
+  }
 }
 
 std::uint64_t GeometryTable::primitive_count() const {
@@ -188,17 +219,31 @@ std::vector<std::uint8_t> GeometryTable::used_materials(std::int32_t materials) 
   return used;
 }
 
+IntN GeometryTable::or_cloud(const IntN& object, const IntN& sphere, const MaskN& lanes) const {
+  IntN result = object;
+  for_each_cloud(sphere, lanes, [&](const CloudSpheres& cloud, const MaskN& here) {
+    result = select_lanes(here, IntN(cloud.object), result);
+  });
+  return result;
+}
+
+IntN GeometryTable::object(std::uint32_t geometry, const IntN& primitive) const {
+  const auto& [primitives, first_object, mesh] = geometries_[geometry];
+  if (mesh != nullptr) return IntN(first_object);
+  const IntN single = primitive + IntN(first_object);
+  return geometry == sphere_geometry ? or_cloud(single, primitive, MaskN(true)) : single;
+}
+
 IntN GeometryTable::object(const Hits& hits) const {
   const IntN primitive = select_lanes(hits.hit, hits.primitive, IntN(hits.first_primitive));
-  if (hits.one_geometry) {
-    const Geometry& geometry = geometries_[hits.first_geometry];
-    return geometry.mesh != nullptr ? IntN(geometry.first_object) : primitive + IntN(geometry.first_object);
-  }
+  if (hits.one_geometry) return object(hits.first_geometry, primitive);
   // Instances' lanes follow geometry 0, and others the first.
   const MaskN instanced = float_mask<FloatN>(hits.instance != UintN(0u));
   const IntN other(hits.in_instances ? 0 : static_cast<std::int32_t>(hits.first_geometry));
   const IntN geometry = select_lanes(hits.hit & !instanced, same_bits<IntN>(hits.geometry), other);
-  const IntN own = (primitive & gather(primitive_masks_.data(), geometry)) + gather(first_objects_.data(), geometry);
+  const IntN single = (primitive & gather(primitive_masks_.data(), geometry)) + gather(first_objects_.data(), geometry);
+  const MaskN sphere = float_mask<FloatN>(geometry == IntN(static_cast<std::int32_t>(sphere_geometry)));
+  const IntN own = or_cloud(single, primitive, sphere);
   if (!hits.in_instances) return own;
   return select_lanes(hits.hit & instanced, instances_.object(hits.instance), own);
 }
@@ -211,7 +256,8 @@ std::optional<std::int32_t> GeometryTable::only_material(const Hits& hits) const
     return geometry.mesh->only_material();
   }
   if (!hits.one_primitive) return std::nullopt;
-  return object_materials_[static_cast<std::size_t>(geometry.first_object + hits.first_primitive)];
+  const IntN object = this->object(hits.first_geometry, IntN(hits.first_primitive));
+  return object_materials_[static_cast<std::size_t>(object.get(0))];
 }
 
 std::int32_t GeometryTable::material_of(std::uint32_t instance, std::uint32_t geometry, std::uint32_t primitive) const {
@@ -236,7 +282,7 @@ IntN GeometryTable::material(const Hits& hits) const {
     const Geometry& geometry = table.geometries_[index];
     const IntN of_geometry = geometry.mesh != nullptr
                                  ? geometry.mesh->material(primitive)
-                                 : gather(table.object_materials_.data() + geometry.first_object, primitive);
+                                 : gather(table.object_materials_.data(), table.object(index, primitive));
     material = select_lanes(here, of_geometry, material);
   });
   if (hits.in_instances) {

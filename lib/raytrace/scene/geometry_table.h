@@ -1,9 +1,11 @@
 // The objects of a scene as the tracer keeps them: records by shape, and what each of Embree's geometries is made of.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <deque>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <span>
@@ -39,10 +41,18 @@ struct Geometry {
   const MeshTable* mesh;      ///< null: a shape's
 };
 
+/// The spheres of a cloud: those of the table of spheres from `first` on, before `end`.
+struct CloudSpheres {
+  std::int32_t first, end;
+  std::int32_t object;
+  std::shared_ptr<const PointCloud> data;
+};
+
 /// The objects of the world, or of a group.
 ///
 /// Geometry i is that of the shape of index i in the Shapes registry; the meshes follow, in their order. One without
-/// objects has no counterpart in Embree's scene. Shapes that their transforms make other shapes are in the shape's
+/// objects has no counterpart in Embree's scene. The spheres of clouds follow the single ones in their table; each
+/// cloud is one object, which follow the meshes. Shapes that their transforms make other shapes are in the shape's
 /// table as they are before them; rays meet them by an instance each.
 class GeometryTable {
  public:
@@ -64,8 +74,8 @@ class GeometryTable {
   const InstanceTable& instances() const { return instances_; }
 
   /// Whether all that has bounds is a shape that rays meet as it stands in its table.
+  bool has_clouds() const { return !clouds_.empty(); }
   bool has_shapes_only() const { return meshes_.empty() && instances_.empty(); }
-  std::uint64_t object_count() const { return object_materials_.size(); }
   std::uint64_t primitive_count() const;
   /// Around all objects that have bounds; of negative radius if there are none.
   BoundingSphere bounding_sphere() const;
@@ -85,6 +95,10 @@ class GeometryTable {
   template <class Function>
   void for_each_geometry(const Hits& hits, const Function& f) const;
 
+  /// For lanes that hit spheres of the same cloud: f(cloud, those lanes). lanes: those that hit a sphere.
+  template <class Function>
+  void for_each_cloud(const IntN& sphere, const MaskN& lanes, const Function& f) const;
+
  private:
   /// A shape that is another under its transform.
   struct TransformedShape {
@@ -98,11 +112,17 @@ class GeometryTable {
   void add_instances(const SceneDescription& description, const Vec3d& origin,
                      std::span<const std::int32_t> first_materials);
   void add_shapes(const ObjectLists& objects, const Vec3d& origin);
+  void add_clouds(const std::vector<ObjectItem<SphereCloud>>& clouds, const Vec3d& origin);
+  /// Of a geometry's primitives, for every lane one that exists.
+  IntN object(std::uint32_t geometry, const IntN& primitive) const;
+  /// The same number, but that of the cloud where lanes that hit a sphere hit one of a cloud.
+  IntN or_cloud(const IntN& object, const IntN& sphere, const MaskN& lanes) const;
   void set_object_materials(const ObjectLists& objects, std::span<const std::int32_t> first_materials, int threads);
   void set_bounds(int threads);
 
   TupleOf<Shapes, ShapeTable>::type tables_;
   std::deque<MeshTable> meshes_;  ///< they stay where they are
+  std::vector<CloudSpheres> clouds_;
   std::vector<Geometry> geometries_;
   // Of each geometry, side by side: its first object, and 0 if it is one object, else all bits.
   std::vector<std::int32_t> first_objects_, primitive_masks_;
@@ -131,6 +151,21 @@ void GeometryTable::for_each_geometry(const Hits& hits, const Function& f) const
     }
     left = left & !here;
     f(*table, geometry, here);
+  }
+}
+
+template <class Function>
+void GeometryTable::for_each_cloud(const IntN& sphere, const MaskN& lanes, const Function& f) const {
+  if (clouds_.empty()) return;
+  for (MaskN left = lanes & float_mask<FloatN>(sphere >= IntN(clouds_.front().first)); any(left);) {
+    const std::int32_t first = sphere.get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(left))));
+    const CloudSpheres& cloud =
+        *std::prev(std::upper_bound(clouds_.begin(), clouds_.end(), first,
+                                    [](std::int32_t i, const CloudSpheres& other) { return i < other.first; }));
+    const MaskN here =
+        left & float_mask<FloatN>(sphere >= IntN(cloud.first)) & float_mask<FloatN>(sphere < IntN(cloud.end));
+    left = left & !here;
+    f(cloud, here);
   }
 }
 

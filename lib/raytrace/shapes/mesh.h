@@ -15,6 +15,8 @@
 
 namespace raytrace {
 
+struct MeshData;
+
 class Mesh {
  public:
   /// Which normals it is shaded with.
@@ -32,6 +34,7 @@ class Mesh {
     WordOrGroups normals{normals_words, of_file, {}};  ///< one of the words, or x y z of each vertex
     NumberGroups uvs;                                  ///< u v of each vertex; (0, 0) is the lower left of an image
   };
+  using Data = MeshData;  ///< of the file, or of the values
   static constexpr std::string_view group = "meshes";
   static constexpr std::string_view element = "mesh";
   static constexpr bool may_lack_material = true;  ///< then it has those of its file

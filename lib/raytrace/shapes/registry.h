@@ -13,6 +13,7 @@
 #include "raytrace/shapes/plane.h"
 #include "raytrace/shapes/rectangle.h"
 #include "raytrace/shapes/sphere.h"
+#include "raytrace/shapes/sphere_cloud.h"
 #include "raytrace/shapes/torus.h"
 #include "raytrace/shapes/triangle.h"
 
@@ -20,7 +21,8 @@ namespace raytrace {
 
 using Shapes = TypeList<Plane, Sphere, Triangle, Cylinder, Torus, Disk, Rectangle, Box, Cone, Annulus>;
 
-/// All that <objects> holds: the shapes; meshes, which are many triangles or quads each; instances of groups.
-using Objects = Appended<Appended<Shapes, Mesh>::type, Instance>::type;
+/// All that <objects> holds: the shapes; meshes, which are many triangles or quads each; clouds of many spheres;
+/// instances of groups.
+using Objects = Appended<Appended<Appended<Shapes, Mesh>::type, SphereCloud>::type, Instance>::type;
 
 }  // namespace raytrace

@@ -1,4 +1,4 @@
-// The colours that meshes have at their vertices.
+// The colours that meshes have at their vertices, and clouds for their spheres.
 //
 //   <vertexcolor> <name>paint</name> </vertexcolor>
 #pragma once

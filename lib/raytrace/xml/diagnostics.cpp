@@ -4,6 +4,7 @@
 #include <ostream>
 #include <tuple>
 
+#include "raytrace/text/message.h"
 #include "raytrace/xml/xml_characters.h"
 
 namespace raytrace {
@@ -37,8 +38,32 @@ void Diagnostics::append(const Diagnostics& other) {
   repeat_count_ += other.repeat_count_;
 }
 
+void Diagnostics::add_files(std::span<const IncludedFile> files) {
+  for (const IncludedFile& file : files)
+    if (included_.empty() || file.first_line > included_.back().first_line)
+      included_.push_back({on_one_line(file.name), file.first_line});
+}
+
+const IncludedFile* Diagnostics::file_of(std::uint32_t line) const {
+  const auto next = std::upper_bound(included_.begin(), included_.end(), line,
+                                     [](std::uint32_t wanted, const IncludedFile& f) { return wanted < f.first_line; });
+  return next == included_.begin() ? nullptr : &*(next - 1);
+}
+
+std::string Diagnostics::line_name(std::uint32_t line, std::uint32_t from) const {
+  const IncludedFile* const file = file_of(line);
+  const std::string text = "line " + std::to_string(file != nullptr ? line - file->first_line + 1 : line);
+  return file == file_of(from) ? text : text + " of " + (file != nullptr ? file->name : file_);
+}
+
 void Diagnostics::add(Severity severity, SourceLocation location, std::string message) {
-  if (keeps_another(severity)) kept_.push_back({severity, location, std::move(message)});
+  if (keeps_another(severity)) {
+    Diagnostic& added = kept_.emplace_back(Diagnostic{severity, location, std::move(message)});
+    if (const IncludedFile* const file = file_of(location.line)) {
+      added.file = file->name;
+      added.location.line -= file->first_line - 1;
+    }
+  }
   ++(severity == Severity::error ? error_count_ : warning_count_);
 }
 
@@ -56,11 +81,12 @@ bool Diagnostics::count_repeat(const std::string& cause) {
 void Diagnostics::print(std::ostream& out) const {
   std::vector<const Diagnostic*> sorted;
   for (const Diagnostic& diagnostic : kept_) sorted.push_back(&diagnostic);
-  // At one location in the order of their discovery, which is that of their addresses.
-  std::sort(sorted.begin(), sorted.end(), [](const Diagnostic* a, const Diagnostic* b) {
-    if (a->file.empty() != b->file.empty()) return a->file.empty();
-    if (!a->file.empty()) return a < b;
-    return std::tie(a->location.line, a->location.column, a) < std::tie(b->location.line, b->location.column, b);
+  // Files, and what is at one location, in the order of their discovery, which for the latter is that of addresses.
+  std::map<std::string_view, std::size_t> files{{{}, 0}};
+  for (const Diagnostic& diagnostic : kept_) files.try_emplace(diagnostic.file, files.size());
+  std::sort(sorted.begin(), sorted.end(), [&](const Diagnostic* a, const Diagnostic* b) {
+    return std::tuple(files.at(a->file), a->location.line, a->location.column, a) <
+           std::tuple(files.at(b->file), b->location.line, b->location.column, b);
   });
 
   // Numbers by to_string: a stream's locale may group their digits.

@@ -1,10 +1,11 @@
-// The errors and warnings about a scene file, gathered so that one run reports all of them.
+// The errors and warnings about a scene's files, gathered so that one run reports all of them.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <iosfwd>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -12,10 +13,18 @@
 
 namespace raytrace {
 
-/// Both count from 1, columns in bytes. 0: unknown.
+/// Both count from 1, columns in bytes. 0: unknown. Lines count on through the files that a scene includes
+/// (IncludedFile), so that one number says which file and line it is.
 struct SourceLocation {
   std::uint32_t line = 0;
   std::uint32_t column = 0;
+};
+
+/// A file that a scene's file includes, and the number of its first line, which is larger than all of the files before
+/// it. It has the lines from there on that no other file has.
+struct IncludedFile {
+  std::string name;
+  std::uint32_t first_line;
 };
 
 /// What some editors put at the start of a UTF-8 file. None of them shows it, so columns do not count it.
@@ -34,13 +43,13 @@ enum class Severity { warning, error };
 
 struct Diagnostic {
   Severity severity;
-  SourceLocation location;
+  SourceLocation location;  ///< its line is that of its own file
   std::string message;
   std::size_t repeats = 0;  ///< other locations with the same cause
   std::string file = {};    ///< if it is another than the Diagnostics'
 };
 
-/// The diagnostics about one file.
+/// The diagnostics about one file and those that it includes.
 class Diagnostics {
  public:
   /// file: as given on the command line; messages show "<stdin>" for "-".
@@ -52,6 +61,12 @@ class Diagnostics {
   /// At most `most_kept` diagnostics of each severity are kept, the rest only counted: a file of a million bad objects
   /// must not exhaust the memory or the terminal.
   static constexpr std::size_t most_kept = 100;
+
+  /// In their order. Those that it knows already are left out.
+  void add_files(std::span<const IncludedFile> files);
+
+  /// How a message about line `from` names a line: "line 3", or "line 3 of other.xml".
+  std::string line_name(std::uint32_t line, std::uint32_t from) const;
 
   void add(Severity severity, SourceLocation location, std::string message);
   void error(SourceLocation location, std::string message) { add(Severity::error, location, std::move(message)); }
@@ -100,15 +115,19 @@ class Diagnostics {
     return (severity == Severity::error ? error_count_ - repeat_count_ : warning_count_) < limit_;
   }
 
-  /// One line each, "file:line:column: error: message", in the order of the file, those of other files behind, then the
-  /// counts of those not kept. A line or column of 0 is left out.
+  /// One line each, "file:line:column: error: message", in the order of the file, those of other files behind, file by
+  /// file, then the counts of those not kept. A line or column of 0 is left out.
   void print(std::ostream& out) const;
 
  private:
+  /// Null: its own.
+  const IncludedFile* file_of(std::uint32_t line) const;
+
   /// Whether an error of that cause is kept; the error at hand is then counted. Otherwise the next error is its first.
   bool count_repeat(const std::string& cause);
 
   std::string file_;
+  std::vector<IncludedFile> included_;
   std::size_t limit_ = most_kept;
   std::vector<Diagnostic> kept_;
   std::size_t error_count_ = 0, warning_count_ = 0, repeat_count_ = 0;

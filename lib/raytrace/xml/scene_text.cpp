@@ -141,13 +141,14 @@ std::optional<FileType> type_of(std::string_view text) {
 
 }  // namespace
 
-SceneText::SceneText(TextBuffer text, std::span<const std::string_view> groups, int threads, Diagnostics& diagnostics)
-    : text_(std::move(text)) {
+SceneText::SceneText(TextBuffer text, std::span<const std::string_view> groups, int threads, Diagnostics& diagnostics,
+                     std::uint32_t first_line)
+    : text_(std::move(text)), first_line_(first_line) {
   if (const auto error = find_xml_error(text_.text(), groups, chunks_, threads)) {
     if (const auto type = explain_file_type(text_.text()))
-      diagnostics.error({1, 1}, *type);
+      diagnostics.error({first_line, 1}, *type);
     else
-      diagnostics.error(raytrace::locate(text_.text(), error->offset), error->message);
+      diagnostics.error(raytrace::locate(text_.text(), error->offset, 0, first_line), error->message);
     chunks_.clear();
     return;
   }
@@ -163,7 +164,7 @@ void SceneText::measure(int threads) {
     chunk.line = line_ends(chunk.begin, chunk.end);
   });
   // From how many lines each has to its first.
-  Span rest{0, 0, 1};  // what of the skeleton stands before the chunk at hand
+  Span rest{0, 0, first_line_};  // what of the skeleton stands before the chunk at hand
   for (TextChunk& chunk : chunks_) {
     std::uint32_t line = rest.line;
     if (rest.begin != chunk.begin) {
@@ -187,7 +188,7 @@ SceneText::ChunkRange SceneText::chunks_of(std::size_t group) const {
 SourceLocation SceneText::locate(std::size_t offset) const {
   const auto next = std::upper_bound(chunks_.begin(), chunks_.end(), offset,
                                      [](std::size_t wanted, const TextChunk& chunk) { return wanted < chunk.begin; });
-  if (next == chunks_.begin()) return raytrace::locate(text_.text(), offset);
+  if (next == chunks_.begin()) return raytrace::locate(text_.text(), offset, 0, first_line_);
   return raytrace::locate(text_.text(), offset, (next - 1)->begin, (next - 1)->line);
 }
 

@@ -61,8 +61,9 @@ struct Span {
 class SceneText {
  public:
   /// Checks the text. If it is not well-formed XML, the reason goes to `diagnostics`, and there are no parts.
-  /// threads: how many may share the work on a large one; 0: all processors.
-  SceneText(TextBuffer text, std::span<const std::string_view> groups, int threads, Diagnostics& diagnostics);
+  /// threads: how many may share the work on a large one; 0: all processors. first_line: the number of its first line.
+  SceneText(TextBuffer text, std::span<const std::string_view> groups, int threads, Diagnostics& diagnostics,
+            std::uint32_t first_line = 1);
 
   bool well_formed() const { return !skeleton_.empty(); }
 
@@ -71,6 +72,7 @@ class SceneText {
 
   /// In the order of the text.
   std::span<const Span> skeleton() const { return skeleton_; }
+  std::size_t chunk_count() const { return chunks_.size(); }
   Span chunk(std::size_t index) const { return {chunks_[index].begin, chunks_[index].end, chunks_[index].line}; }
 
   struct ChunkRange {
@@ -82,11 +84,13 @@ class SceneText {
 
   /// For messages: it counts lines.
   SourceLocation locate(std::size_t offset) const;
+  std::uint32_t last_line() const { return locate(text_.text().size()).line; }
 
  private:
   void measure(int threads);
 
   TextBuffer text_;
+  std::uint32_t first_line_;
   std::vector<TextChunk> chunks_;
   std::vector<Span> skeleton_;
 };

@@ -1,0 +1,111 @@
+#include "raytrace/description/scene_files.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "raytrace/description/scene_layout.h"
+#include "raytrace/text/message.h"
+
+namespace raytrace {
+
+namespace {
+
+// A few files that include each other's copies could otherwise be any number.
+constexpr std::size_t most_files = 20000, most_at_hand = 64;
+
+/// Empty for a file, and for what does not exist.
+std::string explain_no_file(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (std::filesystem::is_directory(status)) return "it is a folder";
+  // A pipe might never answer, and a device never end.
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) return "it is not a regular file";
+  return {};
+}
+
+/// The root may name its schema, as editors like it.
+void refuse_root_attributes(Element root, Diagnostics& diagnostics) {
+  for (Attribute attribute = root.first_attribute(); attribute; attribute = attribute.next()) {
+    const bool declaration =
+        attribute.name() == "xmlns:xsi" && attribute.value() == "http://www.w3.org/2001/XMLSchema-instance";
+    if (declaration || attribute.name() == "xsi:noNamespaceSchemaLocation") continue;
+    diagnostics.error(attribute, [&] {
+      return "unexpected attribute " + in_quotes(attribute.name()) + " in " + tag(root.name()) + "; remove it";
+    });
+  }
+}
+
+/// False if nothing that is in it would be understood.
+bool check_root(Element root, Diagnostics& diagnostics) {
+  if (root.name() != root_element) {
+    diagnostics.error(
+        root, [&] { return "the scene starts with " + tag(root.name()) + "; it must be " + tag(root_element); });
+    if (nearest_name(root.name(), {&root_element, 1}).empty()) return false;
+  }
+  refuse_root_attributes(root, diagnostics);
+  return true;
+}
+
+}  // namespace
+
+const SceneFile* SceneFiles::add(TextBuffer text, const std::string& file) {
+  const auto folder = std::filesystem::path(file).parent_path().string();
+  SceneFile& added =
+      files_.emplace_back(SceneText(std::move(text), group_elements(), threads_, diagnostics_, next_line_), next_chunk_,
+                          folder, ReadContext{variables_, diagnostics_, {}});
+  added.context.folder = added.folder;
+  next_line_ = added.text.last_line() + 1;
+  next_chunk_ += added.text.chunk_count();
+  if (added.text.well_formed()) added.skeleton.parse_skeleton(diagnostics_);
+  const Element root = added.skeleton.root();
+  if (!root || !check_root(root, diagnostics_)) return nullptr;
+  at_hand_.push_back(file);
+  return &added;
+}
+
+const SceneFile* SceneFiles::open(TextBuffer text, const std::string& file) { return add(std::move(text), file); }
+
+const SceneFile* SceneFiles::include(const FileName& file) {
+  const auto refuse = [&](const std::string& reason) {
+    diagnostics_.error({file.line, file.column}, on_one_line(file.path) + ": " + reason);
+    return nullptr;
+  };
+  const auto is_this = [&](const std::string& other) {
+    std::error_code error;
+    return std::filesystem::equivalent(other, file.path, error);
+  };
+  if (std::any_of(at_hand_.begin(), at_hand_.end(), is_this)) return refuse("it would include itself");
+  if (at_hand_.size() >= most_at_hand)
+    return refuse("a file that is included may include others, but not more than " + std::to_string(most_at_hand) +
+                  " one in the other");
+  if (files_.size() >= most_files) return refuse("a scene has at most " + std::to_string(most_files) + " files");
+  if (const std::string reason = explain_no_file(file.path); !reason.empty())
+    return refuse("cannot read the scene: " + reason);
+  Diagnostics found(file.path);
+  // "-" is a file's name here.
+  std::optional<TextBuffer> text = read_text_file(file.path == "-" ? "./-" : file.path, threads_, found);
+  if (!text) return refuse(found.kept().front().message);
+  if (text->text().size() + 1 >= std::numeric_limits<std::uint32_t>::max() - next_line_)
+    return refuse("the files of the scene are larger than 4 GiB");
+  included_.push_back({file.path, next_line_});
+  diagnostics_.add_files({&included_.back(), 1});
+  return add(std::move(*text), file.path);
+}
+
+Element SceneFiles::item_at(ItemPosition position, std::unique_ptr<Document>& document) const {
+  const auto next = std::upper_bound(files_.begin(), files_.end(), position.chunk,
+                                     [](std::size_t chunk, const SceneFile& file) { return chunk < file.first_chunk; });
+  const SceneFile& file = *(next - 1);
+  document = std::make_unique<Document>(file.text);
+  Diagnostics none = Diagnostics::counter();
+  document->parse_items(file.text.chunk(position.chunk - file.first_chunk), none);
+  std::uint32_t number = 0;
+  Node node = document->root().first_child();
+  while (!node.element() || number++ < position.number) node = node.next();
+  return node.element();
+}
+
+}  // namespace raytrace
