@@ -146,7 +146,9 @@ class MeshLoader {
       set_texture(added, "cd", image(material.map_kd, folder));
     else if (material.vertex_colors)
       set_texture(added, "cd", vertex_colors());
-    if (!material.map_d.file.empty()) set_texture(added, opacity_field, image(material.map_d, folder));
+    if (!material.map_d.file.empty())
+      set_texture(added, opacity_field, image(material.map_d, folder),
+                  material.map_d.alpha ? TextureChannel::alpha : TextureChannel::automatic);
     if (!material.norm.file.empty()) set_texture(added, normalmap_field, image(material.norm, folder));
     with_type(Materials{}, added.type, [&]<class Material>(std::type_identity<Material>) {
       auto& parameters = std::get<MaterialItems<Material>>(scene_.materials)[added.index].parameters;
@@ -176,13 +178,13 @@ class MeshLoader {
     return {index_of<VertexColor>(Textures{}), 0};
   }
 
-  void set_texture(const MaterialReference& material, std::string_view field, const TextureReference& texture) {
+  void set_texture(const MaterialReference& material, std::string_view field, const TextureReference& texture,
+                   TextureChannel channel = TextureChannel::automatic) {
     with_type(Materials{}, material.type, [&]<class Material>(std::type_identity<Material>) {
       auto& item = std::get<MaterialItems<Material>>(scene_.materials)[material.index];
       const Fields& fields = element_type<Material>().fields;
       const std::size_t number = find_field(fields, field);
-      item.textures.push_back(
-          {static_cast<std::uint32_t>(number), texture, channel_of(fields[number], TextureChannel::automatic)});
+      item.textures.push_back({static_cast<std::uint32_t>(number), texture, channel_of(fields[number], channel)});
     });
   }
 

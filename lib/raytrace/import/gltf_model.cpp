@@ -325,7 +325,10 @@ std::uint32_t ModelReader::material(const Item& number) {
       if (has_opacity) material.d = std::clamp(alpha, 0.0, 1.0);
     }
     if (const auto info = surface->find("baseColorTexture")) material.map_kd = texture(*info);
-    if (has_opacity) material.map_d = material.map_kd;
+    if (has_opacity) {
+      material.map_d = material.map_kd;
+      material.map_d.alpha = true;
+    }
   }
   if (const auto info = item.find("normalTexture")) {
     material.norm = texture(*info);

@@ -53,6 +53,7 @@ struct MeshTexture {
   std::string file;  ///< as in the file, with '/' between folders; empty: none
   std::array<double, 2> scale{1, 1}, offset{0, 0};
   double strength = 1;       ///< of a bump or normal map
+  bool alpha = false;        ///< of an opacity: that it is its alpha, which is 1 where it has none
   Edge edge = Edge::repeat;  ///< what is beyond
   /// The picture's file, where it is within the model's; `file` is then a name for messages.
   std::shared_ptr<const std::string> bytes{};
