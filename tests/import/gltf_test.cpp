@@ -148,7 +148,8 @@ TEST_CASE("glTF's primitives are one mesh with a material for each face") {
       "images":[{"uri":"textures/my%20wood.png"},{"uri":"data:image/png;base64,AAEC/w=="}])"));
   INFO(read.messages);
   REQUIRE(read.mesh);
-  CHECK(read.messages == "a.gltf: warning: samplers[0]: has two wrap modes, of which one is used for both directions\n");
+  CHECK(read.messages ==
+        "a.gltf: warning: samplers[0]: has two wrap modes, of which one is used for both directions\n");
   CHECK(read.mesh->vertex_count() == 8);
   CHECK(values(read.mesh->indices) == Corners{0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7, 0, 1, 2, 0, 2, 3});
   CHECK(values(read.mesh->uvs) == Numbers{0, 0, 0, 0, 0, 0, 0, 0, 0.5F, 0.5F, 0.5F, 0.5F, 0.5F, 0.5F, 0.5F, 0.5F});
