@@ -273,6 +273,21 @@ TEST_CASE("deep glTF files are read without deep recursion") {
   CHECK_FALSE(read_bytes("a.gltf", square().text(of_square + R"(,"extras":)" + many)).mesh);
 }
 
+TEST_CASE("a glTF mesh that very many nodes have takes no memory before it is refused") {
+  GltfFile file;
+  file.add(std::vector<std::int8_t>(300006, 1), "VEC3", 5120, 100002);
+  std::string nodes, numbers;
+  for (int i = 0; i < 50000; ++i) {
+    nodes += i == 0 ? R"({"mesh":0})" : R"(,{"mesh":0})";
+    numbers += (i == 0 ? "" : ",") + std::to_string(i);
+  }
+  const ReadResult read =
+      read_bytes("a.gltf", file.text(R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"mode":5}]}],"nodes":[)" +
+                                     nodes + R"(],"scenes":[{"nodes":[)" + numbers + "]}]"));
+  CHECK_FALSE(read.mesh);
+  CHECK(contains(read.messages, "faces"));
+}
+
 TEST_CASE("glTF's positions that are not finite are left out with their faces") {
   GltfFile file;
   file.add(Numbers{0, 0, 0, 1, 0, 0, 0, 1, 0, std::numeric_limits<float>::infinity(), 0, 0}, "VEC3", float_type, 4);
