@@ -148,7 +148,8 @@ TEST_CASE("glTF's primitives are one mesh with a material for each face") {
       "images":[{"uri":"textures/my%20wood.png"},{"uri":"data:image/png;base64,AAEC/w=="}])"));
   INFO(read.messages);
   REQUIRE(read.mesh);
-  CHECK(read.messages == "a.gltf: warning: samplers[0]: has two wrap modes, of which one is used for both directions\n");
+  CHECK(read.messages ==
+        "a.gltf: warning: samplers[0]: has two wrap modes, of which one is used for both directions\n");
   CHECK(read.mesh->vertex_count() == 8);
   CHECK(values(read.mesh->indices) == Corners{0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7, 0, 1, 2, 0, 2, 3});
   CHECK(values(read.mesh->uvs) == Numbers{0, 0, 0, 0, 0, 0, 0, 0, 0.5F, 0.5F, 0.5F, 0.5F, 0.5F, 0.5F, 0.5F, 0.5F});
@@ -270,6 +271,21 @@ TEST_CASE("deep glTF files are read without deep recursion") {
   const std::string closed(depth, ']');
   CHECK(read_bytes("a.gltf", square().text(of_square + R"(,"extras":)" + many + closed)).mesh);
   CHECK_FALSE(read_bytes("a.gltf", square().text(of_square + R"(,"extras":)" + many)).mesh);
+}
+
+TEST_CASE("a glTF mesh that very many nodes have takes no memory before it is refused") {
+  GltfFile file;
+  file.add(std::vector<std::int8_t>(300006, 1), "VEC3", 5120, 100002);
+  std::string nodes, numbers;
+  for (int i = 0; i < 50000; ++i) {
+    nodes += i == 0 ? R"({"mesh":0})" : R"(,{"mesh":0})";
+    numbers += (i == 0 ? "" : ",") + std::to_string(i);
+  }
+  const ReadResult read =
+      read_bytes("a.gltf", file.text(R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"mode":5}]}],"nodes":[)" +
+                                     nodes + R"(],"scenes":[{"nodes":[)" + numbers + "]}]"));
+  CHECK_FALSE(read.mesh);
+  CHECK(contains(read.messages, "faces"));
 }
 
 TEST_CASE("glTF's positions that are not finite are left out with their faces") {

@@ -111,11 +111,12 @@ bool load_images(SceneDescription& scene, Diagnostics& diagnostics, int threads,
       const bool warns = missing == MissingTexture::warn;
       fine = fine && warns;
       const FileName& file = item.parameters.file;
+      const std::string name = item.imported ? std::filesystem::path(file.path).filename().string() : file.path;
       const SourceLocation location =
           file.line > 0 ? SourceLocation{file.line, file.column} : SourceLocation{item.line, 0};
-      diagnostics.add(warns ? Severity::warning : Severity::error, location,
-                      "the texture " + in_quotes(file.path) + " cannot be used: " + error.what() +
-                          (warns ? "; it is magenta" : ""));
+      diagnostics.add(
+          warns ? Severity::warning : Severity::error, location,
+          "the texture " + in_quotes(name) + " cannot be used: " + error.what() + (warns ? "; it is magenta" : ""));
       if (warns) item.image = {"missing", TexelImage::of_color(255, 0, 255), TexelImage::of_color(255, 0, 255)};
     }
   }

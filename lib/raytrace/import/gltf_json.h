@@ -13,24 +13,25 @@
 
 namespace raytrace::gltf {
 
-/// All throw Error where the value is not what is asked for.
+/// All throw Error where the value is not what is asked for. What is called from everywhere is not inlined: that took
+/// the compiler half of its time.
 class Item {
  public:
   Item(const nlohmann::json& value, std::string place) : value_(&value), place_(std::move(place)) {}
 
   /// Such as "accessors[3].count"; empty: the whole text.
   const std::string& place() const { return place_; }
-  [[noreturn]] void fail(const std::string& message) const {
+  [[noreturn, gnu::noinline]] void fail(const std::string& message) const {
     throw Error(place_.empty() ? message : on_one_line(place_) + ": " + message);
   }
 
-  std::optional<Item> find(const char* key) const {
+  [[gnu::noinline]] std::optional<Item> find(const char* key) const {
     if (!value_->is_object()) fail("must be a JSON object");
     const auto found = value_->find(key);
     if (found == value_->end()) return std::nullopt;
     return Item(*found, place_.empty() ? key : place_ + '.' + key);
   }
-  Item operator[](const char* key) const {
+  [[gnu::noinline]] Item operator[](const char* key) const {
     std::optional<Item> found = find(key);
     if (!found) fail(std::string("has no '") + key + "'");
     return *std::move(found);
@@ -40,7 +41,7 @@ class Item {
     if (!value_->is_array()) fail("must be a JSON array");
     return value_->size();
   }
-  Item operator[](std::size_t i) const {
+  [[gnu::noinline]] Item operator[](std::size_t i) const {
     if (i >= size()) fail("has " + std::to_string(size()) + " items, and not one of number " + std::to_string(i));
     return {(*value_)[i], place_ + '[' + std::to_string(i) + ']'};
   }
@@ -49,13 +50,13 @@ class Item {
     if (!value_->is_number()) fail("must be a number");
     return value_->get<double>();
   }
-  std::uint64_t whole() const {
+  [[gnu::noinline]] std::uint64_t whole() const {
     constexpr double most = 9007199254740992;
     const double value = value_->is_number() ? value_->get<double>() : -1;
     if (!(value >= 0 && value <= most) || value != std::floor(value)) fail("must be a whole number, 0 or more");
     return static_cast<std::uint64_t>(value);
   }
-  std::uint64_t whole(const char* key, std::uint64_t otherwise) const {
+  [[gnu::noinline]] std::uint64_t whole(const char* key, std::uint64_t otherwise) const {
     const std::optional<Item> found = find(key);
     return found ? found->whole() : otherwise;
   }

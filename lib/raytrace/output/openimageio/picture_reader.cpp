@@ -55,11 +55,13 @@ std::string latest_error(OIIO::ImageInput* input) { return input != nullptr ? in
 
 }  // namespace
 
-void raytrace_openimageio_read_picture(const std::string& file, std::string_view bytes, Picture& picture) {
+void raytrace_openimageio_read_picture(const std::string& file, std::string_view encoded, Picture& picture) {
   OIIO::ImageSpec wishes;
   wishes["oiio:UnassociatedAlpha"] = 1;
-  OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());  // which `input` needs for as long as it lives
-  const auto input = OIIO::ImageInput::open(file, &wishes, bytes.empty() ? nullptr : &memory);
+  OIIO::Filesystem::IOMemReader memory(encoded.data(), encoded.size());  // which `input` needs for as long as it lives
+  OIIO::Filesystem::IOProxy* const proxy = &memory;
+  if (!encoded.empty()) wishes.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+  const auto input = OIIO::ImageInput::open(file, &wishes);
   if (!input) fail_to_read(latest_error(nullptr));
   const OIIO::ImageSpec& spec = input->spec();
   if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 || spec.deep)
