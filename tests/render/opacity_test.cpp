@@ -83,8 +83,8 @@ double tolerance(double share) { return 4.5 * std::sqrt(share * (1 - share) / al
 TEST_CASE("rays meet each crossing of a surface with the chance that its opacity is") {
   constexpr double opacity = 0.3;
   for (const Crossed& shape : crossed_shapes) {
-    const SceneDescription scene =
-        axial_scene(material("veil", "<opacity>0.3</opacity>"), object(shape), "<lights>" + white_ambient + "</lights>");
+    const SceneDescription scene = axial_scene(material("veil", "<opacity>0.3</opacity>"), object(shape),
+                                               "<lights>" + white_ambient + "</lights>");
     const double share = 1 - std::pow(1 - opacity, shape.crossings);
     for (const std::string& isa : usable_isas()) {
       INFO(shape.element << ", " << isa);

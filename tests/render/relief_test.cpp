@@ -71,7 +71,8 @@ TEST_CASE("a normal map's x is along u, its y along v") {
   check_normal(rendered(relief_scene(to_v, map, mirrored_panel)), {0, s, c});
 
   const Vec3d half(s / 2, 0, c);
-  check_normal(rendered(relief_scene(to_u, "<normalmap texture='t' strength='0.5'/>", panel)), half * (1 / length(half)));
+  check_normal(rendered(relief_scene(to_u, "<normalmap texture='t' strength='0.5'/>", panel)),
+               half * (1 / length(half)));
 }
 
 TEST_CASE("in instances, normal maps turn with the object") {
