@@ -7,6 +7,7 @@
 #include "pictures/comparison.h"
 #include "reference/renderer.h"
 #include "reference/scene.h"
+#include "reference/transformed.h"
 #include "support/catch.h"
 #include "support/parsed_scene.h"
 #include "support/usable_isas.h"
@@ -89,6 +90,10 @@ TEST_CASE("random scenes from a camera far away equal the reference's pictures")
     scene.pixel_size = height * nearer * scene.view_distance;
   };
   check_scenes(0, 24, go_away, [](SceneDescription&) {});
+}
+
+TEST_CASE("random scenes of transformed objects, meshes and instances equal the reference's pictures") {
+  check_scenes(0, 24, reference::transform_objects, [](SceneDescription&) {});
 }
 
 TEST_CASE("random scenes through other cameras equal the reference's pictures") {

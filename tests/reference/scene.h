@@ -32,6 +32,12 @@ struct Object {
   std::size_t material = 0;  ///< index into Scene::materials
 };
 
+/// For instances: a shape in a group of its own.
+struct Group {
+  std::string name;
+  ShapePointer shape;
+};
+
 struct Scene {
   int hres = 160, vres = 120;
   Real pixel_size = 1;
@@ -58,6 +64,7 @@ struct Scene {
   std::vector<Light> lights;
   std::vector<Material> materials;
   std::vector<Object> objects;
+  std::vector<Group> groups;
 };
 
 /// The scene as a file of the scene format; every number reads back as the same double.

@@ -34,6 +34,11 @@ std::string material_text(const Material& material) {
   return "<phongs><phong>" + text + "</phong></phongs>\n";
 }
 
+std::string object_text(const Shape& shape, const std::string& material) {
+  return "<" + shape.group() + "><" + shape.element() + ">" + shape.parameters() + "<material>" + material +
+         "</material></" + shape.element() + "></" + shape.group() + ">";
+}
+
 std::string camera_text(const Scene& scene) {
   using Projection = Scene::Projection;
   std::string text =
@@ -76,12 +81,13 @@ std::string scene_text(const Scene& scene) {
   text += "</lights>\n<materials>\n";
   for (const Material& material : scene.materials) text += material_text(material);
   text += "</materials>\n<objects>\n";
-  for (const Object& object : scene.objects) {
-    const Shape& shape = *object.shape;
-    text += "<" + shape.group() + "><" + shape.element() + ">" + shape.parameters() + "<material>" +
-            scene.materials[object.material].name + "</material></" + shape.element() + "></" + shape.group() + ">\n";
-  }
-  return text + "</objects>\n</raytracer>\n";
+  for (const Object& object : scene.objects)
+    text += object_text(*object.shape, scene.materials[object.material].name) + "\n";
+  text += "</objects>\n<groups>\n";
+  for (const Group& group : scene.groups)
+    text += "<group><name>" + group.name + "</name><objects>" +
+            object_text(*group.shape, scene.materials.front().name) + "</objects></group>\n";
+  return text + "</groups>\n</raytracer>\n";
 }
 
 }  // namespace reference
