@@ -9,6 +9,7 @@
 
 #include "raytrace/math/ray.h"
 #include "raytrace/math/simd.h"
+#include "raytrace/sampling/hash.h"
 #include "raytrace/scene/camera.h"
 
 namespace raytrace {
@@ -24,6 +25,11 @@ struct CutoutQuery {
   UintN keys;                          ///< a hash for each of them
   const CameraRays* camera = nullptr;  ///< what camera rays cover, textures are filtered by; null: other rays
 };
+
+/// The hashes of rays, by pixel and sample, and by what they are among those of their path.
+inline UintN ray_keys(const UintN& pixel, const UintN& sample, std::uint32_t purpose) {
+  return mix_bits(pixel + sample * UintN(0x9e3779b9u)) + UintN(purpose * 0x9e3779b9u);
+}
 
 /// A primitive that rays hit, and which crossing of its surface that is, counted along the rays.
 struct CutoutSurface {

@@ -65,6 +65,7 @@ std::string statistics_text(const RenderStatistics& s) {
          aligned_line("total", seconds_text(s.phases.seconds())) +
          aligned_line("camera rays", amount_text(s.rays.camera, "")) +
          aligned_line("shadow rays", amount_text(s.rays.shadow, "")) +
+         (s.rays.indirect > 0 ? aligned_line("indirect rays", amount_text(s.rays.indirect, "")) : std::string()) +
          aligned_line("rays per second", amount_text(s.rays_per_second(), "")) +
          aligned_line("primitives", amount_text(s.scene.primitives, "")) +
          aligned_line("BVH", amount_text(s.scene.bvh_bytes, "B")) +
@@ -96,6 +97,7 @@ std::string statistics_json(const RenderStatistics& s) {
       {"rays",
        {{"camera", s.rays.camera},
         {"shadow", s.rays.shadow},
+        {"indirect", s.rays.indirect},
         {"total", s.total_rays()},
         {"per_second", s.rays_per_second()}}},
       {"primitives", s.scene.primitives},

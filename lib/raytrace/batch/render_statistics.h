@@ -45,7 +45,7 @@ struct RenderStatistics {
   SceneStatistics scene;
   std::uint64_t peak_memory_bytes = 0;
 
-  std::uint64_t total_rays() const { return rays.camera + rays.shadow; }
+  std::uint64_t total_rays() const { return rays.camera + rays.shadow + rays.indirect; }
   double rays_per_second() const;
 };
 

@@ -4,11 +4,12 @@
 #pragma once
 
 #include "raytrace/integrators/normals.h"
+#include "raytrace/integrators/path.h"
 #include "raytrace/integrators/raycast.h"
 #include "raytrace/math/type_list.h"
 
 namespace raytrace {
 
-using Integrators = TypeList<Raycast, Normals>;
+using Integrators = TypeList<Raycast, Normals, Path>;
 
 }  // namespace raytrace

@@ -15,7 +15,17 @@
 namespace raytrace {
 
 /// What a sample's numbers are for. A new one comes last: the others' numbers stay what they are.
-enum class Dimension : std::uint32_t { lens };
+enum class Dimension : std::uint32_t { lens, first_of_path };
+
+/// What a path draws at each of its points.
+enum class PathDraw : std::uint32_t { direction, lobe_and_roulette, light, light_point, count };
+
+/// depth: of the point, counted from 0.
+constexpr Dimension path_dimension(int depth, PathDraw draw) {
+  return static_cast<Dimension>(static_cast<std::uint32_t>(Dimension::first_of_path) +
+                                static_cast<std::uint32_t>(depth) * static_cast<std::uint32_t>(PathDraw::count) +
+                                static_cast<std::uint32_t>(draw));
+}
 
 /// A point of the unit square for each lane: from 0 up to 1.
 struct Sample2D {

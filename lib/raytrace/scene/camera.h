@@ -12,7 +12,8 @@ namespace raytrace {
 struct CameraRays {
   Ray<FloatN> rays;
   FloatN skipped;  ///< rays.near may be as far before their origins
-  UintN key{0u};   ///< a hash of pixel and sample, in scenes with opacities (SceneTables::has_cutouts())
+  // Of integrators that take samples, and in scenes with opacities: the pixel's hash, and the sample's index.
+  UintN pixel{0u}, sample{0u};
 };
 
 /// The rays of a camera that is far away from what it shows: in double up to where they come to the sphere, or closest

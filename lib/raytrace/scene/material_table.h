@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "raytrace/bsdfs/bsdf_sample.h"
 #include "raytrace/film/film.h"
 #include "raytrace/math/color.h"
 #include "raytrace/math/gather.h"
@@ -53,6 +54,11 @@ class MaterialTable {
   virtual Rgb<FloatN> albedo(const LaneIndices& materials, const TexturePoint<FloatN>* point) const = 0;
   virtual Rgb<float> largest_albedo(const std::uint8_t* used) const = 0;
 
+  /// A direction that light comes from, drawn by each lane's material out of u, u1 and u2 in [0, 1). wo: in the local
+  /// frame.
+  virtual BsdfSample<FloatN> sample(const LaneIndices& materials, const Vec3<FloatN>& wo, const FloatN& u,
+                                    const FloatN& u1, const FloatN& u2, const TexturePoint<FloatN>* point) const = 0;
+
   /// The radiance that leaves along wo, of unit length. materials: of each lane, for every lane one that exists.
   virtual Rgb<FloatN> shade(const LaneIndices& materials, const Vec3<FloatN>& wo, const Vec3<FloatN>& normal,
                             const Rgb<float>& ambient_radiance, std::span<const IncidentLight> lights,
@@ -89,6 +95,13 @@ class MaterialTableOf final : public MaterialTable {
       // The cosine first: where it is 0, a product beyond the range of floats would make it NaN.
       result += bsdfs.evaluate(wo, light.wi, normal) * (light.radiance * light.cosine);
     return result;
+  }
+
+  BsdfSample<FloatN> sample(const LaneIndices& materials, const Vec3<FloatN>& wo, const FloatN& u, const FloatN& u1,
+                            const FloatN& u2, const TexturePoint<FloatN>* point) const override {
+    auto bsdfs = gather_records<MaterialKernel::template Bsdf, FloatN>(bsdfs_.data(), materials);
+    if (point != nullptr) set_textured(bsdfs, materials, *point);
+    return bsdfs.sample(wo, u, u1, u2);
   }
 
   void add_to(RadianceRange& range, const LightBounds& lights, const std::uint8_t* used) const override {

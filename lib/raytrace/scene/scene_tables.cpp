@@ -159,15 +159,23 @@ float SceneTables::largest_albedo() const {
   return std::max({largest.red, largest.green, largest.blue});
 }
 
+namespace {
+
+BsdfSample<FloatN> select(const MaskN& mask, const BsdfSample<FloatN>& a, const BsdfSample<FloatN>& b) {
+  return {select(mask, a.wi, b.wi), select(mask, a.f, b.f), select(mask, a.pdf, b.pdf)};
+}
+
+}  // namespace
+
 template <class Answer>
-Rgb<FloatN> SceneTables::by_material(const Hits& hits, const Answer& answer) const {
+auto SceneTables::by_material(const Hits& hits, const Answer& answer) const {
   if (const std::optional<std::int32_t> only = geometry_->only_material(hits)) {
     const std::int32_t number = *only;
     const auto type = std::upper_bound(first_material_.begin(), first_material_.end() - 1, number) - 1;
     return answer(*materials_[static_cast<std::size_t>(type - first_material_.begin())], LaneIndices(number - *type));
   }
   const IntN number = material(hits);
-  Rgb<FloatN> result(FloatN(0), FloatN(0), FloatN(0));
+  decltype(answer(*materials_[0], LaneIndices(0))) result{};
   for (std::size_t type = 0; type < materials_.size(); ++type) {
     const IntN first(first_material_[type]), end(first_material_[type + 1]);
     const MaskN here = float_mask<FloatN>(number >= first) & float_mask<FloatN>(number < end);
@@ -191,6 +199,13 @@ bool SceneTables::has_textures(const Hits& hits) const {
   if (textured_.empty()) return false;
   if (const auto only = geometry_->only_material(hits)) return textured_[static_cast<std::size_t>(*only)] != 0;
   return any(hits.hit & float_mask<FloatN>(gather(textured_.data(), material(hits)) != IntN(0)));
+}
+
+BsdfSample<FloatN> SceneTables::sample(const Hits& hits, const Vec3<FloatN>& wo, const FloatN& u, const FloatN& u1,
+                                       const FloatN& u2, const TexturePoint<FloatN>* point) const {
+  return by_material(hits, [&](const MaterialTable& table, const LaneIndices& materials) {
+    return table.sample(materials, wo, u, u1, u2, point);
+  });
 }
 
 Rgb<FloatN> SceneTables::shade(const Hits& hits, const SurfaceInteraction<FloatN>& surface,

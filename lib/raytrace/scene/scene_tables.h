@@ -109,6 +109,11 @@ class SceneTables {
     return FloatN(opacity.value) * textures_->number_at(*opacity.texture, point());
   }
 
+  /// A direction in the local frame of surface.ns that light comes from, drawn by each lane's material; others than
+  /// those that were hit get anything.
+  BsdfSample<FloatN> sample(const Hits& hits, const Vec3<FloatN>& wo, const FloatN& u, const FloatN& u1,
+                            const FloatN& u2, const TexturePoint<FloatN>* point) const;
+
   /// Whether materials have normal maps or bumps.
   bool has_relief() const { return has_relief_; }
   /// Turns the shading normals as they say.
@@ -152,7 +157,7 @@ class SceneTables {
 
   /// answer(table, materials) of each material type among the lanes, each lane's of its own.
   template <class Answer>
-  Rgb<FloatN> by_material(const Hits& hits, const Answer& answer) const;
+  auto by_material(const Hits& hits, const Answer& answer) const;
 
   Vec3d origin_;
   ViewPlane viewplane_;

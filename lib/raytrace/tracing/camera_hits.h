@@ -12,7 +12,8 @@ inline Hits intersect_camera_rays(const TracedScene& scene, CameraRays& camera, 
   const auto intersect = [&](Ray<FloatN>& some, const MaskN& lanes, const DirectionBuffer* buffer) {
     if (!scene.tables().has_cutouts()) [[likely]]
       return scene.accelerator().intersect(some, lanes, Coherence::coherent, buffer);
-    const CutoutQuery query{scene.tables(), scene.accelerator(), some, camera.key, &camera};
+    const CutoutQuery query{scene.tables(), scene.accelerator(), some, ray_keys(camera.pixel, camera.sample, 0),
+                            &camera};
     return scene.accelerator().intersect(some, lanes, Coherence::coherent, nullptr, &query);
   };
   Hits hits = intersect(rays, active, scene.camera_buffer());

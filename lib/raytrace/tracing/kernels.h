@@ -7,8 +7,10 @@
 //       the radiance that arrives along camera rays, whose directions have unit length, in the lanes of `active`; it
 //       ends the rays where they meet something, and `background` arrives along those that meet nothing. Adds the
 //       further rays in the lanes of `counted` to `counts`, and sets `first` to what was met if it is not null.
+//   static constexpr bool takes_samples;   whether it wants CameraRays::pixel and sample
 #pragma once
 
 #include "raytrace/integrators/registry.h"
 #include "raytrace/tracing/normals_kernel.h"
+#include "raytrace/tracing/path_kernel.h"
 #include "raytrace/tracing/raycast_kernel.h"

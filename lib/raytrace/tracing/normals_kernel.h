@@ -14,6 +14,7 @@ namespace raytrace {
 template <>
 class Kernel<Normals> {
  public:
+  static constexpr bool takes_samples = false;
   static RadianceRange radiance_range(const SceneTables& scene) {
     RadianceRange range = scene.background_range();
     range.usual = 1;

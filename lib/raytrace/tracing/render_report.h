@@ -13,9 +13,11 @@ namespace raytrace {
 struct RayCounts {
   std::uint64_t camera = 0;
   std::uint64_t shadow = 0;
+  std::uint64_t indirect = 0;  ///< that go on from a surface
   RayCounts& operator+=(const RayCounts& other) {
     camera += other.camera;
     shadow += other.shadow;
+    indirect += other.indirect;
     return *this;
   }
 };

@@ -117,8 +117,10 @@ class BlockRenderer {
       } else {
         traced = active & set_camera_rays(block, FloatN(x), FloatN(y), Sample2D(point), UintN(sample), camera);
       }
-      if (scene_.tables().has_cutouts()) [[unlikely]]
-        camera.key = ray_keys(block, sample);
+      if (Kernel<Integrator>::takes_samples || scene_.tables().has_cutouts()) [[unlikely]] {
+        camera.pixel = pixel_hash(UintN(column), UintN(row), film_.settings().seed);
+        camera.sample = sample;
+      }
       RayResult result = Kernel<Integrator>::radiance(scene_, background_, camera, traced, wanted, report_.rays,
                                                       aovs != nullptr ? &first : nullptr);
       if (usual_camera_ == nullptr) result.radiance = select(traced, result.radiance, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
@@ -148,11 +150,6 @@ class BlockRenderer {
       lens = get_2d(pixel, sample, Dimension::lens);
     }
     return tables.set_camera_rays(x + placed.x, y + placed.y, lens, camera);
-  }
-
-  [[gnu::noinline]] UintN ray_keys(const Block& block, const UintN& sample) const {
-    const UintN pixel = pixel_hash(UintN(block.columns()), UintN(block.rows()), film_.settings().seed);
-    return mix_bits(pixel + sample * UintN(0x9e3779b9u));
   }
 
   /// Pixels of the picture, and those beyond it that are wanted.

@@ -1,0 +1,27 @@
+// Light that surfaces pass on to each other, by path tracing (Kajiya 1986; pbrt-v4, chapter 13): from what a camera ray
+// meets, a path goes on in directions that the materials draw, and gets the direct light at each of its points.
+//
+//   <integrator> <path> <maxdepth>8</maxdepth> </path> </integrator>
+#pragma once
+
+#include "raytrace/parameters/fields.h"
+
+namespace raytrace {
+
+class Path {
+ public:
+  struct Parameters {
+    int maxdepth = 16;      ///< so many scatterings at most: 1 is direct light alone
+    int roulettedepth = 3;  ///< from this scattering on, paths that carry little may end
+    double clampindirect =
+        0;  ///< the most radiance, in each channel, that a path brings from beyond its first point; a bias. 0: any
+  };
+  static constexpr std::string_view element = "path";
+  static Fields fields() {
+    return {optional("maxdepth", &Parameters::maxdepth, Range::positive),
+            optional("roulettedepth", &Parameters::roulettedepth, Range::positive),
+            optional("clampindirect", &Parameters::clampindirect, Range::not_negative)};
+  }
+};
+
+}  // namespace raytrace

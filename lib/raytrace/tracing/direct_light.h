@@ -1,0 +1,85 @@
+// The light that comes to a surface from the scene's lights straight away: what integrators share.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <optional>
+
+#include "raytrace/accel/surface_uv.h"
+#include "raytrace/accel/traced_scene.h"
+#include "raytrace/tracing/render_report.h"
+
+namespace raytrace {
+
+/// Lights are gathered in runs of this many before the materials get them, so that each material reads its parameters
+/// once a run. Runs are counted with the lights that reach no lane: how a lane's radiance is summed must not depend on
+/// the others.
+inline constexpr std::size_t lights_per_run = 16;
+
+/// The surface's own texture coordinates, where its materials want them, and its relief. radius: as texture_point()'s.
+template <class Radius>
+RAYTRACE_INLINE std::optional<TexturePoint<FloatN>> add_textures(const SceneTables& tables, const Hits& hits,
+                                                                 SurfaceInteraction<FloatN>& surface,
+                                                                 const Radius& radius) {
+  if (!tables.has_textures(hits)) [[likely]]
+    return std::nullopt;
+  const TexturePoint<FloatN> point = texture_point(tables, radius(), hits, surface);
+  if (tables.has_relief()) tables.add_relief(hits, point, surface);
+  return point;
+}
+
+[[gnu::noinline]] inline MaskN occluded_with_cutouts(const TracedScene& scene, const Ray<FloatN>& rays,
+                                                     const MaskN& active, const UintN& keys, Coherence coherence) {
+  const CutoutQuery query{scene.tables(), scene.accelerator(), rays, keys};
+  return scene.accelerator().occluded(rays, active, coherence, nullptr, &query);
+}
+
+/// What of the lights' radiance leaves the surface along wo, in the lanes that were hit; of the ambient light, too.
+/// keys(light): the hashes of the shadow rays to it.
+template <class Keys>
+RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const Hits& hits,
+                                         const SurfaceInteraction<FloatN>& surface,
+                                         const TexturePoint<FloatN>* textures, Coherence coherence,
+                                         const MaskN& counted, RayCounts& counts, const Keys& keys) {
+  const SceneTables& tables = scene.tables();
+  std::array<IncidentLight, lights_per_run> incident;
+  std::size_t count = 0;
+  Rgb<FloatN> radiance{Rgb<float>(0, 0, 0)};
+  Rgb<float> ambient = tables.ambient_radiance();
+  const auto shade_run = [&] {
+    radiance += tables.shade(hits, surface, ambient, {incident.data(), count}, textures);
+    ambient = Rgb<float>(0, 0, 0);
+    count = 0;
+  };
+  Ray<FloatN> shadow_rays;
+  shadow_rays.origin = offset_ray_origin(surface);
+  shadow_rays.near = FloatN(0);
+  for (std::size_t number = 0; number < tables.lights().size(); ++number) {
+    // The first run has the ambient light, whatever the others reach.
+    if (number > 0 && number % lights_per_run == 0 && (count > 0 || number == lights_per_run)) shade_run();
+    const LightSource& light = *tables.lights()[number];
+    const bool shadows = light.shadows();
+    IncidentLight& here = incident[count];  // written in its array at once: it is large
+    light.sample(shadow_rays, here.radiance);
+    // Of any length: the shadow rays need not wait for a square root and a quotient.
+    MaskN lit = hits.hit & (dot(surface.ns, shadow_rays.direction) > FloatN(0));
+    if (shadows && any(lit)) {
+      counts.shadow += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(lit & counted)));
+      const MaskN occluded =
+          tables.has_cutouts()
+              ? occluded_with_cutouts(scene, shadow_rays, lit, keys(number), coherence)
+              : scene.accelerator().occluded(shadow_rays, lit, Coherence::coherent, scene.light_buffer(number));
+      lit = lit & !occluded;
+    }
+    if (none(lit)) continue;
+    here.wi = normalize(shadow_rays.direction);
+    here.cosine = select(lit, max(dot(surface.ns, here.wi), FloatN(0)), FloatN(0));
+    if (surface.has_relief) [[unlikely]]
+      here.cosine = here.cosine * relief_shadow(surface, here.wi);
+    ++count;
+  }
+  if (count > 0 || tables.lights().size() <= lights_per_run) shade_run();
+  return radiance;
+}
+
+}  // namespace raytrace
