@@ -837,6 +837,42 @@ write(
 )
 
 # Integrator
+BOUNCES = dict(
+    mattes="""\
+      <matte> <name>white</name> <ka>0</ka> <kd>0.85</kd> <cd red="1" green="0.98" blue="0.95"/> </matte>
+      <matte> <name>red</name> <ka>0</ka> <kd>0.8</kd> <cd red="0.9" green="0.12" blue="0.08"/> </matte>
+""",
+    phongs="""\
+      <phong>
+        <name>blue</name> <ka>0</ka> <kd>0.4</kd> <ks>0.15</ks> <cd red="0.15" green="0.3" blue="0.8"/>
+        <cs red="1" green="1" blue="1"/> <exp>40</exp>
+      </phong>
+""",
+    lights="""\
+  <lights>
+    <directionallights>
+      <directionallight>
+        <direction x="1" y="1.3" z="0.7"/> <scaleradiance>2.2</scaleradiance> <color red="1" green="0.86" blue="0.66"/>
+      </directionallight>
+    </directionallights>
+  </lights>
+""",
+    objects="""\
+    <boxes> <box> <min x="-2.3" y="0" z="-1.6"/> <max x="-2" y="2.4" z="1.4"/> <material>red</material> </box> </boxes>
+    <spheres>
+      <sphere> <center x="-0.9" y="0.9" z="0"/> <radius>0.9</radius> <material>white</material> </sphere>
+      <sphere> <center x="1.1" y="0.6" z="0.6"/> <radius>0.6</radius> <material>blue</material> </sphere>
+    </spheres>
+""",
+)
+SKY = ROOM.replace('red="0.04" green="0.06" blue="0.09"', 'red="0.3" green="0.4" blue="0.55"')
+write(
+    "path",
+    "Light of the sky, and of the red wall on what stands beside it.",
+    room=SKY.replace("<samples>16", "<samples>256") + "  <integrator> <path> <maxdepth>8</maxdepth> </path> </integrator>\n",
+    **BOUNCES,
+)
+write("raycast", "The same by direct light alone.", room=SKY + "  <integrator> <raycast/> </integrator>\n", **BOUNCES)
 write(
     "normals",
     "Shading normals as colours: x is red, y green, z blue.",

@@ -146,7 +146,7 @@ class Statistics(CommandTest):
         self.assertEqual(report["threads"], 2)
         self.assertEqual(report["primitives"], 2)
         self.assertGreaterEqual(report["rays"]["camera"], 40 * 30 * 3)
-        self.assertEqual(report["rays"]["total"], report["rays"]["camera"] + report["rays"]["shadow"])
+        self.assertEqual(report["rays"]["total"], report["rays"]["camera"] + report["rays"]["shadow"] + report["rays"]["indirect"])
         self.assertGreater(report["rays"]["shadow"], 0)
         self.assertGreater(report["rays"]["per_second"], 0)
         self.assertAlmostEqual(report["seconds"]["total"],
