@@ -55,9 +55,7 @@ Vector Transform::normal(Vector n) const {
 Real Transform::smallest_scale() const {
   return std::min({std::fabs(scale.x), std::fabs(scale.y), std::fabs(scale.z)});
 }
-Real Transform::largest_scale() const {
-  return std::max({std::fabs(scale.x), std::fabs(scale.y), std::fabs(scale.z)});
-}
+Real Transform::largest_scale() const { return std::max({std::fabs(scale.x), std::fabs(scale.y), std::fabs(scale.z)}); }
 
 std::string Transform::element() const {
   char angle[60];

@@ -83,7 +83,7 @@ class ModelReader {
 };
 
 void ModelReader::check_version() const {
-  const std::string& version = root_["asset"]["version"].text();
+  const std::string version = root_["asset"]["version"].text();
   if (!version.starts_with("2.")) root_.fail("is glTF " + in_quotes(version) + ", and not 2.0");
 }
 
@@ -93,7 +93,7 @@ void ModelReader::check_extensions(Diagnostics& diagnostics) const {
     std::vector<std::string> unknown;
     if (const auto list = root_.find(key))
       for (std::size_t i = 0; i < list->size(); ++i)
-        if (const std::string& name = (*list)[i].text(); !is_read(name)) unknown.push_back(in_quotes(name));
+        if (const std::string name = (*list)[i].text(); !is_read(name)) unknown.push_back(in_quotes(name));
     return joined(unknown, ", ");
   };
   if (const std::string required = names("extensionsRequired"); !required.empty())
