@@ -110,6 +110,25 @@ TEST_CASE("a Phong sphere reflects no more of a white sky than it gets, and the 
   CHECK(std::abs(all.mean - (0.4 + cosine_mean)) < 0.01);
 }
 
+TEST_CASE("a white matte sphere in a shining one cannot be seen, and the outer one shines to its front alone") {
+  const auto mean = [](const std::string& twosided) {
+    std::string text = with_integrator(
+        sphere_scene("0", "3", "",
+                     matte(1) + "<emissives><emissive><name>sky</name><ce red='1' green='1' blue='1'/>" + twosided +
+                         "</emissive></emissives>",
+                     16),
+        path_of(64));
+    const std::string end = "</spheres>";
+    text.insert(text.find(end),
+                "<sphere><center x='0' y='0' z='0'/><radius>9</radius><material>sky</material></sphere>");
+    return extremes(rendered(parsed_scene(text)));
+  };
+  const Extremes all = mean("<twosided>true</twosided>"), none = mean("");
+  CHECK(all.least > 1 - 1e-5);
+  CHECK(all.most < 1 + 1e-5);
+  CHECK(none.most == 0);
+}
+
 TEST_CASE("a path does not depend on threads, samples at once, or how the picture is cut") {
   std::string text = with_integrator(busy_scene(61, 47, 16), path_of(5));
   if (GENERATE(false, true)) text.insert(text.find("</matte>"), "<opacity>0.6</opacity>");

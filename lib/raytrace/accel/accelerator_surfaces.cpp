@@ -72,6 +72,7 @@ void set_surface(const MeshTable& mesh, const IntN& faces, const Ray<FloatN>& ra
   result.ng = points.normal;
   result.error = points.error;
   refine_on_ray<FloatN, Kernel<Triangle>>(records, rays, hits.hit, result);
+  result.front = dot(result.ng, rays.direction) < FloatN(0);
   result.ng = select(dot(result.ng, rays.direction) > FloatN(0), -result.ng, result.ng);
   if (!mesh.is_smooth()) return;
 
@@ -111,6 +112,7 @@ SurfaceInteraction<FloatN> Accelerator::surface(const Ray<FloatN>& rays, const H
     with_type(Shapes{}, geometry, [&]<class Shape>(std::type_identity<Shape>) {
       set_surface<Shape>(table.table<Shape>(), primitive, local_rays, hits, surface);
     });
+    surface.front = dot(surface.ng, local_rays.direction) < FloatN(0);
   };
   if (hits.one_primitive) {
     set(table_, hits.first_geometry, LaneIndices(hits.first_primitive), rays, result);
@@ -136,6 +138,7 @@ SurfaceInteraction<FloatN> Accelerator::surface(const Ray<FloatN>& rays, const H
       }
       result.p = select(here, other.p, result.p);
       result.ng = select(here, other.ng, result.ng);
+      result.front = (other.front & here) | (result.front & !here);
       result.error = select(here, other.error, result.error);
     });
     if (hits.in_instances) to_world(hits, result);

@@ -2,8 +2,8 @@
 //
 // A material's Kernel provides:
 //   template <class T> struct Bsdf { ... };   what the tracer keeps of a material: members of type T only
-//   template <class T, class Value> static Bsdf<T> bsdf_of(const Values<Value>&);   Values<double> are the Parameters
-//   static Bsdf<float> bsdf(const Parameters&);
+//   template <class T, class Value> static Bsdf<T> bsdf_of(const Values<Value>&);   the Parameters are Values<double>,
+//   or derive from them static Bsdf<float> bsdf(const Parameters&);
 // and of Bsdf<T>, where T is a batch:
 //   Rgb<T> ambient_radiance(const Rgb<T>& radiance) const;   what leaves under ambient light of that radiance
 //   Rgb<T> albedo() const;       the share of light from all sides that it scatters evenly to all sides, without
@@ -13,10 +13,14 @@
 //   BsdfSample<T> sample(const Vec3<T>& wo, const T& u, const T& u1, const T& u2) const;
 //                                draws wi in the local frame (bsdfs/bsdf_sample.h) out of numbers in [0, 1): u chooses
 //                                a lobe, u1 and u2 a direction in it
+// and, if it shines by itself:
+//   Rgb<T> emitted() const;      radiance, the same in all directions
+// and
 //   T pdf(const Vec3<T>& wo, const Vec3<T>& wi) const;
 //                                the density at which sample() draws wi, per solid angle, in the local frame
 #pragma once
 
+#include "raytrace/materials/emissive_kernel.h"
 #include "raytrace/materials/matte_kernel.h"
 #include "raytrace/materials/phong_kernel.h"
 #include "raytrace/materials/registry.h"

@@ -2,12 +2,13 @@
 // include in kernels.h. (docs/how-to-add-a-type.md)
 #pragma once
 
+#include "raytrace/materials/emissive.h"
 #include "raytrace/materials/matte.h"
 #include "raytrace/materials/phong.h"
 #include "raytrace/math/type_list.h"
 
 namespace raytrace {
 
-using Materials = TypeList<Matte, Phong>;
+using Materials = TypeList<Matte, Phong, Emissive>;
 
 }  // namespace raytrace

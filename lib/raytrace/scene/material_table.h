@@ -54,6 +54,9 @@ class MaterialTable {
   virtual Rgb<FloatN> albedo(const LaneIndices& materials, const TexturePoint<FloatN>* point) const = 0;
   virtual Rgb<float> largest_albedo(const std::uint8_t* used) const = 0;
 
+  /// The radiance that leaves of itself; of materials that do not shine none.
+  virtual Rgb<FloatN> emitted(const LaneIndices& materials, const TexturePoint<FloatN>* point) const = 0;
+
   /// A direction that light comes from, drawn by each lane's material out of u, u1 and u2 in [0, 1). wo: in the local
   /// frame.
   virtual BsdfSample<FloatN> sample(const LaneIndices& materials, const Vec3<FloatN>& wo, const FloatN& u,
@@ -97,6 +100,16 @@ class MaterialTableOf final : public MaterialTable {
     return result;
   }
 
+  Rgb<FloatN> emitted(const LaneIndices& materials, const TexturePoint<FloatN>* point) const override {
+    if constexpr (shines) {
+      auto bsdfs = gather_records<MaterialKernel::template Bsdf, FloatN>(bsdfs_.data(), materials);
+      if (point != nullptr) set_textured(bsdfs, materials, *point);
+      return bsdfs.emitted();
+    } else {
+      return Rgb<FloatN>(Rgb<float>(0, 0, 0));
+    }
+  }
+
   BsdfSample<FloatN> sample(const LaneIndices& materials, const Vec3<FloatN>& wo, const FloatN& u, const FloatN& u1,
                             const FloatN& u2, const TexturePoint<FloatN>* point) const override {
     auto bsdfs = gather_records<MaterialKernel::template Bsdf, FloatN>(bsdfs_.data(), materials);
@@ -117,6 +130,12 @@ class MaterialTableOf final : public MaterialTable {
       range.add_largest(lane(ambient + f * Rgb<FloatN>(lights.largest)));
       range.add_source(lane(ambient));
       range.add_source(lane(f * Rgb<FloatN>(lights.dimmest)));
+      if constexpr (shines) {
+        const Rgb<float> emitted = lane(bsdfs.emitted());
+        range.add_usual(emitted);
+        range.add_largest(emitted);
+        range.add_source(emitted);
+      }
     }
   }
 
@@ -135,6 +154,7 @@ class MaterialTableOf final : public MaterialTable {
 
  private:
   using Bsdf = typename MaterialKernel::template Bsdf<float>;
+  static constexpr bool shines = requires(typename MaterialKernel::template Bsdf<FloatN> bsdf) { bsdf.emitted(); };
 
   /// Colours may be negative, and cancel each other in one direction but not in all.
   static Bsdf magnitudes(const Bsdf& bsdf) {

@@ -14,6 +14,12 @@ constexpr double near_origin = 4096;
 
 Vec3d rounded(const Vec3d& point) { return {std::round(point.x), std::round(point.y), std::round(point.z)}; }
 
+/// Where the description leaves it open.
+IntegratorParameters default_integrator(const SceneDescription& description) {
+  if (std::get<MaterialItems<Emissive>>(description.materials).empty()) return Raycast::Parameters{};
+  return Path::Parameters{};
+}
+
 Vec3d origin_of(const CameraParameters& camera) {
   return std::visit(
       [](const auto& parameters) {
@@ -29,7 +35,7 @@ SceneTables::SceneTables(const SceneDescription& description, int threads)
     : origin_(origin_of(description.camera)),
       viewplane_(description.viewplane),
       pixel_filter_(description.viewplane),
-      integrator_(description.integrator.value_or(Raycast::Parameters{})) {
+      integrator_(description.integrator.value_or(default_integrator(description))) {
   textures_ = std::make_unique<const TextureTable>(description);
   add_materials(description);
   geometry_ = std::make_unique<const GeometryTable>(description, origin_, first_material_, threads);
@@ -47,6 +53,8 @@ SceneTables::SceneTables(const SceneDescription& description, int threads)
   for (std::size_t i = 0; i < details_.size(); ++i) {
     has_cutouts_ |= used_materials_[i] != 0 && details_[i].is_cutout();
     has_relief_ |= used_materials_[i] != 0 && details_[i].has_relief();
+    has_emission_ |= used_materials_[i] != 0 && details_[i].shines;
+    back_shines_.push_back(details_[i].back_shines ? 1 : 0);
   }
 }
 
@@ -104,6 +112,10 @@ SceneTables::SurfaceDetail SceneTables::surface_detail(const MaterialItem<Materi
   SurfaceDetail detail{{static_cast<float>(item.parameters.opacity)},
                        {static_cast<float>(item.parameters.normalmap)},
                        {static_cast<float>(item.parameters.bump)}};
+  if constexpr (std::is_same_v<Material, Emissive>) {
+    detail.shines = true;
+    detail.back_shines = item.parameters.twosided;
+  }
   for (const TextureUse& use : item.textures) {
     const std::string_view field = element_type<Material>().fields[use.field].name;
     if (field == opacity_field) detail.opacity.texture = use;
@@ -199,6 +211,15 @@ bool SceneTables::has_textures(const Hits& hits) const {
   if (textured_.empty()) return false;
   if (const auto only = geometry_->only_material(hits)) return textured_[static_cast<std::size_t>(*only)] != 0;
   return any(hits.hit & float_mask<FloatN>(gather(textured_.data(), material(hits)) != IntN(0)));
+}
+
+Rgb<FloatN> SceneTables::emitted(const Hits& hits, const SurfaceInteraction<FloatN>& surface,
+                                 const TexturePoint<FloatN>* point) const {
+  const Rgb<FloatN> radiance = by_material(
+      hits, [&](const MaterialTable& table, const LaneIndices& materials) { return table.emitted(materials, point); });
+  const MaskN shines =
+      hits.hit & (surface.front | float_mask<FloatN>(gather(back_shines_.data(), material(hits)) != IntN(0)));
+  return select(shines, radiance, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
 }
 
 BsdfSample<FloatN> SceneTables::sample(const Hits& hits, const Vec3<FloatN>& wo, const FloatN& u, const FloatN& u1,

@@ -109,6 +109,11 @@ class SceneTables {
     return FloatN(opacity.value) * textures_->number_at(*opacity.texture, point());
   }
 
+  /// Whether surfaces shine by themselves, and the radiance that leaves them.
+  bool has_emission() const { return has_emission_; }
+  Rgb<FloatN> emitted(const Hits& hits, const SurfaceInteraction<FloatN>& surface,
+                      const TexturePoint<FloatN>* point) const;
+
   /// A direction in the local frame of surface.ns that light comes from, drawn by each lane's material; others than
   /// those that were hit get anything.
   BsdfSample<FloatN> sample(const Hits& hits, const Vec3<FloatN>& wo, const FloatN& u, const FloatN& u1,
@@ -131,6 +136,7 @@ class SceneTables {
   };
   struct SurfaceDetail {
     TexturedNumber opacity, normalmap, bump;
+    bool shines = false, back_shines = false;
 
     bool is_cutout() const { return opacity.value < 1 || opacity.texture; }
     bool has_relief() const { return normalmap.texture || bump.texture; }
@@ -178,8 +184,9 @@ class SceneTables {
       first_material_{};  ///< of each type, all counted together; their number
   std::unique_ptr<const GeometryTable> geometry_;
   std::vector<SurfaceDetail> details_;  ///< of all materials
-  bool has_cutouts_ = false, has_relief_ = false;
-  std::vector<std::int32_t> textured_;  ///< 1 for materials with textures, else 0; empty if there are none
+  bool has_cutouts_ = false, has_relief_ = false, has_emission_ = false;
+  std::vector<std::int32_t> back_shines_;  ///< of all materials: 1, else 0
+  std::vector<std::int32_t> textured_;     ///< 1 for materials with textures, else 0; empty if there are none
   RayCone ray_cone_;
   std::vector<std::uint8_t> used_materials_;  ///< 1 for those that objects have, else 0
 };

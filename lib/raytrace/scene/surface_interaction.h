@@ -8,11 +8,12 @@ namespace raytrace {
 /// In world space. Lanes without a hit hold anything.
 template <class F>
 struct SurfaceInteraction {
-  Vec3<F> p;   ///< on the surface as closely as floats allow
-  Vec3<F> ng;  ///< the surface's normal, of unit length, on the side that the ray came from
-  Vec3<F> ns;  ///< the normal for shading, likewise
-  Vec3<F> wo;  ///< unit length, to where the ray came from
-  F error;     ///< bound of the distance between p and the true surface
+  Vec3<F> p;      ///< on the surface as closely as floats allow
+  Vec3<F> ng;     ///< the surface's normal, of unit length, on the side that the ray came from
+  Vec3<F> ns;     ///< the normal for shading, likewise
+  Vec3<F> wo;     ///< unit length, to where the ray came from
+  Mask<F> front;  ///< whether the ray came from the surface's front
+  F error;        ///< bound of the distance between p and the true surface
 
   /// On meshes with normals at vertices, from p to the smooth surface that they stand for, where it bulges above the
   /// flat faces: so far out, shadows are those of the smooth surface. Hanika, "Hacking the Shadow Terminator", Ray

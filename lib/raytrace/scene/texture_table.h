@@ -36,7 +36,8 @@ class TextureTable {
   template <class Material>
   std::vector<TextureFactor> factors(std::span<const TextureUse> uses) const {
     using Parameters = typename Material::Parameters;
-    static_assert(std::is_same_v<Parameters, typename Material::template Values<double>>);
+    static_assert(std::is_base_of_v<typename Material::template Values<double>, Parameters> ||
+                  std::is_same_v<typename Material::template Values<double>, Parameters>);
     std::vector<TextureFactor> factors;
     for (const TextureUse& use : uses) {
       const Field& field = element_type<Material>().fields.at(use.field);
