@@ -73,7 +73,8 @@ TEST_CASE("normal maps and bumps are textures with a number beside them") {
   CHECK(contains(print_scene(scene), R"(<bump texture="tiles" channel="green" height="2"/>)"));
   CHECK(matte(accepted(textured(rest + R"(<bump texture="tiles"/>)"))).parameters.bump == 1);
   const auto error = [&](const std::string& fields) { return reported(textured(rest + fields)); };
-  CHECK(contains(error(R"(<bump height="2"/>)"), "missing attribute 'texture' in <bump>"));
+  CHECK(contains(error(R"(<bump height="2"/>)"),
+                 R"(missing attribute 'texture' in <bump>; write <bump texture="..."/>)"));
   CHECK(contains(error(R"(<bump texture="tiles">2</bump>)"), R"(write it as <bump texture="..." height="1"/>)"));
   CHECK(contains(error(R"(<normalmap texture="wood" channel="red"/>)"), "unknown attribute 'channel' in <normalmap>"));
   CHECK(contains(error(R"(<normalmap texture="wood" strenght="1"/>)"), "did you mean 'strength'?"));

@@ -322,8 +322,6 @@ TEST_CASE("damaged glTF files are read or refused") {
   const std::pair<std::string, std::string> files[] = {{"a.gltf", file.text(members)}, {"a.glb", file.glb(members)}};
   const TemporaryFolder folder;
   std::mt19937 random(1);
-  MeshReadSettings settings;
-  settings.threads = 1;
   std::size_t good = 0, refused = 0;
   for (const auto& [name, bytes] : files)
     for (int i = 0; i < 1500; ++i) {
@@ -335,14 +333,7 @@ TEST_CASE("damaged glTF files are read or refused") {
         else if (const std::size_t digit = damaged.find_first_of("0123456789", at); digit != std::string::npos)
           damaged[digit] = "0123456789-.e}\xff"[random() % 15];
       }
-      write_text(folder.file(name), damaged);
-      Diagnostics diagnostics(name);
-      const auto mesh = read_mesh(folder.file(name), settings, diagnostics);
-      ++(mesh ? good : refused);
-      REQUIRE(mesh.has_value() == !diagnostics.has_errors());
-      if (!mesh) continue;
-      for (const std::uint32_t index : mesh->indices) REQUIRE(index < mesh->vertex_count());
-      for (const float value : mesh->positions) REQUIRE(std::abs(value) <= 1e18F);
+      ++(is_read_or_refused(folder.file(name), damaged) ? good : refused);
     }
   CHECK(good > 100);
   CHECK(refused > 500);

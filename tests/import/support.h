@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <sstream>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "raytrace/import/read_mesh.h"
+#include "support/catch.h"
 #include "support/temporary_folder.h"
 
 namespace raytrace::test {
@@ -37,6 +39,21 @@ inline ReadResult read_bytes(const std::string& name, const std::string& bytes, 
   result.mesh = read_mesh(folder.file(name), settings, diagnostics);
   result.messages = printed(diagnostics, folder.path().string());
   return result;
+}
+
+/// Reads a file with these bytes, which may be damaged. True: it was read, and the mesh is sound; false: an error says
+/// why not. The file stays.
+inline bool is_read_or_refused(const std::string& file, const std::string& bytes) {
+  write_text(file, bytes);
+  MeshReadSettings settings;
+  settings.threads = 1;
+  Diagnostics diagnostics(file);
+  const auto mesh = read_mesh(file, settings, diagnostics);
+  REQUIRE(mesh.has_value() == !diagnostics.has_errors());
+  if (!mesh) return false;
+  for (const std::uint32_t index : mesh->indices) REQUIRE(index < mesh->vertex_count());
+  for (const float value : mesh->positions) REQUIRE(std::abs(value) <= 1e18F);
+  return true;
 }
 
 template <class T>

@@ -4,6 +4,7 @@
 
 #include "render/scenes.h"
 #include "support/catch.h"
+#include "support/temporary_folder.h"
 #include "support/usable_isas.h"
 
 namespace raytrace::test {
@@ -102,6 +103,24 @@ TEST_CASE("in instances, too, by the instance's own material") {
                   "<rotate x='0' y='0' z='1' angle='30'/></transform></instance></instances>",
                   "<lights>" + white_ambient + "</lights>" + group);
   const double share = 1 - std::pow(0.8, 3);
+  CHECK(std::abs(mean(rendered(scene)) - share) < tolerance(share));
+}
+
+TEST_CASE("spheres of a cloud have the opacity of the cloud's material, single ones and meshes beside them their own") {
+  const TemporaryFolder folder;
+  write_text(folder.file("a.ply"),
+             "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
+             "end_header\n0 0 0\n0 0 -3\n");
+  const std::string cloud = "<sphereclouds><spherecloud><file>" + folder.file("a.ply") +
+                            "</file><radius>1</radius><material>veil</material></spherecloud></sphereclouds>";
+  const std::string beside =
+      "<spheres><sphere><center x='9' y='0' z='0'/><radius>1</radius><material>wall</material>"
+      "</sphere></spheres>" +
+      object(crossed_shapes[13], "glass");
+  const SceneDescription scene = axial_scene(
+      material("veil", "<opacity>0.2</opacity>") + material("wall", "") + material("glass", "<opacity>0</opacity>"),
+      cloud + beside, "<lights>" + white_ambient + "</lights>");
+  const double share = 1 - std::pow(0.8, 4);
   CHECK(std::abs(mean(rendered(scene)) - share) < tolerance(share));
 }
 

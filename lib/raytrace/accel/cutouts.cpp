@@ -1,8 +1,6 @@
 #include "raytrace/accel/cutouts.h"
 
-#include <algorithm>
 #include <array>
-#include <bit>
 
 #include "raytrace/accel/accelerator.h"
 #include "raytrace/accel/surface_uv.h"
@@ -11,13 +9,15 @@
 
 namespace raytrace {
 
-bool is_cutout(const CutoutQuery& query, const CutoutSurface& surface) {
-  return query.scene.is_cutout(
-      query.scene.geometry().material_of(surface.instance, surface.geometry, surface.primitive));
+std::optional<std::int32_t> cutout_material(const CutoutQuery& query, const CutoutSurface& surface) {
+  const std::int32_t material =
+      query.scene.geometry().material_of(surface.instance, surface.geometry, surface.primitive);
+  return query.scene.is_cutout(material) ? std::optional(material) : std::nullopt;
 }
 
 std::uint32_t passing_rays(const CutoutQuery& query, unsigned first, std::uint32_t hit, const CutoutSurface& surface,
-                           std::span<const float> t, std::span<const float> u, std::span<const float> v) {
+                           std::int32_t material, std::span<const float> t, std::span<const float> u,
+                           std::span<const float> v) {
   alignas(64) std::array<float, packet_lanes> far{}, hit_u{}, hit_v{};
   alignas(64) std::array<std::int32_t, packet_lanes> is_hit{};
   for (std::size_t i = 0; i < t.size(); ++i) {
@@ -36,7 +36,6 @@ std::uint32_t passing_rays(const CutoutQuery& query, unsigned first, std::uint32
   hits.v = FloatN::load_aligned(hit_v.data());
   hits.find_first();
   const SceneTables& scene = query.scene;
-  const std::int32_t material = scene.geometry().material_of(surface.instance, surface.geometry, surface.primitive);
   const FloatN opacity = scene.opacity(material, [&] {
     Ray<FloatN> rays = query.rays;
     rays.far = FloatN::load_aligned(far.data());

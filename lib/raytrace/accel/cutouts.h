@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "raytrace/math/ray.h"
@@ -36,20 +37,22 @@ struct CutoutSurface {
   std::uint32_t instance, geometry, primitive, crossing;
 };
 
-/// Whether rays may pass the surface at all.
-bool is_cutout(const CutoutQuery& query, const CutoutSurface& surface);
+/// The number of the surface's material, if rays may pass it.
+std::optional<std::int32_t> cutout_material(const CutoutQuery& query, const CutoutSurface& surface);
 
-/// Which of the rays pass the surface that they hit at distance t[i], where the bits of `hit` say so; bit i is that of
-/// ray first + i. u, v: barycentric coordinates, on triangles.
+/// Which of the rays pass the surface, of that material, that they hit at distance t[i], where the bits of `hit` say
+/// so; bit i is that of ray first + i. u, v: barycentric coordinates, on triangles.
 std::uint32_t passing_rays(const CutoutQuery& query, unsigned first, std::uint32_t hit, const CutoutSurface& surface,
-                           std::span<const float> t, std::span<const float> u, std::span<const float> v);
+                           std::int32_t material, std::span<const float> t, std::span<const float> u,
+                           std::span<const float> v);
 
 /// The distances t at which rays hit a primitive, or those of their next hits, where they pass what they hit there.
 /// The rays are `count` from `first` on. find(rays, lanes, u, v): their hits behind rays.near.
 template <class F, class Find>
 F without_passed(const CutoutQuery& query, unsigned first, int count, CutoutSurface surface, Ray<F> rays, F t, F& u,
                  F& v, const Find& find) {
-  if (!is_cutout(query, surface)) return t;
+  const std::optional<std::int32_t> material = cutout_material(query, surface);
+  if (!material) return t;
   // No shape is crossed more often; what rounding finds beyond that is passed.
   constexpr std::uint32_t most_crossings = 8;
   const std::uint32_t present = count >= 32 ? ~0U : (1U << static_cast<unsigned>(count)) - 1;
@@ -59,7 +62,8 @@ F without_passed(const CutoutQuery& query, unsigned first, int count, CutoutSurf
     t.store_aligned(at[0]);
     u.store_aligned(at[1]);
     v.store_aligned(at[2]);
-    open = surface.crossing < most_crossings ? passing_rays(query, first, open, surface, at[0], at[1], at[2]) : open;
+    open = surface.crossing < most_crossings ? passing_rays(query, first, open, surface, *material, at[0], at[1], at[2])
+                                             : open;
     if (open == 0) break;
     alignas(64) std::int32_t lanes[lane_count<F>];
     for (int i = 0; i < lane_count<F>; ++i) lanes[i] = (open >> i & 1) != 0 ? -1 : 0;

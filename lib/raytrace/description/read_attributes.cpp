@@ -146,7 +146,8 @@ std::string example_of(std::string_view element, std::span<const AttributeField>
   std::string text = "<" + printable(element);
   for (std::size_t i = 0; i < fields.size(); ++i) {
     if (!fields[i].required) continue;
-    text.append(" ").append(fields[i].name).append("=\"").append(own[i].empty() ? "1" : own[i]).append("\"");
+    const std::string_view any = std::holds_alternative<std::string_view*>(fields[i].target) ? "..." : "1";
+    text.append(" ").append(fields[i].name).append("=\"").append(own[i].empty() ? any : own[i]).append("\"");
   }
   return text + "/>";
 }

@@ -250,13 +250,15 @@ IntN GeometryTable::object(const Hits& hits) const {
 
 std::optional<std::int32_t> GeometryTable::only_material(const Hits& hits) const {
   if (!hits.one_geometry) return std::nullopt;
+  if (hits.one_primitive) return own_material(hits.first_geometry, static_cast<std::uint32_t>(hits.first_primitive));
   const Geometry& geometry = geometries_[hits.first_geometry];
-  if (geometry.mesh != nullptr) {
-    if (hits.one_primitive) return geometry.mesh->material(static_cast<std::size_t>(hits.first_primitive));
-    return geometry.mesh->only_material();
-  }
-  if (!hits.one_primitive) return std::nullopt;
-  const IntN object = this->object(hits.first_geometry, IntN(hits.first_primitive));
+  return geometry.mesh != nullptr ? geometry.mesh->only_material() : std::nullopt;
+}
+
+std::int32_t GeometryTable::own_material(std::uint32_t geometry, std::uint32_t primitive) const {
+  if (const MeshTable* const mesh = geometries_[geometry].mesh; mesh != nullptr)
+    return mesh->material(std::size_t{primitive});
+  const IntN object = this->object(geometry, IntN(static_cast<std::int32_t>(primitive)));
   return object_materials_[static_cast<std::size_t>(object.get(0))];
 }
 
@@ -268,9 +270,7 @@ std::int32_t GeometryTable::material_of(std::uint32_t instance, std::uint32_t ge
     if (const std::int32_t group = instances_.target(i).group; group >= 0)
       table = groups_[static_cast<std::size_t>(group)].get();
   }
-  const Geometry& hit = table->geometry(geometry);
-  if (hit.mesh != nullptr) return hit.mesh->material(std::size_t{primitive});
-  return table->object_materials_[static_cast<std::size_t>(hit.first_object) + primitive];
+  return table->own_material(geometry, primitive);
 }
 
 IntN GeometryTable::material(const Hits& hits) const {

@@ -115,6 +115,8 @@ class GeometryTable {
   void add_clouds(const std::vector<ObjectItem<SphereCloud>>& clouds, const Vec3d& origin);
   /// Of a geometry's primitives, for every lane one that exists.
   IntN object(std::uint32_t geometry, const IntN& primitive) const;
+  /// The material of a primitive of this table.
+  std::int32_t own_material(std::uint32_t geometry, std::uint32_t primitive) const;
   /// The same number, but that of the cloud where lanes that hit a sphere hit one of a cloud.
   IntN or_cloud(const IntN& object, const IntN& sphere, const MaskN& lanes) const;
   void set_object_materials(const ObjectLists& objects, std::span<const std::int32_t> first_materials, int threads);
