@@ -13,11 +13,16 @@
 //   BsdfSample<T> sample(const Vec3<T>& wo, const T& u, const T& u1, const T& u2) const;
 //                                draws wi in the local frame (bsdfs/bsdf_sample.h) out of numbers in [0, 1): u chooses
 //                                a lobe, u1 and u2 a direction in it
-// and, if it shines by itself:
-//   Rgb<T> emitted() const;      radiance, the same in all directions
-// and
 //   T pdf(const Vec3<T>& wo, const Vec3<T>& wi) const;
 //                                the density at which sample() draws wi, per solid angle, in the local frame
+// evaluate() and pdf() are of reflection alone: both directions are on the normal's side. What comes through a surface
+// is sample()'s. And, if it
+//   shines by itself:
+//     Rgb<T> emitted() const;                    radiance, the same in all directions
+//   has two sides:
+//     void set_side(const Mask<T>& front);       whether wo is on the surface's front: called before all others
+//   sends light through:
+//     Rgb<T> transmittance(const T& distance) const;   the share that is left of light that went so far behind it
 #pragma once
 
 #include "raytrace/materials/emissive_kernel.h"

@@ -28,6 +28,12 @@ struct IncidentLight {
   Rgb<FloatN> radiance;
 };
 
+/// Of a BSDF for two directions.
+struct BsdfValue {
+  Rgb<FloatN> f;  ///< in 1/steradian, without the cosine
+  FloatN pdf;     ///< per solid angle
+};
+
 /// What the lights of a scene send to a point at most, by magnitude.
 struct LightBounds {
   Rgb<float> ambient{0, 0, 0};  ///< ambient light
@@ -59,13 +65,22 @@ class MaterialTable {
 
   /// A direction that light comes from, drawn by each lane's material out of u, u1 and u2 in [0, 1). wo: in the local
   /// frame.
-  virtual BsdfSample<FloatN> sample(const LaneIndices& materials, const Vec3<FloatN>& wo, const FloatN& u,
-                                    const FloatN& u1, const FloatN& u2, const TexturePoint<FloatN>* point) const = 0;
+  virtual BsdfSample<FloatN> sample(const LaneIndices& materials, const MaskN& front, const Vec3<FloatN>& wo,
+                                    const FloatN& u, const FloatN& u1, const FloatN& u2,
+                                    const TexturePoint<FloatN>* point) const = 0;
+
+  /// f of two directions on the surface's side, and the density at which sample() draws wi, in the local frame.
+  virtual BsdfValue evaluate(const LaneIndices& materials, const MaskN& front, const Vec3<FloatN>& wo,
+                             const Vec3<FloatN>& wi, const TexturePoint<FloatN>* point) const = 0;
+
+  /// The share that is left of light that went so far behind surfaces.
+  virtual Rgb<FloatN> transmittance(const LaneIndices& materials, const FloatN& distance,
+                                    const TexturePoint<FloatN>* point) const = 0;
 
   /// The radiance that leaves along wo, of unit length. materials: of each lane, for every lane one that exists.
-  virtual Rgb<FloatN> shade(const LaneIndices& materials, const Vec3<FloatN>& wo, const Vec3<FloatN>& normal,
-                            const Rgb<float>& ambient_radiance, std::span<const IncidentLight> lights,
-                            const TexturePoint<FloatN>* point) const = 0;
+  virtual Rgb<FloatN> shade(const LaneIndices& materials, const MaskN& front, const Vec3<FloatN>& wo,
+                            const Vec3<FloatN>& normal, const Rgb<float>& ambient_radiance,
+                            std::span<const IncidentLight> lights, const TexturePoint<FloatN>* point) const = 0;
 };
 
 /// A material with textures.
@@ -88,11 +103,10 @@ class MaterialTableOf final : public MaterialTable {
                            TexturedMaterials textured = {}, const TextureTable* textures = nullptr)
       : bsdfs_(std::move(bsdfs)), textured_(std::move(textured)), textures_(textures) {}
 
-  Rgb<FloatN> shade(const LaneIndices& materials, const Vec3<FloatN>& wo, const Vec3<FloatN>& normal,
-                    const Rgb<float>& ambient_radiance, std::span<const IncidentLight> lights,
-                    const TexturePoint<FloatN>* point) const override {
-    auto bsdfs = gather_records<MaterialKernel::template Bsdf, FloatN>(bsdfs_.data(), materials);
-    if (point != nullptr) set_textured(bsdfs, materials, *point);
+  Rgb<FloatN> shade(const LaneIndices& materials, const MaskN& front, const Vec3<FloatN>& wo,
+                    const Vec3<FloatN>& normal, const Rgb<float>& ambient_radiance,
+                    std::span<const IncidentLight> lights, const TexturePoint<FloatN>* point) const override {
+    const auto bsdfs = gathered(materials, front, point);
     Rgb<FloatN> result = bsdfs.ambient_radiance(Rgb<FloatN>(ambient_radiance));
     for (const IncidentLight& light : lights)
       // The cosine first: where it is 0, a product beyond the range of floats would make it NaN.
@@ -110,11 +124,23 @@ class MaterialTableOf final : public MaterialTable {
     }
   }
 
-  BsdfSample<FloatN> sample(const LaneIndices& materials, const Vec3<FloatN>& wo, const FloatN& u, const FloatN& u1,
-                            const FloatN& u2, const TexturePoint<FloatN>* point) const override {
-    auto bsdfs = gather_records<MaterialKernel::template Bsdf, FloatN>(bsdfs_.data(), materials);
-    if (point != nullptr) set_textured(bsdfs, materials, *point);
-    return bsdfs.sample(wo, u, u1, u2);
+  BsdfSample<FloatN> sample(const LaneIndices& materials, const MaskN& front, const Vec3<FloatN>& wo, const FloatN& u,
+                            const FloatN& u1, const FloatN& u2, const TexturePoint<FloatN>* point) const override {
+    return gathered(materials, front, point).sample(wo, u, u1, u2);
+  }
+
+  BsdfValue evaluate(const LaneIndices& materials, const MaskN& front, const Vec3<FloatN>& wo, const Vec3<FloatN>& wi,
+                     const TexturePoint<FloatN>* point) const override {
+    const auto bsdfs = gathered(materials, front, point);
+    return {bsdfs.evaluate(wo, wi, local_normal<FloatN>()), bsdfs.pdf(wo, wi)};
+  }
+
+  Rgb<FloatN> transmittance(const LaneIndices& materials, const FloatN& distance,
+                            const TexturePoint<FloatN>* point) const override {
+    if constexpr (requires(BsdfN bsdf, FloatN d) { bsdf.transmittance(d); })
+      return gathered(materials, MaskN(false), point).transmittance(distance);
+    else
+      return Rgb<FloatN>(Rgb<float>(1, 1, 1));
   }
 
   void add_to(RadianceRange& range, const LightBounds& lights, const std::uint8_t* used) const override {
@@ -154,7 +180,16 @@ class MaterialTableOf final : public MaterialTable {
 
  private:
   using Bsdf = typename MaterialKernel::template Bsdf<float>;
-  static constexpr bool shines = requires(typename MaterialKernel::template Bsdf<FloatN> bsdf) { bsdf.emitted(); };
+  using BsdfN = typename MaterialKernel::template Bsdf<FloatN>;
+  static constexpr bool shines = requires(BsdfN bsdf) { bsdf.emitted(); };
+
+  /// The lanes' own, with their textures, for light that leaves on the side that `front` says.
+  BsdfN gathered(const LaneIndices& materials, const MaskN& front, const TexturePoint<FloatN>* point) const {
+    BsdfN bsdfs = gather_records<MaterialKernel::template Bsdf, FloatN>(bsdfs_.data(), materials);
+    if (point != nullptr) set_textured(bsdfs, materials, *point);
+    if constexpr (requires { bsdfs.set_side(front); }) bsdfs.set_side(front);
+    return bsdfs;
+  }
 
   /// Colours may be negative, and cancel each other in one direction but not in all.
   static Bsdf magnitudes(const Bsdf& bsdf) {

@@ -54,6 +54,7 @@ SceneTables::SceneTables(const SceneDescription& description, int threads)
     has_cutouts_ |= used_materials_[i] != 0 && details_[i].is_cutout();
     has_relief_ |= used_materials_[i] != 0 && details_[i].has_relief();
     has_emission_ |= used_materials_[i] != 0 && details_[i].shines;
+    has_transmission_ |= used_materials_[i] != 0 && details_[i].transmits;
     back_shines_.push_back(details_[i].back_shines ? 1 : 0);
   }
 }
@@ -116,6 +117,8 @@ SceneTables::SurfaceDetail SceneTables::surface_detail(const MaterialItem<Materi
     detail.shines = true;
     detail.back_shines = item.parameters.twosided;
   }
+  detail.transmits =
+      requires(typename Kernel<Material>::template Bsdf<FloatN> bsdf, FloatN d) { bsdf.transmittance(d); };
   for (const TextureUse& use : item.textures) {
     const std::string_view field = element_type<Material>().fields[use.field].name;
     if (field == opacity_field) detail.opacity.texture = use;
@@ -173,8 +176,8 @@ float SceneTables::largest_albedo() const {
 
 namespace {
 
-BsdfSample<FloatN> select(const MaskN& mask, const BsdfSample<FloatN>& a, const BsdfSample<FloatN>& b) {
-  return {select(mask, a.wi, b.wi), select(mask, a.f, b.f), select(mask, a.pdf, b.pdf)};
+BsdfValue select(const MaskN& mask, const BsdfValue& a, const BsdfValue& b) {
+  return {select(mask, a.f, b.f), select(mask, a.pdf, b.pdf)};
 }
 
 }  // namespace
@@ -222,10 +225,24 @@ Rgb<FloatN> SceneTables::emitted(const Hits& hits, const SurfaceInteraction<Floa
   return select(shines, radiance, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
 }
 
-BsdfSample<FloatN> SceneTables::sample(const Hits& hits, const Vec3<FloatN>& wo, const FloatN& u, const FloatN& u1,
-                                       const FloatN& u2, const TexturePoint<FloatN>* point) const {
+BsdfSample<FloatN> SceneTables::sample(const Hits& hits, const MaskN& front, const Vec3<FloatN>& wo, const FloatN& u,
+                                       const FloatN& u1, const FloatN& u2, const TexturePoint<FloatN>* point) const {
   return by_material(hits, [&](const MaterialTable& table, const LaneIndices& materials) {
-    return table.sample(materials, wo, u, u1, u2, point);
+    return table.sample(materials, front, wo, u, u1, u2, point);
+  });
+}
+
+BsdfValue SceneTables::evaluate(const Hits& hits, const MaskN& front, const Vec3<FloatN>& wo, const Vec3<FloatN>& wi,
+                                const TexturePoint<FloatN>* point) const {
+  return by_material(hits, [&](const MaterialTable& table, const LaneIndices& materials) {
+    return table.evaluate(materials, front, wo, wi, point);
+  });
+}
+
+Rgb<FloatN> SceneTables::transmittance(const Hits& hits, const FloatN& distance,
+                                       const TexturePoint<FloatN>* point) const {
+  return by_material(hits, [&](const MaterialTable& table, const LaneIndices& materials) {
+    return table.transmittance(materials, distance, point);
   });
 }
 
@@ -233,7 +250,7 @@ Rgb<FloatN> SceneTables::shade(const Hits& hits, const SurfaceInteraction<FloatN
                                const Rgb<float>& ambient_radiance, std::span<const IncidentLight> lights,
                                const TexturePoint<FloatN>* point) const {
   return by_material(hits, [&](const MaterialTable& table, const LaneIndices& materials) {
-    return table.shade(materials, surface.wo, surface.ns, ambient_radiance, lights, point);
+    return table.shade(materials, surface.front, surface.wo, surface.ns, ambient_radiance, lights, point);
   });
 }
 

@@ -116,8 +116,15 @@ class SceneTables {
 
   /// A direction in the local frame of surface.ns that light comes from, drawn by each lane's material; others than
   /// those that were hit get anything.
-  BsdfSample<FloatN> sample(const Hits& hits, const Vec3<FloatN>& wo, const FloatN& u, const FloatN& u1,
-                            const FloatN& u2, const TexturePoint<FloatN>* point) const;
+  BsdfSample<FloatN> sample(const Hits& hits, const MaskN& front, const Vec3<FloatN>& wo, const FloatN& u,
+                            const FloatN& u1, const FloatN& u2, const TexturePoint<FloatN>* point) const;
+  /// What leaves along wo of light from wi, both in that frame and on the surface's side, and sample()'s density.
+  BsdfValue evaluate(const Hits& hits, const MaskN& front, const Vec3<FloatN>& wo, const Vec3<FloatN>& wi,
+                     const TexturePoint<FloatN>* point) const;
+  /// The share that is left of light that went so far behind the surfaces.
+  Rgb<FloatN> transmittance(const Hits& hits, const FloatN& distance, const TexturePoint<FloatN>* point) const;
+  /// Whether light comes through surfaces of the scene.
+  bool has_transmission() const { return has_transmission_; }
 
   /// Whether materials have normal maps or bumps.
   bool has_relief() const { return has_relief_; }
@@ -136,7 +143,7 @@ class SceneTables {
   };
   struct SurfaceDetail {
     TexturedNumber opacity, normalmap, bump;
-    bool shines = false, back_shines = false;
+    bool shines = false, back_shines = false, transmits = false;
 
     bool is_cutout() const { return opacity.value < 1 || opacity.texture; }
     bool has_relief() const { return normalmap.texture || bump.texture; }
@@ -184,7 +191,7 @@ class SceneTables {
       first_material_{};  ///< of each type, all counted together; their number
   std::unique_ptr<const GeometryTable> geometry_;
   std::vector<SurfaceDetail> details_;  ///< of all materials
-  bool has_cutouts_ = false, has_relief_ = false, has_emission_ = false;
+  bool has_cutouts_ = false, has_relief_ = false, has_emission_ = false, has_transmission_ = false;
   std::vector<std::int32_t> back_shines_;  ///< of all materials: 1, else 0
   std::vector<std::int32_t> textured_;     ///< 1 for materials with textures, else 0; empty if there are none
   RayCone ray_cone_;

@@ -46,4 +46,11 @@ RAYTRACE_INLINE Vec3<F> offset_ray_origin(const SurfaceInteraction<F>& surface) 
   return surface.is_smooth ? origin + surface.to_smooth_surface : origin;
 }
 
+/// The same of rays that leave on the other side in the lanes of `through`.
+template <class F>
+RAYTRACE_INLINE Vec3<F> offset_ray_origin(const SurfaceInteraction<F>& surface, const Mask<F>& through) {
+  const Vec3<F> origin = offset_ray_origin(surface);
+  return any(through) ? select(through, surface.p - surface.ng * (surface.error * F(4)), origin) : origin;
+}
+
 }  // namespace raytrace

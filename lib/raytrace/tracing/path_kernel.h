@@ -41,6 +41,7 @@ class Kernel<Path> {
     const MaskN hit = hits.hit;
     const Rgb<FloatN> black(Rgb<float>(0, 0, 0));
     Rgb<FloatN> direct = black, indirect = black, throughput(Rgb<float>(1, 1, 1));
+    FloatN eta2(1);  // of the media that the path is in and was in at its start, squared
     Ray<FloatN> rays = camera.rays;
     FloatN distance = camera.skipped;  // of all rays of the path
     for (int depth = 0; any(hits.hit); ++depth) {
@@ -51,6 +52,10 @@ class Kernel<Path> {
       if (depth == 0 && first != nullptr) {
         first->surface = surface;
         first->textures = textures;
+      }
+      if (tables.has_transmission()) {
+        const Rgb<FloatN> left = tables.transmittance(hits, rays.far, point);
+        throughput = select(hits.hit & !surface.front, throughput * left, throughput);
       }
       // The numbers of keys: one for each ray of a point, the next point's own first.
       const auto rays_a_point = static_cast<std::uint32_t>(tables.lights().size()) + 1;
@@ -69,23 +74,24 @@ class Kernel<Path> {
       const Sample2D choices = get_2d(camera.pixel, camera.sample, path_dimension(depth, PathDraw::lobe_and_roulette));
       const Frame<FloatN> frame(surface.ns);
       const BsdfSample<FloatN> sample =
-          tables.sample(hits, frame.to_local(surface.wo), choices.x, direction.x, direction.y, point);
+          tables.sample(hits, surface.front, frame.to_local(surface.wo), choices.x, direction.x, direction.y, point);
       rays.direction = frame.to_world(sample.wi);
-      // Light from below the true surface does not come.
-      MaskN alive = hits.hit & (sample.pdf > FloatN(0)) & (sample.wi.z > FloatN(0)) &
-                    (dot(rays.direction, surface.ng) > FloatN(0));
-      FloatN weight = sample.wi.z / sample.pdf;
-      if (surface.has_relief) weight = weight * relief_shadow(surface, rays.direction);
+      // On the true surface the direction is on the same side as on the shaded one.
+      const MaskN through = sample.wi.z < FloatN(0);
+      MaskN alive = hits.hit & (sample.pdf > FloatN(0)) & (dot(rays.direction, surface.ng) * sample.wi.z > FloatN(0));
+      FloatN weight = abs(sample.wi.z) / sample.pdf;
+      if (surface.has_relief) weight = select(through, weight, weight * relief_shadow(surface, rays.direction));
+      eta2 = eta2 * sample.eta2;
       throughput = select(alive, throughput * sample.f * weight, black);
       if (depth + 1 >= settings.roulettedepth) {
-        const FloatN survival = min(largest(throughput), FloatN(1));
+        const FloatN survival = min(largest(throughput) * eta2, FloatN(1));
         const MaskN survives = choices.y < survival;
         throughput = throughput * (FloatN(1) / max(survival, FloatN(1e-12F)));
         alive = alive & survives;
       }
       alive = alive & (largest(throughput) > FloatN(0));
       if (none(alive)) break;
-      rays.origin = offset_ray_origin(surface);
+      rays.origin = offset_ray_origin(surface, through & alive);
       rays.near = FloatN(0);
       rays.far = infinity<FloatN>();
       counts.indirect += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(alive & counted)));
