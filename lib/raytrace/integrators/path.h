@@ -8,11 +8,23 @@
 
 namespace raytrace {
 
+/// How a path's point chooses the shining surface that it draws light from.
+enum class LightSampling {
+  tree,     ///< by power, distance and direction
+  power,    ///< by power
+  uniform,  ///< each as often as the others
+};
+template <>
+struct Choices<LightSampling> {
+  static constexpr std::array<std::string_view, 3> words = {"tree", "power", "uniform"};
+};
+
 class Path {
  public:
   struct Parameters {
     int maxdepth = 16;      ///< so many scatterings at most: 1 is direct light alone
     int roulettedepth = 3;  ///< from this scattering on, paths that carry little may end
+    LightSampling lightsampling = LightSampling::tree;
     double clampindirect =
         0;  ///< the most radiance, in each channel, that a path brings from beyond its first point; a bias. 0: any
   };
@@ -20,6 +32,7 @@ class Path {
   static Fields fields() {
     return {optional("maxdepth", &Parameters::maxdepth, Range::positive),
             optional("roulettedepth", &Parameters::roulettedepth, Range::positive),
+            optional("lightsampling", &Parameters::lightsampling),
             optional("clampindirect", &Parameters::clampindirect, Range::not_negative)};
   }
 };

@@ -14,6 +14,7 @@ void InstanceTable::add(const InstanceTarget& target, const Affine& world_from_o
   world_from_object_.push_back(to_float(world_from_object));
   object_from_world_.push_back(to_float(world_from_object.inverse()));
   bounds_.push_back(bounds);
+  scales_.push_back(static_cast<float>(world_from_object.uniform_scale().value_or(0)));
   groups_.push_back(target.group);
   objects_.push_back(object);
   materials_.push_back(material);

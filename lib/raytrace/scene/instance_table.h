@@ -68,6 +68,9 @@ class InstanceTable {
   const InstanceTarget& target(std::size_t i) const { return targets_[i]; }
   const Bounds& bounds(std::size_t i) const { return bounds_[i]; }  ///< in the world
   const AffineRecord<float>& object_from_world(std::size_t i) const { return object_from_world_[i]; }
+  const AffineRecord<float>& world_from_object(std::size_t i) const { return world_from_object_[i]; }
+  /// By how much it scales all lengths; 0: not all by the same.
+  float scale(std::size_t i) const { return scales_[i]; }
   const std::vector<std::int32_t>& materials() const { return materials_; }
 
   // Of lanes: number is 0 where they hit none. Those get what the first instance has.
@@ -91,6 +94,7 @@ class InstanceTable {
   std::vector<InstanceTarget> targets_;
   std::vector<AffineRecord<float>> object_from_world_, world_from_object_;
   std::vector<Bounds> bounds_;
+  std::vector<float> scales_;
   std::vector<std::int32_t> groups_, objects_, materials_;
 };
 

@@ -50,13 +50,18 @@ SceneTables::SceneTables(const SceneDescription& description, int threads)
   set_camera(description);
   add_lights(description);
   used_materials_ = geometry_->used_materials(first_material_.back());
+  std::vector<MaterialEmission> emissions;
   for (std::size_t i = 0; i < details_.size(); ++i) {
     has_cutouts_ |= used_materials_[i] != 0 && details_[i].is_cutout();
     has_relief_ |= used_materials_[i] != 0 && details_[i].has_relief();
-    has_emission_ |= used_materials_[i] != 0 && details_[i].shines;
+    has_emission_ |= used_materials_[i] != 0 && details_[i].emission.radiance > 0;
     has_transmission_ |= used_materials_[i] != 0 && details_[i].transmits;
-    back_shines_.push_back(details_[i].back_shines ? 1 : 0);
+    back_shines_.push_back(details_[i].emission.two_sided ? 1 : 0);
+    emissions.push_back(details_[i].is_cutout() ? MaterialEmission{} : details_[i].emission);
   }
+  const auto* const path = std::get_if<Path::Parameters>(&integrator_);
+  if (path == nullptr) emissions.clear();
+  emitters_.emplace(*geometry_, emissions, path == nullptr ? LightSampling::tree : path->lightsampling);
 }
 
 template <class LightKernel, class Parameters>
@@ -113,10 +118,6 @@ SceneTables::SurfaceDetail SceneTables::surface_detail(const MaterialItem<Materi
   SurfaceDetail detail{{static_cast<float>(item.parameters.opacity)},
                        {static_cast<float>(item.parameters.normalmap)},
                        {static_cast<float>(item.parameters.bump)}};
-  if constexpr (std::is_same_v<Material, Emissive>) {
-    detail.shines = true;
-    detail.back_shines = item.parameters.twosided;
-  }
   detail.transmits =
       requires(typename Kernel<Material>::template Bsdf<FloatN> bsdf, FloatN d) { bsdf.transmittance(d); };
   for (const TextureUse& use : item.textures) {
@@ -140,6 +141,13 @@ void SceneTables::add_materials(const SceneDescription& description) {
       textures_->multiply_by_largest(reinterpret_cast<double*>(&parameters), textured_item.factors);
       if (!textured_item.factors.empty() || details_.back().has_relief()) textured.push_back(std::move(textured_item));
       bsdfs.push_back(Kernel<Material>::bsdf(parameters));
+      Rgb<float> radiance(0, 0, 0);
+      if constexpr (requires { bsdfs.back().emitted(); }) {
+        radiance = bsdfs.back().emitted();
+        const Rgb<float> size = abs(radiance);
+        details_.back().emission = {size.red + size.green + size.blue, parameters.twosided};
+      }
+      emitted_.insert(emitted_.end(), {radiance.red, radiance.green, radiance.blue});
     }
     first_material_[type + 1] = first_material_[type] + static_cast<std::int32_t>(bsdfs.size());
     if (!textured.empty()) textured_.resize(static_cast<std::size_t>(first_material_[type]) + bsdfs.size());

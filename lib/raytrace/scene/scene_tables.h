@@ -14,6 +14,7 @@
 #include "raytrace/sampling/pixel_filter.h"
 #include "raytrace/sampling/sampler.h"
 #include "raytrace/scene/camera.h"
+#include "raytrace/scene/emitter_table.h"
 #include "raytrace/scene/geometry_table.h"
 #include "raytrace/scene/light_source.h"
 #include "raytrace/scene/material_table.h"
@@ -109,6 +110,13 @@ class SceneTables {
     return FloatN(opacity.value) * textures_->number_at(*opacity.texture, point());
   }
 
+  /// The shining surfaces that paths draw light from. Those that rays may pass are not among them.
+  const EmitterTable& emitters() const { return *emitters_; }
+  /// The radiance that leaves samples of them; surfaces: theirs, with the sides that it leaves from. point(hits): what
+  /// texture_point() gives for what rays to them hit.
+  template <class Point>
+  Rgb<FloatN> emitted(const EmitterTable::Sample& samples, const MaskN& lanes,
+                      const SurfaceInteraction<FloatN>& surface, const Point& point) const;
   /// Whether surfaces shine by themselves, and the radiance that leaves them.
   bool has_emission() const { return has_emission_; }
   Rgb<FloatN> emitted(const Hits& hits, const SurfaceInteraction<FloatN>& surface,
@@ -143,7 +151,8 @@ class SceneTables {
   };
   struct SurfaceDetail {
     TexturedNumber opacity, normalmap, bump;
-    bool shines = false, back_shines = false, transmits = false;
+    MaterialEmission emission{};
+    bool transmits = false;
 
     bool is_cutout() const { return opacity.value < 1 || opacity.texture; }
     bool has_relief() const { return normalmap.texture || bump.texture; }
@@ -190,6 +199,8 @@ class SceneTables {
   std::array<std::int32_t, Materials::size + 1>
       first_material_{};  ///< of each type, all counted together; their number
   std::unique_ptr<const GeometryTable> geometry_;
+  std::optional<const EmitterTable> emitters_;
+  std::vector<float> emitted_;          ///< of each material, red, green and blue; of those with textures, the most
   std::vector<SurfaceDetail> details_;  ///< of all materials
   bool has_cutouts_ = false, has_relief_ = false, has_emission_ = false, has_transmission_ = false;
   std::vector<std::int32_t> back_shines_;  ///< of all materials: 1, else 0
@@ -197,5 +208,23 @@ class SceneTables {
   RayCone ray_cone_;
   std::vector<std::uint8_t> used_materials_;  ///< 1 for those that objects have, else 0
 };
+
+template <class Point>
+Rgb<FloatN> SceneTables::emitted(const EmitterTable::Sample& samples, const MaskN& lanes,
+                                 const SurfaceInteraction<FloatN>& surface, const Point& point) const {
+  const auto is_set = [&](const std::vector<std::int32_t>& flags) {
+    return float_mask<FloatN>(gather(flags.data(), samples.material) != IntN(0));
+  };
+  if (!textured_.empty() && any(lanes & is_set(textured_))) {
+    const Hits hits = emitters_->hits(samples, lanes);
+    const TexturePoint<FloatN> there = point(hits);
+    return emitted(hits, surface, &there);
+  }
+  const IntN first = samples.material * IntN(3);
+  const float* const channels = emitted_.data();
+  return select(lanes & (surface.front | is_set(back_shines_)),
+                {gather(channels, first), gather(channels + 1, first), gather(channels + 2, first)},
+                Rgb<FloatN>(Rgb<float>(0, 0, 0)));
+}
 
 }  // namespace raytrace

@@ -3,6 +3,7 @@
 
 #include "raytrace/shapes/annulus.h"
 #include "raytrace/shapes/disk_kernel.h"
+#include "raytrace/shapes/light_patch.h"
 
 namespace raytrace {
 
@@ -19,6 +20,10 @@ class Kernel<Annulus> {
   static Record<double> record(const Parameters& parameters) {
     return {Kernel<Disk>::record({parameters.center, parameters.normal, parameters.outerradius}),
             parameters.innerradius};
+  }
+  static void add_patches(const Record<double>& annulus, std::vector<LightPatch>& patches) {
+    const Kernel<Disk>::Record<double>& disk = annulus.disk;
+    patches.push_back({PatchShape::band, disk.center, disk.normal, {disk.radius, annulus.inner, 0}});
   }
   static Bounds bounds(const Record<double>& annulus) { return Kernel<Disk>::bounds(annulus.disk); }
   static double bounding_radius(const Record<double>& annulus) { return annulus.disk.radius; }

@@ -1,12 +1,15 @@
 // Where rays meet boxes: in double, so that what passes an edge closely from far away is on the right side of it.
 #pragma once
 
+#include <array>
+
 #include "raytrace/math/bounds.h"
 #include "raytrace/math/doubles.h"
 #include "raytrace/math/kernel.h"
 #include "raytrace/math/ray.h"
 #include "raytrace/math/surface_uv.h"
 #include "raytrace/shapes/box.h"
+#include "raytrace/shapes/light_patch.h"
 
 namespace raytrace {
 
@@ -20,6 +23,13 @@ class Kernel<Box> {
     Vec3<T> min, max;
   };
   static Record<double> record(const Parameters& parameters) { return {parameters.min, parameters.max}; }
+  static void add_patches(const Record<double>& box, std::vector<LightPatch>& patches) {
+    const Vec3d size = box.max - box.min, x{size.x, 0, 0}, y{0, size.y, 0}, z{0, 0, size.z};
+    for (const auto& [corner, a, b] :
+         {std::array{box.min, y, x}, std::array{box.min, x, z}, std::array{box.min, z, y}, std::array{box.max, -x, -y},
+          std::array{box.max, -z, -x}, std::array{box.max, -y, -z}})
+      patches.push_back({PatchShape::parallelogram, corner, a, b});
+  }
   static Bounds bounds(const Record<double>& box) {
     return bounds_around((box.min + box.max) * 0.5, (box.max - box.min) * 0.5);
   }
@@ -52,11 +62,15 @@ class Kernel<Box> {
     const auto x = (faces.x >= face) & (faces.x <= face), y = (faces.y >= face) & (faces.y <= face);
     const Vec3<D> speed = select(leaves, direction, -direction);
     const auto end = [&](const D& s, const D& low, const D& high) { return select(s > zero, high, low); };
-    const Vec3<D> normal(select(x, one, zero), select(x, zero, select(y, one, zero)),
-                         select(x, zero, select(y, zero, one)));
-    position.x = select(normal.x > zero, end(speed.x, box.min.x, box.max.x), position.x);
-    position.y = select(normal.y > zero, end(speed.y, box.min.y, box.max.y), position.y);
-    position.z = select(normal.z > zero, end(speed.z, box.min.z, box.max.z), position.z);
+    const Vec3<D> outwards(end(speed.x, -one, one), end(speed.y, -one, one), end(speed.z, -one, one));
+    const Vec3<D> normal(select(x, outwards.x, zero), select(x, zero, select(y, outwards.y, zero)),
+                         select(x, zero, select(y, zero, outwards.z)));
+    const auto set = [&](const D& n, const D& s, const D& low, const D& high, D& coordinate) {
+      coordinate = select(abs(n) > zero, end(s, low, high), coordinate);
+    };
+    set(normal.x, speed.x, box.min.x, box.max.x, position.x);
+    set(normal.y, speed.y, box.min.y, box.max.y, position.y);
+    set(normal.z, speed.z, box.min.z, box.max.z, position.z);
     const Vec3<F> rounded = to_float(position);
     return {rounded, to_float(normal), rounding_error(rounded, F(0))};
   }

@@ -8,6 +8,7 @@
 #include "raytrace/math/kernel.h"
 #include "raytrace/shapes/cone.h"
 #include "raytrace/shapes/frustum.h"
+#include "raytrace/shapes/light_patch.h"
 
 namespace raytrace {
 
@@ -26,6 +27,9 @@ class Kernel<Cone> {
              (parameters.topradius - parameters.radius) / height, parameters.caps ? 1.0 : 0.0}};
   }
 
+  static void add_patches(const Record<double>& cone, std::vector<LightPatch>& patches) {
+    add_frustum_patches(cone, patches);
+  }
   static Bounds bounds(const Record<double>& cone) {
     // Of the two rims: a circle across the axis reaches radius * sqrt(1 - axis_i^2) along axis i.
     const auto rim = [&](double height) {

@@ -11,6 +11,7 @@
 #include "raytrace/math/ray.h"
 #include "raytrace/shapes/cylinder.h"
 #include "raytrace/shapes/frustum.h"
+#include "raytrace/shapes/light_patch.h"
 
 namespace raytrace {
 
@@ -28,6 +29,9 @@ class Kernel<Cylinder> {
     T caps;  ///< 1 if it has any, else 0
   };
   static Record<double> record(const Parameters& parameters);
+  static void add_patches(const Record<double>& cylinder, std::vector<LightPatch>& patches) {
+    add_frustum_patches({cylinder.bottom, cylinder.axis, cylinder.height, cylinder.radius, 0, cylinder.caps}, patches);
+  }
   static Bounds bounds(const Record<double>& cylinder);
   static double bounding_radius(const Record<double>& cylinder);
 

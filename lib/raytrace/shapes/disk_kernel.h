@@ -10,6 +10,7 @@
 #include "raytrace/math/ray.h"
 #include "raytrace/math/surface_uv.h"
 #include "raytrace/shapes/disk.h"
+#include "raytrace/shapes/light_patch.h"
 
 namespace raytrace {
 
@@ -25,6 +26,9 @@ class Kernel<Disk> {
     T radius;
   };
   static Record<double> record(const Parameters& parameters);
+  static void add_patches(const Record<double>& disk, std::vector<LightPatch>& patches) {
+    patches.push_back({PatchShape::band, disk.center, disk.normal, {disk.radius, 0, 0}});
+  }
   static Bounds bounds(const Record<double>& disk);
   static double bounding_radius(const Record<double>& disk);
 

@@ -7,6 +7,7 @@
 #include "raytrace/math/ray.h"
 #include "raytrace/math/simd.h"
 #include "raytrace/math/surface_uv.h"
+#include "raytrace/shapes/light_patch.h"
 
 namespace raytrace {
 
@@ -20,6 +21,15 @@ struct Frustum {
   N widening;  ///< of the radius, per unit of height
   N caps;      ///< 1 if it has any, else 0
 };
+
+inline void add_frustum_patches(const Frustum<double>& frustum, std::vector<LightPatch>& patches) {
+  const auto& [bottom, axis, height, radius, widening, caps] = frustum;
+  const double top_radius = radius + widening * height;
+  patches.push_back({PatchShape::band, bottom, axis, {radius, top_radius, height}});
+  if (caps == 0) return;
+  if (radius > 0) patches.push_back({PatchShape::band, bottom, axis, {0, radius, 0}});
+  if (top_radius > 0) patches.push_back({PatchShape::band, bottom + axis * height, axis, {top_radius, 0, 0}});
+}
 
 /// A ray and a frustum: along the axis, and across it, where the frustum is a circle of a radius that changes with the
 /// height. D: doubles.
@@ -118,8 +128,9 @@ struct FrustumRay {
     const D y = select(on_cap, end, min(max(foot, zero), frustum.height));
     const D r = select(on_cap, min(rho, radius_at(end)), radius_at(y));
     const Vec3<D> side_normal = normalize(out - frustum.axis * frustum.widening);  // at the tip, along the axis
+    const Vec3<D> cap_normal = select(end > zero, frustum.axis, -frustum.axis);
     const Vec3<F> position = to_float(frustum.bottom + frustum.axis * y + out * r);
-    return {position, to_float(select(on_cap, frustum.axis, side_normal)), rounding_error(position, F(0))};
+    return {position, to_float(select(on_cap, cap_normal, side_normal)), rounding_error(position, F(0))};
   }
 };
 

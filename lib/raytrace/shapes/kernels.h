@@ -8,8 +8,12 @@
 //   template <class F> static F intersect(const Record<...>&, const Ray<F>&, const Mask<F>& active);
 //   template <class F> static Mask<F> occludes(const Record<...>&, const Ray<F>&, const Mask<F>& active);   perhaps
 //   template <class F> static SurfacePoint<F> surface(const Record<Wide>&, const Ray<F>&, const F& distance);
+//     of a closed shape with its normal outwards
 //   template <class F> static SurfaceUv<F> uv(const Record<Wide>&, const Vec3<F>& position, const Vec3<F>& normal);
 //     the texture coordinates at a position that surface() gave; the normal may have been turned round
+//   static void add_patches(const Record<...>&, std::vector<LightPatch>&);   perhaps: what light is drawn from, where
+//   an
+//     object shines; else its light is met by rays that go there of themselves
 // A Record that is no template is of a shape whose objects are few: surface() then takes one of them.
 #pragma once
 

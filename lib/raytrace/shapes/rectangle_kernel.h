@@ -9,6 +9,7 @@
 #include "raytrace/math/kernel.h"
 #include "raytrace/math/ray.h"
 #include "raytrace/math/surface_uv.h"
+#include "raytrace/shapes/light_patch.h"
 #include "raytrace/shapes/rectangle.h"
 
 namespace raytrace {
@@ -34,6 +35,10 @@ class Kernel<Rectangle> {
     return {parameters.corner, normalize(normal), cross(b, normal) * (1 / area2), cross(normal, a) * (1 / area2)};
   }
 
+  static void add_patches(const Record<double>& rectangle, std::vector<LightPatch>& patches) {
+    const Edges<double> edges(rectangle);
+    patches.push_back({PatchShape::parallelogram, rectangle.corner, edges.first, edges.second});
+  }
   static Bounds bounds(const Record<double>& rectangle) {
     const Edges<double> edges(rectangle);
     const auto reach = [](double a, double b) { return (std::abs(a) + std::abs(b)) / 2; };

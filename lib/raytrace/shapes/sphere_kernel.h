@@ -13,6 +13,7 @@
 #include "raytrace/math/kernel.h"
 #include "raytrace/math/ray.h"
 #include "raytrace/math/surface_uv.h"
+#include "raytrace/shapes/light_patch.h"
 #include "raytrace/shapes/sphere.h"
 
 namespace raytrace {
@@ -29,6 +30,9 @@ class Kernel<Sphere> {
     T radius;
   };
   static Record<float> record(const Parameters& parameters);
+  static void add_patches(const Record<float>& sphere, std::vector<LightPatch>& patches) {
+    patches.push_back({PatchShape::sphere, Vec3d(sphere.center), {sphere.radius, 0, 0}, {0, 0, 0}});
+  }
   static Bounds bounds(const Record<float>& sphere);
   static double bounding_radius(const Record<float>& sphere);
   static constexpr bool is_its_bounding_sphere = true;  ///< so that nothing is seen through it

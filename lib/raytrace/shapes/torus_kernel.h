@@ -9,6 +9,7 @@
 #include "raytrace/math/kernel.h"
 #include "raytrace/math/ray.h"
 #include "raytrace/math/surface_uv.h"
+#include "raytrace/shapes/light_patch.h"
 #include "raytrace/shapes/torus.h"
 #include "raytrace/shapes/torus_ray.h"
 
@@ -26,6 +27,9 @@ class Kernel<Torus> {
     T swept, tube;
   };
   static Record<double> record(const Parameters& parameters);
+  static void add_patches(const Record<double>& torus, std::vector<LightPatch>& patches) {
+    patches.push_back({PatchShape::torus, torus.center, torus.axis, {torus.swept, torus.tube, 0}});
+  }
   static Bounds bounds(const Record<double>& torus);
   static double bounding_radius(const Record<double>& torus);
 

@@ -12,6 +12,7 @@
 #include "raytrace/math/ray.h"
 #include "raytrace/math/simd.h"
 #include "raytrace/math/surface_uv.h"
+#include "raytrace/shapes/light_patch.h"
 #include "raytrace/shapes/triangle.h"
 
 namespace raytrace {
@@ -27,6 +28,11 @@ class Kernel<Triangle> {
     Vec3<T> vertex1, vertex2, vertex3;
   };
   static Record<float> record(const Parameters& parameters);
+  static void add_patches(const Record<float>& triangle, std::vector<LightPatch>& patches) {
+    const Vec3d corner(triangle.vertex1);
+    patches.push_back(
+        {PatchShape::triangle, corner, Vec3d(triangle.vertex2) - corner, Vec3d(triangle.vertex3) - corner});
+  }
   static Bounds bounds(const Record<float>& triangle);
 
   /// The distance inside (ray.near, ray.far) in each lane of `active`, infinity elsewhere, and the barycentric

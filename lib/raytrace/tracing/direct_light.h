@@ -45,8 +45,6 @@ RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const Hits& h
   std::array<IncidentLight, lights_per_run> incident;
   std::size_t count = 0;
   Rgb<FloatN> radiance{Rgb<float>(0, 0, 0)};
-  if (tables.has_emission()) [[unlikely]]
-    radiance = tables.emitted(hits, surface, textures);
   Rgb<float> ambient = tables.ambient_radiance();
   const auto shade_run = [&] {
     radiance += tables.shade(hits, surface, ambient, {incident.data(), count}, textures);

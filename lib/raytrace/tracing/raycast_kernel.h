@@ -46,8 +46,10 @@ inline RayResult Kernel<Raycast>::radiance(const TracedScene& scene, const Rgb<f
   const auto keys = [&](std::size_t light) {
     return ray_keys(camera.pixel, camera.sample, static_cast<std::uint32_t>(light + 1));
   };
-  const Rgb<FloatN> radiance =
+  Rgb<FloatN> radiance =
       direct_light(scene, hits, surface, textures ? &*textures : nullptr, Coherence::coherent, counted, counts, keys);
+  if (tables.has_emission()) [[unlikely]]
+    radiance += tables.emitted(hits, surface, textures ? &*textures : nullptr);
   return {select(hits.hit, radiance, Rgb<FloatN>(background)), hits.hit};
 }
 

@@ -1,0 +1,277 @@
+#include "raytrace/scene/emitter_table.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+namespace raytrace {
+
+namespace {
+
+/// Beyond so many patches, further ones are left to the rays that meet them.
+constexpr std::size_t most_patches = std::size_t{1} << 24;
+
+bool is_flat(const LightPatch& patch) {
+  return patch.shape == PatchShape::parallelogram || patch.shape == PatchShape::triangle;
+}
+
+/// The patch under a map of that scale; none if it is no patch any more.
+std::optional<LightPatch> transformed(const LightPatch& patch, const Affine& affine, double scale) {
+  if (is_flat(patch)) {
+    LightPatch result{patch.shape, affine.point(patch.origin), affine.vector(patch.a), affine.vector(patch.b)};
+    if (affine.determinant() < 0) std::swap(result.a, result.b);  // its front stays
+    return result;
+  }
+  if (scale == 0) return std::nullopt;
+  const Vec3d origin = affine.point(patch.origin);
+  if (patch.shape == PatchShape::sphere) return LightPatch{patch.shape, origin, patch.a * scale, patch.b};
+  return LightPatch{patch.shape, origin, normalize(affine.vector(patch.a)), patch.b * scale};
+}
+
+double area_of(const LightPatch& patch) {
+  constexpr double pi = std::numbers::pi;
+  const Vec3d& sizes = patch.b;
+  switch (patch.shape) {
+    case PatchShape::parallelogram:
+      return length(cross(patch.a, patch.b));
+    case PatchShape::triangle:
+      return length(cross(patch.a, patch.b)) / 2;
+    case PatchShape::sphere:
+      return 4 * pi * patch.a.x * patch.a.x;
+    case PatchShape::band:
+      return pi * (sizes.x + sizes.y) * std::hypot(sizes.y - sizes.x, sizes.z);
+    case PatchShape::torus:
+      return 4 * pi * pi * sizes.x * sizes.y;
+  }
+  return 0;
+}
+
+Bounds box_of(const LightPatch& patch) {
+  const auto around = [](const Vec3d& center, double reach) { return bounds_around(center, {reach, reach, reach}); };
+  const Vec3d &a = patch.a, &b = patch.b;
+  if (patch.shape == PatchShape::sphere) return around(patch.origin, a.x);
+  if (patch.shape == PatchShape::torus) return around(patch.origin, b.x + b.y);
+  const auto ring = [&](double height, double radius) {
+    const auto reach = [&](double axis_i) { return radius * std::sqrt(std::max(0.0, 1 - axis_i * axis_i)); };
+    return bounds_around(patch.origin + a * height, {reach(a.x), reach(a.y), reach(a.z)});
+  };
+  if (patch.shape == PatchShape::band) return join(ring(0, b.x), ring(b.z, b.y));
+  const Bounds three = join(join(around(patch.origin, 0), around(patch.origin + a, 0)), around(patch.origin + b, 0));
+  return patch.shape == PatchShape::triangle ? three : join(three, around(patch.origin + a + b, 0));
+}
+
+LightEmission emission_of(const LightPatch& patch, const MaterialEmission& material) {
+  LightEmission emission{box_of(patch)};
+  emission.power = static_cast<float>(area_of(patch) * static_cast<double>(material.radiance));
+  std::optional<Vec3d> axis;
+  if (is_flat(patch)) axis = cross(patch.a, patch.b);
+  if (patch.shape == PatchShape::band && patch.b.z == 0) axis = patch.a * (patch.b.x - patch.b.y);
+  if (axis && length(*axis) > 0 && !material.two_sided) {
+    emission.axis = Vec3f(normalize(*axis));
+  } else {
+    emission.cosine = -1;
+  }
+  if (material.two_sided) emission.power *= 2;
+  return emission;
+}
+
+/// How far p is from the surface that the patch is a piece of.
+float distance_to(const PatchRecord<float>& patch, const Vec3f& p) {
+  const Vec3f from = p - patch.origin;
+  if (patch.shape != static_cast<float>(PatchShape::band)) {
+    const Vec3f across = cross(patch.a, patch.b);
+    return std::abs(dot(from, across)) / length(across);
+  }
+  const float height = dot(from, patch.a), radius = length(from - patch.a * height), rise = patch.b.y - patch.b.x;
+  return std::abs((radius - patch.b.x) * patch.b.z - height * rise) / std::hypot(rise, patch.b.z);
+}
+
+std::uint32_t place_of(std::uint32_t instance) {
+  return instance == 0 ? 0 : static_cast<std::uint32_t>(InstanceTable::index_of(instance)) + 1;
+}
+
+Affine to_double(const AffineRecord<float>& affine) {
+  return {Vec3d(affine.x), Vec3d(affine.y), Vec3d(affine.z), Vec3d(affine.origin)};
+}
+
+}  // namespace
+
+EmitterTable::EmitterTable(const GeometryTable& world, std::span<const MaterialEmission> materials,
+                           LightSampling sampling) {
+  const auto shines = [](const MaterialEmission& material) { return material.radiance > 0; };
+  if (std::none_of(materials.begin(), materials.end(), shines)) return;
+  std::vector<LightEmission> emissions;
+  add_table(world, {}, materials, emissions);
+  const InstanceTable& instances = world.instances();
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    const InstanceTarget& target = instances.target(i);
+    const GeometryTable& table =
+        target.group == InstanceTarget::no_group ? world : *world.groups()[static_cast<std::size_t>(target.group)];
+    const Setting setting{instances.number(i), instances.materials()[i], to_double(instances.world_from_object(i)),
+                          static_cast<double>(instances.scale(i))};
+    if (setting.material >= 0 && !shines(materials[static_cast<std::size_t>(setting.material)])) continue;
+    if (!target.is_shape) {
+      add_table(table, setting, materials, emissions);
+      continue;
+    }
+    const auto primitive = static_cast<std::int32_t>(target.primitive);
+    add_geometry(table, target.shape_type, {primitive, primitive + 1}, setting, materials, emissions);
+  }
+  tree_ = LightTree(emissions, sampling);
+}
+
+void EmitterTable::add_table(const GeometryTable& table, const Setting& setting,
+                             std::span<const MaterialEmission> materials, std::vector<LightEmission>& emissions) {
+  for (std::uint32_t i = 0; i < table.geometries().size(); ++i)
+    add_geometry(table, i, {0, static_cast<std::int32_t>(table.geometry(i).primitives)}, setting, materials, emissions);
+}
+
+void EmitterTable::add_geometry(const GeometryTable& table, std::uint32_t geometry, Primitives primitives,
+                                const Setting& setting, std::span<const MaterialEmission> materials,
+                                std::vector<LightEmission>& emissions) {
+  const bool is_single = primitives.last - primitives.first == 1 && setting.instance != 0;
+  const MeshTable* const mesh = table.geometry(geometry).mesh;
+  Range range{setting.instance,
+              geometry,
+              {},
+              static_cast<std::int32_t>(patches_.size()),
+              0,
+              mesh != nullptr,
+              setting.world_from_object.determinant() < 0};
+  std::vector<LightPatch> patches;
+  const auto add = [&](std::int32_t primitive) {
+    const std::int32_t number = setting.material >= 0
+                                    ? setting.material
+                                    : table.material_of(0, geometry, static_cast<std::uint32_t>(primitive));
+    const MaterialEmission& material = materials[static_cast<std::size_t>(number)];
+    if (!(material.radiance > 0)) return;
+    patches.clear();
+    if (mesh != nullptr) {
+      for (const bool second : {false, true})
+        if (!second || mesh->corners() == 4)
+          Kernel<Triangle>::add_patches(mesh->triangle(static_cast<std::size_t>(primitive), second), patches);
+    } else {
+      with_type(Shapes{}, geometry, [&]<class Shape>(std::type_identity<Shape>) {
+        const auto& shapes = table.table<Shape>();
+        const auto i = static_cast<std::size_t>(primitive);
+        if constexpr (requires { Kernel<Shape>::add_patches(shapes.records[i], patches); })
+          if (is_single || !shapes.is_instanced(i)) Kernel<Shape>::add_patches(shapes.records[i], patches);
+      });
+    }
+    for (LightPatch& patch : patches) {
+      if (setting.instance == 0) continue;
+      const auto moved = transformed(patch, setting.world_from_object, setting.scale);
+      if (!moved) return;
+      patch = *moved;
+    }
+    // Primitives of one geometry have equally many, but for caps: ranges are of equals.
+    const auto count = static_cast<std::int32_t>(patches.size());
+    if (count == 0 || patches_.size() + patches.size() > most_patches) return;
+    if (count != range.patches_each) {
+      if (!range.primitives.empty()) ranges_.push_back(range);
+      range.primitives.clear();
+      range.first_patch = static_cast<std::int32_t>(patches_.size());
+      range.patches_each = count;
+    }
+    range.primitives.push_back(primitive);
+    for (const LightPatch& patch : patches) {
+      patches_.push_back({static_cast<float>(patch.shape), Vec3f(patch.origin), Vec3f(patch.a), Vec3f(patch.b),
+                          static_cast<float>(number), setting.instance == 0 ? 1.0F : 32.0F});
+      emissions.push_back(emission_of(patch, material));
+    }
+  };
+  for (std::int32_t i = primitives.first; i < primitives.last; ++i) add(i);
+  if (!range.primitives.empty()) ranges_.push_back(range);
+}
+
+EmitterTable::Sample EmitterTable::sample(const Vec3<FloatN>& p, const Vec3<FloatN>& normal, const FloatN& u,
+                                          const FloatN& u1, const FloatN& u2) const {
+  const LightTree::Choice choice = tree_.sample(p, normal, u);
+  const auto patch = gather_records<PatchRecord, FloatN>(patches_.data(), LaneIndices(choice.light));
+  Sample sample{sample_patch(patch, p, u1, u2), to_int(patch.material), choice.light};
+  sample.point.pdf = sample.point.pdf * choice.probability;
+  return sample;
+}
+
+std::int32_t EmitterTable::patch_of(const Hits& hits, std::size_t lane, const Vec3f& p) const {
+  const std::uint32_t instance = hits.instance.get(lane), geometry = hits.geometry.get(lane);
+  const std::int32_t primitive = hits.primitive.get(lane);
+  const std::uint32_t place = place_of(instance);
+  const auto key = [](const Range& range) {
+    return std::tuple(place_of(range.instance), range.geometry, range.primitives.back());
+  };
+  const std::tuple wanted(place, geometry, primitive);
+  const auto range = std::lower_bound(ranges_.begin(), ranges_.end(), wanted,
+                                      [&](const Range& a, const auto& b) { return key(a) < b; });
+  if (range == ranges_.end() || place_of(range->instance) != place || range->geometry != geometry) return -1;
+  const auto& primitives = range->primitives;
+  const auto found = std::lower_bound(primitives.begin(), primitives.end(), primitive);
+  if (found == primitives.end() || *found != primitive) return -1;
+  const std::int32_t first =
+      range->first_patch + static_cast<std::int32_t>(found - primitives.begin()) * range->patches_each;
+  if (range->is_mesh) return first + (range->patches_each == 2 && hits.u.get(lane) + hits.v.get(lane) > 1 ? 1 : 0);
+  std::int32_t nearest = first;
+  for (std::int32_t i = first + 1; i < first + range->patches_each; ++i)
+    if (distance_to(patches_[static_cast<std::size_t>(i)], p) <
+        distance_to(patches_[static_cast<std::size_t>(nearest)], p))
+      nearest = i;
+  return nearest;
+}
+
+FloatN EmitterTable::pdf(const Vec3<FloatN>& from, const Vec3<FloatN>& from_normal, const Hits& hits,
+                         const MaskN& lanes, const SurfaceInteraction<FloatN>& surface) const {
+  alignas(64) std::array<std::int32_t, packet_lanes> patches;
+  patches.fill(-1);
+  for (std::uint32_t left = bits_of<FloatN>(lanes); left != 0; left &= left - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+    patches[lane] = patch_of(hits, lane, {surface.p.x.get(lane), surface.p.y.get(lane), surface.p.z.get(lane)});
+  }
+  const IntN patch = IntN::load_aligned(patches.data());
+  const MaskN drawn = float_mask<FloatN>(patch >= IntN(0));
+  if (none(drawn)) return FloatN(0);
+  const IntN existing = select_lanes(drawn, patch, IntN(0));
+  const auto record = gather_records<PatchRecord, FloatN>(patches_.data(), LaneIndices(existing));
+  const FloatN density =
+      tree_.probability(from, from_normal, existing) * patch_pdf(record, from, surface.p, surface.ng);
+  return select(drawn, density, FloatN(0));
+}
+
+Hits EmitterTable::hits(const Sample& sample, const MaskN& lanes) const {
+  alignas(64) std::array<std::uint32_t, packet_lanes> instance{}, geometry{};
+  alignas(64) std::array<std::int32_t, packet_lanes> primitive{};
+  alignas(64) std::array<float, packet_lanes> u{}, v{};
+  sample.point.u.store_aligned(u.data());
+  sample.point.v.store_aligned(v.data());
+  for (std::uint32_t left = bits_of<FloatN>(lanes); left != 0; left &= left - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+    const std::int32_t patch = sample.patch.get(lane);
+    const Range& range =
+        *std::prev(std::upper_bound(ranges_.begin(), ranges_.end(), patch,
+                                    [](std::int32_t i, const Range& other) { return i < other.first_patch; }));
+    const std::int32_t offset = patch - range.first_patch;
+    instance[lane] = range.instance;
+    geometry[lane] = range.geometry;
+    primitive[lane] = range.primitives[static_cast<std::size_t>(offset / range.patches_each)];
+    if (range.is_mirrored) std::swap(u[lane], v[lane]);
+    if (!range.is_mesh || offset % range.patches_each == 0) continue;
+    u[lane] = 1 - u[lane];
+    v[lane] = 1 - v[lane];
+  }
+  Hits hits;
+  hits.hit = lanes;
+  hits.instance = UintN::load_aligned(instance.data());
+  hits.geometry = UintN::load_aligned(geometry.data());
+  hits.primitive = IntN::load_aligned(primitive.data());
+  hits.u = FloatN::load_aligned(u.data());
+  hits.v = FloatN::load_aligned(v.data());
+  hits.find_first();
+  return hits;
+}
+
+}  // namespace raytrace
