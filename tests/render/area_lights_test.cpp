@@ -1,0 +1,226 @@
+// Light drawn from shining surfaces: against closed forms, and against paths that meet them by chance.
+#include <cmath>
+#include <string>
+
+#include "render/scenes.h"
+#include "support/catch.h"
+#include "support/usable_isas.h"
+
+namespace raytrace::test {
+
+namespace {
+
+constexpr double pi = 3.14159265358979;
+
+struct Lamp {
+  const char* name;
+  const char* objects;
+};
+
+/// One of each shape that shines, within 1 of the origin; instances of them, too.
+const Lamp lamps[] = {
+    {"sphere", "<spheres><sphere><center x='0' y='0.2' z='0'/><radius>0.4</radius>M</sphere></spheres>"},
+    {"triangle",
+     "<triangles><triangle><vertexposition1 x='-0.5' y='0' z='0'/><vertexposition2 x='0' y='0.1' z='0.6'/>"
+     "<vertexposition3 x='0.5' y='0.2' z='-0.2'/>M</triangle></triangles>"},
+    {"rectangle",
+     "<rectangles><rectangle><corner x='-0.5' y='0.2' z='-0.3'/><edge1 x='1' y='0' z='0'/>"
+     "<edge2 x='0.2' y='0.1' z='0.6'/>M</rectangle></rectangles>"},
+    {"box", "<boxes><box><min x='-0.4' y='0' z='-0.2'/><max x='0.2' y='0.3' z='0.5'/>M</box></boxes>"},
+    {"disk",
+     "<disks><disk><center x='0' y='0.1' z='0'/><normal x='0.3' y='-1' z='0'/><radius>0.5</radius>M</disk>"
+     "</disks>"},
+    {"annulus",
+     "<annuli><annulus><center x='0' y='0.1' z='0'/><normal x='0.3' y='-1' z='0'/>"
+     "<innerradius>0.3</innerradius><outerradius>0.6</outerradius>M</annulus></annuli>"},
+    {"cylinder",
+     "<cylinders><cylinder><bottom x='-0.4' y='0' z='0'/><top x='0.4' y='0.1' z='0.2'/>"
+     "<radius>0.2</radius><caps>true</caps>M</cylinder></cylinders>"},
+    {"cone",
+     "<cones><cone><bottom x='0' y='-0.2' z='0'/><top x='0.1' y='0.4' z='0'/><radius>0.4</radius>"
+     "<topradius>0.1</topradius><caps>true</caps>M</cone></cones>"},
+    {"torus",
+     "<toruses><torus><center x='0' y='0.1' z='0'/><axis x='0.2' y='1' z='0'/><sweptradius>0.4</sweptradius>"
+     "<tuberadius>0.15</tuberadius>M</torus></toruses>"},
+    {"mesh of quads",
+     "<meshes><mesh><positions>-0.5 0.2 -0.5  0.5 0.2 -0.5  0.5 0.3 0.5  -0.5 0 0.4</positions>"
+     "<faces>0 1 2 3</faces>M</mesh></meshes>"},
+    {"mirrored box",
+     "<boxes><box><min x='-0.4' y='0' z='-0.2'/><max x='0.2' y='0.3' z='0.5'/>M<transform>"
+     "<scale x='-1' y='0.5' z='1'/><rotate x='0' y='0' z='1' angle='20'/></transform></box></boxes>"},
+    {"flattened sphere",
+     "<spheres><sphere><center x='0' y='0' z='0'/><radius>0.5</radius>M<transform>"
+     "<scale x='1' y='0.4' z='1'/></transform></sphere></spheres>"},
+};
+
+/// A grey room's corner about the lamp. emissive: more of the lamp's material.
+std::string room(std::string objects, const std::string& emissive, int samples, const std::string& integrator) {
+  for (std::size_t at = 0; (at = objects.find('M', at)) != std::string::npos;)
+    objects.replace(at, 1, "<material>lamp</material>");
+  return "<raytracer><viewplane><hres>8</hres><vres>8</vres><samples>" + std::to_string(samples) +
+         "</samples></viewplane><camera><eye x='0' y='1' z='4'/><lookat x='0' y='-0.4' z='0'/><fov>50</fov></camera>"
+         "<integrator><path><maxdepth>2</maxdepth>" +
+         integrator +
+         "</path></integrator><materials><mattes><matte><name>grey</name><ka>0</ka><kd>0.6</kd>"
+         "<cd red='1' green='1' blue='1'/></matte></mattes><emissives><emissive><name>lamp</name>"
+         "<ce red='1' green='1' blue='1'/><scaleradiance>2</scaleradiance>" +
+         emissive +
+         "</emissive></emissives></materials><objects><planes><plane><point x='0' y='-1' z='0'/>"
+         "<normal x='0' y='1' z='0'/><material>grey</material></plane><plane><point x='0' y='0' z='-1.5'/>"
+         "<normal x='0' y='0' z='1'/><material>grey</material></plane></planes>" +
+         objects + "</objects></raytracer>";
+}
+
+double mean(const FloatPicture& picture) {
+  double sum = 0;
+  for (const Pixel& pixel : picture.pixels()) sum += double{pixel.green};
+  return sum / static_cast<double>(picture.pixels().size());
+}
+
+}  // namespace
+
+TEST_CASE("drawn light is as bright as light that paths meet by chance") {
+  for (const Lamp& lamp : lamps) {
+    const bool two_sided = std::string(lamp.name) == "triangle" || std::string(lamp.name) == "rectangle";
+    const std::string sides = two_sided ? "<twosided>true</twosided>" : "";
+    // Rays pass a surface of some opacity, so no light is drawn from it: of one in so many millions.
+    const double by_chance =
+        mean(rendered(parsed_scene(room(lamp.objects, sides + "<opacity>0.9999999</opacity>", 4096, "")), 2));
+    for (const std::string sampling : {"tree", "uniform"}) {
+      const double drawn = mean(
+          rendered(parsed_scene(room(lamp.objects, sides, 256, "<lightsampling>" + sampling + "</lightsampling>")), 2));
+      INFO(lamp.name << ", " << sampling << ": " << drawn << ", by chance " << by_chance);
+      CHECK(by_chance > 0.01);
+      CHECK(std::abs(drawn / by_chance - 1) < 0.02);
+    }
+  }
+}
+
+TEST_CASE("a lamp in the middle of a sphere gives its closed form") {
+  // The wall gets pi L (r/R)^2, and what it sends on but for the share that the lamp catches.
+  const double radius = 0.25, albedo = 0.5, form = 1 - radius * radius;
+  const double wanted = albedo * 4 * radius * radius / (1 - albedo * form);
+  const std::string scene =
+      "<raytracer><viewplane><hres>6</hres><vres>6</vres><samples>256</samples></viewplane><camera>"
+      "<eye x='0' y='0' z='0.6'/><lookat x='0' y='0' z='2'/><fov>60</fov></camera><integrator><path>"
+      "<maxdepth>32</maxdepth></path></integrator><materials><mattes><matte><name>m</name><ka>0</ka><kd>0.5</kd>"
+      "<cd red='1' green='1' blue='1'/></matte></mattes><emissives><emissive><name>lamp</name>"
+      "<ce red='4' green='4' blue='4'/></emissive></emissives></materials><objects><spheres><sphere>"
+      "<center x='0' y='0' z='0'/><radius>1</radius><material>m</material></sphere><sphere>"
+      "<center x='0' y='0' z='0'/><radius>0.25</radius><material>lamp</material></sphere></spheres></objects>"
+      "</raytracer>";
+  for (const std::string& isa : usable_isas()) {
+    const double drawn = mean(rendered(parsed_scene(scene), 2, isa));
+    INFO(isa << " " << drawn << " for " << wanted);
+    CHECK(std::abs(drawn / wanted - 1) < 0.005);
+  }
+}
+
+TEST_CASE("a floor far below a small lamp is lit as by a point") {
+  // A disk of area A and radiance L, straight above: E = L A / d^2.
+  const double distance = 200, radius = 0.5;
+  std::string scene = room(
+      "<disks><disk><center x='0' y='199' z='0'/><normal x='0' y='-1' z='0'/><radius>0.5</radius>M"
+      "</disk></disks>",
+      "", 16, "");
+  const std::string camera = "<eye x='0' y='1' z='4'/><lookat x='0' y='-0.4' z='0'/><fov>50</fov>";
+  scene.replace(scene.find(camera), camera.size(),
+                "<eye x='0' y='0' z='0.1'/><lookat x='0' y='-1' z='0'/><fov>2</fov>");
+  scene.replace(scene.find("<maxdepth>2"), 11, "<maxdepth>1");
+  const double wanted = 0.6 / pi * 2 * pi * radius * radius / (distance * distance);
+  CHECK(std::abs(mean(rendered(parsed_scene(scene))) / wanted - 1) < 1e-3);
+}
+
+TEST_CASE("a lamp cut into many triangles is as bright as one") {
+  std::string triangles = "<meshes><mesh><positions>";
+  constexpr int cuts = 30;
+  for (int y = 0; y <= cuts; ++y)
+    for (int x = 0; x <= cuts; ++x)
+      triangles += std::to_string(-0.5 + double(x) / cuts) + " 0.3 " + std::to_string(-0.5 + double(y) / cuts) + "  ";
+  triangles += "</positions><faces>";
+  const auto vertex = [](int x, int y) { return std::to_string(y * (cuts + 1) + x) + " "; };
+  for (int y = 0; y < cuts; ++y)
+    for (int x = 0; x < cuts; ++x)
+      triangles += vertex(x, y) + vertex(x + 1, y) + vertex(x, y + 1) + "\n" + vertex(x + 1, y) + vertex(x + 1, y + 1) +
+                   vertex(x, y + 1) + "\n";
+  triangles += "</faces>M</mesh></meshes>";
+  const double one = mean(
+      rendered(parsed_scene(room("<rectangles><rectangle><corner x='-0.5' y='0.3' z='-0.5'/><edge1 x='1' y='0' z='0'/>"
+                                 "<edge2 x='0' y='0' z='1'/>M</rectangle></rectangles>",
+                                 "", 256, "")),
+               2));
+  for (const std::string sampling : {"tree", "power", "uniform"}) {
+    const double many =
+        mean(rendered(parsed_scene(room(triangles, "", 256, "<lightsampling>" + sampling + "</lightsampling>")), 2));
+    INFO(sampling << ": " << many << ", one: " << one);
+    CHECK(std::abs(many / one - 1) < 0.01);
+  }
+}
+
+TEST_CASE("a lamp with a texture is as bright where it is drawn as where it is met") {
+  const auto bright = [](const std::string& more, int samples) {
+    std::string text = room(
+        "<rectangles><rectangle><corner x='-0.5' y='0.3' z='-0.5'/><edge1 x='1' y='0' z='0'/><edge2 x='0' y='0' z='1'/>"
+        "M</rectangle></rectangles>",
+        more, samples, "");
+    const std::string root = "<raytracer>", color = "<ce red='1' green='1' blue='1'/>";
+    text.insert(root.size(),
+                "<textures><checkers><checker><name>squares</name><color1 red='1' green='1' blue='1'/>"
+                "<color2 red='0' green='0' blue='0'/><uvscale x='3' y='3'/></checker></checkers></textures>");
+    text.replace(text.find(color), color.size(), "<ce red='1' green='1' blue='1' texture='squares'/>");
+    return mean(rendered(parsed_scene(text), 2));
+  };
+  const double drawn = bright("", 512), met = bright("<opacity>0.9999999</opacity>", 4096);
+  INFO(drawn << ", by chance " << met);
+  CHECK(std::abs(drawn / met - 1) < 0.02);
+}
+
+TEST_CASE("lamps in instances are drawn as lamps that stand there themselves") {
+  const std::string lamp =
+      "<spheres><sphere><center x='0.1' y='0' z='0'/><radius>0.2</radius>M T</sphere></spheres><boxes><box>"
+      "<min x='-0.5' y='-0.1' z='-0.1'/><max x='-0.3' y='0.1' z='0.2'/>M T</box></boxes>";
+  const std::string transform =
+      "<transform><rotate x='1' y='1' z='0' angle='40'/><scale x='1.2' y='1.2' z='1.2'/></transform>";
+  const auto with = [&](const std::string& instead) {
+    std::string objects = lamp;
+    for (std::size_t at = 0; (at = objects.find('T', at)) != std::string::npos; at += instead.size())
+      objects.replace(at, 1, instead);
+    return objects;
+  };
+  const double single = mean(rendered(parsed_scene(room(with(transform), "", 512, "")), 2));
+  std::string text = room("", "", 512, "");
+  std::string group = "<groups><group><name>g</name><objects>" + with("") + "</objects></group></groups>";
+  for (std::size_t at = 0; (at = group.find('M', at)) != std::string::npos;)
+    group.replace(at, 1, "<material>lamp</material>");
+  text.insert(text.find("<objects>"), group);
+  text.insert(text.rfind("</objects>"),
+              "<instances><instance><group>g</group>" + transform + "</instance></instances>");
+  const double instanced = mean(rendered(parsed_scene(text), 2));
+  INFO(instanced << ", single " << single);
+  CHECK(single > 0.01);
+  CHECK(std::abs(instanced / single - 1) < 0.02);
+}
+
+TEST_CASE("drawn light does not depend on threads, samples at once, or how the picture is cut") {
+  std::string all;
+  for (const Lamp& lamp : lamps) all += lamp.objects;
+  const SceneDescription description = parsed_scene(room(all, GENERATE("", "<twosided>true</twosided>"), 16, ""));
+  for (const std::string& isa : usable_isas()) {
+    INFO(isa);
+    const auto scene = build_scene(description, {1, isa});
+    const FloatPicture whole_picture = rendered(description, 1, isa);
+    CHECK(identical(rendered(description, 3, isa), whole_picture));
+    Film film(film_settings(*scene, description, {1, 0, whole(description)}), FilmContent::sums);
+    for (const std::uint32_t samples : {1U, 2U, 7U, 16U}) render(*scene, film, samples, 1);
+    CHECK(identical(film, whole_picture));
+    RayCounts rays;
+    const Region part{3, 2, 7, 6};
+    const FloatPicture cut = render(*scene, description, {1, 0, part}, rays);
+    int wrong = 0;
+    for (int y = part.y0; y < part.y1; ++y)
+      for (int x = part.x0; x < part.x1; ++x) wrong += !identical(cut.at(x, y), whole_picture.at(x, y));
+    CHECK(wrong == 0);
+  }
+}
+
+}  // namespace raytrace::test
