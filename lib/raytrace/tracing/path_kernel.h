@@ -103,7 +103,12 @@ class Kernel<Path> {
         hits = scene.accelerator().intersect(rays, alive, Coherence::incoherent);
       }
       const MaskN escaped = alive & !hits.hit;
-      indirect = indirect + select(escaped, throughput * Rgb<FloatN>(Rgb<float>(tables.viewplane().background)), black);
+      if (any(escaped)) {
+        const Rgb<FloatN> sky = tables.environment() != nullptr
+                                    ? tables.environment()->radiance(rays.direction)
+                                    : Rgb<FloatN>(Rgb<float>(tables.viewplane().background));
+        indirect = indirect + select(escaped, throughput * sky, black);
+      }
     }
     if (settings.clampindirect > 0) {
       const Rgb<FloatN> most(Rgb<float>(1, 1, 1) * static_cast<float>(settings.clampindirect));
