@@ -42,7 +42,7 @@ const std::string white_floor =
     "<materials><mattes><matte><name>m</name><ka>0</ka><kd>1</kd><cd red='1' green='1' blue='1'/></matte></mattes>"
     "</materials><objects><planes><plane><point x='0' y='0' z='0'/><normal x='0' y='1' z='0'/><material>m</material>"
     "</plane></planes></objects>";
-const std::string down = "<eye x='0' y='3' z='0.1'/><lookat x='0' y='0' z='0'/>";
+const std::string from_above = "<eye x='0' y='3' z='0.1'/><lookat x='0' y='0' z='0'/>";
 
 bool is_gray(const Pixel& pixel, double grey, double most) {
   return std::abs(pixel.red - grey) < most && std::abs(pixel.green - grey) < most && std::abs(pixel.blue - grey) < most;
@@ -62,7 +62,7 @@ TEST_CASE("a white matte sphere in an even environment cannot be seen") {
 }
 
 TEST_CASE("of an environment that is bright on one side, a floor gets half") {
-  SceneDescription scene = parsed_scene(in_environment(scene_text(8, 8, 256, white_floor, down)));
+  SceneDescription scene = parsed_scene(in_environment(scene_text(8, 8, 256, white_floor, from_above)));
   set_picture(scene, 16, 8, [](int x, int) { return x < 8 ? 1 : 0; });
   const FloatPicture picture = rendered(scene);
   double mean = 0;
@@ -98,6 +98,16 @@ TEST_CASE("the camera sees the background where an environment is not visible, a
   CHECK(hidden.at(0, 0).red == 0.1F);
   CHECK(hidden.at(0, 0).blue == 0.4F);
   CHECK(is_gray(hidden.at(6, 4), integrator == "path" ? 1 : 0, 1e-5));
+}
+
+TEST_CASE("a scene with an environment is rendered by paths, unless it says otherwise") {
+  const std::string text = in_environment(scene_text(12, 9, 4, white_sphere));
+  const auto by = [&](const std::string& integrator) {
+    std::string changed = text;
+    return rendered(changed.insert(changed.find("<viewplane>"), "<integrator><" + integrator + "/></integrator>"));
+  };
+  CHECK(identical(rendered(text), by("path")));
+  CHECK_FALSE(identical(rendered(text), by("raycast")));
 }
 
 TEST_CASE("a transparent picture has no environment, but its light") {

@@ -16,10 +16,13 @@ Vec3d rounded(const Vec3d& point) { return {std::round(point.x), std::round(poin
 
 /// Where the description leaves it open.
 IntegratorParameters default_integrator(const SceneDescription& description) {
-  if (std::get<MaterialItems<Emissive>>(description.materials).empty() &&
-      std::get<LightItems<EnvironmentLight>>(description.lights).empty())
-    return Raycast::Parameters{};
-  return Path::Parameters{};
+  const auto& suns = std::get<LightItems<DirectionalLight>>(description.lights);
+  const bool needs_path =
+      !std::get<MaterialItems<Emissive>>(description.materials).empty() ||
+      !std::get<LightItems<EnvironmentLight>>(description.lights).empty() ||
+      std::any_of(suns.begin(), suns.end(), [](const auto& sun) { return sun.parameters.angle > 0; });
+  if (needs_path) return Path::Parameters{};
+  return Raycast::Parameters{};
 }
 
 Vec3d origin_of(const CameraParameters& camera) {
@@ -95,7 +98,8 @@ void SceneTables::add_lights(const SceneDescription& description, int threads) {
           add_light_bounds(light, item.parameters, eye);
           lights_.push_back(std::make_unique<LightSourceOf<Kernel<Light>>>(light));
           light_origins_.emplace_back();
-          if (!light.shadows()) continue;
+          has_sampled_lights_ |= lights_.back()->takes_samples();
+          if (!light.shadows() || lights_.back()->takes_samples()) continue;
           if constexpr (requires { light.location(); }) light_origins_.back() = BufferOrigin{light.location()};
           if constexpr (requires { light.direction(); }) light_origins_.back() = BufferOrigin{light.direction(), true};
         }

@@ -73,6 +73,8 @@ class SceneTables {
   const Rgb<float>& ambient_radiance() const { return ambient_radiance_; }
   /// All others.
   const std::vector<std::unique_ptr<LightSource>>& lights() const { return lights_; }
+  /// Whether any of them takes_samples().
+  bool has_sampled_lights() const { return has_sampled_lights_; }
   /// For each of them, where its shadow rays go to; none if it has none, or they go to many places.
   const std::vector<std::optional<BufferOrigin>>& light_origins() const { return light_origins_; }
 
@@ -187,6 +189,7 @@ class SceneTables {
   std::optional<BufferOrigin> camera_origin_;
   Rgb<float> ambient_radiance_{0, 0, 0};
   LightBounds light_bounds_;
+  bool has_sampled_lights_ = false;
   std::optional<Environment> environment_;
   std::vector<std::unique_ptr<LightSource>> lights_;
   std::vector<std::optional<BufferOrigin>> light_origins_;

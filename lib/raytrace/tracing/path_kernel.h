@@ -60,12 +60,10 @@ class Kernel<Path> {
       // The numbers of keys: one for each ray of a point, the next point's own first.
       const auto rays_a_point = static_cast<std::uint32_t>(tables.lights().size()) + 1;
       const auto first_key = static_cast<std::uint32_t>(depth) * rays_a_point;
-      const auto keys = [&](std::size_t light) {
-        return ray_keys(camera.pixel, camera.sample, first_key + static_cast<std::uint32_t>(light) + 1);
-      };
+      const ShadowNumbers numbers{camera.pixel, camera.sample, first_key + 1};
       const Coherence coherence = depth == 0 ? Coherence::coherent : Coherence::incoherent;
       const Rgb<FloatN> light =
-          throughput * direct_light(scene, hits, surface, point, coherence, counted, counts, keys);
+          throughput * direct_light(scene, hits, surface, point, coherence, counted, counts, numbers);
       Rgb<FloatN>& sum = depth == 0 ? direct : indirect;
       sum = sum + select(hits.hit, light, black);
       if (depth + 1 == settings.maxdepth) break;

@@ -121,7 +121,8 @@ class BlockRenderer {
       } else {
         traced = active & set_camera_rays(block, FloatN(x), FloatN(y), Sample2D(point), UintN(sample), camera);
       }
-      if (Kernel<Integrator>::takes_samples || scene_.tables().has_cutouts()) [[unlikely]] {
+      if (Kernel<Integrator>::takes_samples || scene_.tables().has_cutouts() || scene_.tables().has_sampled_lights())
+          [[unlikely]] {
         camera.pixel = pixel_hash(UintN(column), UintN(row), film_.settings().seed);
         camera.sample = sample;
       }
