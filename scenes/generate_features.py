@@ -644,6 +644,92 @@ light(
 """,
 )
 
+
+
+def studio(x, y):
+    """256 x 128 pixels of longitude and latitude: three lamps in a grey room with a wooden floor."""
+    lamps = ((40, 80, 30, 56, (255, 214, 150)), (150, 206, 22, 50, (190, 220, 255)), (110, 122, 16, 60, (255, 120, 80)))
+    for left, right, top, bottom, color in lamps:
+        if left <= x < right and top <= y < bottom:
+            return color
+    if y >= 70:
+        return (58, 42, 30) if (x // 16 + (y - 70) // 8) % 2 else (50, 36, 26)
+    return tuple(24 + (70 - y) // shade for shade in (5, 4, 3))
+
+
+png("studio.png", 256, 128, studio)
+SOLO = ROOM.replace("<samples>16", "<samples>256")
+write(
+    "environment-light",
+    "A picture of a room with three lamps, all around.",
+    room=SOLO,
+    lights="""\
+  <lights>
+    <environmentlights>
+      <environmentlight>
+        <file>images/studio.png</file> <scaleradiance>3</scaleradiance>
+        <transform> <rotate x="0" y="1" z="0" angle="160"/> </transform>
+      </environmentlight>
+    </environmentlights>
+  </lights>
+""",
+    mattes="""\
+      <matte> <name>white</name> <ka>0</ka> <kd>0.8</kd> <cd red="1" green="1" blue="1"/> </matte>
+""",
+    phongs="""\
+      <phong>
+        <name>glossy</name> <ka>0</ka> <kd>0.5</kd> <ks>6</ks> <cd red="0.3" green="0.3" blue="0.35"/>
+        <cs red="1" green="1" blue="1"/> <exp>120</exp>
+      </phong>
+""",
+    floor="",
+    objects="""\
+    <disks>
+      <disk> <center x="0" y="0" z="0"/> <normal x="0" y="1" z="0"/> <radius>2.6</radius> <material>white</material> </disk>
+    </disks>
+    <spheres>
+      <sphere> <center x="-1" y="0.9" z="0"/> <radius>0.9</radius> <material>white</material> </sphere>
+      <sphere> <center x="1" y="0.9" z="0.2"/> <radius>0.9</radius> <material>glossy</material> </sphere>
+    </spheres>
+""",
+)
+write(
+    "environment-even",
+    "The same radiance from everywhere, as of an overcast sky: dark is what sees little of it.",
+    room=SOLO,
+    lights="""\
+  <lights>
+    <environmentlights> <environmentlight> <color red="0.8" green="0.9" blue="1"/> </environmentlight> </environmentlights>
+  </lights>
+""",
+)
+write(
+    "sun",
+    "A directional light of 6 degrees, and a blue sky: shadows are the softer the farther they fall.",
+    room=SOLO,
+    lights="""\
+  <lights>
+    <directionallights>
+      <directionallight>
+        <direction x="-1" y="0.7" z="0.5"/> <angle>6</angle>
+        <scaleradiance>2.6</scaleradiance> <color red="1" green="0.9" blue="0.7"/>
+      </directionallight>
+    </directionallights>
+    <environmentlights>
+      <environmentlight> <scaleradiance>0.5</scaleradiance> <color red="0.4" green="0.65" blue="1"/> </environmentlight>
+    </environmentlights>
+  </lights>
+""",
+    objects="""\
+    <cylinders>
+      <cylinder>
+        <bottom x="-0.6" y="0" z="0"/> <top x="-0.6" y="2.2" z="0"/> <radius>0.12</radius> <material>clay</material>
+      </cylinder>
+    </cylinders>
+    <spheres> <sphere> <center x="0.9" y="0.5" z="0.6"/> <radius>0.5</radius> <material>clay</material> </sphere> </spheres>
+""",
+)
+
 # Materials
 row = "".join(
     f'      <sphere> <center x="{x}" y="0.75" z="0"/> <radius>0.75</radius> <material>{name}</material> </sphere>\n'
@@ -873,11 +959,7 @@ write(
     **BOUNCES,
 )
 write("raycast", "The same by direct light alone.", room=SKY + "  <integrator> <raycast/> </integrator>\n", **BOUNCES)
-write(
-    "normals",
-    "Shading normals as colours: x is red, y green, z blue.",
-    room=ROOM + "  <integrator> <normals/> </integrator>\n",
-    objects="""\
+MODELS = """\
     <spheres> <sphere> <center x="-1.4" y="1" z="0"/> <radius>1</radius> <material>clay</material> </sphere> </spheres>
     <toruses>
       <torus>
@@ -885,5 +967,12 @@ write(
         <sweptradius>0.8</sweptradius> <tuberadius>0.3</tuberadius> <material>clay</material>
       </torus>
     </toruses>
-""",
-)
+"""
+for name, comment, element in (
+    ("normals", "Shading normals as colours: x is red, y green, z blue.", "<normals/>"),
+    ("ambient-occlusion", "How much of a white sky surfaces see.", "<ambientocclusion/>"),
+    ("albedo", "Colours without light.", "<albedo/>"),
+    ("uv", "Texture coordinates as colours: u is red, v green.", "<uv/>"),
+):
+    room = ROOM.replace("<samples>16", "<samples>256") if name == "ambient-occlusion" else ROOM
+    write(name, comment, room=f"{room}  <integrator> {element} </integrator>\n", objects=MODELS)

@@ -221,7 +221,8 @@ SceneDescription random_description(Random& random) {
     });
   }
   for_each_type(Lights{}, [&]<class T>(std::type_identity<T>) {
-    for (std::size_t i = below(random, T::group.empty() ? 2 : 8); i > 0; --i) {
+    constexpr bool only_one = T::group.empty() || std::is_same_v<T, EnvironmentLight>;
+    for (std::size_t i = below(random, only_one ? 2 : 8); i > 0; --i) {
       std::get<LightItems<T>>(scene.lights).push_back({random_parameters<T>(random)});
     }
   });

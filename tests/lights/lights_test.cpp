@@ -25,7 +25,7 @@ struct Arriving {
 Arriving arriving_at(const Vec3<FloatN>& points, const LightSource& light) {
   Arriving arriving;
   arriving.rays.origin = points;
-  light.sample(arriving.rays, arriving.radiance);
+  light.sample(arriving.rays, {FloatN(0.25F), FloatN(0.75F)}, arriving.radiance);
   return arriving;
 }
 
@@ -50,6 +50,36 @@ TEST_CASE("a directional light lies in the same direction from everywhere, infin
     for (std::size_t lane = 0; lane < lanes; ++lane)
       CHECK(length(normalize(lane_of(rays.direction, lane)) - Vec3d{3.0 / 13, -4.0 / 13, 12.0 / 13}) < 1e-6);
   }
+}
+
+TEST_CASE("a directional light with an angle comes from all of its disk, and sends as much in the mean") {
+  for (const double angle : {0.5, 30.0, 180.0}) {
+    const Kernel<DirectionalLight> light({.direction = {1, -2, 2}, .scaleradiance = 3, .angle = angle});
+    CHECK(light.takes_samples());
+    const Vec3d axis{1 / 3.0, -2 / 3.0, 2 / 3.0};
+    double lowest = 1, sum = 0, length_error = 0;
+    constexpr int steps = 64;
+    for (int i = 0; i < steps; ++i)
+      for (int j = 0; j < steps; j += packet_lanes) {
+        const FloatN u1((static_cast<float>(i) + 0.5F) / steps);
+        const FloatN u2 = batch_of<FloatN>([&](std::size_t lane) { return (j + double(lane) + 0.5) / steps; });
+        const LightSample<FloatN> sample = light.sample(positions, u1, u2);
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+          const Vec3d wi = lane_of(sample.to_light, lane);
+          const double cosine = dot(wi, axis);
+          lowest = std::min(lowest, cosine);
+          length_error = std::max(length_error, std::abs(length(wi) - 1));
+          sum += cosine * double{sample.radiance.green.get(lane)} / (steps * steps);
+        }
+      }
+    INFO(angle);
+    const double edge = std::cos(angle * std::numbers::pi / 360);
+    CHECK(lowest >= edge - 1e-6);
+    CHECK(1 - lowest > 0.98 * (1 - edge));
+    CHECK(length_error < 1e-6);
+    CHECK(sum == Approx(3).epsilon(1e-4));
+  }
+  CHECK_FALSE(Kernel<DirectionalLight>({.direction = {1, -2, 2}}).takes_samples());
 }
 
 TEST_CASE("a light's radiance is its color times its scale, and shadows are cast as it says") {

@@ -143,6 +143,38 @@ TEST_CASE("a scene's hash has its textures' bytes") {
   CHECK(hash_with(1) == first);
 }
 
+TEST_CASE("an environment's file is loaded, hashed and missed as a texture's is") {
+  const TemporaryFolder folder;
+  const std::string scene = scene_of("a.png"), root = "<raytracer>\n";
+  const auto in = [&](const std::string& file) {
+    std::string text = scene;
+    return text.insert(root.size(), "<lights><environmentlights>\n<environmentlight><file>" + file +
+                                        "</file></environmentlight></environmentlights></lights>");
+  };
+  write_picture<std::uint8_t>(folder.file("a.png"), 1, 1, 3, OIIO::TypeUInt8, {1, 2, 3});
+  const auto hash_with = [&](std::uint8_t grey) {
+    write_picture<std::uint8_t>(folder.file("b.png"), 1, 1, 1, OIIO::TypeUInt8, {grey});
+    return scene_hash(loaded(folder, in("b.png")));
+  };
+  const std::string first = hash_with(9);
+  CHECK(hash_with(10) != first);
+  CHECK(hash_with(9) == first);
+  const auto light = [](const SceneDescription& from) {
+    return std::get<LightItems<EnvironmentLight>>(from.lights).at(0);
+  };
+  CHECK(texel_of(*light(loaded(folder, in("b.png"))).image.color, 0, 0, 0, false)[0] == 9 / 255.0);
+
+  std::string messages;
+  CHECK_FALSE(loaded(folder, in("none.exr"), messages).has_value());
+  CHECK(contains(messages, "3: the environment '"));
+  CHECK(contains(messages, "none.exr' cannot be used: there is no such file"));
+  SceneSettings settings;
+  settings.missing_texture = MissingTexture::warn;
+  const auto magenta = loaded(folder, in("none.exr"), messages, settings);
+  REQUIRE(magenta.has_value());
+  CHECK(texel_of(*light(*magenta).image.color, 0, 0, 0, false) == Color4{1, 0, 1, 1});
+}
+
 TEST_CASE("images of one file share its texels") {
   const TemporaryFolder folder;
   write_picture<std::uint8_t>(folder.file("a.png"), 1, 1, 3, OIIO::TypeUInt8, {1, 2, 3});

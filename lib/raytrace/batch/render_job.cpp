@@ -91,6 +91,8 @@ void refuse_to_overwrite(const SceneDescription& description, const RenderJob& j
   };
   for (const auto& image : std::get<TextureItems<Image>>(description.textures))
     files.add({"a texture", image.parameters.file.path, false});
+  for (const auto& light : std::get<LightItems<EnvironmentLight>>(description.lights))
+    if (!light.parameters.file.path.empty()) files.add({"an environment", light.parameters.file.path, false});
   for (const IncludedFile& file : description.included) files.add({"an included scene", file.name, false});
   add_meshes(description.objects);
   for (const Group& group : description.groups) add_meshes(group.objects);

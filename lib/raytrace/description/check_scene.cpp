@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "raytrace/description/check_environment.h"
 #include "raytrace/description/check_groups.h"
 #include "raytrace/description/parse_value.h"
 #include "raytrace/description/read_fields.h"
@@ -25,8 +26,9 @@ class SceneChecker {
   explicit SceneChecker(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
   void check(const SceneDescription& scene) {
-    check_groups(scene,
-                 [&](SourceLocation location, const std::string& message) { diagnostics_.error(location, message); });
+    const auto report = [&](SourceLocation location, const std::string& m) { diagnostics_.error(location, m); };
+    check_groups(scene, report);
+    check_environment(scene, report);
     for (const Group& group : scene.groups) {
       line_ = group.line;
       item_ = {group_element, static_cast<std::size_t>(&group - scene.groups.data())};
@@ -51,8 +53,9 @@ class SceneChecker {
         line_ = item.line;
         if (T::group.empty() && i > 1) error("is a second one; a scene has one");
         check_labels<Section>(scene, item);
-        if constexpr (std::is_same_v<T, Image>)
-          if (item.image.hash.empty()) error("has a file that has not been loaded (load_images.h)");
+        if constexpr (requires { item.image; item.parameters.file; })
+          if (!item.parameters.file.path.empty() && item.image.hash.empty())
+            error("has a file that has not been loaded (load_images.h)");
         if constexpr (requires { item.textures; }) check_textured_fields(element_type<T>().fields, item.textures);
         check_parameters(element_type<T>(), &item.parameters, Section::may_skip);
       }

@@ -97,29 +97,36 @@ std::vector<std::array<bool, 2>> image_uses(const SceneDescription& scene) {
 }  // namespace
 
 bool load_images(SceneDescription& scene, Diagnostics& diagnostics, int threads, MissingTexture missing) {
-  auto& images = std::get<TextureItems<Image>>(scene.textures);
   diagnostics.add_files(scene.included);
-  const auto uses = image_uses(scene);
   ImageLoader loader(threads);
   bool fine = true;
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    TextureItem<Image>& item = images[i];
-    if (!item.image.hash.empty()) continue;
+  /// what: the image is for.
+  const auto load = [&](const char* what, const Image::Parameters& parameters, const std::array<bool, 2>& used,
+                        const std::string& name, std::uint32_t line, LoadedImage& image) {
+    const FileName& file = parameters.file;
+    if (!image.hash.empty()) return;
     try {
-      item.image = loader.load(item.parameters, item.image.bytes.get(), uses[i]);
+      image = loader.load(parameters, image.bytes.get(), used);
     } catch (const std::runtime_error& error) {
       const bool warns = missing == MissingTexture::warn;
       fine = fine && warns;
-      const FileName& file = item.parameters.file;
-      const std::string name = item.imported ? std::filesystem::path(file.path).filename().string() : file.path;
-      const SourceLocation location =
-          file.line > 0 ? SourceLocation{file.line, file.column} : SourceLocation{item.line, 0};
-      diagnostics.add(
-          warns ? Severity::warning : Severity::error, location,
-          "the texture " + in_quotes(name) + " cannot be used: " + error.what() + (warns ? "; it is magenta" : ""));
-      if (warns) item.image = {"missing", TexelImage::of_color(255, 0, 255), TexelImage::of_color(255, 0, 255)};
+      const SourceLocation location = file.line > 0 ? SourceLocation{file.line, file.column} : SourceLocation{line, 0};
+      diagnostics.add(warns ? Severity::warning : Severity::error, location,
+                      std::string("the ") + what + " " + in_quotes(name) + " cannot be used: " + error.what() +
+                          (warns ? "; it is magenta" : ""));
+      if (warns) image = {"missing", TexelImage::of_color(255, 0, 255), TexelImage::of_color(255, 0, 255)};
     }
+  };
+  const auto uses = image_uses(scene);
+  std::size_t i = 0;
+  for (TextureItem<Image>& item : std::get<TextureItems<Image>>(scene.textures)) {
+    const std::string& file = item.parameters.file.path;
+    const std::string name = item.imported ? std::filesystem::path(file).filename().string() : file;
+    load("texture", item.parameters, uses[i++], name, item.line, item.image);
   }
+  for (LightItem<EnvironmentLight>& item : std::get<LightItems<EnvironmentLight>>(scene.lights))
+    if (!item.parameters.file.path.empty())
+      load("environment", {item.parameters.file}, {true, false}, item.parameters.file.path, item.line, item.image);
   return fine;
 }
 

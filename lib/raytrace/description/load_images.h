@@ -1,11 +1,11 @@
-// The files that image textures name.
+// The files that image textures and environment lights name.
 #pragma once
 
 #include "raytrace/description/scene_description.h"
 
 namespace raytrace {
 
-/// Loads the files of all images that have not been loaded. What cannot be read is an error where the scene names it
+/// Loads those that have not been loaded. What cannot be read is an error where the scene names it
 /// or, where `missing` says so, a warning, and magenta. threads: so many at most share the work; 0: all that the
 /// machine has. False if there are errors.
 bool load_images(SceneDescription& scene, Diagnostics& diagnostics, int threads, MissingTexture missing);

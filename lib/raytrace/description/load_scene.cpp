@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "raytrace/description/check_environment.h"
 #include "raytrace/description/check_groups.h"
 #include "raytrace/description/include.h"
 #include "raytrace/description/load_images.h"
@@ -44,10 +45,10 @@ class SceneReader {
     read_all(group_sections_, [&](Element section) { read_groups(section); });
     const auto report = [&](SourceLocation location, const std::string& m) { diagnostics_.error(location, m); };
     if (groups_complete_) check_groups(scene_, report);
-    for (const std::string_view key : {ViewPlane::element, camera_key}) {
-      if (firsts_.contains(key)) continue;
-      diagnostics_.error(root, [&] { return "the scene has no " + tag(key) + "; add one"; });
-    }
+    check_environment(scene_, report);
+    for (const std::string_view key : {ViewPlane::element, camera_key})
+      if (!firsts_.contains(key))
+        diagnostics_.error(root, [&] { return "the scene has no " + tag(key) + "; add one"; });
   }
 
   SceneDescription take() {
@@ -363,9 +364,8 @@ class SceneReader {
 };
 
 void report_unused(const Variables& variables, Diagnostics& diagnostics) {
-  for (const std::string_view name : variables.unused()) {
+  for (const std::string_view name : variables.unused())
     diagnostics.error({}, "no value of the scene uses $" + printable(name) + "; remove -D " + printable(name) + "=...");
-  }
 }
 
 std::optional<SceneDescription> read_scene(TextBuffer text, const std::string& file, Diagnostics& diagnostics,

@@ -34,6 +34,14 @@ struct LightItem {
   std::uint32_t line = 0;
 };
 
+template <>
+struct LightItem<EnvironmentLight> {
+  EnvironmentLight::Parameters parameters;
+  std::uint32_t line = 0;
+  Transform transform = {};
+  LoadedImage image{};  ///< once its file, if it has one, has been loaded (load_images.h)
+};
+
 /// An item by its type (the index in the Textures or Materials registry) and its index among the items of that type.
 struct ItemReference {
   std::uint32_t type = 0;

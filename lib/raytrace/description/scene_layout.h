@@ -56,9 +56,13 @@ struct ObjectsSection {
 /// The labels of a section's items of one type.
 template <class Section, class T>
 constexpr auto labels_of() {
-  auto labels = Section::labels;
-  if constexpr (requires { T::may_lack_material; }) labels[1].required = false;
-  return labels;
+  if constexpr (requires { T::may_be_turned; }) {
+    return std::array<FieldInfo, 1>{{{transform_element, false}}};
+  } else {
+    auto labels = Section::labels;
+    if constexpr (requires { T::may_lack_material; }) labels[1].required = false;
+    return labels;
+  }
 }
 
 using Sections = TypeList<LightsSection, TexturesSection, MaterialsSection, ObjectsSection>;

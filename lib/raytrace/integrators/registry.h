@@ -3,13 +3,16 @@
 // tracing/kernels.h. (docs/how-to-add-a-type.md)
 #pragma once
 
+#include "raytrace/integrators/albedo.h"
+#include "raytrace/integrators/ambient_occlusion.h"
 #include "raytrace/integrators/normals.h"
 #include "raytrace/integrators/path.h"
 #include "raytrace/integrators/raycast.h"
+#include "raytrace/integrators/uv.h"
 #include "raytrace/math/type_list.h"
 
 namespace raytrace {
 
-using Integrators = TypeList<Raycast, Normals, Path>;
+using Integrators = TypeList<Raycast, Normals, Path, AmbientOcclusion, Uv, Albedo>;
 
 }  // namespace raytrace

@@ -11,6 +11,9 @@
 //   template <class F> LightSample<F> sample(const Vec3<F>& p) const;
 // and, if it can, and its Parameters have a `location`:
 //   bool falls_off() const;    with the square of the distance from there
+// and, if it may be larger than a point:
+//   bool takes_samples() const;    then sample(p, u1, u2), at any place of it, and none of the two below
+//   template <class F> LightSample<F> sample(const Vec3<F>& p, const F& u1, const F& u2) const;   numbers in [0, 1)
 // and, so that shadows are found sooner, one of these, where it holds:
 //   Vec3f location() const;    to_light is location() - p, and t_max is 1
 //   Vec3f direction() const;   to_light is direction(), of unit length, and t_max is infinity

@@ -41,6 +41,14 @@ struct Affine {
     return result;
   }
 
+  /// Whether it turns and mirrors alone, but for what writing it with six digits rounds.
+  bool is_turn() const {
+    constexpr double rounding = 1e-5;
+    const double length_error = std::max({std::abs(length(x) - 1), std::abs(length(y) - 1), std::abs(length(z) - 1)});
+    const double skew = std::max({std::abs(dot(x, y)), std::abs(dot(y, z)), std::abs(dot(z, x))});
+    return std::max(length_error, skew) <= rounding && length(origin) == 0;
+  }
+
   /// By how much it scales all lengths, if it does so to all by the same: it turns, mirrors, moves and scales.
   std::optional<double> uniform_scale() const {
     const double longest = std::max({length(x), length(y), length(z)});

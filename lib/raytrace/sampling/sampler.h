@@ -27,6 +27,9 @@ constexpr Dimension path_dimension(int depth, PathDraw draw) {
                                 static_cast<std::uint32_t>(draw));
 }
 
+/// Of the n-th shadow ray of a sample, by its place on its light: none of those above.
+constexpr Dimension shadow_dimension(std::uint32_t n) { return static_cast<Dimension>(n | 0x80000000U); }
+
 /// A point of the unit square for each lane: from 0 up to 1.
 struct Sample2D {
   FloatN x, y;

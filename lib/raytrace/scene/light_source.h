@@ -4,6 +4,7 @@
 #include "raytrace/lights/light_sample.h"
 #include "raytrace/math/ray.h"
 #include "raytrace/math/simd.h"
+#include "raytrace/sampling/sampler.h"
 
 namespace raytrace {
 
@@ -11,8 +12,10 @@ namespace raytrace {
 class LightSource {
  public:
   virtual ~LightSource() = default;
-  /// Leads rays, whose origins are set, to the light, where they end. radiance: receives what arrives along them.
-  virtual void sample(Ray<FloatN>& shadow_rays, Rgb<FloatN>& radiance) const = 0;
+  /// Leads rays, whose origins are set, to the light, where they end. radiance: receives what arrives along them. u:
+  /// where on the light, if it takes_samples().
+  virtual void sample(Ray<FloatN>& shadow_rays, const Sample2D& u, Rgb<FloatN>& radiance) const = 0;
+  virtual bool takes_samples() const = 0;
   virtual bool shadows() const = 0;
 };
 
@@ -20,11 +23,20 @@ template <class LightKernel>
 class LightSourceOf final : public LightSource {
  public:
   explicit LightSourceOf(const LightKernel& light) : light_(light) {}
-  void sample(Ray<FloatN>& shadow_rays, Rgb<FloatN>& radiance) const override {
-    const LightSample<FloatN> sample = light_.template sample<FloatN>(shadow_rays.origin);
+  void sample(Ray<FloatN>& shadow_rays, [[maybe_unused]] const Sample2D& u, Rgb<FloatN>& radiance) const override {
+    LightSample<FloatN> sample;
+    if constexpr (requires { light_.takes_samples(); })
+      sample = takes_samples() ? light_.template sample<FloatN>(shadow_rays.origin, u.x, u.y)
+                               : light_.template sample<FloatN>(shadow_rays.origin);
+    else
+      sample = light_.template sample<FloatN>(shadow_rays.origin);
     shadow_rays.direction = sample.to_light;
     shadow_rays.far = sample.t_max;
     radiance = sample.radiance;
+  }
+  bool takes_samples() const override {
+    if constexpr (requires { light_.takes_samples(); }) return light_.takes_samples();
+    return false;
   }
   bool shadows() const override { return light_.shadows(); }
 

@@ -16,8 +16,13 @@ Vec3d rounded(const Vec3d& point) { return {std::round(point.x), std::round(poin
 
 /// Where the description leaves it open.
 IntegratorParameters default_integrator(const SceneDescription& description) {
-  if (std::get<MaterialItems<Emissive>>(description.materials).empty()) return Raycast::Parameters{};
-  return Path::Parameters{};
+  const auto& suns = std::get<LightItems<DirectionalLight>>(description.lights);
+  const bool needs_path =
+      !std::get<MaterialItems<Emissive>>(description.materials).empty() ||
+      !std::get<LightItems<EnvironmentLight>>(description.lights).empty() ||
+      std::any_of(suns.begin(), suns.end(), [](const auto& sun) { return sun.parameters.angle > 0; });
+  if (needs_path) return Path::Parameters{};
+  return Raycast::Parameters{};
 }
 
 Vec3d origin_of(const CameraParameters& camera) {
@@ -48,7 +53,7 @@ SceneTables::SceneTables(const SceneDescription& description, int threads)
     camera_target_ = geometry_->bounding_sphere();
   }
   set_camera(description);
-  add_lights(description);
+  add_lights(description, threads);
   used_materials_ = geometry_->used_materials(first_material_.back());
   std::vector<MaterialEmission> emissions;
   for (std::size_t i = 0; i < details_.size(); ++i) {
@@ -83,23 +88,27 @@ void SceneTables::add_light_bounds(const LightKernel& light, const Parameters& p
   add_dimmest(light_bounds_.dimmest.blue, radiance.blue);
 }
 
-void SceneTables::add_lights(const SceneDescription& description) {
+void SceneTables::add_lights(const SceneDescription& description, int threads) {
   const Vec3d eye = std::visit([](const auto& camera) { return camera.eye; }, description.camera);
+  for (const auto& item : std::get<LightItems<EnvironmentLight>>(description.lights))
+    environment_.emplace(item, threads);
   for_each_type(Lights{}, [&]<class Light>(std::type_identity<Light>) {
-    for (const auto& item : std::get<LightItems<Light>>(description.lights)) {
-      const Kernel<Light> light(moved<Light>(item.parameters));
-      if constexpr (Kernel<Light>::ambient) {
-        ambient_radiance_ += light.radiance();
-        light_bounds_.ambient += abs(light.radiance());
-      } else {
-        add_light_bounds(light, item.parameters, eye);
-        lights_.push_back(std::make_unique<LightSourceOf<Kernel<Light>>>(light));
-        light_origins_.emplace_back();
-        if (!light.shadows()) continue;
-        if constexpr (requires { light.location(); }) light_origins_.back() = BufferOrigin{light.location()};
-        if constexpr (requires { light.direction(); }) light_origins_.back() = BufferOrigin{light.direction(), true};
+    if constexpr (!std::is_same_v<Light, EnvironmentLight>)
+      for (const auto& item : std::get<LightItems<Light>>(description.lights)) {
+        const Kernel<Light> light(moved<Light>(item.parameters));
+        if constexpr (Kernel<Light>::ambient) {
+          ambient_radiance_ += light.radiance();
+          light_bounds_.ambient += abs(light.radiance());
+        } else {
+          add_light_bounds(light, item.parameters, eye);
+          lights_.push_back(std::make_unique<LightSourceOf<Kernel<Light>>>(light));
+          light_origins_.emplace_back();
+          has_sampled_lights_ |= lights_.back()->takes_samples();
+          if (!light.shadows() || lights_.back()->takes_samples()) continue;
+          if constexpr (requires { light.location(); }) light_origins_.back() = BufferOrigin{light.location()};
+          if constexpr (requires { light.direction(); }) light_origins_.back() = BufferOrigin{light.direction(), true};
+        }
       }
-    }
   });
 }
 
@@ -165,6 +174,11 @@ RadianceRange SceneTables::background_range() const {
   range.add_usual(background);
   range.add_largest(background);
   range.add_source(background);
+  if (environment_) {
+    range.add_usual(environment_->mean_radiance());
+    range.add_largest(environment_->largest_radiance());
+    range.add_source(environment_->mean_radiance());
+  }
   return range;
 }
 

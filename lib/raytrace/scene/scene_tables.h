@@ -15,6 +15,7 @@
 #include "raytrace/sampling/sampler.h"
 #include "raytrace/scene/camera.h"
 #include "raytrace/scene/emitter_table.h"
+#include "raytrace/scene/environment.h"
 #include "raytrace/scene/geometry_table.h"
 #include "raytrace/scene/light_source.h"
 #include "raytrace/scene/material_table.h"
@@ -73,12 +74,17 @@ class SceneTables {
   const Rgb<float>& ambient_radiance() const { return ambient_radiance_; }
   /// All others.
   const std::vector<std::unique_ptr<LightSource>>& lights() const { return lights_; }
+  /// Whether any of them takes_samples().
+  bool has_sampled_lights() const { return has_sampled_lights_; }
   /// For each of them, where its shadow rays go to; none if it has none, or they go to many places.
   const std::vector<std::optional<BufferOrigin>>& light_origins() const { return light_origins_; }
 
+  /// The light of infinitely far from all around; null if there is none.
+  const Environment* environment() const { return environment_ ? &*environment_ : nullptr; }
+
   const GeometryTable& geometry() const { return *geometry_; }
 
-  /// Of direct light, and of the background alone.
+  /// Of direct light, and of the background alone, be it that or the environment.
   RadianceRange radiance_range() const;
   RadianceRange background_range() const;
   /// Scene::largest_albedo()
@@ -166,7 +172,7 @@ class SceneTables {
   }
   void set_camera(const SceneDescription& description);
   bool camera_is_far_from(const BoundingSphere& sphere, const SceneDescription& description) const;
-  void add_lights(const SceneDescription& description);
+  void add_lights(const SceneDescription& description, int threads);
   template <class LightKernel, class Parameters>
   void add_light_bounds(const LightKernel& light, const Parameters& parameters, const Vec3d& eye);
   template <class Material>
@@ -192,6 +198,8 @@ class SceneTables {
   std::optional<BufferOrigin> camera_origin_;
   Rgb<float> ambient_radiance_{0, 0, 0};
   LightBounds light_bounds_;
+  bool has_sampled_lights_ = false;
+  std::optional<Environment> environment_;
   std::vector<std::unique_ptr<LightSource>> lights_;
   std::vector<std::optional<BufferOrigin>> light_origins_;
   std::unique_ptr<const TextureTable> textures_;

@@ -35,6 +35,13 @@ class Kernel<Image> {
 
   float largest() const { return texels_->largest(); }
   bool has_alpha() const { return texels_->has_alpha(); }
+  std::int32_t width() const { return texels_->levels()[0].width; }
+  std::int32_t height() const { return texels_->levels()[0].height; }
+
+  /// A texel of the picture, whose rows count from the bottom, in linear light.
+  Rgb<FloatN> texel(const IntN& column, const IntN& row) const {
+    return texels(index(levels_of(LaneIndices(0)), column, row)).color;
+  }
 
   Rgba<FloatN> at(const TexturePoint<FloatN>& point) const {
     const Vec2<FloatN> turned = in_picture(point.uv);

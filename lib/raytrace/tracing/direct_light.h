@@ -34,13 +34,26 @@ RAYTRACE_INLINE std::optional<TexturePoint<FloatN>> add_textures(const SceneTabl
   return scene.accelerator().occluded(rays, active, coherence, nullptr, &query);
 }
 
+/// The random numbers of a point's shadow rays, each for its light.
+struct ShadowNumbers {
+  const UintN& pixel;
+  const UintN& sample;
+  std::uint32_t before;  ///< what of the sample's rays came before the first of them
+
+  /// Rays' hashes, as accel/cutouts.h has them.
+  UintN keys(std::size_t light) const { return ray_keys(pixel, sample, number(light)); }
+  /// The place on the light.
+  Sample2D place(std::size_t light) const { return get_2d(pixel, sample, shadow_dimension(number(light))); }
+
+ private:
+  std::uint32_t number(std::size_t light) const { return before + static_cast<std::uint32_t>(light); }
+};
+
 /// What of the lights' radiance leaves the surface along wo, in the lanes that were hit; of the ambient light, too.
-/// keys(light): the hashes of the shadow rays to it.
-template <class Keys>
 RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const Hits& hits,
                                          const SurfaceInteraction<FloatN>& surface,
                                          const TexturePoint<FloatN>* textures, Coherence coherence,
-                                         const MaskN& counted, RayCounts& counts, const Keys& keys) {
+                                         const MaskN& counted, RayCounts& counts, const ShadowNumbers& numbers) {
   const SceneTables& tables = scene.tables();
   std::array<IncidentLight, lights_per_run> incident;
   std::size_t count = 0;
@@ -54,20 +67,24 @@ RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const Hits& h
   Ray<FloatN> shadow_rays;
   shadow_rays.origin = offset_ray_origin(surface);
   shadow_rays.near = FloatN(0);
+  const Sample2D middle{FloatN(0), FloatN(0)};
   for (std::size_t number = 0; number < tables.lights().size(); ++number) {
     // The first run has the ambient light, whatever the others reach.
     if (number > 0 && number % lights_per_run == 0 && (count > 0 || number == lights_per_run)) shade_run();
     const LightSource& light = *tables.lights()[number];
     const bool shadows = light.shadows();
     IncidentLight& here = incident[count];  // written in its array at once: it is large
-    light.sample(shadow_rays, here.radiance);
+    if (tables.has_sampled_lights() && light.takes_samples()) [[unlikely]]
+      light.sample(shadow_rays, numbers.place(number), here.radiance);
+    else
+      light.sample(shadow_rays, middle, here.radiance);
     // Of any length: the shadow rays need not wait for a square root and a quotient.
     MaskN lit = hits.hit & (dot(surface.ns, shadow_rays.direction) > FloatN(0));
     if (shadows && any(lit)) {
       counts.shadow += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(lit & counted)));
       const MaskN occluded =
           tables.has_cutouts()
-              ? occluded_with_cutouts(scene, shadow_rays, lit, keys(number), coherence)
+              ? occluded_with_cutouts(scene, shadow_rays, lit, numbers.keys(number), coherence)
               : scene.accelerator().occluded(shadow_rays, lit, Coherence::coherent, scene.light_buffer(number));
       lit = lit & !occluded;
     }

@@ -11,6 +11,9 @@
 #pragma once
 
 #include "raytrace/integrators/registry.h"
+#include "raytrace/tracing/albedo_kernel.h"
+#include "raytrace/tracing/ambient_occlusion_kernel.h"
 #include "raytrace/tracing/normals_kernel.h"
 #include "raytrace/tracing/path_kernel.h"
 #include "raytrace/tracing/raycast_kernel.h"
+#include "raytrace/tracing/uv_kernel.h"

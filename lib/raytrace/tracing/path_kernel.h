@@ -49,6 +49,8 @@ class Kernel<Path> {
     FloatN pdf = infinity<FloatN>();
     Vec3<FloatN> from, from_normal;
     const auto lights = static_cast<std::uint32_t>(tables.lights().size());
+    const float environment_share = environment_share_of(tables);
+    const bool has_drawn_light = tables.environment() != nullptr || !tables.emitters().empty();
     for (int depth = 0; any(hits.hit); ++depth) {
       SurfaceInteraction<FloatN> surface = scene.accelerator().surface(rays, hits);
       distance = distance + rays.far;
@@ -67,7 +69,8 @@ class Kernel<Path> {
         if (depth > 0 && !tables.emitters().empty()) {
           const MaskN shines = hits.hit & (pdf < infinity<FloatN>()) & (largest(emitted) > FloatN(0));
           if (any(shines)) {
-            const FloatN other = tables.emitters().pdf(from, from_normal, hits, shines, surface);
+            const FloatN other =
+                tables.emitters().pdf(from, from_normal, hits, shines, surface) * FloatN(1 - environment_share);
             emitted = select(shines, emitted * power_heuristic(pdf, other), emitted);
           }
         }
@@ -84,15 +87,15 @@ class Kernel<Path> {
       const Frame<FloatN> frame(surface.ns);
       const PathVertex vertex{hits, surface, point, frame, frame.to_local(surface.wo), distance};
       Rgb<FloatN> light = direct_light(scene, hits, surface, point, coherence, counted, counts,
-                                       [&](std::size_t number) { return key(static_cast<std::uint32_t>(number) + 1); });
-      if (!tables.emitters().empty())
-        light += sampled_light(scene, vertex, draw(PathDraw::light).x, draw(PathDraw::light_point), coherence,
+                                       ShadowNumbers{camera.pixel, camera.sample, first_key + 1});
+      if (has_drawn_light)
+        light += sampled_light(scene, vertex, draw(PathDraw::light), draw(PathDraw::light_point), coherence,
                                key(lights + 1), counted, counts);
       Rgb<FloatN>& sum = depth == 0 ? direct : indirect;
       sum = sum + select(hits.hit, throughput * light, black);
       // The last direction is for what shines alone.
       const bool is_last = depth + 1 == settings.maxdepth;
-      if (is_last && !tables.has_emission()) break;
+      if (is_last && !tables.has_emission() && tables.environment() == nullptr) break;
 
       const Sample2D direction = draw(PathDraw::direction), choices = draw(PathDraw::lobe_and_roulette);
       const BsdfSample<FloatN> sample =
@@ -127,9 +130,17 @@ class Kernel<Path> {
       } else {
         hits = scene.accelerator().intersect(rays, alive, Coherence::incoherent);
       }
-      if (is_last) continue;
       const MaskN escaped = alive & !hits.hit;
-      sum = sum + select(escaped, throughput * Rgb<FloatN>(Rgb<float>(tables.viewplane().background)), black);
+      if (any(escaped)) {
+        Rgb<FloatN> sky(Rgb<float>(tables.viewplane().background));
+        if (const Environment* const environment = tables.environment(); environment != nullptr) {
+          const FloatN other = environment->pdf(rays.direction) * FloatN(environment_share);
+          sky = environment->radiance(rays.direction) * power_heuristic(pdf, other);
+        } else if (is_last) {
+          continue;
+        }
+        sum = sum + select(escaped, throughput * sky, black);
+      }
     }
     if (settings.clampindirect > 0) {
       const Rgb<FloatN> most(Rgb<float>(1, 1, 1) * static_cast<float>(settings.clampindirect));

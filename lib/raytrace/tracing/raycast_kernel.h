@@ -43,11 +43,9 @@ inline RayResult Kernel<Raycast>::radiance(const TracedScene& scene, const Rgb<f
     first->textures = textures;
   }
   // What a ray meets on its way to one light says nothing of that to another, nor of the camera ray's.
-  const auto keys = [&](std::size_t light) {
-    return ray_keys(camera.pixel, camera.sample, static_cast<std::uint32_t>(light + 1));
-  };
-  Rgb<FloatN> radiance =
-      direct_light(scene, hits, surface, textures ? &*textures : nullptr, Coherence::coherent, counted, counts, keys);
+  const ShadowNumbers numbers{camera.pixel, camera.sample, 1};
+  Rgb<FloatN> radiance = direct_light(scene, hits, surface, textures ? &*textures : nullptr, Coherence::coherent,
+                                      counted, counts, numbers);
   if (tables.has_emission()) [[unlikely]]
     radiance += tables.emitted(hits, surface, textures ? &*textures : nullptr);
   return {select(hits.hit, radiance, Rgb<FloatN>(background)), hits.hit};

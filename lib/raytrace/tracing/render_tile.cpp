@@ -31,6 +31,10 @@ class BlockRenderer {
         stop_(stop),
         background_(film.settings().transparent ? Rgb<float>(0, 0, 0)
                                                 : Rgb<float>(scene.tables().viewplane().background)),
+        environment_(scene.tables().environment() != nullptr && scene.tables().environment()->visible() &&
+                             !film.settings().transparent
+                         ? scene.tables().environment()
+                         : nullptr),
         scale_(film.settings().unit_exponent),
         group_(Block::slots(), shape.samples),
         scrambles_(film.settings().seed),
@@ -117,12 +121,15 @@ class BlockRenderer {
       } else {
         traced = active & set_camera_rays(block, FloatN(x), FloatN(y), Sample2D(point), UintN(sample), camera);
       }
-      if (Kernel<Integrator>::takes_samples || scene_.tables().has_cutouts()) [[unlikely]] {
+      if (Kernel<Integrator>::takes_samples || scene_.tables().has_cutouts() || scene_.tables().has_sampled_lights())
+          [[unlikely]] {
         camera.pixel = pixel_hash(UintN(column), UintN(row), film_.settings().seed);
         camera.sample = sample;
       }
       RayResult result = Kernel<Integrator>::radiance(scene_, background_, camera, traced, wanted, report_.rays,
                                                       aovs != nullptr ? &first : nullptr);
+      if (environment_ != nullptr) [[unlikely]]
+        result.radiance = in_environment(RayResult(result), Vec3<FloatN>(camera.rays.direction));
       if (usual_camera_ == nullptr) result.radiance = select(traced, result.radiance, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
       const MaskN large = sums.add(result, wanted);
       if (aovs != nullptr) {
@@ -150,6 +157,12 @@ class BlockRenderer {
       lens = get_2d(pixel, sample, Dimension::lens);
     }
     return tables.set_camera_rays(x + placed.x, y + placed.y, lens, camera);
+  }
+
+  /// The radiance, of the environment where nothing else was met. Copies, as above.
+  [[gnu::noinline]] Rgb<FloatN> in_environment(const RayResult& result, const Vec3<FloatN>& direction) const {
+    if (all(result.hit)) return result.radiance;
+    return select(result.hit, result.radiance, environment_->radiance(direction));
   }
 
   /// Pixels of the picture, and those beyond it that are wanted.
@@ -196,7 +209,8 @@ class BlockRenderer {
   const Region& region_;
   Film& film_;
   const std::atomic<bool>* stop_;
-  Rgb<float> background_;  ///< what camera rays see where they meet nothing
+  Rgb<float> background_;           ///< what camera rays see where they meet nothing
+  const Environment* environment_;  ///< if it is there in place of the background, else null
   SumScale scale_;
   SampleGroup group_;
   PixelScrambles scrambles_;

@@ -30,48 +30,83 @@ struct PathVertex {
   FloatN distance;      ///< that the path came to it
 };
 
-/// What leaves the vertex along wo of the light of one surface, chosen and drawn: over the density of the draw, times
-/// its share beside directions that the BSDF draws.
-inline Rgb<FloatN> sampled_light(const TracedScene& scene, const PathVertex& vertex, const FloatN& choice,
+/// How often light is drawn from the environment, and not from a shining surface.
+inline float environment_share_of(const SceneTables& tables) {
+  if (tables.environment() == nullptr) return 0;
+  return tables.emitters().empty() ? 1 : 0.5F;
+}
+
+/// Light that was drawn for a vertex.
+struct DrawnLight {
+  Ray<FloatN> ray;  ///< from the vertex to the light
+  FloatN pdf;       ///< per solid angle; 0 where there is none
+  EmitterTable::Sample sample;
+  SurfaceInteraction<FloatN> surface;  ///< where the light leaves from, if it is a surface
+  Rgb<FloatN> radiance;                ///< if it is the environment's
+};
+
+inline void draw_from_surfaces(const SceneTables& tables, const SurfaceInteraction<FloatN>& surface,
+                               const FloatN& choice, const Sample2D& point, DrawnLight& result) {
+  result.sample = tables.emitters().sample(surface.p, surface.ns, choice, point.x, point.y);
+  const PatchSample& drawn = result.sample.point;
+  // A shadow ray ends as far before the light as it starts from the surface.
+  SurfaceInteraction<FloatN>& light = result.surface;
+  light = {};
+  light.front = dot(drawn.normal, surface.p - drawn.p) > FloatN(0);
+  light.ng = select(light.front, drawn.normal, -drawn.normal);
+  light.ns = light.ng;
+  light.p = drawn.p;
+  light.error = max(drawn.error, surface.error);
+  result.ray.direction = offset_ray_origin(light) - result.ray.origin;
+  result.ray.far = FloatN(1);
+  result.pdf = select(drawn.pdf < infinity<FloatN>(), drawn.pdf, FloatN(0));
+}
+
+/// What leaves the vertex along wo of light that was drawn from a surface or the environment: over the density of the
+/// draw, times its share beside directions that the BSDF draws.
+inline Rgb<FloatN> sampled_light(const TracedScene& scene, const PathVertex& vertex, const Sample2D& choice,
                                  const Sample2D& point, Coherence coherence, const UintN& keys, const MaskN& counted,
                                  RayCounts& counts) {
   const SceneTables& tables = scene.tables();
   const SurfaceInteraction<FloatN>& surface = vertex.surface;
-  const EmitterTable::Sample sample = tables.emitters().sample(surface.p, surface.ns, choice, point.x, point.y);
-
-  // A shadow ray ends as far before the light as it starts from the surface.
-  SurfaceInteraction<FloatN> light{};
-  light.front = dot(sample.point.normal, surface.p - sample.point.p) > FloatN(0);
-  light.ng = select(light.front, sample.point.normal, -sample.point.normal);
-  light.ns = light.ng;
-  light.p = sample.point.p;
-  light.error = max(sample.point.error, surface.error);
-  Ray<FloatN> ray;
-  ray.origin = offset_ray_origin(surface);
-  ray.direction = offset_ray_origin(light) - ray.origin;
-  ray.near = FloatN(0);
-  ray.far = FloatN(1);
-  const Vec3<FloatN> wi = normalize(ray.direction), local_wi = vertex.frame.to_local(wi);
-  light.wo = -wi;
-
-  const FloatN& pdf = sample.point.pdf;
-  MaskN lit = vertex.hits.hit & (pdf > FloatN(0)) & (pdf < infinity<FloatN>()) & (local_wi.z > FloatN(0)) &
-              (dot(wi, surface.ng) > FloatN(0));
+  const float environment_share = environment_share_of(tables);
+  const MaskN is_sky = choice.y < FloatN(environment_share);
+  DrawnLight light{};
+  light.ray.origin = offset_ray_origin(surface);
+  light.ray.near = FloatN(0);
+  if (environment_share < 1) {
+    draw_from_surfaces(tables, surface, choice.x, point, light);
+    light.pdf = light.pdf * FloatN(1 - environment_share);
+  }
+  if (environment_share > 0) {
+    const EnvironmentSample sky = tables.environment()->sample(point.x, point.y);
+    const FloatN pdf = sky.pdf * FloatN(environment_share);
+    light.radiance = sky.radiance;
+    light.ray.direction = environment_share < 1 ? select(is_sky, sky.wi, light.ray.direction) : sky.wi;
+    light.ray.far = environment_share < 1 ? select(is_sky, infinity<FloatN>(), FloatN(1)) : infinity<FloatN>();
+    light.pdf = environment_share < 1 ? select(is_sky, pdf, light.pdf) : pdf;
+  }
+  const Vec3<FloatN> wi = normalize(light.ray.direction), local_wi = vertex.frame.to_local(wi);
+  light.surface.wo = -wi;
+  MaskN lit = vertex.hits.hit & (light.pdf > FloatN(0)) & (local_wi.z > FloatN(0)) & (dot(wi, surface.ng) > FloatN(0));
   const Rgb<FloatN> black(Rgb<float>(0, 0, 0));
   if (none(lit)) return black;
   const BsdfValue bsdf = tables.evaluate(vertex.hits, surface.front, vertex.wo, local_wi, vertex.textures);
-  FloatN weight = local_wi.z / pdf * power_heuristic(pdf, bsdf.pdf);
+  FloatN weight = local_wi.z / light.pdf * power_heuristic(light.pdf, bsdf.pdf);
   if (surface.has_relief) weight = weight * relief_shadow(surface, wi);
-  const Rgb<FloatN> emitted = tables.emitted(sample, lit, light, [&](const Hits& hits) {
-    const FloatN distance = vertex.distance + length(ray.direction);
-    return texture_point(tables, tables.ray_cone().half_width(distance), hits, light);
-  });
-  const Rgb<FloatN> radiance = bsdf.f * emitted * weight;
+  Rgb<FloatN> arriving = black;
+  if (environment_share < 1)
+    arriving = tables.emitted(light.sample, lit & !is_sky, light.surface, [&](const Hits& hits) {
+      const FloatN distance = vertex.distance + length(light.ray.direction);
+      return texture_point(tables, tables.ray_cone().half_width(distance), hits, light.surface);
+    });
+  if (environment_share > 0) arriving = select(is_sky, light.radiance, arriving);
+  const Rgb<FloatN> radiance = bsdf.f * arriving * weight;
   lit = lit & (largest(radiance) > FloatN(0));
   if (none(lit)) return black;
   counts.shadow += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(lit & counted)));
-  const MaskN occluded = tables.has_cutouts() ? occluded_with_cutouts(scene, ray, lit, keys, coherence)
-                                              : scene.accelerator().occluded(ray, lit, coherence);
+  const MaskN occluded = tables.has_cutouts() ? occluded_with_cutouts(scene, light.ray, lit, keys, coherence)
+                                              : scene.accelerator().occluded(light.ray, lit, coherence);
   return select(lit & !occluded, radiance, black);
 }
 

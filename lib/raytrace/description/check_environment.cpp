@@ -1,0 +1,18 @@
+#include "raytrace/description/check_environment.h"
+
+namespace raytrace {
+
+void check_environment(const SceneDescription& scene,
+                       const std::function<void(SourceLocation, const std::string&)>& report) {
+  const auto& lights = std::get<LightItems<EnvironmentLight>>(scene.lights);
+  for (const auto& light : lights) {
+    if (&light != lights.data())
+      report({light.line, 0}, "a second <environmentlight>; a scene has one, and it is all around");
+    if (!light.transform.affine().is_turn())
+      report({light.line, 0},
+             "the <environmentlight> has a transform that moves, scales or skews it: it is infinitely far, so it can "
+             "only be turned and mirrored");
+  }
+}
+
+}  // namespace raytrace
