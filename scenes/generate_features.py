@@ -44,10 +44,11 @@ SPHERE = """\
 
 
 def write(name, comment, room=ROOM, lights=LIGHTS, mattes=CLAY, phongs="", floor=FLOOR, objects=SPHERE, textures="",
-          groups=""):
+          groups="", materials_more=""):
     materials = f"    <mattes>\n{FLOOR_MATERIAL}{mattes}    </mattes>\n"
     if phongs:
         materials += f"    <phongs>\n{phongs}    </phongs>\n"
+    materials += materials_more
     if textures:
         textures = f"  <textures>\n{textures}  </textures>\n"
     text = (
@@ -976,3 +977,135 @@ for name, comment, element in (
 ):
     room = ROOM.replace("<samples>16", "<samples>256") if name == "ambient-occlusion" else ROOM
     write(name, comment, room=f"{room}  <integrator> {element} </integrator>\n", objects=MODELS)
+
+# Materials that paths alone show: under a bright sky and a large lamp, on a checkered floor.
+STUDIO = dict(
+    room=SKY.replace("<samples>16", "<samples>256"),
+    lights="",
+    textures="""\
+    <checkers>
+      <checker>
+        <name>tiles</name> <color1 red="0.75" green="0.73" blue="0.7"/> <color2 red="0.3" green="0.33" blue="0.38"/>
+        <uvscale x="1.6" y="1.6"/>
+      </checker>
+    </checkers>
+""",
+    mattes="""\
+      <matte> <name>tiles</name> <ka>0</ka> <kd>1</kd> <cd texture="tiles"/> </matte>
+      <matte> <name>red</name> <ka>0</ka> <kd>0.8</kd> <cd red="0.9" green="0.12" blue="0.08"/> </matte>
+      <matte> <name>yellow</name> <ka>0</ka> <kd>0.8</kd> <cd red="0.95" green="0.7" blue="0.1"/> </matte>
+""",
+    floor=FLOOR.replace("<material>floor", "<material>tiles"),
+)
+LAMP_MATERIAL = """\
+    <emissives> <emissive> <name>lamp</name> <ce red="1" green="0.93" blue="0.8"/> <scaleradiance>5</scaleradiance> </emissive> </emissives>
+"""
+LAMP = """\
+    <rectangles>
+      <rectangle>
+        <corner x="-5" y="6" z="-1"/> <edge1 x="5" y="0" z="0"/> <edge2 x="0" y="0" z="5"/> <material>lamp</material>
+      </rectangle>
+    </rectangles>
+"""
+
+
+def studio(name, comment, materials, objects):
+    write(name, comment, materials_more=materials + LAMP_MATERIAL, objects=objects + LAMP, **STUDIO)
+
+
+def row(materials):
+    """A sphere of each."""
+    size = 2.2 / len(materials)
+    spheres = "".join(
+        f'      <sphere> <center x="{(i - (len(materials) - 1) / 2) * 2 * size:.2f}" y="{size * 0.95:.2f}" z="0.5"/> '
+        f"<radius>{size * 0.95:.2f}</radius> <material>{material}</material> </sphere>\n"
+        for i, material in enumerate(materials)
+    )
+    return f"    <spheres>\n{spheres}    </spheres>\n"
+
+
+studio(
+    "mirror",
+    "A mirror and a bluish mirrored ball.",
+    """\
+    <mirrors>
+      <mirror> <name>silvered</name> <cr red="0.93" green="0.94" blue="0.93"/> </mirror>
+      <mirror> <name>bluish</name> <cr red="0.6" green="0.75" blue="0.95"/> </mirror>
+    </mirrors>
+""",
+    """\
+    <spheres>
+      <sphere> <center x="-1.2" y="0.8" z="0"/> <radius>0.8</radius> <material>bluish</material> </sphere>
+      <sphere> <center x="0.7" y="0.5" z="0.9"/> <radius>0.5</radius> <material>red</material> </sphere>
+      <sphere> <center x="-0.2" y="0.3" z="1.7"/> <radius>0.3</radius> <material>yellow</material> </sphere>
+    </spheres>
+    <boxes>
+      <box>
+        <min x="-1.6" y="0" z="-0.06"/> <max x="1.6" y="2.3" z="0"/> <material>silvered</material>
+        <transform> <rotate x="0" y="1" z="0" angle="-28"/> <translate x="1.4" y="0" z="-1.2"/> </transform>
+      </box>
+    </boxes>
+""",
+)
+METALS = ["gold", "silver", "copper", "iron", "brass"]
+studio(
+    "metals",
+    "Metals by their names: gold, silver, copper, iron and brass.",
+    "    <conductors>\n"
+    + "".join(
+        f"      <conductor> <name>{metal}</name> <metal>{metal}</metal> <roughness>0.25</roughness> </conductor>\n"
+        for metal in METALS
+    )
+    + "    </conductors>\n",
+    row(METALS),
+)
+ROUGHNESSES = ["0", "0.2", "0.4", "0.7", "1"]
+studio(
+    "conductor",
+    "Gold of roughness 0, 0.2, 0.4, 0.7 and 1.",
+    "    <conductors>\n"
+    + "".join(
+        f"      <conductor> <name>gold {r}</name> <metal>gold</metal> <roughness>{r}</roughness> </conductor>\n"
+        for r in ROUGHNESSES
+    )
+    + "    </conductors>\n",
+    row([f"gold {r}" for r in ROUGHNESSES]),
+)
+studio(
+    "dielectric",
+    "A glass ball, one that is green inside, and a thin-walled one.",
+    """\
+    <dielectrics>
+      <dielectric> <name>clear</name> </dielectric>
+      <dielectric>
+        <name>green</name> <attenuationcolor red="0.25" green="0.8" blue="0.45"/>
+        <attenuationdistance>0.9</attenuationdistance>
+      </dielectric>
+      <dielectric> <name>bubble</name> <thinwalled>true</thinwalled> </dielectric>
+    </dielectrics>
+""",
+    row(["clear", "green", "bubble"])
+    + """\
+    <boxes>
+      <box> <min x="-2.6" y="0" z="-1.6"/> <max x="-1.2" y="1.2" z="-1.3"/> <material>red</material> </box>
+      <box> <min x="0.8" y="0" z="-1.6"/> <max x="2.6" y="1.2" z="-1.3"/> <material>yellow</material> </box>
+    </boxes>
+""",
+)
+studio(
+    "dielectric-roughness",
+    "Glass of roughness 0, 0.15, 0.3, 0.5 and 0.8 before a wall.",
+    "    <dielectrics>\n"
+    + "".join(
+        f"      <dielectric> <name>glass {r}</name> <roughness>{r}</roughness> </dielectric>\n"
+        for r in ["0", "0.15", "0.3", "0.5", "0.8"]
+    )
+    + "    </dielectrics>\n",
+    row([f"glass {r}" for r in ["0", "0.15", "0.3", "0.5", "0.8"]])
+    + """\
+    <boxes>
+      <box> <min x="-2.6" y="0" z="-1.3"/> <max x="-0.2" y="0.7" z="-1"/> <material>red</material> </box>
+      <box> <min x="0.2" y="0" z="-1.3"/> <max x="2.6" y="0.7" z="-1"/> <material>yellow</material> </box>
+    </boxes>
+""",
+)

@@ -180,6 +180,10 @@ TEST_CASE("the schema refuses most of the bad scenes, the program all", "[schema
   // Nor that one element stands in place of another, or goes with some only.
   expected.insert({"filter_too_wide", "fisheye_beyond_all", "fov_and_pixelsize", "fov_and_viewdistance", "fov_too_wide",
                    "lens_of_two_blades", "missing_viewdistance"});
+  // Nor what a material's numbers and colours are together.
+  expected.insert({"conductor_of_two_colors", "conductor_of_two_edges", "conductor_too_rough",
+                   "conductor_without_color", "dielectric_that_shines", "dielectric_thin_and_thick",
+                   "dielectric_too_dense", "dielectric_too_rough", "dielectric_without_distance"});
   // Nor what may be in a file that is included.
   expected.insert({"missing_camera", "missing_viewplane"});
   // What it cannot say since numbers and vectors may have keys, and values variables.

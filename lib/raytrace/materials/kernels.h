@@ -3,7 +3,8 @@
 // A material's Kernel provides:
 //   template <class T> struct Bsdf { ... };   what the tracer keeps of a material: members of type T only
 //   template <class T, class Value> static Bsdf<T> bsdf_of(const Values<Value>&);   the Parameters are Values<double>,
-//   or derive from them static Bsdf<float> bsdf(const Parameters&);
+//   or derive from them; then a material whose kernel needs those has `static Values<double> values(const Parameters&)`
+//   static Bsdf<float> bsdf(const Parameters&);
 // and of Bsdf<T>, where T is a batch:
 //   Rgb<T> ambient_radiance(const Rgb<T>& radiance) const;   what leaves under ambient light of that radiance
 //   Rgb<T> albedo() const;       the share of light from all sides that it scatters evenly to all sides, without
@@ -21,11 +22,16 @@
 //     Rgb<T> emitted() const;                    radiance, the same in all directions
 //   has two sides:
 //     void set_side(const Mask<T>& front);       whether wo is on the surface's front: called before all others
+//   has highlights far brighter than most of what it reflects:
+//     Rgb<T> usual_f() const;                    in place of evaluate() straight back, for the film's unit
 //   sends light through:
 //     Rgb<T> transmittance(const T& distance) const;   the share that is left of light that went so far behind it
 #pragma once
 
+#include "raytrace/materials/conductor_kernel.h"
+#include "raytrace/materials/dielectric_kernel.h"
 #include "raytrace/materials/emissive_kernel.h"
 #include "raytrace/materials/matte_kernel.h"
+#include "raytrace/materials/mirror_kernel.h"
 #include "raytrace/materials/phong_kernel.h"
 #include "raytrace/materials/registry.h"

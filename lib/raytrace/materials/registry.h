@@ -2,13 +2,16 @@
 // include in kernels.h. (docs/how-to-add-a-type.md)
 #pragma once
 
+#include "raytrace/materials/conductor.h"
+#include "raytrace/materials/dielectric.h"
 #include "raytrace/materials/emissive.h"
 #include "raytrace/materials/matte.h"
+#include "raytrace/materials/mirror.h"
 #include "raytrace/materials/phong.h"
 #include "raytrace/math/type_list.h"
 
 namespace raytrace {
 
-using Materials = TypeList<Matte, Phong, Emissive>;
+using Materials = TypeList<Matte, Phong, Emissive, Mirror, Conductor, Dielectric>;
 
 }  // namespace raytrace

@@ -152,10 +152,12 @@ class MaterialTableOf final : public MaterialTable {
       const auto bsdfs = gather_records<MaterialKernel::template Bsdf, FloatN>(&bsdf, LaneIndices(0));
       const Rgb<FloatN> ambient = bsdfs.ambient_radiance(Rgb<FloatN>(lights.ambient));
       const Rgb<FloatN> f = bsdfs.evaluate(normal, normal, normal);
-      range.add_usual(lane(ambient + f * Rgb<FloatN>(lights.usual)));
+      Rgb<FloatN> usual = f;
+      if constexpr (requires { bsdfs.usual_f(); }) usual = bsdfs.usual_f();
+      range.add_usual(lane(ambient + usual * Rgb<FloatN>(lights.usual)));
       range.add_largest(lane(ambient + f * Rgb<FloatN>(lights.largest)));
       range.add_source(lane(ambient));
-      range.add_source(lane(f * Rgb<FloatN>(lights.dimmest)));
+      range.add_source(lane(usual * Rgb<FloatN>(lights.dimmest)));
       if constexpr (shines) {
         const Rgb<float> emitted = lane(bsdfs.emitted());
         range.add_usual(emitted);

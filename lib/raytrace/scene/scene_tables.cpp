@@ -17,8 +17,11 @@ Vec3d rounded(const Vec3d& point) { return {std::round(point.x), std::round(poin
 /// Where the description leaves it open.
 IntegratorParameters default_integrator(const SceneDescription& description) {
   const auto& suns = std::get<LightItems<DirectionalLight>>(description.lights);
+  const auto has = [&]<class... Types>(TypeList<Types...>) {
+    return (!std::get<MaterialItems<Types>>(description.materials).empty() || ...);
+  };
   const bool needs_path =
-      !std::get<MaterialItems<Emissive>>(description.materials).empty() ||
+      has(TypeList<Emissive, Mirror, Conductor, Dielectric>{}) ||
       !std::get<LightItems<EnvironmentLight>>(description.lights).empty() ||
       std::any_of(suns.begin(), suns.end(), [](const auto& sun) { return sun.parameters.angle > 0; });
   if (needs_path) return Path::Parameters{};
@@ -116,7 +119,12 @@ template <class Material>
 TexturedMaterial<Material> SceneTables::textured_material(const MaterialItem<Material>& item,
                                                           std::int32_t index) const {
   TexturedMaterial<Material> result{index, {}, textures_->factors<Material>(item.textures)};
-  const auto* const from = reinterpret_cast<const double*>(&item.parameters);
+  typename Material::template Values<double> values;
+  if constexpr (requires { Material::values(item.parameters); })
+    values = Material::values(item.parameters);
+  else
+    values = item.parameters;
+  const auto* const from = reinterpret_cast<const double*>(&values);
   auto* const to = reinterpret_cast<float*>(&result.values);
   for (std::size_t i = 0; i < sizeof(result.values) / sizeof(float); ++i) to[i] = static_cast<float>(from[i]);
   return result;

@@ -1,0 +1,34 @@
+// What a smooth boundary between two clear media reflects: Fresnel's equations, of unpolarised light.
+#pragma once
+
+#include "raytrace/math/vec3.h"
+
+namespace raytrace {
+
+/// T: a batch.
+template <class T>
+struct FresnelReflection {
+  T reflectance;         ///< the share of light that is reflected; the rest comes through
+  T transmitted_cosine;  ///< of its angle with the normal on the other side; 0 where nothing comes through
+};
+
+/// cosine: of the light's angle with the normal on its side, in [0, 1]. eta: the index of refraction on the other side
+/// over that on the light's.
+template <class T>
+FresnelReflection<T> fresnel_reflection(const T& cosine, const T& eta) {
+  const T squared_sine = max(T(1) - cosine * cosine, T(0)) / (eta * eta);
+  const auto comes_through = squared_sine < T(1);
+  const T transmitted = sqrt(max(T(1) - squared_sine, T(0)));
+  const T across = (cosine - eta * transmitted) / (cosine + eta * transmitted);
+  const T along = (eta * cosine - transmitted) / (eta * cosine + transmitted);
+  return {select(comes_through, (across * across + along * along) * T(0.5F), T(1)), transmitted};
+}
+
+/// Of a pane between two such boundaries, without a distance between them, light going to and fro in it: R + T^2 R (1 +
+/// R^2 + R^4...). reflectance: of one of them.
+template <class T>
+T pane_reflectance(const T& reflectance) {
+  return T(2) * reflectance / (T(1) + reflectance);
+}
+
+}  // namespace raytrace

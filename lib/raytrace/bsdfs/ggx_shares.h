@@ -1,0 +1,136 @@
+// How much of the light rough surfaces send on when it meets one facet alone: what is shadowed by others is lost, and
+// would have gone on to meet further ones. BSDFs divide by it, so that they lose nothing (Turquin, "Practical multiple
+// scattering compensation for microfacet models", 2019). Then f is not quite reciprocal: it is divided by wo's share.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "raytrace/bsdfs/fresnel.h"
+#include "raytrace/bsdfs/ggx.h"
+#include "raytrace/math/gather.h"
+
+namespace raytrace {
+
+namespace detail {
+
+/// The axes of tables: roughness from that of the least alpha to 1, and a function of it and of the cosine that gives
+/// what falls off at grazing angles of the least rough as many steps as the rest.
+class ShareAxes {
+ public:
+  static constexpr int steps = 20, size = steps * steps;
+
+  /// table: of `size` numbers, the lanes' own being at `first`.
+  static FloatN look_up(const float* table, const IntN& first, const FloatN& cosine, const FloatN& roughness) {
+    const FloatN root = sqrt(cosine);
+    const FloatN x = (roughness - FloatN(least)) * FloatN((steps - 1) / (1 - least));
+    const FloatN y = (FloatN(1) + roughness) * root / (root + roughness) * FloatN(steps - 1);
+    const IntN column = cell(x), row = cell(y);
+    const FloatN right = x - to_float(column), up = y - to_float(row);
+    const IntN at = first + column * IntN(steps) + row;
+    const auto between = [&](int offset) {
+      const FloatN low = gather(table + offset, at), high = gather(table + offset + 1, at);
+      return low + (high - low) * up;
+    };
+    const FloatN left = between(0);
+    return left + (between(steps) - left) * right;
+  }
+
+  /// share(cosine, roughness) at all steps.
+  template <class Share>
+  static void fill(float* table, const Share& share) {
+    for (int column = 0; column < steps; ++column)
+      for (int row = 0; row < steps; ++row) {
+        const float roughness = least + static_cast<float>(column) * (1 - least) / (steps - 1);
+        const float y = static_cast<float>(row) / (steps - 1);
+        const float root = y * roughness / (1 + roughness - y);
+        table[column * steps + row] = share(std::clamp(root * root, 1e-4F, 1.0F), roughness);
+      }
+  }
+
+ private:
+  static constexpr float least = 0.0316227766F;  // its square is the least alpha
+
+  static IntN cell(const FloatN& x) { return to_int(min(max(x, FloatN(0)), FloatN(steps - 1.001F))); }
+};
+
+/// The mean of scattered(wo, facet) over the facets that are seen from wo.
+template <class Scattered>
+float mean_over_facets(float cosine, const Ggx<FloatN>& ggx, const Scattered& scattered) {
+  // A midpoint rule of as many angles in half a circle, and steps from the tail of the facets' slopes.
+  constexpr int turns = 24, heights = 32;
+  const Vec3<FloatN> wo(Vec3f{std::sqrt(1 - cosine * cosine), 0, cosine});
+  FloatN sum(0);
+  for (int first = 0; first < turns * heights; first += packet_lanes) {
+    const FloatN number = lane_numbers<FloatN>() + FloatN(static_cast<float>(first) + 0.5F);
+    const FloatN height = floor(number * FloatN(1.0F / turns));
+    const FloatN turn = (number - height * FloatN(turns)) * FloatN(0.5F / turns);
+    const FloatN root = (height + FloatN(0.5F)) * FloatN(1.0F / heights);
+    sum += scattered(wo, ggx.sample_facet(wo, turn, FloatN(1) - root * root)) * root;
+  }
+  float total = 0;
+  for (std::size_t lane = 0; lane < packet_lanes; ++lane) total += sum.get(lane);
+  return total * 2 / (turns * heights);
+}
+
+/// Of what a facet of that normal reflects.
+inline FloatN unshadowed_reflection(const Ggx<FloatN>& ggx, const Vec3<FloatN>& wo, const Vec3<FloatN>& facet) {
+  const FloatN z = FloatN(2) * dot(wo, facet) * facet.z - wo.z;
+  return select(z > FloatN(0), ggx.unshadowed(ggx.lambda(wo.z), ggx.lambda(max(z, FloatN(1e-6F)))), FloatN(0));
+}
+
+}  // namespace detail
+
+/// Of facets that reflect all light, from a direction of that cosine. The roughness is the root of alpha.
+inline FloatN ggx_reflected_share(const FloatN& cosine, const FloatN& roughness) {
+  static const auto table = [] {
+    std::array<float, detail::ShareAxes::size> shares{};
+    detail::ShareAxes::fill(shares.data(), [](float cosine_o, float rough) {
+      const Ggx<FloatN> ggx{FloatN(rough * rough)};
+      return detail::mean_over_facets(cosine_o, ggx, [&](const Vec3<FloatN>& wo, const Vec3<FloatN>& facet) {
+        return detail::unshadowed_reflection(ggx, wo, facet);
+      });
+    });
+    return shares;
+  }();
+  return detail::ShareAxes::look_up(table.data(), IntN(0), cosine, roughness);
+}
+
+/// Of facets that reflect and refract as a boundary of that eta does (fresnel.h); beyond 2.6 and 1 / 2.6 as there.
+inline FloatN ggx_dielectric_share(const FloatN& cosine, const FloatN& roughness, const FloatN& eta) {
+  constexpr int layers = 33;
+  // Even steps of the root of |eta - 1| / (eta + 1): total reflection starts suddenly.
+  constexpr float most = 0.67F;
+  static const auto table = [] {
+    std::array<float, std::size_t{layers} * detail::ShareAxes::size> shares{};
+    for (int layer = 0; layer < layers; ++layer) {
+      const float step = (static_cast<float>(layer) * 2 / (layers - 1) - 1) * most, x = step * std::abs(step);
+      const FloatN layer_eta((1 + x) / (1 - x));
+      detail::ShareAxes::fill(&shares[std::size_t(layer) * detail::ShareAxes::size], [&](float cosine_o, float rough) {
+        const Ggx<FloatN> ggx{FloatN(rough * rough)};
+        return detail::mean_over_facets(cosine_o, ggx, [&](const Vec3<FloatN>& wo, const Vec3<FloatN>& facet) {
+          const FloatN c = min(max(dot(wo, facet), FloatN(0)), FloatN(1));
+          const FresnelReflection<FloatN> fresnel = fresnel_reflection(c, layer_eta);
+          const FloatN below = wo.z / layer_eta - facet.z * (c / layer_eta - fresnel.transmitted_cosine);
+          const FloatN refracted = select(
+              below > FloatN(0), ggx.unshadowed(ggx.lambda(wo.z), ggx.lambda(max(below, FloatN(1e-6F)))), FloatN(0));
+          return fresnel.reflectance * detail::unshadowed_reflection(ggx, wo, facet) +
+                 (FloatN(1) - fresnel.reflectance) * refracted;
+        });
+      });
+    }
+    return shares;
+  }();
+  const FloatN x = (eta - FloatN(1)) / (eta + FloatN(1));
+  const FloatN size = min(sqrt(abs(x)) * FloatN(1 / most), FloatN(1));
+  const FloatN height = (FloatN(1) + select(x < FloatN(0), -size, size)) * FloatN((layers - 1) / 2);
+  const IntN layer = to_int(min(height, FloatN(layers - 1.001F)));
+  const auto at = [&](const IntN& number) {
+    return detail::ShareAxes::look_up(table.data(), number * IntN(detail::ShareAxes::size), cosine, roughness);
+  };
+  const FloatN low = at(layer);
+  return low + (at(layer + IntN(1)) - low) * (height - to_float(layer));
+}
+
+}  // namespace raytrace

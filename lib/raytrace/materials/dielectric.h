@@ -1,0 +1,73 @@
+// Dielectric: what is clear, such as glass and water. It reflects and refracts as Fresnel's equations say.
+//
+//   <dielectric>
+//     <name>green glass</name> <ior>1.52</ior> <roughness>0.1</roughness> <cr red="1" green="1" blue="1"/>
+//     <ct red="1" green="1" blue="1"/> <attenuationcolor red="0.4" green="0.9" blue="0.5"/>
+//     <attenuationdistance>2</attenuationdistance> <thinwalled>false</thinwalled>
+//   </dielectric>
+//
+// What is behind its front is inside: the front of a closed shape is its outside, that of a triangle the side from
+// which its vertices run counter-clockwise. Light that is inside is attenuated until it meets the dielectric's back. A
+// thin wall has nothing inside: it is a pane of two parallel faces with no distance between them, between which light
+// goes to and fro, and what comes through is not bent. A rough one scatters what comes through as it does what it
+// reflects, but to the other side (Burley, "Extending the Disney BRDF to a BSDF", SIGGRAPH course 2015).
+// Shadow rays do not come through: lights are seen through it only by paths that meet them.
+#pragma once
+
+#include "raytrace/materials/surface_detail.h"
+
+namespace raytrace {
+
+class Dielectric {
+ public:
+  /// T: double, or a batch for lanes with textures of their own.
+  template <class T>
+  struct Values {
+    T ior = T(1.5);                                   ///< index of refraction inside, over that outside
+    T roughness = T(0);                               ///< in [0, 1], the root of GGX's alpha; 0: smooth
+    Rgb<T> cr{T(1), T(1), T(1)};                      ///< multiplies what is reflected
+    Rgb<T> ct{T(1), T(1), T(1)};                      ///< multiplies what comes through
+    Rgb<T> attenuationcolor{T(1), T(1), T(1)};        ///< what white light becomes inside after
+    T attenuationdistance = T(0);                     ///< so far; 0: it stays as it is
+    T opacity = T(1), normalmap = T(1), bump = T(1);  ///< of surface_detail.h
+    T thin = T(0);                                    ///< 1: thin-walled; set by values()
+  };
+  struct Parameters : Values<double> {
+    bool thinwalled = false;
+  };
+  static constexpr std::string_view group = "dielectrics";
+  static constexpr std::string_view element = "dielectric";
+  static Fields fields() {
+    return with_surface_detail<Parameters>(
+        {optional("ior", &Parameters::ior, Range::positive),
+         optional("roughness", &Parameters::roughness, Range::not_negative), optional("cr", &Parameters::cr),
+         optional("ct", &Parameters::ct),
+         optional("attenuationcolor", &Parameters::attenuationcolor, Range::not_negative),
+         optional("attenuationdistance", &Parameters::attenuationdistance, Range::not_negative),
+         optional("thinwalled", &Parameters::thinwalled)});
+  }
+  static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {
+    const auto error = [](const char* message) {
+      return ParameterDiagnostic{ParameterDiagnostic::Effect::error, message};
+    };
+    const Rgb<double>& color = parameters.attenuationcolor;
+    const bool attenuates = color.red != 1 || color.green != 1 || color.blue != 1;
+    if (parameters.ior < 0.1 || parameters.ior > 10) return error("the dielectric's <ior> is not between 0.1 and 10");
+    if (parameters.roughness > 1) return error("the dielectric's <roughness> is above 1");
+    if (color.red > 1 || color.green > 1 || color.blue > 1)
+      return error("the dielectric's <attenuationcolor> is above 1: light would grow inside");
+    if (attenuates && parameters.attenuationdistance == 0)
+      return error("the dielectric's <attenuationcolor> needs an <attenuationdistance> after which light has it");
+    if (parameters.thinwalled && parameters.attenuationdistance > 0)
+      return error("the dielectric is thin-walled: nothing inside has an <attenuationdistance>");
+    return std::nullopt;
+  }
+  /// All that a kernel needs.
+  static Values<double> values(const Parameters& parameters) {
+    Values<double> result = parameters;
+    result.thin = parameters.thinwalled ? 1 : 0;
+    return result;
+  }
+};
+
+}  // namespace raytrace
