@@ -78,14 +78,15 @@ struct Numbers {
 TEST_CASE("an environment's picture has +z in its middle, -x right of it and +y above") {
   // Patches of 2 x 2 texels whose common corner is in the middle of what is towards an axis; the poles' rows are whole.
   const Rgb<double> back{1, 0, 0}, right{0, 1, 0}, front{0, 0, 1}, left{1, 1, 0}, top{0, 1, 1}, bottom{1, 0, 1};
-  const Environment environment(light_of(made_image(16, 8,
-                                                    [&](int x, int y) -> Rgb<double> {
-                                                      if (y == 0) return top;
-                                                      if (y == 7) return bottom;
-                                                      if (y != 3 && y != 4) return {0, 0, 0};
-                                                      return std::array{back, left, front, right}[(x + 1) % 16 / 4];
-                                                    })),
-                                1);
+  const Environment environment(
+      light_of(made_image(16, 8,
+                          [&](int x, int y) -> Rgb<double> {
+                            if (y == 0) return top;
+                            if (y == 7) return bottom;
+                            if (y != 3 && y != 4) return {0, 0, 0};
+                            return std::array{back, left, front, right}[static_cast<std::size_t>((x + 1) % 16 / 4)];
+                          })),
+      1);
   CHECK(is_near(color_at(environment, {0, 0, 1}), front));
   CHECK(is_near(color_at(environment, {0, 0, -1}), back));
   CHECK(is_near(color_at(environment, {-1, 0, 0}), right));

@@ -81,8 +81,9 @@ class Environment {
 
   // Of the table, which none has that is the same, or black, everywhere. Shares are cumulative: 0 before the first, 1
   // after the last, and multiples of 2^-24.
-  LargeArray<float> row_shares_;            ///< height + 1
-  LargeArray<float> column_shares_;         ///< of each row, width + 1
+  LargeArray<float> row_shares_;                       ///< height + 1
+  LargeArray<float> column_shares_;                    ///< of each row, width + 1
+  LargeArray<std::int32_t> row_parts_, column_parts_;  ///< of them, detail::set_parts()
   LargeArray<float> polar_caps_;            ///< 1 - cos of the angle between a pole and the k-th row's edge; height + 1
   LargeArray<float> inverse_solid_angles_;  ///< of each row: one over that of a texel
 };
@@ -118,16 +119,34 @@ inline double add_up(const float* weights, std::int32_t count, float* shares) {
   return sum;
 }
 
-/// The last of `count` cumulative shares, from `first` on, that is not above u.
-inline IntN find_share(const float* shares, const IntN& first, std::int32_t count, const FloatN& u) {
-  IntN found(0);
-  for (auto step = static_cast<std::int32_t>(std::bit_ceil(static_cast<std::uint32_t>(count)) / 2); step > 0;
-       step /= 2) {
-    const IntN next = found + IntN(step), there = min(next, IntN(count - 1));
-    const MaskN forward = float_mask<FloatN>(next == there) & (gather(shares, first + there) <= u);
-    found = select_lanes(forward, next, found);
+/// So many equal parts of the numbers from 0 up to 1, each of which knows where in `count` shares its numbers are: a
+/// power of 2, so that a number's part is exact.
+inline std::int32_t part_count(std::int32_t count) {
+  return static_cast<std::int32_t>(std::bit_floor(std::max(static_cast<std::uint32_t>(count) / 4, 1U)));
+}
+
+/// Of the beginning of each part, and of 1, the last of the shares that is not above it.
+inline void set_parts(const float* shares, std::int32_t count, std::int32_t* parts) {
+  const std::int32_t last = part_count(count);
+  std::int32_t i = 0;
+  for (std::int32_t part = 0; part <= last; ++part) {
+    while (i + 1 < count && shares[i + 1] * static_cast<float>(last) <= static_cast<float>(part)) ++i;
+    parts[part] = i;
   }
-  return found;
+}
+
+/// The last of `count` shares, from `first` on, that is not above u. first_part: where their parts begin.
+inline IntN find_share(const float* shares, const IntN& first, std::int32_t count, const std::int32_t* parts,
+                       const IntN& first_part, const FloatN& u) {
+  const IntN part = first_part + to_int(u * FloatN(static_cast<float>(part_count(count))));
+  IntN low = gather(parts, part), high = gather(parts, part + IntN(1));
+  while (any(float_mask<FloatN>(low < high))) {
+    const IntN middle = (low + high + IntN(1)) >> 1;
+    const MaskN below = gather(shares, first + middle) <= u;
+    low = select_lanes(below, middle, low);
+    high = select_lanes(below, high, middle - IntN(1));
+  }
+  return low;
 }
 
 }  // namespace detail
@@ -177,6 +196,9 @@ inline void Environment::make_table(int threads) {
   for (std::size_t k = 0; k <= height; ++k) polar_caps_[k] = static_cast<float>(cap(static_cast<double>(k)));
   row_shares_ = LargeArray<float>::unset(height + 1);
   column_shares_ = LargeArray<float>::unset((width + 1) * height);
+  const auto parts = static_cast<std::size_t>(detail::part_count(width_)) + 1;
+  column_parts_ = LargeArray<std::int32_t>::unset(parts * height);
+  row_parts_ = LargeArray<std::int32_t>::unset(static_cast<std::size_t>(detail::part_count(height_)) + 1);
   std::vector<float> row_weights(height);
   std::vector<double> row_means(height);
   for_each_index(height_, threads, [&](int number) {
@@ -195,6 +217,7 @@ inline void Environment::make_table(int threads) {
     }
     const double solid_angle = 2 * std::numbers::pi * (cap(number + 1) - cap(number));  // of the whole row
     const double sum = detail::add_up(weights.data(), width_, column_shares_.data() + row * (width + 1));
+    detail::set_parts(column_shares_.data() + row * (width + 1), width_, column_parts_.data() + row * parts);
     inverse_solid_angles_[row] = static_cast<float>(width_ / solid_angle);
     row_means[row] = sum / width_ * solid_angle / (4 * std::numbers::pi);
     row_weights[row] = static_cast<float>(row_means[row]);
@@ -203,6 +226,7 @@ inline void Environment::make_table(int threads) {
   for (const double row_mean : row_means) mean += row_mean;
   mean_radiance_ = mean_radiance_ * static_cast<float>(mean);
   detail::add_up(row_weights.data(), height_, row_shares_.data());
+  detail::set_parts(row_shares_.data(), height_, row_parts_.data());
   if (!(mean > 0)) row_shares_ = {};
 }
 
@@ -259,9 +283,10 @@ inline EnvironmentSample Environment::sample(const FloatN& u1, const FloatN& u2)
   EnvironmentSample result;
   FloatN cap = u2 * FloatN(2), longitude = u1, side(1);  // from the south pole
   if (has_table()) {
-    const IntN row = detail::find_share(row_shares_.data(), IntN(0), height_, u2);
+    const IntN row = detail::find_share(row_shares_.data(), IntN(0), height_, row_parts_.data(), IntN(0), u2);
     const IntN first = row * IntN(width_ + 1);
-    const IntN column = detail::find_share(column_shares_.data(), first, width_, u1);
+    const IntN column = detail::find_share(column_shares_.data(), first, width_, column_parts_.data(),
+                                           row * IntN(detail::part_count(width_) + 1), u1);
     // Numbers stand for their quanta's middles.
     const auto fraction = [](const LargeArray<float>& shares, const IntN& at, const FloatN& u) {
       const FloatN begin = gather(shares.data(), at), end = gather(shares.data(), at + IntN(1));

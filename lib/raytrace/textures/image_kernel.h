@@ -181,7 +181,7 @@ class Kernel<Image> {
       case TexelFormat::shorts:
         return each_texel<std::uint16_t>(index);
       case TexelFormat::halves:
-        return each_texel<Half>(index);
+        return texels_->channels() == 4 ? half_texels(index) : each_texel<Half>(index);
       default:
         break;
     }
@@ -200,6 +200,18 @@ class Kernel<Image> {
     const UintN byte(255U);
     return {{light(number(word & byte)), light(number((word >> 8) & byte)), light(number((word >> 16) & byte))},
             number(word >> 24)};
+  }
+
+  RAYTRACE_INLINE Rgba<FloatN> half_texels(const IntN& index) const {
+    const auto* const words = reinterpret_cast<const std::int32_t*>(texels_->texels());
+    const UintN first = same_bits<UintN>(gather(words, index * IntN(2)));
+    const UintN second = same_bits<UintN>(gather(words + 1, index * IntN(2)));
+    // As number() does it.
+    const auto low = [](const UintN& halves) {
+      const FloatN magnitude = same_bits<FloatN>((halves & UintN(0x7fffU)) << 13) * FloatN(0x1p112F);
+      return same_bits<FloatN>(same_bits<UintN>(magnitude) | ((halves & UintN(0x8000U)) << 16));
+    };
+    return {{low(first), low(first >> 16), low(second)}, low(second >> 16)};
   }
 
   /// That a colour's number in [0, 1] stands for. Of sRGB within 0.0002, and a thousandth of it.
