@@ -58,7 +58,8 @@ class Kernel<Box> {
     position.y = select(normal.y > zero, end(speed.y, box.min.y, box.max.y), position.y);
     position.z = select(normal.z > zero, end(speed.z, box.min.z, box.max.z), position.z);
     const Vec3<F> rounded = to_float(position);
-    return {rounded, to_float(normal), rounding_error(rounded, F(0))};
+    const Vec3<D> outwards = select(dot(normal, speed) > zero, normal, -normal);
+    return {rounded, to_float(outwards), rounding_error(rounded, F(0))};
   }
 
   /// Over each face once: to the right and up, as one looks at it (math/surface_uv.h).
