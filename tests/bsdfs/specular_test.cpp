@@ -186,6 +186,33 @@ TEST_CASE("a rough metal's samples follow its pdf, from any side") {
     }
 }
 
+TEST_CASE("a lobe too narrow for cells has the spread of its roughness, and GGX's density") {
+  // From straight above, tan^2 / (alpha^2 + tan^2) of the facets' angles is even in [0, 1), and the pdf is D / 4.
+  const Vec3<FloatN> wo = local_normal<FloatN>();
+  for (const double roughness : {0.05, 0.1, 0.2}) {
+    const double alpha2 = std::pow(roughness, 4);
+    const MetalBsdf bsdf = metal(roughness);
+    std::vector<double> counts(20);
+    double worst = 0;
+    Random random(17);
+    for (int i = 0; i < samples; i += packet_lanes) {
+      const auto numbers = [&] { return batch_of<FloatN>([&](std::size_t) { return random.unit(); }); };
+      const FloatN u1 = numbers(), u2 = numbers();
+      const BsdfSample<FloatN> sample = bsdf.sample(wo, FloatN(0.5F), u1, u2);
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        const Vec3d wi = lane_of(sample.wi, lane), facet = normalize(wi + Vec3d{0, 0, 1});
+        const double tan2 = (facet.x * facet.x + facet.y * facet.y) / (facet.z * facet.z);
+        ++counts[std::min(static_cast<std::size_t>(tan2 / (alpha2 + tan2) * 20), counts.size() - 1)];
+        const double density = alpha2 / (std::numbers::pi * std::pow(facet.z, 4) * std::pow(alpha2 + tan2, 2));
+        if (wi.z > 0.01) worst = std::max(worst, std::abs(double{sample.pdf.get(lane)} / (density / 4) - 1));
+      }
+    }
+    INFO("roughness " << roughness);
+    CHECK(chi_square_deviation(counts) < 4);
+    CHECK(worst < 2e-3);
+  }
+}
+
 namespace {
 
 /// What a dielectric reflects; other samples go straight down.

@@ -1,5 +1,6 @@
 // Paths by mirrors, metals and glass against closed forms, and their bits against themselves.
 #include <cmath>
+#include <initializer_list>
 #include <string>
 
 #include "render/scenes.h"
@@ -71,6 +72,25 @@ TEST_CASE("what is smooth and loses nothing cannot be seen under a white sky") {
     INFO(material << " " << all.least << " " << all.most);
     CHECK(all.least > 1 - 1e-4);
     CHECK(all.most < 1 + 1e-4);
+  }
+}
+
+TEST_CASE("nor can glass of any closed shape: light comes in by its front, and out by its back") {
+  const std::string ends = "<bottom x='-0.3' y='-0.8' z='0.1'/><top x='0.2' y='0.7' z='-0.2'/><radius>0.6</radius>",
+                    last = "<caps>true</caps><material>m</material>";
+  for (const std::string& shape : std::initializer_list<std::string>{
+           "<boxes><box><min x='-0.6' y='-0.5' z='-0.7'/><max x='0.5' y='0.6' "
+           "z='0.4'/><material>m</material></box></boxes>",
+           "<cylinders><cylinder>" + ends + last + "</cylinder></cylinders>",
+           "<cones><cone>" + ends + "<topradius>0.3</topradius>" + last + "</cone></cones>",
+           "<toruses><torus><axis x='0.3' y='0.5' z='1'/><sweptradius>0.7</sweptradius><tuberadius>0.25</tuberadius>"
+           "<material>m</material></torus></toruses>"}) {
+    std::string text = ball_under_the_sky(16, 16, dielectric(""));
+    const std::size_t from = text.find("<spheres>"), to = text.find("</objects>");
+    const Spread all = spread_of(rendered(text.replace(from, to - from, shape)));
+    INFO(shape << " " << all.least << " " << all.most);
+    CHECK(all.least > 1 - 1e-3);
+    CHECK(all.most < 1 + 1e-3);
   }
 }
 
@@ -162,7 +182,8 @@ TEST_CASE("paths by mirrors, metals and glass do not depend on threads, samples 
       "<checkers><checker><name>checks</name><color1 red='1' green='1' blue='1'/><color2 red='0.3' green='0.6' "
       "blue='0.2'/><scale>0.4</scale></checker></checkers></textures><materials><mattes><matte><name>floor</name>"
       "<ka>0</ka><kd>0.7</kd><cd red='1' green='1' blue='1'/></matte></mattes><mirrors><mirror><name>m</name>"
-      "<cr texture='checks'/></mirror></mirrors><conductors><conductor><name>gold</name><metal>gold</metal></conductor>"
+      "<cr texture='checks'/></mirror></mirrors><conductors><conductor><name>gold</name><metal>gold</metal><bump "
+      "texture='checks' height='0.02'/></conductor>"
       "<conductor><name>brushed</name><metal>silver</metal><roughness texture='checks'/></conductor></conductors>"
       "<dielectrics><dielectric><name>glass</name><attenuationcolor red='0.2' green='0.8' blue='0.5'/>"
       "<attenuationdistance>1</attenuationdistance></dielectric><dielectric><name>frost</name>"
@@ -180,7 +201,7 @@ TEST_CASE("paths by mirrors, metals and glass do not depend on threads, samples 
     CHECK(identical(rendered(description, 3, isa), whole_picture));
     const RenderSettings settings{1, 0, whole(description)};
     Film film(film_settings(*scene, description, settings), FilmContent::sums);
-    for (const std::uint32_t samples : {1U, 3U, 4U}) render(*scene, film, samples, 1);
+    for (const std::uint32_t samples : {1U, 3U, 8U}) render(*scene, film, samples, 1);
     CHECK(identical(film, whole_picture));
     RayCounts rays;
     const Region part{13, 9, 40, 30};

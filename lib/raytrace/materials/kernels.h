@@ -3,12 +3,13 @@
 // A material's Kernel provides:
 //   template <class T> struct Bsdf { ... };   what the tracer keeps of a material: members of type T only
 //   template <class T, class Value> static Bsdf<T> bsdf_of(const Values<Value>&);   the Parameters are Values<double>,
-//   or derive from them; then a material whose kernel needs those has `static Values<double> values(const Parameters&)`
+//                                             or derive from them: what bsdf_of() needs of the rest, the material's own
+//                                             `static Values<double> values(const Parameters&)` puts there
 //   static Bsdf<float> bsdf(const Parameters&);
 // and of Bsdf<T>, where T is a batch:
 //   Rgb<T> ambient_radiance(const Rgb<T>& radiance) const;   what leaves under ambient light of that radiance
 //   Rgb<T> albedo() const;       the share of light from all sides that it scatters evenly to all sides, without
-//                                highlights
+//                                highlights; of mirrors, metals and glass what they reflect, as denoisers want it
 //   Rgb<T> evaluate(const Vec3<T>& wo, const Vec3<T>& wi, const Vec3<T>& normal) const;
 //                                f in 1/steradian, without the cosine; world space, unit vectors away from the surface
 //   BsdfSample<T> sample(const Vec3<T>& wo, const T& u, const T& u1, const T& u2) const;

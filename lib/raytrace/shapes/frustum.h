@@ -124,12 +124,13 @@ struct FrustumRay {
     // The foot on the side's line; its ends are the rims.
     const D slant2 = multiply_add(frustum.widening, frustum.widening, D(1.0));
     const D foot = multiply_add(frustum.widening, (rho - radius_at(h)) / slant2, h);
-    const D end = select(h + h > frustum.height, frustum.height, zero);
+    const auto at_top = h + h > frustum.height;
+    const D end = select(at_top, frustum.height, zero);
     const D y = select(on_cap, end, min(max(foot, zero), frustum.height));
     const D r = select(on_cap, min(rho, radius_at(end)), radius_at(y));
     const Vec3<D> side_normal = normalize(out - frustum.axis * frustum.widening);  // at the tip, along the axis
-    const Vec3<D> cap_normal = select(end > zero, frustum.axis, -frustum.axis);
     const Vec3<F> position = to_float(frustum.bottom + frustum.axis * y + out * r);
+    const Vec3<D> cap_normal = select(at_top, frustum.axis, -frustum.axis);
     return {position, to_float(select(on_cap, cap_normal, side_normal)), rounding_error(position, F(0))};
   }
 };
