@@ -116,7 +116,7 @@ TEST_CASE("a white matte sphere in a shining one cannot be seen, and the outer o
         sphere_scene("0", "3", "",
                      matte(1) + "<emissives><emissive><name>sky</name><ce red='1' green='1' blue='1'/>" + twosided +
                          "</emissive></emissives>",
-                     16),
+                     256),
         path_of(64));
     const std::string end = "</spheres>";
     text.insert(text.find(end),
@@ -124,8 +124,9 @@ TEST_CASE("a white matte sphere in a shining one cannot be seen, and the outer o
     return extremes(rendered(parsed_scene(text)));
   };
   const Extremes all = mean("<twosided>true</twosided>"), none = mean("");
-  CHECK(all.least > 1 - 1e-5);
-  CHECK(all.most < 1 + 1e-5);
+  CHECK(std::abs(all.mean - 1) < 0.005);  // light is drawn, so samples differ
+  CHECK(all.least > 0.9);
+  CHECK(all.most < 1.1);
   CHECK(none.most == 0);
 }
 
