@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <mutex>
 
 #include "raytrace/bsdfs/fresnel.h"
 #include "raytrace/bsdfs/ggx.h"
@@ -19,7 +21,7 @@ namespace detail {
 /// what falls off at grazing angles of the least rough as many steps as the rest.
 class ShareAxes {
  public:
-  static constexpr int steps = 20, size = steps * steps;
+  static constexpr int steps = 32, size = steps * steps;
 
   /// table: of `size` numbers, the lanes' own being at `first`.
   static FloatN look_up(const float* table, const IntN& first, const FloatN& cosine, const FloatN& roughness) {
@@ -59,7 +61,7 @@ class ShareAxes {
 template <class Scattered>
 float mean_over_facets(float cosine, const Ggx<FloatN>& ggx, const Scattered& scattered) {
   // A midpoint rule of as many angles in half a circle, and steps from the tail of the facets' slopes.
-  constexpr int turns = 24, heights = 32;
+  constexpr int turns = 32, heights = 48;
   const Vec3<FloatN> wo(Vec3f{std::sqrt(1 - cosine * cosine), 0, cosine});
   FloatN sum(0);
   for (int first = 0; first < turns * heights; first += packet_lanes) {
@@ -97,37 +99,64 @@ inline FloatN ggx_reflected_share(const FloatN& cosine, const FloatN& roughness)
   return detail::ShareAxes::look_up(table.data(), IntN(0), cosine, roughness);
 }
 
+namespace detail {
+
+/// Of facets between two clear media, for steps of eta: each made when it is wanted first, since scenes have few.
+class DielectricShares {
+ public:
+  static constexpr int layers = 33;
+  // Even steps of the root of |eta - 1| / (eta + 1): total reflection starts suddenly.
+  static constexpr float most = 0.67F;
+
+  /// From the layer's first number on.
+  const float* shares() const { return shares_.data(); }
+
+  void make(int layer) {
+    const auto index = static_cast<std::size_t>(layer);
+    if (is_made_[index].load(std::memory_order_acquire)) return;
+    const std::lock_guard lock(making_);
+    if (is_made_[index].load(std::memory_order_relaxed)) return;
+    const float step = (static_cast<float>(layer) * 2 / (layers - 1) - 1) * most, x = step * std::abs(step);
+    const FloatN eta((1 + x) / (1 - x));
+    ShareAxes::fill(&shares_[index * ShareAxes::size], [&](float cosine, float roughness) {
+      const Ggx<FloatN> ggx{FloatN(roughness * roughness)};
+      return mean_over_facets(cosine, ggx, [&](const Vec3<FloatN>& wo, const Vec3<FloatN>& facet) {
+        const FloatN c = min(max(dot(wo, facet), FloatN(0)), FloatN(1));
+        const FresnelReflection<FloatN> fresnel = fresnel_reflection(c, eta);
+        const FloatN below = wo.z / eta - facet.z * (c / eta - fresnel.transmitted_cosine);
+        const FloatN refracted = select(
+            below > FloatN(0), ggx.unshadowed(ggx.lambda(wo.z), ggx.lambda(max(below, FloatN(1e-6F)))), FloatN(0));
+        return fresnel.reflectance * unshadowed_reflection(ggx, wo, facet) +
+               (FloatN(1) - fresnel.reflectance) * refracted;
+      });
+    });
+    is_made_[index].store(true, std::memory_order_release);
+  }
+
+ private:
+  std::mutex making_;
+  std::array<std::atomic<bool>, layers> is_made_{};
+  std::array<float, std::size_t{layers} * ShareAxes::size> shares_{};
+};
+
+}  // namespace detail
+
 /// Of facets that reflect and refract as a boundary of that eta does (fresnel.h); beyond 2.6 and 1 / 2.6 as there.
 inline FloatN ggx_dielectric_share(const FloatN& cosine, const FloatN& roughness, const FloatN& eta) {
-  constexpr int layers = 33;
-  // Even steps of the root of |eta - 1| / (eta + 1): total reflection starts suddenly.
-  constexpr float most = 0.67F;
-  static const auto table = [] {
-    std::array<float, std::size_t{layers} * detail::ShareAxes::size> shares{};
-    for (int layer = 0; layer < layers; ++layer) {
-      const float step = (static_cast<float>(layer) * 2 / (layers - 1) - 1) * most, x = step * std::abs(step);
-      const FloatN layer_eta((1 + x) / (1 - x));
-      detail::ShareAxes::fill(&shares[std::size_t(layer) * detail::ShareAxes::size], [&](float cosine_o, float rough) {
-        const Ggx<FloatN> ggx{FloatN(rough * rough)};
-        return detail::mean_over_facets(cosine_o, ggx, [&](const Vec3<FloatN>& wo, const Vec3<FloatN>& facet) {
-          const FloatN c = min(max(dot(wo, facet), FloatN(0)), FloatN(1));
-          const FresnelReflection<FloatN> fresnel = fresnel_reflection(c, layer_eta);
-          const FloatN below = wo.z / layer_eta - facet.z * (c / layer_eta - fresnel.transmitted_cosine);
-          const FloatN refracted = select(
-              below > FloatN(0), ggx.unshadowed(ggx.lambda(wo.z), ggx.lambda(max(below, FloatN(1e-6F)))), FloatN(0));
-          return fresnel.reflectance * detail::unshadowed_reflection(ggx, wo, facet) +
-                 (FloatN(1) - fresnel.reflectance) * refracted;
-        });
-      });
-    }
-    return shares;
-  }();
+  using detail::DielectricShares;
+  static DielectricShares table;
   const FloatN x = (eta - FloatN(1)) / (eta + FloatN(1));
-  const FloatN size = min(sqrt(abs(x)) * FloatN(1 / most), FloatN(1));
-  const FloatN height = (FloatN(1) + select(x < FloatN(0), -size, size)) * FloatN((layers - 1) / 2);
-  const IntN layer = to_int(min(height, FloatN(layers - 1.001F)));
+  const FloatN size = min(sqrt(abs(x)) * FloatN(1 / DielectricShares::most), FloatN(1));
+  constexpr int last = DielectricShares::layers - 1;
+  const FloatN height = (FloatN(1) + select(x < FloatN(0), -size, size)) * FloatN(last / 2);
+  const IntN layer = to_int(min(height, FloatN(last - 0.001F)));
+  const LaneIndices numbers(layer);
+  for (std::size_t lane = 0; lane < (numbers.all_same() ? 1 : packet_lanes); ++lane) {
+    table.make(layer.get(lane));
+    table.make(layer.get(lane) + 1);
+  }
   const auto at = [&](const IntN& number) {
-    return detail::ShareAxes::look_up(table.data(), number * IntN(detail::ShareAxes::size), cosine, roughness);
+    return detail::ShareAxes::look_up(table.shares(), number * IntN(detail::ShareAxes::size), cosine, roughness);
   };
   const FloatN low = at(layer);
   return low + (at(layer + IntN(1)) - low) * (height - to_float(layer));

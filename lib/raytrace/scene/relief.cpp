@@ -64,6 +64,7 @@ void SceneTables::add_relief(const Hits& hits, const TexturePoint<FloatN>& point
     const FloatN behind = max(FloatN(least_cosine) - dot(normal, surface.wo), FloatN(0));
     normal = normalize(normal + surface.wo * behind);
     surface.ns = select(here, normal, surface.ns);
+    surface.relief = surface.has_relief ? surface.relief | here : here;
     surface.has_relief = true;
   }
 }

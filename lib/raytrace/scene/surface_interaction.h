@@ -21,18 +21,19 @@ struct SurfaceInteraction {
   Vec3<F> to_smooth_surface;
   bool is_smooth = false;  ///< whether any lane has it
 
-  /// Whether a normal map or a bump has turned a lane's ns.
+  /// Whether a normal map or a bump has turned any lane's ns, and which lanes'.
   bool has_relief = false;
+  Mask<F> relief;
 };
 
 /// The share of the light from wi, of unit length, that reaches a surface whose relief is not there for rays: it ends
 /// softly where the true surface turns away, in place of at a hard edge. Chiang, Li and Burley, "Taming the Shadow
-/// Terminator", SIGGRAPH Talks 2019.
+/// Terminator", SIGGRAPH Talks 2019. Of surfaces of which some lane has relief.
 template <class F>
 RAYTRACE_INLINE F relief_shadow(const SurfaceInteraction<F>& surface, const Vec3<F>& wi) {
   const F product = dot(surface.ns, wi) * dot(surface.ng, surface.ns);
   const F g = min(max(dot(surface.ng, wi), F(0)) / max(product, F(1e-6F)), F(1));
-  return ((F(1) - g) * g + F(1)) * g;
+  return select(surface.relief, ((F(1) - g) * g + F(1)) * g, F(1));
 }
 
 /// Where rays that leave the surface on ng's side start: p moved along ng just so far that neither its own rounding nor
