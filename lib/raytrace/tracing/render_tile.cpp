@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <utility>
+#include <variant>
 
 #include "raytrace/sampling/pixel_sampler.h"
 #include "raytrace/tracing/block_aovs.h"
@@ -20,12 +21,35 @@ constexpr int packets_per_look = 16;
 FloatN to_float(const UintN& numbers) { return to_float(same_bits<IntN>(numbers)); }
 FloatN to_float(std::uint32_t number) { return FloatN(static_cast<float>(static_cast<std::int32_t>(number))); }
 
-/// The pixels of a part of a film, block by block.
-template <class Integrator, PacketShape shape>
+/// The radiance, of the environment where nothing else was met. The arguments are copies of the innermost loop's, which
+/// stay in registers there.
+[[gnu::noinline]] Rgb<FloatN> in_environment(const Environment& environment, const RayResult& result,
+                                             const Vec3<FloatN>& direction) {
+  if (all(result.hit)) return result.radiance;
+  return select(result.hit, result.radiance, environment.radiance(direction));
+}
+
+/// An integrator, as one that is called by a pointer.
+struct IntegratorCalls {
+  decltype(&Kernel<Raycast>::radiance) radiance;
+  bool takes_samples;
+};
+
+/// Of a scene's integrator.
+IntegratorCalls calls_of(const SceneTables& scene) {
+  return with_type(Integrators{}, scene.integrator().index(), [&]<class Integrator>(std::type_identity<Integrator>) {
+    return IntegratorCalls{&Kernel<Integrator>::radiance, Kernel<Integrator>::takes_samples};
+  });
+}
+
+/// The pixels of a part of a film, block by block. Ray casting takes so little time that a call for each packet shows,
+/// so it has renderers of its own; all other integrators share theirs.
+template <bool raycast, PacketShape shape>
 class BlockRenderer {
  public:
   BlockRenderer(const TracedScene& scene, const Region& region, Film& film, const std::atomic<bool>* stop)
       : scene_(scene),
+        integrator_(calls_of(scene.tables())),
         region_(region),
         film_(film),
         stop_(stop),
@@ -121,15 +145,17 @@ class BlockRenderer {
       } else {
         traced = active & set_camera_rays(block, FloatN(x), FloatN(y), Sample2D(point), UintN(sample), camera);
       }
-      if (Kernel<Integrator>::takes_samples || scene_.tables().has_cutouts() || scene_.tables().has_sampled_lights())
-          [[unlikely]] {
+      if ((!raycast && integrator_.takes_samples) || scene_.tables().has_cutouts() ||
+          scene_.tables().has_sampled_lights()) [[unlikely]] {
         camera.pixel = pixel_hash(UintN(column), UintN(row), film_.settings().seed);
         camera.sample = sample;
       }
-      RayResult result = Kernel<Integrator>::radiance(scene_, background_, camera, traced, wanted, report_.rays,
-                                                      aovs != nullptr ? &first : nullptr);
+      FirstHits* const first_hits = aovs != nullptr ? &first : nullptr;
+      RayResult result =
+          raycast ? Kernel<Raycast>::radiance(scene_, background_, camera, traced, wanted, report_.rays, first_hits)
+                  : integrator_.radiance(scene_, background_, camera, traced, wanted, report_.rays, first_hits);
       if (environment_ != nullptr) [[unlikely]]
-        result.radiance = in_environment(RayResult(result), Vec3<FloatN>(camera.rays.direction));
+        result.radiance = in_environment(*environment_, RayResult(result), Vec3<FloatN>(camera.rays.direction));
       if (usual_camera_ == nullptr) result.radiance = select(traced, result.radiance, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
       const MaskN large = sums.add(result, wanted);
       if (aovs != nullptr) {
@@ -146,7 +172,7 @@ class BlockRenderer {
     sums.add_to(film_, block, region_);
   }
 
-  /// Of any camera and pixel filter. The arguments are copies of the innermost loop's, which stay in registers there.
+  /// Of any camera and pixel filter. Copies, as above.
   [[gnu::noinline]] MaskN set_camera_rays(const Block& block, const FloatN& x, const FloatN& y, const Sample2D& point,
                                           const UintN& sample, CameraRays& camera) const {
     const SceneTables& tables = scene_.tables();
@@ -157,12 +183,6 @@ class BlockRenderer {
       lens = get_2d(pixel, sample, Dimension::lens);
     }
     return tables.set_camera_rays(x + placed.x, y + placed.y, lens, camera);
-  }
-
-  /// The radiance, of the environment where nothing else was met. Copies, as above.
-  [[gnu::noinline]] Rgb<FloatN> in_environment(const RayResult& result, const Vec3<FloatN>& direction) const {
-    if (all(result.hit)) return result.radiance;
-    return select(result.hit, result.radiance, environment_->radiance(direction));
   }
 
   /// Pixels of the picture, and those beyond it that are wanted.
@@ -206,6 +226,7 @@ class BlockRenderer {
   }
 
   const TracedScene& scene_;
+  IntegratorCalls integrator_;
   const Region& region_;
   Film& film_;
   const std::atomic<bool>* stop_;
@@ -218,17 +239,11 @@ class BlockRenderer {
   RenderReport report_;
 };
 
-/// f(std::type_identity<Integrator>{}) of the scene's.
-template <class Function>
-auto with_integrator(const SceneTables& scene, const Function& f) {
-  return with_type(Integrators{}, scene.integrator().index(), f);
-}
-
-template <class Integrator>
+template <bool raycast>
 RenderReport render_tile_by(const TracedScene& scene, const Region& region, std::uint32_t samples, Film& film,
                             const std::atomic<bool>* stop) {
   const auto in_groups_of = [&]<int group>(std::integral_constant<int, group>) {
-    return BlockRenderer<Integrator, shape_of_samples(group)>(scene, region, film, stop).render(samples);
+    return BlockRenderer<raycast, shape_of_samples(group)>(scene, region, film, stop).render(samples);
   };
   // As many samples of as few pixels as there are samples at hand: such rays are closer together than those of one
   // sample of many pixels. Samples 0, 1, ... of a pixel belong to groups, and lanes may be left without work in the
@@ -243,8 +258,9 @@ RenderReport render_tile_by(const TracedScene& scene, const Region& region, std:
   if (first < last) {
     if (film.aovs() == nullptr) {  // they take too much for each block: one should have several packets
       if (few_are_idle(packet_lanes)) return in_groups_of(std::integral_constant<int, packet_lanes>());
-      if (few_are_idle(packet_lanes / 2)) return in_groups_of(std::integral_constant<int, packet_lanes / 2>());
-      if constexpr (packet_lanes > 16)
+      if constexpr (raycast)
+        if (few_are_idle(packet_lanes / 2)) return in_groups_of(std::integral_constant<int, packet_lanes / 2>());
+      if constexpr (raycast && packet_lanes > 16)
         if (few_are_idle(packet_lanes / 4)) return in_groups_of(std::integral_constant<int, packet_lanes / 4>());
     }
     if (few_are_idle(4)) return in_groups_of(std::integral_constant<int, 4>());
@@ -255,16 +271,16 @@ RenderReport render_tile_by(const TracedScene& scene, const Region& region, std:
 }  // namespace
 
 RadianceRange radiance_range(const SceneTables& scene) {
-  return with_integrator(scene, [&]<class Integrator>(std::type_identity<Integrator>) {
+  return with_type(Integrators{}, scene.integrator().index(), [&]<class Integrator>(std::type_identity<Integrator>) {
     return Kernel<Integrator>::radiance_range(scene);
   });
 }
 
 RenderReport render_tile(const TracedScene& scene, const Region& region, std::uint32_t samples, Film& film,
                          const std::atomic<bool>* stop) {
-  return with_integrator(scene.tables(), [&]<class Integrator>(std::type_identity<Integrator>) {
-    return render_tile_by<Integrator>(scene, region, samples, film, stop);
-  });
+  return std::holds_alternative<Raycast::Parameters>(scene.tables().integrator())
+             ? render_tile_by<true>(scene, region, samples, film, stop)
+             : render_tile_by<false>(scene, region, samples, film, stop);
 }
 
 }  // namespace raytrace
