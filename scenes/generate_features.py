@@ -1109,3 +1109,33 @@ studio(
     </boxes>
 """,
 )
+write(
+    "emissive",
+    "Lamps of any shape: a ring, a ball and a panel.",
+    room=ROOM.replace("<samples>16", "<samples>256").replace("0.04", "0").replace("0.06", "0").replace("0.09", "0"),
+    lights="",
+    materials_more="""\
+    <emissives>
+      <emissive> <name>warm</name> <ce red="1" green="0.62" blue="0.25"/> <scaleradiance>7</scaleradiance> </emissive>
+      <emissive> <name>cool</name> <ce red="0.35" green="0.6" blue="1"/> <scaleradiance>9</scaleradiance> </emissive>
+      <emissive> <name>panel</name> <ce red="1" green="0.95" blue="0.9"/> <scaleradiance>2.5</scaleradiance> </emissive>
+    </emissives>
+""",
+    objects="""\
+    <spheres>
+      <sphere> <center x="0.2" y="0.75" z="0.2"/> <radius>0.75</radius> <material>clay</material> </sphere>
+      <sphere> <center x="1.75" y="0.22" z="1.3"/> <radius>0.22</radius> <material>cool</material> </sphere>
+    </spheres>
+    <toruses>
+      <torus>
+        <center x="-1.5" y="0.95" z="-0.4"/> <axis x="0.7" y="0" z="1"/> <sweptradius>0.85</sweptradius>
+        <tuberadius>0.07</tuberadius> <material>warm</material>
+      </torus>
+    </toruses>
+    <rectangles>
+      <rectangle>
+        <corner x="-3" y="4" z="-3"/> <edge1 x="4" y="0" z="0"/> <edge2 x="0" y="0.6" z="2"/> <material>panel</material>
+      </rectangle>
+    </rectangles>
+""",
+)

@@ -53,7 +53,10 @@ class SceneChecker {
         line_ = item.line;
         if (T::group.empty() && i > 1) error("is a second one; a scene has one");
         check_labels<Section>(scene, item);
-        if constexpr (requires { item.image; item.parameters.file; })
+        if constexpr (requires {
+                        item.image;
+                        item.parameters.file;
+                      })
           if (!item.parameters.file.path.empty() && item.image.hash.empty())
             error("has a file that has not been loaded (load_images.h)");
         if constexpr (requires { item.textures; }) check_textured_fields(element_type<T>().fields, item.textures);
