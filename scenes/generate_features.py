@@ -1118,7 +1118,7 @@ write(
     <emissives>
       <emissive> <name>warm</name> <ce red="1" green="0.62" blue="0.25"/> <scaleradiance>7</scaleradiance> </emissive>
       <emissive> <name>cool</name> <ce red="0.35" green="0.6" blue="1"/> <scaleradiance>9</scaleradiance> </emissive>
-      <emissive> <name>panel</name> <ce red="1" green="0.95" blue="0.9"/> <scaleradiance>2.5</scaleradiance> </emissive>
+      <emissive> <name>panel</name> <ce red="1" green="0.95" blue="0.9"/> <scaleradiance>9</scaleradiance> </emissive>
     </emissives>
 """,
     objects="""\
