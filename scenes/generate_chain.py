@@ -1,53 +1,111 @@
 #!/usr/bin/env python3
-"""Writes gallery/chain.xml: a chain of rings, gold and steel in turn, tied into a trefoil knot."""
+"""Writes gallery/chain.xml: a chain of gold that lies on slate, in a spiral that runs out towards the camera."""
 import math
+import os
 
-from scene_xml import Scene, add, cross, srgb, unit
+from scene_xml import number, vector
 
 LINKS = 76
-STEPS = 20_000
+SWEPT, TUBE = 0.33, 0.085
+SPACING = 0.53
+
+TEXT = """\
+<!-- A chain of gold on slate, a softbox behind it. Made by scenes/generate_chain.py. -->
+<raytracer>
+  <viewplane>
+    <hres>1920</hres> <vres>1080</vres> <samples>1024</samples> <background red="0" green="0" blue="0"/>
+  </viewplane>
+  <thinlenscamera>
+    <eye x="1.2" y="2.5" z="8.2"/> <lookat x="0.1" y="0.1" z="1.1"/> <fov>23</fov>
+    <lensradius>0.1</lensradius> <focaldistance>6.1</focaldistance> <blades>7</blades>
+  </thinlenscamera>
+  <integrator> <path> <clampindirect>3</clampindirect> </path> </integrator>
+  <lights>
+    <environmentlights>
+      <environmentlight>
+        <scaleradiance>0.03</scaleradiance> <color red="0.7" green="0.82" blue="1"/> <visible>false</visible>
+      </environmentlight>
+    </environmentlights>
+  </lights>
+  <textures>
+    <noises>
+      <noise>
+        <name>slate</name> <color1 red="0.018" green="0.02" blue="0.024"/> <color2 red="0.05" green="0.054" blue="0.062"/>
+        <scale>1.2</scale> <octaves>8</octaves>
+      </noise>
+      <noise>
+        <name>wear</name> <color1 red="0.75" green="0.75" blue="0.75"/> <color2 red="1" green="1" blue="1"/>
+        <scale>0.15</scale> <octaves>5</octaves>
+      </noise>
+      <noise>
+        <name>grit</name> <color1 red="0" green="0" blue="0"/> <color2 red="1" green="1" blue="1"/> <scale>0.35</scale>
+        <octaves>4</octaves>
+      </noise>
+    </noises>
+  </textures>
+  <materials>
+    <phongs>
+      <phong>
+        <name>slate</name> <ka>0</ka> <kd>1</kd> <ks>0.25</ks> <cd texture="slate"/> <cs red="1" green="1" blue="1"/>
+        <exp>25</exp> <bump texture="grit" height="0.012"/>
+      </phong>
+    </phongs>
+    <conductors>
+      <conductor> <name>gold</name> <metal>gold</metal> <roughness texture="wear">0.34</roughness> </conductor>
+    </conductors>
+    <emissives>
+      <emissive> <name>softbox</name> <ce red="1" green="0.9" blue="0.76"/> <scaleradiance>9</scaleradiance> </emissive>
+      <emissive> <name>strip</name> <ce red="0.55" green="0.75" blue="1"/> <scaleradiance>3</scaleradiance> </emissive>
+    </emissives>
+  </materials>
+  <objects>
+    <planes>
+      <plane> <point x="0" y="0" z="0"/> <normal x="0" y="1" z="0"/> <material>slate</material> </plane>
+    </planes>
+    <rectangles>
+      <rectangle>
+        <name>softbox</name> <corner x="-4.5" y="2.2" z="-6.5"/> <edge1 x="6" y="0" z="0"/> <edge2 x="0" y="2.8" z="1.6"/>
+        <material>softbox</material>
+      </rectangle>
+      <rectangle>
+        <name>strip</name> <corner x="8" y="0.8" z="4.5"/> <edge1 x="0" y="0" z="-5"/> <edge2 x="0" y="2.2" z="0"/>
+        <material>strip</material>
+      </rectangle>
+    </rectangles>
+    <toruses>
+{links}    </toruses>
+  </objects>
+</raytracer>
+"""
 
 
-def knot(t):
-    """A trefoil knot in the xy plane, t in [0, 1)."""
-    a = 2 * math.pi * t
+def spiral(angle):
+    radius = 0.55 + 0.34 * angle
+    return radius * math.cos(angle) * 1.25, radius * math.sin(angle)
+
+
+def link(angle, i):
+    """Every other link leans to the other side, none quite as the one before."""
+    (x0, z0), (x1, z1) = spiral(angle - 0.01), spiral(angle + 0.01)
+    length = math.hypot(x1 - x0, z1 - z0)
+    across = -(z1 - z0) / length, (x1 - x0) / length
+    lean = math.radians((38 if i % 2 else -40) + 6 * math.sin(7.3 * i))
+    x, z = spiral(angle)
+    center = x + 0.015 * math.sin(3.1 * i), SWEPT * abs(math.sin(lean)) + TUBE, z + 0.015 * math.cos(5.7 * i)
+    axis = across[0] * math.sin(lean), math.cos(lean), across[1] * math.sin(lean)
     return (
-        3.4 * (math.sin(a) + 2 * math.sin(2 * a)),
-        3.4 * (math.cos(a) - 2 * math.cos(2 * a)),
-        -4.0 * math.sin(3 * a),
+        f"      <torus> {vector('center', center)} {vector('axis', axis)} <sweptradius>{number(SWEPT)}</sweptradius> "
+        f"<tuberadius>{number(TUBE)}</tuberadius> <material>gold</material> </torus>\n"
     )
 
 
-# The links' places, evenly spaced along the curve.
-points = [knot(i / STEPS) for i in range(STEPS + 1)]
-lengths = [0.0]
-for a, b in zip(points, points[1:]):
-    lengths.append(lengths[-1] + math.dist(a, b))
-spacing = lengths[-1] / LINKS
+links, angle = "", 2.2
+for i in range(LINKS):
+    links += link(angle, i)
+    before = spiral(angle)
+    while math.dist(before, spiral(angle)) < SPACING:
+        angle += 0.002
 
-scene = Scene("A chain of rings, tied into a trefoil knot.")
-scene.viewplane(960, 720, 16, srgb("#0d2127"))
-scene.camera((3, -7, 46), (0.3, -0.7, 0), 1440)
-scene.ambient(1, srgb("#9fc3cc"))
-scene.sun(20, (-0.6, 0.7, 0.75), 0.12, 3.4, srgb("#fff0d8"))
-scene.sky(40, 0.4, srgb("#cfeaff"), srgb("#86b7d9"))
-scene.point((30, -12, 22), 1.3, srgb("#ff8a5c"))
-scene.point((-34, 6, -4), 1.5, srgb("#4fd0ff"))
-scene.phong("gold", 0.1, 0.75, 0.3, srgb("#e0a83a"), srgb("#ffe6a8"), 35)
-scene.phong("steel", 0.1, 0.6, 0.3, srgb("#8fb5c4"), srgb("#eaf7ff"), 50)
-scene.matte("wall", 0.08, 0.9, srgb("#2f8a93"))
-
-step = 0
-for link in range(LINKS):
-    while lengths[step] < link * spacing:
-        step += 1
-    center = points[step % STEPS]
-    tangent = unit(add(points[(step + 1) % STEPS], points[(step - 1) % STEPS], -1))
-    # Neighbours stand across each other.
-    side = unit(cross(tangent, (0, 0, 1)))
-    up = cross(tangent, side)
-    axis = add(side, up, 0.9 if link % 2 else -1.1)
-    scene.torus(center, axis, spacing / 1.42, spacing / 1.42 * 0.26, "steel" if link % 2 else "gold")
-scene.plane((0, 0, -6), (0, 0, 1), "wall")
-
-scene.write(__file__, "chain")
+path = os.path.join(os.path.dirname(os.path.abspath(__file__)), "gallery", "chain.xml")
+with open(path, "w", encoding="utf-8", newline="\n") as file:
+    file.write(TEXT.replace("{links}", links))
