@@ -202,7 +202,7 @@ class CeilingOfVariant final : public Ceiling {
       shadow_rays.near = FloatN(0);
       for (const auto& light : scene_.tables().lights()) {
         Rgb<FloatN> radiance;
-        light->sample(shadow_rays, radiance);
+        light->sample(shadow_rays, {FloatN(0), FloatN(0)}, radiance);
         const MaskN lit = hits.hit & (dot(surface.ng, shadow_rays.direction) > FloatN(0));
         if (none(lit)) continue;
         ShadowPacket& shadow_packet = shadow.emplace_back();
