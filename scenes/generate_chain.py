@@ -13,7 +13,7 @@ TEXT = """\
 <!-- A chain of gold on slate, a softbox behind it. Made by scenes/generate_chain.py. -->
 <raytracer>
   <viewplane>
-    <hres>1920</hres> <vres>1080</vres> <samples>1024</samples> <background red="0" green="0" blue="0"/>
+    <hres>1920</hres> <vres>1080</vres> <samples>512</samples> <background red="0" green="0" blue="0"/>
   </viewplane>
   <thinlenscamera>
     <eye x="1.2" y="2.5" z="8.2"/> <lookat x="0.1" y="0.1" z="1.1"/> <fov>23</fov>
