@@ -59,7 +59,7 @@ double sent_share(const Bsdf& bsdf, const Vec3d& wo) {
   return sum / (double{count} * count);
 }
 
-double reflectance(double cosine, double eta) {
+double fresnel_share(double cosine, double eta) {
   return double{
       fresnel_reflection(FloatN(static_cast<float>(cosine)), FloatN(static_cast<float>(eta))).reflectance.get(0)};
 }
@@ -69,18 +69,18 @@ double reflectance(double cosine, double eta) {
 TEST_CASE("Fresnel: straight on, at Brewster's angle, beyond the critical angle, and from the other side") {
   for (const double n : {1.1, 1.33, 1.5, 2.4}) {
     INFO(n);
-    CHECK(reflectance(1, n) == Approx(std::pow((n - 1) / (n + 1), 2)).epsilon(1e-5));
-    CHECK(reflectance(1, 1 / n) == Approx(std::pow((n - 1) / (n + 1), 2)).epsilon(1e-5));
+    CHECK(fresnel_share(1, n) == Approx(std::pow((n - 1) / (n + 1), 2)).epsilon(1e-5));
+    CHECK(fresnel_share(1, 1 / n) == Approx(std::pow((n - 1) / (n + 1), 2)).epsilon(1e-5));
     // There the half that is polarised along the plane of incidence comes through wholly.
     const double brewster = 1 / std::sqrt(1 + n * n);
-    CHECK(reflectance(brewster, n) == Approx(std::pow((n * n - 1) / (n * n + 1), 2) / 2).epsilon(1e-4));
+    CHECK(fresnel_share(brewster, n) == Approx(std::pow((n * n - 1) / (n * n + 1), 2) / 2).epsilon(1e-4));
     const double critical = std::sqrt(1 - 1 / (n * n));
-    CHECK(reflectance(critical * 0.999, 1 / n) == 1);
-    CHECK(reflectance(critical + 0.02, 1 / n) < 1);
-    CHECK(reflectance(0, n) == 1);
+    CHECK(fresnel_share(critical * 0.999, 1 / n) == 1);
+    CHECK(fresnel_share(critical + 0.02, 1 / n) < 1);
+    CHECK(fresnel_share(0, n) == 1);
     for (const double c : {0.1, 0.5, 0.9}) {
       const double on_the_other_side = std::sqrt(1 - (1 - c * c) / (n * n));
-      CHECK(reflectance(on_the_other_side, 1 / n) == Approx(reflectance(c, n)).epsilon(1e-4));
+      CHECK(fresnel_share(on_the_other_side, 1 / n) == Approx(fresnel_share(c, n)).epsilon(1e-4));
     }
   }
 }
@@ -109,7 +109,7 @@ TEST_CASE("smooth glass chooses by Fresnel, bends as Snell says, and scales radi
   for (const double n : {1.33, 1.5, 2.4})
     for (const bool front : {true, false})
       for (const double cosine : {0.05, 0.3, 0.7, 0.95, 1.0}) {
-        const double eta = front ? n : 1 / n, r = reflectance(cosine, eta);
+        const double eta = front ? n : 1 / n, r = fresnel_share(cosine, eta);
         const Vec3d wo = at_cosine(cosine);
         const auto sampled = [&](double u) {
           return glass(n, 0, front).sample(spread(wo), FloatN(static_cast<float>(u)), FloatN(0.3F), FloatN(0.7F));
@@ -136,7 +136,7 @@ TEST_CASE("smooth glass chooses by Fresnel, bends as Snell says, and scales radi
 TEST_CASE("what comes through a thin wall goes straight on") {
   const Vec3d wo = at_cosine(0.4);
   const auto sample = glass(1.5, 0, false, true).sample(spread(wo), FloatN(0.99F), FloatN(0.3F), FloatN(0.7F));
-  const double r = reflectance(0.4, 1.5);
+  const double r = fresnel_share(0.4, 1.5);
   CHECK(length(lane_of(sample.wi, 0) + wo) < 1e-6);
   CHECK(double{sample.pdf.get(0)} == Approx(1 - 2 * r / (1 + r)).epsilon(1e-5));
   CHECK(weight(sample).red == Approx(1).epsilon(1e-5));
