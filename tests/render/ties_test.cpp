@@ -1,6 +1,7 @@
 // Surfaces at equal distances: the first by shape, in registry order, and place in the file wins, however it is found.
 #include <functional>
 #include <map>
+#include <random>
 
 #include "raytrace/aovs/aov_selection.h"
 #include "render/scenes.h"
