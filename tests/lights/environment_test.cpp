@@ -155,7 +155,8 @@ TEST_CASE("an environment draws directions with its density, which integrates to
         const double solid_angle = 2 * pi / columns * (std::sin(high) - std::sin(low));
         const Vec3d middle = direction_of((column + 0.5) / columns - 0.5, (0.5 - (row + 0.5) / rows) / 2);
         const double share = double{environment.pdf(spread(turn.vector(middle))).get(0)} * solid_angle;
-        expected[static_cast<std::size_t>(row * columns + column)] = share * samples;
+        const int cell = row * columns + column;
+        expected[static_cast<std::size_t>(cell)] = share * samples;
         integral += share;
       }
     INFO(width << " x " << height);
@@ -178,7 +179,8 @@ TEST_CASE("an environment draws directions with its density, which integrates to
         const double down = std::acos(std::clamp(local.y, -1.0, 1.0)) / pi;
         const int column = std::min(static_cast<int>(right * columns), columns - 1);
         const int row = std::min(static_cast<int>(down * rows), rows - 1);
-        ++observed[static_cast<std::size_t>(row * columns + column)];
+        const int cell = row * columns + column;
+        ++observed[static_cast<std::size_t>(cell)];
       }
     }
     CHECK(chi_square_deviation(observed, expected) < 4);
