@@ -205,22 +205,7 @@ TEST_CASE("drawn light does not depend on threads, samples at once, or how the p
   std::string all;
   for (const Lamp& lamp : lamps) all += lamp.objects;
   const SceneDescription description = parsed_scene(room(all, GENERATE("", "<twosided>true</twosided>"), 16, ""));
-  for (const std::string& isa : usable_isas()) {
-    INFO(isa);
-    const auto scene = build_scene(description, {1, isa});
-    const FloatPicture whole_picture = rendered(description, 1, isa);
-    CHECK(identical(rendered(description, 3, isa), whole_picture));
-    Film film(film_settings(*scene, description, {1, 0, whole(description)}), FilmContent::sums);
-    for (const std::uint32_t samples : {1U, 2U, 7U, 16U}) render(*scene, film, samples, 1);
-    CHECK(identical(film, whole_picture));
-    RayCounts rays;
-    const Region part{3, 2, 7, 6};
-    const FloatPicture cut = render(*scene, description, {1, 0, part}, rays);
-    int wrong = 0;
-    for (int y = part.y0; y < part.y1; ++y)
-      for (int x = part.x0; x < part.x1; ++x) wrong += !identical(cut.at(x, y), whole_picture.at(x, y));
-    CHECK(wrong == 0);
-  }
+  check_same_bits(description);
 }
 
 }  // namespace raytrace::test

@@ -133,22 +133,7 @@ TEST_CASE("a transparent picture has no environment, but its light") {
 TEST_CASE("a picture in an environment does not depend on threads, samples at once, or how it is cut") {
   SceneDescription description = parsed_scene(in_environment(busy_scene(41, 37, 16)));
   set_picture(description, 31, 15, [](int x, int y) { return x == 9 && y == 3 ? 300 : 0.1 * (x % 5); });
-  for (const std::string& isa : usable_isas()) {
-    INFO(isa);
-    const auto scene = build_scene(description, {1, isa});
-    const FloatPicture all = rendered(description, 1, isa);
-    CHECK(identical(rendered(description, 3, isa), all));
-    Film film(film_settings(*scene, description, {1, 0, whole(description)}), FilmContent::sums);
-    for (const std::uint32_t samples : {1U, 3U, 16U}) render(*scene, film, samples, 1);
-    CHECK(identical(film, all));
-    RayCounts rays;
-    const Region part{13, 9, 40, 30};
-    const FloatPicture cut = render(*scene, description, {1, 0, part}, rays);
-    int wrong = 0;
-    for (int y = part.y0; y < part.y1; ++y)
-      for (int x = part.x0; x < part.x1; ++x) wrong += !identical(cut.at(x, y), all.at(x, y));
-    CHECK(wrong == 0);
-  }
+  check_same_bits(description);
 }
 
 }  // namespace raytrace::test

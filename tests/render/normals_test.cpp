@@ -57,15 +57,4 @@ TEST_CASE("the normals' film counts on colours up to 1, whatever the lights") {
   CHECK(build_scene(by_light, {1, {}})->radiance_range().usual == 0.4F);  // the background's
 }
 
-TEST_CASE("normals have the same bits from packets of every shape") {
-  SceneDescription description = parsed_scene(busy_scene(40, 30, 16));
-  description.integrator = Normals::Parameters{};
-  const auto scene = build_scene(description, {1, {}});
-  const FilmSettings settings = film_settings(*scene, description, {1, 0, whole(description)});
-  Film once(settings), often(settings);
-  render(*scene, once, 16, 1);
-  for (const std::uint32_t samples : {1U, 5U, 13U, 16U}) render(*scene, often, samples, 1);
-  CHECK(std::equal(once.sums().begin(), once.sums().end(), often.sums().begin(), often.sums().end()));
-}
-
 }  // namespace raytrace::test

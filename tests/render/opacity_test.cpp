@@ -151,25 +151,7 @@ TEST_CASE("what rays pass does not depend on threads, samples at once, or how th
     }
   REQUIRE(number >= 2);
   const SceneDescription description = parsed_scene(text);
-  for (const std::string& isa : usable_isas()) {
-    const auto scene = build_scene(description, {1, isa});
-    const FloatPicture whole_picture = rendered(description, 1, isa);
-    CHECK(identical(rendered(description, 3, isa), whole_picture));
-
-    // In passes of samples that packets of other shapes trace.
-    const RenderSettings settings{1, 0, whole(description)};
-    Film film(film_settings(*scene, description, settings), FilmContent::sums);
-    for (const std::uint32_t samples : {1U, 2U, 7U, 16U}) render(*scene, film, samples, 1);
-    CHECK(identical(film, whole_picture));
-
-    RayCounts rays;
-    const Region part{13, 9, 40, 30};
-    const FloatPicture cut = render(*scene, description, {1, 0, part}, rays);
-    int wrong = 0;
-    for (int y = part.y0; y < part.y1; ++y)
-      for (int x = part.x0; x < part.x1; ++x) wrong += !identical(cut.at(x, y), whole_picture.at(x, y));
-    CHECK(wrong == 0);
-  }
+  check_same_bits(description);
 }
 
 }  // namespace raytrace::test

@@ -5,6 +5,9 @@
 #include <cstring>
 #include <random>
 
+#include "support/catch.h"
+#include "support/usable_isas.h"
+
 namespace raytrace::test {
 
 std::string busy_scene(int width, int height, int samples) {
@@ -49,6 +52,27 @@ bool identical(const Pixel& a, const Pixel& b) { return std::memcmp(&a, &b, size
 bool identical(const FloatPicture& a, const FloatPicture& b) {
   return a.region() == b.region() && std::equal(a.pixels().begin(), a.pixels().end(), b.pixels().begin(),
                                                 [](const Pixel& p, const Pixel& q) { return identical(p, q); });
+}
+
+void check_same_bits(const SceneDescription& description) {
+  const auto all_samples = static_cast<std::uint32_t>(description.viewplane.samples);
+  const Region all = whole(description);
+  for (const std::string& isa : usable_isas()) {
+    INFO(isa);
+    const auto scene = build_scene(description, {1, isa});
+    const FloatPicture picture = rendered(description, 1, isa);
+    CHECK(identical(rendered(description, 3, isa), picture));
+    Film film(film_settings(*scene, description, {1, 0, all}), FilmContent::sums);
+    for (const std::uint32_t samples : {1U, 3U, all_samples / 2 - 1, all_samples}) render(*scene, film, samples, 1);
+    CHECK(identical(film, picture));
+    RayCounts rays;
+    const Region part{all.x1 / 3, all.y1 / 4, all.x1 * 4 / 5, all.y1 * 5 / 6};
+    const FloatPicture cut = render(*scene, description, {1, 0, part}, rays);
+    int wrong = 0;
+    for (int y = part.y0; y < part.y1; ++y)
+      for (int x = part.x0; x < part.x1; ++x) wrong += !identical(cut.at(x, y), picture.at(x, y));
+    CHECK(wrong == 0);
+  }
 }
 
 double difference(const Pixel& a, const Pixel& b) {

@@ -44,6 +44,10 @@ inline FloatPicture rendered(const std::string& text) { return rendered(parsed_s
 bool identical(const Pixel& a, const Pixel& b);
 bool identical(const FloatPicture& a, const FloatPicture& b);
 
+/// Fails where the picture depends on threads, on the passes in which its samples are traced, whose packets have
+/// several shapes, or on which part of it is rendered; with each instruction set.
+void check_same_bits(const SceneDescription& description);
+
 /// The largest difference of their channels.
 double difference(const Pixel& a, const Pixel& b);
 

@@ -5,7 +5,6 @@
 
 #include "render/scenes.h"
 #include "support/catch.h"
-#include "support/usable_isas.h"
 
 namespace raytrace::test {
 
@@ -194,23 +193,7 @@ TEST_CASE("paths by mirrors, metals and glass do not depend on threads, samples 
           "</planes></objects>",
       "<eye x='0' y='2' z='9'/><lookat x='0' y='0' z='0'/>");
   const SceneDescription description = parsed_scene(text);
-  for (const std::string& isa : usable_isas()) {
-    INFO(isa);
-    const auto scene = build_scene(description, {1, isa});
-    const FloatPicture whole_picture = rendered(description, 1, isa);
-    CHECK(identical(rendered(description, 3, isa), whole_picture));
-    const RenderSettings settings{1, 0, whole(description)};
-    Film film(film_settings(*scene, description, settings), FilmContent::sums);
-    for (const std::uint32_t samples : {1U, 3U, 8U}) render(*scene, film, samples, 1);
-    CHECK(identical(film, whole_picture));
-    RayCounts rays;
-    const Region part{13, 9, 40, 30};
-    const FloatPicture cut = render(*scene, description, {1, 0, part}, rays);
-    int wrong = 0;
-    for (int y = part.y0; y < part.y1; ++y)
-      for (int x = part.x0; x < part.x1; ++x) wrong += !identical(cut.at(x, y), whole_picture.at(x, y));
-    CHECK(wrong == 0);
-  }
+  check_same_bits(description);
 }
 
 TEST_CASE("a narrow highlight does not coarsen the film's unit") {

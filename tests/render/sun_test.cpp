@@ -89,19 +89,8 @@ TEST_CASE("a sun's light does not depend on threads, samples at once, or how the
     description.integrator = Raycast::Parameters{};
     const FloatPicture all = rendered(description, 1, isa);
     CHECK(identical(by_path, all));
-    CHECK(identical(rendered(description, 3, isa), all));
-    const auto scene = build_scene(description, {1, isa});
-    Film film(film_settings(*scene, description, {1, 0, whole(description)}), FilmContent::sums);
-    for (const std::uint32_t samples : {1U, 3U, 16U}) render(*scene, film, samples, 1);
-    CHECK(identical(film, all));
-    RayCounts rays;
-    const Region part{13, 9, 40, 30};
-    const FloatPicture cut = render(*scene, description, {1, 0, part}, rays);
-    int wrong = 0;
-    for (int y = part.y0; y < part.y1; ++y)
-      for (int x = part.x0; x < part.x1; ++x) wrong += !identical(cut.at(x, y), all.at(x, y));
-    CHECK(wrong == 0);
   }
+  check_same_bits(description);
 }
 
 }  // namespace raytrace::test
