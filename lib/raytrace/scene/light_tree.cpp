@@ -158,7 +158,7 @@ void LightTree::build(const std::vector<LightEmission>& lights, std::span<std::u
     trails_[order[0]] = static_cast<std::int32_t>(trail);
     return;
   }
-  const bool has_room = depth + std::bit_width(order.size()) < most_depth;
+  const bool has_room = depth + static_cast<int>(std::bit_width(order.size())) < most_depth;
   const std::size_t middle = has_room ? cut(lights, order) : halve(lights, order);
   const std::size_t children = nodes_.size();
   nodes_[node].child = std::bit_cast<float>(static_cast<std::int32_t>(children));
