@@ -19,8 +19,8 @@ struct MaterialEmission {
   bool two_sided = false;
 };
 
-/// All pieces of surfaces that shine. Shapes without an area, and what is instanced under a transform that makes it no
-/// such piece, are not among them: they are lit surfaces' luck to meet.
+/// The patches of all surfaces that shine. Planes, and round shapes whose instances stretch them, are not among them:
+/// their light counts where a path meets them.
 class EmitterTable {
  public:
   /// materials: of all materials by their numbers.

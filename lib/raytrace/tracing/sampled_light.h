@@ -1,5 +1,5 @@
-// Light that is drawn from one of the scene's shining surfaces: next-event estimation with multiple importance sampling
-// (Veach 1997, chapter 9; pbrt-v4, section 13.4).
+// Light that is drawn from one of the scene's shining surfaces or from the environment: next-event estimation with
+// multiple importance sampling (Veach 1997, chapter 9; pbrt-v4, section 13.4).
 #pragma once
 
 #include <bit>
