@@ -26,7 +26,7 @@ struct Ggx {
   static constexpr float least_alpha = 1e-3F;
   auto is_rough() const { return alpha >= T(least_alpha); }
 
-  /// What Smith's functions are made of: facets that are seen from there are 1 / (1 + lambda) of those that face there.
+  /// Smith's function: of the facets that face a direction of that cosine, 1 / (1 + lambda) are visible from it.
   T lambda(const T& cosine) const {
     const T square = cosine * cosine;
     return (sqrt(T(1) + alpha * alpha * (max(T(1) - square, T(0)) / square)) - T(1)) * T(0.5F);
@@ -41,7 +41,7 @@ struct Ggx {
     return square / (T(std::numbers::pi_v<float>) * sum * sum);
   }
 
-  /// The normal of a facet that is seen from wo, in the local frame, out of u1 and u2 in [0, 1): Dupuy and Benyoub,
+  /// The normal of a facet that is visible from wo, in the local frame, out of u1 and u2 in [0, 1): Dupuy and Benyoub,
   /// "Sampling Visible GGX Normals with Spherical Caps", HPG 2023.
   Vec3<T> sample_facet(const Vec3<T>& wo, const T& u1, const T& u2) const {
     const Vec3<T> stretched = normalize(Vec3<T>{wo.x * alpha, wo.y * alpha, wo.z});

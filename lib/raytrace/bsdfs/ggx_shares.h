@@ -57,7 +57,7 @@ class ShareAxes {
   static IntN cell(const FloatN& x) { return to_int(min(max(x, FloatN(0)), FloatN(steps - 1.001F))); }
 };
 
-/// The mean of scattered(wo, facet) over the facets that are seen from wo.
+/// The mean of scattered(wo, facet) over the facets that are visible from wo.
 template <class Scattered>
 float mean_over_facets(float cosine, const Ggx<FloatN>& ggx, const Scattered& scattered) {
   // A midpoint rule of as many angles in half a circle, and steps from the tail of the facets' slopes.

@@ -16,9 +16,9 @@ enum class PatchShape {
   torus,  ///< about `origin` and the axis a, of swept radius b.x and tube radius b.y
 };
 
-/// Its front is where a turns to b anticlockwise, the outside of a sphere and a torus, and of a band the side that is
-/// on the right of someone who walks on it along the axis, outwards: the outside of a cylinder; of a disk, a band from
-/// its rim to its center, the side of the axis.
+/// The front is where a turns to b anticlockwise, and the outside of a sphere and a torus. That of a band is to the
+/// right of the way from its first circle to its second, in a plane that has the axis, upwards, on its left: the
+/// outside of a cylinder, and of a disk that runs from its rim to its center, the axis' side.
 struct LightPatch {
   PatchShape shape;
   Vec3d origin, a, b;
