@@ -118,7 +118,6 @@ SurfaceInteraction<FloatN> Accelerator::surface(const Ray<FloatN>& rays, const H
     set(table_, hits.first_geometry, LaneIndices(hits.first_primitive), rays, result);
   } else {
     SurfaceInteraction<FloatN> other{};
-    result = {};
     Ray<FloatN> local_rays = rays;
     if (hits.in_instances) local_rays = in_instances(rays, hits);
     table_.for_each_geometry(hits, [&](const GeometryTable& table, std::uint32_t geometry, const MaskN& here) {

@@ -67,6 +67,7 @@ namespace detail {
 template <class Batch>
 RAYTRACE_INLINE Batch load_lanes(const typename Batch::value_type* lanes, int count) {
   constexpr int size = static_cast<int>(Batch::size);
+  if (count == 1) return Batch(*lanes);  // most often: a single ray
   if (count >= size) return Batch::load_unaligned(lanes);
   alignas(64) typename Batch::value_type copy[size];
   for (int lane = 0; lane < size; ++lane) copy[lane] = lanes[std::min(lane, count - 1)];
@@ -75,6 +76,7 @@ RAYTRACE_INLINE Batch load_lanes(const typename Batch::value_type* lanes, int co
 
 template <class F>
 RAYTRACE_INLINE Mask<F> load_mask(const int* valid, int count) {
+  if (count == 1) return first_lanes<F>(*valid != 0 ? 1 : 0);
   alignas(64) std::int32_t copy[lane_count<F>] = {};
   if (count >= lane_count<F>) return float_mask<F>(Ints<F>::load_unaligned(valid) != Ints<F>(0));
   std::copy_n(valid, count, copy);
@@ -85,6 +87,10 @@ RAYTRACE_INLINE Mask<F> load_mask(const int* valid, int count) {
 template <class F, class Value>
 RAYTRACE_INLINE void store_lanes(typename Value::value_type* lanes, int count, const Mask<F>& mask,
                                  const Value& value) {
+  if (count == 1) {
+    if ((bits_of<F>(mask) & 1U) != 0) *lanes = value.get(0);
+    return;
+  }
   if (count >= lane_count<F>) {
     const F old = std::bit_cast<F>(Value::load_unaligned(lanes));
     std::bit_cast<Value>(select(mask, std::bit_cast<F>(value), old)).store_unaligned(lanes);

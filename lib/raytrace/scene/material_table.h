@@ -31,7 +31,13 @@ struct IncidentLight {
 /// Of a BSDF for two directions.
 struct BsdfValue {
   Rgb<FloatN> f;  ///< in 1/steradian, without the cosine
-  FloatN pdf;     ///< per solid angle
+  FloatN pdf;     ///< at which it draws the one that light comes from, per solid angle
+};
+
+/// What a point of a path asks of its material.
+struct Scattering {
+  BsdfSample<FloatN> sample;
+  BsdfValue towards;  ///< the light that was drawn for it
 };
 
 /// What the lights of a scene send to a point at most, by magnitude.
@@ -63,15 +69,11 @@ class MaterialTable {
   /// The radiance that leaves of itself; of materials that do not shine none.
   virtual Rgb<FloatN> emitted(const LaneIndices& materials, const TexturePoint<FloatN>* point) const = 0;
 
-  /// A direction that light comes from, drawn by each lane's material out of u, u1 and u2 in [0, 1). wo: in the local
-  /// frame.
-  virtual BsdfSample<FloatN> sample(const LaneIndices& materials, const MaskN& front, const Vec3<FloatN>& wo,
-                                    const FloatN& u, const FloatN& u1, const FloatN& u2,
-                                    const TexturePoint<FloatN>* point) const = 0;
-
-  /// f of two directions on the surface's side, and the density at which sample() draws wi, in the local frame.
-  virtual BsdfValue evaluate(const LaneIndices& materials, const MaskN& front, const Vec3<FloatN>& wo,
-                             const Vec3<FloatN>& wi, const TexturePoint<FloatN>* point) const = 0;
+  /// A direction that light comes from, drawn by each lane's material out of u, u1 and u2 in [0, 1), and what leaves
+  /// of light from wi, which is on the surface's side, in the lanes of `lit`. wo, wi: in the local frame.
+  virtual Scattering scatter(const LaneIndices& materials, const MaskN& front, const Vec3<FloatN>& wo, const MaskN& lit,
+                             const Vec3<FloatN>& wi, const FloatN& u, const FloatN& u1, const FloatN& u2,
+                             const TexturePoint<FloatN>* point) const = 0;
 
   /// The share that is left of light that went so far behind surfaces.
   virtual Rgb<FloatN> transmittance(const LaneIndices& materials, const FloatN& distance,
@@ -124,15 +126,13 @@ class MaterialTableOf final : public MaterialTable {
     }
   }
 
-  BsdfSample<FloatN> sample(const LaneIndices& materials, const MaskN& front, const Vec3<FloatN>& wo, const FloatN& u,
-                            const FloatN& u1, const FloatN& u2, const TexturePoint<FloatN>* point) const override {
-    return gathered(materials, front, point).sample(wo, u, u1, u2);
-  }
-
-  BsdfValue evaluate(const LaneIndices& materials, const MaskN& front, const Vec3<FloatN>& wo, const Vec3<FloatN>& wi,
+  Scattering scatter(const LaneIndices& materials, const MaskN& front, const Vec3<FloatN>& wo, const MaskN& lit,
+                     const Vec3<FloatN>& wi, const FloatN& u, const FloatN& u1, const FloatN& u2,
                      const TexturePoint<FloatN>* point) const override {
     const auto bsdfs = gathered(materials, front, point);
-    return {bsdfs.evaluate(wo, wi, local_normal<FloatN>()), bsdfs.pdf(wo, wi)};
+    Scattering result{bsdfs.sample(wo, u, u1, u2), {Rgb<FloatN>(Rgb<float>(0, 0, 0)), FloatN(0)}};
+    if (any(lit)) result.towards = {bsdfs.evaluate(wo, wi, local_normal<FloatN>()), bsdfs.pdf(wo, wi)};
+    return result;
   }
 
   Rgb<FloatN> transmittance(const LaneIndices& materials, const FloatN& distance,

@@ -64,7 +64,8 @@ SceneTables::SceneTables(const SceneDescription& description, int threads)
     has_relief_ |= used_materials_[i] != 0 && details_[i].has_relief();
     has_emission_ |= used_materials_[i] != 0 && details_[i].emission.radiance > 0;
     has_transmission_ |= used_materials_[i] != 0 && details_[i].transmits;
-    back_shines_.push_back(details_[i].emission.two_sided ? 1 : 0);
+    const MaterialEmission& emission = details_[i].emission;
+    shining_sides_.push_back(!(emission.radiance > 0) ? 0 : emission.two_sided ? 2 : 1);
     emissions.push_back(details_[i].is_cutout() ? MaterialEmission{} : details_[i].emission);
   }
   const auto* const path = std::get_if<Path::Parameters>(&integrator_);
@@ -206,8 +207,9 @@ float SceneTables::largest_albedo() const {
 
 namespace {
 
-BsdfValue select(const MaskN& mask, const BsdfValue& a, const BsdfValue& b) {
-  return {select(mask, a.f, b.f), select(mask, a.pdf, b.pdf)};
+Scattering select(const MaskN& mask, const Scattering& a, const Scattering& b) {
+  return {select(mask, a.sample, b.sample),
+          {select(mask, a.towards.f, b.towards.f), select(mask, a.towards.pdf, b.towards.pdf)}};
 }
 
 }  // namespace
@@ -246,26 +248,25 @@ bool SceneTables::has_textures(const Hits& hits) const {
   return any(hits.hit & float_mask<FloatN>(gather(textured_.data(), material(hits)) != IntN(0)));
 }
 
+MaskN SceneTables::shines(const Hits& hits, const MaskN& front) const {
+  return hits.hit & shines(material(hits), front);
+}
+
 Rgb<FloatN> SceneTables::emitted(const Hits& hits, const SurfaceInteraction<FloatN>& surface,
                                  const TexturePoint<FloatN>* point) const {
+  const Rgb<FloatN> black(Rgb<float>(0, 0, 0));
+  const MaskN shining = shines(hits, surface.front);
+  if (none(shining)) return black;
   const Rgb<FloatN> radiance = by_material(
       hits, [&](const MaterialTable& table, const LaneIndices& materials) { return table.emitted(materials, point); });
-  const MaskN shines =
-      hits.hit & (surface.front | float_mask<FloatN>(gather(back_shines_.data(), material(hits)) != IntN(0)));
-  return select(shines, radiance, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
+  return select(shining, radiance, black);
 }
 
-BsdfSample<FloatN> SceneTables::sample(const Hits& hits, const MaskN& front, const Vec3<FloatN>& wo, const FloatN& u,
-                                       const FloatN& u1, const FloatN& u2, const TexturePoint<FloatN>* point) const {
-  return by_material(hits, [&](const MaterialTable& table, const LaneIndices& materials) {
-    return table.sample(materials, front, wo, u, u1, u2, point);
-  });
-}
-
-BsdfValue SceneTables::evaluate(const Hits& hits, const MaskN& front, const Vec3<FloatN>& wo, const Vec3<FloatN>& wi,
+Scattering SceneTables::scatter(const Hits& hits, const MaskN& front, const Vec3<FloatN>& wo, const MaskN& lit,
+                                const Vec3<FloatN>& wi, const FloatN& u, const FloatN& u1, const FloatN& u2,
                                 const TexturePoint<FloatN>* point) const {
   return by_material(hits, [&](const MaterialTable& table, const LaneIndices& materials) {
-    return table.evaluate(materials, front, wo, wi, point);
+    return table.scatter(materials, front, wo, lit, wi, u, u1, u2, point);
   });
 }
 

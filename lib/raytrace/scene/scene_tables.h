@@ -72,6 +72,9 @@ class SceneTables {
 
   /// The sum of all ambient lights.
   const Rgb<float>& ambient_radiance() const { return ambient_radiance_; }
+  bool has_ambient_light() const {
+    return ambient_radiance_.red != 0 || ambient_radiance_.green != 0 || ambient_radiance_.blue != 0;
+  }
   /// All others.
   const std::vector<std::unique_ptr<LightSource>>& lights() const { return lights_; }
   /// Whether any of them takes_samples().
@@ -123,17 +126,17 @@ class SceneTables {
   template <class Point>
   Rgb<FloatN> emitted(const EmitterTable::Sample& samples, const MaskN& lanes,
                       const SurfaceInteraction<FloatN>& surface, const Point& point) const;
-  /// Whether surfaces shine by themselves, and the radiance that leaves them.
+  /// Whether surfaces shine by themselves; those hits that do on the side that `front` says; and the radiance that
+  /// leaves them.
   bool has_emission() const { return has_emission_; }
+  MaskN shines(const Hits& hits, const MaskN& front) const;
   Rgb<FloatN> emitted(const Hits& hits, const SurfaceInteraction<FloatN>& surface,
                       const TexturePoint<FloatN>* point) const;
 
-  /// A direction in the local frame of surface.ns that light comes from, drawn by each lane's material; others than
-  /// those that were hit get anything.
-  BsdfSample<FloatN> sample(const Hits& hits, const MaskN& front, const Vec3<FloatN>& wo, const FloatN& u,
-                            const FloatN& u1, const FloatN& u2, const TexturePoint<FloatN>* point) const;
-  /// What leaves along wo of light from wi, both in that frame and on the surface's side, and sample()'s density.
-  BsdfValue evaluate(const Hits& hits, const MaskN& front, const Vec3<FloatN>& wo, const Vec3<FloatN>& wi,
+  /// As MaterialTable has it, each lane's of its own material, in the local frame of surface.ns; lanes that hit nothing
+  /// get anything.
+  Scattering scatter(const Hits& hits, const MaskN& front, const Vec3<FloatN>& wo, const MaskN& lit,
+                     const Vec3<FloatN>& wi, const FloatN& u, const FloatN& u1, const FloatN& u2,
                      const TexturePoint<FloatN>* point) const;
   /// The share that is left of light that went so far behind the surfaces.
   Rgb<FloatN> transmittance(const Hits& hits, const FloatN& distance, const TexturePoint<FloatN>* point) const;
@@ -151,6 +154,11 @@ class SceneTables {
   const RayCone& ray_cone() const { return ray_cone_; }
 
  private:
+  MaskN shines(const IntN& material, const MaskN& front) const {
+    const IntN sides = gather(shining_sides_.data(), material);
+    return float_mask<FloatN>(sides == IntN(2)) | (front & float_mask<FloatN>(sides == IntN(1)));
+  }
+
   struct TexturedNumber {
     float value;
     std::optional<TextureUse> texture = std::nullopt;  ///< it multiplies the value
@@ -211,8 +219,8 @@ class SceneTables {
   std::vector<float> emitted_;          ///< of each material, red, green and blue; of those with textures, the most
   std::vector<SurfaceDetail> details_;  ///< of all materials
   bool has_cutouts_ = false, has_relief_ = false, has_emission_ = false, has_transmission_ = false;
-  std::vector<std::int32_t> back_shines_;  ///< of all materials: 1, else 0
-  std::vector<std::int32_t> textured_;     ///< 1 for materials with textures, else 0; empty if there are none
+  std::vector<std::int32_t> shining_sides_;  ///< of all materials: 0, 1 for the front, 2 for both
+  std::vector<std::int32_t> textured_;       ///< 1 for materials with textures, else 0; empty if there are none
   RayCone ray_cone_;
   std::vector<std::uint8_t> used_materials_;  ///< 1 for those that objects have, else 0
 };
@@ -220,17 +228,14 @@ class SceneTables {
 template <class Point>
 Rgb<FloatN> SceneTables::emitted(const EmitterTable::Sample& samples, const MaskN& lanes,
                                  const SurfaceInteraction<FloatN>& surface, const Point& point) const {
-  const auto is_set = [&](const std::vector<std::int32_t>& flags) {
-    return float_mask<FloatN>(gather(flags.data(), samples.material) != IntN(0));
-  };
-  if (!textured_.empty() && any(lanes & is_set(textured_))) {
+  if (!textured_.empty() && any(lanes & float_mask<FloatN>(gather(textured_.data(), samples.material) != IntN(0)))) {
     const Hits hits = emitters_->hits(samples, lanes);
     const TexturePoint<FloatN> there = point(hits);
     return emitted(hits, surface, &there);
   }
   const IntN first = samples.material * IntN(3);
   const float* const channels = emitted_.data();
-  return select(lanes & (surface.front | is_set(back_shines_)),
+  return select(lanes & shines(samples.material, surface.front),
                 {gather(channels, first), gather(channels + 1, first), gather(channels + 2, first)},
                 Rgb<FloatN>(Rgb<float>(0, 0, 0)));
 }

@@ -7,6 +7,8 @@
 //       the radiance that arrives along camera rays, whose directions have unit length, in the lanes of `active`; it
 //       ends the rays where they meet something, and `background` arrives along those that meet nothing. Adds the
 //       further rays in the lanes of `counted` to `counts`, and sets `first` to what was met if it is not null.
+//   or, where it follows many packets' rays together, which PathBatch explains,
+//   using Batch;
 //   static constexpr bool takes_samples;   whether it wants CameraRays::pixel and sample
 #pragma once
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <optional>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "raytrace/sampling/pixel_sampler.h"
 #include "raytrace/tracing/block_aovs.h"
@@ -31,14 +33,19 @@ FloatN to_float(std::uint32_t number) { return FloatN(static_cast<float>(static_
 
 /// An integrator, as one that is called by a pointer.
 struct IntegratorCalls {
-  decltype(&Kernel<Raycast>::radiance) radiance;
+  decltype(&Kernel<Raycast>::radiance) radiance;  ///< null: it has a batch
   bool takes_samples;
 };
+
+template <class Integrator>
+constexpr bool has_batch = requires { typename Kernel<Integrator>::Batch; };
 
 /// Of a scene's integrator.
 IntegratorCalls calls_of(const SceneTables& scene) {
   return with_type(Integrators{}, scene.integrator().index(), [&]<class Integrator>(std::type_identity<Integrator>) {
-    return IntegratorCalls{&Kernel<Integrator>::radiance, Kernel<Integrator>::takes_samples};
+    IntegratorCalls calls{nullptr, Kernel<Integrator>::takes_samples};
+    if constexpr (!has_batch<Integrator>) calls.radiance = &Kernel<Integrator>::radiance;
+    return calls;
   });
 }
 
@@ -62,15 +69,17 @@ class BlockRenderer {
         scale_(film.settings().unit_exponent),
         group_(Block::slots(), shape.samples),
         scrambles_(film.settings().seed),
-        usual_camera_(scene.tables().pixel_filter().moves_samples() ? nullptr : scene.tables().usual_camera()) {}
+        usual_camera_(scene.tables().pixel_filter().moves_samples() ? nullptr : scene.tables().usual_camera()) {
+    if (!raycast && integrator_.radiance == nullptr) batch_.emplace(scene);
+  }
 
   /// Continues all pixels to `samples` each; returns early if it is stopped.
   RenderReport render(std::uint32_t samples) {
-    for (int top = round_down(region_.y0, shape.height); top < region_.y1; top += shape.height)
-      for (int left = round_down(region_.x0, shape.width); left < region_.x1; left += shape.width) {
+    for (int top = round_down(region_.y0, shape.height); top < region_.y1 && !stopped(); top += shape.height)
+      for (int left = round_down(region_.x0, shape.width); left < region_.x1 && !stopped(); left += shape.width)
         render({left, top}, samples);
-        if (stopped()) return report_;
-      }
+    if (batch_) trace_batch();
+    if (open_) close_block();
     return report_;
   }
 
@@ -151,25 +160,57 @@ class BlockRenderer {
         camera.sample = sample;
       }
       FirstHits* const first_hits = aovs != nullptr ? &first : nullptr;
-      RayResult result =
-          raycast ? Kernel<Raycast>::radiance(scene_, background_, camera, traced, wanted, report_.rays, first_hits)
-                  : integrator_.radiance(scene_, background_, camera, traced, wanted, report_.rays, first_hits);
+      RayResult result;
+      if (!raycast && batch_)
+        result = {Rgb<FloatN>(background_), batch_->add(camera, traced, wanted, first_hits)};
+      else
+        result = raycast
+                     ? Kernel<Raycast>::radiance(scene_, background_, camera, traced, wanted, report_.rays, first_hits)
+                     : integrator_.radiance(scene_, background_, camera, traced, wanted, report_.rays, first_hits);
       if (environment_ != nullptr) [[unlikely]]
         result.radiance = in_environment(*environment_, RayResult(result), Vec3<FloatN>(camera.rays.direction));
       if (usual_camera_ == nullptr) result.radiance = select(traced, result.radiance, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
-      const MaskN large = sums.add(result, wanted);
       if (aovs != nullptr) {
         const auto* const textures = first.textures ? &*first.textures : nullptr;
         aovs->add(AovInputs(scene_.tables(), camera, first.hits, first.surface, textures), wanted, sample);
       }
       report_.rays.camera += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(wanted & traced)));
-      if (any(large)) add_invalid(sums.add_large(result, large), block, base);
-      if (packets % packets_per_look == 0) {
-        if (stopped()) break;
+      if (!raycast && batch_) {
+        waiting_.push_back({block, base, wanted, result});
+        if (batch_->is_full()) trace_batch();
+      } else {
+        const MaskN large = sums.add(result, wanted);
+        if (any(large)) add_invalid(sums.add_large(result, large), block, base);
         if (packets % (sums.most_packets / packets_per_look * packets_per_look) == 0) sums.carry();
       }
+      if (packets % packets_per_look == 0 && stopped()) break;
     }
-    sums.add_to(film_, block, region_);
+    if (raycast || !batch_) sums.add_to(film_, block, region_);
+  }
+
+  /// Packets' results, when their paths have been traced.
+  void trace_batch() {
+    batch_->trace(report_.rays);
+    for (std::size_t i = 0; i < waiting_.size(); ++i) {
+      const WaitingPacket& packet = waiting_[i];
+      if (!open_ || open_->block.left != packet.block.left || open_->block.top != packet.block.top) {
+        if (open_) close_block();
+        open_.emplace(packet.block, scale_);
+      }
+      BlockSums<Block>& sums = open_->sums;
+      const MaskN hit = packet.missed.hit;
+      const RayResult result{select(hit, batch_->radiance(i), packet.missed.radiance), hit};
+      const MaskN large = sums.add(result, packet.wanted);
+      if (any(large)) add_invalid(sums.add_large(result, large), packet.block, packet.base);
+      if (++open_->packets % sums.most_packets == 0) sums.carry();
+    }
+    waiting_.clear();
+    batch_->clear();
+  }
+
+  void close_block() {
+    open_->sums.add_to(film_, open_->block, region_);
+    open_.reset();
   }
 
   /// Of any camera and pixel filter. Copies, as above.
@@ -237,6 +278,24 @@ class BlockRenderer {
   PixelScrambles scrambles_;
   decltype(std::declval<SceneTables>().usual_camera()) usual_camera_;  ///< if samples stay in their pixels
   RenderReport report_;
+
+  // Of integrators with batches.
+  struct WaitingPacket {
+    Block block;
+    std::uint32_t base;  ///< of its samples
+    MaskN wanted;
+    RayResult missed;  ///< what arrives where nothing was hit
+  };
+  /// A block some packets of which have their results.
+  struct OpenBlock {
+    Block block;
+    BlockSums<Block> sums;
+    int packets = 0;
+    OpenBlock(const Block& block, const SumScale& scale) : block(block), sums(scale) {}
+  };
+  std::optional<PathBatch> batch_;
+  std::vector<WaitingPacket> waiting_;  ///< the batch's, in its order
+  std::optional<OpenBlock> open_;       ///< that of the last one that left
 };
 
 template <bool raycast>

@@ -26,7 +26,6 @@ struct PathVertex {
   const SurfaceInteraction<FloatN>& surface;
   const TexturePoint<FloatN>* textures;
   Frame<FloatN> frame;  ///< about surface.ns
-  Vec3<FloatN> wo;      ///< in it
   FloatN distance;      ///< that the path came to it
 };
 
@@ -38,11 +37,14 @@ inline float environment_share_of(const SceneTables& tables) {
 
 /// Light that was drawn for a vertex.
 struct DrawnLight {
-  Ray<FloatN> ray;  ///< from the vertex to the light
-  FloatN pdf;       ///< per solid angle; 0 where there is none
-  EmitterTable::Sample sample;
-  SurfaceInteraction<FloatN> surface;  ///< where the light leaves from, if it is a surface
-  Rgb<FloatN> radiance;                ///< if it is the environment's
+  MaskN lit{false};                    ///< where there is any that may arrive
+  Ray<FloatN> ray;                     ///< from the vertex to the light
+  Vec3<FloatN> wi, local_wi;           ///< its direction, of unit length; and in the vertex's frame
+  FloatN pdf;                          ///< per solid angle
+  MaskN is_sky;                        ///< whether it is the environment's; else it is of a surface
+  EmitterTable::Sample sample;         ///< of a surface
+  SurfaceInteraction<FloatN> surface;  ///< where it leaves from
+  Rgb<FloatN> radiance;                ///< the environment's
 };
 
 inline void draw_from_surfaces(const SceneTables& tables, const SurfaceInteraction<FloatN>& surface,
@@ -62,16 +64,13 @@ inline void draw_from_surfaces(const SceneTables& tables, const SurfaceInteracti
   result.pdf = select(drawn.pdf < infinity<FloatN>(), drawn.pdf, FloatN(0));
 }
 
-/// What leaves the vertex along wo of light that was drawn from a surface or the environment: over the density of the
-/// draw, times its share beside directions that the BSDF draws.
-inline Rgb<FloatN> sampled_light(const TracedScene& scene, const PathVertex& vertex, const Sample2D& choice,
-                                 const Sample2D& point, Coherence coherence, const UintN& keys, const MaskN& counted,
-                                 RayCounts& counts) {
-  const SceneTables& tables = scene.tables();
+/// Drawn from a surface or the environment.
+inline DrawnLight draw_light(const SceneTables& tables, const PathVertex& vertex, const Sample2D& choice,
+                             const Sample2D& point) {
   const SurfaceInteraction<FloatN>& surface = vertex.surface;
   const float environment_share = environment_share_of(tables);
-  const MaskN is_sky = choice.y < FloatN(environment_share);
-  DrawnLight light{};
+  DrawnLight light;
+  light.is_sky = choice.y < FloatN(environment_share);
   light.ray.origin = offset_ray_origin(surface);
   light.ray.near = FloatN(0);
   if (environment_share < 1) {
@@ -82,29 +81,38 @@ inline Rgb<FloatN> sampled_light(const TracedScene& scene, const PathVertex& ver
     const EnvironmentSample sky = tables.environment()->sample(point.x, point.y);
     const FloatN pdf = sky.pdf * FloatN(environment_share);
     light.radiance = sky.radiance;
-    light.ray.direction = environment_share < 1 ? select(is_sky, sky.wi, light.ray.direction) : sky.wi;
-    light.ray.far = environment_share < 1 ? select(is_sky, infinity<FloatN>(), FloatN(1)) : infinity<FloatN>();
-    light.pdf = environment_share < 1 ? select(is_sky, pdf, light.pdf) : pdf;
+    light.ray.direction = environment_share < 1 ? select(light.is_sky, sky.wi, light.ray.direction) : sky.wi;
+    light.ray.far = environment_share < 1 ? select(light.is_sky, infinity<FloatN>(), FloatN(1)) : infinity<FloatN>();
+    light.pdf = environment_share < 1 ? select(light.is_sky, pdf, light.pdf) : pdf;
   }
-  const Vec3<FloatN> wi = normalize(light.ray.direction), local_wi = vertex.frame.to_local(wi);
-  light.surface.wo = -wi;
-  MaskN lit = vertex.hits.hit & (light.pdf > FloatN(0)) & (local_wi.z > FloatN(0)) & (dot(wi, surface.ng) > FloatN(0));
+  light.wi = normalize(light.ray.direction);
+  light.local_wi = vertex.frame.to_local(light.wi);
+  light.surface.wo = -light.wi;
+  light.lit = vertex.hits.hit & (light.pdf > FloatN(0)) & (light.local_wi.z > FloatN(0)) &
+              (dot(light.wi, surface.ng) > FloatN(0));
+  return light;
+}
+
+/// What of it leaves the vertex along wo: over the density of the draw, times its share beside directions that the BSDF
+/// draws. bsdf: for wo and the light's direction.
+inline Rgb<FloatN> arriving_light(const TracedScene& scene, const PathVertex& vertex, const DrawnLight& light,
+                                  const BsdfValue& bsdf, Coherence coherence, const UintN& keys, RayCounts& counts) {
+  const SceneTables& tables = scene.tables();
+  const float environment_share = environment_share_of(tables);
+  FloatN weight = light.local_wi.z / light.pdf * power_heuristic(light.pdf, bsdf.pdf);
+  if (vertex.surface.has_relief) weight = weight * relief_shadow(vertex.surface, light.wi);
   const Rgb<FloatN> black(Rgb<float>(0, 0, 0));
-  if (none(lit)) return black;
-  const BsdfValue bsdf = tables.evaluate(vertex.hits, surface.front, vertex.wo, local_wi, vertex.textures);
-  FloatN weight = local_wi.z / light.pdf * power_heuristic(light.pdf, bsdf.pdf);
-  if (surface.has_relief) weight = weight * relief_shadow(surface, wi);
   Rgb<FloatN> arriving = black;
   if (environment_share < 1)
-    arriving = tables.emitted(light.sample, lit & !is_sky, light.surface, [&](const Hits& hits) {
+    arriving = tables.emitted(light.sample, light.lit & !light.is_sky, light.surface, [&](const Hits& hits) {
       const FloatN distance = vertex.distance + length(light.ray.direction);
       return texture_point(tables, tables.ray_cone().half_width(distance), hits, light.surface);
     });
-  if (environment_share > 0) arriving = select(is_sky, light.radiance, arriving);
+  if (environment_share > 0) arriving = select(light.is_sky, light.radiance, arriving);
   const Rgb<FloatN> radiance = bsdf.f * arriving * weight;
-  lit = lit & (largest(radiance) > FloatN(0));
+  const MaskN lit = light.lit & (largest(radiance) > FloatN(0));
   if (none(lit)) return black;
-  counts.shadow += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(lit & counted)));
+  counts.shadow += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(lit)));
   const MaskN occluded = tables.has_cutouts() ? occluded_with_cutouts(scene, light.ray, lit, keys, coherence)
                                               : scene.accelerator().occluded(light.ray, lit, coherence);
   return select(lit & !occluded, radiance, black);

@@ -1,0 +1,222 @@
+#include "raytrace/tracing/path_batch.h"
+
+#include <algorithm>
+#include <bit>
+#include <optional>
+#include <utility>
+#include <variant>
+
+#include "raytrace/sampling/sampler.h"
+#include "raytrace/tracing/camera_hits.h"
+#include "raytrace/tracing/direct_light.h"
+#include "raytrace/tracing/sampled_light.h"
+
+namespace raytrace {
+
+namespace {
+
+Rgb<FloatN> black() { return Rgb<FloatN>(Rgb<float>(0, 0, 0)); }
+
+std::uint64_t count(const MaskN& lanes) { return static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(lanes))); }
+
+}  // namespace
+
+PathBatch::PathBatch(const TracedScene& scene)
+    : scene_(scene),
+      settings_(std::get<Path::Parameters>(scene.tables().integrator())),
+      paths_(most_packets * packet_lanes),
+      next_(most_packets * packet_lanes) {
+  order_.reserve(most_packets * packet_lanes);
+  direct_.reserve(most_packets);
+  indirect_.reserve(most_packets);
+}
+
+void PathBatch::clear() {
+  direct_.clear();
+  indirect_.clear();
+}
+
+MaskN PathBatch::add(CameraRays& camera, const MaskN& active, const MaskN& wanted, FirstHits* first) {
+  const Hits hits = intersect_camera_rays(scene_, camera, active);
+  if (first != nullptr) {
+    first->hits = hits;
+    first->textures.reset();
+    if (any(hits.hit)) {
+      first->surface = scene_.accelerator().surface(camera.rays, hits);
+      first->textures =
+          add_textures(scene_.tables(), hits, first->surface, [&] { return camera_radius(scene_.tables(), camera); });
+    }
+  }
+  const auto first_slot = static_cast<std::int32_t>(packets() * packet_lanes);
+  direct_.emplace_back();
+  indirect_.emplace_back();
+  PathPacket path;
+  path.rays = camera.rays;
+  path.set_hits(hits);
+  path.throughput = Rgb<FloatN>(Rgb<float>(1, 1, 1));
+  path.eta2 = FloatN(1);
+  path.distance = camera.skipped;
+  path.pdf = infinity<FloatN>();
+  path.from = path.from_normal = Vec3<FloatN>(Vec3f(0, 0, 0));
+  path.pixel = camera.pixel;
+  path.sample = camera.sample;
+  path.slot = IntN(first_slot) + lane_numbers<IntN>();
+  append(paths_, path, hits, hits.hit & wanted);
+  return hits.hit;
+}
+
+void PathBatch::append(PathChunk& chunk, const PathPacket& path, const Hits& hits, const MaskN& lanes) const {
+  const std::uint32_t bits = bits_of<FloatN>(lanes);
+  if (bits == 0) return;
+  // By geometry, which says the shape, and by material. Those that share a bucket are shaded in turn.
+  const IntN geometry = same_bits<IntN>(hits.geometry), material = scene_.tables().material(hits);
+  chunk.append(path, bits, ((geometry & IntN(15)) << 4) | (material & IntN(15)));
+}
+
+void PathBatch::trace(RayCounts& counts) {
+  for (int depth = 0; paths_.size() > 0; ++depth) {
+    paths_.sort(order_);
+    next_.clear();
+    for (std::size_t first = 0; first < order_.size(); first += packet_lanes) {
+      const std::size_t lanes = std::min<std::size_t>(order_.size() - first, packet_lanes);
+      // Lanes beyond the last path follow the first of the packet.
+      alignas(64) std::array<std::int32_t, packet_lanes> index;
+      for (std::size_t lane = 0; lane < packet_lanes; ++lane) index[lane] = order_[first + (lane < lanes ? lane : 0)];
+      PathPacket path = paths_.load(IntN::load_aligned(index.data()));
+      extend(path, first_lanes<FloatN>(static_cast<int>(lanes)), depth, counts);
+    }
+    std::swap(paths_, next_);
+  }
+}
+
+void PathBatch::add(std::vector<Sums>& sums, const IntN& slot, const MaskN& lanes, const Rgb<FloatN>& radiance) {
+  std::uint32_t bits = bits_of<FloatN>(lanes);
+  if (bits == 0) return;
+  alignas(64) std::array<std::int32_t, packet_lanes> slots;
+  slot.store_aligned(slots.data());
+  alignas(64) Sums terms;
+  radiance.red.store_aligned(terms[0].data());
+  radiance.green.store_aligned(terms[1].data());
+  radiance.blue.store_aligned(terms[2].data());
+  for (; bits != 0; bits &= bits - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+    const auto to = static_cast<std::size_t>(slots[lane]);
+    Sums& sum = sums[to / packet_lanes];
+    for (std::size_t channel = 0; channel < 3; ++channel) sum[channel][to % packet_lanes] += terms[channel][lane];
+  }
+}
+
+Rgb<FloatN> PathBatch::radiance(std::size_t packet) const {
+  const auto load = [](const Sums& sums) {
+    return Rgb<FloatN>(FloatN::load_unaligned(sums[0].data()), FloatN::load_unaligned(sums[1].data()),
+                       FloatN::load_unaligned(sums[2].data()));
+  };
+  Rgb<FloatN> indirect = load(indirect_[packet]);
+  if (settings_.clampindirect > 0) {
+    const FloatN most(static_cast<float>(settings_.clampindirect));
+    indirect = {min(indirect.red, most), min(indirect.green, most), min(indirect.blue, most)};
+  }
+  return load(direct_[packet]) + indirect;
+}
+
+void PathBatch::extend(PathPacket& path, const MaskN& lanes, int depth, RayCounts& counts) {
+  const SceneTables& tables = scene_.tables();
+  Ray<FloatN>& rays = path.rays;
+  Hits hits = path.hits(lanes);
+  SurfaceInteraction<FloatN> surface = scene_.accelerator().surface(rays, hits);
+  path.distance = path.distance + rays.far;
+  const auto textures =
+      add_textures(tables, hits, surface, [&] { return tables.ray_cone().half_width(path.distance); });
+  const TexturePoint<FloatN>* const point = textures ? &*textures : nullptr;
+  if (tables.has_transmission() && any(lanes & !surface.front)) {
+    const Rgb<FloatN> left = tables.transmittance(hits, rays.far, point);
+    path.throughput = select(lanes & !surface.front, path.throughput * left, path.throughput);
+  }
+  const float environment_share = environment_share_of(tables);
+  if (tables.has_emission()) {
+    if (const MaskN shines = tables.shines(hits, surface.front); any(shines)) {
+      Rgb<FloatN> emitted = tables.emitted(hits, surface, point);
+      const MaskN drawn = shines & (path.pdf < infinity<FloatN>()) & (largest(emitted) > FloatN(0));
+      if (!tables.emitters().empty() && any(drawn)) {
+        const FloatN other =
+            tables.emitters().pdf(path.from, path.from_normal, hits, drawn, surface) * FloatN(1 - environment_share);
+        emitted = select(drawn, emitted * power_heuristic(path.pdf, other), emitted);
+      }
+      add(depth <= 1 ? direct_ : indirect_, path.slot, shines, path.throughput * emitted);
+    }
+  }
+  if (depth == settings_.maxdepth) return;
+
+  // The numbers of keys: one for each ray of a point, the next point's own first.
+  const auto lights = static_cast<std::uint32_t>(tables.lights().size());
+  const std::uint32_t first_key = static_cast<std::uint32_t>(depth) * (lights + 2);
+  const auto key = [&](std::uint32_t ray) { return ray_keys(path.pixel, path.sample, first_key + ray); };
+  const auto draw = [&](PathDraw what) { return get_2d(path.pixel, path.sample, path_dimension(depth, what)); };
+  const Coherence coherence = depth == 0 ? Coherence::coherent : Coherence::incoherent;
+  std::vector<Sums>& sums = depth == 0 ? direct_ : indirect_;
+  Rgb<FloatN> light = black();
+  if (lights > 0 || tables.has_ambient_light())
+    light = direct_light(scene_, hits, surface, point, coherence, lanes, counts,
+                         ShadowNumbers{path.pixel, path.sample, first_key + 1});
+
+  const PathVertex vertex{hits, surface, point, Frame<FloatN>(surface.ns), path.distance};
+  const Vec3<FloatN> wo = vertex.frame.to_local(surface.wo);
+  DrawnLight drawn;
+  if (tables.environment() != nullptr || !tables.emitters().empty())
+    drawn = draw_light(tables, vertex, draw(PathDraw::light), draw(PathDraw::light_point));
+  // The last direction is for what shines alone.
+  const bool is_last = depth + 1 == settings_.maxdepth;
+  const bool goes_on = !is_last || tables.has_emission() || tables.environment() != nullptr;
+  const Sample2D direction = draw(PathDraw::direction), choices = draw(PathDraw::lobe_and_roulette);
+  const Scattering scattering =
+      tables.scatter(hits, surface.front, wo, drawn.lit, drawn.local_wi, choices.x, direction.x, direction.y, point);
+  if (any(drawn.lit))
+    light += arriving_light(scene_, vertex, drawn, scattering.towards, coherence, key(lights + 1), counts);
+  add(sums, path.slot, lanes, path.throughput * light);
+  if (!goes_on) return;
+
+  const BsdfSample<FloatN>& sample = scattering.sample;
+  rays.direction = vertex.frame.to_world(sample.wi);
+  const MaskN through = sample.wi.z < FloatN(0);
+  // On the true surface the direction is on the same side as on the shaded one.
+  MaskN alive = lanes & (sample.pdf > FloatN(0)) & (dot(rays.direction, surface.ng) * sample.wi.z > FloatN(0));
+  FloatN weight = abs(sample.wi.z) / sample.pdf;
+  if (surface.has_relief) weight = select(through, weight, weight * relief_shadow(surface, rays.direction));
+  path.throughput = select(alive, path.throughput * sample.f * weight, black());
+  path.eta2 = path.eta2 * sample.eta2;
+  if (depth + 1 >= settings_.roulettedepth) {
+    // Twice as many as carry it: what ends has cost little, and what goes on need not be much brighter.
+    const FloatN survival = min(largest(path.throughput) * path.eta2 * FloatN(2), FloatN(1));
+    path.throughput = path.throughput * (FloatN(1) / max(survival, FloatN(1e-12F)));
+    alive = alive & (choices.y < survival);
+  }
+  alive = alive & (largest(path.throughput) > FloatN(0));
+  if (none(alive)) return;
+  path.pdf = select(sample.specular | through, infinity<FloatN>(), sample.pdf);
+  path.from = surface.p;
+  path.from_normal = surface.ns;
+  rays.origin = offset_ray_origin(surface, through & alive);
+  rays.near = FloatN(0);
+  rays.far = infinity<FloatN>();
+  counts.indirect += count(alive);
+  if (tables.has_cutouts()) {
+    const CutoutQuery query{tables, scene_.accelerator(), rays, key(lights + 2)};
+    hits = scene_.accelerator().intersect(rays, alive, Coherence::incoherent, nullptr, &query);
+  } else {
+    hits = scene_.accelerator().intersect(rays, alive, Coherence::incoherent);
+  }
+  if (const MaskN escaped = alive & !hits.hit; any(escaped)) {
+    if (const Environment* const environment = tables.environment(); environment != nullptr) {
+      const FloatN other = environment->pdf(rays.direction) * FloatN(environment_share);
+      add(sums, path.slot, escaped,
+          path.throughput * (environment->radiance(rays.direction) * power_heuristic(path.pdf, other)));
+    } else if (!is_last) {
+      add(sums, path.slot, escaped, path.throughput * Rgb<FloatN>(Rgb<float>(tables.viewplane().background)));
+    }
+  }
+  if (none(hits.hit)) return;
+  path.set_hits(hits);
+  append(next_, path, hits, hits.hit);
+}
+
+}  // namespace raytrace

@@ -1,0 +1,61 @@
+// The paths of many packets of camera rays, followed together.
+//
+// At each depth they are sorted by what they met, so that a packet's lanes shade one material on one type of shape, and
+// those that end leave no lanes empty (Afra et al., "Local Shading Coherence Extraction for SIMD-Efficient Path Tracing
+// on CPUs", HPG 2016). A lane's arithmetic depends neither on its lane nor on its neighbours: the order of the paths
+// changes no bits.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "raytrace/accel/traced_scene.h"
+#include "raytrace/integrators/path.h"
+#include "raytrace/tracing/path_chunk.h"
+#include "raytrace/tracing/ray_result.h"
+#include "raytrace/tracing/render_report.h"
+
+namespace raytrace {
+
+class PathBatch {
+ public:
+  /// Throws std::bad_alloc.
+  explicit PathBatch(const TracedScene& scene);
+
+  std::size_t packets() const { return direct_.size(); }
+  bool is_full() const { return packets() == most_packets; }
+
+  /// Begins a path in each lane of `wanted`, where its camera ray hits something. Ends the rays there, and sets `first`
+  /// to what all rays of `active` hit if it is not null. The result: the lanes of `active` that hit something.
+  MaskN add(CameraRays& camera, const MaskN& active, const MaskN& wanted, FirstHits* first);
+
+  /// Follows all paths to their ends.
+  void trace(RayCounts& counts);
+
+  /// What came along the camera rays of that packet, in its lanes with a path.
+  Rgb<FloatN> radiance(std::size_t packet) const;
+
+  /// Removes all.
+  void clear();
+
+ private:
+  static constexpr std::size_t most_packets = 1024 / packet_lanes;
+
+  using Sums = std::array<std::array<float, packet_lanes>, 3>;  ///< red, green and blue of each lane
+
+  /// Adds to those lanes' paths.
+  static void add(std::vector<Sums>& sums, const IntN& slot, const MaskN& lanes, const Rgb<FloatN>& radiance);
+  /// From the points that these paths have met, in those lanes, to the next ones.
+  void extend(PathPacket& path, const MaskN& lanes, int depth, RayCounts& counts);
+  void append(PathChunk& chunk, const PathPacket& path, const Hits& hits, const MaskN& lanes) const;
+
+  const TracedScene& scene_;
+  const Path::Parameters& settings_;
+  PathChunk paths_, next_;
+  std::vector<std::int32_t> order_;      ///< the numbers of paths, in the lowest 16 bits of their keys
+  std::vector<Sums> direct_, indirect_;  ///< of each packet: what was scattered once or never, and all else
+};
+
+}  // namespace raytrace

@@ -1,0 +1,115 @@
+// Paths on their way, field by field: taken out in any order, and put back, a packet at a time.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "raytrace/math/color.h"
+#include "raytrace/math/gather.h"
+#include "raytrace/math/ray.h"
+#include "raytrace/scene/hits.h"
+
+namespace raytrace {
+
+/// A path for each lane, whose last ray has hit something.
+struct PathPacket {
+  Ray<FloatN> rays;  ///< the last ones, which end where they hit
+  UintN instance, geometry;
+  IntN primitive;
+  FloatN u, v;
+
+  Rgb<FloatN> throughput;
+  FloatN eta2;      ///< of the media that the path is in and was in at its start, squared
+  FloatN distance;  ///< of all rays before the last one together
+  // Of the last direction: its density, infinite where light cannot be drawn for it, and where it starts.
+  FloatN pdf;
+  Vec3<FloatN> from, from_normal;
+  UintN pixel, sample;  ///< as CameraRays have them
+  IntN slot;            ///< where the path's radiance goes
+
+  void set_hits(const Hits& hits) {
+    instance = hits.instance;
+    geometry = hits.geometry;
+    primitive = hits.primitive;
+    u = hits.u;
+    v = hits.v;
+  }
+  Hits hits(const MaskN& lanes) const {
+    Hits hits;
+    hits.hit = lanes;
+    hits.instance = instance;
+    hits.geometry = geometry;
+    hits.primitive = primitive;
+    hits.u = u;
+    hits.v = v;
+    hits.find_first();
+    return hits;
+  }
+};
+
+class PathChunk {
+ public:
+  /// Takes so many paths. Throws std::bad_alloc.
+  explicit PathChunk(std::size_t capacity)
+      : stride_((capacity / packet_lanes + 2) * packet_lanes), numbers_(stride_ * fields) {
+    buckets_.reserve(capacity + packet_lanes);
+  }
+
+  std::size_t size() const { return buckets_.size(); }
+  void clear() {
+    buckets_.clear();
+    ends_ = {};
+  }
+
+  /// Adds those lanes. bucket: from 0 to 255 each; paths of one are worth being together.
+  void append(const PathPacket& packet, std::uint32_t lanes, const IntN& bucket) {
+    alignas(64) std::array<std::int32_t, packet_lanes> buckets, from{};
+    bucket.store_aligned(buckets.data());
+    std::size_t count = 0;
+    float* to = numbers_.data() + size();
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const int lane = std::countr_zero(lanes);
+      const std::int32_t here = buckets[static_cast<std::size_t>(lane)];
+      buckets_.push_back(static_cast<std::uint8_t>(here));
+      ++ends_[static_cast<std::size_t>(here)];
+      from[count++] = lane;
+    }
+    const IntN index = IntN::load_aligned(from.data());
+    const auto* numbers = reinterpret_cast<const float*>(&packet);
+    for (std::size_t field = 0; field < fields; ++field, numbers += packet_lanes, to += stride_)
+      gather(numbers, index).store_unaligned(to);
+  }
+
+  /// Those of the given numbers.
+  PathPacket load(const IntN& index) const {
+    PathPacket packet;
+    auto* field = reinterpret_cast<FloatN*>(&packet);
+    for (const float* numbers = numbers_.data(); numbers != numbers_.data() + fields * stride_; numbers += stride_)
+      *field++ = gather(numbers, index);
+    return packet;
+  }
+
+  /// Sets the order in which paths are by bucket, each bucket's as they came. clear() ends it.
+  void sort(std::vector<std::int32_t>& order) {
+    std::int32_t end = 0;
+    for (std::int32_t& bucket : ends_) end = std::exchange(bucket, end) + end;
+    order.resize(size());
+    for (std::size_t i = 0; i < size(); ++i)
+      order[static_cast<std::size_t>(ends_[buckets_[i]]++)] = static_cast<std::int32_t>(i);
+  }
+
+ private:
+  static constexpr std::size_t fields = sizeof(PathPacket) / sizeof(FloatN);
+  static_assert(sizeof(PathPacket) == fields * packet_lanes * sizeof(float));
+
+  std::size_t stride_;
+  std::vector<float> numbers_;            ///< field by field
+  std::vector<std::uint8_t> buckets_;     ///< of each path
+  std::array<std::int32_t, 256> ends_{};  ///< of each bucket: how many are in it; while they are sorted, where it ends
+};
+
+}  // namespace raytrace
