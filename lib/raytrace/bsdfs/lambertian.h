@@ -3,8 +3,9 @@
 
 #include <numbers>
 
-#include "raytrace/bsdfs/direction_about.h"
 #include "raytrace/math/color.h"
+#include "raytrace/math/frame.h"
+#include "raytrace/math/unit_disk.h"
 #include "raytrace/math/vec3.h"
 
 namespace raytrace {
@@ -23,7 +24,8 @@ struct Lambertian {
   /// A direction wi for light to come from, out of u1, u2 in [0, 1), always on the normal's side; T is a batch.
   /// wo, normal: unit vectors that point away from the surface, in the frame that wi is wanted in.
   Vec3<T> sample(const Vec3<T>&, const Vec3<T>& normal, const T& u1, const T& u2) const {
-    return direction_about(normal, sqrt(T(1) - u1), sqrt(u1), u2);
+    const DiskPoint<T> point = on_unit_disk(u1, u2);
+    return Frame<T>(normal).to_world({point.x, point.y, sqrt(max(T(1) - point.x * point.x - point.y * point.y, T(0)))});
   }
 
   /// The density at which sample() draws wi, in 1/steradian (per solid angle): cos / pi. The cosine is in the density,

@@ -6,15 +6,14 @@
 
 #include "raytrace/math/simd.h"
 #include "raytrace/math/turns.h"
+#include "raytrace/math/unit_disk.h"
 
 namespace raytrace {
 
 /// A disk, or a regular polygon with its corners on that circle.
 class Aperture {
  public:
-  struct Point {
-    FloatN right, up;  ///< in multiples of the radius
-  };
+  using Point = DiskPoint<FloatN>;  ///< to the right and up, in multiples of the radius
 
   /// blades: the number of corners, 0 for a disk. rotation: degrees from the right towards the top at which the first
   /// is.
@@ -25,20 +24,11 @@ class Aperture {
         corner_y_(static_cast<float>(blades == 0 ? 0 : std::sin(2 * std::numbers::pi / blades))) {}
 
   /// The point for (u1, u2) of the unit square: equal areas for equal areas.
-  Point point(const FloatN& u1, const FloatN& u2) const { return blades_ == 0 ? on_disk(u1, u2) : on_polygon(u1, u2); }
-
- private:
-  /// Shirley and Chiu, "A Low Distortion Map Between Disk and Square", 1997: squares about the middle become circles.
-  static Point on_disk(const FloatN& u1, const FloatN& u2) {
-    const FloatN a = u1 * FloatN(2) - FloatN(1), b = u2 * FloatN(2) - FloatN(1);
-    const MaskN wide = abs(a) > abs(b);
-    const FloatN radius = select(wide, a, b), other = select(wide, b, a);
-    // Up to an eighth of a turn, from the right or from the top.
-    const FloatN divisor = select(radius == FloatN(0), FloatN(1), radius);
-    const auto [sine, cosine] = sin_cos_of_turns(other / divisor * FloatN(0.125F));
-    return {radius * select(wide, cosine, sine), radius * select(wide, sine, cosine)};
+  Point point(const FloatN& u1, const FloatN& u2) const {
+    return blades_ == 0 ? on_unit_disk(u1, u2) : on_polygon(u1, u2);
   }
 
+ private:
   /// Triangles about the middle, one for each side.
   Point on_polygon(const FloatN& u1, const FloatN& u2) const {
     const FloatN scaled = u1 * FloatN(blades_);

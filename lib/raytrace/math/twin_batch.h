@@ -159,10 +159,6 @@ class TwinBatch {
   friend RAYTRACE_INLINE TwinBatch pow(const TwinBatch& a, const TwinBatch& b) {
     return {xsimd::pow(a.lower_, b.lower_), xsimd::pow(a.upper_, b.upper_)};
   }
-  friend RAYTRACE_INLINE std::pair<TwinBatch, TwinBatch> sincos(const TwinBatch& a) {
-    const auto lower = xsimd::sincos(a.lower_), upper = xsimd::sincos(a.upper_);
-    return {{lower.first, upper.first}, {lower.second, upper.second}};
-  }
 
  private:
   Part lower_, upper_;

@@ -4,6 +4,8 @@
 
 #include "raytrace/math/frame.h"
 #include "raytrace/math/ray.h"
+#include "raytrace/math/turns.h"
+#include "raytrace/math/unit_disk.h"
 
 namespace raytrace {
 
@@ -78,16 +80,19 @@ void sample_flat(const PatchRecord<FloatN>& patch, const MaskN& here, const Floa
 }
 
 void sample_sphere(const PatchRecord<FloatN>& patch, const MaskN& here, const Vec3<FloatN>& from, const FloatN& u1,
-                   const FloatN& turn_sine, const FloatN& turn_cosine, PatchSample& result) {
+                   const FloatN& u2, PatchSample& result) {
   const SphereCone cone(patch, from);
-  const FloatN one_minus_cosine = cone.one_minus_cosine * u1;
+  const DiskPoint<FloatN> point = on_unit_disk(u1, u2);
+  const FloatN radius2 = min(point.x * point.x + point.y * point.y, FloatN(1));
+  const FloatN one_minus_cosine = cone.one_minus_cosine * radius2;
   const FloatN sine2 = one_minus_cosine * (FloatN(2) - one_minus_cosine);
   // The angle at the sphere's center. share: of the cone's sine, squared.
   const FloatN share = min(sine2 / cone.sine2, FloatN(1));
   const FloatN at_center = share * sqrt(cone.sine2) + (FloatN(1) - one_minus_cosine) * sqrt(FloatN(1) - share);
-  const FloatN cosine = select(cone.outside, min(at_center, FloatN(1)), FloatN(1) - FloatN(2) * u1);
+  const FloatN cosine = select(cone.outside, min(at_center, FloatN(1)), FloatN(1) - FloatN(2) * radius2);
   const FloatN sine = sqrt(max((FloatN(1) - cosine) * (FloatN(1) + cosine), FloatN(0)));
-  const Vec3<FloatN> normal = Frame<FloatN>(cone.axis).to_world({sine * turn_cosine, sine * turn_sine, cosine});
+  const FloatN across = sine / max(sqrt(radius2), FloatN(1e-18F));
+  const Vec3<FloatN> normal = Frame<FloatN>(cone.axis).to_world({point.x * across, point.y * across, cosine});
   set(here, patch.origin + normal * patch.a.x, normal, patch.a.x, result);
 }
 
@@ -104,7 +109,7 @@ void sample_band(const PatchRecord<FloatN>& band, const MaskN& here, const Float
 
 void sample_torus(const PatchRecord<FloatN>& torus, const MaskN& here, const FloatN& u1, const Vec3<FloatN>& outwards,
                   PatchSample& result) {
-  const auto [sine, cosine] = sincos(u1 * FloatN(2 * pi));
+  const auto [sine, cosine] = sin_cos_of_turns(u1);
   const Vec3<FloatN> normal = outwards * cosine + torus.a * sine;
   set(here, torus.origin + outwards * torus.b.x + normal * torus.b.y, normal, torus.b.x + torus.b.y, result);
 }
@@ -117,10 +122,10 @@ PatchSample sample_patch(const PatchRecord<FloatN>& patch, const Vec3<FloatN>& f
               torus = is(patch, PatchShape::torus), flat = !(sphere | band | torus);
   PatchSample result{};
   if (any(flat)) sample_flat(patch, flat, u1, u2, result);
-  if (any(!flat)) {
-    const auto [sine, cosine] = sincos(u2 * FloatN(2 * pi));
-    if (any(sphere)) sample_sphere(patch, sphere, from, u1, sine, cosine, result);
-    const Frame<FloatN> frame(select(sphere, Vec3<FloatN>(Vec3f(0, 0, 1)), patch.a));
+  if (any(sphere)) sample_sphere(patch, sphere, from, u1, u2, result);
+  if (any(band | torus)) {
+    const auto [sine, cosine] = sin_cos_of_turns(u2);
+    const Frame<FloatN> frame(select(band | torus, patch.a, Vec3<FloatN>(Vec3f(0, 0, 1))));
     const Vec3<FloatN> outwards = frame.x * cosine + frame.y * sine;
     if (any(band)) sample_band(patch, band, u1, outwards, result);
     if (any(torus)) sample_torus(patch, torus, u1, outwards, result);
