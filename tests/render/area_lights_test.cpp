@@ -85,7 +85,7 @@ TEST_CASE("drawn light is as bright as light that paths meet by chance") {
     const std::string sides = two_sided ? "<twosided>true</twosided>" : "";
     // Rays pass a surface of some opacity, so no light is drawn from it: of one in so many millions.
     const double by_chance =
-        mean(rendered(parsed_scene(room(lamp.objects, sides + "<opacity>0.9999999</opacity>", 4096, "")), 2));
+        mean(rendered(parsed_scene(room(lamp.objects, sides + "<opacity>0.9999999</opacity>", 16384, "")), 2));
     for (const std::string sampling : {"tree", "uniform"}) {
       const double drawn = mean(
           rendered(parsed_scene(room(lamp.objects, sides, 256, "<lightsampling>" + sampling + "</lightsampling>")), 2));

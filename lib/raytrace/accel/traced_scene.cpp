@@ -1,6 +1,7 @@
 #include "raytrace/accel/traced_scene.h"
 
 #include <algorithm>
+#include <variant>
 
 namespace raytrace {
 
@@ -9,7 +10,9 @@ TracedScene::TracedScene(const SceneDescription& description, int threads, const
   make_buffers(threads);
   // Embree's BVH of few objects takes no time. That of many waits for a ray that wants it: there may be none.
   constexpr std::uint64_t few_primitives = 1U << 14U;
-  if (tables_.geometry().primitive_count() <= few_primitives) accelerator_.embree_scene();
+  const bool rays_scatter = std::holds_alternative<Path::Parameters>(tables_.integrator()) ||
+                            std::holds_alternative<AmbientOcclusion::Parameters>(tables_.integrator());
+  if (rays_scatter || tables_.geometry().primitive_count() <= few_primitives) accelerator_.embree_scene();
 }
 
 void TracedScene::make_buffers(int threads) {

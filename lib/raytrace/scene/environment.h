@@ -34,8 +34,8 @@ struct EnvironmentSample {
 /// Immutable. Directions need not have unit length, and point away from the scene.
 ///
 /// Between the middles of texels, radiance is bilinear, across the seam at -z and the poles, too. Directions are drawn
-/// with the same density everywhere in a texel's rectangle of longitudes and latitudes, about in proportion to the
-/// largest channel's mean in it, and never 0 where there is radiance.
+/// in proportion to it: to what is bilinear between the largest channels of texels, in each cell between four of them.
+/// So light from a picture alone has no noise but that of what it falls on.
 class Environment {
  public:
   /// threads: so many at most share the work. Throws std::bad_alloc.
@@ -46,29 +46,61 @@ class Environment {
 
   Rgb<FloatN> radiance(const Vec3<FloatN>& direction) const;
 
-  /// u1, u2: from 0 up to 1, multiples of 2^-24, as get_2d() gives them. The shares of samples and pdf() agree then
-  /// exactly.
+  /// u1, u2: from 0 up to 1, multiples of 2^-24, as get_2d() gives them.
   EnvironmentSample sample(const FloatN& u1, const FloatN& u2) const;
 
-  /// sample()'s, in any direction. Per solid angle.
-  FloatN pdf(const Vec3<FloatN>& direction) const;
+  /// The radiance from any direction, and the density at which sample() draws it.
+  EnvironmentSample at(const Vec3<FloatN>& direction) const;
 
-  // Magnitudes: of the largest channel's mean over all directions, times the light's colour; and what nothing exceeds.
+  // Magnitudes: the mean over all directions of the channels' sum; and what nothing exceeds.
 
   Rgb<float> mean_radiance() const { return mean_radiance_; }
   Rgb<float> largest_radiance() const { return largest_radiance_; }
 
  private:
-  /// A place in the picture: columns from its left, rows from its bottom, in texels.
+  /// A place in the picture, and the cell that it is in: between the middles of four texels, the first of them its
+  /// lower left one. Columns are counted from the picture's left, rows from its bottom, in texels; the first column and
+  /// the first row may be -1, and the cells at the poles are cut by these.
   struct Place {
-    FloatN column, row;
+    IntN column, row;
+    FloatN x, y;  ///< in the cell, from 0 to 1
+  };
+  /// Of a cell's corners.
+  struct Corners {
+    Rgb<FloatN> low_left, low_right, high_left, high_right;
+    Rgb<FloatN> at(const FloatN& x, const FloatN& y) const {
+      return mix(mix(low_left, low_right, x), mix(high_left, high_right, x), y);
+    }
+  };
+  /// The same of what directions are drawn by.
+  struct Weights {
+    FloatN low_left, low_right, high_left, high_right;
+    explicit Weights(const Corners& corners)
+        : low_left(sum(corners.low_left)),
+          low_right(sum(corners.low_right)),
+          high_left(sum(corners.high_left)),
+          high_right(sum(corners.high_right)) {}
+    FloatN at(const FloatN& x, const FloatN& y) const {
+      return mix(mix(low_left, low_right, x), mix(high_left, high_right, x), y);
+    }
+
+   private:
+    static FloatN sum(const Rgb<FloatN>& c) { return abs(c.red) + abs(c.green) + abs(c.blue); }
+  };
+  /// What of a row's cells is in the picture.
+  struct RowPart {
+    FloatN low, high;
   };
 
-  Place place_of(const Vec3<FloatN>& direction) const;
-  /// Of texels that may lie beyond the picture by one.
+  Place place_of(const Vec3<FloatN>& local) const;
+  Corners corners(const Place& place) const;
+  RowPart part_of(const IntN& row) const;
+  /// Per solid angle, of what is drawn at a place. sine: of its angle with the poles.
+  FloatN pdf(const Place& place, const Weights& weights, const FloatN& sine) const;
+  /// The radiance from texels that may lie beyond the picture by one.
   Rgb<FloatN> texel(const IntN& column, const IntN& row) const;
   Vec3<FloatN> to_world(const Vec3<FloatN>& local) const;
-  FloatN texel_pdf(const IntN& column, const IntN& row) const;
+  Vec3<FloatN> to_local(const Vec3<FloatN>& world) const;
   bool has_table() const { return row_shares_.data() != nullptr; }
   void make_table(int threads);
 
@@ -81,11 +113,9 @@ class Environment {
 
   // Of the table, which none has that is the same, or black, everywhere. Shares are cumulative: 0 before the first, 1
   // after the last, and multiples of 2^-24.
-  LargeArray<float> row_shares_;                       ///< height + 1
+  LargeArray<float> row_shares_;                       ///< of the cells' rows, height + 1 of them, and one
   LargeArray<float> column_shares_;                    ///< of each row, width + 1
   LargeArray<std::int32_t> row_parts_, column_parts_;  ///< of them, detail::set_parts()
-  LargeArray<float> polar_caps_;            ///< 1 - cos of the angle between a pole and the k-th row's edge; height + 1
-  LargeArray<float> inverse_solid_angles_;  ///< of each row: one over that of a texel
 };
 
 namespace detail {
@@ -171,62 +201,57 @@ inline Environment::Environment(const LightItem<EnvironmentLight>& light, int th
 
 inline void Environment::make_table(int threads) {
   const auto width = static_cast<std::size_t>(width_), height = static_cast<std::size_t>(height_);
-  // The largest channel of each texel, with the row's end before its first and its first after its last.
-  const std::size_t stride = width + 2;
-  auto largest = LargeArray<float>::unset(stride * height);
+  // The sum of each texel's channels, with the row's first after its last.
+  const std::size_t stride = width + 1;
+  auto sums = LargeArray<float>::unset(stride * height);
   for_each_index(height_, threads, [&](int row) {
-    float* const line = largest.data() + static_cast<std::size_t>(row) * stride;
+    float* const line = sums.data() + static_cast<std::size_t>(row) * stride;
     alignas(64) std::array<float, packet_lanes> values;
     for (std::int32_t first = 0; first < width_; first += packet_lanes) {
       const IntN column = min(lane_numbers<IntN>() + IntN(first), IntN(width_ - 1));
-      const Rgb<FloatN> color = image_->texel(column, IntN(row));
-      max(max(abs(color.red), abs(color.green)), abs(color.blue)).store_aligned(values.data());
-      std::copy_n(values.data(), std::min(packet_lanes, width_ - first), line + 1 + first);
+      const Rgb<FloatN> color = image_->texel(column, IntN(row)) * Rgb<FloatN>(scale_);
+      FloatN(abs(color.red) + abs(color.green) + abs(color.blue)).store_aligned(values.data());
+      std::copy_n(values.data(), std::min(packet_lanes, width_ - first), line + first);
     }
-    line[0] = line[width];
-    line[width + 1] = line[1];
+    line[width] = line[0];
   });
 
-  polar_caps_ = LargeArray<float>::unset(height + 1);
-  inverse_solid_angles_ = LargeArray<float>::unset(height);
-  const auto cap = [&](double k) {
-    const double sine = std::sin(k * std::numbers::pi / (2 * height_));
-    return 2 * sine * sine;
-  };
-  for (std::size_t k = 0; k <= height; ++k) polar_caps_[k] = static_cast<float>(cap(static_cast<double>(k)));
-  row_shares_ = LargeArray<float>::unset(height + 1);
-  column_shares_ = LargeArray<float>::unset((width + 1) * height);
+  const std::size_t rows = height + 1;
+  row_shares_ = LargeArray<float>::unset(rows + 1);
+  column_shares_ = LargeArray<float>::unset((width + 1) * rows);
   const auto parts = static_cast<std::size_t>(detail::part_count(width_)) + 1;
-  column_parts_ = LargeArray<std::int32_t>::unset(parts * height);
-  row_parts_ = LargeArray<std::int32_t>::unset(static_cast<std::size_t>(detail::part_count(height_)) + 1);
-  std::vector<float> row_weights(height);
-  std::vector<double> row_means(height);
-  for_each_index(height_, threads, [&](int number) {
+  column_parts_ = LargeArray<std::int32_t>::unset(parts * rows);
+  row_parts_ = LargeArray<std::int32_t>::unset(static_cast<std::size_t>(detail::part_count(height_ + 1)) + 1);
+  std::vector<float> row_weights(rows);
+  std::vector<double> row_means(rows);
+  for_each_index(height_ + 1, threads, [&](int number) {
     const auto row = static_cast<std::size_t>(number);
-    // The mean of what is bilinear, in the texel's rectangle. Beyond a pole, a row goes on half way around.
-    const float* const here = largest.data() + row * stride + 1;
-    const auto weight_of = [&](const float* line, std::size_t x) {
-      return 0.125F * line[static_cast<std::ptrdiff_t>(x) - 1] + 0.75F * line[x] + 0.125F * line[x + 1];
-    };
+    // The mean of what is bilinear is in the middle. Beyond a pole, a row goes on half way around.
+    const auto between = [&](const float* line, std::size_t x) { return 0.5F * (line[x] + line[x + 1]); };
     const auto opposite = [&](std::size_t x) { return (x + width / 2) % width; };
+    const float* const low = sums.data() + (row > 0 ? row - 1 : 0) * stride;
+    const float* const high = sums.data() + std::min(row, height - 1) * stride;
+    const float middle = row == 0 ? 0.75F : row == height ? 0.25F : 0.5F;
     std::vector<float> weights(width);
     for (std::size_t x = 0; x < width; ++x) {
-      const float below = row > 0 ? weight_of(here - stride, x) : weight_of(here, opposite(x));
-      const float above = row + 1 < height ? weight_of(here + stride, x) : weight_of(here, opposite(x));
-      weights[x] = 0.125F * below + 0.75F * weight_of(here, x) + 0.125F * above;
+      const float below = between(low, row == 0 ? opposite(x) : x),
+                  above = between(high, row == height ? opposite(x) : x);
+      weights[x] = below + (above - below) * middle;
     }
-    const double solid_angle = 2 * std::numbers::pi * (cap(number + 1) - cap(number));  // of the whole row
+    const auto height_of = [&](double edge) {
+      return std::cos(std::clamp(edge, 0.0, double{height_}) * std::numbers::pi / height_);
+    };
+    const double solid_angle = 2 * std::numbers::pi * (height_of(number - 0.5) - height_of(number + 0.5));
     const double sum = detail::add_up(weights.data(), width_, column_shares_.data() + row * (width + 1));
     detail::set_parts(column_shares_.data() + row * (width + 1), width_, column_parts_.data() + row * parts);
-    inverse_solid_angles_[row] = static_cast<float>(width_ / solid_angle);
     row_means[row] = sum / width_ * solid_angle / (4 * std::numbers::pi);
     row_weights[row] = static_cast<float>(row_means[row]);
   });
   double mean = 0;
   for (const double row_mean : row_means) mean += row_mean;
-  mean_radiance_ = mean_radiance_ * static_cast<float>(mean);
-  detail::add_up(row_weights.data(), height_, row_shares_.data());
-  detail::set_parts(row_shares_.data(), height_, row_parts_.data());
+  mean_radiance_ = Rgb<float>(1, 1, 1) * static_cast<float>(mean);
+  detail::add_up(row_weights.data(), height_ + 1, row_shares_.data());
+  detail::set_parts(row_shares_.data(), height_ + 1, row_parts_.data());
   if (!(mean > 0)) row_shares_ = {};
 }
 
@@ -234,12 +259,18 @@ inline Vec3<FloatN> Environment::to_world(const Vec3<FloatN>& local) const {
   return Vec3<FloatN>(x_) * local.x + Vec3<FloatN>(y_) * local.y + Vec3<FloatN>(z_) * local.z;
 }
 
-inline Environment::Place Environment::place_of(const Vec3<FloatN>& direction) const {
-  const FloatN x = dot(Vec3<FloatN>(x_), direction), y = dot(Vec3<FloatN>(y_), direction),
-               z = dot(Vec3<FloatN>(z_), direction);
-  const FloatN longitude = turns(x, z), from_south = turns(sqrt(x * x + z * z), -y);
-  return {(FloatN(0.5F) - longitude) * FloatN(static_cast<float>(width_)),
-          from_south * FloatN(2 * static_cast<float>(height_))};
+inline Vec3<FloatN> Environment::to_local(const Vec3<FloatN>& world) const {
+  return {dot(Vec3<FloatN>(x_), world), dot(Vec3<FloatN>(y_), world), dot(Vec3<FloatN>(z_), world)};
+}
+
+inline Environment::Place Environment::place_of(const Vec3<FloatN>& local) const {
+  const FloatN longitude = turns(local.x, local.z);
+  const FloatN from_south = turns(sqrt(local.x * local.x + local.z * local.z), -local.y);
+  const FloatN x = (FloatN(0.5F) - longitude) * FloatN(static_cast<float>(width_)) - FloatN(0.5F);
+  const FloatN y = from_south * FloatN(2 * static_cast<float>(height_)) - FloatN(0.5F);
+  const FloatN left = min(max(floor(x), FloatN(-1)), FloatN(static_cast<float>(width_ - 1)));
+  const FloatN low = min(max(floor(y), FloatN(-1)), FloatN(static_cast<float>(height_ - 1)));
+  return {to_int(left), to_int(low), x - left, y - low};
 }
 
 inline Rgb<FloatN> Environment::texel(const IntN& column, const IntN& row) const {
@@ -249,67 +280,91 @@ inline Rgb<FloatN> Environment::texel(const IntN& column, const IntN& row) const
   x = select_lanes(float_mask<FloatN>(x < IntN(0)), x + width, x);
   x = select_lanes(float_mask<FloatN>(x >= width), x - width, x);
   const auto clamped = [](const IntN& i, const IntN& last) { return min(max(i, IntN(0)), last); };
-  return image_->texel(clamped(x, width - IntN(1)), clamped(row, last_row));
+  return image_->texel(clamped(x, width - IntN(1)), clamped(row, last_row)) * Rgb<FloatN>(scale_);
+}
+
+inline Environment::Corners Environment::corners(const Place& place) const {
+  const IntN right = place.column + IntN(1), high = place.row + IntN(1);
+  return {texel(place.column, place.row), texel(right, place.row), texel(place.column, high), texel(right, high)};
+}
+
+inline Environment::RowPart Environment::part_of(const IntN& row) const {
+  return {select(float_mask<FloatN>(row < IntN(0)), FloatN(0.5F), FloatN(0)),
+          select(float_mask<FloatN>(row == IntN(height_ - 1)), FloatN(0.5F), FloatN(1))};
 }
 
 inline Rgb<FloatN> Environment::radiance(const Vec3<FloatN>& direction) const {
   if (!image_) return Rgb<FloatN>(scale_);
-  const Place place = place_of(direction);
-  const FloatN x = place.column - FloatN(0.5F), y = place.row - FloatN(0.5F), left = floor(x), low = floor(y);
-  const IntN column = to_int(left), row = to_int(low);
-  const auto line = [&](const IntN& at) {
-    return mix(texel(column, at), texel(column + IntN(1), at), FloatN(x - left));
-  };
-  return mix(line(row), line(row + IntN(1)), FloatN(y - low)) * Rgb<FloatN>(scale_);
+  const Place place = place_of(to_local(direction));
+  return corners(place).at(place.x, place.y);
 }
 
-inline FloatN Environment::texel_pdf(const IntN& column, const IntN& row) const {
-  const IntN at = row * IntN(width_ + 1) + column;
+inline FloatN Environment::pdf(const Place& place, const Weights& weights, const FloatN& sine) const {
+  // Cells in column -1 are those in the last.
+  const IntN column = select_lanes(float_mask<FloatN>(place.column < IntN(0)), IntN(width_ - 1), place.column);
+  const IntN row = place.row + IntN(1), at = row * IntN(width_ + 1) + column;
   const FloatN of_row = gather(row_shares_.data(), row + IntN(1)) - gather(row_shares_.data(), row);
   const FloatN of_column = gather(column_shares_.data(), at + IntN(1)) - gather(column_shares_.data(), at);
-  return of_row * of_column * gather(inverse_solid_angles_.data(), row);
+  const RowPart part = part_of(place.row);
+  const FloatN mean = weights.at(FloatN(0.5F), (part.low + part.high) * FloatN(0.5F));
+  const auto texels = static_cast<float>(width_ * (height_ / (2 * std::numbers::pi * std::numbers::pi)));
+  const FloatN density = weights.at(place.x, place.y) * FloatN(texels) / (mean * (part.high - part.low));
+  return select(mean > FloatN(0), of_row * of_column * density / max(sine, FloatN(1e-7F)), FloatN(0));
 }
 
-inline FloatN Environment::pdf(const Vec3<FloatN>& direction) const {
-  if (!has_table()) return FloatN(detail::inverse_sphere);
-  const Place place = place_of(direction);
-  const auto number = [](const FloatN& x, std::int32_t count) {
-    return min(max(to_int(floor(x)), IntN(0)), IntN(count - 1));
-  };
-  return texel_pdf(number(place.column, width_), number(place.row, height_));
+inline EnvironmentSample Environment::at(const Vec3<FloatN>& direction) const {
+  if (!image_) return {direction, Rgb<FloatN>(scale_), FloatN(detail::inverse_sphere)};
+  const Vec3<FloatN> local = to_local(direction);
+  const Place place = place_of(local);
+  const Corners cell = corners(place);
+  const Rgb<FloatN> radiance = cell.at(place.x, place.y);
+  if (!has_table()) return {direction, radiance, FloatN(detail::inverse_sphere)};
+  const FloatN across = local.x * local.x + local.z * local.z;
+  return {direction, radiance, pdf(place, Weights(cell), sqrt(across / (across + local.y * local.y)))};
 }
+
+namespace detail {
+
+/// The x in [0, 1] up to which a share u is of what goes evenly from a at 0 to b at 1; none is negative, one is not 0.
+inline FloatN linear_share(const FloatN& a, const FloatN& b, const FloatN& u) {
+  const FloatN scale = FloatN(1) / max(a + b, FloatN(1e-37F)), begin = a * scale, end = b * scale;
+  const FloatN root = sqrt(mix(FloatN(begin * begin), FloatN(end * end), u));
+  return min(u / max(begin + root, FloatN(1e-12F)), FloatN(1));
+}
+
+}  // namespace detail
 
 inline EnvironmentSample Environment::sample(const FloatN& u1, const FloatN& u2) const {
-  EnvironmentSample result;
-  FloatN cap = u2 * FloatN(2), longitude = u1, side(1);  // from the south pole
-  if (has_table()) {
-    const IntN row = detail::find_share(row_shares_.data(), IntN(0), height_, row_parts_.data(), IntN(0), u2);
-    const IntN first = row * IntN(width_ + 1);
-    const IntN column = detail::find_share(column_shares_.data(), first, width_, column_parts_.data(),
-                                           row * IntN(detail::part_count(width_) + 1), u1);
-    // Numbers stand for their quanta's middles.
-    const auto fraction = [](const LargeArray<float>& shares, const IntN& at, const FloatN& u) {
-      const FloatN begin = gather(shares.data(), at), end = gather(shares.data(), at + IntN(1));
-      return (u - begin + FloatN(static_cast<float>(detail::quantum / 2))) / (end - begin);
-    };
-    result.pdf = texel_pdf(column, row);
-    longitude = FloatN(0.5F) - (to_float(column) + fraction(column_shares_, first + column, u1)) *
-                                   FloatN(1 / static_cast<float>(width_));
-    // From the nearer pole, where floats are precise.
-    const MaskN south = float_mask<FloatN>(row + row < IntN(height_));
-    const IntN from_pole = select_lanes(south, row, IntN(height_ - 1) - row);
-    const FloatN upwards = fraction(row_shares_, row, u2);
-    cap = mix(gather(polar_caps_.data(), from_pole), gather(polar_caps_.data(), from_pole + IntN(1)),
-              select(south, upwards, FloatN(1) - upwards));
-    side = select(south, FloatN(1), FloatN(-1));
-  } else {
-    result.pdf = FloatN(detail::inverse_sphere);
+  if (!has_table()) {
+    const FloatN y = u2 * FloatN(2) - FloatN(1), radius = FloatN(2) * sqrt(max(u2 * (FloatN(1) - u2), FloatN(0)));
+    const auto around = sin_cos_of_turns(u1);
+    const Vec3<FloatN> wi = to_world({radius * around.sine, y, radius * around.cosine});
+    return {wi, radiance(wi), FloatN(detail::inverse_sphere)};
   }
-  const FloatN radius = sqrt(max(cap * (FloatN(2) - cap), FloatN(0)));
-  const auto around = sin_cos_of_turns(longitude);
-  result.wi = to_world({radius * around.sine, (cap - FloatN(1)) * side, radius * around.cosine});
-  result.radiance = radiance(result.wi);
-  return result;
+  const IntN row = detail::find_share(row_shares_.data(), IntN(0), height_ + 1, row_parts_.data(), IntN(0), u2);
+  const IntN first = row * IntN(width_ + 1);
+  const IntN column = detail::find_share(column_shares_.data(), first, width_, column_parts_.data(),
+                                         row * IntN(detail::part_count(width_) + 1), u1);
+  // Numbers stand for their quanta's middles.
+  const auto fraction = [](const LargeArray<float>& shares, const IntN& at, const FloatN& u) {
+    const FloatN begin = gather(shares.data(), at), end = gather(shares.data(), at + IntN(1));
+    return (u - begin + FloatN(static_cast<float>(detail::quantum / 2))) / (end - begin);
+  };
+  Place place{column, row - IntN(1), FloatN(0), FloatN(0)};
+  const Corners cell = corners(place);
+  const Weights weights(cell);
+  const RowPart part = part_of(place.row);
+  const auto middle = [&](const FloatN& y) { return weights.at(FloatN(0.5F), y); };
+  place.y = mix(part.low, part.high,
+                detail::linear_share(middle(part.low), middle(part.high), fraction(row_shares_, row, u2)));
+  place.x = detail::linear_share(weights.at(FloatN(0), place.y), weights.at(FloatN(1), place.y),
+                                 fraction(column_shares_, first + column, u1));
+  const FloatN x = to_float(place.column) + place.x + FloatN(0.5F), y = to_float(place.row) + place.y + FloatN(0.5F);
+  const auto around = sin_cos_of_turns(FloatN(0.5F) - x * FloatN(1 / static_cast<float>(width_)));
+  const auto upwards = sin_cos_of_turns(y * FloatN(0.5F / static_cast<float>(height_)));  // from the south pole
+  const FloatN sine = abs(upwards.sine);
+  return {to_world({sine * around.sine, -upwards.cosine, sine * around.cosine}), cell.at(place.x, place.y),
+          pdf(place, weights, sine)};
 }
 
 }  // namespace raytrace

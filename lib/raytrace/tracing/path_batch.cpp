@@ -207,9 +207,9 @@ void PathBatch::extend(PathPacket& path, const MaskN& lanes, int depth, RayCount
   }
   if (const MaskN escaped = alive & !hits.hit; any(escaped)) {
     if (const Environment* const environment = tables.environment(); environment != nullptr) {
-      const FloatN other = environment->pdf(rays.direction) * FloatN(environment_share);
-      add(sums, path.slot, escaped,
-          path.throughput * (environment->radiance(rays.direction) * power_heuristic(path.pdf, other)));
+      const EnvironmentSample sky = environment->at(rays.direction);
+      const FloatN other = sky.pdf * FloatN(environment_share);
+      add(sums, path.slot, escaped, path.throughput * (sky.radiance * power_heuristic(path.pdf, other)));
     } else if (!is_last) {
       add(sums, path.slot, escaped, path.throughput * Rgb<FloatN>(Rgb<float>(tables.viewplane().background)));
     }

@@ -75,9 +75,7 @@ class BlockRenderer {
 
   /// Continues all pixels to `samples` each; returns early if it is stopped.
   RenderReport render(std::uint32_t samples) {
-    for (int top = round_down(region_.y0, shape.height); top < region_.y1 && !stopped(); top += shape.height)
-      for (int left = round_down(region_.x0, shape.width); left < region_.x1 && !stopped(); left += shape.width)
-        render({left, top}, samples);
+    render_blocks(samples);
     if (batch_) trace_batch();
     if (open_) close_block();
     return report_;
@@ -85,6 +83,14 @@ class BlockRenderer {
 
  private:
   using Block = PacketBlock<shape>;
+
+  void render_blocks(std::uint32_t samples) {
+    for (int top = round_down(region_.y0, shape.height); top < region_.y1; top += shape.height)
+      for (int left = round_down(region_.x0, shape.width); left < region_.x1; left += shape.width) {
+        render({left, top}, samples);
+        if (stopped()) return;
+      }
+  }
 
   void render(const Block& block, std::uint32_t samples) {
     const SamplesLeft left(film_, block, region_, samples);
