@@ -1,14 +1,11 @@
 """Mitsuba 3, the variant llvm_ad_rgb, with each of two samplers. mitsuba_worker.py runs it."""
 
 import os
-import subprocess
-import sys
 
 import numpy
 
-from ..paths import REPOSITORY
-from ..renderers.mitsuba import _point, _vector, llvm_library
-from .files import write_ply, write_sky
+from ..renderers.mitsuba import _point, _vector, available, llvm_library  # noqa: F401
+from .files import rendered_by, write_ply, write_sky
 from .scenes import WIDTH, Diffuse, Glass, Lamp, Mesh, Metal, Rectangle, Sphere
 
 VARIANTS = {"Mitsuba, independent": "independent", "Mitsuba, multijitter": "multijitter"}
@@ -86,20 +83,5 @@ def write(scene, folder, chosen):
 
 
 def renders(variant, folder, chosen):
-    """Yields (seconds, picture), without end. One process renders all, after one render that does not count."""
-    environment = {"DRJIT_LIBLLVM_PATH": llvm_library(), "PYTHONPATH": os.path.join(REPOSITORY, "benchmarks")}
-    command = [sys.executable, "-B", "-m", "comparison.path_tracing.mitsuba_worker", "scene.xml", variant, str(chosen.threads)]
-    process = subprocess.Popen(command, cwd=folder, env={**os.environ, **environment}, stdin=subprocess.PIPE,
-                               stdout=subprocess.PIPE, text=True)
-    try:
-        for seed in range(1 << 30):
-            process.stdin.write(f"{seed}\n")
-            process.stdin.flush()
-            answer = process.stdout.readline()
-            if not answer:
-                raise RuntimeError("Mitsuba has ended")
-            if seed > 0:
-                yield float(answer), numpy.load(os.path.join(folder, "picture.npy"))
-    finally:
-        process.stdin.close()
-        process.wait()
+    environment = {"DRJIT_LIBLLVM_PATH": llvm_library()}
+    return rendered_by("mitsuba_worker", ["scene.xml", variant, str(chosen.threads)], folder, environment)

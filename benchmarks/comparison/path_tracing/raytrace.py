@@ -9,8 +9,12 @@ from ..process import run
 from .files import write_ply, write_sky
 from .scenes import WIDTH, Diffuse, Glass, Lamp, Mesh, Metal, Rectangle, Sphere
 
-VARIANTS = {"raytrace": []}
+VARIANTS = {"raytrace": None}
 LIMIT = 3600  # seconds for one render
+
+
+def available():
+    return None if os.path.exists(PROGRAM) else f"{PROGRAM} is not built"
 
 
 def _vector(name, v):

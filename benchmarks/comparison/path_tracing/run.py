@@ -12,9 +12,9 @@ import numpy
 
 from .. import pictures, report
 from ..paths import WORK
-from . import mitsuba, raytrace, scenes
+from . import cycles, mitsuba, raytrace, scenes
 
-RENDERERS = {"raytrace": raytrace, "mitsuba": mitsuba}
+RENDERERS = {"raytrace": raytrace, "mitsuba": mitsuba, "cycles": cycles}
 DARK = 0.01  # added to squares of radiance that errors are divided by (Rousselle et al. 2011)
 BLOCK = 16  # edge of the blocks, in pixels, whose means are compared
 
@@ -97,6 +97,10 @@ def row(scene, one):
 
 def main():
     chosen = options()
+    for name in list(chosen.renderers):
+        if reason := RENDERERS[name].available():
+            say(f"{name} is left out: {reason}")
+            chosen.renderers.remove(name)
     where = report.host()
     print(f"{report.machine_line(where)}. {scenes.WIDTH} x {scenes.WIDTH} pixels, {chosen.samples} samples, depth"
           f" {chosen.depth}, {chosen.threads} threads, {chosen.renders} renders of each; load {where['load_at_start']}.\n")
