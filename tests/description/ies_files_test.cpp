@@ -11,7 +11,7 @@ namespace raytrace::test {
 
 namespace {
 
-const std::string lamp = "TILT=NONE\n1 1 1 3 1 1 2 0 0 0 1 1 1\n0 45 90\n0\n4 2 1\n";
+const std::string lamp_file = "TILT=NONE\n1 1 1 3 1 1 2 0 0 0 1 1 1\n0 45 90\n0\n4 2 1\n";
 
 /// A folder with a scene of a point light, whose IES file has that in it.
 class LitScene {
@@ -39,7 +39,7 @@ class LitScene {
 }  // namespace
 
 TEST_CASE("a light's IES file is loaded with the scene") {
-  const auto scene = LitScene(lamp).load();
+  const auto scene = LitScene(lamp_file).load();
   REQUIRE(scene);
   const auto& light = std::get<LightItems<PointLight>>(scene->lights).at(0);
   REQUIRE(light.photometry.shares);
@@ -52,12 +52,12 @@ TEST_CASE("an IES file that is broken is an error where the light names it") {
   REQUIRE(lit.diagnostics().error_count() == 1);
   const Diagnostic& error = lit.diagnostics().kept().front();
   CHECK(error.location.line == 5);
-  CHECK(error.location.column == 37);
+  CHECK(error.location.column == 44);
   CHECK(error.message.find("line 5, column 3: an intensity is negative") != std::string::npos);
 }
 
 TEST_CASE("a scene's hash has the bytes of its IES files") {
-  const auto one = LitScene(lamp).load(), same = LitScene(lamp).load(), other = LitScene(lamp + " ").load();
+  const auto one = LitScene(lamp_file).load(), same = LitScene(lamp_file).load(), other = LitScene(lamp_file + " ").load();
   REQUIRE((one && same && other));
   CHECK(scene_hash(*one) == scene_hash(*same));
   CHECK(scene_hash(*one) != scene_hash(*other));

@@ -14,7 +14,7 @@ namespace raytrace {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double unit = 40;  ///< thousands of candela per square metre that are a radiance of 1
+constexpr double radiance_unit = 40;  ///< thousands of candela per square metre that are a radiance of 1
 
 /// Of what the sun sends before the air takes some away, on a surface that faces it: thousands of lux.
 constexpr double sun_illuminance = 127.5;
@@ -64,10 +64,10 @@ SkyModel::SkyModel(const SkyLight::Parameters& parameters)
   const double y = t * t * cubic({0.00275, -0.00610, 0.00317, 0}, angle) +
                    t * cubic({-0.04214, 0.08970, -0.04153, 0.00516}, angle) +
                    cubic({0.15346, -0.26756, 0.06670, 0.26688}, angle);
-  scale_ = luminance / luminance_.at(1, angle, cosine) / unit * parameters.scaleradiance;
+  scale_ = luminance / luminance_.at(1, angle, cosine) / radiance_unit * parameters.scaleradiance;
   scale_x_ = x / x_.at(1, angle, cosine);
   scale_y_ = y / y_.at(1, angle, cosine);
-  sun_ = transmittance(t, angle) * (sun_illuminance / unit * parameters.scaleradiance);
+  sun_ = transmittance(t, angle) * (sun_illuminance / radiance_unit * parameters.scaleradiance);
 }
 
 Rgb<double> SkyModel::sky(const Vec3d& direction) const {
