@@ -18,7 +18,7 @@ class PointLight {
     Rgb<double> color{1, 1, 1};
     bool shadows = true;
     Falloff falloff = Falloff::none;
-    FileName iesfile;  ///< of how much goes into each direction (photometry.h); none: the same into all
+    FileName iesfile{};  ///< of how much goes into each direction (photometry.h); none: the same into all
   };
   static constexpr std::string_view group = "pointlights";
   static constexpr std::string_view element = "pointlight";

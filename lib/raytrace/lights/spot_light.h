@@ -21,7 +21,7 @@ class SpotLight {
     Rgb<double> color{1, 1, 1};
     bool shadows = true;
     Falloff falloff = Falloff::none;
-    FileName iesfile;  ///< as of a point light; its axis is that of the cone
+    FileName iesfile{};  ///< as of a point light; its axis is that of the cone
   };
   static constexpr std::string_view group = "spotlights";
   static constexpr std::string_view element = "spotlight";
