@@ -730,6 +730,72 @@ write(
     <spheres> <sphere> <center x="0.9" y="0.5" z="0.6"/> <radius>0.5</radius> <material>clay</material> </sphere> </spheres>
 """,
 )
+write(
+    "skylight",
+    "A clear sky in the late afternoon; the sun is behind, on the left.",
+    room="""\
+  <viewplane> <hres>320</hres> <vres>240</vres> <samples>256</samples> </viewplane>
+  <camera> <eye x="0" y="1" z="6"/> <lookat x="0" y="1.5" z="0"/> <viewdistance>300</viewdistance> </camera>
+""",
+    lights="""\
+  <lights>
+    <skylights>
+      <skylight>
+        <sundirection x="-1" y="0.4" z="-0.8"/> <turbidity>2.5</turbidity>
+        <scaleradiance>2</scaleradiance>
+      </skylight>
+    </skylights>
+  </lights>
+""",
+    objects="""\
+    <cylinders>
+      <cylinder>
+        <bottom x="-0.6" y="0" z="0"/> <top x="-0.6" y="2.2" z="0"/> <radius>0.12</radius> <material>clay</material>
+      </cylinder>
+    </cylinders>
+    <spheres> <sphere> <center x="0.9" y="0.5" z="0.6"/> <radius>0.5</radius> <material>clay</material> </sphere> </spheres>
+""",
+)
+
+
+def ies_file(name, intensity):
+    """A lamp that is alike all around; intensity(degrees from straight down)."""
+    angles = [2.5 * i for i in range(37)]
+    with open(os.path.join(HERE, name), "w", encoding="utf-8", newline="\n") as file:
+        file.write("IESNA:LM-63-2002\n[TEST] none: computed by scenes/generate_features.py\nTILT=NONE\n")
+        file.write(f"1 -1 1 {len(angles)} 1 1 2 0.1 0.1 0\n1 1 20\n")
+        for numbers in (angles, [0], [max(round(intensity(angle), 1), 0) for angle in angles]):
+            file.write("\n".join(" ".join(f"{x:g}" for x in numbers[i : i + 10]) for i in range(0, len(numbers), 10)) + "\n")
+
+
+ies_file("models/narrow.ies", lambda a: 900 * math.exp(-((a / 12) ** 2)) + 60 * math.exp(-((a / 45) ** 4)))
+ies_file("models/ring.ies", lambda a: 500 * math.exp(-(((a - 32) / 9) ** 2)) + 150 * math.exp(-((a / 20) ** 2)))
+ies_file("models/wide.ies", lambda a: 300 * math.cos(math.radians(a)) * (1 + 0.8 * math.sin(math.radians(2 * a))))
+write(
+    "ies-lights",
+    "Point lights in front of a wall, with three IES files.",
+    lights="""\
+  <lights>
+    <ambientlight> <scaleradiance>0.3</scaleradiance> </ambientlight>
+    <pointlights>
+"""
+    + "".join(
+        f"""\
+      <pointlight>
+        <location x="{x}" y="2.35" z="-0.5"/> <scaleradiance>{scale}</scaleradiance> <color red="1" green="0.85" blue="0.65"/>
+        <falloff>inversesquare</falloff> <iesfile>models/{name}.ies</iesfile>
+      </pointlight>
+"""
+        for x, scale, name in ((-1.6, 40, "narrow"), (0, 7, "ring"), (1.6, 4, "wide"))
+    )
+    + """\
+    </pointlights>
+  </lights>
+""",
+    objects="""\
+    <planes> <plane> <point x="0" y="0" z="-0.9"/> <normal x="0" y="0" z="1"/> <material>clay</material> </plane> </planes>
+""",
+)
 
 # Materials
 row = "".join(

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int sphere_count = 4000;
 
-std::string sphere(int i, const std::string& material = "clay") {
+std::string numbered_sphere(int i, const std::string& material = "clay") {
   const std::string number = std::to_string(i);
   return "  <sphere>\n    <name>sphere-" + number + "</name>\n    <center x=\"" + number +
          "\" y=\"0\" z=\"0\"/>\n    <radius>1</radius>\n    <material>" + material + "</material>\n  </sphere>\n";
@@ -30,7 +30,7 @@ std::string large_scene(At&& at) {
 }
 
 std::string large_scene() {
-  return large_scene([](int i) { return sphere(i); });
+  return large_scene([](int i) { return numbered_sphere(i); });
 }
 
 std::string reported(const std::string& text, int threads) {
@@ -96,14 +96,14 @@ TEST_CASE("a scene in chunks is read as it stands, by any number of threads") {
 
 TEST_CASE("errors in chunks have their lines and columns") {
   const std::string text = large_scene([](int i) {
-    if (i == 0) return "before" + sphere(i, "one");
-    if (i == 1500) return sphere(i, "two");
-    if (i == 2500) return "<!-- \n --> <spehre/>" + sphere(i);
+    if (i == 0) return "before" + numbered_sphere(i, "one");
+    if (i == 1500) return numbered_sphere(i, "two");
+    if (i == 2500) return "<!-- \n --> <spehre/>" + numbered_sphere(i);
     if (i == 3500)
-      return sphere(i) + "<sphere><center x='a>b'\ty='0' z='0'/><radius>1</radius>" +
+      return numbered_sphere(i) + "<sphere><center x='a>b'\ty='0' z='0'/><radius>1</radius>" +
              "<material>clay</material></sphere>";
-    if (i == 3999) return sphere(i) + "\n behind ";
-    return sphere(i);
+    if (i == 3999) return numbered_sphere(i) + "\n behind ";
+    return numbered_sphere(i);
   });
   for (const std::string& in : {text, without_line_ends(text)}) {
     const std::string expected =
@@ -120,7 +120,7 @@ TEST_CASE("errors in chunks have their lines and columns") {
 }
 
 TEST_CASE("a name that is taken in another chunk is reported where it stands") {
-  const std::string text = large_scene([](int i) { return sphere(i == 3500 ? 17 : i); });
+  const std::string text = large_scene([](int i) { return numbered_sphere(i == 3500 ? 17 : i); });
   const std::size_t at = text.rfind("sphere-17</name>");
   const SourceLocation name = locate(text, at);
   CHECK(reported(text, 4) == "s:" + std::to_string(name.line) + ":" + std::to_string(name.column) +
@@ -131,7 +131,7 @@ TEST_CASE("a name that is taken in another chunk is reported where it stands") {
 TEST_CASE("which errors are shown does not depend on the threads") {
   const std::string text = large_scene([](int i) {
     const std::string shadows = "<sphere><radius>-1</radius><raduis>1</raduis></sphere>";
-    return i % 25 == 24 ? shadows : sphere(i, i % 31 == 7 ? "cley" : "clay");
+    return i % 25 == 24 ? shadows : numbered_sphere(i, i % 31 == 7 ? "cley" : "clay");
   });
   const std::string alone = reported(text, 1);
   CHECK(contains(alone, "more errors not shown"));

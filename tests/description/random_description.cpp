@@ -221,7 +221,8 @@ SceneDescription random_description(Random& random) {
     });
   }
   for_each_type(Lights{}, [&]<class T>(std::type_identity<T>) {
-    constexpr bool only_one = T::group.empty() || std::is_same_v<T, EnvironmentLight>;
+    constexpr bool only_one = T::group.empty() || std::is_same_v<T, EnvironmentLight> || std::is_same_v<T, SkyLight>;
+    if (std::is_same_v<T, SkyLight> && !std::get<LightItems<EnvironmentLight>>(scene.lights).empty()) return;
     for (std::size_t i = below(random, only_one ? 2 : 8); i > 0; --i) {
       std::get<LightItems<T>>(scene.lights).push_back({random_parameters<T>(random)});
     }

@@ -176,6 +176,7 @@ TEST_CASE("the schema refuses most of the bad scenes, the program all", "[schema
       "other_encoding",          "second_ambientlight", "too_many_pixels",    "utf16",
       "edge_too_long",           "zero_direction",      "zero_normal",        "zero_up",
       "internal_subset",         "second_integrator",   "environment_twice",  "environment_scaled",
+      "skylight_at_night",       "skylight_too_hazy",   "skylight_twice",     "skylight_beside_environment",
       "box_inside_out",          "cone_without_length", "cone_without_width", "annulus_without_area",
       "include_missing"};
   // Nor that one element stands in place of another, or goes with some only.

@@ -1,8 +1,10 @@
-// Directional lights that are disks: soft shadows, and as much light as without a size.
+// Directional lights that are disks, and skylights: soft shadows, and as much light as they should give.
 #include <cmath>
+#include <cstring>
 #include <numbers>
 #include <string>
 
+#include "raytrace/lights/sky_model.h"
 #include "render/scenes.h"
 #include "support/catch.h"
 #include "support/usable_isas.h"
@@ -91,6 +93,21 @@ TEST_CASE("a sun's light does not depend on threads, samples at once, or how the
     CHECK(identical(by_path, all));
   }
   check_same_bits(description);
+}
+
+TEST_CASE("a floor under a skylight is as bright as the ground that the sky's picture has") {
+  std::string text = sunlit_floor(overhead, 0, 0);
+  const std::size_t from = text.find("<integrator>"), to = text.find("<materials>");
+  text.replace(
+      from, to - from,
+      "<lights><skylights><skylight><sundirection x='1' y='1' z='0.5'/><groundalbedo red='1' green='1' blue='1'/>"
+      "</skylight></skylights></lights>");
+  const Picture sky = SkyModel({.sundirection = {1, 1, 0.5}, .groundalbedo = {1, 1, 1}}).picture(1);
+  float green = 0;
+  std::memcpy(&green, sky.pixels.data() + (std::size_t{4} * 1024 * 512 - 3) * sizeof green, sizeof green);
+  const double floor = mean_green(text);
+  INFO(floor << " for " << green);
+  CHECK(std::abs(floor / double{green} - 1) < 0.01);
 }
 
 }  // namespace raytrace::test

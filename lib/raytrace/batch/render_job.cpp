@@ -93,6 +93,11 @@ void refuse_to_overwrite(const SceneDescription& description, const RenderJob& j
     files.add({"a texture", image.parameters.file.path, false});
   for (const auto& light : std::get<LightItems<EnvironmentLight>>(description.lights))
     if (!light.parameters.file.path.empty()) files.add({"an environment", light.parameters.file.path, false});
+  for_each_type(Lights{}, [&]<class Light>(std::type_identity<Light>) {
+    for (const auto& light : std::get<LightItems<Light>>(description.lights))
+      if constexpr (requires { light.photometry; })
+        if (!light.parameters.iesfile.path.empty()) files.add({"an IES file", light.parameters.iesfile.path, false});
+  });
   for (const IncludedFile& file : description.included) files.add({"an included scene", file.name, false});
   add_meshes(description.objects);
   for (const Group& group : description.groups) add_meshes(group.objects);

@@ -4,15 +4,21 @@ namespace raytrace {
 
 void check_environment(const SceneDescription& scene,
                        const std::function<void(SourceLocation, const std::string&)>& report) {
+  const auto& skies = std::get<LightItems<SkyLight>>(scene.lights);
   const auto& lights = std::get<LightItems<EnvironmentLight>>(scene.lights);
   for (const auto& light : lights) {
     if (&light != lights.data())
       report({light.line, 0}, "a second <environmentlight>; a scene has one, and it is all around");
+    if (!skies.empty())
+      report({light.line, 0},
+             "an <environmentlight> beside a <skylight>; a scene has one of them, and it is all around");
     if (!light.transform.affine().is_turn())
       report({light.line, 0},
              "the <environmentlight> has a transform that moves, scales or skews it: it is infinitely far, so it can "
              "only be turned and mirrored");
   }
+  for (const auto& sky : skies)
+    if (&sky != skies.data()) report({sky.line, 0}, "a second <skylight>; a scene has one, and it is all around");
 }
 
 }  // namespace raytrace

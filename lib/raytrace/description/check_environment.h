@@ -8,8 +8,8 @@
 
 namespace raytrace {
 
-/// Calls report(line and column, message) for a second environment light, and for one whose transform does more than
-/// turn and mirror.
+/// Calls report(line and column, message) for a second environment light or skylight, and for one whose transform
+/// does more than turn and mirror.
 void check_environment(const SceneDescription& scene,
                        const std::function<void(SourceLocation, const std::string&)>& report);
 

@@ -59,6 +59,9 @@ class SceneChecker {
                       })
           if (!item.parameters.file.path.empty() && item.image.hash.empty())
             error("has a file that has not been loaded (load_images.h)");
+        if constexpr (requires { item.photometry; })
+          if (!item.parameters.iesfile.path.empty() && item.photometry.hash.empty())
+            error("has an IES file that has not been loaded (load_images.h)");
         if constexpr (requires { item.textures; }) check_textured_fields(element_type<T>().fields, item.textures);
         check_parameters(element_type<T>(), &item.parameters, Section::may_skip);
       }

@@ -6,8 +6,11 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "raytrace/math/content_hash.h"
@@ -24,12 +27,31 @@ std::string hash_of(std::string_view bytes) {
   return hash.digits();
 }
 
-/// Of the file's bytes. Throws PictureError.
-std::string file_hash(const std::filesystem::path& file) {
+/// Throws PictureError for what is no regular file.
+void refuse_no_file(const std::filesystem::path& file) {
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
   if (!std::filesystem::exists(status)) throw PictureError("there is no such file");
   if (!std::filesystem::is_regular_file(status)) throw PictureError("it is no file");
+}
+
+/// Throws PictureError or PhotometryError.
+LoadedPhotometry load_photometry(const std::filesystem::path& file) {
+  constexpr std::streamsize most_bytes = 64 << 20;
+  refuse_no_file(file);
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream.is_open()) throw PictureError("it cannot be read");
+  std::string text(std::size_t{most_bytes} + 1, '\0');
+  stream.read(text.data(), most_bytes + 1);
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  if (stream.bad()) throw PictureError("it cannot be read");
+  if (stream.gcount() > most_bytes) throw PictureError("it is larger than 64 MiB");
+  return {hash_of(text), std::make_shared<const Photometry>(read_photometry(text))};
+}
+
+/// Of the file's bytes. Throws PictureError.
+std::string file_hash(const std::filesystem::path& file) {
+  refuse_no_file(file);
   std::ifstream stream(file, std::ios::binary);
   ContentHash hash;
   std::string bytes(std::size_t{1} << 20U, '\0');
@@ -127,6 +149,21 @@ bool load_images(SceneDescription& scene, Diagnostics& diagnostics, int threads,
   for (LightItem<EnvironmentLight>& item : std::get<LightItems<EnvironmentLight>>(scene.lights))
     if (!item.parameters.file.path.empty())
       load("environment", {item.parameters.file}, {true, false}, item.parameters.file.path, item.line, item.image);
+  for_each_type(Lights{}, [&]<class Light>(std::type_identity<Light>) {
+    for (auto& item : std::get<LightItems<Light>>(scene.lights))
+      if constexpr (requires { item.photometry; }) {
+        const FileName& file = item.parameters.iesfile;
+        if (file.path.empty() || !item.photometry.hash.empty()) continue;
+        try {
+          item.photometry = load_photometry(file.path);
+        } catch (const std::runtime_error& error) {
+          fine = false;
+          diagnostics.add(Severity::error,
+                          file.line > 0 ? SourceLocation{file.line, file.column} : SourceLocation{item.line, 0},
+                          "the IES file " + in_quotes(file.path) + " cannot be used: " + error.what());
+        }
+      }
+  });
   return fine;
 }
 

@@ -1,4 +1,4 @@
-// The files that image textures and environment lights name.
+// The files that image textures and lights name.
 #pragma once
 
 #include "raytrace/description/scene_description.h"

@@ -17,6 +17,7 @@
 #include "raytrace/description/variables.h"
 #include "raytrace/import/mesh_data.h"
 #include "raytrace/integrators/registry.h"
+#include "raytrace/lights/photometry.h"
 #include "raytrace/lights/registry.h"
 #include "raytrace/materials/registry.h"
 #include "raytrace/math/type_list.h"
@@ -32,6 +33,15 @@ template <class Light>
 struct LightItem {
   typename Light::Parameters parameters;
   std::uint32_t line = 0;
+};
+
+/// Those that may have an IES file.
+template <class Light>
+  requires requires(typename Light::Parameters parameters) { parameters.iesfile; }
+struct LightItem<Light> {
+  typename Light::Parameters parameters;
+  std::uint32_t line = 0;
+  LoadedPhotometry photometry{};  ///< once its file, if it has one, has been loaded (load_images.h)
 };
 
 template <>

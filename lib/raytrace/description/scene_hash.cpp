@@ -54,6 +54,9 @@ class SceneHash {
         } else if constexpr (requires { item.image; }) {
           hash.add_parameters(fields, &item.parameters, item.image.hash.empty() ? "" : "file");
           hash.add(item.image.hash);
+        } else if constexpr (requires { item.photometry; }) {
+          hash.add_parameters(fields, &item.parameters, item.photometry.hash.empty() ? "" : "iesfile");
+          hash.add(item.photometry.hash);
         } else {
           hash.add_parameters(fields, &item.parameters);
         }

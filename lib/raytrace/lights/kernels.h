@@ -23,4 +23,5 @@
 #include "raytrace/lights/directional_light_kernel.h"
 #include "raytrace/lights/point_light_kernel.h"
 #include "raytrace/lights/registry.h"
+#include "raytrace/lights/sky_light_kernel.h"
 #include "raytrace/lights/spot_light_kernel.h"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "raytrace/lights/light_sample.h"
+#include "raytrace/lights/photometric_share_kernel.h"
 #include "raytrace/lights/point_light.h"
 #include "raytrace/lights/point_radiance.h"
 #include "raytrace/math/kernel.h"
@@ -11,8 +12,9 @@ namespace raytrace {
 template <>
 class Kernel<PointLight> {
  public:
-  explicit Kernel(const PointLight::Parameters& parameters)
+  explicit Kernel(const PointLight::Parameters& parameters, const LoadedPhotometry& photometry = {})
       : location_(parameters.location),
+        photometric_(photometry, {0, -1, 0}),
         radiance_(parameters.color * parameters.scaleradiance, parameters.falloff),
         shadows_(parameters.shadows) {}
 
@@ -25,11 +27,12 @@ class Kernel<PointLight> {
   template <class F>
   RAYTRACE_INLINE LightSample<F> sample(const Vec3<F>& p) const {
     const Vec3<F> to_light = Vec3<F>(location_) - p;
-    return {to_light, F(1), radiance_.at(to_light)};
+    return {to_light, F(1), radiance_.at(to_light) * photometric_.towards(to_light)};
   }
 
  private:
   Vec3f location_;
+  PhotometricShare photometric_;
   PointRadiance radiance_;
   bool shadows_;
 };

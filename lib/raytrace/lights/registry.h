@@ -7,11 +7,12 @@
 #include "raytrace/lights/directional_light.h"
 #include "raytrace/lights/environment_light.h"
 #include "raytrace/lights/point_light.h"
+#include "raytrace/lights/sky_light.h"
 #include "raytrace/lights/spot_light.h"
 #include "raytrace/math/type_list.h"
 
 namespace raytrace {
 
-using Lights = TypeList<AmbientLight, PointLight, DirectionalLight, SpotLight, EnvironmentLight>;
+using Lights = TypeList<AmbientLight, PointLight, DirectionalLight, SpotLight, EnvironmentLight, SkyLight>;
 
 }  // namespace raytrace

@@ -3,7 +3,7 @@
 //   <spotlight>
 //     <location x="0" y="5" z="0"/> <lookat x="0" y="0" z="0"/> <coneangle>40</coneangle>
 //     <penumbraangle>5</penumbraangle> <scaleradiance>3</scaleradiance> <color red="1" green="1" blue="1"/>
-//     <shadows>true</shadows> <falloff>none</falloff>
+//     <shadows>true</shadows> <falloff>none</falloff> <iesfile>lamp.ies</iesfile>
 //   </spotlight>
 #pragma once
 
@@ -21,6 +21,7 @@ class SpotLight {
     Rgb<double> color{1, 1, 1};
     bool shadows = true;
     Falloff falloff = Falloff::none;
+    FileName iesfile{};  ///< as of a point light; its axis is that of the cone
   };
   static constexpr std::string_view group = "spotlights";
   static constexpr std::string_view element = "spotlight";
@@ -32,7 +33,8 @@ class SpotLight {
             optional("scaleradiance", &Parameters::scaleradiance),
             optional("color", &Parameters::color),
             optional("shadows", &Parameters::shadows),
-            optional("falloff", &Parameters::falloff)};
+            optional("falloff", &Parameters::falloff),
+            optional("iesfile", &Parameters::iesfile)};
   }
   static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {
     const auto error = [](const char* message) {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "raytrace/lights/light_sample.h"
+#include "raytrace/lights/photometric_share_kernel.h"
 #include "raytrace/lights/point_radiance.h"
 #include "raytrace/lights/spot_light.h"
 #include "raytrace/math/kernel.h"
@@ -15,9 +16,10 @@ namespace raytrace {
 template <>
 class Kernel<SpotLight> {
  public:
-  explicit Kernel(const SpotLight::Parameters& parameters)
+  explicit Kernel(const SpotLight::Parameters& parameters, const LoadedPhotometry& photometry = {})
       : location_(parameters.location),
         towards_(normalize(parameters.location - parameters.lookat)),
+        photometric_(photometry, -towards_),
         radiance_(parameters.color * parameters.scaleradiance, parameters.falloff),
         shadows_(parameters.shadows) {
     const double degree = std::numbers::pi / 180, edge = parameters.coneangle / 2;
@@ -42,12 +44,14 @@ class Kernel<SpotLight> {
       const F x = min(above_edge * F(inverse_width_), F(1));
       share = x * x * (F(3) - F(2) * x);
     }
-    return {to_light, F(1), radiance_.at(to_light) * select(above_edge >= F(0), share, F(0))};  // nothing for NaN
+    share = select(above_edge >= F(0), share, F(0)) * photometric_.towards(to_light);
+    return {to_light, F(1), radiance_.at(to_light) * share};  // nothing for NaN
   }
 
  private:
   Vec3f location_;
   Vec3f towards_;  ///< against the axis of the cone, of unit length
+  PhotometricShare photometric_;
   PointRadiance radiance_;
   bool shadows_;
   float edge_cosine_, inverse_width_;  ///< of the penumbra, in cosines; 0: there is none

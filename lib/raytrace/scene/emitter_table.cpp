@@ -84,7 +84,7 @@ LightEmission emission_of(const LightPatch& patch, const MaterialEmission& mater
 /// How far p is from the surface that the patch is a piece of.
 float distance_to(const PatchRecord<float>& patch, const Vec3f& p) {
   const Vec3f from = p - patch.origin;
-  if (patch.shape != static_cast<float>(PatchShape::band)) {
+  if (PatchCode::shape_of(patch.code) != PatchShape::band) {
     const Vec3f across = cross(patch.a, patch.b);
     return std::abs(dot(from, across)) / length(across);
   }
@@ -181,8 +181,8 @@ void EmitterTable::add_geometry(const GeometryTable& table, std::uint32_t geomet
     }
     range.primitives.push_back(primitive);
     for (const LightPatch& patch : patches) {
-      patches_.push_back({static_cast<float>(patch.shape), Vec3f(patch.origin), Vec3f(patch.a), Vec3f(patch.b),
-                          static_cast<float>(number), setting.instance == 0 ? 1.0F : 32.0F});
+      patches_.push_back({Vec3f(patch.origin), Vec3f(patch.a), Vec3f(patch.b),
+                          PatchCode::of(patch.shape, number, setting.instance != 0)});
       emissions.push_back(emission_of(patch, material));
     }
   };
@@ -194,7 +194,7 @@ EmitterTable::Sample EmitterTable::sample(const Vec3<FloatN>& p, const Vec3<Floa
                                           const FloatN& u1, const FloatN& u2) const {
   const LightTree::Choice choice = tree_.sample(p, normal, u);
   const auto patch = gather_records<PatchRecord, FloatN>(patches_.data(), LaneIndices(choice.light));
-  Sample sample{sample_patch(patch, p, u1, u2), to_int(patch.material), choice.light};
+  Sample sample{sample_patch(patch, p, u1, u2), PatchCode::material_of(patch.code), choice.light};
   sample.point.pdf = sample.point.pdf * choice.probability;
   return sample;
 }

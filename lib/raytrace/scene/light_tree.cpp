@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -51,6 +52,43 @@ LightEmission join(const LightEmission& a, const LightEmission& b) {
   both.box = join(a.box, b.box);
   both.power += b.power;
   return both;
+}
+
+// Cones in 32 bits: the axis on an octahedron, 12 bits for each of x and y (Meyer et al., "On Floating-Point Normal
+// Vectors", 2010), and in the upper 8 the sine of half the angle between axis and edge, rounded up.
+
+constexpr float octahedron_steps = 2047, cone_steps = 255;
+
+struct DirectionCone {
+  Vec3<FloatN> axis;
+  FloatN cosine;
+};
+
+DirectionCone unpacked_cone(const FloatN& bits) {
+  const IntN code = same_bits<IntN>(bits), step(4095);
+  const auto number = [](const IntN& i) { return to_float(i) * FloatN(1 / octahedron_steps) - FloatN(1); };
+  const FloatN x = number(code & step), y = number((code >> 12) & step), z = FloatN(1) - abs(x) - abs(y);
+  const FloatN fold = max(-z, FloatN(0));
+  const Vec3<FloatN> v(x - select(x < FloatN(0), -fold, fold), y - select(y < FloatN(0), -fold, fold), z);
+  const FloatN sine = to_float((code >> 24) & IntN(255)) * FloatN(1 / cone_steps);
+  return {v * (FloatN(1) / length(v)), FloatN(1) - FloatN(2) * sine * sine};
+}
+
+float packed_cone(const Vec3f& axis, float cosine) {
+  constexpr double pi = std::numbers::pi;
+  const Vec3d v(axis);
+  const double inverse = 1 / (std::abs(v.x) + std::abs(v.y) + std::abs(v.z));
+  const auto step = [&](double a, double b) {
+    const double folded = v.z < 0 ? std::copysign(1 - std::abs(b) * inverse, a) : a * inverse;
+    return static_cast<std::uint32_t>(std::lround((folded + 1) * double{octahedron_steps}));
+  };
+  const std::uint32_t code = step(v.x, v.y) | step(v.y, v.x) << 12U;
+  // The cone around the stored axis has the cone around the true one in it.
+  const Vec3<FloatN> stored = unpacked_cone(FloatN(std::bit_cast<float>(code))).axis;
+  const Vec3d apart = Vec3d(Vec3f(stored.x.get(0), stored.y.get(0), stored.z.get(0))) - v;
+  const double angle = angle_of(cosine) + (length(apart) > 1e-6 ? 1.1 * length(apart) : 0);
+  const double sine = std::ceil(std::sin(std::min(angle, pi) / 2) * double{cone_steps});
+  return std::bit_cast<float>(code | static_cast<std::uint32_t>(sine) << 24U);
 }
 
 /// How much a cluster costs: its power, over how large an area and how many directions it is spread. Kulla and Conty's
@@ -152,7 +190,7 @@ void LightTree::build(const std::vector<LightEmission>& lights, std::span<std::u
   for (const std::uint32_t i : order) all = join(all, lights[i]);
   const float power =
       sampling_ == LightSampling::uniform ? static_cast<float>(order.size()) : all.power * inverse_power_;
-  nodes_[node] = {all.box.lower, all.box.upper, all.axis, all.cosine, power, 0};
+  nodes_[node] = {all.box.lower, all.box.upper, packed_cone(all.axis, all.cosine), power, 0};
   if (order.size() == 1) {
     nodes_[node].child = std::bit_cast<float>(~static_cast<std::int32_t>(order[0]));
     trails_[order[0]] = static_cast<std::int32_t>(trail);
@@ -179,8 +217,9 @@ FloatN LightTree::importance(const Node<FloatN>& node, const Vec3<FloatN>& p, co
   const MaskN outside = box_sine2 < FloatN(1);
   const Angle box{select(outside, sqrt(max(FloatN(1) - box_sine2, FloatN(0))), FloatN(-1)),
                   select(outside, sqrt(box_sine2), FloatN(0))};
-  const FloatN leaving = -dot(node.axis, w), arriving = dot(normal, w);
-  const Angle emission = less(less({leaving, sine_of(leaving)}, {node.cosine, sine_of(node.cosine)}), box);
+  const DirectionCone cone = unpacked_cone(node.directions);
+  const FloatN leaving = -dot(cone.axis, w), arriving = dot(normal, w);
+  const Angle emission = less(less({leaving, sine_of(leaving)}, {cone.cosine, sine_of(cone.cosine)}), box);
   const Angle incidence = less({arriving, sine_of(arriving)}, box);
   return node.power * max(emission.cosine, FloatN(0)) * max(incidence.cosine, FloatN(0)) /
          max(max(squared, radius2), least);

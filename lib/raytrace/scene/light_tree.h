@@ -46,8 +46,7 @@ class LightTree {
   template <class T>
   struct Node {
     Vec3<T> lower, upper;
-    Vec3<T> axis;
-    T cosine;
+    T directions;  ///< the bits of a cone around those of all its lights
     T power;
     T child;  ///< the bits of an integer: of its first child; of a leaf, ~ of its light
   };

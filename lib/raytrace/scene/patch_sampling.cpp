@@ -1,9 +1,12 @@
 #include "raytrace/scene/patch_sampling.h"
 
+#include <array>
 #include <numbers>
+#include <optional>
 
 #include "raytrace/math/frame.h"
 #include "raytrace/math/ray.h"
+#include "raytrace/math/surface_uv.h"
 #include "raytrace/math/turns.h"
 #include "raytrace/math/unit_disk.h"
 
@@ -14,7 +17,8 @@ namespace {
 constexpr float pi = std::numbers::pi_v<float>;
 
 MaskN is(const PatchRecord<FloatN>& patch, PatchShape shape) {
-  return patch.shape == FloatN(static_cast<float>(shape));
+  const IntN shapes = same_bits<IntN>(patch.code) & IntN((1 << PatchCode::shape_bits) - 1);
+  return float_mask<FloatN>(shapes == IntN(static_cast<std::int32_t>(shape)));
 }
 
 /// Of a density per area.
@@ -46,6 +50,74 @@ struct SphereCone {
 
 FloatN sphere_density(const PatchRecord<FloatN>& sphere) { return FloatN(1 / (4 * pi)) / (sphere.a.x * sphere.a.x); }
 
+/// A spherical triangle: unit vectors to its corners, `apex` the corner that lines of points start at.
+struct SphericalTriangle {
+  Vec3<FloatN> first, apex, last;
+  FloatN volume;       ///< of the three vectors
+  FloatN denominator;  ///< volume / denominator is the tangent of half the solid angle
+
+  MaskN is_near() const {
+    // Lines from the apex to its opposite would go anywhere.
+    const FloatN from_opposite = FloatN(1) + min(dot(apex, first), dot(apex, last));
+    return (volume > FloatN(0x1p-8F) * abs(denominator)) & (from_opposite > FloatN(0x1p-10F));
+  }
+  FloatN half_turns() const { return turns(volume, denominator); }  ///< half the solid angle over 2 pi
+
+  /// The direction for u2, on the arc that cuts off a part from `first` on whose solid angle's half is that.
+  Vec3<FloatN> direction(const FloatN& part_half_turns, const FloatN& u2) const {
+    const auto [sine, cosine] = sin_cos_of_turns(part_half_turns);
+    const FloatN to_first = FloatN(1) + dot(first, apex);
+    const Vec3<FloatN> middle = first * (volume * cosine - sine * dot(last, first + apex)) + last * (sine * to_first);
+    const Vec3<FloatN> end = middle * (FloatN(2) * dot(first, middle) / dot(middle, middle)) - first;
+    // Evenly in the cosine along the arc from apex to end, written in the chord: 1 - cosine would cancel.
+    const Vec3<FloatN> chord = end - apex;
+    const FloatN square = min(dot(chord, chord), FloatN(3.9999F));
+    const FloatN t = sqrt(u2 * (FloatN(4) - u2 * square) / (FloatN(4) - square));
+    return apex * (FloatN(1) - t + FloatN(0.5F) * square * (t - u2)) + end * t;
+  }
+};
+
+/// A triangle or parallelogram as it is from a point: one or two spherical triangles.
+struct FlatView {
+  Vec3<FloatN> to_origin;
+  std::array<SphericalTriangle, 2> triangles;  ///< a triangle is the first
+  MaskN near;
+  std::array<FloatN, 2> half_turns{};  ///< of solid angle, where any lane is near
+
+  FlatView(const PatchRecord<FloatN>& patch, const Vec3<FloatN>& from) : to_origin(patch.origin - from) {
+    const MaskN is_triangle = is(patch, PatchShape::triangle);
+    const FloatN height = abs(dot(to_origin, cross(patch.a, patch.b)));
+    const Vec3<FloatN> second = to_origin + patch.a, fourth = to_origin + patch.b;
+    const Vec3<FloatN> third = select(is_triangle, fourth, second + patch.b);
+    const FloatN inverse1 = FloatN(1) / length(to_origin), inverse2 = FloatN(1) / length(second),
+                 inverse3 = FloatN(1) / length(third), inverse4 = FloatN(1) / length(fourth);
+    const Vec3<FloatN> apex = to_origin * inverse1, w2 = second * inverse2, w3 = third * inverse3,
+                       w4 = fourth * inverse4;
+    const FloatN volume = height * inverse1 * inverse3, diagonal = FloatN(1) + dot(apex, w3);
+    triangles = {{{w2, apex, w3, volume * inverse2, diagonal + dot(w2, apex + w3)},
+                  {w3, apex, w4, volume * inverse4, diagonal + dot(w4, apex + w3)}}};
+    near = triangles[0].is_near() & (is_triangle | triangles[1].is_near());
+    if (any(near)) half_turns = {triangles[0].half_turns(), select(is_triangle, FloatN(0), triangles[1].half_turns())};
+  }
+  FloatN pdf() const { return FloatN(1 / (4 * pi)) / (half_turns[0] + half_turns[1]); }
+
+  /// How far along a and b the drawn point is.
+  std::array<FloatN, 2> sample(const PatchRecord<FloatN>& patch, const FloatN& u1, const FloatN& u2) const {
+    const FloatN part = u1 * (half_turns[0] + half_turns[1]), rest = part - half_turns[0];
+    const MaskN in_first = rest < FloatN(0);
+    const auto& [one, two] = triangles;
+    const SphericalTriangle chosen{select(in_first, one.first, two.first), one.apex,
+                                   select(in_first, one.last, two.last), select(in_first, one.volume, two.volume),
+                                   FloatN(0)};
+    const Vec3<FloatN> direction = chosen.direction(select(in_first, part, rest), u2);
+    const Vec3<FloatN> across = cross(direction, patch.b), moment = cross(patch.a, to_origin);
+    const FloatN inverse = FloatN(1) / dot(patch.a, across);
+    const FloatN along_a = -dot(to_origin, across) * inverse, along_b = dot(direction, moment) * inverse;
+    const FloatN u = min(max(along_a, FloatN(0)), FloatN(1));
+    return {u, min(max(along_b, FloatN(0)), select(is(patch, PatchShape::triangle), FloatN(1) - u, FloatN(1)))};
+  }
+};
+
 FloatN flat_density(const PatchRecord<FloatN>& patch) {
   return select(is(patch, PatchShape::triangle), FloatN(2), FloatN(1)) / length(cross(patch.a, patch.b));
 }
@@ -67,13 +139,18 @@ void set(const MaskN& here, const Vec3<FloatN>& p, const Vec3<FloatN>& normal, c
   result.error = select(here, rounding_error(p, size), result.error);
 }
 
-void sample_flat(const PatchRecord<FloatN>& patch, const MaskN& here, const FloatN& u1, const FloatN& u2,
-                 PatchSample& result) {
+void sample_flat(const PatchRecord<FloatN>& patch, const MaskN& here, const FlatView& view, const FloatN& u1,
+                 const FloatN& u2, PatchSample& result) {
   // Triangles by halves of the square: Heitz, "A Low-Distortion Map Between Triangle and Square", 2019.
   const MaskN triangle = is(patch, PatchShape::triangle), below = u1 < u2;
   const FloatN half1 = u1 * FloatN(0.5F), half2 = u2 * FloatN(0.5F);
   result.u = select(triangle, select(below, half1, u1 - half2), u1);
   result.v = select(triangle, select(below, u2 - half1, half2), u2);
+  if (any(view.near)) {
+    const auto [u, v] = view.sample(patch, u1, u2);
+    result.u = select(view.near, u, result.u);
+    result.v = select(view.near, v, result.v);
+  }
   const Vec3<FloatN> across = cross(patch.a, patch.b);
   set(here, patch.origin + patch.a * result.u + patch.b * result.v, across * (FloatN(1) / length(across)),
       max(largest_component(patch.a), largest_component(patch.b)), result);
@@ -114,6 +191,24 @@ void sample_torus(const PatchRecord<FloatN>& torus, const MaskN& here, const Flo
   set(here, torus.origin + outwards * torus.b.x + normal * torus.b.y, normal, torus.b.x + torus.b.y, result);
 }
 
+/// patch_pdf(). view: where any lane's patch is flat.
+FloatN density(const PatchRecord<FloatN>& patch, const std::optional<FlatView>& view, const Vec3<FloatN>& from,
+               const Vec3<FloatN>& p, const Vec3<FloatN>& normal) {
+  const MaskN sphere = is(patch, PatchShape::sphere), band = is(patch, PatchShape::band),
+              torus = is(patch, PatchShape::torus);
+  FloatN per_area = flat_density(patch);
+  if (any(band)) per_area = select(band, band_density(patch), per_area);
+  if (any(torus)) per_area = select(torus, torus_density(patch, p), per_area);
+  if (any(sphere)) per_area = select(sphere, sphere_density(patch), per_area);
+  FloatN pdf = per_solid_angle(per_area, from, p, normal);
+  if (any(sphere)) {
+    const SphereCone cone(patch, from);
+    pdf = select(sphere & cone.outside, cone.pdf(), pdf);
+  }
+  if (view && any(view->near)) pdf = select(!(sphere | band | torus) & view->near, view->pdf(), pdf);
+  return pdf;
+}
+
 }  // namespace
 
 PatchSample sample_patch(const PatchRecord<FloatN>& patch, const Vec3<FloatN>& from, const FloatN& u1,
@@ -121,7 +216,11 @@ PatchSample sample_patch(const PatchRecord<FloatN>& patch, const Vec3<FloatN>& f
   const MaskN sphere = is(patch, PatchShape::sphere), band = is(patch, PatchShape::band),
               torus = is(patch, PatchShape::torus), flat = !(sphere | band | torus);
   PatchSample result{};
-  if (any(flat)) sample_flat(patch, flat, u1, u2, result);
+  std::optional<FlatView> view;
+  if (any(flat)) {
+    view.emplace(patch, from);
+    sample_flat(patch, flat, *view, u1, u2, result);
+  }
   if (any(sphere)) sample_sphere(patch, sphere, from, u1, u2, result);
   if (any(band | torus)) {
     const auto [sine, cosine] = sin_cos_of_turns(u2);
@@ -130,22 +229,17 @@ PatchSample sample_patch(const PatchRecord<FloatN>& patch, const Vec3<FloatN>& f
     if (any(band)) sample_band(patch, band, u1, outwards, result);
     if (any(torus)) sample_torus(patch, torus, u1, outwards, result);
   }
-  result.error = result.error * patch.error_scale;
-  result.pdf = patch_pdf(patch, from, result.p, result.normal);
+  const IntN instanced = same_bits<IntN>(patch.code) & IntN(PatchCode::instanced);
+  result.error = result.error * select(float_mask<FloatN>(instanced == IntN(0)), FloatN(1), FloatN(32));
+  result.pdf = density(patch, view, from, result.p, result.normal);
   return result;
 }
 
 FloatN patch_pdf(const PatchRecord<FloatN>& patch, const Vec3<FloatN>& from, const Vec3<FloatN>& p,
                  const Vec3<FloatN>& normal) {
-  const MaskN sphere = is(patch, PatchShape::sphere), band = is(patch, PatchShape::band),
-              torus = is(patch, PatchShape::torus);
-  FloatN density = flat_density(patch);
-  if (any(band)) density = select(band, band_density(patch), density);
-  if (any(torus)) density = select(torus, torus_density(patch, p), density);
-  if (none(sphere)) return per_solid_angle(density, from, p, normal);
-  const SphereCone cone(patch, from);
-  return select(sphere & cone.outside, cone.pdf(),
-                per_solid_angle(select(sphere, sphere_density(patch), density), from, p, normal));
+  std::optional<FlatView> view;
+  if (any(is(patch, PatchShape::parallelogram) | is(patch, PatchShape::triangle))) view.emplace(patch, from);
+  return density(patch, view, from, p, normal);
 }
 
 }  // namespace raytrace

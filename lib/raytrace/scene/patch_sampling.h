@@ -1,6 +1,9 @@
 // Points that light is drawn from, on the pieces that shining surfaces are cut into.
 #pragma once
 
+#include <bit>
+#include <cstdint>
+
 #include "raytrace/math/simd.h"
 #include "raytrace/math/vec3.h"
 #include "raytrace/shapes/light_patch.h"
@@ -10,10 +13,24 @@ namespace raytrace {
 /// A LightPatch in float.
 template <class T>
 struct PatchRecord {
-  T shape;  ///< a PatchShape
   Vec3<T> origin, a, b;
-  T material;     ///< its number, counted through all
-  T error_scale;  ///< 1, or more where the surface that rays meet is less exactly this one
+  T code;  ///< the bits of a PatchCode
+};
+
+/// What a patch is, in 32 bits.
+struct PatchCode {
+  static constexpr int shape_bits = 3, material_shift = 4;
+  static constexpr std::int32_t instanced = 8;  ///< the surface that rays meet is less exactly the patch
+
+  static float of(PatchShape shape, std::int32_t material, bool is_instanced) {
+    const std::int32_t code = static_cast<std::int32_t>(shape) + (is_instanced ? instanced : 0);
+    return std::bit_cast<float>(code + (material << material_shift));
+  }
+  static PatchShape shape_of(float code) {
+    return static_cast<PatchShape>(std::bit_cast<std::int32_t>(code) & ((1 << shape_bits) - 1));
+  }
+  /// Its number, counted through all.
+  static IntN material_of(const FloatN& code) { return same_bits<IntN>(code) >> material_shift; }
 };
 
 /// Points of patches, one a lane.
@@ -24,8 +41,13 @@ struct PatchSample {
   FloatN u, v;             ///< barycentric coordinates, of triangles
 };
 
-/// A point of each lane's patch, drawn out of u1 and u2 in [0, 1) for light that goes to `from`: of spheres that are
-/// outside, evenly in solid angle (pbrt-v4, section 6.2.4), of all else, evenly in area; of a torus, in its angles.
+/// A point of each lane's patch, drawn out of u1 and u2 in [0, 1) for light that goes to `from`: of spheres that `from`
+/// is outside of (pbrt-v4, section 6.2.4), and of parallelograms and triangles that are near, evenly in solid angle; of
+/// all else, evenly in area; of a torus, in its angles.
+///
+/// Flat patches: Peters, "BRDF Importance Sampling for Polygonal Lights", 2021, section 3. Near are those that cover
+/// more than about 0.01 of solid angle, from points that are not about in their planes: for others floats do not
+/// tell directions apart well enough, and either way is as good.
 PatchSample sample_patch(const PatchRecord<FloatN>& patch, const Vec3<FloatN>& from, const FloatN& u1,
                          const FloatN& u2);
 

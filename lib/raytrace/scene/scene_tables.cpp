@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <memory>
 
+#include "raytrace/lights/sky_model.h"
 #include "raytrace/math/gather.h"
 
 namespace raytrace {
@@ -23,6 +25,7 @@ IntegratorParameters default_integrator(const SceneDescription& description) {
   const bool needs_path =
       has(TypeList<Emissive, Mirror, Conductor, Dielectric>{}) ||
       !std::get<LightItems<EnvironmentLight>>(description.lights).empty() ||
+      !std::get<LightItems<SkyLight>>(description.lights).empty() ||
       std::any_of(suns.begin(), suns.end(), [](const auto& sun) { return sun.parameters.angle > 0; });
   if (needs_path) return Path::Parameters{};
   return Raycast::Parameters{};
@@ -96,10 +99,20 @@ void SceneTables::add_lights(const SceneDescription& description, int threads) {
   const Vec3d eye = std::visit([](const auto& camera) { return camera.eye; }, description.camera);
   for (const auto& item : std::get<LightItems<EnvironmentLight>>(description.lights))
     environment_.emplace(item, threads);
+  for (const auto& item : std::get<LightItems<SkyLight>>(description.lights)) {
+    LightItem<EnvironmentLight> sky{{.file = {"sky"}, .visible = item.parameters.visible}};
+    sky.image.color = std::make_shared<const TexelImage>(SkyModel(item.parameters).picture(threads), false, threads);
+    environment_.emplace(sky, threads);
+  }
   for_each_type(Lights{}, [&]<class Light>(std::type_identity<Light>) {
     if constexpr (!std::is_same_v<Light, EnvironmentLight>)
       for (const auto& item : std::get<LightItems<Light>>(description.lights)) {
-        const Kernel<Light> light(moved<Light>(item.parameters));
+        const auto light = [&] {
+          if constexpr (requires { item.photometry; })
+            return Kernel<Light>(moved<Light>(item.parameters), item.photometry);
+          else
+            return Kernel<Light>(moved<Light>(item.parameters));
+        }();
         if constexpr (Kernel<Light>::ambient) {
           ambient_radiance_ += light.radiance();
           light_bounds_.ambient += abs(light.radiance());

@@ -1,0 +1,46 @@
+// Daylight: a clear or hazy sky with its sun.
+//
+//   <skylight>
+//     <sundirection x="1" y="1" z="0.5"/> <turbidity>3</turbidity> <groundalbedo red="0.2" green="0.2" blue="0.2"/>
+//     <scaleradiance>1</scaleradiance> <visible>true</visible>
+//   </skylight>
+//
+// Preetham, Shirley and Smits, "A Practical Analytic Model for Daylight", 1999: a few formulas, where better models
+// (Hosek and Wilkie 2012) need tables that are larger than all of this. It holds for turbidities of 2 and more.
+#pragma once
+
+#include "raytrace/parameters/fields.h"
+
+namespace raytrace {
+
+class SkyLight {
+ public:
+  struct Parameters {
+    Vec3d sundirection{};                     ///< towards the sun; above the horizon. Up is +y
+    double turbidity = 3;                     ///< haze: 2 is a very clear day, 10 a hazy one
+    Rgb<double> groundalbedo{0.2, 0.2, 0.2};  ///< of the ground, which is what is below the horizon
+    double scaleradiance = 1;
+    bool visible = true;  ///< to the camera, in place of the background
+  };
+  static constexpr std::string_view group = "skylights";  ///< a scene has one item at most, and no environment light
+  static constexpr std::string_view element = "skylight";
+  static Fields fields() {
+    return {required("sundirection", &Parameters::sundirection, Range::nonzero),
+            optional("turbidity", &Parameters::turbidity, Range::not_negative),
+            optional("groundalbedo", &Parameters::groundalbedo, Range::not_negative),
+            optional("scaleradiance", &Parameters::scaleradiance, Range::not_negative),
+            optional("visible", &Parameters::visible)};
+  }
+  static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {
+    const auto error = [](const char* message) {
+      return ParameterDiagnostic{ParameterDiagnostic::Effect::error, message};
+    };
+    if (!(parameters.sundirection.y > 0))
+      return error("the skylight's <sundirection> is not above the horizon (y is up): there is no model of the night");
+    if (parameters.turbidity < 2 || parameters.turbidity > 10)
+      return error("the skylight's <turbidity> is not from 2, a very clear sky, to 10, a hazy one");
+    return std::nullopt;
+  }
+};
+
+}  // namespace raytrace

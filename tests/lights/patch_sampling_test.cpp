@@ -1,0 +1,98 @@
+// Points drawn on patches: as often as their density says, which integrates to 1, near and far.
+//
+// Wide code is compiled for each instruction set apart, so the test has its own.
+#include "raytrace/scene/patch_sampling.cpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "support/catch.h"
+#include "support/chi_square.h"
+#include "support/lanes.h"
+
+namespace raytrace::test {
+
+namespace {
+
+struct FlatPatch {
+  const char* name;
+  PatchShape shape;
+  Vec3d origin, a, b, from;
+  bool near;  ///< whether it is drawn by solid angle
+};
+
+const FlatPatch flat_patches[] = {
+    {"a triangle", PatchShape::triangle, {-0.5, 0, 0}, {0.5, 0.1, 0.6}, {1, 0.2, -0.2}, {0.1, -0.3, 0.1}, true},
+    {"its back", PatchShape::triangle, {-0.5, 0, 0}, {1, 0.2, -0.2}, {0.5, 0.1, 0.6}, {0.1, 0.7, 0.1}, true},
+    {"a rectangle", PatchShape::parallelogram, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5, 0.6, 0.3}, true},
+    {"near a corner", PatchShape::parallelogram, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.02, 0.02, 0.05}, true},
+    {"from the side", PatchShape::parallelogram, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1.5, 0.5, 0.03}, true},
+    {"a strip", PatchShape::parallelogram, {0, 0, 0}, {10, 0, 0}, {0, 0.1, 0}, {3, 0.05, 0.1}, true},
+    {"skewed, far out", PatchShape::parallelogram, {90, 200, 50}, {1, 0, 0}, {0.4, 1, 0}, {90.4, 200.7, 50.5}, true},
+    {"almost in it", PatchShape::parallelogram, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5, 0.5, 0.002}, false},
+    {"far away", PatchShape::parallelogram, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.2, 0.7, 30}, false}};
+
+}  // namespace
+
+TEST_CASE("points of flat patches are drawn with their density, which integrates to 1") {
+  constexpr int cells = 16, parts = 64, samples = 200000;
+  for (const FlatPatch& flat : flat_patches) {
+    INFO(flat.name);
+    const PatchRecord<FloatN> patch{spread(flat.origin), spread(flat.a), spread(flat.b),
+                                    FloatN(PatchCode::of(flat.shape, 5, false))};
+    const Vec3<FloatN> from = spread(flat.from);
+    const Vec3d across = cross(flat.a, flat.b), normal = normalize(across);
+    const bool is_triangle = flat.shape == PatchShape::triangle;
+    CHECK(all(FlatView(patch, from).near) == flat.near);
+
+    std::vector<double> expected(cells * cells), observed(cells * cells);
+    double integral = 0;
+    constexpr int steps = cells * parts;
+    for (int row = 0; row < steps; ++row)
+      for (int first = 0; first < steps; first += packet_lanes) {
+        const double v = (row + 0.5) / steps;
+        const auto u_of = [&](std::size_t lane) { return (first + static_cast<double>(lane) + 0.5) / steps; };
+        const Vec3<FloatN> points =
+            vectors_of([&](std::size_t lane) { return flat.origin + flat.a * u_of(lane) + flat.b * v; });
+        const FloatN pdf = patch_pdf(patch, from, points, spread(normal));
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+          if (is_triangle && u_of(lane) + v > 1) continue;
+          const Vec3d way = flat.origin + flat.a * u_of(lane) + flat.b * v - flat.from;
+          const double distance = length(way), area = length(across) / steps / steps;
+          const double share = double{pdf.get(lane)} * area * std::abs(dot(way, normal)) / std::pow(distance, 3);
+          const int cell = row / parts * cells + (first + static_cast<int>(lane)) / parts;
+          expected[static_cast<std::size_t>(cell)] += share * samples;
+          integral += share;
+        }
+      }
+    CHECK(integral == Approx(1).epsilon(2e-3));
+
+    std::mt19937 random(5);
+    const auto numbers = [&] {
+      return batch_of<FloatN>([&](std::size_t) { return static_cast<double>(random() >> 8U) * 0x1p-24; });
+    };
+    double worst_place = 0;
+    bool all_within = true, same_pdf = true;
+    for (int i = 0; i < samples; i += packet_lanes) {
+      const FloatN u1 = numbers(), u2 = numbers();
+      const PatchSample sample = sample_patch(patch, from, u1, u2);
+      same_pdf = same_pdf && all(patch_pdf(patch, from, sample.p, sample.normal) == sample.pdf);
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        const double u = double{sample.u.get(lane)}, v = double{sample.v.get(lane)};
+        all_within = all_within && u >= 0 && v >= 0 && u <= 1 && v <= 1 && (!is_triangle || u + v < 1.000001);
+        const Vec3d place = flat.origin + flat.a * u + flat.b * v;
+        worst_place = std::max(worst_place, length(lane_of(sample.p, lane) - place));
+        const auto cell = [](double x) { return std::min(static_cast<int>(x * cells), cells - 1); };
+        ++observed[static_cast<std::size_t>(cell(v) * cells + cell(u))];
+      }
+    }
+    CHECK(all_within);
+    CHECK(same_pdf);
+    CHECK(worst_place < 1e-4);
+    CHECK(chi_square_deviation(observed, expected) < 4);
+  }
+}
+
+}  // namespace raytrace::test
