@@ -34,5 +34,6 @@
 #include "raytrace/materials/emissive_kernel.h"
 #include "raytrace/materials/matte_kernel.h"
 #include "raytrace/materials/mirror_kernel.h"
+#include "raytrace/materials/openpbr_kernel.h"
 #include "raytrace/materials/phong_kernel.h"
 #include "raytrace/materials/registry.h"

@@ -14,6 +14,7 @@
 #include "raytrace/bsdfs/bsdf_sample.h"
 #include "raytrace/film/film.h"
 #include "raytrace/math/color.h"
+#include "raytrace/math/frame.h"
 #include "raytrace/math/gather.h"
 #include "raytrace/math/simd.h"
 #include "raytrace/math/vec3.h"
@@ -108,6 +109,14 @@ class MaterialTableOf final : public MaterialTable {
                     std::span<const IncidentLight> lights, const TexturePoint<FloatN>* point) const override {
     const auto bsdfs = gathered(materials, front, point);
     Rgb<FloatN> result = bsdfs.ambient_radiance(Rgb<FloatN>(ambient_radiance));
+    if constexpr (requires { BsdfN::in_local_frame; }) {
+      const Frame<FloatN> frame(normal);
+      const Vec3<FloatN> local_wo = frame.to_local(wo);
+      for (const IncidentLight& light : lights)
+        result += bsdfs.evaluate(local_wo, frame.to_local(light.wi), local_normal<FloatN>()) *
+                  (light.radiance * light.cosine);
+      return result;
+    }
     for (const IncidentLight& light : lights)
       // The cosine first: where it is 0, a product beyond the range of floats would make it NaN.
       result += bsdfs.evaluate(wo, light.wi, normal) * (light.radiance * light.cosine);
@@ -132,7 +141,12 @@ class MaterialTableOf final : public MaterialTable {
   BsdfValue evaluate(const LaneIndices& materials, const MaskN& front, const Vec3<FloatN>& wo, const Vec3<FloatN>& wi,
                      const TexturePoint<FloatN>* point) const override {
     const auto bsdfs = gathered(materials, front, point);
-    return {bsdfs.evaluate(wo, wi, local_normal<FloatN>()), bsdfs.pdf(wo, wi)};
+    if constexpr (requires { bsdfs.value(wo, wi); }) {
+      const auto value = bsdfs.value(wo, wi);
+      return {value.f, value.pdf};
+    } else {
+      return {bsdfs.evaluate(wo, wi, local_normal<FloatN>()), bsdfs.pdf(wo, wi)};
+    }
   }
 
   Rgb<FloatN> transmittance(const LaneIndices& materials, const FloatN& distance,

@@ -8,6 +8,8 @@
 
 namespace raytrace {
 
+extern template class MaterialTableOf<OpenPbr>;
+
 namespace {
 
 constexpr double near_origin = 4096;
@@ -21,7 +23,7 @@ IntegratorParameters default_integrator(const SceneDescription& description) {
     return (!std::get<MaterialItems<Types>>(description.materials).empty() || ...);
   };
   const bool needs_path =
-      has(TypeList<Emissive, Mirror, Conductor, Dielectric>{}) ||
+      has(TypeList<Emissive, Mirror, Conductor, Dielectric, OpenPbr>{}) ||
       !std::get<LightItems<EnvironmentLight>>(description.lights).empty() ||
       std::any_of(suns.begin(), suns.end(), [](const auto& sun) { return sun.parameters.angle > 0; });
   if (needs_path) return Path::Parameters{};
@@ -137,6 +139,8 @@ SceneTables::SurfaceDetail SceneTables::surface_detail(const MaterialItem<Materi
                        {static_cast<float>(item.parameters.bump)}};
   detail.transmits =
       requires(typename Kernel<Material>::template Bsdf<FloatN> bsdf, FloatN d) { bsdf.transmittance(d); };
+  if constexpr (requires { Material::transmits(item.parameters); })
+    detail.transmits = Material::transmits(item.parameters);
   for (const TextureUse& use : item.textures) {
     const std::string_view field = element_type<Material>().fields[use.field].name;
     if (field == opacity_field) detail.opacity.texture = use;
@@ -162,7 +166,7 @@ void SceneTables::add_materials(const SceneDescription& description) {
       if constexpr (requires { bsdfs.back().emitted(); }) {
         radiance = bsdfs.back().emitted();
         const Rgb<float> size = abs(radiance);
-        details_.back().emission = {size.red + size.green + size.blue, parameters.twosided};
+        details_.back().emission = {size.red + size.green + size.blue, Material::is_two_sided(parameters)};
       }
       emitted_.insert(emitted_.end(), {radiance.red, radiance.green, radiance.blue});
     }
