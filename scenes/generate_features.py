@@ -1132,7 +1132,7 @@ def openpbr_row(name, comment, materials, more=""):
     )
 
 
-GREEN, ORANGE, CLARET = (0.05, 0.35, 0.12), (0.9, 0.4, 0.08), (0.5, 0.02, 0.06)
+ORANGE, CLARET = (0.9, 0.4, 0.08), (0.5, 0.02, 0.06)
 WALLS = """\
     <boxes>
       <box> <min x="-2.6" y="0" z="-1.3"/> <max x="-0.2" y="0.7" z="-1"/> <material>red</material> </box>
@@ -1171,6 +1171,30 @@ openpbr_row(
         {"base_color": (0.3, 0.5, 0.4), "specular_roughness": 0.6, "coat_weight": 1, "coat_darkening": 0},
         {"base_metalness": 1, "coat_weight": 1, "coat_color": (0.9, 0.2, 0.15)},
         {"base_metalness": 1, "coat_weight": 1, "coat_color": (0.9, 0.2, 0.15), "coat_roughness": 0.5},
+    ],
+)
+openpbr_row(
+    "openpbr-fuzz",
+    "OpenPBR's fuzz: none, fuzz_roughness 0.25, 0.5 and 1, and dust on a metal.",
+    [
+        {"base_color": CLARET, "specular_weight": 0},
+        {"base_color": CLARET, "specular_weight": 0, "fuzz_weight": 1, "fuzz_roughness": 0.25},
+        {"base_color": CLARET, "specular_weight": 0, "fuzz_weight": 1},
+        {"base_color": CLARET, "specular_weight": 0, "fuzz_weight": 1, "fuzz_roughness": 1},
+        {"base_color": ORANGE, "base_metalness": 1, "fuzz_weight": 0.5, "fuzz_color": (0.8, 0.75, 0.7), "fuzz_roughness": 0.8},
+    ],
+)
+openpbr_row(
+    "openpbr-anisotropy",
+    "Metal of specular_roughness_anisotropy 0, 0.5, 0.8 and 1, and a coat of 0.8 on red.",
+    [
+        {"base_metalness": 1, "specular_roughness_anisotropy": 0},
+        {"base_metalness": 1, "specular_roughness_anisotropy": 0.5},
+        {"base_metalness": 1, "specular_roughness_anisotropy": 0.8},
+        {"base_metalness": 1, "specular_roughness_anisotropy": 1},
+        {
+            "base_color": CLARET, "coat_weight": 1, "coat_roughness": 0.3, "coat_roughness_anisotropy": 0.8,
+        },
     ],
 )
 write(

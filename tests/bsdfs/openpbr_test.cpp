@@ -1,6 +1,10 @@
 // OpenPBR's lobes over each other: that samples follow their density, and that nothing is lost.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "bsdfs/judge.h"
 #include "support/catch.h"
@@ -43,11 +47,16 @@ std::vector<std::pair<std::string, OpenPbr::Parameters>> white_materials(double 
   add("coated plastic", [](auto& p) { p.coat_weight = 1; });
   add("metal with a rough coat", [](auto& p) { p.base_metalness = 1, p.coat_weight = 0.7, p.coat_roughness = 0.5; });
   add("coated glass", [](auto& p) { p.transmission_weight = 1, p.coat_weight = 1, p.coat_roughness = 0.3; });
+  add("fuzzy plastic", [&](auto& p) { p.fuzz_weight = 1, p.fuzz_roughness = roughness; });
+  add("everything", [&](auto& p) {
+    p.transmission_weight = p.base_metalness = p.coat_weight = p.fuzz_weight = 0.5;
+    p.coat_roughness = p.base_diffuse_roughness = 0.8;
+  });
   return result;
 }
 
 /// The mean of f |cos| / pdf eta^2: the share of light that is sent on.
-double sent_share(const PbrBsdf& bsdf, const Vec3d& wo) {
+double sent_on(const PbrBsdf& bsdf, const Vec3d& wo) {
   constexpr int count = 160;
   double sum = 0;
   for (int i = 0; i < count; ++i)
@@ -103,7 +112,7 @@ TEST_CASE("OpenPBR: what absorbs nothing sends all light on, from both sides") {
       for (const bool front : {true, false}) {
         double mean = 0;
         for (const double angle : {0.0, 30.0, 60.0, 80.0, 87.0}) {
-          const double share = sent_share(bsdf_of(parameters, front), at_angle({0, 0, 1}, angle, 1));
+          const double share = sent_on(bsdf_of(parameters, front), at_angle({0, 0, 1}, angle, 1));
           INFO(name << (front ? "" : " from its back") << ", roughness " << roughness << ", wo at " << angle);
           CHECK(share == Approx(1).epsilon(0.02));
           mean += share / 5;
@@ -111,6 +120,38 @@ TEST_CASE("OpenPBR: what absorbs nothing sends all light on, from both sides") {
         INFO(name << (front ? "" : " from its back") << ", roughness " << roughness);
         CHECK(mean == Approx(1).epsilon(0.005));
       }
+}
+
+namespace {
+
+OpenPbr::Parameters brushed_metal(double roughness) {
+  OpenPbr::Parameters parameters = white(roughness);
+  parameters.base_metalness = 1;
+  parameters.specular_roughness_anisotropy = 0.6;
+  return parameters;
+}
+
+}  // namespace
+
+TEST_CASE("OpenPBR: stretched lobes follow their pdf, and lose or gain little") {
+  const Vec3d normal{0, 0, 1};
+  for (const double roughness : {0.45, 0.6})
+    for (const double angle : {0.0, 45.0, 75.0})
+      for (const double turn : {0.0, 0.7, 1.6}) {
+        const Above above{{bsdf_of(brushed_metal(roughness))}};
+        const Vec3d wo = at_angle(normal, angle, turn);
+        INFO("roughness " << roughness << ", wo at " << angle << ", turned by " << turn);
+        CHECK(judge(above, wo, normal, Cells(normal, 1), true).deviation < 4.5);
+        CHECK(sent_on(above.judged.bsdf, wo) == Approx(1).epsilon(0.08));
+      }
+}
+
+TEST_CASE("OpenPBR: grooves along y spread light along x") {
+  const PbrBsdf bsdf = bsdf_of(brushed_metal(0.3));
+  const auto f = [&](const Vec3d& wi) {
+    return double{bsdf.evaluate(local_normal<FloatN>(), spread(normalize(wi)), local_normal<FloatN>()).red.get(0)};
+  };
+  CHECK(f({0.3, 0, 1}) > 4 * f({0, 0.3, 1}));
 }
 
 TEST_CASE("OpenPBR: f and pdf of a sample are those of evaluate() and pdf()") {

@@ -6,8 +6,8 @@
 //     <specular_roughness>0.4</specular_roughness> <coat_weight>1</coat_weight>
 //   </openpbr>
 //
-// From below: a base that is a metal, or a dielectric, which is clear or has a diffuse inside; a coat. Each layer lets
-// through what it does not reflect. geometry_opacity is every material's `opacity`. Not there: subsurface_...,
+// From below: a base that is a metal, or a dielectric, which is clear or has a diffuse inside; a coat; fuzz. Each layer
+// lets through what it does not reflect. geometry_opacity is every material's `opacity`. Not there: subsurface_...,
 // transmission_scatter..., transmission_dispersion..., and the coat's own normal and tangent.
 #pragma once
 
@@ -23,17 +23,20 @@ class OpenPbr {
   template <class T>
   struct Values {
     T base_weight = T(1);
-    Rgb<T> base_color{T(0.8), T(0.8), T(0.8)};
+    Rgb<T> base_color{T(1), T(1), T(1)};
     T base_diffuse_roughness = T(0), base_metalness = T(0);
     T specular_weight = T(1);
     Rgb<T> specular_color{T(1), T(1), T(1)};
-    T specular_roughness = T(0.3), specular_ior = T(1.5);
+    T specular_roughness = T(0), specular_roughness_anisotropy = T(0), specular_ior = T(1.5);
     T transmission_weight = T(0);
     Rgb<T> transmission_color{T(1), T(1), T(1)};
     T transmission_depth = T(0);
     T coat_weight = T(0);
     Rgb<T> coat_color{T(1), T(1), T(1)};
-    T coat_roughness = T(0), coat_ior = T(1.6), coat_darkening = T(1);
+    T coat_roughness = T(0), coat_roughness_anisotropy = T(0), coat_ior = T(1.5), coat_darkening = T(1);
+    T fuzz_weight = T(0);
+    Rgb<T> fuzz_color{T(1), T(1), T(1)};
+    T fuzz_roughness = T(0.5);
     T emission_luminance = T(0);
     Rgb<T> emission_color{T(1), T(1), T(1)};
     T opacity = T(1), normalmap = T(1), bump = T(1);  ///< of surface_detail.h
@@ -41,6 +44,13 @@ class OpenPbr {
   };
   struct Parameters : Values<double> {
     bool geometry_thin_walled = false;
+
+    /// Defaults that no float is.
+    Parameters() {
+      base_color = {0.8, 0.8, 0.8};
+      specular_roughness = 0.3;
+      coat_ior = 1.6;
+    }
   };
   static constexpr std::string_view group = "openpbrs";
   static constexpr std::string_view element = "openpbr";
@@ -60,6 +70,7 @@ class OpenPbr {
         number("specular_weight", &P::specular_weight),
         color("specular_color", &P::specular_color),
         number("specular_roughness", &P::specular_roughness),
+        number("specular_roughness_anisotropy", &P::specular_roughness_anisotropy),
         number("specular_ior", &P::specular_ior),
         number("transmission_weight", &P::transmission_weight),
         color("transmission_color", &P::transmission_color),
@@ -67,8 +78,12 @@ class OpenPbr {
         number("coat_weight", &P::coat_weight),
         color("coat_color", &P::coat_color),
         number("coat_roughness", &P::coat_roughness),
+        number("coat_roughness_anisotropy", &P::coat_roughness_anisotropy),
         number("coat_ior", &P::coat_ior),
         number("coat_darkening", &P::coat_darkening),
+        number("fuzz_weight", &P::fuzz_weight),
+        color("fuzz_color", &P::fuzz_color),
+        number("fuzz_roughness", &P::fuzz_roughness),
         number("emission_luminance", &P::emission_luminance),
         color("emission_color", &P::emission_color),
         optional("geometry_thin_walled", &P::geometry_thin_walled),
@@ -97,6 +112,10 @@ class OpenPbr {
   }
   /// Whether light comes through.
   static bool transmits(const Parameters& parameters) { return parameters.transmission_weight > 0; }
+  /// Whether it matters where on the surface u grows.
+  static bool is_anisotropic(const Parameters& parameters) {
+    return parameters.specular_roughness_anisotropy > 0 || parameters.coat_roughness_anisotropy > 0;
+  }
   static bool is_two_sided(const Parameters& parameters) { return parameters.geometry_thin_walled; }
   /// All that a kernel needs.
   static Values<double> values(const Parameters& parameters) {

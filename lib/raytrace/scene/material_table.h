@@ -78,9 +78,10 @@ class MaterialTable {
   virtual Rgb<FloatN> transmittance(const LaneIndices& materials, const FloatN& distance,
                                     const TexturePoint<FloatN>* point) const = 0;
 
-  /// The radiance that leaves along wo, of unit length. materials: of each lane, for every lane one that exists.
+  /// The radiance that leaves along wo, of unit length. materials: of each lane, for every lane one that exists. frame:
+  /// about the normal; null where no material's reflection differs along the surface.
   virtual Rgb<FloatN> shade(const LaneIndices& materials, const MaskN& front, const Vec3<FloatN>& wo,
-                            const Vec3<FloatN>& normal, const Rgb<float>& ambient_radiance,
+                            const Vec3<FloatN>& normal, const Frame<FloatN>* frame, const Rgb<float>& ambient_radiance,
                             std::span<const IncidentLight> lights, const TexturePoint<FloatN>* point) const = 0;
 };
 
@@ -105,17 +106,19 @@ class MaterialTableOf final : public MaterialTable {
       : bsdfs_(std::move(bsdfs)), textured_(std::move(textured)), textures_(textures) {}
 
   Rgb<FloatN> shade(const LaneIndices& materials, const MaskN& front, const Vec3<FloatN>& wo,
-                    const Vec3<FloatN>& normal, const Rgb<float>& ambient_radiance,
+                    const Vec3<FloatN>& normal, const Frame<FloatN>* frame, const Rgb<float>& ambient_radiance,
                     std::span<const IncidentLight> lights, const TexturePoint<FloatN>* point) const override {
     const auto bsdfs = gathered(materials, front, point);
     Rgb<FloatN> result = bsdfs.ambient_radiance(Rgb<FloatN>(ambient_radiance));
     if constexpr (requires { BsdfN::in_local_frame; }) {
-      const Frame<FloatN> frame(normal);
-      const Vec3<FloatN> local_wo = frame.to_local(wo);
-      for (const IncidentLight& light : lights)
-        result += bsdfs.evaluate(local_wo, frame.to_local(light.wi), local_normal<FloatN>()) *
-                  (light.radiance * light.cosine);
-      return result;
+      if (BsdfN::in_local_frame || frame != nullptr) {
+        const Frame<FloatN> local = frame != nullptr ? *frame : Frame<FloatN>(normal);
+        const Vec3<FloatN> local_wo = local.to_local(wo);
+        for (const IncidentLight& light : lights)
+          result += bsdfs.evaluate(local_wo, local.to_local(light.wi), local_normal<FloatN>()) *
+                    (light.radiance * light.cosine);
+        return result;
+      }
     }
     for (const IncidentLight& light : lights)
       // The cosine first: where it is 0, a product beyond the range of floats would make it NaN.

@@ -128,7 +128,7 @@ class SceneTables {
   Rgb<FloatN> emitted(const Hits& hits, const SurfaceInteraction<FloatN>& surface,
                       const TexturePoint<FloatN>* point) const;
 
-  /// A direction in the local frame of surface.ns that light comes from, drawn by each lane's material; others than
+  /// A direction in the shading_frame() that light comes from, drawn by each lane's material; others than
   /// those that were hit get anything.
   BsdfSample<FloatN> sample(const Hits& hits, const MaskN& front, const Vec3<FloatN>& wo, const FloatN& u,
                             const FloatN& u1, const FloatN& u2, const TexturePoint<FloatN>* point) const;
@@ -145,7 +145,12 @@ class SceneTables {
   /// Turns the shading normals as they say.
   void add_relief(const Hits& hits, const TexturePoint<FloatN>& point, SurfaceInteraction<FloatN>& surface) const;
 
-  /// Whether any of the lanes has a material with textures.
+  /// The frame about surface.ns that materials sample and evaluate in: x is where u grows on surfaces whose reflection
+  /// differs along the surface, if u says anything there.
+  Frame<FloatN> shading_frame(const Hits& hits, const SurfaceInteraction<FloatN>& surface,
+                              const TexturePoint<FloatN>* point) const;
+
+  /// Whether any of the lanes has a material with textures, or one that wants to know where u grows.
   bool has_textures(const Hits& hits) const;
   /// How wide a pixel is where the camera's rays start, and by how much it widens with their lengths.
   const RayCone& ray_cone() const { return ray_cone_; }
@@ -158,7 +163,7 @@ class SceneTables {
   struct SurfaceDetail {
     TexturedNumber opacity, normalmap, bump;
     MaterialEmission emission{};
-    bool transmits = false;
+    bool transmits = false, is_anisotropic = false;
 
     bool is_cutout() const { return opacity.value < 1 || opacity.texture; }
     bool has_relief() const { return normalmap.texture || bump.texture; }
@@ -213,6 +218,7 @@ class SceneTables {
   bool has_cutouts_ = false, has_relief_ = false, has_emission_ = false, has_transmission_ = false;
   std::vector<std::int32_t> back_shines_;  ///< of all materials: 1, else 0
   std::vector<std::int32_t> textured_;     ///< 1 for materials with textures, else 0; empty if there are none
+  std::vector<std::int32_t> anisotropic_;  ///< likewise: those whose reflection differs along the surface
   RayCone ray_cone_;
   std::vector<std::uint8_t> used_materials_;  ///< 1 for those that objects have, else 0
 };

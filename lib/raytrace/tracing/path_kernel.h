@@ -84,7 +84,7 @@ class Kernel<Path> {
       const auto key = [&](std::uint32_t ray) { return ray_keys(camera.pixel, camera.sample, first_key + ray); };
       const auto draw = [&](PathDraw what) { return get_2d(camera.pixel, camera.sample, path_dimension(depth, what)); };
       const Coherence coherence = depth == 0 ? Coherence::coherent : Coherence::incoherent;
-      const Frame<FloatN> frame(surface.ns);
+      const Frame<FloatN> frame = tables.shading_frame(hits, surface, point);
       const PathVertex vertex{hits, surface, point, frame, frame.to_local(surface.wo), distance};
       Rgb<FloatN> light = direct_light(scene, hits, surface, point, coherence, counted, counts,
                                        ShadowNumbers{camera.pixel, camera.sample, first_key + 1});
