@@ -1175,6 +1175,94 @@ studio(
     </boxes>
 """,
 )
+
+
+def openpbr_row(name, comment, materials, more=""):
+    """A sphere of each, from its parameters: numbers, and colours of three."""
+
+    def parameter(element, value):
+        if isinstance(value, tuple):
+            return "<{} red=\"{}\" green=\"{}\" blue=\"{}\"/>".format(element, *value)
+        return f"<{element}>{value}</{element}>"
+
+    studio(
+        name,
+        comment,
+        "    <openpbrs>\n"
+        + "".join(
+            f"      <openpbr> <name>{i + 1}</name> {' '.join(parameter(*item) for item in material.items())} </openpbr>\n"
+            for i, material in enumerate(materials)
+        )
+        + "    </openpbrs>\n",
+        row([str(i + 1) for i in range(len(materials))]) + more,
+    )
+
+
+ORANGE, CLARET = (0.9, 0.4, 0.08), (0.5, 0.02, 0.06)
+WALLS = """\
+    <boxes>
+      <box> <min x="-2.6" y="0" z="-1.3"/> <max x="-0.2" y="0.7" z="-1"/> <material>red</material> </box>
+      <box> <min x="0.2" y="0" z="-1.3"/> <max x="2.6" y="0.7" z="-1"/> <material>yellow</material> </box>
+    </boxes>
+"""
+openpbr_row(
+    "openpbr",
+    "OpenPBR's base: without a gloss, glossy, rough, half a metal, and a metal.",
+    [
+        {"base_color": ORANGE, "specular_weight": 0, "base_diffuse_roughness": 1},
+        {"base_color": ORANGE, "specular_roughness": 0.1},
+        {"base_color": ORANGE, "specular_roughness": 0.5},
+        {"base_color": ORANGE, "base_metalness": 0.5},
+        {"base_color": ORANGE, "base_metalness": 1},
+    ],
+)
+openpbr_row(
+    "openpbr-transmission",
+    "OpenPBR's transmission_weight 0.5, and 1: smooth, rough, with a depth, and thin-walled.",
+    [
+        {"base_color": ORANGE, "transmission_weight": 0.5, "specular_roughness": 0.1},
+        {"transmission_weight": 1, "specular_roughness": 0},
+        {"transmission_weight": 1, "specular_roughness": 0.3},
+        {"transmission_weight": 1, "specular_roughness": 0, "transmission_color": (0.3, 0.8, 0.5), "transmission_depth": 0.4},
+        {"transmission_weight": 1, "specular_roughness": 0, "transmission_color": (0.95, 0.7, 0.5), "geometry_thin_walled": "true"},
+    ],
+    WALLS,
+)
+openpbr_row(
+    "openpbr-coat",
+    "OpenPBR's coat on a rough base: none, clear, clear and without darkening, red, and red and rough.",
+    [
+        {"base_color": (0.3, 0.5, 0.4), "specular_roughness": 0.6},
+        {"base_color": (0.3, 0.5, 0.4), "specular_roughness": 0.6, "coat_weight": 1},
+        {"base_color": (0.3, 0.5, 0.4), "specular_roughness": 0.6, "coat_weight": 1, "coat_darkening": 0},
+        {"base_metalness": 1, "coat_weight": 1, "coat_color": (0.9, 0.2, 0.15)},
+        {"base_metalness": 1, "coat_weight": 1, "coat_color": (0.9, 0.2, 0.15), "coat_roughness": 0.5},
+    ],
+)
+openpbr_row(
+    "openpbr-fuzz",
+    "OpenPBR's fuzz: none, fuzz_roughness 0.25, 0.5 and 1, and dust on a metal.",
+    [
+        {"base_color": CLARET, "specular_weight": 0},
+        {"base_color": CLARET, "specular_weight": 0, "fuzz_weight": 1, "fuzz_roughness": 0.25},
+        {"base_color": CLARET, "specular_weight": 0, "fuzz_weight": 1},
+        {"base_color": CLARET, "specular_weight": 0, "fuzz_weight": 1, "fuzz_roughness": 1},
+        {"base_color": ORANGE, "base_metalness": 1, "fuzz_weight": 0.5, "fuzz_color": (0.8, 0.75, 0.7), "fuzz_roughness": 0.8},
+    ],
+)
+openpbr_row(
+    "openpbr-anisotropy",
+    "Metal of specular_roughness_anisotropy 0, 0.5, 0.8 and 1, and a coat of 0.8 on red.",
+    [
+        {"base_metalness": 1, "specular_roughness_anisotropy": 0},
+        {"base_metalness": 1, "specular_roughness_anisotropy": 0.5},
+        {"base_metalness": 1, "specular_roughness_anisotropy": 0.8},
+        {"base_metalness": 1, "specular_roughness_anisotropy": 1},
+        {
+            "base_color": CLARET, "coat_weight": 1, "coat_roughness": 0.3, "coat_roughness_anisotropy": 0.8,
+        },
+    ],
+)
 write(
     "emissive",
     "Lamps of any shape: a ring, a ball and a panel.",

@@ -102,6 +102,8 @@ inline FloatN ggx_reflected_share(const FloatN& cosine, const FloatN& roughness)
 namespace detail {
 
 /// Of facets between two clear media, for steps of eta: each made when it is wanted first, since scenes have few.
+/// reflection: of what they reflect alone.
+template <bool reflection>
 class DielectricShares {
  public:
   static constexpr int layers = 33;
@@ -123,6 +125,7 @@ class DielectricShares {
       return mean_over_facets(cosine, ggx, [&](const Vec3<FloatN>& wo, const Vec3<FloatN>& facet) {
         const FloatN c = min(max(dot(wo, facet), FloatN(0)), FloatN(1));
         const FresnelReflection<FloatN> fresnel = fresnel_reflection(c, eta);
+        if constexpr (reflection) return fresnel.reflectance * unshadowed_reflection(ggx, wo, facet);
         const FloatN below = wo.z / eta - facet.z * (c / eta - fresnel.transmitted_cosine);
         const FloatN refracted = select(
             below > FloatN(0), ggx.unshadowed(ggx.lambda(wo.z), ggx.lambda(max(below, FloatN(1e-6F)))), FloatN(0));
@@ -142,8 +145,10 @@ class DielectricShares {
 }  // namespace detail
 
 /// Of facets that reflect and refract as a boundary of that eta does (fresnel.h); beyond 2.6 and 1 / 2.6 as there.
-inline FloatN ggx_dielectric_share(const FloatN& cosine, const FloatN& roughness, const FloatN& eta) {
-  using detail::DielectricShares;
+/// reflection: what they reflect alone.
+template <bool reflection = false>
+FloatN ggx_dielectric_share(const FloatN& cosine, const FloatN& roughness, const FloatN& eta) {
+  using DielectricShares = detail::DielectricShares<reflection>;
   static DielectricShares table;
   const FloatN x = (eta - FloatN(1)) / (eta + FloatN(1));
   const FloatN size = min(sqrt(abs(x)) * FloatN(1 / DielectricShares::most), FloatN(1));

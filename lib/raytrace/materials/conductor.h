@@ -22,6 +22,7 @@ class Conductor {
     Rgb<T> cr{};                                      ///< reflectance from straight above; black: by the metal
     Rgb<T> edgecolor{};                               ///< black: cr at every angle
     T roughness = T(0);                               ///< in [0, 1], the root of GGX's alpha; 0: smooth
+    T anisotropy = T(0);                              ///< in [0, 1]: how long grooves are across u
     T opacity = T(1), normalmap = T(1), bump = T(1);  ///< of surface_detail.h
   };
   struct Parameters : Values<double> {
@@ -32,7 +33,8 @@ class Conductor {
   static Fields fields() {
     return with_surface_detail<Parameters>(
         {optional("cr", &Parameters::cr), optional("edgecolor", &Parameters::edgecolor, Range::not_negative),
-         optional("metal", &Parameters::metal), optional("roughness", &Parameters::roughness, Range::not_negative)});
+         optional("metal", &Parameters::metal), optional("roughness", &Parameters::roughness, Range::not_negative),
+         optional("anisotropy", &Parameters::anisotropy, Range::not_negative)});
   }
   static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {
     const auto error = [](const char* message) {
@@ -46,8 +48,11 @@ class Conductor {
       return error("the conductor's <metal> says its colour; remove it or <edgecolor>");
     if (!is_named && is_black(parameters.cr)) return error("the conductor needs a <metal> or a <cr> that is not black");
     if (parameters.roughness > 1) return error("the conductor's <roughness> is above 1");
+    if (parameters.anisotropy > 1) return error("the conductor's <anisotropy> is above 1");
     return std::nullopt;
   }
+  /// Whether it matters where on the surface u grows.
+  static bool is_anisotropic(const Parameters& parameters) { return parameters.anisotropy > 0; }
   /// All that a kernel needs.
   static Values<double> values(const Parameters& parameters) {
     Values<double> result = parameters;

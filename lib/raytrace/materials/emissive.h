@@ -29,6 +29,7 @@ class Emissive {
                                             optional("scaleradiance", &Parameters::scaleradiance, Range::not_negative),
                                             optional("twosided", &Parameters::twosided)});
   }
+  static bool is_two_sided(const Parameters& parameters) { return parameters.twosided; }
 };
 
 }  // namespace raytrace

@@ -25,6 +25,10 @@
 //     void set_side(const Mask<T>& front);       whether wo is on the surface's front: called before all others
 //   has highlights far brighter than most of what it reflects:
 //     Rgb<T> usual_f() const;                    in place of evaluate() straight back, for the film's unit
+//   has evaluate() in the local frame, as all others are:
+//     static constexpr bool in_local_frame = true;   false: there only where some material of the scene is anisotropic
+//   has evaluate() and pdf() together:
+//     value(wo, wi);                             their results, f and pdf
 //   sends light through:
 //     Rgb<T> transmittance(const T& distance) const;   the share that is left of light that went so far behind it
 #pragma once
@@ -34,5 +38,6 @@
 #include "raytrace/materials/emissive_kernel.h"
 #include "raytrace/materials/matte_kernel.h"
 #include "raytrace/materials/mirror_kernel.h"
+#include "raytrace/materials/openpbr_kernel.h"
 #include "raytrace/materials/phong_kernel.h"
 #include "raytrace/materials/registry.h"

@@ -7,11 +7,12 @@
 #include "raytrace/materials/emissive.h"
 #include "raytrace/materials/matte.h"
 #include "raytrace/materials/mirror.h"
+#include "raytrace/materials/openpbr.h"
 #include "raytrace/materials/phong.h"
 #include "raytrace/math/type_list.h"
 
 namespace raytrace {
 
-using Materials = TypeList<Matte, Phong, Emissive, Mirror, Conductor, Dielectric>;
+using Materials = TypeList<Matte, Phong, Emissive, Mirror, Conductor, Dielectric, OpenPbr>;
 
 }  // namespace raytrace

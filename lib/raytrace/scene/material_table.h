@@ -14,6 +14,7 @@
 #include "raytrace/bsdfs/bsdf_sample.h"
 #include "raytrace/film/film.h"
 #include "raytrace/math/color.h"
+#include "raytrace/math/frame.h"
 #include "raytrace/math/gather.h"
 #include "raytrace/math/simd.h"
 #include "raytrace/math/vec3.h"
@@ -79,9 +80,10 @@ class MaterialTable {
   virtual Rgb<FloatN> transmittance(const LaneIndices& materials, const FloatN& distance,
                                     const TexturePoint<FloatN>* point) const = 0;
 
-  /// The radiance that leaves along wo, of unit length. materials: of each lane, for every lane one that exists.
+  /// The radiance that leaves along wo, of unit length. materials: of each lane, for every lane one that exists. frame:
+  /// about the normal; null where no material's reflection differs along the surface.
   virtual Rgb<FloatN> shade(const LaneIndices& materials, const MaskN& front, const Vec3<FloatN>& wo,
-                            const Vec3<FloatN>& normal, const Rgb<float>& ambient_radiance,
+                            const Vec3<FloatN>& normal, const Frame<FloatN>* frame, const Rgb<float>& ambient_radiance,
                             std::span<const IncidentLight> lights, const TexturePoint<FloatN>* point) const = 0;
 };
 
@@ -106,10 +108,20 @@ class MaterialTableOf final : public MaterialTable {
       : bsdfs_(std::move(bsdfs)), textured_(std::move(textured)), textures_(textures) {}
 
   Rgb<FloatN> shade(const LaneIndices& materials, const MaskN& front, const Vec3<FloatN>& wo,
-                    const Vec3<FloatN>& normal, const Rgb<float>& ambient_radiance,
+                    const Vec3<FloatN>& normal, const Frame<FloatN>* frame, const Rgb<float>& ambient_radiance,
                     std::span<const IncidentLight> lights, const TexturePoint<FloatN>* point) const override {
     const auto bsdfs = gathered(materials, front, point);
     Rgb<FloatN> result = bsdfs.ambient_radiance(Rgb<FloatN>(ambient_radiance));
+    if constexpr (requires { BsdfN::in_local_frame; }) {
+      if (BsdfN::in_local_frame || frame != nullptr) {
+        const Frame<FloatN> local = frame != nullptr ? *frame : Frame<FloatN>(normal);
+        const Vec3<FloatN> local_wo = local.to_local(wo);
+        for (const IncidentLight& light : lights)
+          result += bsdfs.evaluate(local_wo, local.to_local(light.wi), local_normal<FloatN>()) *
+                    (light.radiance * light.cosine);
+        return result;
+      }
+    }
     for (const IncidentLight& light : lights)
       // The cosine first: where it is 0, a product beyond the range of floats would make it NaN.
       result += bsdfs.evaluate(wo, light.wi, normal) * (light.radiance * light.cosine);
@@ -131,7 +143,13 @@ class MaterialTableOf final : public MaterialTable {
                      const TexturePoint<FloatN>* point) const override {
     const auto bsdfs = gathered(materials, front, point);
     Scattering result{bsdfs.sample(wo, u, u1, u2), {Rgb<FloatN>(Rgb<float>(0, 0, 0)), FloatN(0)}};
-    if (any(lit)) result.towards = {bsdfs.evaluate(wo, wi, local_normal<FloatN>()), bsdfs.pdf(wo, wi)};
+    if (none(lit)) return result;
+    if constexpr (requires { bsdfs.value(wo, wi); }) {
+      const auto value = bsdfs.value(wo, wi);
+      result.towards = {value.f, value.pdf};
+    } else {
+      result.towards = {bsdfs.evaluate(wo, wi, local_normal<FloatN>()), bsdfs.pdf(wo, wi)};
+    }
     return result;
   }
 

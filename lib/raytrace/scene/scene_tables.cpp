@@ -10,6 +10,8 @@
 
 namespace raytrace {
 
+extern template class MaterialTableOf<OpenPbr>;
+
 namespace {
 
 constexpr double near_origin = 4096;
@@ -23,7 +25,7 @@ IntegratorParameters default_integrator(const SceneDescription& description) {
     return (!std::get<MaterialItems<Types>>(description.materials).empty() || ...);
   };
   const bool needs_path =
-      has(TypeList<Emissive, Mirror, Conductor, Dielectric>{}) ||
+      has(TypeList<Emissive, Mirror, Conductor, Dielectric, OpenPbr>{}) ||
       !std::get<LightItems<EnvironmentLight>>(description.lights).empty() ||
       !std::get<LightItems<SkyLight>>(description.lights).empty() ||
       std::any_of(suns.begin(), suns.end(), [](const auto& sun) { return sun.parameters.angle > 0; });
@@ -151,6 +153,10 @@ SceneTables::SurfaceDetail SceneTables::surface_detail(const MaterialItem<Materi
                        {static_cast<float>(item.parameters.bump)}};
   detail.transmits =
       requires(typename Kernel<Material>::template Bsdf<FloatN> bsdf, FloatN d) { bsdf.transmittance(d); };
+  if constexpr (requires { Material::transmits(item.parameters); })
+    detail.transmits = Material::transmits(item.parameters);
+  if constexpr (requires { Material::is_anisotropic(item.parameters); })
+    detail.is_anisotropic = Material::is_anisotropic(item.parameters);
   for (const TextureUse& use : item.textures) {
     const std::string_view field = element_type<Material>().fields[use.field].name;
     if (field == opacity_field) detail.opacity.texture = use;
@@ -176,7 +182,7 @@ void SceneTables::add_materials(const SceneDescription& description) {
       if constexpr (requires { bsdfs.back().emitted(); }) {
         radiance = bsdfs.back().emitted();
         const Rgb<float> size = abs(radiance);
-        details_.back().emission = {size.red + size.green + size.blue, parameters.twosided};
+        details_.back().emission = {size.red + size.green + size.blue, Material::is_two_sided(parameters)};
       }
       emitted_.insert(emitted_.end(), {radiance.red, radiance.green, radiance.blue});
     }
@@ -187,6 +193,13 @@ void SceneTables::add_materials(const SceneDescription& description) {
     materials_[type] =
         std::make_unique<MaterialTableOf<Material>>(std::move(bsdfs), std::move(textured), textures_.get());
   });
+  const auto has_frame = [](const SurfaceDetail& detail) { return detail.is_anisotropic; };
+  if (std::any_of(details_.begin(), details_.end(), has_frame)) {
+    textured_.resize(details_.size());
+    for (const SurfaceDetail& detail : details_) anisotropic_.push_back(detail.is_anisotropic ? 1 : 0);
+    // They want to know where u grows, as those with textures do.
+    for (std::size_t i = 0; i < details_.size(); ++i) textured_[i] |= anisotropic_[i];
+  }
   if (!textured_.empty()) textured_.resize(static_cast<std::size_t>(first_material_.back()));
 }
 
@@ -293,9 +306,26 @@ Rgb<FloatN> SceneTables::transmittance(const Hits& hits, const FloatN& distance,
 Rgb<FloatN> SceneTables::shade(const Hits& hits, const SurfaceInteraction<FloatN>& surface,
                                const Rgb<float>& ambient_radiance, std::span<const IncidentLight> lights,
                                const TexturePoint<FloatN>* point) const {
+  std::optional<Frame<FloatN>> frame;
+  if (!anisotropic_.empty()) [[unlikely]]
+    frame = shading_frame(hits, surface, point);
   return by_material(hits, [&](const MaterialTable& table, const LaneIndices& materials) {
-    return table.shade(materials, surface.front, surface.wo, surface.ns, ambient_radiance, lights, point);
+    return table.shade(materials, surface.front, surface.wo, surface.ns, frame ? &*frame : nullptr, ambient_radiance,
+                       lights, point);
   });
+}
+
+Frame<FloatN> SceneTables::shading_frame(const Hits& hits, const SurfaceInteraction<FloatN>& surface,
+                                         const TexturePoint<FloatN>* point) const {
+  Frame<FloatN> frame(surface.ns);
+  if (anisotropic_.empty() || point == nullptr) return frame;
+  const Vec3<FloatN> tangent = point->dpdu - surface.ns * dot(surface.ns, point->dpdu);
+  const FloatN size = length(tangent);
+  const MaskN turned = float_mask<FloatN>(gather(anisotropic_.data(), material(hits)) != IntN(0)) &
+                       (size > length(point->dpdu) * FloatN(1e-3F));
+  frame.x = select(turned, tangent * (FloatN(1) / size), frame.x);
+  frame.y = select(turned, cross(frame.z, frame.x), frame.y);
+  return frame;
 }
 
 }  // namespace raytrace

@@ -133,7 +133,7 @@ class SceneTables {
   Rgb<FloatN> emitted(const Hits& hits, const SurfaceInteraction<FloatN>& surface,
                       const TexturePoint<FloatN>* point) const;
 
-  /// As MaterialTable has it, each lane's of its own material, in the local frame of surface.ns; lanes that hit nothing
+  /// As MaterialTable has it, each lane's of its own material, in its shading_frame(); lanes that hit nothing
   /// get anything.
   Scattering scatter(const Hits& hits, const MaskN& front, const Vec3<FloatN>& wo, const MaskN& lit,
                      const Vec3<FloatN>& wi, const FloatN& u, const FloatN& u1, const FloatN& u2,
@@ -148,7 +148,12 @@ class SceneTables {
   /// Turns the shading normals as they say.
   void add_relief(const Hits& hits, const TexturePoint<FloatN>& point, SurfaceInteraction<FloatN>& surface) const;
 
-  /// Whether any of the lanes has a material with textures.
+  /// The frame about surface.ns that materials sample and evaluate in: x is where u grows on surfaces whose reflection
+  /// differs along the surface, if u says anything there.
+  Frame<FloatN> shading_frame(const Hits& hits, const SurfaceInteraction<FloatN>& surface,
+                              const TexturePoint<FloatN>* point) const;
+
+  /// Whether any of the lanes has a material with textures, or one that wants to know where u grows.
   bool has_textures(const Hits& hits) const;
   /// How wide a pixel is where the camera's rays start, and by how much it widens with their lengths.
   const RayCone& ray_cone() const { return ray_cone_; }
@@ -166,7 +171,7 @@ class SceneTables {
   struct SurfaceDetail {
     TexturedNumber opacity, normalmap, bump;
     MaterialEmission emission{};
-    bool transmits = false;
+    bool transmits = false, is_anisotropic = false;
 
     bool is_cutout() const { return opacity.value < 1 || opacity.texture; }
     bool has_relief() const { return normalmap.texture || bump.texture; }
@@ -221,6 +226,7 @@ class SceneTables {
   bool has_cutouts_ = false, has_relief_ = false, has_emission_ = false, has_transmission_ = false;
   std::vector<std::int32_t> shining_sides_;  ///< of all materials: 0, 1 for the front, 2 for both
   std::vector<std::int32_t> textured_;       ///< 1 for materials with textures, else 0; empty if there are none
+  std::vector<std::int32_t> anisotropic_;    ///< likewise: those whose reflection differs along the surface
   RayCone ray_cone_;
   std::vector<std::uint8_t> used_materials_;  ///< 1 for those that objects have, else 0
 };

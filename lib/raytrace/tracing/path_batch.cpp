@@ -159,7 +159,7 @@ void PathBatch::extend(PathPacket& path, const MaskN& lanes, int depth, RayCount
     light = direct_light(scene_, hits, surface, point, coherence, lanes, counts,
                          ShadowNumbers{path.pixel, path.sample, first_key + 1});
 
-  const PathVertex vertex{hits, surface, point, Frame<FloatN>(surface.ns), path.distance};
+  const PathVertex vertex{hits, surface, point, tables.shading_frame(hits, surface, point), path.distance};
   const Vec3<FloatN> wo = vertex.frame.to_local(surface.wo);
   DrawnLight drawn;
   if (tables.environment() != nullptr || !tables.emitters().empty())

@@ -1,0 +1,128 @@
+// OpenPBR: one material for most things, with the parameters of OpenPBR Surface 1.1.1 (Academy Software Foundation) by
+// their names there.
+//
+//   <openpbr>
+//     <name>car paint</name> <base_color red="0.6" green="0.02" blue="0.03"/> <base_metalness>0.3</base_metalness>
+//     <specular_roughness>0.4</specular_roughness> <coat_weight>1</coat_weight>
+//   </openpbr>
+//
+// From below: a base that is a metal, or a dielectric, which is clear or has a diffuse inside; a coat; fuzz. Each layer
+// lets through what it does not reflect. geometry_opacity is every material's `opacity`. Not there: subsurface_...,
+// transmission_scatter..., transmission_dispersion..., and the coat's own normal and tangent.
+#pragma once
+
+#include <string>
+
+#include "raytrace/materials/surface_detail.h"
+
+namespace raytrace {
+
+class OpenPbr {
+ public:
+  /// T: double, or a batch for lanes with textures of their own.
+  template <class T>
+  struct Values {
+    T base_weight = T(1);
+    Rgb<T> base_color{T(1), T(1), T(1)};
+    T base_diffuse_roughness = T(0), base_metalness = T(0);
+    T specular_weight = T(1);
+    Rgb<T> specular_color{T(1), T(1), T(1)};
+    T specular_roughness = T(0), specular_roughness_anisotropy = T(0), specular_ior = T(1.5);
+    T transmission_weight = T(0);
+    Rgb<T> transmission_color{T(1), T(1), T(1)};
+    T transmission_depth = T(0);
+    T coat_weight = T(0);
+    Rgb<T> coat_color{T(1), T(1), T(1)};
+    T coat_roughness = T(0), coat_roughness_anisotropy = T(0), coat_ior = T(1.5), coat_darkening = T(1);
+    T fuzz_weight = T(0);
+    Rgb<T> fuzz_color{T(1), T(1), T(1)};
+    T fuzz_roughness = T(0.5);
+    T emission_luminance = T(0);
+    Rgb<T> emission_color{T(1), T(1), T(1)};
+    T opacity = T(1), normalmap = T(1), bump = T(1);  ///< of surface_detail.h
+    T thin = T(0);                                    ///< 1: thin-walled; set by values()
+  };
+  struct Parameters : Values<double> {
+    bool geometry_thin_walled = false;
+
+    /// Defaults that no float is.
+    Parameters() {
+      base_color = {0.8, 0.8, 0.8};
+      specular_roughness = 0.3;
+      coat_ior = 1.6;
+    }
+  };
+  static constexpr std::string_view group = "openpbrs";
+  static constexpr std::string_view element = "openpbr";
+  static Fields fields() {
+    using P = Parameters;
+    const auto number = [](std::string_view name, double P::* member) {
+      return optional(name, member, Range::not_negative);
+    };
+    const auto color = [](std::string_view name, Rgb<double> P::* member) {
+      return optional(name, member, Range::not_negative);
+    };
+    return with_surface_detail<P>({
+        number("base_weight", &P::base_weight),
+        color("base_color", &P::base_color),
+        number("base_diffuse_roughness", &P::base_diffuse_roughness),
+        number("base_metalness", &P::base_metalness),
+        number("specular_weight", &P::specular_weight),
+        color("specular_color", &P::specular_color),
+        number("specular_roughness", &P::specular_roughness),
+        number("specular_roughness_anisotropy", &P::specular_roughness_anisotropy),
+        number("specular_ior", &P::specular_ior),
+        number("transmission_weight", &P::transmission_weight),
+        color("transmission_color", &P::transmission_color),
+        number("transmission_depth", &P::transmission_depth),
+        number("coat_weight", &P::coat_weight),
+        color("coat_color", &P::coat_color),
+        number("coat_roughness", &P::coat_roughness),
+        number("coat_roughness_anisotropy", &P::coat_roughness_anisotropy),
+        number("coat_ior", &P::coat_ior),
+        number("coat_darkening", &P::coat_darkening),
+        number("fuzz_weight", &P::fuzz_weight),
+        color("fuzz_color", &P::fuzz_color),
+        number("fuzz_roughness", &P::fuzz_roughness),
+        number("emission_luminance", &P::emission_luminance),
+        color("emission_color", &P::emission_color),
+        optional("geometry_thin_walled", &P::geometry_thin_walled),
+    });
+  }
+  static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {
+    const auto error = [](std::string_view name, const char* what) {
+      return ParameterDiagnostic{ParameterDiagnostic::Effect::error,
+                                 "the openpbr's <" + std::string(name) + "> is " + what};
+    };
+    for (const Field& field : fields()) {
+      const std::string_view name = field.name;
+      if (is_surface_detail(name)) continue;
+      if (name.ends_with("_ior")) {
+        const double ior = field.get<double>(const_cast<Parameters*>(&parameters));
+        if (ior < 0.1 || ior > 10) return error(name, "not between 0.1 and 10");
+      } else if (name == "transmission_color" || name == "coat_color") {
+        const auto& color = field.get<Rgb<double>>(const_cast<Parameters*>(&parameters));
+        if (color.red > 1 || color.green > 1 || color.blue > 1) return error(name, "above 1: light would grow inside");
+      } else if (field.is<double>() && name != "specular_weight" && name != "transmission_depth" &&
+                 name != "emission_luminance") {
+        if (field.get<double>(const_cast<Parameters*>(&parameters)) > 1) return error(name, "above 1");
+      }
+    }
+    return std::nullopt;
+  }
+  /// Whether light comes through.
+  static bool transmits(const Parameters& parameters) { return parameters.transmission_weight > 0; }
+  /// Whether it matters where on the surface u grows.
+  static bool is_anisotropic(const Parameters& parameters) {
+    return parameters.specular_roughness_anisotropy > 0 || parameters.coat_roughness_anisotropy > 0;
+  }
+  static bool is_two_sided(const Parameters& parameters) { return parameters.geometry_thin_walled; }
+  /// All that a kernel needs.
+  static Values<double> values(const Parameters& parameters) {
+    Values<double> result = parameters;
+    result.thin = parameters.geometry_thin_walled ? 1 : 0;
+    return result;
+  }
+};
+
+}  // namespace raytrace

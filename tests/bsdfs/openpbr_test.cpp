@@ -1,0 +1,247 @@
+// OpenPBR's lobes over each other: that samples follow their density, and that nothing is lost.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bsdfs/judge.h"
+#include "support/catch.h"
+
+namespace raytrace::test {
+
+namespace {
+
+using PbrBsdf = Kernel<OpenPbr>::Bsdf<FloatN>;
+
+PbrBsdf bsdf_of(const OpenPbr::Parameters& parameters, bool front = true) {
+  PbrBsdf bsdf = spread_bsdf<Kernel<OpenPbr>::Bsdf>(Kernel<OpenPbr>::bsdf(parameters));
+  bsdf.set_side(MaskN(front));
+  return bsdf;
+}
+
+OpenPbr::Parameters white(double roughness) {
+  OpenPbr::Parameters parameters;
+  parameters.base_color = {1, 1, 1};
+  parameters.specular_roughness = roughness;
+  return parameters;
+}
+
+/// Materials that absorb nothing, by the layer that each is about.
+std::vector<std::pair<std::string, OpenPbr::Parameters>> white_materials(double roughness) {
+  std::vector<std::pair<std::string, OpenPbr::Parameters>> result;
+  const auto add = [&](const std::string& name, const auto& set) {
+    OpenPbr::Parameters parameters = white(roughness);
+    set(parameters);
+    result.emplace_back(name, parameters);
+  };
+  add("plastic", [](auto&) {});
+  add("rough plastic", [&](auto& p) { p.base_diffuse_roughness = roughness; });
+  add("metal", [](auto& p) { p.base_metalness = 1; });
+  add("half a metal", [](auto& p) { p.base_metalness = 0.5; });
+  add("glass", [](auto& p) { p.transmission_weight = 1; });
+  add("half glass", [](auto& p) { p.transmission_weight = 0.5; });
+  add("pane", [](auto& p) { p.transmission_weight = 1, p.geometry_thin_walled = true; });
+  add("half a pane", [](auto& p) { p.transmission_weight = 0.5, p.geometry_thin_walled = true; });
+  add("coated plastic", [](auto& p) { p.coat_weight = 1; });
+  add("metal with a rough coat", [](auto& p) { p.base_metalness = 1, p.coat_weight = 0.7, p.coat_roughness = 0.5; });
+  add("coated glass", [](auto& p) { p.transmission_weight = 1, p.coat_weight = 1, p.coat_roughness = 0.3; });
+  add("fuzzy plastic", [&](auto& p) { p.fuzz_weight = 1, p.fuzz_roughness = roughness; });
+  add("everything", [&](auto& p) {
+    p.transmission_weight = p.base_metalness = p.coat_weight = p.fuzz_weight = 0.5;
+    p.coat_roughness = p.base_diffuse_roughness = 0.8;
+  });
+  return result;
+}
+
+/// The mean of f |cos| / pdf eta^2: the share of light that is sent on.
+double sent_on(const PbrBsdf& bsdf, const Vec3d& wo) {
+  constexpr int count = 160;
+  double sum = 0;
+  for (int i = 0; i < count; ++i)
+    for (int j = 0; j < count; j += packet_lanes) {
+      const FloatN u = batch_of<FloatN>([&](std::size_t lane) {
+        const double step = i * 0.75487766624669276 + (j + static_cast<int>(lane)) * 0.56984029099805327;
+        return std::min(step - std::floor(step), 1 - 0x1p-24);
+      });
+      const FloatN u1((static_cast<float>(i) + 0.5F) / count);
+      const FloatN u2 = batch_of<FloatN>([&](std::size_t lane) { return (j + static_cast<int>(lane) + 0.5) / count; });
+      const BsdfSample<FloatN> sample = bsdf.sample(spread(wo), u, u1, u2);
+      for (std::size_t lane = 0; lane < lanes; ++lane)
+        if (sample.pdf.get(lane) > 0)
+          sum += double{sample.f.green.get(lane)} * std::abs(double{sample.wi.z.get(lane)}) /
+                 double{sample.pdf.get(lane)} * double{sample.eta2.get(lane)};
+    }
+  return sum / (double{count} * count);
+}
+
+/// What is reflected; other samples go straight down.
+struct Above {
+  JudgedBsdf<PbrBsdf> judged;
+
+  Vec3<FloatN> sample(const Vec3<FloatN>& wo, const Vec3<FloatN>& normal, const FloatN& u1, const FloatN& u2) const {
+    const BsdfSample<FloatN> drawn =
+        judged.bsdf.sample(wo, batch_of<FloatN>([&](std::size_t) { return judged.lobes.unit(); }), u1, u2);
+    return select((drawn.pdf > FloatN(0)) & !drawn.specular & (drawn.wi.z > FloatN(0)), drawn.wi, -normal);
+  }
+  FloatN pdf(const Vec3<FloatN>& wo, const Vec3<FloatN>& wi, const Vec3<FloatN>& normal) const {
+    return judged.pdf(wo, wi, normal);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("OpenPBR: what is reflected follows its pdf") {
+  const Vec3d normal{0, 0, 1};
+  for (const double roughness : {0.0, 0.5, 0.9})
+    for (const auto& [name, parameters] : white_materials(roughness))
+      for (const double angle : {0.0, 45.0, 75.0})
+        for (const bool front : {true, false}) {
+          const Above above{{bsdf_of(parameters, front)}};
+          const Outcome outcome = judge(above, at_angle(normal, angle, 2), normal, Cells(normal, 1), true);
+          INFO(name << (front ? "" : " from its back") << ", roughness " << roughness << ", wo at " << angle);
+          if (outcome.integral > 0) CHECK(outcome.deviation < 4.5);  // else all is smooth
+          CHECK(outcome.worst_length < 1e-5);
+        }
+}
+
+TEST_CASE("OpenPBR: what absorbs nothing sends all light on, from both sides") {
+  for (const double roughness : {0.0, 0.1, 0.3, 0.6, 1.0})
+    for (const auto& [name, parameters] : white_materials(roughness))
+      for (const bool front : {true, false}) {
+        double mean = 0;
+        for (const double angle : {0.0, 30.0, 60.0, 80.0, 87.0}) {
+          const double share = sent_on(bsdf_of(parameters, front), at_angle({0, 0, 1}, angle, 1));
+          INFO(name << (front ? "" : " from its back") << ", roughness " << roughness << ", wo at " << angle);
+          CHECK(share == Approx(1).epsilon(0.02));
+          mean += share / 5;
+        }
+        INFO(name << (front ? "" : " from its back") << ", roughness " << roughness);
+        CHECK(mean == Approx(1).epsilon(0.005));
+      }
+}
+
+namespace {
+
+OpenPbr::Parameters brushed_metal(double roughness) {
+  OpenPbr::Parameters parameters = white(roughness);
+  parameters.base_metalness = 1;
+  parameters.specular_roughness_anisotropy = 0.6;
+  return parameters;
+}
+
+}  // namespace
+
+TEST_CASE("OpenPBR: stretched lobes follow their pdf, and lose or gain little") {
+  const Vec3d normal{0, 0, 1};
+  for (const double roughness : {0.45, 0.6})
+    for (const double angle : {0.0, 45.0, 75.0})
+      for (const double turn : {0.0, 0.7, 1.6}) {
+        const Above above{{bsdf_of(brushed_metal(roughness))}};
+        const Vec3d wo = at_angle(normal, angle, turn);
+        INFO("roughness " << roughness << ", wo at " << angle << ", turned by " << turn);
+        CHECK(judge(above, wo, normal, Cells(normal, 1), true).deviation < 4.5);
+        CHECK(sent_on(above.judged.bsdf, wo) == Approx(1).epsilon(0.08));
+      }
+}
+
+TEST_CASE("OpenPBR: grooves along y spread light along x") {
+  const PbrBsdf bsdf = bsdf_of(brushed_metal(0.3));
+  const auto f = [&](const Vec3d& wi) {
+    return double{bsdf.evaluate(local_normal<FloatN>(), spread(normalize(wi)), local_normal<FloatN>()).red.get(0)};
+  };
+  CHECK(f({0.3, 0, 1}) > 4 * f({0, 0.3, 1}));
+}
+
+TEST_CASE("OpenPBR: f and pdf of a sample are those of evaluate() and pdf()") {
+  Random random(8);
+  double worst = 0;
+  for (const auto& material : white_materials(0.4)) {
+    const PbrBsdf bsdf = bsdf_of(material.second);
+    for (int i = 0; i < 100; ++i) {
+      const Vec3<FloatN> wo = spread(at_angle({0, 0, 1}, 80 * random.unit(), 6 * random.unit()));
+      const auto number = [&] { return FloatN(static_cast<float>(random.unit())); };
+      const FloatN u = number(), u1 = number(), u2 = number();
+      const auto sample = bsdf.sample(wo, u, u1, u2);
+      if (!(sample.wi.z.get(0) > 0) || any(sample.specular) || !(sample.pdf.get(0) > 0)) continue;
+      const double f = bsdf.evaluate(wo, sample.wi, local_normal<FloatN>()).green.get(0),
+                   pdf = bsdf.pdf(wo, sample.wi).get(0);
+      worst = std::max(
+          {worst, std::abs(f / double{sample.f.green.get(0)} - 1), std::abs(pdf / double{sample.pdf.get(0)} - 1)});
+    }
+  }
+  CHECK(worst < 1e-5);
+}
+
+TEST_CASE("Oren and Nayar's diffuse reflection is reciprocal, and of roughness 0 Lambertian") {
+  Random random(6);
+  double worst = 0;
+  for (const float roughness : {0.0F, 0.4F, 1.0F}) {
+    const OrenNayar<FloatN> diffuse{Rgb<FloatN>(Rgb<float>(0.2F, 0.7F, 1)), FloatN(roughness)};
+    for (int i = 0; i < 500; ++i) {
+      const Vec3<FloatN> a = spread(at_angle({0, 0, 1}, 88 * random.unit(), 6 * random.unit())),
+                         b = spread(at_angle({0, 0, 1}, 88 * random.unit(), 6 * random.unit()));
+      const double forth = diffuse.f(a, b).green.get(0), back = diffuse.f(b, a).green.get(0);
+      worst = std::max(worst, std::abs(forth / back - 1));
+      if (roughness == 0) worst = std::max(worst, std::abs(forth * std::numbers::pi / 0.7 - 1));
+    }
+  }
+  CHECK(worst < 1e-4);
+}
+
+TEST_CASE("OpenPBR: a metal and a glass are those of <conductor> and <dielectric>") {
+  OpenPbr::Parameters metal;
+  metal.base_color = {0.9, 0.6, 0.3};
+  metal.specular_color = {0.8, 0.9, 1};
+  metal.base_metalness = 1;
+  metal.specular_roughness = 0.5;
+  Conductor::Parameters conductor;
+  conductor.cr = metal.base_color;
+  conductor.edgecolor = metal.specular_color;
+  conductor.roughness = 0.5;
+  const auto same_metal = spread_bsdf<Kernel<Conductor>::Bsdf>(Kernel<Conductor>::bsdf(conductor));
+  OpenPbr::Parameters glass;
+  glass.transmission_weight = 1;
+  glass.specular_roughness = 0.5;
+  Dielectric::Parameters dielectric;
+  dielectric.roughness = 0.5;
+  auto same_glass = spread_bsdf<Kernel<Dielectric>::Bsdf>(Kernel<Dielectric>::bsdf(dielectric));
+  same_glass.set_side(MaskN(true));
+  Random random(6);
+  double worst = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Vec3<FloatN> wo = spread(at_angle({0, 0, 1}, 85 * random.unit(), 6 * random.unit())),
+                       wi = spread(at_angle({0, 0, 1}, 85 * random.unit(), 6 * random.unit()));
+    const auto compare = [&](const auto& a, const auto& b) {
+      const Rgb<FloatN> fa = a.evaluate(wo, wi, local_normal<FloatN>()),
+                        fb = b.evaluate(wo, wi, local_normal<FloatN>());
+      for (const auto channel : {&Rgb<FloatN>::red, &Rgb<FloatN>::green, &Rgb<FloatN>::blue})
+        worst = std::max(worst, std::abs(double{(fa.*channel).get(0)} / double{(fb.*channel).get(0)} - 1));
+    };
+    compare(bsdf_of(metal), same_metal);
+    compare(bsdf_of(glass), same_glass);
+  }
+  CHECK(worst < 1e-4);
+}
+
+TEST_CASE("OpenPBR: a coat takes its color from what is below it, and darkens it") {
+  OpenPbr::Parameters parameters;
+  parameters.base_color = {0.5, 0.5, 0.5};
+  parameters.specular_weight = 0;
+  parameters.coat_weight = 1;
+  parameters.coat_color = {0.2, 0.6, 1};
+  parameters.coat_darkening = 0;
+  const Vec3<FloatN> straight = local_normal<FloatN>();
+  const auto f = [&](const OpenPbr::Parameters& p) { return bsdf_of(p).evaluate(straight, straight, straight); };
+  const double through = 1 - std::pow(0.6 / 2.6, 2);  // the coat's own reflection is in one direction
+  const Rgb<FloatN> colored = f(parameters);
+  CHECK(double{colored.red.get(0)} == Approx(0.2 * through * 0.5 / std::numbers::pi).epsilon(2e-3));
+  CHECK(double{colored.green.get(0)} == Approx(0.6 * through * 0.5 / std::numbers::pi).epsilon(2e-3));
+  parameters.coat_darkening = 1;
+  const double dark = f(parameters).green.get(0) / colored.green.get(0);
+  CHECK(dark > 0.5);
+  CHECK(dark < 0.75);
+}
+
+}  // namespace raytrace::test
