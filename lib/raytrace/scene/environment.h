@@ -34,8 +34,9 @@ struct EnvironmentSample {
 /// Immutable. Directions need not have unit length, and point away from the scene.
 ///
 /// Between the middles of texels, radiance is bilinear, across the seam at -z and the poles, too. Directions are drawn
-/// with the same density everywhere in a texel's rectangle of longitudes and latitudes, about in proportion to the
-/// largest channel's mean in it, and never 0 where there is radiance.
+/// with the same density everywhere in a texel's rectangle of longitudes and latitudes, about in proportion to what the
+/// largest channel's mean in it is above that of all directions, and never 0 where there is radiance: what is dim is
+/// left to the directions in which surfaces scatter (Karlik et al., "MIS Compensation", 2019).
 class Environment {
  public:
   /// threads: so many at most share the work. Throws std::bad_alloc.
@@ -199,8 +200,12 @@ inline void Environment::make_table(int threads) {
   const auto parts = static_cast<std::size_t>(detail::part_count(width_)) + 1;
   column_parts_ = LargeArray<std::int32_t>::unset(parts * height);
   row_parts_ = LargeArray<std::int32_t>::unset(static_cast<std::size_t>(detail::part_count(height_)) + 1);
+  constexpr float least_share = 0.0625F;  // of the density that dim directions would have without compensation
+  auto weights = LargeArray<float>::unset(width * height);
   std::vector<float> row_weights(height);
   std::vector<double> row_means(height);
+  // Of a whole row, over that of all directions.
+  const auto share_of_sphere = [&](int row) { return (cap(row + 1) - cap(row)) / 2; };
   for_each_index(height_, threads, [&](int number) {
     const auto row = static_cast<std::size_t>(number);
     // The mean of what is bilinear, in the texel's rectangle. Beyond a pole, a row goes on half way around.
@@ -209,22 +214,29 @@ inline void Environment::make_table(int threads) {
       return 0.125F * line[static_cast<std::ptrdiff_t>(x) - 1] + 0.75F * line[x] + 0.125F * line[x + 1];
     };
     const auto opposite = [&](std::size_t x) { return (x + width / 2) % width; };
-    std::vector<float> weights(width);
+    double sum = 0;
     for (std::size_t x = 0; x < width; ++x) {
       const float below = row > 0 ? weight_of(here - stride, x) : weight_of(here, opposite(x));
       const float above = row + 1 < height ? weight_of(here + stride, x) : weight_of(here, opposite(x));
-      weights[x] = 0.125F * below + 0.75F * weight_of(here, x) + 0.125F * above;
+      const float weight = 0.125F * below + 0.75F * weight_of(here, x) + 0.125F * above;
+      weights[row * width + x] = weight;
+      sum += static_cast<double>(weight);
     }
-    const double solid_angle = 2 * std::numbers::pi * (cap(number + 1) - cap(number));  // of the whole row
-    const double sum = detail::add_up(weights.data(), width_, column_shares_.data() + row * (width + 1));
-    detail::set_parts(column_shares_.data() + row * (width + 1), width_, column_parts_.data() + row * parts);
-    inverse_solid_angles_[row] = static_cast<float>(width_ / solid_angle);
-    row_means[row] = sum / width_ * solid_angle / (4 * std::numbers::pi);
-    row_weights[row] = static_cast<float>(row_means[row]);
+    row_means[row] = sum / width_ * share_of_sphere(number);
   });
   double mean = 0;
   for (const double row_mean : row_means) mean += row_mean;
   mean_radiance_ = mean_radiance_ * static_cast<float>(mean);
+  for_each_index(height_, threads, [&](int number) {
+    const auto row = static_cast<std::size_t>(number);
+    float* const here = weights.data() + row * width;
+    for (std::size_t x = 0; x < width; ++x)
+      here[x] = std::max(here[x] - static_cast<float>(mean), here[x] * least_share);
+    const double sum = detail::add_up(here, width_, column_shares_.data() + row * (width + 1));
+    detail::set_parts(column_shares_.data() + row * (width + 1), width_, column_parts_.data() + row * parts);
+    inverse_solid_angles_[row] = static_cast<float>(width_ / (4 * std::numbers::pi * share_of_sphere(number)));
+    row_weights[row] = static_cast<float>(sum / width_ * share_of_sphere(number));
+  });
   detail::add_up(row_weights.data(), height_, row_shares_.data());
   detail::set_parts(row_shares_.data(), height_, row_parts_.data());
   if (!(mean > 0)) row_shares_ = {};
