@@ -57,7 +57,8 @@ TEST_CASE("an IES file that is broken is an error where the light names it") {
 }
 
 TEST_CASE("a scene's hash has the bytes of its IES files") {
-  const auto one = LitScene(lamp_file).load(), same = LitScene(lamp_file).load(), other = LitScene(lamp_file + " ").load();
+  const auto one = LitScene(lamp_file).load(), same = LitScene(lamp_file).load(),
+             other = LitScene(lamp_file + " ").load();
   REQUIRE((one && same && other));
   CHECK(scene_hash(*one) == scene_hash(*same));
   CHECK(scene_hash(*one) != scene_hash(*other));

@@ -19,10 +19,7 @@ class PhotometricShare {
  public:
   /// axis: of unit length. Without photometry, all directions get all.
   PhotometricShare(const LoadedPhotometry& photometry, const Vec3f& axis)
-      : photometry_(photometry.shares),
-        axis_(axis),
-        right_(right_of(-axis)),
-        ahead_(cross(-axis, right_)) {}
+      : photometry_(photometry.shares), axis_(axis), right_(right_of(-axis)), ahead_(cross(-axis, right_)) {}
 
   template <class F>
   F towards(const Vec3<F>& to_light) const {

@@ -72,20 +72,24 @@ class Environment {
       return mix(mix(low_left, low_right, x), mix(high_left, high_right, x), y);
     }
   };
-  /// The same of what directions are drawn by.
+  static constexpr float least_share = 0.0625F;  ///< of the weight that what is dim would have without compensation
+  /// The same of what directions are drawn by. mean: over all of them.
   struct Weights {
     FloatN low_left, low_right, high_left, high_right;
-    explicit Weights(const Corners& corners)
-        : low_left(sum(corners.low_left)),
-          low_right(sum(corners.low_right)),
-          high_left(sum(corners.high_left)),
-          high_right(sum(corners.high_right)) {}
+    Weights(const Corners& corners, float mean)
+        : low_left(weight(corners.low_left, mean)),
+          low_right(weight(corners.low_right, mean)),
+          high_left(weight(corners.high_left, mean)),
+          high_right(weight(corners.high_right, mean)) {}
     FloatN at(const FloatN& x, const FloatN& y) const {
       return mix(mix(low_left, low_right, x), mix(high_left, high_right, x), y);
     }
 
    private:
-    static FloatN sum(const Rgb<FloatN>& c) { return abs(c.red) + abs(c.green) + abs(c.blue); }
+    static FloatN weight(const Rgb<FloatN>& c, float mean) {
+      const FloatN sum = abs(c.red) + abs(c.green) + abs(c.blue);
+      return max(sum - FloatN(mean), sum * FloatN(least_share));
+    }
   };
   /// What of a row's cells is in the picture.
   struct RowPart {
@@ -110,6 +114,7 @@ class Environment {
   std::optional<Kernel<Image>> image_;  ///< none: the radiance is scale_
   std::int32_t width_ = 1, height_ = 1;
   Rgb<float> mean_radiance_, largest_radiance_;
+  float mean_ = 0;  ///< over all directions, of the channels together
 
   // Of the table, which none has that is the same, or black, everywhere. Shares are cumulative: 0 before the first, 1
   // after the last, and multiples of 2^-24.
@@ -201,18 +206,35 @@ inline Environment::Environment(const LightItem<EnvironmentLight>& light, int th
 
 inline void Environment::make_table(int threads) {
   const auto width = static_cast<std::size_t>(width_), height = static_cast<std::size_t>(height_);
+  // Of edges of rows, in texels from either pole.
+  const auto height_of = [&](double edge) {
+    return std::cos(std::clamp(edge, 0.0, double{height_}) * std::numbers::pi / height_);
+  };
   // The sum of each texel's channels, with the row's first after its last.
   const std::size_t stride = width + 1;
   auto sums = LargeArray<float>::unset(stride * height);
+  std::vector<double> row_means(height);
   for_each_index(height_, threads, [&](int row) {
     float* const line = sums.data() + static_cast<std::size_t>(row) * stride;
     alignas(64) std::array<float, packet_lanes> values;
+    double sum = 0;
     for (std::int32_t first = 0; first < width_; first += packet_lanes) {
       const IntN column = min(lane_numbers<IntN>() + IntN(first), IntN(width_ - 1));
       const Rgb<FloatN> color = image_->texel(column, IntN(row)) * Rgb<FloatN>(scale_);
       FloatN(abs(color.red) + abs(color.green) + abs(color.blue)).store_aligned(values.data());
       std::copy_n(values.data(), std::min(packet_lanes, width_ - first), line + first);
     }
+    for (std::size_t x = 0; x < width; ++x) sum += double{line[x]};
+    row_means[static_cast<std::size_t>(row)] = sum / width_ * (height_of(row) - height_of(row + 1)) / 2;
+  });
+  double mean = 0;
+  for (const double row_mean : row_means) mean += row_mean;
+  mean_ = static_cast<float>(mean);
+  mean_radiance_ = Rgb<float>(1, 1, 1) * mean_;
+  if (!(mean > 0)) return;
+  for_each_index(height_, threads, [&](int row) {
+    float* const line = sums.data() + static_cast<std::size_t>(row) * stride;
+    for (std::size_t x = 0; x < width; ++x) line[x] = std::max(line[x] - mean_, line[x] * least_share);
     line[width] = line[0];
   });
 
@@ -223,7 +245,6 @@ inline void Environment::make_table(int threads) {
   column_parts_ = LargeArray<std::int32_t>::unset(parts * rows);
   row_parts_ = LargeArray<std::int32_t>::unset(static_cast<std::size_t>(detail::part_count(height_ + 1)) + 1);
   std::vector<float> row_weights(rows);
-  std::vector<double> row_means(rows);
   for_each_index(height_ + 1, threads, [&](int number) {
     const auto row = static_cast<std::size_t>(number);
     // The mean of what is bilinear is in the middle. Beyond a pole, a row goes on half way around.
@@ -238,21 +259,12 @@ inline void Environment::make_table(int threads) {
                   above = between(high, row == height ? opposite(x) : x);
       weights[x] = below + (above - below) * middle;
     }
-    const auto height_of = [&](double edge) {
-      return std::cos(std::clamp(edge, 0.0, double{height_}) * std::numbers::pi / height_);
-    };
-    const double solid_angle = 2 * std::numbers::pi * (height_of(number - 0.5) - height_of(number + 0.5));
     const double sum = detail::add_up(weights.data(), width_, column_shares_.data() + row * (width + 1));
     detail::set_parts(column_shares_.data() + row * (width + 1), width_, column_parts_.data() + row * parts);
-    row_means[row] = sum / width_ * solid_angle / (4 * std::numbers::pi);
-    row_weights[row] = static_cast<float>(row_means[row]);
+    row_weights[row] = static_cast<float>(sum / width_ * (height_of(number - 0.5) - height_of(number + 0.5)) / 2);
   });
-  double mean = 0;
-  for (const double row_mean : row_means) mean += row_mean;
-  mean_radiance_ = Rgb<float>(1, 1, 1) * static_cast<float>(mean);
   detail::add_up(row_weights.data(), height_ + 1, row_shares_.data());
   detail::set_parts(row_shares_.data(), height_ + 1, row_parts_.data());
-  if (!(mean > 0)) row_shares_ = {};
 }
 
 inline Vec3<FloatN> Environment::to_world(const Vec3<FloatN>& local) const {
@@ -320,7 +332,7 @@ inline EnvironmentSample Environment::at(const Vec3<FloatN>& direction) const {
   const Rgb<FloatN> radiance = cell.at(place.x, place.y);
   if (!has_table()) return {direction, radiance, FloatN(detail::inverse_sphere)};
   const FloatN across = local.x * local.x + local.z * local.z;
-  return {direction, radiance, pdf(place, Weights(cell), sqrt(across / (across + local.y * local.y)))};
+  return {direction, radiance, pdf(place, Weights(cell, mean_), sqrt(across / (across + local.y * local.y)))};
 }
 
 namespace detail {
@@ -352,7 +364,7 @@ inline EnvironmentSample Environment::sample(const FloatN& u1, const FloatN& u2)
   };
   Place place{column, row - IntN(1), FloatN(0), FloatN(0)};
   const Corners cell = corners(place);
-  const Weights weights(cell);
+  const Weights weights(cell, mean_);
   const RowPart part = part_of(place.row);
   const auto middle = [&](const FloatN& y) { return weights.at(FloatN(0.5F), y); };
   place.y = mix(part.low, part.high,
