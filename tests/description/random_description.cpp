@@ -68,10 +68,23 @@ void randomize(Random& random, Range range, Rgb<double>& value) {
 }
 
 void randomize(Random& random, const ElementType& type, void* parameters) {
+  const auto refused = [&] { return type.check != nullptr && type.check(parameters); };
+  // From what is accepted, value by value: of many together, hardly any would be.
+  const bool accepted = !refused();
   do {
     for (const Field& field : type.fields)
-      field.visit(parameters, [&](auto& value) { randomize(random, field.range, value); });
-  } while (type.check != nullptr && type.check(parameters));
+      field.visit(parameters, [&]<class Value>(Value& value) {
+        if constexpr (std::is_same_v<std::remove_const_t<Value>, ChoiceReference>) {
+          const std::size_t before = value.index();
+          randomize(random, field.range, value);
+          if (accepted && refused()) value.set(before);
+        } else {
+          const Value before = value;
+          randomize(random, field.range, value);
+          if (accepted && refused()) value = before;
+        }
+      });
+  } while (refused());
 }
 
 template <class T>

@@ -181,7 +181,9 @@ class Kernel<OpenPbr> {
       const T of_base = mean(under) * (one - of.base_reflection) * (one - metalness);
       const T specular = mean(under * at_facet_of(of, cosine, of.base_reflection));
       const T coated = of.coat_albedo * of.under_fuzz, fibers = (one - of.under_fuzz) * mean(fuzz_color);
-      const T through = of_base * transmission * mean(tint);
+      // The table is coarse where total reflection sets in: something may come through where it says nothing does.
+      const T least_through = select(rough, mean(under) * (one - metalness) * T(0.2F), T(0));
+      const T through = max(of_base, least_through) * transmission * mean(tint);
       const T diffuse = of_base * (one - transmission) * base_weight * mean(base);
       const T all = fibers + coated + specular + through + diffuse;
       const Mask<T> some = all > T(0);
