@@ -168,7 +168,8 @@ TEST_CASE("an environment draws directions with its density, which integrates to
     INFO(width << " x " << height);
     CHECK(integral == Approx(1).epsilon(1e-4));
     Numbers numbers;
-    double worst_length = 0, worst_pdf = 0, worst_radiance = 0;
+    double worst_length = 0;
+    int wrong_pdfs = 0, wrong_radiances = 0;
     for (int i = 0; i < samples; i += packet_lanes) {
       const FloatN u1 = numbers.batch(), u2 = numbers.batch();
       const EnvironmentSample sample = environment.sample(u1, u2);
@@ -176,9 +177,10 @@ TEST_CASE("an environment draws directions with its density, which integrates to
       for (std::size_t lane = 0; lane < lanes; ++lane) {
         const Vec3d direction = lane_of(wi, lane), local = turn.inverse().vector(direction);
         worst_length = std::max(worst_length, std::abs(length(direction) - 1));
-        worst_pdf += std::abs(pdf.get(lane) / sample.pdf.get(lane) - 1) > 1e-3F ? 1 : 0;
-        worst_radiance =
-            std::max(worst_radiance, std::abs(double{radiance.red.get(lane) - sample.radiance.red.get(lane)}));
+        wrong_pdfs += std::abs(pdf.get(lane) / sample.pdf.get(lane) - 1) > 1e-3F ? 1 : 0;
+        // At the poles, where a picture has many radiances for one direction, roundings turn it.
+        const double off = std::abs(double{radiance.red.get(lane) - sample.radiance.red.get(lane)});
+        wrong_radiances += off > 1e-3 * double{environment.largest_radiance().red} ? 1 : 0;
         const double right = std::atan2(-local.x, local.z) / (2 * pi) + 0.5;
         const double down = std::acos(std::clamp(local.y, -1.0, 1.0)) / pi;
         const int column = std::min(static_cast<int>(right * columns), columns - 1);
@@ -189,8 +191,8 @@ TEST_CASE("an environment draws directions with its density, which integrates to
     }
     CHECK(chi_square_deviation(observed, expected) < 4);
     CHECK(worst_length < 1e-6);
-    CHECK(worst_pdf < samples / 2000);
-    CHECK(worst_radiance < 2e-3 * double{environment.largest_radiance().red});
+    CHECK(wrong_pdfs < samples / 2000);
+    CHECK(wrong_radiances < samples / 2000);
   }
 }
 
