@@ -208,7 +208,7 @@ inline void Environment::make_table(int threads) {
   const auto width = static_cast<std::size_t>(width_), height = static_cast<std::size_t>(height_);
   // Of edges of rows, in texels from either pole.
   const auto height_of = [&](double edge) {
-    return std::cos(std::clamp(edge, 0.0, double{height_}) * std::numbers::pi / height_);
+    return std::cos(std::clamp(edge, 0.0, static_cast<double>(height_)) * std::numbers::pi / height_);
   };
   // The sum of each texel's channels, with the row's first after its last.
   const std::size_t stride = width + 1;
