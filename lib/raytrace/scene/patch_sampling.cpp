@@ -195,7 +195,7 @@ void sample_torus(const PatchRecord<FloatN>& torus, const MaskN& here, const Flo
 FloatN density(const PatchRecord<FloatN>& patch, const std::optional<FlatView>& view, const Vec3<FloatN>& from,
                const Vec3<FloatN>& p, const Vec3<FloatN>& normal) {
   const MaskN sphere = is(patch, PatchShape::sphere), band = is(patch, PatchShape::band),
-              torus = is(patch, PatchShape::torus);
+              torus = is(patch, PatchShape::torus), flat = !(sphere | band | torus);
   FloatN per_area = flat_density(patch);
   if (any(band)) per_area = select(band, band_density(patch), per_area);
   if (any(torus)) per_area = select(torus, torus_density(patch, p), per_area);
@@ -205,7 +205,7 @@ FloatN density(const PatchRecord<FloatN>& patch, const std::optional<FlatView>& 
     const SphereCone cone(patch, from);
     pdf = select(sphere & cone.outside, cone.pdf(), pdf);
   }
-  if (view && any(view->near)) pdf = select(!(sphere | band | torus) & view->near, view->pdf(), pdf);
+  if (view && any(view->near)) pdf = select(flat & view->near, view->pdf(), pdf);
   return pdf;
 }
 
