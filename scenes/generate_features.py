@@ -704,6 +704,14 @@ write(
   </lights>
 """,
 )
+POST_AND_BALL = """\
+    <cylinders>
+      <cylinder>
+        <bottom x="-0.6" y="0" z="0"/> <top x="-0.6" y="2.2" z="0"/> <radius>0.12</radius> <material>clay</material>
+      </cylinder>
+    </cylinders>
+    <spheres> <sphere> <center x="0.9" y="0.5" z="0.6"/> <radius>0.5</radius> <material>clay</material> </sphere> </spheres>
+"""
 write(
     "sun",
     "A directional light of 6 degrees, and a blue sky: shadows are the softer the farther they fall.",
@@ -721,14 +729,7 @@ write(
     </environmentlights>
   </lights>
 """,
-    objects="""\
-    <cylinders>
-      <cylinder>
-        <bottom x="-0.6" y="0" z="0"/> <top x="-0.6" y="2.2" z="0"/> <radius>0.12</radius> <material>clay</material>
-      </cylinder>
-    </cylinders>
-    <spheres> <sphere> <center x="0.9" y="0.5" z="0.6"/> <radius>0.5</radius> <material>clay</material> </sphere> </spheres>
-""",
+    objects=POST_AND_BALL,
 )
 write(
     "skylight",
@@ -747,14 +748,7 @@ write(
     </skylights>
   </lights>
 """,
-    objects="""\
-    <cylinders>
-      <cylinder>
-        <bottom x="-0.6" y="0" z="0"/> <top x="-0.6" y="2.2" z="0"/> <radius>0.12</radius> <material>clay</material>
-      </cylinder>
-    </cylinders>
-    <spheres> <sphere> <center x="0.9" y="0.5" z="0.6"/> <radius>0.5</radius> <material>clay</material> </sphere> </spheres>
-""",
+    objects=POST_AND_BALL,
 )
 
 
