@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -201,7 +202,7 @@ class BlockRenderer {
       const WaitingPacket& packet = waiting_[i];
       if (!open_ || open_->block.left != packet.block.left || open_->block.top != packet.block.top) {
         if (open_) close_block();
-        open_.emplace(packet.block, scale_);
+        open_ = std::make_unique<OpenBlock>(packet.block, scale_);
       }
       BlockSums<Block>& sums = open_->sums;
       const MaskN hit = packet.missed.hit;
@@ -301,7 +302,7 @@ class BlockRenderer {
   };
   std::optional<PathBatch> batch_;
   std::vector<WaitingPacket> waiting_;  ///< the batch's, in its order
-  std::optional<OpenBlock> open_;       ///< that of the last one that left
+  std::unique_ptr<OpenBlock> open_;     ///< that of the last one that left
 };
 
 template <bool raycast>
