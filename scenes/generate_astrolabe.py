@@ -1,8 +1,7 @@
 """Writes gallery/astrolabe.xml: an astrolabe of brass, silver and steel, lying on dark wood, through a macro lens."""
 import math
-import os
 
-from scene_xml import number, vector
+from scene_xml import number, vector, write_gallery
 
 TEXT = """<!-- An astrolabe of brass, silver and steel on dark wood. Made by scenes/generate_astrolabe.py. -->
 <raytracer>
@@ -172,6 +171,4 @@ objects = ""
 for group, lines in items.items():
     objects += f"    <{group}>\n" + "".join(f"      {line}\n" for line in lines) + f"    </{group}>\n"
 
-path = os.path.join(os.path.dirname(os.path.abspath(__file__)), "gallery", "astrolabe.xml")
-with open(path, "w", encoding="utf-8", newline="\n") as file:
-    file.write(TEXT.replace("{objects}", objects))
+write_gallery("astrolabe", TEXT.replace("{objects}", objects))

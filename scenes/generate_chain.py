@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
 """Writes gallery/chain.xml: a chain of gold that lies on slate, in a spiral that runs out towards the camera."""
 import math
-import os
 
-from scene_xml import number, vector
+from scene_xml import number, vector, write_gallery
 
 LINKS = 76
 SWEPT, TUBE = 0.33, 0.085
@@ -106,6 +105,4 @@ for i in range(LINKS):
     while math.dist(before, spiral(angle)) < SPACING:
         angle += 0.002
 
-path = os.path.join(os.path.dirname(os.path.abspath(__file__)), "gallery", "chain.xml")
-with open(path, "w", encoding="utf-8", newline="\n") as file:
-    file.write(TEXT.replace("{links}", links))
+write_gallery("chain", TEXT.replace("{links}", links))

@@ -1,8 +1,7 @@
 """Writes gallery/chess.xml: an endgame at night, under one lamp. Pieces are turned: of cones, cylinders, toruses and spheres."""
 import math
-import os
 
-from scene_xml import number, vector
+from scene_xml import number, vector, write_gallery
 
 TEXT = """<!-- An endgame under one lamp: turned pieces of ebony and boxwood, the square being one unit. Made by scenes/generate_chess.py. -->
 <raytracer>
@@ -249,6 +248,4 @@ instances = "".join(instance(*piece, i) for i, piece in enumerate(POSITION))
 instances += instance("pawn", 3, 2, "ebony", 20, (0.16, 97, 35))
 groups = "".join(make().text(name) for name, make in PIECES.items())
 
-path = os.path.join(os.path.dirname(os.path.abspath(__file__)), "gallery", "chess.xml")
-with open(path, "w", encoding="utf-8", newline="\n") as file:
-    file.write(TEXT.replace("{groups}", groups).replace("{board}", board).replace("{instances}", instances))
+write_gallery("chess", TEXT.replace("{groups}", groups).replace("{board}", board).replace("{instances}", instances))

@@ -1,9 +1,8 @@
 """Writes gallery/protein.xml: a bundle of helices as a sculpture of clay. Not a real protein: seven helices and their loops."""
 import math
-import os
 import random
 
-from scene_xml import add, color, cross, number, srgb, unit, vector
+from scene_xml import add, color, cross, number, srgb, unit, vector, write_gallery
 
 HELICES = 7
 RESIDUES = 26  # of a helix
@@ -113,6 +112,4 @@ clays = "".join(
     for name, hexadecimal in CLAYS.items()
 )
 
-path = os.path.join(os.path.dirname(os.path.abspath(__file__)), "gallery", "protein.xml")
-with open(path, "w", encoding="utf-8", newline="\n") as file:
-    file.write(TEXT.replace("{clays}", clays).replace("{paper}", color("cd", srgb("#cfc8bd"))).replace("{spheres}", spheres))
+write_gallery("protein", TEXT.replace("{clays}", clays).replace("{paper}", color("cd", srgb("#cfc8bd"))).replace("{spheres}", spheres))

@@ -66,6 +66,13 @@ def unit(a):
     return tuple(x / length for x in a)
 
 
+def write_gallery(name, text):
+    """Writes gallery/<name>.xml beside this file."""
+    path = os.path.join(os.path.dirname(os.path.abspath(__file__)), "gallery", name + ".xml")
+    with open(path, "w", encoding="utf-8", newline="\n") as file:
+        file.write(text)
+
+
 class Scene:
     """Collects a scene's elements, one line each; write() puts them into their groups."""
 
@@ -180,6 +187,4 @@ class Scene:
                     lines.append(f"    </{group}>")
             lines.append(f"  </{section}>")
         lines.append("</raytracer>")
-        path = os.path.join(os.path.dirname(os.path.abspath(__file__)), "gallery", name + ".xml")
-        with open(path, "w", encoding="utf-8", newline="\n") as file:
-            file.write("\n".join(lines) + "\n")
+        write_gallery(name, "\n".join(lines) + "\n")

@@ -1,4 +1,4 @@
-// What a smooth boundary between two clear media reflects: Fresnel's equations, of unpolarised light.
+// What smooth boundaries reflect of unpolarised light: by Fresnel's equations between clear media, and off metals.
 #pragma once
 
 #include "raytrace/math/vec3.h"
@@ -22,6 +22,15 @@ FresnelReflection<T> fresnel_reflection(const T& cosine, const T& eta) {
   const T across = (cosine - eta * transmitted) / (cosine + eta * transmitted);
   const T along = (eta * cosine - transmitted) / (eta * cosine + transmitted);
   return {select(comes_through, (across * across + along * along) * T(0.5F), T(1)), transmitted};
+}
+
+/// Metals reflect about as Schlick's approximation has it, but less at 82 degrees (OpenPBR's F82-tint; Kutz, Hasan and
+/// Edmondson, "Novel Aspects of the Adobe Standard Material", 2021): at a cosine of c this times c (1 - c)^6 less, so
+/// that edge multiplies what it is at a cosine of 1/7. normal: reflectance from straight above. T: float, or a batch.
+template <class T>
+T f82_dip(const T& normal, const T& edge) {
+  constexpr float c = 1.0F / 7, rest = 1 - c, fifth = rest * rest * rest * rest * rest;
+  return (normal + (T(1) - normal) * T(fifth)) * (T(1) - edge) * T(1 / (c * fifth * rest));
 }
 
 /// Of a pane between two such boundaries, without a distance between them, light going to and fro in it: R + T^2 R (1 +

@@ -17,6 +17,19 @@ Vec3<T> above_surface(const Vec3<T>& wo, const Vec3<T>& normal) {
   return wo + normal * (max(abs(cosine), T(1e-5F)) - cosine);
 }
 
+/// The normal of a facet that is visible from wo, in the local frame, out of u1 and u2 in [0, 1): Dupuy and Benyoub,
+/// "Sampling Visible GGX Normals with Spherical Caps", HPG 2023. The facets' slopes are alpha_x along x, alpha_y along
+/// y. T: a batch.
+template <class T>
+Vec3<T> visible_facet(const Vec3<T>& wo, const T& alpha_x, const T& alpha_y, const T& u1, const T& u2) {
+  const Vec3<T> stretched = normalize(Vec3<T>{wo.x * alpha_x, wo.y * alpha_y, wo.z});
+  const T z = (T(1) - u2) * (T(1) + stretched.z) - stretched.z;
+  const T sine = sqrt(max(T(1) - z * z, T(0)));
+  const SineAndCosine<T> turn = sin_cos_of_turns(u1);
+  const Vec3<T> half{sine * turn.cosine + stretched.x, sine * turn.sine + stretched.y, z + stretched.z};
+  return normalize(Vec3<T>{half.x * alpha_x, half.y * alpha_y, max(half.z, T(1e-6F))});
+}
+
 /// T: a batch.
 template <class T>
 struct Ggx {
@@ -41,15 +54,9 @@ struct Ggx {
     return square / (T(std::numbers::pi_v<float>) * sum * sum);
   }
 
-  /// The normal of a facet that is visible from wo, in the local frame, out of u1 and u2 in [0, 1): Dupuy and Benyoub,
-  /// "Sampling Visible GGX Normals with Spherical Caps", HPG 2023.
+  /// visible_facet() of wo, in the local frame.
   Vec3<T> sample_facet(const Vec3<T>& wo, const T& u1, const T& u2) const {
-    const Vec3<T> stretched = normalize(Vec3<T>{wo.x * alpha, wo.y * alpha, wo.z});
-    const T z = (T(1) - u2) * (T(1) + stretched.z) - stretched.z;
-    const T sine = sqrt(max(T(1) - z * z, T(0)));
-    const SineAndCosine<T> turn = sin_cos_of_turns(u1);
-    const Vec3<T> half{sine * turn.cosine + stretched.x, sine * turn.sine + stretched.y, z + stretched.z};
-    return normalize(Vec3<T>{half.x * alpha, half.y * alpha, max(half.z, T(1e-6F))});
+    return visible_facet(wo, alpha, alpha, u1, u2);
   }
 
   struct Reflection {

@@ -30,12 +30,7 @@ struct StretchedGgx {
     return T(1) / (T(std::numbers::pi_v<float>) * alpha_x * alpha_y * sum * sum);
   }
   Vec3<T> sample_facet(const Vec3<T>& wo, const T& u1, const T& u2) const {
-    const Vec3<T> stretched = normalize(Vec3<T>{wo.x * alpha_x, wo.y * alpha_y, wo.z});
-    const T z = (T(1) - u2) * (T(1) + stretched.z) - stretched.z;
-    const T sine = sqrt(max(T(1) - z * z, T(0)));
-    const SineAndCosine<T> turn = sin_cos_of_turns(u1);
-    const Vec3<T> half{sine * turn.cosine + stretched.x, sine * turn.sine + stretched.y, z + stretched.z};
-    return normalize(Vec3<T>{half.x * alpha_x, half.y * alpha_y, max(half.z, T(1e-6F))});
+    return visible_facet(wo, alpha_x, alpha_y, u1, u2);
   }
   typename Ggx<T>::Reflection reflection(const Vec3<T>& wo, const Vec3<T>& wi) const {
     const Mask<T> is_above = wi.z > T(1e-6F);

@@ -1,6 +1,7 @@
 // How metals reflect light. Their albedo, for denoisers, is what they reflect straight back.
 #pragma once
 
+#include "raytrace/bsdfs/fresnel.h"
 #include "raytrace/bsdfs/ggx_shares.h"
 #include "raytrace/bsdfs/stretched_ggx.h"
 #include "raytrace/materials/conductor.h"
@@ -81,15 +82,11 @@ class Kernel<Conductor> {
     Bsdf<T> bsdf;
     const auto set = [&](auto channel, auto bsdf_channel) {
       const T normal = static_cast<T>(conductor.cr.*channel), edge = static_cast<T>(conductor.edgecolor.*channel);
-      // Schlick's approximation has this rise; at a cosine of 1/7 it is multiplied by the edge color.
       const Rgb<Value>& all = conductor.edgecolor;
       const auto has_edge = all.red + all.green + all.blue > Value(0);
-      constexpr float c = 1.0F / 7, rest = 1 - c, fifth = rest * rest * rest * rest * rest;
-      const T rise = T(1) - normal, there = normal + rise * T(fifth);
-      const T dip = there * (T(1) - edge) * T(1 / (c * fifth * rest));
       bsdf.normal.*bsdf_channel = normal;
-      bsdf.rise.*bsdf_channel = pick(has_edge, rise);
-      bsdf.dip.*bsdf_channel = pick(has_edge, dip);
+      bsdf.rise.*bsdf_channel = pick(has_edge, T(T(1) - normal));
+      bsdf.dip.*bsdf_channel = pick(has_edge, f82_dip(normal, edge));
     };
     set(&Rgb<Value>::red, &Rgb<T>::red);
     set(&Rgb<Value>::green, &Rgb<T>::green);

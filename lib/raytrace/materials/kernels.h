@@ -27,8 +27,9 @@
 //     Rgb<T> usual_f() const;                    in place of evaluate() straight back, for the film's unit
 //   has evaluate() in the local frame, as all others are:
 //     static constexpr bool in_local_frame = true;   false: there only where some material of the scene is anisotropic
-//   has evaluate() and pdf() together:
-//     value(wo, wi);                             their results, f and pdf
+//   does much for wo alone:
+//     lobes(wo);                                 the result of it, from which follow, in the local frame,
+//     sample(lobes, u, u1, u2); value(lobes, wi);   the same as sample(wo, ...); evaluate() and pdf(), as f and pdf
 //   sends light through:
 //     Rgb<T> transmittance(const T& distance) const;   the share that is left of light that went so far behind it
 #pragma once

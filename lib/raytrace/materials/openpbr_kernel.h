@@ -10,10 +10,12 @@
 
 #include "raytrace/bsdfs/fuzz.h"
 #include "raytrace/bsdfs/ggx_shares.h"
+#include "raytrace/bsdfs/lambertian.h"
 #include "raytrace/bsdfs/oren_nayar.h"
 #include "raytrace/bsdfs/stretched_ggx.h"
 #include "raytrace/materials/openpbr.h"
 #include "raytrace/math/kernel.h"
+#include "raytrace/math/rgba.h"
 
 namespace raytrace {
 
@@ -57,53 +59,7 @@ class Kernel<OpenPbr> {
     Rgb<T> usual_f() const { return albedo(); }
     Rgb<T> transmittance(const T& distance) const { return exp_of(extinction, -distance); }
 
-    struct Value {
-      Rgb<T> f;
-      T pdf;
-    };
-    /// evaluate() and pdf() together.
-    Value value(const Vec3<T>& wo, const Vec3<T>& wi) const { return value(lobes(wo), wi); }
-    Rgb<T> evaluate(const Vec3<T>& wo, const Vec3<T>& wi, const Vec3<T>&) const { return value(wo, wi).f; }
-    T pdf(const Vec3<T>& wo, const Vec3<T>& wi) const { return value(wo, wi).pdf; }
-
-    BsdfSample<T> sample(const Vec3<T>& wo, const T& u, const T& u1, const T& u2) const {
-      const Lobes of = lobes(wo);
-      const Vec3<T>& from = of.from;
-      T before = of.fuzz_choice;
-      const auto next = [&](const T& choice) {
-        const Mask<T> taken = (u >= before) & (u < before + choice);
-        before = before + choice;
-        return taken;
-      };
-      const Mask<T> on_fuzz = u < before, coated = next(of.coat_choice);
-      before = before + of.specular_choice;
-      const Mask<T> through = next(of.through_choice), is_diffuse = u >= before;
-
-      const auto facets =
-          StretchedGgx<T>::of(select(coated, coat_roughness, roughness), select(coated, coat_anisotropy, anisotropy));
-      const Mask<T> rough = facets.is_rough();
-      const Vec3<T> facet = select(rough, facets.sample_facet(from, u1, u2), local_normal<T>());
-      const T cosine = min(max(dot(from, facet), T(1e-6F)), T(1));
-      const Vec3<T> mirrored = facet * (T(2) * cosine) - from;
-      const SineAndCosine<T> turn = sin_cos_of_turns(u2);
-      const T sine = sqrt(u1);
-      Vec3<T> wi =
-          normalize(select(is_diffuse, Vec3<T>{sine * turn.cosine, sine * turn.sine, sqrt(T(1) - u1)}, mirrored));
-      if (any(on_fuzz)) wi = select(on_fuzz, of.fibers.sample(u1, u2), wi);
-      const Value above = value(of, wi);
-      // Of finitely many directions: as if of their own.
-      const Mask<T> specular = !(rough | is_diffuse | on_fuzz);
-      const Rgb<T> mirrored_part =
-          select(coated, white() * (of.coat_albedo * of.under_fuzz), under_coat(of, wi.z) * at_facet(of, from.z));
-      BsdfSample<T> result{wi, select(specular, mirrored_part * (T(1) / from.z), above.f),
-                           select(specular, select(coated, of.coat_choice, of.specular_choice), above.pdf), T(1),
-                           specular};
-      if (any(through)) result = select(through, refracted(of, facets, facet, cosine), result);
-      return result;
-    }
-
-   private:
-    /// For a direction wo.
+    /// What evaluate(), pdf() and sample() have in common for one wo.
     struct Lobes {
       Vec3<T> from;
       Fuzz<T> fibers;
@@ -115,56 +71,39 @@ class Kernel<OpenPbr> {
       T fuzz_choice, coat_choice, specular_choice,
           through_choice;  ///< how often sample() takes them; the rest is diffuse
     };
-
-    static Rgb<T> white() { return Rgb<T>(T(1), T(1), T(1)); }
-    static Rgb<T> black() { return Rgb<T>(T(0), T(0), T(0)); }
-    static T square(const T& x) { return x * x; }
-    static T mean(const Rgb<T>& c) { return (c.red + c.green + c.blue) * T(1.0F / 3); }
-    static T mix(const T& a, const T& b, const T& share) { return a + (b - a) * share; }
-    static Rgb<T> mix(const Rgb<T>& a, const Rgb<T>& b, const T& share) {
-      return {mix(a.red, b.red, share), mix(a.green, b.green, share), mix(a.blue, b.blue, share)};
-    }
-    static Rgb<T> exp_of(const Rgb<T>& a, const T& factor) {
-      return {exp(a.red * factor), exp(a.green * factor), exp(a.blue * factor)};
-    }
-    static T normal_reflectance(const T& eta) { return square((eta - T(1)) / (eta + T(1))); }
-    auto ggx() const { return StretchedGgx<T>::of(roughness, anisotropy); }
-    auto coat_ggx() const { return StretchedGgx<T>::of(coat_roughness, coat_anisotropy); }
-    auto is_thin() const { return thin > T(0); }
-
     [[gnu::noinline]] Lobes lobes(const Vec3<T>& wo) const {
-      Lobes of{};
-      of.from = above_surface(wo, local_normal<T>());
-      const T cosine = min(of.from.z, T(1)), one(1);
+      Lobes layers{};
+      layers.from = above_surface(wo, local_normal<T>());
+      const T cosine = min(layers.from.z, T(1)), one(1);
       const Mask<T> rough = ggx().is_rough();
-      of.base_reflection = fresnel_reflection(cosine, eta).reflectance;
-      of.dielectric_share = of.white_share = one;
+      layers.base_reflection = fresnel_reflection(cosine, eta).reflectance;
+      layers.dielectric_share = layers.white_share = one;
       if (any(rough)) {
         const T even = ggx().even_roughness();
-        of.white_share = select(rough, ggx_reflected_share(cosine, even), one);
-        of.dielectric_share = select(rough, ggx_dielectric_share(cosine, even, eta), one);
-        of.base_reflection =
-            select(rough, ggx_dielectric_share<true>(cosine, even, eta) / of.dielectric_share, of.base_reflection);
+        layers.white_share = select(rough, ggx_reflected_share(cosine, even), one);
+        layers.dielectric_share = select(rough, ggx_dielectric_share(cosine, even, eta), one);
+        layers.base_reflection = select(rough, ggx_dielectric_share<true>(cosine, even, eta) / layers.dielectric_share,
+                                        layers.base_reflection);
       }
-      of.under_fuzz = one;
+      layers.under_fuzz = one;
       if (any(fuzz > T(0))) {
-        of.fibers = Fuzz<T>(of.from, fuzz_roughness);
-        of.under_fuzz = one - fuzz * of.fibers.albedo;
+        layers.fibers = Fuzz<T>(layers.from, fuzz_roughness);
+        layers.under_fuzz = one - fuzz * layers.fibers.albedo;
       }
-      of.coat_albedo = T(0);
-      of.coat_share = one;
-      of.darkening = white();
+      layers.coat_albedo = T(0);
+      layers.coat_share = one;
+      layers.darkening = white();
       if (any(coat > T(0))) {
         const Mask<T> rough_coat = coat_ggx().is_rough();
         const T smooth = fresnel_reflection(cosine, coat_eta).reflectance;
-        of.coat_albedo = smooth;
+        layers.coat_albedo = smooth;
         if (any(rough_coat)) {
           const T even = coat_ggx().even_roughness();
-          of.coat_share = select(rough_coat, ggx_dielectric_share(cosine, even, coat_eta), one);
-          const T reflected = ggx_dielectric_share<true>(cosine, even, coat_eta) / of.coat_share;
-          of.coat_albedo = select(rough_coat, reflected, smooth);
+          layers.coat_share = select(rough_coat, ggx_dielectric_share(cosine, even, coat_eta), one);
+          const T reflected = ggx_dielectric_share<true>(cosine, even, coat_eta) / layers.coat_share;
+          layers.coat_albedo = select(rough_coat, reflected, smooth);
         }
-        of.coat_albedo = of.coat_albedo * coat;
+        layers.coat_albedo = layers.coat_albedo * coat;
         // What comes from below is reflected by the coat's inside again and again.
         const T straight = normal_reflectance(eta);
         const Rgb<T> below = mix(mix(mix(base * base_weight, tint, transmission), white(), straight),
@@ -174,13 +113,13 @@ class Kernel<OpenPbr> {
         const auto darkened = [&](const T& b) {
           return one - coat * coat_darkening * (one - (one - again) / max(one - b * again, T(1e-3F)));
         };
-        of.darkening = {darkened(below.red), darkened(below.green), darkened(below.blue)};
+        layers.darkening = {darkened(below.red), darkened(below.green), darkened(below.blue)};
       }
       // As much as comes of each.
-      const Rgb<T> under = under_coat(of, of.from.z);
-      const T of_base = mean(under) * (one - of.base_reflection) * (one - metalness);
-      const T specular = mean(under * at_facet_of(of, cosine, of.base_reflection));
-      const T coated = of.coat_albedo * of.under_fuzz, fibers = (one - of.under_fuzz) * mean(fuzz_color);
+      const Rgb<T> under = under_coat(layers, layers.from.z);
+      const T of_base = mean(under) * (one - layers.base_reflection) * (one - metalness);
+      const T specular = mean(under * at_facet_of(layers, cosine, layers.base_reflection));
+      const T coated = layers.coat_albedo * layers.under_fuzz, fibers = (one - layers.under_fuzz) * mean(fuzz_color);
       // The table is coarse where total reflection sets in: something may come through where it says nothing does.
       const T least_through = select(rough, mean(under) * (one - metalness) * T(0.2F), T(0));
       const T through = max(of_base, least_through) * transmission * mean(tint);
@@ -188,79 +127,132 @@ class Kernel<OpenPbr> {
       const T all = fibers + coated + specular + through + diffuse;
       const Mask<T> some = all > T(0);
       const T scale = one / select(some, all, one);
-      of.fuzz_choice = fibers * scale;
-      of.coat_choice = coated * scale;
-      of.specular_choice = specular * scale;
-      of.through_choice = through * scale;
-      return of;
+      layers.fuzz_choice = fibers * scale;
+      layers.coat_choice = coated * scale;
+      layers.specular_choice = specular * scale;
+      layers.through_choice = through * scale;
+      return layers;
     }
 
+    struct Value {
+      Rgb<T> f;
+      T pdf;  ///< at which sample() draws wi
+    };
+    /// Of what is not smooth; wi: above the surface, else it is 0.
+    [[gnu::noinline]] Value value(const Lobes& layers, const Vec3<T>& wi) const {
+      const Mask<T> is_above = wi.z > T(1e-6F);
+      const T even = T(1) - layers.fuzz_choice - layers.coat_choice - layers.specular_choice - layers.through_choice;
+      const T diffuse = (T(1) - metalness) * (T(1) - transmission) * (T(1) - layers.base_reflection) * base_weight;
+      Value result{OrenNayar<T>{base, diffuse_roughness}.f(layers.from, wi) * diffuse,
+                   max(even, T(0)) * wi.z * T(std::numbers::inv_pi_v<float>)};
+      if (const Mask<T> rough = ggx().is_rough(); any(rough)) {
+        const auto reflection = ggx().reflection(layers.from, wi);
+        result.f += select(rough, at_facet(layers, reflection.cosine) * reflection.f, black());
+        result.pdf = result.pdf + select(rough, layers.specular_choice * reflection.pdf, T(0));
+      }
+      result.f = result.f * under_coat(layers, wi.z);
+      if (const Mask<T> rough = coat_ggx().is_rough() & (coat > T(0)); any(rough)) {
+        const auto reflection = coat_ggx().reflection(layers.from, wi);
+        const T reflectance = fresnel_reflection(reflection.cosine, coat_eta).reflectance / layers.coat_share;
+        result.f += select(rough, white() * (coat * reflectance * reflection.f * layers.under_fuzz), black());
+        result.pdf = result.pdf + select(rough, layers.coat_choice * reflection.pdf, T(0));
+      }
+      if (const Mask<T> fuzzy = fuzz > T(0); any(fuzzy)) {
+        const T density = layers.fibers.density(wi);
+        result.f += select(fuzzy, fuzz_color * (fuzz * layers.fibers.albedo * density), black());
+        result.pdf = result.pdf + select(fuzzy, layers.fuzz_choice * density * wi.z, T(0));
+      }
+      return {select(is_above, result.f, black()), select(is_above, result.pdf, T(0))};
+    }
+
+    Rgb<T> evaluate(const Vec3<T>& wo, const Vec3<T>& wi, const Vec3<T>&) const { return value(lobes(wo), wi).f; }
+    T pdf(const Vec3<T>& wo, const Vec3<T>& wi) const { return value(lobes(wo), wi).pdf; }
+    BsdfSample<T> sample(const Vec3<T>& wo, const T& u, const T& u1, const T& u2) const {
+      return sample(lobes(wo), u, u1, u2);
+    }
+
+    BsdfSample<T> sample(const Lobes& layers, const T& u, const T& u1, const T& u2) const {
+      const Vec3<T>& from = layers.from;
+      T before = layers.fuzz_choice;
+      const auto next = [&](const T& choice) {
+        const Mask<T> taken = (u >= before) & (u < before + choice);
+        before = before + choice;
+        return taken;
+      };
+      const Mask<T> on_fuzz = u < before, coated = next(layers.coat_choice);
+      before = before + layers.specular_choice;
+      const Mask<T> through = next(layers.through_choice), is_diffuse = u >= before;
+
+      const auto facets =
+          StretchedGgx<T>::of(select(coated, coat_roughness, roughness), select(coated, coat_anisotropy, anisotropy));
+      const Mask<T> rough = facets.is_rough();
+      const Vec3<T> facet = select(rough, facets.sample_facet(from, u1, u2), local_normal<T>());
+      const T cosine = min(max(dot(from, facet), T(1e-6F)), T(1));
+      const Vec3<T> mirrored = facet * (T(2) * cosine) - from;
+      const Vec3<T> diffuse = Lambertian<T>{base}.sample(from, local_normal<T>(), u1, u2);
+      Vec3<T> wi = normalize(select(is_diffuse, diffuse, mirrored));
+      if (any(on_fuzz)) wi = select(on_fuzz, layers.fibers.sample(u1, u2), wi);
+      const Value above = value(layers, wi);
+      // Of finitely many directions: as if of their own.
+      const Mask<T> specular = !(rough | is_diffuse | on_fuzz);
+      const Rgb<T> mirrored_part = select(coated, white() * (layers.coat_albedo * layers.under_fuzz),
+                                          under_coat(layers, wi.z) * at_facet(layers, from.z));
+      BsdfSample<T> result{wi, select(specular, mirrored_part * (T(1) / from.z), above.f),
+                           select(specular, select(coated, layers.coat_choice, layers.specular_choice), above.pdf),
+                           T(1), specular};
+      if (any(through)) result = select(through, refracted(layers, facets, facet, cosine), result);
+      return result;
+    }
+
+   private:
+    static Rgb<T> white() { return Rgb<T>(T(1), T(1), T(1)); }
+    static Rgb<T> black() { return Rgb<T>(T(0), T(0), T(0)); }
+    static T square(const T& x) { return x * x; }
+    static T mean(const Rgb<T>& c) { return (c.red + c.green + c.blue) * T(1.0F / 3); }
+    static Rgb<T> exp_of(const Rgb<T>& a, const T& factor) {
+      return {exp(a.red * factor), exp(a.green * factor), exp(a.blue * factor)};
+    }
+    static T normal_reflectance(const T& eta) { return square((eta - T(1)) / (eta + T(1))); }
+    auto ggx() const { return StretchedGgx<T>::of(roughness, anisotropy); }
+    auto coat_ggx() const { return StretchedGgx<T>::of(coat_roughness, coat_anisotropy); }
+    auto is_thin() const { return thin > T(0); }
+
     /// What is left of light between what is below coat and fuzz, and a direction of that cosine.
-    Rgb<T> under_coat(const Lobes& of, const T& cosine) const {
+    Rgb<T> under_coat(const Lobes& layers, const T& cosine) const {
       const auto depth = [&](const T& c) {
         return T(1) / sqrt(max(T(1) - (T(1) - min(c * c, T(1))) / square(coat_eta), T(1e-3F)));
       };
-      const Rgb<T> left = exp_of(coat_extinction, -(depth(of.from.z) + depth(cosine)));
+      const Rgb<T> left = exp_of(coat_extinction, -(depth(layers.from.z) + depth(cosine)));
       const auto channel = [&](const T& absorbed, const T& darkening) {
-        return (T(1) - coat + (coat - of.coat_albedo) * absorbed) * darkening * of.under_fuzz;
+        return (T(1) - coat + (coat - layers.coat_albedo) * absorbed) * darkening * layers.under_fuzz;
       };
-      return {channel(left.red, of.darkening.red), channel(left.green, of.darkening.green),
-              channel(left.blue, of.darkening.blue)};
+      return {channel(left.red, layers.darkening.red), channel(left.green, layers.darkening.green),
+              channel(left.blue, layers.darkening.blue)};
     }
 
     /// What a facet of the base reflects at an angle of that cosine, over the shares of facets.
-    Rgb<T> at_facet(const Lobes& of, const T& cosine) const {
-      return at_facet_of(of, cosine, fresnel_reflection(cosine, eta).reflectance / of.dielectric_share);
+    Rgb<T> at_facet(const Lobes& layers, const T& cosine) const {
+      return at_facet_of(layers, cosine, fresnel_reflection(cosine, eta).reflectance / layers.dielectric_share);
     }
     /// reflected: by the dielectric, likewise.
-    Rgb<T> at_facet_of(const Lobes& of, const T& cosine, const T& reflected) const {
-      // F82-tint, as of conductors.
+    Rgb<T> at_facet_of(const Lobes& layers, const T& cosine, const T& reflected) const {
       const T rest = T(1) - min(cosine, T(1)), fifth = square(square(rest)) * rest;
-      constexpr float c82 = 1.0F / 7, rest82 = 1 - c82, fifth82 = rest82 * rest82 * rest82 * rest82 * rest82;
-      const T dip = cosine * fifth * rest * T(1 / (c82 * fifth82 * rest82));
-      const T lost = (T(1) - of.white_share) / of.white_share;
-      const T pane = pane_reflectance(min(reflected * of.dielectric_share, T(1))) / of.white_share;
+      const T lost = (T(1) - layers.white_share) / layers.white_share;
+      const T pane = pane_reflectance(min(reflected * layers.dielectric_share, T(1))) / layers.white_share;
       const T dielectric = mix(reflected, pane, select(is_thin(), transmission, T(0)));
       const auto channel = [&](const T& normal, const T& color) {
-        const T rise = T(1) - normal, there = normal + rise * T(fifth82);
-        const T of_metal = (normal + rise * fifth - there * (T(1) - color) * dip) * (T(1) + normal * lost);
+        const T reflectance = normal + (T(1) - normal) * fifth - f82_dip(normal, color) * (cosine * fifth * rest);
+        const T of_metal = reflectance * (T(1) + normal * lost);
         return mix(dielectric * color, of_metal * specular_weight, metalness);
       };
       return {channel(metal.red, specular_color.red), channel(metal.green, specular_color.green),
               channel(metal.blue, specular_color.blue)};
     }
 
-    /// Of what is not smooth; wi: above the surface, else it is 0.
-    [[gnu::noinline]] Value value(const Lobes& of, const Vec3<T>& wi) const {
-      const Mask<T> is_above = wi.z > T(1e-6F);
-      const T even = T(1) - of.fuzz_choice - of.coat_choice - of.specular_choice - of.through_choice;
-      const T diffuse = (T(1) - metalness) * (T(1) - transmission) * (T(1) - of.base_reflection) * base_weight;
-      Value result{OrenNayar<T>{base, diffuse_roughness}.f(of.from, wi) * diffuse,
-                   max(even, T(0)) * wi.z * T(std::numbers::inv_pi_v<float>)};
-      if (const Mask<T> rough = ggx().is_rough(); any(rough)) {
-        const auto reflection = ggx().reflection(of.from, wi);
-        result.f += select(rough, at_facet(of, reflection.cosine) * reflection.f, black());
-        result.pdf = result.pdf + select(rough, of.specular_choice * reflection.pdf, T(0));
-      }
-      result.f = result.f * under_coat(of, wi.z);
-      if (const Mask<T> rough = coat_ggx().is_rough() & (coat > T(0)); any(rough)) {
-        const auto reflection = coat_ggx().reflection(of.from, wi);
-        const T reflectance = fresnel_reflection(reflection.cosine, coat_eta).reflectance / of.coat_share;
-        result.f += select(rough, white() * (coat * reflectance * reflection.f * of.under_fuzz), black());
-        result.pdf = result.pdf + select(rough, of.coat_choice * reflection.pdf, T(0));
-      }
-      if (const Mask<T> fuzzy = fuzz > T(0); any(fuzzy)) {
-        const T density = of.fibers.density(wi);
-        result.f += select(fuzzy, fuzz_color * (fuzz * of.fibers.albedo * density), black());
-        result.pdf = result.pdf + select(fuzzy, of.fuzz_choice * density * wi.z, T(0));
-      }
-      return {select(is_above, result.f, black()), select(is_above, result.pdf, T(0))};
-    }
-
     /// A sample that comes through a facet, as through a dielectric's.
-    [[gnu::noinline]] BsdfSample<T> refracted(const Lobes& of, const StretchedGgx<T>& ggx, const Vec3<T>& facet,
+    [[gnu::noinline]] BsdfSample<T> refracted(const Lobes& layers, const StretchedGgx<T>& ggx, const Vec3<T>& facet,
                                               const T& cosine) const {
-      const Vec3<T>& from = of.from;
+      const Vec3<T>& from = layers.from;
       const auto [reflectance, below_cosine] = fresnel_reflection(cosine, eta);
       const T reflected = select(is_thin(), pane_reflectance(reflectance), reflectance);
       Vec3<T> flipped = facet * (T(2) * cosine) - from;
@@ -273,17 +265,17 @@ class Kernel<OpenPbr> {
       const T spread = select(is_thin(), T(0.25F) / cosine, square(eta) * below_cosine / square(across));
       const T facets = ggx.density(facet) * cosine / (from.z * (T(1) + lambda_o));
       const Mask<T> rough = ggx.is_rough(), comes = (reflected < T(1)) & (-wi.z > T(1e-6F));
-      const T share = select(is_thin(), of.white_share, of.dielectric_share);
+      const T share = select(is_thin(), layers.white_share, layers.dielectric_share);
       const T density = select(rough, facets * spread, T(1));
       const T shape = select(rough, (T(1) + lambda_o) / ((T(1) + lambda_o + lambda_i) * share), T(1));
       const T part = (T(1) - metalness) * transmission * (T(1) - reflected) * shape * density / (cosine_i * eta2);
-      return {wi, select(comes, under_coat(of, cosine_i) * tint * part, black()),
-              select(comes, of.through_choice * density, T(0)), eta2, !rough};
+      return {wi, select(comes, under_coat(layers, cosine_i) * tint * part, black()),
+              select(comes, layers.through_choice * density, T(0)), eta2, !rough};
     }
   };
 
   template <class T, class Value>
-  static Bsdf<T> bsdf_of(const OpenPbr::Values<Value>& of) {
+  static Bsdf<T> bsdf_of(const OpenPbr::Values<Value>& values) {
     using std::log;
     using std::max;
     using std::min;
@@ -301,56 +293,57 @@ class Kernel<OpenPbr> {
     const auto least = [](const Value& value) { return max(value, Value(1e-30F)); };
     const Value one(1), none(0);
     Bsdf<T> bsdf;
-    bsdf.base = Rgb<T>(of.base_color);
-    bsdf.metal = Rgb<T>(of.base_color * of.base_weight);
-    bsdf.specular_color = Rgb<T>(of.specular_color);
-    bsdf.base_weight = number(of.base_weight);
-    bsdf.diffuse_roughness = number(of.base_diffuse_roughness);
-    bsdf.metalness = number(of.base_metalness);
-    bsdf.specular_weight = number(of.specular_weight);
-    bsdf.transmission = number(of.transmission_weight);
-    bsdf.thin = number(of.thin);
+    bsdf.base = Rgb<T>(values.base_color);
+    bsdf.metal = Rgb<T>(values.base_color * values.base_weight);
+    bsdf.specular_color = Rgb<T>(values.specular_color);
+    bsdf.base_weight = number(values.base_weight);
+    bsdf.diffuse_roughness = number(values.base_diffuse_roughness);
+    bsdf.metalness = number(values.base_metalness);
+    bsdf.specular_weight = number(values.specular_weight);
+    bsdf.transmission = number(values.transmission_weight);
+    bsdf.thin = number(values.thin);
     // A depth of 0: the color is the surface's.
-    const auto is_deep = of.transmission_depth * of.transmission_weight * (one - of.thin) > none;
-    bsdf.tint = each(of.transmission_color, [&](const Value& c) { return pick(of.transmission_depth > none, one, c); });
-    bsdf.extinction = each(of.transmission_color, [&](const Value& c) {
-      return pick(is_deep, -log(least(c)) / least(of.transmission_depth), none);
+    const auto is_deep = values.transmission_depth * values.transmission_weight * (one - values.thin) > none;
+    bsdf.tint =
+        each(values.transmission_color, [&](const Value& c) { return pick(values.transmission_depth > none, one, c); });
+    bsdf.extinction = each(values.transmission_color, [&](const Value& c) {
+      return pick(is_deep, -log(least(c)) / least(values.transmission_depth), none);
     });
     // The base below a coat: as rough as light makes it that comes through the coat twice, and of an index over the
     // coat's; that of the denser over the other's, since no light meets it that would be reflected totally.
-    const Value &r = of.specular_roughness, &rc = of.coat_roughness, &coat = of.coat_weight;
+    const Value &r = values.specular_roughness, &rc = values.coat_roughness, &coat = values.coat_weight;
     const Value rougher = sqrt(sqrt(min(r * r * r * r + Value(2) * rc * rc * rc * rc, one)));
     bsdf.roughness = number(r + (rougher - r) * coat);
-    const Value ratio = of.specular_ior / of.coat_ior, under = pick(ratio < one, one / ratio, ratio);
-    const Value index = of.specular_ior + (under - of.specular_ior) * coat;
+    const Value ratio = values.specular_ior / values.coat_ior, under = pick(ratio < one, one / ratio, ratio);
+    const Value index = values.specular_ior + (under - values.specular_ior) * coat;
     const Value root = (index - one) / (index + one);
-    const Value size = sqrt(min(of.specular_weight * root * root, Value(0.9F)));
+    const Value size = sqrt(min(values.specular_weight * root * root, Value(0.9F)));
     const Value signed_size = pick(root < none, -size, size);
     bsdf.eta = number((one + signed_size) / (one - signed_size));
     bsdf.coat = number(coat);
-    bsdf.anisotropy = number(of.specular_roughness_anisotropy);
+    bsdf.anisotropy = number(values.specular_roughness_anisotropy);
     bsdf.coat_roughness = number(rc);
-    bsdf.coat_anisotropy = number(of.coat_roughness_anisotropy);
-    bsdf.coat_eta = number(of.coat_ior);
-    bsdf.coat_darkening = number(of.coat_darkening);
-    bsdf.fuzz = number(of.fuzz_weight);
-    bsdf.fuzz_roughness = number(of.fuzz_roughness);
-    bsdf.fuzz_color = Rgb<T>(of.fuzz_color);
+    bsdf.coat_anisotropy = number(values.coat_roughness_anisotropy);
+    bsdf.coat_eta = number(values.coat_ior);
+    bsdf.coat_darkening = number(values.coat_darkening);
+    bsdf.fuzz = number(values.fuzz_weight);
+    bsdf.fuzz_roughness = number(values.fuzz_roughness);
+    bsdf.fuzz_color = Rgb<T>(values.fuzz_color);
     // The mean reflectance of the coat from outside: d'Eon, "A Hitchhiker's Guide to Multiple Scattering", 2021.
     const auto mean_reflectance = [&](const Value& eta) {
       return log((Value(10893.0F) * eta - Value(1438.2F)) / (Value(-774.4F) * eta * eta + Value(10212.0F) * eta + one));
     };
-    const Value dense = pick(of.coat_ior < one, one / of.coat_ior, of.coat_ior);
+    const Value dense = pick(values.coat_ior < one, one / values.coat_ior, values.coat_ior);
     const Value at_most = min(dense, Value(3.0F)), outside = mean_reflectance(at_most);
     const Value inside = one - (one - outside) / (at_most * at_most);
-    bsdf.coat_inside = number(max(pick(of.coat_ior < one, outside, inside), none));
-    bsdf.coat_extinction = each(of.coat_color, [&](const Value& c) { return Value(-0.5F) * log(least(c)); });
+    bsdf.coat_inside = number(max(pick(values.coat_ior < one, outside, inside), none));
+    bsdf.coat_extinction = each(values.coat_color, [&](const Value& c) { return Value(-0.5F) * log(least(c)); });
     const auto shining = [&](const Value& c, const Value& coat_color) {
-      return of.emission_luminance * c * (one - coat * (one - sqrt(coat_color)));
+      return values.emission_luminance * c * (one - coat * (one - sqrt(coat_color)));
     };
-    bsdf.radiance = Rgb<T>(Rgb<Value>(shining(of.emission_color.red, of.coat_color.red),
-                                      shining(of.emission_color.green, of.coat_color.green),
-                                      shining(of.emission_color.blue, of.coat_color.blue)));
+    bsdf.radiance = Rgb<T>(Rgb<Value>(shining(values.emission_color.red, values.coat_color.red),
+                                      shining(values.emission_color.green, values.coat_color.green),
+                                      shining(values.emission_color.blue, values.coat_color.blue)));
     return bsdf;
   }
   static Bsdf<float> bsdf(const OpenPbr::Parameters& parameters) {

@@ -142,15 +142,19 @@ class MaterialTableOf final : public MaterialTable {
                      const Vec3<FloatN>& wi, const FloatN& u, const FloatN& u1, const FloatN& u2,
                      const TexturePoint<FloatN>* point) const override {
     const auto bsdfs = gathered(materials, front, point);
-    Scattering result{bsdfs.sample(wo, u, u1, u2), {Rgb<FloatN>(Rgb<float>(0, 0, 0)), FloatN(0)}};
-    if (none(lit)) return result;
-    if constexpr (requires { bsdfs.value(wo, wi); }) {
-      const auto value = bsdfs.value(wo, wi);
+    const Rgb<FloatN> black(Rgb<float>(0, 0, 0));
+    if constexpr (requires { bsdfs.lobes(wo); }) {
+      const auto lobes = bsdfs.lobes(wo);
+      Scattering result{bsdfs.sample(lobes, u, u1, u2), {black, FloatN(0)}};
+      if (none(lit)) return result;
+      const auto value = bsdfs.value(lobes, wi);
       result.towards = {value.f, value.pdf};
+      return result;
     } else {
-      result.towards = {bsdfs.evaluate(wo, wi, local_normal<FloatN>()), bsdfs.pdf(wo, wi)};
+      Scattering result{bsdfs.sample(wo, u, u1, u2), {black, FloatN(0)}};
+      if (any(lit)) result.towards = {bsdfs.evaluate(wo, wi, local_normal<FloatN>()), bsdfs.pdf(wo, wi)};
+      return result;
     }
-    return result;
   }
 
   Rgb<FloatN> transmittance(const LaneIndices& materials, const FloatN& distance,

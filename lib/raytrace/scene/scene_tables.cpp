@@ -274,14 +274,10 @@ bool SceneTables::has_textures(const Hits& hits) const {
   return any(hits.hit & float_mask<FloatN>(gather(textured_.data(), material(hits)) != IntN(0)));
 }
 
-MaskN SceneTables::shines(const Hits& hits, const MaskN& front) const {
-  return hits.hit & shines(material(hits), front);
-}
-
 Rgb<FloatN> SceneTables::emitted(const Hits& hits, const SurfaceInteraction<FloatN>& surface,
                                  const TexturePoint<FloatN>* point) const {
   const Rgb<FloatN> black(Rgb<float>(0, 0, 0));
-  const MaskN shining = shines(hits, surface.front);
+  const MaskN shining = hits.hit & shines(material(hits), surface.front);
   if (none(shining)) return black;
   const Rgb<FloatN> radiance = by_material(
       hits, [&](const MaterialTable& table, const LaneIndices& materials) { return table.emitted(materials, point); });

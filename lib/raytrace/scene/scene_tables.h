@@ -126,10 +126,8 @@ class SceneTables {
   template <class Point>
   Rgb<FloatN> emitted(const EmitterTable::Sample& samples, const MaskN& lanes,
                       const SurfaceInteraction<FloatN>& surface, const Point& point) const;
-  /// Whether surfaces shine by themselves; those hits that do on the side that `front` says; and the radiance that
-  /// leaves them.
+  /// Whether surfaces shine by themselves, and the radiance that leaves them.
   bool has_emission() const { return has_emission_; }
-  MaskN shines(const Hits& hits, const MaskN& front) const;
   Rgb<FloatN> emitted(const Hits& hits, const SurfaceInteraction<FloatN>& surface,
                       const TexturePoint<FloatN>* point) const;
 

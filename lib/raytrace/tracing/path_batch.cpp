@@ -134,9 +134,9 @@ void PathBatch::extend(PathPacket& path, const MaskN& lanes, int depth, RayCount
   }
   const float environment_share = environment_share_of(tables);
   if (tables.has_emission()) {
-    if (const MaskN shines = tables.shines(hits, surface.front); any(shines)) {
-      Rgb<FloatN> emitted = tables.emitted(hits, surface, point);
-      const MaskN drawn = shines & (path.pdf < infinity<FloatN>()) & (largest(emitted) > FloatN(0));
+    Rgb<FloatN> emitted = tables.emitted(hits, surface, point);
+    if (const MaskN shines = lanes & (largest(emitted) > FloatN(0)); any(shines)) {
+      const MaskN drawn = shines & (path.pdf < infinity<FloatN>());
       if (!tables.emitters().empty() && any(drawn)) {
         const FloatN other =
             tables.emitters().pdf(path.from, path.from_normal, hits, drawn, surface) * FloatN(1 - environment_share);
