@@ -1,7 +1,10 @@
 // The IES files that a scene's lights name.
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "raytrace/description/scene_description.h"
 #include "support/catch.h"
@@ -54,6 +57,29 @@ TEST_CASE("an IES file that is broken is an error where the light names it") {
   CHECK(error.location.line == 5);
   CHECK(error.location.column == 44);
   CHECK(error.message.find("line 5, column 3: an intensity is negative") != std::string::npos);
+}
+
+TEST_CASE(
+    "what is wrong with files is reported beside all else, even where a material has a texture that was refused") {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "scene.xml";
+  write_text(file, R"(<raytracer>
+  <viewplane> <hres>4</hres> <vres>3</vres> </viewplane>
+  <camera> <eye x="0" y="0" z="9"/> <lookat x="0" y="0" z="0"/> <viewdistance>4</viewdistance> </camera>
+  <lights> <pointlights> <pointlight> <location x="1" y="2" z="3"/> <iesfile>no.ies</iesfile> </pointlight> </pointlights> </lights>
+  <textures> <images>
+    <image> <name>skin</name> <file>no.png</file> </image>
+    <image> <name>hair</name> <flie>no.png</flie> </image>
+  </images> </textures>
+  <materials> <mattes> <matte> <name>m</name> <ka>0</ka> <kd>1</kd> <cd texture="hair"/> </matte> </mattes> </materials>
+</raytracer>
+)");
+  Diagnostics diagnostics("scene.xml");
+  CHECK_FALSE(load_scene(file.string(), diagnostics));
+  std::vector<std::uint32_t> lines;
+  for (const Diagnostic& error : diagnostics.kept()) lines.push_back(error.location.line);
+  std::sort(lines.begin(), lines.end());
+  CHECK(lines == std::vector<std::uint32_t>{4, 6, 7});
 }
 
 TEST_CASE("a scene's hash has the bytes of its IES files") {

@@ -139,7 +139,10 @@ bool load_images(SceneDescription& scene, Diagnostics& diagnostics, int threads,
       if (warns) image = {"missing", TexelImage::of_color(255, 0, 255), TexelImage::of_color(255, 0, 255)};
     }
   };
-  const auto uses = image_uses(scene);
+  // Where there are errors, materials may name textures that were refused.
+  const auto uses = diagnostics.has_errors()
+                        ? std::vector<std::array<bool, 2>>(std::get<TextureItems<Image>>(scene.textures).size())
+                        : image_uses(scene);
   std::size_t i = 0;
   for (TextureItem<Image>& item : std::get<TextureItems<Image>>(scene.textures)) {
     const std::string& file = item.parameters.file.path;

@@ -368,14 +368,14 @@ void report_unused(const Variables& variables, Diagnostics& diagnostics) {
     diagnostics.error({}, "no value of the scene uses $" + printable(name) + "; remove -D " + printable(name) + "=...");
 }
 
-std::optional<SceneDescription> read_scene(TextBuffer text, const std::string& file, Diagnostics& diagnostics,
-                                           int threads, const SceneSettings& settings) {
+/// What could be read of it, where there are errors.
+SceneDescription read_scene(TextBuffer text, const std::string& file, Diagnostics& diagnostics, int threads,
+                            const SceneSettings& settings) {
   const Variables variables(settings);
   SceneReader reader(variables, diagnostics, threads);
   reader.read(std::move(text), file);
   // Where there are errors, not all that stands in the scene has been read.
   if (!diagnostics.has_errors()) report_unused(variables, diagnostics);
-  if (diagnostics.has_errors()) return std::nullopt;
   return reader.take();
 }
 
@@ -383,17 +383,20 @@ std::optional<SceneDescription> read_scene(TextBuffer text, const std::string& f
 
 std::optional<SceneDescription> parse_scene(std::string_view text, Diagnostics& diagnostics, int threads,
                                             const SceneSettings& settings) {
-  return read_scene(TextBuffer(text), {}, diagnostics, threads, settings);
+  SceneDescription scene = read_scene(TextBuffer(text), {}, diagnostics, threads, settings);
+  if (diagnostics.has_errors()) return std::nullopt;
+  return scene;
 }
 
 std::optional<SceneDescription> load_scene(const std::string& file, Diagnostics& diagnostics, int threads,
                                            const SceneSettings& settings) {
   std::optional<TextBuffer> text = read_text_file(file, threads, diagnostics);
   if (!text) return std::nullopt;
-  std::optional<SceneDescription> scene = read_scene(std::move(*text), file, diagnostics, threads, settings);
-  if (!scene) return std::nullopt;
-  scene->file = file;
-  if (!load_images(*scene, diagnostics, threads, settings.missing_texture)) return std::nullopt;
+  SceneDescription scene = read_scene(std::move(*text), file, diagnostics, threads, settings);
+  scene.file = file;
+  // Beside other errors, too, so that one run reports what is wrong with the files.
+  load_images(scene, diagnostics, threads, settings.missing_texture);
+  if (diagnostics.has_errors()) return std::nullopt;
   return scene;
 }
 
