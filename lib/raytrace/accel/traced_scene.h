@@ -19,6 +19,7 @@ class TracedScene final : public Scene {
   /// By the integrator, which sets it before anything is rendered.
   RadianceRange radiance_range() const override { return radiance_range_; }
   void set_radiance_range(const RadianceRange& range) { radiance_range_ = range; }
+  bool traces_light_paths() const override { return tables_.caustics() != nullptr; }
   float largest_albedo() const override { return tables_.largest_albedo(); }
   const char* isa() const override { return isa_name_; }
   SceneStatistics statistics() const override;

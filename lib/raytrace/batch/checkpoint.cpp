@@ -58,13 +58,17 @@ void read_checkpoint(const std::string& file, const PieceIdentity& identity, Fil
     throw InputError("cannot resume from " + file + ": it holds the crop " + text_of(got.film.extent.region) +
                      ", not " + text_of(film.region()));
   }
+  if (got.film.rendered() != film.settings().rendered()) {
+    throw InputError("cannot resume from " + file + ": it is of the tile " + text_of(got.film.rendered()) + ", not " +
+                     text_of(film.settings().rendered()));
+  }
   if (got.film.samples.first != film.settings().samples.first) {
     throw InputError("cannot resume from " + file + ": its samples begin at " + std::to_string(got.film.samples.first) +
                      ", not " + std::to_string(film.settings().samples.first));
   }
   if (std::none_of(reader.channels().begin(), reader.channels().end(), is_sum))
     throw InputError("cannot resume from " + file + ": it is a picture without the sums of its samples");
-  const std::vector<Channel> sums = sum_channels(got.film.aovs, reader.channels());
+  const std::vector<Channel> sums = sum_channels(got.film, reader.channels());
   std::vector<Channel> channels = color_channels(false);
   channels.insert(channels.end(), sums.begin(), sums.end());
   refuse_other_channels(reader, channels);

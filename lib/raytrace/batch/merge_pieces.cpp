@@ -36,14 +36,14 @@ Piece piece_of(const ExrReader& reader) {
   const std::vector<Channel>& all = reader.channels();
   piece.channels = color_channels(std::find(all.begin(), all.end(), Channel{"R", ChannelType::float32}) != all.end());
   for (Channel& channel : aov_channels(aovs.wanted)) piece.channels.push_back(std::move(channel));
-  if (std::any_of(all.begin(), all.end(), is_sum)) piece.sums = sum_channels(aovs, all);
+  if (std::any_of(all.begin(), all.end(), is_sum)) piece.sums = sum_channels(piece.identity.film, all);
   refuse_other_channels(reader, all_channels(piece));
   return piece;
 }
 
 PieceExtent extent_of(const Piece& piece) {
   const FilmSettings& film = piece.identity.film;
-  return {piece.file, film.extent.region, film.samples.first, std::uint64_t{film.samples.first} + film.samples.count,
+  return {piece.file, film.rendered(), film.samples.first, std::uint64_t{film.samples.first} + film.samples.count,
           piece.identity.tile};
 }
 
@@ -146,10 +146,11 @@ class Merger {
     if (!problems_.empty()) refuse(problems_);
   }
 
-  /// Whether its pixels have all the samples, so that they can be taken as they are.
+  /// Whether its pixels have all the samples, and light paths of all others, so that they can be taken as they are.
   bool is_finished(const Piece& piece) const {
-    const SampleRange& samples = piece.identity.film.samples;
-    return samples.first == 0 && samples.count == samples_ && !piece.identity.partial;
+    const FilmSettings& film = piece.identity.film;
+    return film.samples.first == 0 && film.samples.count == samples_ && !piece.identity.partial &&
+           film.rendered() == film.extent.region;
   }
 
   ImageMetadata metadata_of(const ExrReader& reader) const {
@@ -169,6 +170,7 @@ class Merger {
     const PieceIdentity& first = pieces_.front().identity;
     PieceIdentity identity = first;
     identity.film.extent.region = first.whole;
+    if (identity.film.light_paths_of) identity.film.light_paths_of = first.whole;
     identity.tile.reset();
     identity.film.samples.first = 0;
     identity.partial = report_.missing_parts;
@@ -191,7 +193,8 @@ class Merger {
     const Region& whole = first.whole;
     std::size_t most_sums = 0;
     for (const Piece& piece : pieces_) most_sums = std::max(most_sums, piece.sums.size());
-    const int rows = band_rows(whole.width(), channels_.size() + most_sums);
+    // Each light path reaches any row, and how many there are says what each counts.
+    const int rows = identity.film.light_paths_of ? whole.height() : band_rows(whole.width(), channels_.size() + most_sums);
     for (Region band = whole; band.y0 < whole.y1; band.y0 = band.y1) {
       heed_stop();
       band.y1 = std::min(band.y0 + rows, whole.y1);
@@ -253,6 +256,7 @@ class Merger {
   void add_up_sums(ImageBand& band) {
     FilmSettings settings = pieces_.front().identity.film;
     settings.extent.region = band.region;
+    if (settings.light_paths_of) settings.light_paths_of = band.region;
     Film film(settings);
     bool any = false;
     for (const Piece& piece : pieces_) {

@@ -32,6 +32,7 @@ constexpr const char* partial_name = "raytrace:partial";
 constexpr const char* least_samples_name = "raytrace:leastSamples";  // only where it is partial
 constexpr const char* most_samples_name = "raytrace:mostSamples";
 constexpr const char* transparent_name = "raytrace:transparent";  // only where it is
+constexpr const char* light_paths_name = "raytrace:lightPaths";   // only where there are any
 constexpr const char* frame_name = "raytrace:frame";              // only where one was asked for
 constexpr const char* variables_name = "raytrace:variables";      // only where there are any
 
@@ -99,7 +100,9 @@ void read_place(const ExrReader& piece, PieceIdentity& identity) {
   if (const auto error = crop_error(identity.whole, extent.full_width, extent.full_height))
     refuse(piece, whole_name, text_of(identity.whole) + ": " + *error);
   const Region own = region(piece, region_name);
-  if (own != extent.region)
+  const bool light_paths = flag(piece, light_paths_name, piece.attribute<int>(light_paths_name).value_or(0));
+  if (light_paths) identity.film.light_paths_of = own;
+  if ((light_paths ? identity.whole : own) != extent.region)
     throw InputError(piece.file() + " is damaged: its data window is " + text_of(extent.region) + ", its " +
                      region_name + " " + text_of(own));
   identity.tile = read_tile(piece);
@@ -184,7 +187,7 @@ std::vector<ImageAttribute> identity_attributes(const PieceIdentity& identity) {
       {centered_name, samples.centered ? 1 : 0},
       {unit_name, identity.film.unit_exponent},
       {whole_name, text_of(identity.whole)},
-      {region_name, text_of(identity.film.extent.region)}};
+      {region_name, text_of(identity.film.rendered())}};
   if (identity.tile) attributes.push_back({tile_name, text_of(*identity.tile)});
   const AovSettings& aovs = identity.film.aovs;
   if (!aovs.wanted.empty()) {
@@ -193,6 +196,7 @@ std::vector<ImageAttribute> identity_attributes(const PieceIdentity& identity) {
     for (const int unit : aovs.mean_units) units.push_back(std::to_string(unit));
     attributes.push_back({aov_units_name, joined(units, ",")});
   }
+  if (identity.film.light_paths_of) attributes.push_back({light_paths_name, 1});
   if (identity.film.transparent) attributes.push_back({transparent_name, 1});
   if (identity.partial) attributes.push_back({partial_name, 1});
   if (identity.frame) attributes.push_back({frame_name, *identity.frame});
@@ -277,6 +281,7 @@ std::optional<std::string> difference(const PieceIdentity& wanted, const PieceId
     const auto text = [](const FilmSettings& film) { return film.transparent ? "transparent" : "opaque"; };
     return other("the background", text(d), text(c)) + ": use --transparent for all of them, or none";
   }
+  if (c.light_paths_of.has_value() != d.light_paths_of.has_value()) return "its light paths: only one has any";
   if (c.aovs.wanted != d.aovs.wanted) {
     const auto text = [](const AovSettings& aovs) {
       return aovs.wanted.empty() ? "none" : joined(aov_names(aovs.wanted), ",");

@@ -75,7 +75,8 @@ class PictureRender {
     const int rows = rows_at_once(settings_.region, sizeof(PixelSum) + AovFilm::pixel_bytes(aovs));
     // What goes on later, or may end at any sample, needs the whole film; so does the number of channels that a piece's
     // AOVs need.
-    const bool whole_film = !job_.checkpoint.empty() || job_.time_limit || (job_.sample_offset && aovs.gather());
+    const bool whole_film = !job_.checkpoint.empty() || job_.time_limit || (job_.sample_offset && aovs.gather()) ||
+                            scene_->traces_light_paths();  // which reach any row
     in_bands_ = !whole_film && rows < settings_.region.height();
     const RenderOutcome outcome = in_bands_ ? render_in_bands(rows) : render_at_once();
     report_invalid_samples();
@@ -112,6 +113,7 @@ class PictureRender {
   /// What the film is to be, and what its files say of it.
   void begin_film() {
     settings_.threads = job_.threads;
+    settings_.whole = identity_.whole;
     settings_.seed = job_.seed;
     settings_.samples = sample_range(description_->viewplane, job_);
     settings_.aovs = job_.aovs;
@@ -136,7 +138,7 @@ class PictureRender {
   FilmContent film_content() const {
     const Region picture{0, 0, description_->viewplane.hres, description_->viewplane.vres};
     if (!job_.checkpoint.empty() || job_.time_limit || job_.sample_offset || job_.display_server ||
-        !job_.aovs.empty() || settings_.region != picture)
+        !job_.aovs.empty() || settings_.region != picture || scene_->traces_light_paths())
       return FilmContent::sums;
     const bool halves = std::all_of(job_.outputs.begin(), job_.outputs.end(), [&](const std::string& file) {
       return image_format(file, job_.image_file_settings()).halves();
@@ -299,7 +301,8 @@ class PictureRender {
     } else {
       its_metadata.render_seconds = result_.statistics.phases.render.seconds;
     }
-    const bool keeps_sums = film.content() == FilmContent::sums && (partial || job_.sample_offset);
+    const bool is_part = film.settings().rendered() != film.region();  // without what others' light paths bring
+    const bool keeps_sums = film.content() == FilmContent::sums && (partial || job_.sample_offset || is_part);
     OutputFiles outputs(job_, files, film.settings().extent, its_metadata,
                         keeps_sums ? sum_channels(film) : std::vector<Channel>(), observer_);
     if (!outputs.write(film)) return false;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "raytrace/cameras/fisheye_camera.h"
 #include "raytrace/cameras/pixel_frame.h"
@@ -36,6 +38,18 @@ class Kernel<FisheyeCamera> {
     const Vec3<F> forward = Vec3<F>(frame.forward) * cosine;
     return {Vec3<F>(frame.eye), normalize(forward + frame.at_pixel(Vec3<Number>(0, 0, 0), x, y) * scale), F(0),
             infinity<F>()};
+  }
+
+  std::optional<FilmPoint> project(const Vec3d& p) const {
+    const auto& [eye, forward, right, up] = frame_.in_double();
+    const Vec3d way = p - eye;
+    const double distance2 = dot(way, way), x = dot(way, right), y = dot(way, up), across = std::hypot(x, y);
+    const double turn = 2 * std::numbers::pi, radius = std::atan2(across, dot(way, forward)) / (turn * turns_per_pixel_);
+    if (!(distance2 > 0) || radius > radius_) return std::nullopt;
+    if (!(across > 0)) return FilmPoint{0, 0, eye, 1 / (distance2 * std::pow(turn * turns_per_pixel_, 2))};
+    // A ring of the picture, and the sphere's that it shows.
+    const double area = radius / (turn * turns_per_pixel_ * across / std::sqrt(distance2));
+    return FilmPoint{x / across * radius, y / across * radius, eye, area / distance2};
   }
 
  private:

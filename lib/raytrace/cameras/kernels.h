@@ -11,6 +11,9 @@
 //   MaskN has_ray(const FloatN& x, const FloatN& y) const;
 //                              if the picture has points without a ray, which are black; generate() gives any there
 //   Vec3f origin() const;      if all rays start there
+//   std::optional<FilmPoint> project(const Vec3d& p) const;   where the picture shows p (cameras/pixel_frame.h); none:
+//                              nowhere. With a lens (p, u1, u2, lane): from the point of it that generate() has for
+//                              these in that lane
 #pragma once
 
 #include "raytrace/cameras/fisheye_camera_kernel.h"

@@ -21,6 +21,14 @@ class Kernel<OrthographicCamera> {
     return {frame.at_pixel(frame.eye, x, y), Vec3<F>(frame.forward), F(0), infinity<F>()};
   }
 
+  std::optional<FilmPoint> project(const Vec3d& p) const {
+    const auto& [eye, forward, right, up] = frame_.in_double();
+    const Vec3d way = p - eye;
+    if (!(dot(way, forward) > 0)) return std::nullopt;
+    const double x = dot(way, right) / dot(right, right), y = dot(way, up) / dot(up, up);
+    return FilmPoint{x, y, eye + right * x + up * y, 1 / (length(right) * length(up))};
+  }
+
  private:
   Kernel(const Vec3d& eye, const ViewFrame& frame, double pixel)
       : frame_(eye, -frame.w, frame.u * pixel, frame.v * pixel) {}

@@ -24,6 +24,11 @@ class Kernel<PinholeCamera> {
     return {Vec3<F>(frame.eye), normalize(frame.at_pixel(frame.forward, x, y)), F(0), infinity<F>()};
   }
 
+  std::optional<FilmPoint> project(const Vec3d& p) const {
+    const auto& frame = frame_.in_double();
+    return project_on_plane(p, frame.eye, frame.forward, frame.right, frame.up);
+  }
+
  private:
   /// The view plane at distance 1, where pixels are so wide.
   Kernel(const Vec3d& eye, const ViewFrame& frame, double pixel)

@@ -1,11 +1,31 @@
 // What leads camera rays through the picture.
 #pragma once
 
+#include <optional>
+
 #include "raytrace/cameras/view_frame.h"
 #include "raytrace/math/simd.h"
 #include "raytrace/math/vec3.h"
 
 namespace raytrace {
+
+/// Where the picture shows a point.
+struct FilmPoint {
+  double x, y;  ///< in pixels from the picture's center, to the right and upwards
+  Vec3d from;   ///< where the camera's ray to the point starts
+  double area;  ///< in square pixels: of the picture, for a unit of area at the point that faces the camera
+};
+
+/// What a camera shows of a plane at distance 1 before `from`, whose pixels have those edges, at right angles.
+inline std::optional<FilmPoint> project_on_plane(const Vec3d& p, const Vec3d& from, const Vec3d& forward,
+                                                 const Vec3d& right, const Vec3d& up) {
+  const Vec3d way = p - from;
+  const double depth = dot(way, forward), distance = length(way);
+  if (!(depth > 0)) return std::nullopt;
+  const double pixel = length(right) * length(up);
+  return FilmPoint{dot(way, right) / (depth * dot(right, right)), dot(way, up) / (depth * dot(up, up)), from,
+                   distance / (depth * depth * depth * pixel)};
+}
 
 /// In float, and in double for cameras that are far away.
 class PixelFrame {
@@ -28,6 +48,8 @@ class PixelFrame {
   PixelFrame(const Vec3d& eye, const ViewFrame& frame) : PixelFrame(eye, -frame.w, frame.u, frame.v) {}
   PixelFrame(const Vec3d& eye, const Vec3d& forward, const Vec3d& right, const Vec3d& up)
       : in_float_{Vec3f(eye), Vec3f(forward), Vec3f(right), Vec3f(up)}, in_double_{eye, forward, right, up} {}
+
+  const Vectors<double>& in_double() const { return in_double_; }
 
   /// As precise as F is.
   template <class F>

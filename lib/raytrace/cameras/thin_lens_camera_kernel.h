@@ -27,6 +27,22 @@ class Kernel<ThinLensCamera> {
             infinity<F>()};
   }
 
+  /// From the lens' point that generate() has for u1 and u2, in that lane.
+  std::optional<FilmPoint> project(const Vec3d& p, const FloatN& u1, const FloatN& u2, std::size_t lane) const {
+    const auto& plane = in_focus_.in_double();
+    const auto& lens = lens_.in_double();
+    const auto [right, up] = aperture_.point(u1, u2);
+    const Vec3d start = lens.right * double{right.get(lane)} + lens.up * double{up.get(lane)};
+    const double focus = length(plane.forward);
+    auto point = project_on_plane(p, lens.eye + start, plane.forward * (1 / focus), plane.right * (1 / focus),
+                                  plane.up * (1 / focus));
+    if (!point) return point;
+    // Where the way from there crosses the plane in focus, seen from the lens' middle.
+    point->x += dot(start, plane.right) / dot(plane.right, plane.right);
+    point->y += dot(start, plane.up) / dot(plane.up, plane.up);
+    return point;
+  }
+
  private:
   /// The view plane at distance 1, where pixels are so wide.
   Kernel(const ThinLensCamera::Parameters& parameters, const ViewFrame& frame, double pixel)

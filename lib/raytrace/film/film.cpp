@@ -9,6 +9,7 @@
 
 #include "raytrace/film/aov_film.h"
 #include "raytrace/film/mean.h"
+#include "raytrace/film/splat_layer.h"
 #include "raytrace/math/content_hash.h"
 #include "raytrace/math/limbs.h"
 
@@ -26,6 +27,22 @@ int exponent_above(float number) {
 int exponent_for_dimmest(const RadianceRange& range) {
   constexpr int float_bits = 25, least_half = -24;  // one bit more: it is rounded once more as a float
   return std::max(exponent_above(range.dimmest), least_half) - float_bits;
+}
+
+/// Where there are as many light paths for each pixel as it has samples, one exact sum; else, while a render goes on,
+/// the sum of two means.
+Pixel mean_with_splats(const PixelSum& sum, const PixelSumHigh& high, const SplatLayer& splats, int x, int y,
+                       const FilmSettings& settings) {
+  const double unit = std::ldexp(1.0, settings.unit_exponent), paths = splats.samples();
+  const SplatSum splat = splats.sum(x, y);
+  const bool is_whole = paths == sum.samples;
+  const auto total = [&](const Limbs& own, Int128 brought) {
+    if (is_whole) return static_cast<double>(from_limbs(own) + brought);
+    const double rest = paths > 0 ? static_cast<double>(brought) * (sum.samples / paths) : 0;
+    return static_cast<double>(from_limbs(own)) + rest;
+  };
+  return mean(total({sum.red, high.red}, splat[0]), total({sum.green, high.green}, splat[1]),
+              total({sum.blue, high.blue}, splat[2]), settings.transparent ? sum.hits : sum.samples, sum.samples, unit);
 }
 
 }  // namespace
@@ -61,6 +78,9 @@ Film::Film(const FilmSettings& settings, FilmContent content)
   switch (content_) {
     case FilmContent::sums:
       sums_ = LargeArray<PixelSum>::zeros(count());
+      if (settings.light_paths_of)
+        splats_ = std::make_unique<SplatLayer>(region(), static_cast<std::uint64_t>(settings.extent.full_width) *
+                                                             static_cast<std::uint64_t>(settings.extent.full_height));
       if (settings.aovs.gather()) aovs_ = std::make_unique<AovFilm>(region(), settings.aovs);
       break;
     case FilmContent::means:
@@ -75,6 +95,7 @@ Film::Film(const FilmSettings& settings, FilmContent content)
 Pixel Film::pixel(int x, int y) const {
   switch (content_) {
     case FilmContent::sums:
+      if (splats_) return mean_with_splats(sums_[index(x, y)], high(x, y), *splats_, x, y, settings_);
       if (highs_.data() == nullptr) return mean(sums_[index(x, y)], unit_, settings_.transparent);
       return mean(sums_[index(x, y)], high(x, y), unit_, settings_.transparent);
     case FilmContent::means:
@@ -115,6 +136,7 @@ bool Film::has_high() const {
 void Film::add_to(ContentHash& hash) const {
   hash.add(sums_.data(), sums().size_bytes());
   if (has_high()) hash.add(highs_.data(), count() * sizeof(PixelSumHigh));
+  if (splats_) splats_->add_to(hash);
   if (aovs_) aovs_->add_to(hash);
 }
 
@@ -128,8 +150,10 @@ std::vector<Pixel> Film::pixels() const {
 
 std::uint32_t Film::fewest_samples() const {
   std::uint32_t fewest = std::numeric_limits<std::uint32_t>::max();
-  for (const PixelSum& pixel : sums()) fewest = std::min(fewest, pixel.samples);
-  return count() == 0 ? 0 : fewest;
+  const Region rendered = settings_.rendered();
+  for (int y = rendered.y0; y < rendered.y1; ++y)
+    for (int x = rendered.x0; x < rendered.x1; ++x) fewest = std::min(fewest, sum(x, y).samples);
+  return count() == 0 || content_ != FilmContent::sums ? 0 : fewest;
 }
 
 }  // namespace raytrace

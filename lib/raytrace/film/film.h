@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -70,6 +71,11 @@ struct FilmSettings {
   AovSettings aovs;
   /// The background is left out of the colour, and A is coverage: the part of a pixel's samples that hit an object.
   bool transparent = false;
+  /// Where light paths are traced, which may reach any pixel, the film holds the whole picture, or crop, whatever part
+  /// of it is rendered: these are the pixels whose samples and light paths it takes. None: there are no light paths,
+  /// and all its pixels are.
+  std::optional<Region> light_paths_of = std::nullopt;
+  Region rendered() const { return light_paths_of.value_or(extent.region); }
   friend bool operator==(const FilmSettings&, const FilmSettings&) = default;
 };
 
@@ -108,6 +114,7 @@ bool is_unit_exponent(int exponent);
 
 class AovFilm;
 class ContentHash;
+class SplatLayer;
 
 /// A Pixel's four numbers as IEEE 754 binary16.
 using HalfPixel = std::array<std::uint16_t, 4>;
@@ -123,7 +130,7 @@ enum class FilmContent {
 /// Holds the pixels of a region, all zero at first. Threads may write different pixels at the same time.
 class Film {
  public:
-  /// Throws std::bad_alloc. With means, no AOVs are gathered.
+  /// Throws std::bad_alloc. With means, no AOVs are gathered, and no light paths.
   explicit Film(const FilmSettings& settings, FilmContent content = FilmContent::sums);
   ~Film();
   Film(Film&&) noexcept;
@@ -175,7 +182,11 @@ class Film {
   AovFilm* aovs() { return aovs_.get(); }
   const AovFilm* aovs() const { return aovs_.get(); }
 
-  /// The fewest samples that a pixel has.
+  /// What light paths brought; null if there are none.
+  SplatLayer* splats() { return splats_.get(); }
+  const SplatLayer* splats() const { return splats_.get(); }
+
+  /// The fewest samples that a pixel has, of those that are rendered.
   std::uint32_t fewest_samples() const;
 
   // Of films of means, which film_means.h sets.
@@ -205,6 +216,7 @@ class Film {
   LargeArray<HalfPixel> half_means_;
   LateArray<PixelSumHigh> highs_;  ///< of the sums
   std::unique_ptr<AovFilm> aovs_;
+  std::unique_ptr<SplatLayer> splats_;
 };
 
 }  // namespace raytrace

@@ -22,9 +22,12 @@ bool has_any_mean(const Film& film) {
 SamplesDone samples_done(const Film& film) {
   if (film.content() != FilmContent::sums) return {0, has_any_mean(film) ? film.settings().samples.count : 0};
   SamplesDone done{film.settings().samples.count, 0};
-  for (const PixelSum& sum : film.sums()) {
-    done.least = std::min(done.least, sum.samples);
-    done.most = std::max(done.most, sum.samples);
+  const Region rendered = film.settings().rendered();
+  for (int y = rendered.y0; y < rendered.y1; ++y) {
+    for (int x = rendered.x0; x < rendered.x1; ++x) {
+      done.least = std::min(done.least, film.sum(x, y).samples);
+      done.most = std::max(done.most, film.sum(x, y).samples);
+    }
   }
   return done;
 }

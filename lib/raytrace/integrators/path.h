@@ -19,12 +19,23 @@ struct Choices<LightSampling> {
   static constexpr std::array<std::string_view, 3> words = {"tree", "power", "uniform"};
 };
 
+/// How light comes to surfaces that scatter it by way of mirrors, metals and clear glass.
+enum class Caustics {
+  none,   ///< on paths from the camera that chance to meet a light
+  light,  ///< where the camera sees the surface: on paths that start at the lights
+};
+template <>
+struct Choices<Caustics> {
+  static constexpr std::array<std::string_view, 2> words = {"none", "light"};
+};
+
 class Path {
  public:
   struct Parameters {
     int maxdepth = 16;      ///< so many scatterings at most: 1 is direct light alone
     int roulettedepth = 3;  ///< from this scattering on, paths that carry little may end
     LightSampling lightsampling = LightSampling::tree;
+    Caustics caustics = Caustics::none;
     double clampindirect =
         0;  ///< the most radiance, in each channel, that a path brings from beyond its first point; a bias. 0: any
   };
@@ -32,7 +43,7 @@ class Path {
   static Fields fields() {
     return {optional("maxdepth", &Parameters::maxdepth, Range::positive),
             optional("roulettedepth", &Parameters::roulettedepth, Range::positive),
-            optional("lightsampling", &Parameters::lightsampling),
+            optional("lightsampling", &Parameters::lightsampling), optional("caustics", &Parameters::caustics),
             optional("clampindirect", &Parameters::clampindirect, Range::not_negative)};
   }
 };

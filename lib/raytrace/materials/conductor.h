@@ -51,6 +51,8 @@ class Conductor {
     if (parameters.anisotropy > 1) return error("the conductor's <anisotropy> is above 1");
     return std::nullopt;
   }
+  /// As materials/kernels.h has it.
+  static bool focuses(const Parameters&, const auto&) { return true; }
   /// Whether it matters where on the surface u grows.
   static bool is_anisotropic(const Parameters& parameters) { return parameters.anisotropy > 0; }
   /// All that a kernel needs.

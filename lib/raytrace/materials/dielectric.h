@@ -62,6 +62,10 @@ class Dielectric {
       return error("the dielectric is thin-walled: nothing inside has an <attenuationdistance>");
     return std::nullopt;
   }
+  /// As materials/kernels.h has it.
+  static bool focuses(const Parameters& parameters, const auto&) {
+    return parameters.roughness * parameters.roughness < 1e-3;  // Ggx's least alpha
+  }
   /// All that a kernel needs.
   static Values<double> values(const Parameters& parameters) {
     Values<double> result = parameters;

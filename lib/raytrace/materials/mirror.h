@@ -19,6 +19,8 @@ class Mirror {
   static constexpr std::string_view group = "mirrors";
   static constexpr std::string_view element = "mirror";
   static Fields fields() { return with_surface_detail<Parameters>({required("cr", &Parameters::cr)}); }
+  /// As materials/kernels.h has it.
+  static bool focuses(const Parameters&, const auto&) { return true; }
 };
 
 }  // namespace raytrace

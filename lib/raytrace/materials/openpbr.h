@@ -112,6 +112,15 @@ class OpenPbr {
   }
   /// Whether light comes through.
   static bool transmits(const Parameters& parameters) { return parameters.transmission_weight > 0; }
+  /// As materials/kernels.h has it.
+  static bool focuses(const Parameters& parameters, const auto& is_textured) {
+    const auto constant = [&](std::string_view name) { return !is_textured(name); };
+    const bool metal = parameters.base_metalness == 1 && constant("base_metalness");
+    const bool glass = parameters.transmission_weight == 1 && constant("transmission_weight") &&
+                       parameters.base_metalness == 0 && parameters.specular_roughness == 0 &&
+                       parameters.coat_weight == 0;
+    return parameters.fuzz_weight == 0 && (metal || glass);
+  }
   /// Whether it matters where on the surface u grows.
   static bool is_anisotropic(const Parameters& parameters) {
     return parameters.specular_roughness_anisotropy > 0 || parameters.coat_roughness_anisotropy > 0;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "raytrace/film/aov_film.h"
+#include "raytrace/film/splat_layer.h"
 #include "raytrace/math/limbs.h"
 #include "raytrace/parallel/for_each_index.h"
 #include "raytrace/text/message.h"
@@ -18,7 +19,7 @@ namespace {
 /// What a film's sums consist of. A pixel's are written as words, whose order is that of channels_of().
 struct SumLayout {
   AovSettings aovs;
-  bool has_high = false;
+  bool has_high = false, has_splats = false, has_splat_high = false;
   std::vector<std::size_t> ids{};  ///< of each coverage: as many as the pixel with the most has
 };
 
@@ -31,11 +32,15 @@ std::vector<Channel> channels_of(const SumLayout& layout) {
     add(name + ".low");
     add(name + ".high");
   };
-  for (const char* const color : {"red", "green", "blue"}) add_halves(std::string("sums.") + color);
+  const auto add_colors = [&](const std::string& start) {
+    for (const char* const color : {"red", "green", "blue"}) add_halves(start + color);
+  };
+  add_colors("sums.");
   add("sums.hits");
   add("sums.samples");
-  if (layout.has_high)
-    for (const char* const color : {"red", "green", "blue"}) add_halves(std::string("sums.limb2.") + color);
+  if (layout.has_high) add_colors("sums.limb2.");
+  if (layout.has_splats) add_colors("sums.splat.");
+  if (layout.has_splat_high) add_colors("sums.splat.limb2.");
   if (layout.aovs.nearest_values > 0) {
     add("sums.aov.nearest.sample");  // its index, plus 1; 0: no sample met a surface
     add("sums.aov.nearest.depth");   // a float's bits
@@ -51,14 +56,15 @@ std::vector<Channel> channels_of(const SumLayout& layout) {
   return channels;
 }
 
-/// That of a film with these AOVs whose sums are in such channels.
-SumLayout layout_of(const AovSettings& aovs, const std::vector<Channel>& channels) {
+/// That of a film whose sums are in such channels.
+SumLayout layout_of(const FilmSettings& settings, const std::vector<Channel>& channels) {
   const auto count = [&](const std::string& start) {
     return static_cast<std::size_t>(std::count_if(
         channels.begin(), channels.end(), [&](const Channel& channel) { return channel.name.starts_with(start); }));
   };
-  SumLayout layout{aovs, count("sums.limb2.red.low") > 0};
-  for (std::size_t coverage = 0; coverage < aovs.coverages; ++coverage)
+  SumLayout layout{settings.aovs, count("sums.limb2.red.low") > 0, settings.light_paths_of.has_value(),
+                   settings.light_paths_of && count("sums.splat.limb2.red.low") > 0};
+  for (std::size_t coverage = 0; coverage < settings.aovs.coverages; ++coverage)
     layout.ids.push_back(count(coverage_name(coverage) + ".id"));
   return layout;
 }
@@ -74,6 +80,12 @@ void append_words(const Film& film, const SumLayout& layout, int x, int y, std::
   if (layout.has_high) {
     const PixelSumHigh high = film.high(x, y);
     for (const std::int64_t color : {high.red, high.green, high.blue}) append_halves(color);
+  }
+  if (layout.has_splats) {
+    const SplatSum splat = film.splats()->sum(x, y);
+    for (const Int128 color : splat) append_halves(limbs_of(color).low);
+    if (layout.has_splat_high)
+      for (const Int128 color : splat) append_halves(limbs_of(color).high);
   }
   if (film.aovs() == nullptr) return;
   const AovFilm& aovs = *film.aovs();
@@ -113,6 +125,16 @@ bool add_words(const std::vector<std::uint32_t>& words, const SumLayout& layout,
   };
   if (!fits(sum.red, high.red) || !fits(sum.green, high.green) || !fits(sum.blue, high.blue)) return false;
   film.add(x, y, sum, high);
+  if (layout.has_splats) {
+    std::array<Limbs, 3> limbs;
+    for (Limbs& color : limbs) color.low = take_halves();
+    if (layout.has_splat_high)
+      for (Limbs& color : limbs) color.high = take_halves();
+    SplatSum splat;
+    std::transform(limbs.begin(), limbs.end(), splat.begin(), from_limbs);
+    film.splats()->add(x, y, splat);
+    film.splats()->add_paths(sum.samples * film.splats()->paths_per_sample(x, y));
+  }
   if (film.aovs() == nullptr) return true;
 
   AovFilm& aovs = *film.aovs();
@@ -198,7 +220,9 @@ std::vector<Channel> all_sum_channels() { return channels_of({{}, true}); }
 bool is_sum(const Channel& channel) { return channel.name.starts_with("sums."); }
 
 std::vector<Channel> sum_channels(const Film& film) {
-  SumLayout layout{film.settings().aovs, film.has_high(), std::vector<std::size_t>(film.settings().aovs.coverages)};
+  const SplatLayer* const splats = film.splats();
+  SumLayout layout{film.settings().aovs, film.has_high(), splats != nullptr, splats != nullptr && splats->has_high(),
+                   std::vector<std::size_t>(film.settings().aovs.coverages)};
   for_each_pixel(film.region(), [&](std::size_t, int x, int y) {
     for (std::size_t coverage = 0; coverage < layout.ids.size(); ++coverage)
       layout.ids[coverage] = std::max(layout.ids[coverage], film.aovs()->ranked(x, y, coverage).size());
@@ -206,12 +230,12 @@ std::vector<Channel> sum_channels(const Film& film) {
   return channels_of(layout);
 }
 
-std::vector<Channel> sum_channels(const AovSettings& aovs, const std::vector<Channel>& channels) {
-  return channels_of(layout_of(aovs, channels));
+std::vector<Channel> sum_channels(const FilmSettings& settings, const std::vector<Channel>& channels) {
+  return channels_of(layout_of(settings, channels));
 }
 
 void append_sums(ImageBand& band, const std::vector<Channel>& sums, const Film& film) {
-  const SumLayout layout = layout_of(film.settings().aovs, sums);
+  const SumLayout layout = layout_of(film.settings(), sums);
   const std::size_t first = band.planes.size();
   make_planes(band, first, sums);
   std::vector<std::uint32_t*> planes;
@@ -226,7 +250,7 @@ void append_sums(ImageBand& band, const std::vector<Channel>& sums, const Film& 
 }
 
 bool add_sums(const ImageBand& band, const std::vector<Channel>& sums, const SampleRange& range, Film& film) {
-  const SumLayout layout = layout_of(film.settings().aovs, sums);
+  const SumLayout layout = layout_of(film.settings(), sums);
   std::vector<const std::uint32_t*> planes;
   for (std::size_t i = 0; i < sums.size(); ++i)
     planes.push_back(std::get<std::vector<std::uint32_t>>(band.planes[i]).data());

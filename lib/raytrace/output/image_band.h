@@ -67,13 +67,14 @@ std::vector<Channel> all_sum_channels();
 /// Whether it is one of them, or of an AOV's sums: by its name.
 bool is_sum(const Channel& channel);
 
-/// Those that the film needs: the second limbs only where one is not zero; then those of what it gathered for AOVs,
+/// Those that the film needs: the second limbs only where one is not zero; "sums.splat.red.low"... of what light paths
+/// brought, if it has them; then those of what it gathered for AOVs,
 /// "sums.aov.nearest.sample", "sums.aov.mean0.low", "sums.aov.cover0.id000"...: as many ids of a coverage as the pixel
 /// with the most has.
 std::vector<Channel> sum_channels(const Film& film);
 
 /// Those that a file must have of a film with these settings. channels: that it has, which say how many ids there are.
-std::vector<Channel> sum_channels(const AovSettings& aovs, const std::vector<Channel>& channels);
+std::vector<Channel> sum_channels(const FilmSettings& settings, const std::vector<Channel>& channels);
 
 /// Appends the film's sums of the band's rows as planes. sums: sum_channels(film), or all_sum_channels() of a film
 /// without AOVs.

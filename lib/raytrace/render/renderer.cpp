@@ -96,6 +96,10 @@ FilmSettings film_settings(const Scene& scene, const SceneDescription& descripti
                  whole ? Region{0, 0, viewplane.hres, viewplane.vres} : settings.region};
   if (film.extent.region.width() <= 0 || film.extent.region.height() <= 0)
     throw RenderError("the region to render has no pixel");
+  if (scene.traces_light_paths()) {
+    film.light_paths_of = film.extent.region;
+    if (settings.whole != Region()) film.extent.region = settings.whole;
+  }
   film.samples = settings.samples.value_or(SampleRange{0, all, all == 1});
   if (film.samples.count == 0) throw RenderError("no samples to render");
   film.seed = settings.seed;
@@ -117,7 +121,7 @@ std::optional<std::string> rounding_warning(const Scene& scene, const FilmSettin
 RenderReport render(const Scene& scene, Film& film, std::uint32_t samples, int threads,
                     const ProgressFunction& progress, const std::atomic<bool>* stop) {
   const int workers = worker_count(thread_count(threads));
-  const TileGrid grid = tiles_for(film.region(), workers);
+  const TileGrid grid = tiles_for(film.settings().rendered(), workers);
   const Variant variant = choose_variant(scene.isa());
   ProgressReporter reporter(progress, grid.count());
   std::vector<RenderReport> reports(static_cast<std::size_t>(grid.count()));  // of each tile

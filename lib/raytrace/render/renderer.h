@@ -21,6 +21,7 @@ struct RenderSettings {
   std::optional<SampleRange> samples = std::nullopt;  ///< none: as many as the scene says, from the first on
   AovSet aovs{};
   bool transparent = false;  ///< FilmSettings::transparent
+  Region whole{};  ///< the picture or crop that the region is of: films with light paths hold it; not set: the region
 };
 
 /// Receives how much of a render is done. Calls come from any thread, one at a time and not often.

@@ -1,5 +1,6 @@
 #include "raytrace/sampling/pixel_filter.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -38,6 +39,15 @@ FilterTable::FilterTable(const ViewPlane& viewplane)
     least = low;
     distances_[i] = static_cast<float>((i == 0 ? 0 : high) * filter_width(viewplane) / 2);
   }
+}
+
+double FilterTable::density(double distance) const {
+  const double size = std::abs(distance);
+  if (!moves_samples_) return size <= 0.5 ? 1 : 0;
+  const auto above = std::upper_bound(distances_.begin(), distances_.end(), size,
+                                      [](double d, float step) { return d < static_cast<double>(step); });
+  if (above == distances_.begin() || above == distances_.end()) return 0;
+  return 0.5 / intervals / (static_cast<double>(*above) - static_cast<double>(*(above - 1)));
 }
 
 }  // namespace raytrace

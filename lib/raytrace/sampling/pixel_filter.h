@@ -22,6 +22,12 @@ class FilterTable {
   /// False for a box of a pixel's own width: samples stay where they are in the pixel's square.
   bool moves_samples() const { return moves_samples_; }
 
+  /// How far samples lie from the middle at most, in pixels, along an axis.
+  double reach() const { return moves_samples_ ? static_cast<double>(distances_.back()) : 0.5; }
+
+  /// The share of samples that lie so many pixels from the middle along one axis, for each pixel there.
+  double density(double distance) const;
+
   /// In pixels from the middle, where filter_share() is i / intervals; intervals + 1 of them.
   const float* distances() const { return distances_.data(); }
 

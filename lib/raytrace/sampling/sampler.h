@@ -30,6 +30,22 @@ constexpr Dimension path_dimension(int depth, PathDraw draw) {
 /// Of the n-th shadow ray of a sample, by its place on its light: none of those above.
 constexpr Dimension shadow_dimension(std::uint32_t n) { return static_cast<Dimension>(n | 0x80000000U); }
 
+/// What a light path draws: where it starts, and at each of its points.
+enum class LightPathDraw : std::uint32_t { source, place, direction, lens, first_of_points };
+enum class LightPathPointDraw : std::uint32_t { direction, lobe_and_roulette, count };
+
+/// None of those above.
+constexpr Dimension light_path_dimension(LightPathDraw draw) {
+  return static_cast<Dimension>(static_cast<std::uint32_t>(draw) | 0x40000000U);
+}
+constexpr Dimension light_path_dimension(int depth, LightPathPointDraw draw) {
+  return static_cast<Dimension>((static_cast<std::uint32_t>(LightPathDraw::first_of_points) +
+                                 static_cast<std::uint32_t>(depth) *
+                                     static_cast<std::uint32_t>(LightPathPointDraw::count) +
+                                 static_cast<std::uint32_t>(draw)) |
+                                0x40000000U);
+}
+
 /// A point of the unit square for each lane: from 0 up to 1.
 struct Sample2D {
   FloatN x, y;

@@ -224,15 +224,34 @@ std::int32_t EmitterTable::patch_of(const Hits& hits, std::size_t lane, const Ve
   return nearest;
 }
 
-FloatN EmitterTable::pdf(const Vec3<FloatN>& from, const Vec3<FloatN>& from_normal, const Hits& hits,
-                         const MaskN& lanes, const SurfaceInteraction<FloatN>& surface) const {
+double EmitterTable::area(std::size_t number) const {
+  const PatchRecord<float>& patch = patches_[number];
+  return area_of({PatchCode::shape_of(patch.code), Vec3d(patch.origin), Vec3d(patch.a), Vec3d(patch.b)});
+}
+
+EmitterTable::Sample EmitterTable::sample(const IntN& patch, const Vec3<FloatN>& from, const FloatN& u1,
+                                          const FloatN& u2) const {
+  const auto record = gather_records<PatchRecord, FloatN>(patches_.data(), LaneIndices(patch));
+  return {sample_patch(record, from, u1, u2), PatchCode::material_of(record.code), patch};
+}
+
+MaskN EmitterTable::has_patch(const Hits& hits, const MaskN& lanes, const Vec3<FloatN>& p) const {
+  return lanes & float_mask<FloatN>(patches_of(hits, lanes, p) >= IntN(0));
+}
+
+IntN EmitterTable::patches_of(const Hits& hits, const MaskN& lanes, const Vec3<FloatN>& p) const {
   alignas(64) std::array<std::int32_t, packet_lanes> patches;
   patches.fill(-1);
   for (std::uint32_t left = bits_of<FloatN>(lanes); left != 0; left &= left - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(left));
-    patches[lane] = patch_of(hits, lane, {surface.p.x.get(lane), surface.p.y.get(lane), surface.p.z.get(lane)});
+    patches[lane] = patch_of(hits, lane, {p.x.get(lane), p.y.get(lane), p.z.get(lane)});
   }
-  const IntN patch = IntN::load_aligned(patches.data());
+  return IntN::load_aligned(patches.data());
+}
+
+FloatN EmitterTable::pdf(const Vec3<FloatN>& from, const Vec3<FloatN>& from_normal, const Hits& hits,
+                         const MaskN& lanes, const SurfaceInteraction<FloatN>& surface) const {
+  const IntN patch = patches_of(hits, lanes, surface.p);
   const MaskN drawn = float_mask<FloatN>(patch >= IntN(0));
   if (none(drawn)) return FloatN(0);
   const IntN existing = select_lanes(drawn, patch, IntN(0));

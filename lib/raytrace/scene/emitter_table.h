@@ -38,6 +38,16 @@ class EmitterTable {
   Sample sample(const Vec3<FloatN>& p, const Vec3<FloatN>& normal, const FloatN& u, const FloatN& u1,
                 const FloatN& u2) const;
 
+  // Patches by their numbers.
+
+  std::size_t size() const { return patches_.size(); }
+  const PatchRecord<float>& patch(std::size_t number) const { return patches_[number]; }
+  double area(std::size_t number) const;
+  /// A point of that patch, drawn as sample_patch() draws it.
+  Sample sample(const IntN& patch, const Vec3<FloatN>& from, const FloatN& u1, const FloatN& u2) const;
+  /// Whether rays that hit something in those lanes met a patch.
+  MaskN has_patch(const Hits& hits, const MaskN& lanes, const Vec3<FloatN>& p) const;
+
   /// The density, per solid angle, at which sample() for `from` draws what rays hit in those lanes; 0 where it does
   /// not.
   FloatN pdf(const Vec3<FloatN>& from, const Vec3<FloatN>& from_normal, const Hits& hits, const MaskN& lanes,
@@ -72,7 +82,9 @@ class EmitterTable {
                  std::vector<LightEmission>& emissions);
   void add_geometry(const GeometryTable& table, std::uint32_t geometry, Primitives primitives, const Setting& setting,
                     std::span<const MaterialEmission> materials, std::vector<LightEmission>& emissions);
-  /// The number of the patch that the lane's ray hit; -1: none.
+  /// The number of the patch that each lane's ray hit; -1: none.
+  IntN patches_of(const Hits& hits, const MaskN& lanes, const Vec3<FloatN>& p) const;
+  /// The same of a lane.
   std::int32_t patch_of(const Hits& hits, std::size_t lane, const Vec3f& p) const;
 
   std::vector<PatchRecord<float>> patches_;

@@ -206,6 +206,46 @@ BoundingSphere GeometryTable::bounding_sphere() const {
   return {(lower + upper) * 0.5, length(upper - lower) / 2 * (1 + 1e-6)};
 }
 
+std::vector<GeometryTable::BoundedObject> GeometryTable::bounded_objects(
+    std::span<const std::uint8_t> wanted_materials) const {
+  std::vector<BoundedObject> objects;
+  const auto is_wanted = [&](std::int32_t material) { return wanted_materials[static_cast<std::size_t>(material)] != 0; };
+  const auto has_wanted = [&](const std::vector<std::uint8_t>& used) {
+    for (std::size_t i = 0; i < used.size(); ++i)
+      if (used[i] != 0 && wanted_materials[i] != 0) return true;
+    return false;
+  };
+  for_each_type(Shapes{}, [&]<class Shape>(std::type_identity<Shape>) {
+    if constexpr (requires { &Kernel<Shape>::bounds; }) {
+      constexpr auto type = static_cast<std::uint32_t>(index_of<Shape>(Shapes{}));
+      const ShapeTable<Shape>& shapes = table<Shape>();
+      for (std::size_t i = 0; i < shapes.records.size(); ++i) {
+        if (shapes.is_instanced(i) || !is_wanted(own_material(type, static_cast<std::uint32_t>(i)))) continue;
+        const IntN object = this->object(type, IntN(static_cast<std::int32_t>(i)));
+        objects.push_back({Kernel<Shape>::bounds(shapes.records[i]), object.get(0)});
+      }
+    }
+  });
+  for (const Geometry& geometry : geometries_) {
+    if (geometry.mesh == nullptr) continue;
+    std::vector<std::uint8_t> used(wanted_materials.size());
+    geometry.mesh->add_used_materials(used);
+    if (has_wanted(used)) objects.push_back({geometry.mesh->bounds(), geometry.first_object});
+  }
+  for (std::size_t i = 0; i < instances_.size(); ++i) {
+    const InstanceTarget& target = instances_.target(i);
+    const std::int32_t instead = instances_.materials()[i];
+    const GeometryTable& table =
+        target.group == InstanceTarget::no_group ? *this : *groups_[static_cast<std::size_t>(target.group)];
+    const auto count = static_cast<std::int32_t>(wanted_materials.size());
+    const bool has = instead >= 0      ? is_wanted(instead)
+                     : target.is_shape ? is_wanted(table.own_material(target.shape_type, target.primitive))
+                                       : has_wanted(table.used_materials(count));
+    if (has) objects.push_back({instances_.bounds(i), -1 - static_cast<std::int32_t>(i)});
+  }
+  return objects;
+}
+
 std::vector<std::uint8_t> GeometryTable::used_materials(std::int32_t materials) const {
   std::vector<std::uint8_t> used(static_cast<std::size_t>(materials));
   const auto add = [&](const GeometryTable& table) {

@@ -79,6 +79,12 @@ class GeometryTable {
   std::uint64_t primitive_count() const;
   /// Around all objects that have bounds; of negative radius if there are none.
   BoundingSphere bounding_sphere() const;
+  /// Each object that has bounds, and each instance, if f(material) is true for any material that it has.
+  struct BoundedObject {
+    Bounds bounds;
+    std::int32_t object;  ///< its number; of an instance, -1 less its number, counted from 0
+  };
+  std::vector<BoundedObject> bounded_objects(std::span<const std::uint8_t> wanted_materials) const;
   /// Of so many materials, those that objects have: 1, else 0.
   std::vector<std::uint8_t> used_materials(std::int32_t materials) const;
 

@@ -1,6 +1,8 @@
 // The lights of a scene, whatever their types, as the integrators have them: one call a packet.
 #pragma once
 
+#include <optional>
+
 #include "raytrace/lights/light_sample.h"
 #include "raytrace/math/ray.h"
 #include "raytrace/math/simd.h"
@@ -17,6 +19,10 @@ class LightSource {
   virtual void sample(Ray<FloatN>& shadow_rays, const Sample2D& u, Rgb<FloatN>& radiance) const = 0;
   virtual bool takes_samples() const = 0;
   virtual bool shadows() const = 0;
+  /// Where it is; none: infinitely far away.
+  virtual std::optional<Vec3f> location() const = 0;
+  /// What no point gets more of; of a light that falls off, at distance 1.
+  virtual Rgb<float> largest_radiance() const = 0;
 };
 
 template <class LightKernel>
@@ -39,6 +45,11 @@ class LightSourceOf final : public LightSource {
     return false;
   }
   bool shadows() const override { return light_.shadows(); }
+  std::optional<Vec3f> location() const override {
+    if constexpr (requires { light_.location(); }) return light_.location();
+    return std::nullopt;
+  }
+  Rgb<float> largest_radiance() const override { return light_.largest_radiance(); }
 
  private:
   LightKernel light_;

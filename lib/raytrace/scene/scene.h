@@ -31,6 +31,9 @@ class Scene {
   /// As the integrator knows it. It scales the film's unit.
   virtual RadianceRange radiance_range() const = 0;
 
+  /// Whether paths start at its lights, too, whose films have splats (film/splat_layer.h).
+  virtual bool traces_light_paths() const = 0;
+
   /// The albedo of no material in use has a larger magnitude, in any channel.
   virtual float largest_albedo() const = 0;
 

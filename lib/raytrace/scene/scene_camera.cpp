@@ -54,6 +54,17 @@ bool SceneTables::camera_is_far_from(const BoundingSphere& sphere, const SceneDe
   return sphere.radius >= 0 && length(eye - sphere.center) > far * sphere.radius;
 }
 
+std::optional<FilmPoint> SceneTables::project(const Vec3d& p, const Sample2D& lens, std::size_t lane) const {
+  return std::visit(
+      [&]<class CameraKernel>(const CameraKernel& camera) {
+        if constexpr (has_lens<CameraKernel>)
+          return camera.project(p, lens.x, lens.y, lane);
+        else
+          return camera.project(p);
+      },
+      *camera_);
+}
+
 MaskN SceneTables::set_camera_rays(const FloatN& x, const FloatN& y, const Sample2D& lens, CameraRays& result) const {
   return std::visit(
       [&](const auto& camera) {

@@ -76,6 +76,18 @@ SceneTables::SceneTables(const SceneDescription& description, int threads)
   const auto* const path = std::get_if<Path::Parameters>(&integrator_);
   if (path == nullptr) emissions.clear();
   emitters_.emplace(*geometry_, emissions, path == nullptr ? LightSampling::tree : path->lightsampling);
+  if (path != nullptr && path->caustics == Caustics::light) add_caustics();
+}
+
+void SceneTables::add_caustics() {
+  std::vector<std::uint8_t> focusing;
+  std::vector<float> radiances;
+  for (const SurfaceDetail& detail : details_) {
+    focusing.push_back(detail.focuses ? 1 : 0);
+    radiances.push_back(detail.emission.radiance);
+  }
+  CausticTable table(*geometry_, focusing, {lights_, *emitters_, radiances, environment()});
+  if (!table.empty()) caustics_.emplace(std::move(table));
 }
 
 template <class LightKernel, class Parameters>
@@ -157,6 +169,13 @@ SceneTables::SurfaceDetail SceneTables::surface_detail(const MaterialItem<Materi
     detail.transmits = Material::transmits(item.parameters);
   if constexpr (requires { Material::is_anisotropic(item.parameters); })
     detail.is_anisotropic = Material::is_anisotropic(item.parameters);
+  const auto is_textured = [&](std::string_view name) {
+    return std::any_of(item.textures.begin(), item.textures.end(), [&](const TextureUse& use) {
+      return element_type<Material>().fields[use.field].name == name;
+    });
+  };
+  if constexpr (requires { Material::focuses(item.parameters, is_textured); })
+    detail.focuses = Material::focuses(item.parameters, is_textured);
   for (const TextureUse& use : item.textures) {
     const std::string_view field = element_type<Material>().fields[use.field].name;
     if (field == opacity_field) detail.opacity.texture = use;

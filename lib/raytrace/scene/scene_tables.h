@@ -14,6 +14,7 @@
 #include "raytrace/sampling/pixel_filter.h"
 #include "raytrace/sampling/sampler.h"
 #include "raytrace/scene/camera.h"
+#include "raytrace/scene/caustic_table.h"
 #include "raytrace/scene/emitter_table.h"
 #include "raytrace/scene/environment.h"
 #include "raytrace/scene/geometry_table.h"
@@ -57,6 +58,8 @@ class SceneTables {
   /// camera_has_lens(). The result: the lanes that have a ray; the picture is black in the others.
   MaskN set_camera_rays(const FloatN& x, const FloatN& y, const Sample2D& lens, CameraRays& result) const;
   bool camera_has_lens() const { return camera_has_lens_; }
+  /// Where the picture shows p, by way of the lens' point for that lane: FilmPoint. None: nowhere.
+  std::optional<FilmPoint> project(const Vec3d& p, const Sample2D& lens, std::size_t lane) const;
   /// The camera, if it is of the first type, whose rays always exist, and is not far away, as most are; else null.
   const auto* usual_camera() const { return camera_is_far() ? nullptr : std::get_if<0>(&*camera_); }
   /// Whether the camera is so far away from all objects with bounds that its rays start at them.
@@ -84,6 +87,9 @@ class SceneTables {
 
   /// The light of infinitely far from all around; null if there is none.
   const Environment* environment() const { return environment_ ? &*environment_ : nullptr; }
+
+  /// Where light paths start, and what they aim at; null if there are none.
+  const CausticTable* caustics() const { return caustics_ ? &*caustics_ : nullptr; }
 
   const GeometryTable& geometry() const { return *geometry_; }
 
@@ -169,7 +175,7 @@ class SceneTables {
   struct SurfaceDetail {
     TexturedNumber opacity, normalmap, bump;
     MaterialEmission emission{};
-    bool transmits = false, is_anisotropic = false;
+    bool transmits = false, is_anisotropic = false, focuses = false;
 
     bool is_cutout() const { return opacity.value < 1 || opacity.texture; }
     bool has_relief() const { return normalmap.texture || bump.texture; }
@@ -193,6 +199,7 @@ class SceneTables {
   template <class CameraKernel>
   void set_ray_cone(const CameraKernel& camera);
   void add_materials(const SceneDescription& description);
+  void add_caustics();
 
   /// answer(table, materials) of each material type among the lanes, each lane's of its own.
   template <class Answer>
@@ -219,6 +226,7 @@ class SceneTables {
       first_material_{};  ///< of each type, all counted together; their number
   std::unique_ptr<const GeometryTable> geometry_;
   std::optional<const EmitterTable> emitters_;
+  std::optional<const CausticTable> caustics_;
   std::vector<float> emitted_;          ///< of each material, red, green and blue; of those with textures, the most
   std::vector<SurfaceDetail> details_;  ///< of all materials
   bool has_cutouts_ = false, has_relief_ = false, has_emission_ = false, has_transmission_ = false;

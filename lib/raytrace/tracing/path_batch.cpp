@@ -61,6 +61,7 @@ MaskN PathBatch::add(CameraRays& camera, const MaskN& active, const MaskN& wante
   path.pixel = camera.pixel;
   path.sample = camera.sample;
   path.slot = IntN(first_slot) + lane_numbers<IntN>();
+  path.way = IntN(any_way);
   append(paths_, path, hits, hits.hit & wanted);
   return hits.hit;
 }
@@ -133,8 +134,17 @@ void PathBatch::extend(PathPacket& path, const MaskN& lanes, int depth, RayCount
     path.throughput = select(lanes & !surface.front, path.throughput * left, path.throughput);
   }
   const float environment_share = environment_share_of(tables);
+  // Light paths bring what comes by what focuses light to the first point.
+  const CausticTable* const caustics = tables.caustics();
+  MaskN focused(false), focuses(false);
+  if (caustics != nullptr) {
+    focused = lanes & float_mask<FloatN>(path.way == IntN(by_focus));
+    focuses = float_mask<FloatN>(caustics->target_of(tables.geometry(), hits, tables.material(hits)) >= IntN(0));
+  }
   if (tables.has_emission()) {
     Rgb<FloatN> emitted = tables.emitted(hits, surface, point);
+    if (any(focused))
+      emitted = select(tables.emitters().has_patch(hits, focused, surface.p), black(), emitted);
     if (const MaskN shines = lanes & (largest(emitted) > FloatN(0)); any(shines)) {
       const MaskN drawn = shines & (path.pdf < infinity<FloatN>());
       if (!tables.emitters().empty() && any(drawn)) {
@@ -159,11 +169,14 @@ void PathBatch::extend(PathPacket& path, const MaskN& lanes, int depth, RayCount
     light = direct_light(scene_, hits, surface, point, coherence, lanes, counts,
                          ShadowNumbers{path.pixel, path.sample, first_key + 1});
 
+  const MaskN on_way = focuses & float_mask<FloatN>(path.way != IntN(any_way));
+  if (any(on_way)) light = select(on_way, black(), light);
   const PathVertex vertex{hits, surface, point, tables.shading_frame(hits, surface, point), path.distance};
   const Vec3<FloatN> wo = vertex.frame.to_local(surface.wo);
   DrawnLight drawn;
   if (tables.environment() != nullptr || !tables.emitters().empty())
     drawn = draw_light(tables, vertex, draw(PathDraw::light), draw(PathDraw::light_point));
+  drawn.lit = drawn.lit & !on_way;
   // The last direction is for what shines alone.
   const bool is_last = depth + 1 == settings_.maxdepth;
   const bool goes_on = !is_last || tables.has_emission() || tables.environment() != nullptr;
@@ -193,6 +206,10 @@ void PathBatch::extend(PathPacket& path, const MaskN& lanes, int depth, RayCount
   alive = alive & (largest(path.throughput) > FloatN(0));
   if (none(alive)) return;
   path.pdf = select(sample.specular | through, infinity<FloatN>(), sample.pdf);
+  if (caustics != nullptr) {
+    const MaskN reflects = MaskN(depth == 0) & (!(focuses | through | sample.specular));
+    path.way = select_lanes(on_way, IntN(by_focus), select_lanes(reflects, IntN(by_reflection), IntN(any_way)));
+  }
   path.from = surface.p;
   path.from_normal = surface.ns;
   rays.origin = offset_ray_origin(surface, through & alive);
@@ -209,7 +226,8 @@ void PathBatch::extend(PathPacket& path, const MaskN& lanes, int depth, RayCount
     if (const Environment* const environment = tables.environment(); environment != nullptr) {
       const EnvironmentSample sky = environment->at(rays.direction);
       const FloatN other = sky.pdf * FloatN(environment_share);
-      add(sums, path.slot, escaped, path.throughput * (sky.radiance * power_heuristic(path.pdf, other)));
+      const MaskN left_out = float_mask<FloatN>(path.way == IntN(by_focus));
+      add(sums, path.slot, escaped & !left_out, path.throughput * (sky.radiance * power_heuristic(path.pdf, other)));
     } else if (!is_last) {
       add(sums, path.slot, escaped, path.throughput * Rgb<FloatN>(Rgb<float>(tables.viewplane().background)));
     }

@@ -15,6 +15,13 @@
 
 namespace raytrace {
 
+/// What a path from the camera has met, as far as light paths are concerned (tracing/light_paths.h).
+enum PathWay : std::int32_t {
+  any_way,       ///< or nothing yet
+  by_reflection, ///< a point of what does not focus light, which reflected it
+  by_focus,      ///< that, and from there on one or more points of what does: light from here is a light path's
+};
+
 /// A path for each lane, whose last ray has hit something.
 struct PathPacket {
   Ray<FloatN> rays;  ///< the last ones, which end where they hit
@@ -30,6 +37,7 @@ struct PathPacket {
   Vec3<FloatN> from, from_normal;
   UintN pixel, sample;  ///< as CameraRays have them
   IntN slot;            ///< where the path's radiance goes
+  IntN way;             ///< PathWay, where light paths bring some of the light
 
   void set_hits(const Hits& hits) {
     instance = hits.instance;

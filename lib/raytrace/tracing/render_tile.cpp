@@ -12,6 +12,7 @@
 #include "raytrace/tracing/block_aovs.h"
 #include "raytrace/tracing/block_sums.h"
 #include "raytrace/tracing/kernels.h"
+#include "raytrace/tracing/light_paths.h"
 #include "raytrace/tracing/packet_block.h"
 
 namespace raytrace {
@@ -72,6 +73,7 @@ class BlockRenderer {
         scrambles_(film.settings().seed),
         usual_camera_(scene.tables().pixel_filter().moves_samples() ? nullptr : scene.tables().usual_camera()) {
     if (!raycast && integrator_.radiance == nullptr) batch_.emplace(scene);
+    if (film.splats() != nullptr) light_paths_.emplace(scene, film);
   }
 
   /// Continues all pixels to `samples` each; returns early if it is stopped.
@@ -182,6 +184,7 @@ class BlockRenderer {
         aovs->add(AovInputs(scene_.tables(), camera, first.hits, first.surface, textures), wanted, sample);
       }
       report_.rays.camera += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(wanted & traced)));
+      if (!raycast && light_paths_) trace_light_paths(block, sample, wanted);
       if (!raycast && batch_) {
         waiting_.push_back({block, base, wanted, result});
         if (batch_->is_full()) trace_batch();
@@ -193,6 +196,20 @@ class BlockRenderer {
       if (packets % packets_per_look == 0 && stopped()) break;
     }
     if (raycast || !batch_) sums.add_to(film_, block, region_);
+  }
+
+  /// Those of the lanes' pixels and samples. They are in the film before the samples are, but in one call of render():
+  /// nobody looks at the film in between.
+  void trace_light_paths(const Block& block, const UintN& samples, const MaskN& wanted) {
+    LightPaths::Pixels pixels;
+    alignas(64) std::array<std::uint32_t, packet_lanes> in_region{};
+    block.for_each_lane(region_, [&](int x, int y, std::size_t lane) {
+      pixels.x[lane] = x;
+      pixels.y[lane] = y;
+      in_region[lane] = 1;
+    });
+    const MaskN here = float_mask<FloatN>(UintN::load_aligned(in_region.data()) != UintN(0u));
+    light_paths_->trace(pixels, samples, wanted & here, report_);
   }
 
   /// Packets' results, when their paths have been traced.
@@ -301,6 +318,7 @@ class BlockRenderer {
     OpenBlock(const Block& block, const SumScale& scale) : block(block), sums(scale) {}
   };
   std::optional<PathBatch> batch_;
+  std::optional<LightPaths> light_paths_;  ///< where the scene has them
   std::vector<WaitingPacket> waiting_;  ///< the batch's, in its order
   std::unique_ptr<OpenBlock> open_;     ///< that of the last one that left
 };

@@ -1,0 +1,46 @@
+#include "raytrace/film/splat_layer.h"
+
+#include <algorithm>
+
+#include "raytrace/math/content_hash.h"
+
+namespace raytrace {
+
+SplatLayer::SplatLayer(const Region& region, std::uint64_t picture_pixels)
+    : region_(region), picture_pixels_(picture_pixels), sums_(LargeArray<Low>::zeros(pixels())) {}
+
+void SplatLayer::add(int x, int y, const SplatSum& units) {
+  const std::uint64_t at = number(x, y);
+  for (std::size_t channel = 0; channel < units.size(); ++channel) {
+    const Limbs limbs = limbs_of(units[channel]);
+    const std::int64_t before =
+        std::atomic_ref(sums_[at][channel]).fetch_add(limbs.low, std::memory_order_relaxed);  // wraps around
+    // What one addition carries depends on what it found; all that they carry together does not.
+    std::int64_t sum = 0, carried = limbs.high;
+    if (__builtin_add_overflow(before, limbs.low, &sum)) carried += before < 0 ? -1 : 1;
+    if (carried != 0) [[unlikely]]
+      std::atomic_ref(highs_.make(pixels())[at][channel]).fetch_add(carried, std::memory_order_relaxed);
+  }
+}
+
+SplatSum SplatLayer::sum(int x, int y) const {
+  const std::uint64_t at = number(x, y);
+  const Low& low = sums_[at];
+  const Low high = highs_.data() == nullptr ? Low{} : highs_.data()[at];
+  SplatSum sum;
+  for (std::size_t channel = 0; channel < sum.size(); ++channel)
+    sum[channel] = from_limbs({low[channel], high[channel]});
+  return sum;
+}
+
+bool SplatLayer::has_high() const {
+  const Low* const highs = highs_.data();
+  return highs != nullptr && std::any_of(highs, highs + pixels(), [](const Low& high) { return high != Low{}; });
+}
+
+void SplatLayer::add_to(ContentHash& hash) const {
+  hash.add(sums_.data(), pixels() * sizeof(Low));
+  if (has_high()) hash.add(highs_.data(), pixels() * sizeof(Low));
+}
+
+}  // namespace raytrace

@@ -1,0 +1,440 @@
+#include "raytrace/tracing/light_paths.h"
+
+#include <bit>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <variant>
+
+#include "raytrace/math/frame.h"
+#include "raytrace/math/turns.h"
+#include "raytrace/math/unit_disk.h"
+#include "raytrace/sampling/pixel_sampler.h"
+#include "raytrace/sampling/sampler.h"
+#include "raytrace/tracing/direct_light.h"
+#include "raytrace/tracing/sampled_light.h"
+
+namespace raytrace {
+
+namespace {
+
+
+constexpr float two_pi = static_cast<float>(2 * std::numbers::pi);
+
+std::uint64_t count_of(const MaskN& lanes) { return static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(lanes))); }
+
+Vec3<FloatN> normalized(const Vec3<FloatN>& v) { return v * (FloatN(1) / max(length(v), FloatN(1e-30F))); }
+
+}  // namespace
+
+/// Light paths, one a lane.
+struct LightPaths::Packet {
+  UintN pixel, sample;
+  std::array<std::uint64_t, packet_lanes> picture_pixel;  ///< that each belongs to
+
+  CausticTable::Target target[packet_lanes];
+  alignas(64) std::array<std::int32_t, packet_lanes> sources, targets;
+  FloatN choices;  ///< the probability of both
+
+  Ray<FloatN> rays;
+  /// The light that the path carries: the flux along it over the density of all that was drawn for it, where `share`
+  /// of what left the light is not lost yet.
+  Rgb<FloatN> flux, share;
+  int depth = 0;            ///< points that it has come to
+  MaskN from_point;         ///< whose light is known by the irradiance where the path comes to first
+
+  Vec3<FloatN> center() const {
+    return gathered([](const CausticTable::Target& t) { return t.center.x; }, [](const auto& t) { return t.center.y; },
+                    [](const auto& t) { return t.center.z; });
+  }
+  FloatN radius() const {
+    return lanes_of([](const CausticTable::Target& t) { return t.radius; });
+  }
+  UintN keys(std::uint32_t purpose) const { return ray_keys(pixel, sample, purpose | 0x40000000U); }
+
+ private:
+  template <class Number>
+  FloatN lanes_of(const Number& number) const {
+    alignas(64) std::array<float, packet_lanes> numbers;
+    for (std::size_t lane = 0; lane < packet_lanes; ++lane) numbers[lane] = number(target[lane]);
+    return FloatN::load_aligned(numbers.data());
+  }
+  template <class X, class Y, class Z>
+  Vec3<FloatN> gathered(const X& x, const Y& y, const Z& z) const {
+    return {lanes_of(x), lanes_of(y), lanes_of(z)};
+  }
+};
+
+LightPaths::LightPaths(const TracedScene& scene, Film& film)
+    : scene_(scene),
+      tables_(scene.tables()),
+      caustics_(*tables_.caustics()),
+      film_(film),
+      most_points_(std::get<Path::Parameters>(tables_.integrator()).maxdepth),
+      roulette_depth_(std::get<Path::Parameters>(tables_.integrator()).roulettedepth),
+      inverse_unit_(std::ldexp(1.0, -film.settings().unit_exponent)) {}
+
+void LightPaths::trace(const Pixels& pixels, const UintN& samples, const MaskN& wanted, RenderReport& report) {
+  report_ = &report;
+  SplatLayer& splats = *film_.splats();
+  const auto width = static_cast<std::uint64_t>(film_.settings().extent.full_width);
+  Packet path;
+  path.sample = samples;
+  std::uint32_t left = bits_of<FloatN>(wanted);
+  for (std::uint64_t i = 0; left != 0; ++i) {
+    alignas(64) std::array<std::uint32_t, packet_lanes> columns{}, rows{}, lanes{};
+    for (std::uint32_t those = left; those != 0; those &= those - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(those));
+      const int x = pixels.x[lane], y = pixels.y[lane];
+      if (i >= splats.paths_per_sample(x, y)) {
+        left &= ~(std::uint32_t{1} << lane);
+        continue;
+      }
+      lanes[lane] = 1;
+      path.picture_pixel[lane] = splats.path_pixel(x, y, i);
+      columns[lane] = static_cast<std::uint32_t>(path.picture_pixel[lane] % width);
+      rows[lane] = static_cast<std::uint32_t>(path.picture_pixel[lane] / width);
+    }
+    if (left == 0) return;
+    path.pixel = pixel_hash(UintN::load_aligned(columns.data()), UintN::load_aligned(rows.data()),
+                            film_.settings().seed);
+    const MaskN here = float_mask<FloatN>(UintN::load_aligned(lanes.data()) != UintN(0u));
+    follow(path, start(path) & here);
+    splats.add_paths(count_of(here));
+  }
+}
+
+/// Draws a light, a target, a place on the light and a direction to the target. The result: the lanes that have light.
+MaskN LightPaths::start(Packet& path) const {
+  const Sample2D choice = get_2d(path.pixel, path.sample, light_path_dimension(LightPathDraw::source));
+  alignas(64) std::array<float, packet_lanes> probabilities;
+  for (std::size_t lane = 0; lane < packet_lanes; ++lane) {
+    const auto source = caustics_.choose_source(choice.x.get(lane)), target = caustics_.choose_target(choice.y.get(lane));
+    path.sources[lane] = source.number;
+    path.targets[lane] = target.number;
+    path.target[lane] = caustics_.target(target.number);
+    probabilities[lane] = source.probability * target.probability;
+  }
+  path.choices = FloatN::load_aligned(probabilities.data());
+  path.flux = path.share = Rgb<FloatN>(Rgb<float>(0, 0, 0));
+  path.rays.near = FloatN(0);
+  path.rays.origin = path.rays.direction = Vec3<FloatN>(Vec3f(0, 0, 1));
+  path.from_point = MaskN(false);
+  const IntN source = IntN::load_aligned(path.sources.data());
+  const auto lights = static_cast<std::int32_t>(tables_.lights().size());
+  const auto patches = static_cast<std::int32_t>(tables_.emitters().size());
+  for (MaskN left = float_mask<FloatN>(source < IntN(lights)); any(left);) {
+    const std::int32_t number = path.sources[static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(left)))];
+    const MaskN here = left & float_mask<FloatN>(source == IntN(number));
+    start_at_source(path, number, here);
+    left = left & !here;
+  }
+  const MaskN at_patch = float_mask<FloatN>(source >= IntN(lights)) & float_mask<FloatN>(source < IntN(lights + patches));
+  if (any(at_patch)) start_at_patches(path, at_patch);
+  const MaskN far = float_mask<FloatN>(source >= IntN(lights + patches));
+  if (any(far)) {
+    const Sample2D place = get_2d(path.pixel, path.sample, light_path_dimension(LightPathDraw::direction));
+    const EnvironmentSample sky = tables_.environment()->sample(place.x, place.y);
+    path.rays.direction = select(far, -sky.wi, path.rays.direction);
+    path.flux = select(far, sky.radiance * (FloatN(1) / sky.pdf), path.flux);
+    start_far_away(path, far);
+  }
+  path.flux = path.flux * (FloatN(1) / path.choices);
+  return largest(path.flux) > FloatN(0);
+}
+
+/// Directions from the rays' origins into the cone around the target. Divides the light by their density.
+MaskN LightPaths::aim(Packet& path, const MaskN& lanes) const {
+  const Sample2D u = get_2d(path.pixel, path.sample, light_path_dimension(LightPathDraw::direction));
+  const Vec3<FloatN> way = path.center() - path.rays.origin;
+  const FloatN radius = path.radius(), distance2 = dot(way, way);
+  const MaskN outside = distance2 > radius * radius;
+  const FloatN sine2 = radius * radius / max(distance2, FloatN(1e-30F));
+  const FloatN cone = select(outside, sine2 / (FloatN(1) + sqrt(max(FloatN(1) - sine2, FloatN(0)))), FloatN(2));
+  const FloatN height = u.x * cone, across = sqrt(max(height * (FloatN(2) - height), FloatN(0)));
+  const auto [sine, cosine] = sin_cos_of_turns(u.y);
+  const Frame<FloatN> frame(normalized(select(outside, way, Vec3<FloatN>(Vec3f(0, 0, 1)))));
+  path.rays.direction = select(lanes, frame.to_world({across * cosine, across * sine, FloatN(1) - height}),
+                               path.rays.direction);
+  path.flux = select(lanes, path.flux * (cone * FloatN(two_pi)), path.flux);
+  return lanes;
+}
+
+void LightPaths::start_at_source(Packet& path, std::int32_t source, const MaskN& lanes) const {
+  const LightSource& light = *tables_.lights()[static_cast<std::size_t>(source)];
+  if (const auto location = light.location()) {
+    path.rays.origin = select(lanes, Vec3<FloatN>(*location), path.rays.origin);
+    path.flux = select(lanes, Rgb<FloatN>(Rgb<float>(1, 1, 1)), path.flux);
+    path.from_point = path.from_point | lanes;
+    aim(path, lanes);
+    return;
+  }
+  Ray<FloatN> ray;
+  ray.origin = path.center();
+  Rgb<FloatN> radiance;
+  light.sample(ray, get_2d(path.pixel, path.sample, light_path_dimension(LightPathDraw::direction)), radiance);
+  path.rays.direction = select(lanes, -normalized(ray.direction), path.rays.direction);
+  path.flux = select(lanes, radiance, path.flux);
+  start_far_away(path, lanes);
+}
+
+/// Parallel rays onto the target, of those directions, from beyond all objects with bounds.
+void LightPaths::start_far_away(Packet& path, const MaskN& lanes) const {
+  const Sample2D u = get_2d(path.pixel, path.sample, light_path_dimension(LightPathDraw::place));
+  const DiskPoint<FloatN> disk = on_unit_disk(u.x, u.y);
+  const FloatN radius = path.radius();
+  const Frame<FloatN> frame(path.rays.direction);
+  const Vec3<FloatN> at = path.center() + (frame.x * disk.x + frame.y * disk.y) * radius;
+  const BoundingSphere& scene = caustics_.scene_sphere();
+  const FloatN back = length(at - Vec3<FloatN>(Vec3f(scene.center))) + FloatN(static_cast<float>(scene.radius));
+  path.rays.origin = select(lanes, at - path.rays.direction * back, path.rays.origin);
+  path.flux = select(lanes, path.flux * (radius * radius * FloatN(two_pi / 2)), path.flux);
+}
+
+void LightPaths::start_at_patches(Packet& path, const MaskN& lanes) const {
+  const auto first = static_cast<std::int32_t>(tables_.lights().size());
+  const IntN source = IntN::load_aligned(path.sources.data());
+  const IntN patch = select_lanes(lanes, source - IntN(first), IntN(0));
+  // Places are drawn for a point of the target that no plane of a lamp is likely to go through; of spheres, whose far
+  // sides such a point does not see, for one inside.
+  Vec3<FloatN> from = path.center() + Vec3<FloatN>(Vec3f(0.137F, 0.271F, 0.391F)) * path.radius();
+  alignas(64) std::array<float, packet_lanes> x, y, z;
+  from.x.store_aligned(x.data());
+  from.y.store_aligned(y.data());
+  from.z.store_aligned(z.data());
+  for (std::size_t lane = 0; lane < packet_lanes; ++lane) {
+    const PatchRecord<float>& record = tables_.emitters().patch(static_cast<std::size_t>(patch.get(lane)));
+    if (PatchCode::shape_of(record.code) != PatchShape::sphere) continue;
+    x[lane] = record.origin.x;
+    y[lane] = record.origin.y;
+    z[lane] = record.origin.z + record.a.x * 0.25F;
+  }
+  from = {FloatN::load_aligned(x.data()), FloatN::load_aligned(y.data()), FloatN::load_aligned(z.data())};
+  const Sample2D place = get_2d(path.pixel, path.sample, light_path_dimension(LightPathDraw::place));
+  const EmitterTable::Sample sample = tables_.emitters().sample(patch, from, place.x, place.y);
+  const PatchSample& drawn = sample.point;
+  // Per area, from per solid angle.
+  const Vec3<FloatN> way = drawn.p - from;
+  const FloatN distance2 = dot(way, way);
+  const FloatN per_area = drawn.pdf * abs(dot(drawn.normal, way)) / (distance2 * sqrt(distance2));
+  const MaskN good = lanes & (drawn.pdf < infinity<FloatN>()) & (per_area > FloatN(0));
+  path.rays.origin = select(lanes, drawn.p, path.rays.origin);
+  path.flux = select(good, Rgb<FloatN>(Rgb<float>(1, 1, 1)) * (FloatN(1) / per_area), path.flux);
+  aim(path, lanes);
+  SurfaceInteraction<FloatN> light{};
+  light.front = dot(drawn.normal, path.rays.direction) > FloatN(0);
+  light.ng = light.ns = select(light.front, drawn.normal, -drawn.normal);
+  light.wo = path.rays.direction;
+  light.p = drawn.p;
+  light.error = drawn.error;
+  const Rgb<FloatN> radiance = tables_.emitted(sample, good, light, [&](const Hits& hits) {
+    return texture_point(tables_, FloatN(0), hits, light);
+  });
+  path.rays.origin = select(lanes, offset_ray_origin(light), path.rays.origin);
+  path.flux = select(lanes, path.flux * radiance * dot(light.ng, path.rays.direction), path.flux);
+}
+
+Hits LightPaths::intersect(Packet& path, const MaskN& lanes) {
+  report_->rays.indirect += count_of(lanes);
+  path.rays.far = infinity<FloatN>();
+  if (!tables_.has_cutouts()) return scene_.accelerator().intersect(path.rays, lanes, Coherence::incoherent);
+  const CutoutQuery query{tables_, scene_.accelerator(), path.rays,
+                          path.keys(static_cast<std::uint32_t>(path.depth) * 2)};
+  return scene_.accelerator().intersect(path.rays, lanes, Coherence::incoherent, nullptr, &query);
+}
+
+void LightPaths::follow(Packet& path, MaskN alive) {
+  path.share = Rgb<FloatN>(Rgb<float>(1, 1, 1));
+  const auto lights = static_cast<std::int32_t>(tables_.lights().size());
+  const IntN source = IntN::load_aligned(path.sources.data()), aimed_at = IntN::load_aligned(path.targets.data());
+  // So many points scatter on a path at most, the last of them to the camera.
+  for (path.depth = 0; path.depth < most_points_ && any(alive); ++path.depth) {
+    const Vec3<FloatN> from = path.rays.origin;
+    const Hits hits = intersect(path, alive);
+    if (none(hits.hit)) return;
+    SurfaceInteraction<FloatN> surface = scene_.accelerator().surface(path.rays, hits);
+    const auto textures = add_textures(tables_, hits, surface, [] { return FloatN(0); });
+    const IntN target = caustics_.target_of(tables_.geometry(), hits, tables_.material(hits));
+    alive = alive & hits.hit;
+    if (path.depth == 0) {
+      // Other targets' paths are aimed at these.
+      alive = alive & float_mask<FloatN>(target == aimed_at);
+      if (none(alive)) return;
+      const MaskN near = alive & path.from_point;
+      for (MaskN left = near; any(left);) {
+        const std::int32_t number = path.sources[static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(left)))];
+        const MaskN here = left & float_mask<FloatN>(source == IntN(number));
+        Ray<FloatN> ray;
+        ray.origin = surface.p;
+        Rgb<FloatN> irradiance;
+        tables_.lights()[static_cast<std::size_t>(number)]->sample(ray, {FloatN(0), FloatN(0)}, irradiance);
+        const Vec3<FloatN> way = surface.p - from;
+        path.flux = select(here, path.flux * irradiance * dot(way, way), path.flux);
+        left = left & !here;
+      }
+      // What came from far away has not met planes beyond all else.
+      const MaskN far = alive & (float_mask<FloatN>(source < IntN(lights)) |
+                                 float_mask<FloatN>(source == IntN(lights + static_cast<std::int32_t>(
+                                                                               tables_.emitters().size())))) &
+                        !path.from_point;
+      if (any(far)) {
+        const Ray<FloatN> back{from, -path.rays.direction, FloatN(0), infinity<FloatN>()};
+        const MaskN hidden = tables_.has_cutouts()
+                                 ? occluded_with_cutouts(scene_, back, far, path.keys(~0U >> 2U), Coherence::incoherent)
+                                 : scene_.accelerator().occluded(back, far, Coherence::incoherent);
+        alive = alive & !hidden;
+      }
+    }
+    const TexturePoint<FloatN>* const point = textures ? &*textures : nullptr;
+    if (tables_.has_transmission() && any(alive & !surface.front))
+      path.flux = select(alive & !surface.front, path.flux * tables_.transmittance(hits, path.rays.far, point), path.flux);
+    const MaskN focuses = float_mask<FloatN>(target >= IntN(0));
+    if (const MaskN shown = alive & !focuses; any(shown)) connect(path, hits, surface, shown);
+    alive = alive & focuses;
+    if (path.depth + 2 > most_points_ || none(alive)) return;
+    alive = scatter(path, hits, surface, point, alive);
+  }
+}
+
+/// On to the next points. BSDFs are asked the other way round than on paths from the camera: for the direction that
+/// light comes from, of which they draw one that it goes to.
+MaskN LightPaths::scatter(Packet& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface,
+                          const TexturePoint<FloatN>* point, const MaskN& lanes) const {
+  const Frame<FloatN> frame = tables_.shading_frame(hits, surface, point);
+  const Vec3<FloatN> wi = frame.to_local(surface.wo);
+  const auto draw = [&](LightPathPointDraw what) {
+    return get_2d(path.pixel, path.sample, light_path_dimension(path.depth, what));
+  };
+  const Sample2D u = draw(LightPathPointDraw::direction), choice = draw(LightPathPointDraw::lobe_and_roulette);
+  const BsdfSample<FloatN> sample =
+      tables_.scatter(hits, surface.front, wi, MaskN(false), wi, choice.x, u.x, u.y, point).sample;
+  const Vec3<FloatN> wo = frame.to_world(sample.wi);
+  const MaskN through = sample.wi.z < FloatN(0);
+  const FloatN true_wi = dot(surface.wo, surface.ng), true_wo = dot(wo, surface.ng);
+  MaskN alive = lanes & (sample.pdf > FloatN(0)) & (wi.z > FloatN(0)) & (true_wo * sample.wi.z > FloatN(0));
+  // f of the two directions is that of the way back, but for the squeezing of radiance where it is refracted. Where many
+  // facets share the light, f is not quite the same both ways: there, that of this way.
+  Rgb<FloatN> f = sample.f * sample.eta2;
+  if (const MaskN rough = alive & !sample.specular & !through; any(rough)) {
+    const auto back = tables_.scatter(hits, surface.front, sample.wi, rough, wi, choice.x, u.x, u.y, point).towards;
+    f = select(rough, back.f, f);
+  }
+  // Of shading normals: Veach 1997, section 5.3.
+  FloatN weight = abs(sample.wi.z) / sample.pdf *
+                  (wi.z * abs(true_wo) / max(true_wi * abs(sample.wi.z), FloatN(1e-6F)));
+  if (surface.has_relief) weight = select(through, weight, weight * relief_shadow(surface, surface.wo));
+  const Rgb<FloatN> factor = f * weight;
+  path.flux = select(alive, path.flux * factor, path.flux);
+  path.share = select(alive, path.share * factor, path.share);
+  if (path.depth + 1 >= roulette_depth_) {
+    const FloatN survival = min(largest(path.share) * FloatN(2), FloatN(1));
+    const FloatN more = FloatN(1) / max(survival, FloatN(1e-12F));
+    path.flux = path.flux * more;
+    path.share = path.share * more;
+    alive = alive & (choice.y < survival);
+  }
+  path.rays.origin = offset_ray_origin(surface, through & alive);
+  path.rays.direction = select(alive, wo, path.rays.direction);
+  return alive & (largest(path.flux) > FloatN(0));
+}
+
+/// Sends what reaches those points to the camera, where it shows them.
+void LightPaths::connect(Packet& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface,
+                         const MaskN& lanes) {
+  const Sample2D lens = get_2d(path.pixel, path.sample, light_path_dimension(LightPathDraw::lens));
+  std::array<FilmPoint, packet_lanes> points;
+  alignas(64) std::array<float, packet_lanes> x{}, y{}, z{}, areas{};
+  std::uint32_t shown = 0;
+  for (std::uint32_t left = bits_of<FloatN>(lanes); left != 0; left &= left - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+    const Vec3d p{double{surface.p.x.get(lane)}, double{surface.p.y.get(lane)}, double{surface.p.z.get(lane)}};
+    const std::optional<FilmPoint> point = tables_.project(p, lens, lane);
+    if (!point) continue;
+    points[lane] = *point;
+    const Vec3d way = point->from - p;
+    x[lane] = static_cast<float>(way.x);
+    y[lane] = static_cast<float>(way.y);
+    z[lane] = static_cast<float>(way.z);
+    areas[lane] = static_cast<float>(point->area);
+    shown |= std::uint32_t{1} << lane;
+  }
+  if (shown == 0) return;
+  const Vec3<FloatN> way{FloatN::load_aligned(x.data()), FloatN::load_aligned(y.data()), FloatN::load_aligned(z.data())};
+  SurfaceInteraction<FloatN> seen = surface;
+  seen.wo = normalized(way);
+  const FloatN distance = length(way), cosine = dot(seen.wo, seen.ng), true_wi = dot(surface.wo, surface.ng);
+  const MaskN facing = lanes & (FloatN::load_aligned(areas.data()) > FloatN(0)) & (cosine > FloatN(0));
+  if (none(facing)) return;
+  // As a camera ray to there has it.
+  const auto textures = add_textures(tables_, hits, seen, [&] { return tables_.ray_cone().half_width(distance); });
+  const TexturePoint<FloatN>* const point = textures ? &*textures : nullptr;
+  const Frame<FloatN> frame = tables_.shading_frame(hits, seen, point);
+  const Vec3<FloatN> wo = frame.to_local(seen.wo), wi = frame.to_local(surface.wo);
+  const MaskN lit = facing & (wi.z > FloatN(0));
+  if (none(lit)) return;
+  const FloatN any_number(0.5F);
+  const BsdfValue bsdf =
+      tables_.scatter(hits, seen.front, wo, lit, wi, any_number, any_number, any_number, point).towards;
+  FloatN weight = FloatN::load_aligned(areas.data()) * cosine * (wi.z / max(true_wi, FloatN(1e-6F)));
+  if (seen.has_relief) weight = weight * relief_shadow(seen, surface.wo);
+  Rgb<FloatN> radiance = path.flux * bsdf.f * weight;
+  if (tables_.has_transmission() && any(lit & !seen.front))
+    radiance = select(lit & !seen.front, radiance * tables_.transmittance(hits, distance, point), radiance);
+  MaskN arrives = lit & (largest(radiance) > FloatN(0));
+  if (none(arrives)) return;
+  Ray<FloatN> ray;
+  ray.origin = offset_ray_origin(seen);
+  ray.direction = way + (surface.p - ray.origin);
+  ray.near = FloatN(0);
+  ray.far = FloatN(1);
+  report_->rays.shadow += count_of(arrives);
+  const MaskN hidden =
+      tables_.has_cutouts()
+          ? occluded_with_cutouts(scene_, ray, arrives, path.keys(static_cast<std::uint32_t>(path.depth) * 2 + 1),
+                                  Coherence::incoherent)
+          : scene_.accelerator().occluded(ray, arrives, Coherence::incoherent);
+  for (std::uint32_t left = bits_of<FloatN>(arrives & !hidden); left != 0; left &= left - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+    splat(path, lane, points[lane], radiance);
+  }
+}
+
+void LightPaths::splat(const Packet& path, std::size_t lane, const FilmPoint& point, const Rgb<FloatN>& radiance) {
+  const PictureExtent& extent = film_.settings().extent;
+  const FilterTable& filter = tables_.pixel_filter();
+  const double pixels = static_cast<double>(extent.full_width) * static_cast<double>(extent.full_height);
+  const Rgb<float> brought(radiance.red.get(lane), radiance.green.get(lane), radiance.blue.get(lane));
+  // From the picture's upper left corner.
+  const double x = point.x + extent.full_width / 2.0, y = extent.full_height / 2.0 - point.y, reach = filter.reach();
+  const Region& region = film_.region();
+  if (!(x > region.x0 - reach && x < region.x1 + reach && y > region.y0 - reach && y < region.y1 + reach)) return;
+  const auto first = [&](double at) { return static_cast<int>(std::ceil(at - reach - 0.5)); };
+  const auto last = [&](double at) { return static_cast<int>(std::floor(at + reach - 0.5)); };
+  const int column = static_cast<int>(std::floor(x)), row = static_cast<int>(std::floor(y));
+  const bool moves = filter.moves_samples();
+  for (int to_y = moves ? first(y) : row; to_y <= (moves ? last(y) : row); ++to_y)
+    for (int to_x = moves ? first(x) : column; to_x <= (moves ? last(x) : column); ++to_x) {
+      if (to_x < region.x0 || to_x >= region.x1 || to_y < region.y0 || to_y >= region.y1) continue;
+      const double share =
+          moves ? filter.density(x - to_x - 0.5) * filter.density(y - to_y - 0.5) / pixels : 1 / pixels;
+      if (share == 0) continue;
+      SplatSum units;
+      std::size_t channel = 0;
+      bool fits = true;
+      for (const float value : {brought.red, brought.green, brought.blue}) {
+        const double term = std::nearbyint(double{value} * share * inverse_unit_);
+        fits = fits && std::abs(term) <= largest_units;
+        units[channel++] = fits ? static_cast<Int128>(term) : 0;
+      }
+      if (fits) {
+        film_.splats()->add(to_x, to_y, units);
+      } else {
+        const auto width = static_cast<std::uint64_t>(extent.full_width);
+        report_->invalid_samples.add({static_cast<int>(path.picture_pixel[lane] % width),
+                                      static_cast<int>(path.picture_pixel[lane] / width), path.sample.get(lane)});
+        return;
+      }
+    }
+}
+
+}  // namespace raytrace

@@ -1,0 +1,57 @@
+// Paths that start at the lights: light that mirrors, metals and clear glass send onto surfaces which scatter it, where
+// the camera sees these (Arvo, "Backward Ray Tracing", 1986; Veach 1997, section 10.3.4).
+//
+// Which light comes on them is a matter of its way alone, so that no light counts twice: from a light, by one or more
+// points of objects that focus light (CausticTable), to a point of another material, which reflects it to the camera.
+// Paths from the camera leave out what comes to them on such a way (tracing/path_batch.cpp).
+//
+// Each belongs to a pixel and a sample, whose numbers it draws; what it brings goes to whatever pixel shows its last
+// point, into the film's splats.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "raytrace/accel/traced_scene.h"
+#include "raytrace/film/splat_layer.h"
+#include "raytrace/tracing/render_report.h"
+
+namespace raytrace {
+
+class LightPaths {
+ public:
+  /// The scene must have caustics, the film splats.
+  LightPaths(const TracedScene& scene, Film& film);
+
+  /// A pixel of the film for each lane.
+  struct Pixels {
+    std::array<int, packet_lanes> x, y;
+  };
+  /// Traces those of these samples of these pixels, in the lanes of `wanted`.
+  void trace(const Pixels& pixels, const UintN& samples, const MaskN& wanted, RenderReport& report);
+
+ private:
+  struct Packet;
+
+  MaskN start(Packet& path) const;
+  MaskN aim(Packet& path, const MaskN& lanes) const;
+  void start_at_patches(Packet& path, const MaskN& lanes) const;
+  void start_at_source(Packet& path, std::int32_t source, const MaskN& lanes) const;
+  void start_far_away(Packet& path, const MaskN& lanes) const;
+  void follow(Packet& path, MaskN alive);
+  Hits intersect(Packet& path, const MaskN& lanes);
+  void connect(Packet& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface, const MaskN& lanes);
+  MaskN scatter(Packet& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface,
+                const TexturePoint<FloatN>* point, const MaskN& lanes) const;
+  void splat(const Packet& path, std::size_t lane, const FilmPoint& point, const Rgb<FloatN>& radiance);
+
+  const TracedScene& scene_;
+  const SceneTables& tables_;
+  const CausticTable& caustics_;
+  Film& film_;
+  int most_points_, roulette_depth_;
+  double inverse_unit_;
+  RenderReport* report_ = nullptr;  ///< while trace() runs
+};
+
+}  // namespace raytrace
