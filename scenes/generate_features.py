@@ -732,6 +732,42 @@ write(
     objects=POST_AND_BALL,
 )
 write(
+    "caustics",
+    "What a glass ball and a ring of gold make of a spotlight, on paths that start there.",
+    room="""\
+  <integrator> <path> <caustics>light</caustics> </path> </integrator>
+  <viewplane> <hres>320</hres> <vres>240</vres> <samples>256</samples> </viewplane>
+  <camera> <eye x="0" y="4.6" z="5.2"/> <lookat x="-0.25" y="0.2" z="0.1"/> <viewdistance>420</viewdistance> </camera>
+""",
+    lights="""\
+  <lights>
+    <spotlights>
+      <spotlight>
+        <location x="5" y="2.6" z="-2.4"/> <lookat x="0" y="0.2" z="0.2"/> <coneangle>44</coneangle> <penumbraangle>8</penumbraangle>
+        <scaleradiance>160</scaleradiance> <color red="1" green="0.93" blue="0.82"/> <falloff>inversesquare</falloff>
+      </spotlight>
+    </spotlights>
+    <environmentlights>
+      <environmentlight> <scaleradiance>0.12</scaleradiance> <color red="0.6" green="0.75" blue="1"/> </environmentlight>
+    </environmentlights>
+  </lights>
+""",
+    materials_more="""\
+    <dielectrics> <dielectric> <name>glass</name> </dielectric> </dielectrics>
+    <conductors> <conductor> <name>gold</name> <metal>gold</metal> <roughness>0.1</roughness> </conductor> </conductors>
+""",
+    objects="""\
+    <spheres>
+      <sphere> <center x="-0.9" y="0.6" z="-0.4"/> <radius>0.6</radius> <material>glass</material> </sphere>
+    </spheres>
+    <cylinders>
+      <cylinder>
+        <bottom x="0.75" y="0" z="0.6"/> <top x="0.75" y="0.45" z="0.6"/> <radius>0.75</radius> <material>gold</material>
+      </cylinder>
+    </cylinders>
+""",
+)
+write(
     "skylight",
     "A clear sky in the late afternoon; the sun is behind, on the left.",
     room="""\

@@ -150,20 +150,21 @@ class CutRender {
     return text.str();
   }
 
-  Film empty_film(const Region& region, const SampleRange& samples) const {
-    FilmSettings settings = film_settings(*scene_, description_, {1, 0, region, samples, {}, transparent_});
+  /// whole: that the region is a part of.
+  Film empty_film(const Region& region, const SampleRange& samples, const Region& whole) const {
+    FilmSettings settings = film_settings(*scene_, description_, {1, 0, region, samples, {}, transparent_, whole});
     settings.unit_exponent -= finer_;
     return Film(settings);
   }
 
   Colors in_one(const Region& region, int threads) {
-    Film film = empty_film(region, all_samples());
+    Film film = empty_film(region, all_samples(), region);
     render(*scene_, film, all_samples().count, threads);
     return colors_of(film);
   }
 
   Colors in_passes(const Region& region) {
-    Film film = empty_film(region, all_samples());
+    Film film = empty_film(region, all_samples(), region);
     for (const int samples : chance_.edges(samples_, 4))
       render(*scene_, film, static_cast<std::uint32_t>(samples), chance_.number(1, 4));
     return colors_of(film);
@@ -194,7 +195,8 @@ class CutRender {
     const Region region = tile ? tile_of(whole, tile->index, tile->count) : whole;
     *steps_ +=
         " " + text_of(region) + " from " + std::to_string(samples.first) + " on " + std::to_string(samples.count) + ";";
-    Film film = empty_film(region, samples);
+    Film film = empty_film(region, samples, whole);
+    if (film.settings().rendered() != film.region()) keeps_sums = true;  // others' light paths belong to them
     render(*scene_, film, samples.count, chance_.number(1, 4));
     PieceIdentity identity;
     identity.provenance = provenance_of(*scene_, description_);
@@ -212,7 +214,7 @@ class CutRender {
     const std::string file = folder_.file("piece" + std::to_string(pieces_++) + ".exr");
     ImageFile image(file, film.settings().extent, channels, metadata, {.full_float = true, .threads = 1});
     ImageBand band;
-    fill_color(band, film, region.y0, region.y1);
+    fill_color(band, film, film.region().y0, film.region().y1);
     if (keeps_sums) append_sums(band, sums, film);
     image.write(band);
     image.commit();

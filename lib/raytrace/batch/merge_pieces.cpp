@@ -194,7 +194,8 @@ class Merger {
     std::size_t most_sums = 0;
     for (const Piece& piece : pieces_) most_sums = std::max(most_sums, piece.sums.size());
     // Each light path reaches any row, and how many there are says what each counts.
-    const int rows = identity.film.light_paths_of ? whole.height() : band_rows(whole.width(), channels_.size() + most_sums);
+    const int rows =
+        identity.film.light_paths_of ? whole.height() : band_rows(whole.width(), channels_.size() + most_sums);
     for (Region band = whole; band.y0 < whole.y1; band.y0 = band.y1) {
       heed_stop();
       band.y1 = std::min(band.y0 + rows, whole.y1);

@@ -44,7 +44,8 @@ class Kernel<FisheyeCamera> {
     const auto& [eye, forward, right, up] = frame_.in_double();
     const Vec3d way = p - eye;
     const double distance2 = dot(way, way), x = dot(way, right), y = dot(way, up), across = std::hypot(x, y);
-    const double turn = 2 * std::numbers::pi, radius = std::atan2(across, dot(way, forward)) / (turn * turns_per_pixel_);
+    const double turn = 2 * std::numbers::pi,
+                 radius = std::atan2(across, dot(way, forward)) / (turn * turns_per_pixel_);
     if (!(distance2 > 0) || radius > radius_) return std::nullopt;
     if (!(across > 0)) return FilmPoint{0, 0, eye, 1 / (distance2 * std::pow(turn * turns_per_pixel_, 2))};
     // A ring of the picture, and the sphere's that it shows.

@@ -33,8 +33,8 @@
 //   sends light through:
 //     Rgb<T> transmittance(const T& distance) const;   the share that is left of light that went so far behind it
 //
-// A material that sends what it gets from one direction into one or a few, as mirrors, metals and clear glass do, may say
-// so of its Parameters:
+// A material that sends what it gets from one direction into one or a few, as mirrors, metals and clear glass do, may
+// say so of its Parameters:
 //   static bool focuses(const Parameters&, is_textured);   is_textured(name): whether that field of it has a texture
 // Then light paths carry the light that it sends on (integrators/path.h, Caustics): evaluate() must know all that
 // sample() draws and is not `specular`.

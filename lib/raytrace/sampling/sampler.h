@@ -39,11 +39,11 @@ constexpr Dimension light_path_dimension(LightPathDraw draw) {
   return static_cast<Dimension>(static_cast<std::uint32_t>(draw) | 0x40000000U);
 }
 constexpr Dimension light_path_dimension(int depth, LightPathPointDraw draw) {
-  return static_cast<Dimension>((static_cast<std::uint32_t>(LightPathDraw::first_of_points) +
-                                 static_cast<std::uint32_t>(depth) *
-                                     static_cast<std::uint32_t>(LightPathPointDraw::count) +
-                                 static_cast<std::uint32_t>(draw)) |
-                                0x40000000U);
+  return static_cast<Dimension>(
+      (static_cast<std::uint32_t>(LightPathDraw::first_of_points) +
+       static_cast<std::uint32_t>(depth) * static_cast<std::uint32_t>(LightPathPointDraw::count) +
+       static_cast<std::uint32_t>(draw)) |
+      0x40000000U);
 }
 
 /// A point of the unit square for each lane: from 0 up to 1.

@@ -47,7 +47,8 @@ float sum_of(const Rgb<float>& c) { return std::abs(c.red) + std::abs(c.green) +
 
 /// About what a target gets: at its center, and at points around it, since a spotlight may miss some of them.
 double arriving(const LightSource& light, const CausticTable::Target& target) {
-  constexpr std::array<Vec3f, 7> offsets{{{0, 0, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
+  constexpr std::array<Vec3f, 7> offsets{
+      {{0, 0, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
   double sum = 0;
   for (const Vec3f& offset : offsets) {
     Ray<FloatN> ray;
@@ -133,7 +134,8 @@ void CausticTable::weigh(const Lights& lights) {
     }
     for (std::size_t i = 0; i < lights.emitters.size(); ++i) {
       const PatchRecord<float>& patch = lights.emitters.patch(i);
-      const auto material = static_cast<std::size_t>(std::bit_cast<std::int32_t>(patch.code) >> PatchCode::material_shift);
+      const auto material =
+          static_cast<std::size_t>(std::bit_cast<std::int32_t>(patch.code) >> PatchCode::material_shift);
       const Vec3d way = Vec3d(target.center) - Vec3d(patch.origin);
       const double distance2 = dot(way, way) + double{target.radius} * double{target.radius};
       add(source++, t, lights.emitters.area(i) * double{lights.radiances[material]} * disk / distance2);

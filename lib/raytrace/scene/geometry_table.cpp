@@ -209,7 +209,9 @@ BoundingSphere GeometryTable::bounding_sphere() const {
 std::vector<GeometryTable::BoundedObject> GeometryTable::bounded_objects(
     std::span<const std::uint8_t> wanted_materials) const {
   std::vector<BoundedObject> objects;
-  const auto is_wanted = [&](std::int32_t material) { return wanted_materials[static_cast<std::size_t>(material)] != 0; };
+  const auto is_wanted = [&](std::int32_t material) {
+    return wanted_materials[static_cast<std::size_t>(material)] != 0;
+  };
   const auto has_wanted = [&](const std::vector<std::uint8_t>& used) {
     for (std::size_t i = 0; i < used.size(); ++i)
       if (used[i] != 0 && wanted_materials[i] != 0) return true;

@@ -170,9 +170,8 @@ SceneTables::SurfaceDetail SceneTables::surface_detail(const MaterialItem<Materi
   if constexpr (requires { Material::is_anisotropic(item.parameters); })
     detail.is_anisotropic = Material::is_anisotropic(item.parameters);
   const auto is_textured = [&](std::string_view name) {
-    return std::any_of(item.textures.begin(), item.textures.end(), [&](const TextureUse& use) {
-      return element_type<Material>().fields[use.field].name == name;
-    });
+    return std::any_of(item.textures.begin(), item.textures.end(),
+                       [&](const TextureUse& use) { return element_type<Material>().fields[use.field].name == name; });
   };
   if constexpr (requires { Material::focuses(item.parameters, is_textured); })
     detail.focuses = Material::focuses(item.parameters, is_textured);

@@ -18,7 +18,6 @@ namespace raytrace {
 
 namespace {
 
-
 constexpr float two_pi = static_cast<float>(2 * std::numbers::pi);
 
 std::uint64_t count_of(const MaskN& lanes) { return static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(lanes))); }
@@ -40,8 +39,8 @@ struct LightPaths::Packet {
   /// The light that the path carries: the flux along it over the density of all that was drawn for it, where `share`
   /// of what left the light is not lost yet.
   Rgb<FloatN> flux, share;
-  int depth = 0;            ///< points that it has come to
-  MaskN from_point;         ///< whose light is known by the irradiance where the path comes to first
+  int depth = 0;     ///< points that it has come to
+  MaskN from_point;  ///< whose light is known by the irradiance where the path comes to first
 
   Vec3<FloatN> center() const {
     return gathered([](const CausticTable::Target& t) { return t.center.x; }, [](const auto& t) { return t.center.y; },
@@ -96,8 +95,8 @@ void LightPaths::trace(const Pixels& pixels, const UintN& samples, const MaskN& 
       rows[lane] = static_cast<std::uint32_t>(path.picture_pixel[lane] / width);
     }
     if (left == 0) return;
-    path.pixel = pixel_hash(UintN::load_aligned(columns.data()), UintN::load_aligned(rows.data()),
-                            film_.settings().seed);
+    path.pixel =
+        pixel_hash(UintN::load_aligned(columns.data()), UintN::load_aligned(rows.data()), film_.settings().seed);
     const MaskN here = float_mask<FloatN>(UintN::load_aligned(lanes.data()) != UintN(0u));
     follow(path, start(path) & here);
     splats.add_paths(count_of(here));
@@ -109,7 +108,8 @@ MaskN LightPaths::start(Packet& path) const {
   const Sample2D choice = get_2d(path.pixel, path.sample, light_path_dimension(LightPathDraw::source));
   alignas(64) std::array<float, packet_lanes> probabilities;
   for (std::size_t lane = 0; lane < packet_lanes; ++lane) {
-    const auto source = caustics_.choose_source(choice.x.get(lane)), target = caustics_.choose_target(choice.y.get(lane));
+    const auto source = caustics_.choose_source(choice.x.get(lane)),
+               target = caustics_.choose_target(choice.y.get(lane));
     path.sources[lane] = source.number;
     path.targets[lane] = target.number;
     path.target[lane] = caustics_.target(target.number);
@@ -129,7 +129,8 @@ MaskN LightPaths::start(Packet& path) const {
     start_at_source(path, number, here);
     left = left & !here;
   }
-  const MaskN at_patch = float_mask<FloatN>(source >= IntN(lights)) & float_mask<FloatN>(source < IntN(lights + patches));
+  const MaskN at_patch =
+      float_mask<FloatN>(source >= IntN(lights)) & float_mask<FloatN>(source < IntN(lights + patches));
   if (any(at_patch)) start_at_patches(path, at_patch);
   const MaskN far = float_mask<FloatN>(source >= IntN(lights + patches));
   if (any(far)) {
@@ -154,8 +155,8 @@ MaskN LightPaths::aim(Packet& path, const MaskN& lanes) const {
   const FloatN height = u.x * cone, across = sqrt(max(height * (FloatN(2) - height), FloatN(0)));
   const auto [sine, cosine] = sin_cos_of_turns(u.y);
   const Frame<FloatN> frame(normalized(select(outside, way, Vec3<FloatN>(Vec3f(0, 0, 1)))));
-  path.rays.direction = select(lanes, frame.to_world({across * cosine, across * sine, FloatN(1) - height}),
-                               path.rays.direction);
+  path.rays.direction =
+      select(lanes, frame.to_world({across * cosine, across * sine, FloatN(1) - height}), path.rays.direction);
   path.flux = select(lanes, path.flux * (cone * FloatN(two_pi)), path.flux);
   return lanes;
 }
@@ -227,9 +228,8 @@ void LightPaths::start_at_patches(Packet& path, const MaskN& lanes) const {
   light.wo = path.rays.direction;
   light.p = drawn.p;
   light.error = drawn.error;
-  const Rgb<FloatN> radiance = tables_.emitted(sample, good, light, [&](const Hits& hits) {
-    return texture_point(tables_, FloatN(0), hits, light);
-  });
+  const Rgb<FloatN> radiance = tables_.emitted(
+      sample, good, light, [&](const Hits& hits) { return texture_point(tables_, FloatN(0), hits, light); });
   path.rays.origin = select(lanes, offset_ray_origin(light), path.rays.origin);
   path.flux = select(lanes, path.flux * radiance * dot(light.ng, path.rays.direction), path.flux);
 }
@@ -273,10 +273,11 @@ void LightPaths::follow(Packet& path, MaskN alive) {
         left = left & !here;
       }
       // What came from far away has not met planes beyond all else.
-      const MaskN far = alive & (float_mask<FloatN>(source < IntN(lights)) |
-                                 float_mask<FloatN>(source == IntN(lights + static_cast<std::int32_t>(
-                                                                               tables_.emitters().size())))) &
-                        !path.from_point;
+      const MaskN far =
+          alive &
+          (float_mask<FloatN>(source < IntN(lights)) |
+           float_mask<FloatN>(source == IntN(lights + static_cast<std::int32_t>(tables_.emitters().size())))) &
+          !path.from_point;
       if (any(far)) {
         const Ray<FloatN> back{from, -path.rays.direction, FloatN(0), infinity<FloatN>()};
         const MaskN hidden = tables_.has_cutouts()
@@ -287,7 +288,8 @@ void LightPaths::follow(Packet& path, MaskN alive) {
     }
     const TexturePoint<FloatN>* const point = textures ? &*textures : nullptr;
     if (tables_.has_transmission() && any(alive & !surface.front))
-      path.flux = select(alive & !surface.front, path.flux * tables_.transmittance(hits, path.rays.far, point), path.flux);
+      path.flux =
+          select(alive & !surface.front, path.flux * tables_.transmittance(hits, path.rays.far, point), path.flux);
     const MaskN focuses = float_mask<FloatN>(target >= IntN(0));
     if (const MaskN shown = alive & !focuses; any(shown)) connect(path, hits, surface, shown);
     alive = alive & focuses;
@@ -312,16 +314,16 @@ MaskN LightPaths::scatter(Packet& path, const Hits& hits, const SurfaceInteracti
   const MaskN through = sample.wi.z < FloatN(0);
   const FloatN true_wi = dot(surface.wo, surface.ng), true_wo = dot(wo, surface.ng);
   MaskN alive = lanes & (sample.pdf > FloatN(0)) & (wi.z > FloatN(0)) & (true_wo * sample.wi.z > FloatN(0));
-  // f of the two directions is that of the way back, but for the squeezing of radiance where it is refracted. Where many
-  // facets share the light, f is not quite the same both ways: there, that of this way.
+  // f of the two directions is that of the way back, but for the squeezing of radiance where it is refracted. Where
+  // many facets share the light, f is not quite the same both ways: there, that of this way.
   Rgb<FloatN> f = sample.f * sample.eta2;
   if (const MaskN rough = alive & !sample.specular & !through; any(rough)) {
     const auto back = tables_.scatter(hits, surface.front, sample.wi, rough, wi, choice.x, u.x, u.y, point).towards;
     f = select(rough, back.f, f);
   }
   // Of shading normals: Veach 1997, section 5.3.
-  FloatN weight = abs(sample.wi.z) / sample.pdf *
-                  (wi.z * abs(true_wo) / max(true_wi * abs(sample.wi.z), FloatN(1e-6F)));
+  FloatN weight =
+      abs(sample.wi.z) / sample.pdf * (wi.z * abs(true_wo) / max(true_wi * abs(sample.wi.z), FloatN(1e-6F)));
   if (surface.has_relief) weight = select(through, weight, weight * relief_shadow(surface, surface.wo));
   const Rgb<FloatN> factor = f * weight;
   path.flux = select(alive, path.flux * factor, path.flux);
@@ -359,7 +361,8 @@ void LightPaths::connect(Packet& path, const Hits& hits, const SurfaceInteractio
     shown |= std::uint32_t{1} << lane;
   }
   if (shown == 0) return;
-  const Vec3<FloatN> way{FloatN::load_aligned(x.data()), FloatN::load_aligned(y.data()), FloatN::load_aligned(z.data())};
+  const Vec3<FloatN> way{FloatN::load_aligned(x.data()), FloatN::load_aligned(y.data()),
+                         FloatN::load_aligned(z.data())};
   SurfaceInteraction<FloatN> seen = surface;
   seen.wo = normalized(way);
   const FloatN distance = length(way), cosine = dot(seen.wo, seen.ng), true_wi = dot(surface.wo, surface.ng);

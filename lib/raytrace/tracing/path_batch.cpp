@@ -143,8 +143,7 @@ void PathBatch::extend(PathPacket& path, const MaskN& lanes, int depth, RayCount
   }
   if (tables.has_emission()) {
     Rgb<FloatN> emitted = tables.emitted(hits, surface, point);
-    if (any(focused))
-      emitted = select(tables.emitters().has_patch(hits, focused, surface.p), black(), emitted);
+    if (any(focused)) emitted = select(tables.emitters().has_patch(hits, focused, surface.p), black(), emitted);
     if (const MaskN shines = lanes & (largest(emitted) > FloatN(0)); any(shines)) {
       const MaskN drawn = shines & (path.pdf < infinity<FloatN>());
       if (!tables.emitters().empty() && any(drawn)) {

@@ -17,9 +17,9 @@ namespace raytrace {
 
 /// What a path from the camera has met, as far as light paths are concerned (tracing/light_paths.h).
 enum PathWay : std::int32_t {
-  any_way,       ///< or nothing yet
-  by_reflection, ///< a point of what does not focus light, which reflected it
-  by_focus,      ///< that, and from there on one or more points of what does: light from here is a light path's
+  any_way,        ///< or nothing yet
+  by_reflection,  ///< a point of what does not focus light, which reflected it
+  by_focus,       ///< that, and from there on one or more points of what does: light from here is a light path's
 };
 
 /// A path for each lane, whose last ray has hit something.

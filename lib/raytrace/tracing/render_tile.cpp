@@ -319,8 +319,8 @@ class BlockRenderer {
   };
   std::optional<PathBatch> batch_;
   std::optional<LightPaths> light_paths_;  ///< where the scene has them
-  std::vector<WaitingPacket> waiting_;  ///< the batch's, in its order
-  std::unique_ptr<OpenBlock> open_;     ///< that of the last one that left
+  std::vector<WaitingPacket> waiting_;     ///< the batch's, in its order
+  std::unique_ptr<OpenBlock> open_;        ///< that of the last one that left
 };
 
 template <bool raycast>
