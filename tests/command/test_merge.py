@@ -10,7 +10,7 @@ from itertools import compress
 
 import support
 from exr import Exr
-from support import CommandTest, ENDLESS
+from support import CommandTest, ENDLESS, REPOSITORY
 
 
 class Merge(CommandTest):
@@ -214,6 +214,32 @@ class Merge(CommandTest):
         differing = {(x, y) for (x, y), pixel in picture.pixels().items() if pixel != three.pixel(x, y)}
         self.assertGreater(len(differing), 10)
         self.assertEqual({(x, y) for x, y in differing if not (left <= x <= right and top <= y <= bottom)}, set())
+
+    def test_tiles_with_light_paths(self):
+        with open(os.path.join(REPOSITORY, "scenes", "caustics.xml"), encoding="utf-8") as file:
+            self.write("scene.xml", file.read())
+        options = ["-q", "-r", "40x30", "-s", "4"]
+        self.succeed("scene.xml", *options, "-o", "all.exr")
+        whole = Exr(self.read("all.exr"))
+        names = [f"tile{i}.exr" for i in range(3)]
+        for i, name in enumerate(names):
+            self.succeed("scene.xml", *options, "--tile", f"{i}/3", "-o", name)
+        self.assertEqual(Exr(self.read(names[1])).data_window, whole.data_window)
+        merged = self.merge(*names)
+        self.assertEqual(merged.row_bytes, whole.row_bytes)
+        # A farm that runs a task again finds it done; another tile's file is not it.
+        again = self.succeed("scene.xml", *options[1:], "--tile", "1/3", "--skip-existing", "-o", names[1])
+        self.assertIn("skipped", again.stderr)
+        other = self.succeed("scene.xml", *options[1:], "--tile", "2/3", "--skip-existing", "-o", names[1])
+        self.assertNotIn("skipped", other.stderr)
+        # Nothing else can be put together.
+        done = self.run_program("scene.xml", *options, "--tile", "0/3", "-o", "tile.png")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("light paths", done.stderr)
+        # What a tile's file brings to others is in the picture, as far as it is there.
+        done = self.succeed("merge", names[0], names[2], "--partial", "-o", "part.exr")
+        self.assertIn("the picture is not complete", done.stderr)
+        self.assertIn("raytrace:partial", Exr(self.read("part.exr")).attributes)
 
     def test_channel_types_are_kept(self):
         for options, code in (([], "e"), (["--float"], "f")):

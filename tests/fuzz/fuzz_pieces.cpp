@@ -35,7 +35,7 @@ constexpr Region overscan{-9, -7, 30, 25};
 
 std::vector<SamplePiece> kinds() {
   const Region whole{0, 0, sample_width, sample_height};
-  std::vector<SamplePiece> all(10);
+  std::vector<SamplePiece> all(12);
   all[1].tile = Tile{1, 2};
   all[2] = {whole, Tile{0, 3}, {0, 5}, false, true, false, false};
   all[3] = {whole, std::nullopt, {3, 5}, true, true, false, false};
@@ -45,13 +45,17 @@ std::vector<SamplePiece> kinds() {
   all[7] = {overscan, Tile{2, 4}, {0, 3}, false, true, false, true};
   all[8].samples = {0, 1, true};
   all[9] = {whole, std::nullopt, {0, 5}, true, false, true, false};
-  all[4].large = all[7].large = true;
+  all[10] = {whole, Tile{1, 2}, {0, 5}, false, true, true, false};
+  all[11] = {overscan, Tile{0, 2}, {3, 5}, true, true, false, true};
+  all[10].light_paths = all[11].light_paths = true;
+  all[4].large = all[7].large = all[11].large = true;
   return all;
 }
 
 SamplePiece checkpoint_kind(bool aovs) {
   SamplePiece piece;
   piece.aovs = aovs;
+  piece.light_paths = !aovs;
   piece.partial = true;
   return piece;
 }

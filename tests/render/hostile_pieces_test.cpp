@@ -134,6 +134,12 @@ TEST_CASE("a piece whose numbers are none of this program's is refused") {
   with_aovs.aovs = true;
   for (const char* const units : {"0,0", "0,0,0,0", "0,0,97", "0,0,+1", "0,0,", ""})
     check_refused(with_aovs, text("raytrace:aovUnits", units), "raytrace:aovUnits");
+  SamplePiece with_light_paths;
+  with_light_paths.sums = with_light_paths.light_paths = true;
+  for (const int flag : {2, -1})
+    check_refused(with_light_paths, number("raytrace:lightPaths", flag), "raytrace:lightPaths");
+  // Its file is as large as the picture, and no tile.
+  check_refused(with_light_paths, number("raytrace:lightPaths", 0), "its data window is");
   // Of another type, or twice.
   for (const char* const name :
        {"raytrace:samples", "raytrace:centered", "raytrace:unitExponent", "raytrace:partial"}) {
@@ -172,6 +178,21 @@ TEST_CASE("a piece with other channels than its own is refused by the channel's 
         "lacks the channel sums.hits");
   check([](auto& channels) { channels.clear(); }, "");
   check([](auto& channels) { channel(channels, "B").layout.replace(8, 4, little_endian(2U)); }, "channel B");
+}
+
+TEST_CASE("a piece with light paths needs the channels of what they bring") {
+  SamplePiece kind;
+  kind.sums = kind.light_paths = true;
+  const auto check = [&](const std::function<void(std::vector<ExrChannel>&)>& edit, const std::string& text) {
+    check_refused(kind, [&](ExrBytes& exr) { edit_channels(exr, edit); }, text);
+  };
+  for (const char* const name : {"sums.splat.red.low", "sums.splat.blue.high"}) {
+    check([&](auto& channels) { std::erase_if(channels, [&](const auto& one) { return one.name == name; }); },
+          std::string("lacks the channel ") + name);
+    check([&](auto& channels) { channel(channels, name).name += "x"; }, "channel");
+  }
+  check([](auto& channels) { channels.push_back({"sums.splat.limb2.red.low", channel(channels, "sums.hits").layout}); },
+        "lacks the channel sums.splat.limb2.");
 }
 
 TEST_CASE("an EXR file of another kind is refused") {

@@ -4,6 +4,7 @@
 
 #include "raytrace/aovs/aov_selection.h"
 #include "raytrace/film/aov_film.h"
+#include "raytrace/film/splat_layer.h"
 #include "raytrace/output/image_band.h"
 
 namespace raytrace::test {
@@ -17,6 +18,10 @@ PieceIdentity identity_of(const SamplePiece& piece) {
   FilmSettings& film = identity.film;
   film.extent = {sample_width, sample_height,
                  piece.tile ? tile_of(piece.whole, piece.tile->index, piece.tile->count) : piece.whole};
+  if (piece.light_paths) {
+    film.light_paths_of = film.extent.region;
+    film.extent.region = piece.whole;
+  }
   film.samples = piece.samples;
   film.seed = 7;
   if (piece.aovs) film.aovs = aov_settings(aov_set(aov_names()));
@@ -25,7 +30,7 @@ PieceIdentity identity_of(const SamplePiece& piece) {
 
 Film film_of(const SamplePiece& piece) {
   Film film(identity_of(piece).film);
-  const Region& region = film.region();
+  const Region region = film.settings().rendered();
   const std::uint32_t count = piece.samples.count;
   for (int y = region.y0; y < region.y1; ++y)
     for (int x = region.x0; x < region.x1; ++x) {
@@ -35,6 +40,10 @@ Film film_of(const SamplePiece& piece) {
       const std::int64_t light = std::int64_t{number} << 36;
       const std::int64_t high = piece.large ? std::int64_t{samples} * 1000 : 0;
       film.add(x, y, {light, light / 2, light / 3, hits, samples}, {high, -high, high});
+      if (SplatLayer* const splats = film.splats(); splats != nullptr) {
+        splats->add(piece.whole.x0 + x % 3, piece.whole.y0 + y % 5, {light, from_limbs({light, high}), -light});
+        splats->add_paths(samples * splats->paths_per_sample(x, y));
+      }
       AovFilm* const aovs = film.aovs();
       if (aovs == nullptr) continue;
       const std::array<std::uint32_t, 32> values{number};

@@ -18,7 +18,8 @@ struct SamplePiece {
   bool sums = false;
   bool compressed = true;
   bool partial = false;
-  bool large = false;  ///< its sums need two limbs
+  bool large = false;        ///< its sums need two limbs
+  bool light_paths = false;  ///< that reach all of `whole`
 };
 
 PieceIdentity identity_of(const SamplePiece& piece);

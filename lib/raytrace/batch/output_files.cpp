@@ -65,6 +65,7 @@ bool outputs_are_complete(const RenderJob& job, const SceneDescription& descript
   identity.film.samples = sample_range(description.viewplane, job);
   WantedPicture wanted;
   wanted.extent = identity.film.extent;
+  wanted.light_paths_extent = identity.whole;
   wanted.channels = color_channels(job.full_float);
   for (Channel& channel : aov_channels(job.aovs)) wanted.channels.push_back(std::move(channel));
   if (job.sample_offset)

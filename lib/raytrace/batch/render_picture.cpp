@@ -12,6 +12,7 @@
 #include "raytrace/batch/checkpoint.h"
 #include "raytrace/batch/output_files.h"
 #include "raytrace/batch/provenance.h"
+#include "raytrace/batch/settings_error.h"
 #include "raytrace/description/check_scene.h"
 #include "raytrace/display/display_client.h"
 #include "raytrace/film/aov_film.h"
@@ -71,6 +72,7 @@ class PictureRender {
 
     observer_.on_stage(RenderStage::render);
     begin_film();
+    refuse_useless_parts();
     const AovSettings aovs = aov_settings(job_.aovs);
     const int rows = rows_at_once(settings_.region, sizeof(PixelSum) + AovFilm::pixel_bytes(aovs));
     // What goes on later, or may end at any sample, needs the whole film; so does the number of channels that a piece's
@@ -131,6 +133,15 @@ class PictureRender {
       display_ = std::make_unique<DisplayClient>(*job_.display_server, job_.outputs.front(), extent,
                                                  [this](const auto& text) { report(MessageLevel::warning, text); });
     }
+  }
+
+  /// Parts that light paths of others belong to, in files that cannot be put together.
+  void refuse_useless_parts() const {
+    if (identity_.film.rendered() == identity_.film.extent.region) return;
+    for (const std::string& file : job_.outputs)
+      if (!image_format(file, job_.image_file_settings()).data)
+        throw SettingsError("--tile: " + file +
+                            ": the scene's light paths (<caustics>) reach all tiles; write EXR files and merge them");
   }
 
   /// Means where nobody asks for more: neither for samples to come after a while, nor for pieces to be put together, be

@@ -19,6 +19,7 @@ namespace raytrace {
 namespace {
 
 constexpr const char* partial_mark = "raytrace:partial";
+constexpr const char* light_paths_mark = "raytrace:lightPaths";
 
 std::string text_of(const ImageAttribute& attribute) {
   if (const auto* const text = std::get_if<std::string>(&attribute.value)) return *text;
@@ -49,8 +50,10 @@ bool is_whole_exr(const std::string& file, const WantedPicture* wanted) {
       return std::find(channels.begin(), channels.end(), channel) != channels.end();
     };
     if (!fit(texts, wanted)) return false;
-    if (wanted != nullptr && (picture.extent() != wanted->extent ||
-                              !std::all_of(wanted->channels.begin(), wanted->channels.end(), has_channel)))
+    PictureExtent extent = wanted == nullptr ? PictureExtent{} : wanted->extent;
+    if (wanted != nullptr && has(texts, light_paths_mark, "1")) extent.region = wanted->light_paths_extent;
+    if (wanted != nullptr &&
+        (picture.extent() != extent || !std::all_of(wanted->channels.begin(), wanted->channels.end(), has_channel)))
       return false;
     const Region& region = picture.extent().region;
     picture.read({channels.front()}, region.y1 - 1, region.y1);  // throws where a copy was cut off

@@ -14,6 +14,7 @@ namespace raytrace {
 /// What a file must hold to be the picture that is wanted. Of each format, what it keeps is compared.
 struct WantedPicture {
   PictureExtent extent;           ///< EXR: where in the picture; all others: the size
+  Region light_paths_extent{};    ///< EXR: where in the picture, if it has light paths
   std::vector<Channel> channels;  ///< EXR: these, or more
   int bit_depth = 8;              ///< PNG
   double exposure = 0;            ///< PNG
