@@ -1281,6 +1281,23 @@ openpbr_row(
     ],
 )
 openpbr_row(
+    "openpbr-thin-film",
+    "Films of 0.25, 0.4 and 0.6 micrometres on black, a film on titanium, and a bubble.",
+    [
+        {"base_color": (0.01, 0.01, 0.01), "specular_roughness": 0.1, "thin_film_weight": 1, "thin_film_ior": 2, "thin_film_thickness": 0.25},
+        {"base_color": (0.01, 0.01, 0.01), "specular_roughness": 0.1, "thin_film_weight": 1, "thin_film_ior": 2, "thin_film_thickness": 0.4},
+        {"base_color": (0.01, 0.01, 0.01), "specular_roughness": 0.1, "thin_film_weight": 1, "thin_film_ior": 2, "thin_film_thickness": 0.6},
+        {
+            "base_color": (0.618, 0.58, 0.543), "base_metalness": 1, "specular_color": (0.769, 0.79, 0.821), "specular_roughness": 0.2,
+            "thin_film_weight": 1, "thin_film_ior": 2.4, "thin_film_thickness": 0.06,
+        },
+        {
+            "transmission_weight": 1, "specular_roughness": 0, "specular_ior": 1.33, "geometry_thin_walled": "true",
+            "thin_film_weight": 1, "thin_film_ior": 1.33, "thin_film_thickness": 0.45,
+        },
+    ],
+)
+openpbr_row(
     "openpbr-anisotropy",
     "Metal of specular_roughness_anisotropy 0, 0.5, 0.8 and 1, and a coat of 0.8 on red.",
     [

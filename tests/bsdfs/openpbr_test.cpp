@@ -48,6 +48,15 @@ std::vector<std::pair<std::string, OpenPbr::Parameters>> white_materials(double 
   add("metal with a rough coat", [](auto& p) { p.base_metalness = 1, p.coat_weight = 0.7, p.coat_roughness = 0.5; });
   add("coated glass", [](auto& p) { p.transmission_weight = 1, p.coat_weight = 1, p.coat_roughness = 0.3; });
   add("fuzzy plastic", [&](auto& p) { p.fuzz_weight = 1, p.fuzz_roughness = roughness; });
+  add("plastic with a film", [](auto& p) { p.thin_film_weight = 1; });
+  add("metal with a film", [](auto& p) { p.base_metalness = p.thin_film_weight = 1; });
+  add("glass with a film", [](auto& p) { p.transmission_weight = p.thin_film_weight = 1, p.thin_film_ior = 1.9; });
+  add("coated half glass with a film",
+      [](auto& p) { p.transmission_weight = 0.5, p.thin_film_weight = 0.7, p.coat_weight = 1, p.thin_film_ior = 2.2; });
+  add("bubble", [](auto& p) {
+    p.transmission_weight = p.thin_film_weight = 1, p.specular_ior = p.thin_film_ior = 1.33;
+    p.thin_film_thickness = 0.3, p.geometry_thin_walled = true;
+  });
   add("everything", [&](auto& p) {
     p.transmission_weight = p.base_metalness = p.coat_weight = p.fuzz_weight = 0.5;
     p.coat_roughness = p.base_diffuse_roughness = 0.8;

@@ -157,14 +157,16 @@ TEST_CASE("glTF's primitives are one mesh with a material for each face") {
   REQUIRE(read.mesh->materials.size() == 2);
   const MeshMaterial &first = read.mesh->materials[0], &red = read.mesh->materials[1];
   CHECK(red.name == "red");
-  CHECK(red.kd->red == 0.5);
-  CHECK(red.kd->blue == 1);
-  CHECK(red.map_kd.file == "textures/my wood.png");
-  CHECK(red.map_kd.edge == MeshTexture::Edge::mirror);
+  const MeshParameter &first_base = first.openpbr.at(0), &red_base = red.openpbr.at(0);
+  CHECK(red_base.name == "base_color");
+  CHECK(red_base.value.red == 0.5);
+  CHECK(red_base.value.blue == 1);
+  CHECK(red_base.texture.file == "textures/my wood.png");
+  CHECK(red_base.texture.edge == MeshTexture::Edge::mirror);
   CHECK(first.name == "materials[2]");
-  CHECK(first.kd->green == 1);
-  REQUIRE(first.map_kd.bytes);
-  CHECK(*first.map_kd.bytes == std::string("\0\1\2\xff", 4));
+  CHECK(first_base.value.green == 1);
+  REQUIRE(first_base.texture.bytes);
+  CHECK(*first_base.texture.bytes == std::string("\0\1\2\xff", 4));
 }
 
 TEST_CASE("glTF's interleaved and sparse accessors") {
@@ -302,9 +304,12 @@ TEST_CASE("glTF's positions that are not finite are left out with their faces") 
 
 TEST_CASE("extensions that a glTF file uses are one warning") {
   const ReadResult read = read_bytes(
-      "a.gltf", square().text(of_square + R"(,"extensionsUsed":["KHR_lights_punctual","KHR_mesh_quantization","B"])"));
+      "a.gltf", square().text(of_square + R"(,"extensionsUsed":["KHR_lights_punctual","KHR_mesh_quantization",
+      "KHR_materials_sheen","KHR_texture_transform","KHR_materials_dispersion","B"])"));
   CHECK(read.mesh);
-  CHECK(read.messages == "a.gltf: warning: uses extensions that are not read: 'KHR_lights_punctual', 'B'\n");
+  CHECK(read.messages ==
+        "a.gltf: warning: uses extensions that are not read: 'KHR_lights_punctual', "
+        "'KHR_materials_dispersion', 'B'\n");
 }
 
 TEST_CASE("damaged glTF files are read or refused") {

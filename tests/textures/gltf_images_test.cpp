@@ -1,5 +1,6 @@
 // The images of glTF files, and what else their materials become.
 #include <string>
+#include <vector>
 
 #include "raytrace/description/scene_description.h"
 #include "raytrace/import/gltf_bytes.h"
@@ -83,24 +84,68 @@ TEST_CASE("a glTF image is the same in a file, in a URI and within a GLB file") 
   }
 }
 
-TEST_CASE("a glTF material is a matte with a texture, or with the colours at vertices") {
+TEST_CASE("a glTF material is an openpbr with its textures and the colours at vertices") {
   const TemporaryFolder folder;
   write_text(folder.file("a.gltf"), made_triangle().text(made_gltf_members + R"([{"uri":"data:image/png;base64,)" +
                                                          made_png_base64 + R"("}])"));
   const LoadedGltf loaded = loaded_gltf(folder, "a.gltf");
   INFO(loaded.messages);
   REQUIRE(loaded.fine);
+  const auto& materials = std::get<MaterialItems<OpenPbr>>(loaded.scene->materials);
+  REQUIRE(materials.size() == 2);
+  const auto texture_types = [](const auto& material) {
+    std::vector<std::size_t> types;
+    for (const TextureUse& use : material.textures) types.push_back(use.texture.type);
+    return types;
+  };
+  const std::size_t image = index_of<Image>(Textures{}), vertices = index_of<VertexColor>(Textures{});
+  CHECK(materials[0].name == "wood");
+  CHECK(materials[0].parameters.base_color.green == 0.25);
+  CHECK(materials[0].parameters.base_metalness == 1);
+  CHECK(materials[0].parameters.specular_roughness == 1);
+  CHECK(texture_types(materials[0]) == std::vector{image, vertices});
+  CHECK(materials[1].name == "paint");
+  CHECK(materials[1].parameters.base_color.green == 0);
+  CHECK(texture_types(materials[1]) == std::vector{vertices});
   const auto& mattes = std::get<MaterialItems<Matte>>(loaded.scene->materials);
-  REQUIRE(mattes.size() == 3);
-  const auto texture_type = [&](std::size_t matte) { return mattes[matte].textures.at(0).texture.type; };
-  CHECK(mattes[0].name == "wood");
-  CHECK(mattes[0].parameters.cd.green == 0.25);
-  CHECK(texture_type(0) == index_of<Image>(Textures{}));
-  CHECK(mattes[1].name == "paint");
-  CHECK(mattes[1].parameters.cd.green == 0);
-  CHECK(texture_type(1) == index_of<VertexColor>(Textures{}));
-  CHECK(mattes[2].parameters.cd.green == 1);  // of what has no material
-  CHECK(texture_type(2) == index_of<VertexColor>(Textures{}));
+  REQUIRE(mattes.size() == 1);
+  CHECK(mattes[0].parameters.cd.green == 1);  // of what has no material
+  CHECK(texture_types(mattes[0]) == std::vector{vertices});
+}
+
+TEST_CASE("glTF's roughness and metalness are channels of one image, and a mask is one made sharp") {
+  const TemporaryFolder folder;
+  GltfFile file = made_triangle();
+  write_text(folder.file("a.gltf"),
+             file.text(R"("scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"textures":[{"source":0}],
+      "meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1},"material":0}]}],
+      "materials":[{"alphaMode":"MASK","alphaCutoff":0.25,"pbrMetallicRoughness":{"metallicFactor":0.5,
+        "baseColorFactor":[1,1,1,0.5],"baseColorTexture":{"index":0},"metallicRoughnessTexture":{"index":0}}}],
+      "images":[{"uri":"data:image/png;base64,)" +
+                       made_png_base64 + R"("}])"));
+  const LoadedGltf loaded = loaded_gltf(folder, "a.gltf");
+  INFO(loaded.messages);
+  REQUIRE(loaded.fine);
+  const auto& material = std::get<MaterialItems<OpenPbr>>(loaded.scene->materials).at(0);
+  const Fields& fields = element_type<OpenPbr>().fields;
+  const auto use_of = [&](std::string_view field) {
+    for (const TextureUse& use : material.textures)
+      if (fields[use.field].name == field) return use;
+    FAIL("no texture of " << field);
+    return TextureUse{};
+  };
+  const auto& images = std::get<TextureItems<Image>>(loaded.scene->textures);
+  CHECK(images.size() == 2);  // one of them sharp
+  CHECK(use_of("base_metalness").channel == TextureChannel::blue);
+  CHECK(use_of("specular_roughness").channel == TextureChannel::green);
+  CHECK(use_of("base_metalness").texture.index == use_of("specular_roughness").texture.index);
+  CHECK(use_of("base_metalness").texture.index == use_of("base_color").texture.index);
+  CHECK(material.parameters.base_metalness == 0.5);
+  CHECK(use_of("opacity").channel == TextureChannel::alpha);
+  const Image::Parameters& mask = images[use_of("opacity").texture.index].parameters;
+  CHECK(mask.valuescale * 0.5 + mask.valueoffset == 0.5);  // at the cutoff
+  CHECK(mask.valuescale * 0.52 + mask.valueoffset > 1);
+  CHECK(mask.valuescale * 0.48 + mask.valueoffset < 0);
 }
 
 TEST_CASE("an image within a glTF file that is none is an error that names it") {

@@ -202,6 +202,27 @@ TEST_CASE("places are scaled, then turned, then moved") {
   CHECK(worst < 2e-4);
 }
 
+TEST_CASE("values are scaled, then moved, alpha with them") {
+  std::mt19937 random(41);
+  RandomPlaces chance(43);
+  const TexelImage image(random_picture(random, 16, 16, 4, TexelFormat::floats), false, 1);
+  Image::Parameters parameters;
+  parameters.valuescale = -3;
+  parameters.valueoffset = 0.5;
+  const Kernel<Image> kernel = kernel_of(image, parameters), as_it_is = kernel_of(image, Image::Parameters{});
+  double worst = 0;
+  for (int i = 0; i < 20; ++i) {
+    const auto places = chance.places(1, 0);
+    const Rgba<FloatN> found = kernel.at(point_of(places)), before = as_it_is.at(point_of(places));
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const Color4 a = lane_of(found, lane), b = lane_of(before, lane);
+      for (std::size_t c = 0; c < a.size(); ++c) worst = std::max(worst, std::abs(a[c] - (0.5 - 3 * b[c])));
+    }
+  }
+  CHECK(worst < 1e-6);
+  CHECK(double{kernel.largest()} == Approx(3 * double{as_it_is.largest()} + 0.5));
+}
+
 TEST_CASE("a lane's colour does not depend on the others, to the bit") {
   std::mt19937 random(41);
   RandomPlaces chance(43);

@@ -33,6 +33,13 @@ T f82_dip(const T& normal, const T& edge) {
   return (normal + (T(1) - normal) * T(fifth)) * (T(1) - edge) * T(1 / (c * fifth * rest));
 }
 
+/// What a metal reflects at an angle of that cosine. T: a batch.
+template <class T>
+T f82_reflectance(const T& normal, const T& edge, const T& cosine) {
+  const T rest = T(1) - min(cosine, T(1)), fifth = (rest * rest) * (rest * rest) * rest;
+  return normal + (T(1) - normal) * fifth - f82_dip(normal, edge) * (cosine * fifth * rest);
+}
+
 /// Of a pane between two such boundaries, without a distance between them, light going to and fro in it: R + T^2 R (1 +
 /// R^2 + R^4...). reflectance: of one of them.
 template <class T>

@@ -11,6 +11,7 @@
 
 #include "raytrace/bsdfs/fresnel.h"
 #include "raytrace/bsdfs/ggx.h"
+#include "raytrace/math/color.h"
 #include "raytrace/math/gather.h"
 
 namespace raytrace {
@@ -165,6 +166,37 @@ FloatN ggx_dielectric_share(const FloatN& cosine, const FloatN& roughness, const
   };
   const FloatN low = at(layer);
   return low + (at(layer + IntN(1)) - low) * (height - to_float(layer));
+}
+
+/// What facets send on, and of it what they reflect.
+struct GgxShares {
+  Rgb<FloatN> all, reflected;
+};
+
+/// How much of that changes where each facet's reflectance is another than fresnel_reflection() has, by few facets.
+/// reflectance(cosine): of one.
+template <class Reflectance>
+GgxShares ggx_share_changes(const FloatN& cosine, const FloatN& roughness, const FloatN& eta,
+                            const Reflectance& reflectance) {
+  constexpr int turns = 4, heights = 5;
+  const Ggx<FloatN> ggx{roughness * roughness};
+  const Vec3<FloatN> wo{sqrt(max(FloatN(1) - cosine * cosine, FloatN(0))), FloatN(0), max(cosine, FloatN(1e-4F))};
+  const FloatN lambda_o = ggx.lambda(wo.z), zero(0), one(1), least(1e-6F);
+  GgxShares sum{{zero, zero, zero}, {zero, zero, zero}};
+  for (int i = 0; i < turns * heights; ++i) {
+    const float root = (static_cast<float>(i % heights) + 0.5F) / heights;
+    const FloatN turn((static_cast<float>(i / heights) + 0.5F) * 0.5F / turns), weight(root * 2 / (turns * heights));
+    const Vec3<FloatN> facet = ggx.sample_facet(wo, turn, FloatN(1 - root * root));
+    const FloatN c = min(max(dot(wo, facet), zero), one);
+    const FresnelReflection<FloatN> bare = fresnel_reflection(c, eta);
+    const FloatN below = wo.z / eta - facet.z * (c / eta - bare.transmitted_cosine);
+    const FloatN through = select(below > zero, ggx.unshadowed(lambda_o, ggx.lambda(max(below, least))) * weight, zero);
+    const FloatN reflected = detail::unshadowed_reflection(ggx, wo, facet) * weight;
+    const Rgb<FloatN> change = reflectance(c) + Rgb<FloatN>(-bare.reflectance, -bare.reflectance, -bare.reflectance);
+    sum.reflected += change * reflected;
+    sum.all += change * (reflected - through);
+  }
+  return sum;
 }
 
 }  // namespace raytrace

@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <tuple>
 
 #include "raytrace/description/load_images.h"
 #include "raytrace/description/read_value.h"
@@ -94,7 +95,7 @@ class MeshLoader {
       const auto folder = std::filesystem::absolute(file.path).parent_path();
       for (MeshMaterial& material : data->materials) {
         loaded.materials.push_back(add(material, folder));
-        material.map_kd.bytes = nullptr;  // the texture has them
+        material = {};  // the textures have its pictures
       }
       // Faces without a material have the last one.
       const auto& faces = data->face_materials;
@@ -138,14 +139,18 @@ class MeshLoader {
     const bool is_glossy =
         material.illum.value_or(2) >= 2 && std::max({specular.red, specular.green, specular.blue}) > 0;
     MaterialReference added{};
-    if (is_glossy)
+    if (!material.openpbr.empty())
+      added = add_openpbr(material, folder);
+    else if (is_glossy)
       added = add<Phong>({1, 1, 1, diffuse, specular, std::max(0.0, material.ns.value_or(20))}, material.name);
     else
       added = add<Matte>({1, 1, diffuse}, material.name);
-    if (!material.map_kd.file.empty())
-      set_texture(added, "cd", image(material.map_kd, folder));
-    else if (material.vertex_colors)
-      set_texture(added, "cd", vertex_colors());
+    if (material.openpbr.empty()) {
+      if (!material.map_kd.file.empty())
+        set_texture(added, "cd", image(material.map_kd, folder));
+      else if (material.vertex_colors)
+        set_texture(added, "cd", vertex_colors());
+    }
     if (!material.map_d.file.empty())
       set_texture(added, opacity_field, image(material.map_d, folder),
                   material.map_d.alpha ? TextureChannel::alpha : TextureChannel::automatic);
@@ -158,18 +163,51 @@ class MeshLoader {
     return added;
   }
 
+  MaterialReference add_openpbr(const MeshMaterial& material, const std::filesystem::path& folder) {
+    OpenPbr::Parameters parameters;
+    parameters.geometry_thin_walled = material.thin_walled;
+    const Fields& fields = element_type<OpenPbr>().fields;
+    for (const MeshParameter& parameter : material.openpbr) {
+      const Field& field = fields[find_field(fields, parameter.name)];
+      if (field.is<double>())
+        field.get<double>(&parameters) = parameter.value.red;
+      else
+        field.get<Rgb<double>>(&parameters) = parameter.value;
+    }
+    const MaterialReference added = add<OpenPbr>(parameters, material.name);
+    constexpr std::array channels{TextureChannel::red, TextureChannel::green, TextureChannel::blue,
+                                  TextureChannel::alpha};
+    for (const MeshParameter& parameter : material.openpbr) {
+      if (!parameter.texture.file.empty())
+        set_texture(added, parameter.name, image(parameter.texture, folder),
+                    channels[static_cast<std::size_t>(parameter.channel)]);
+      if (parameter.of_vertices && material.vertex_colors) set_texture(added, parameter.name, vertex_colors());
+    }
+    return added;
+  }
+
+  /// The same one for what uses an image in the same way.
   TextureReference image(const MeshTexture& texture, const std::filesystem::path& folder) {
     auto& images = std::get<TextureItems<Image>>(scene_.textures);
+    const std::string path = (folder / texture.file).string();
+    const std::tuple key{
+        path, texture.scale, texture.offset, texture.rotation, texture.value_scale, texture.value_offset, texture.edge};
+    const auto [known, is_new] = known_images_.try_emplace(key, images.size());
+    const auto index = static_cast<std::uint32_t>(known->second);
+    if (!is_new) return {index_of<Image>(Textures{}), index};
     TextureItem<Image>& image = images.emplace_back();
-    image.parameters.file.path = (folder / texture.file).string();
+    image.parameters.file.path = path;
     image.parameters.uvscale = {texture.scale[0], texture.scale[1]};
     image.parameters.uvoffset = {texture.offset[0], texture.offset[1]};
+    image.parameters.uvrotation = texture.rotation;
+    image.parameters.valuescale = texture.value_scale;
+    image.parameters.valueoffset = texture.value_offset;
     if (texture.edge != MeshTexture::Edge::repeat)
       image.parameters.wrap = texture.edge == MeshTexture::Edge::clamp ? Wrap::clamp : Wrap::mirror;
     image.image.bytes = texture.bytes;
     image.name = image.parameters.file.path + '#' + std::to_string(images.size());
     image.imported = true;
-    return {index_of<Image>(Textures{}), static_cast<std::uint32_t>(images.size() - 1)};
+    return {index_of<Image>(Textures{}), index};
   }
 
   TextureReference vertex_colors() {
@@ -216,6 +254,10 @@ class MeshLoader {
   std::map<std::string, LoadedFile> files_;
   std::map<std::string, std::shared_ptr<const PointCloud>> clouds_;
   std::set<std::string> taken_names_;
+  std::map<
+      std::tuple<std::string, std::array<double, 2>, std::array<double, 2>, double, double, double, MeshTexture::Edge>,
+      std::size_t>
+      known_images_;
   MaterialReference grey_ = no_material, painted_ = no_material;
 };
 

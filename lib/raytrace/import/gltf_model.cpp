@@ -2,9 +2,11 @@
 #include "raytrace/import/gltf_model.h"
 
 #include <filesystem>
+#include <set>
 #include <utility>
 
 #include "raytrace/import/gltf_json.h"
+#include "raytrace/import/gltf_material.h"
 
 namespace raytrace::gltf {
 namespace {
@@ -70,6 +72,7 @@ class ModelReader {
   std::string_view buffer(const Item& number);
   std::uint32_t material(const Item& number);
   MeshTexture texture(const Item& info);
+  void warn_once(const std::string& place, const std::string& message);
 
   Chunks chunks_;
   json json_;
@@ -80,6 +83,7 @@ class ModelReader {
   std::map<std::uint64_t, std::uint32_t> materials_;                    ///< their numbers in the model
   std::map<std::uint64_t, std::shared_ptr<const std::string>> images_;  ///< those in buffers and URIs
   std::vector<std::string> warnings_;
+  std::set<std::string> warned_;  ///< of what is said of the first place alone
 };
 
 void ModelReader::check_version() const {
@@ -88,7 +92,9 @@ void ModelReader::check_version() const {
 }
 
 void ModelReader::check_extensions(Diagnostics& diagnostics) const {
-  const auto is_read = [](std::string_view name) { return name == "KHR_mesh_quantization"; };
+  const auto is_read = [](std::string_view name) {
+    return name == "KHR_mesh_quantization" || name == "KHR_texture_transform" || is_material_extension(name);
+  };
   const auto names = [&](const char* key) {
     std::vector<std::string> unknown;
     if (const auto list = root_.find(key))
@@ -312,30 +318,14 @@ std::uint32_t ModelReader::material(const Item& number) {
   const auto next = static_cast<std::uint32_t>(model_.materials.size());
   const auto [known, is_new] = materials_.try_emplace(number.whole(), next);
   if (!is_new) return known->second;
-  MeshMaterial material;
-  const std::optional<Item> name = item.find("name"), surface = item.find("pbrMetallicRoughness");
-  material.name = name ? name->text() : item.place();
-  material.kd = {1, 1, 1};
-  const std::optional<Item> alpha_mode = item.find("alphaMode");
-  const bool has_opacity = alpha_mode && alpha_mode->text() != "OPAQUE";
-  if (surface) {
-    if (const auto factor = surface->numbers<4>("baseColorFactor")) {
-      const auto [red, green, blue, alpha] = *factor;
-      material.kd = {std::clamp(red, 0.0, 1.0), std::clamp(green, 0.0, 1.0), std::clamp(blue, 0.0, 1.0)};
-      if (has_opacity) material.d = std::clamp(alpha, 0.0, 1.0);
-    }
-    if (const auto info = surface->find("baseColorTexture")) material.map_kd = texture(*info);
-    if (has_opacity) {
-      material.map_d = material.map_kd;
-      material.map_d.alpha = true;
-    }
-  }
-  if (const auto info = item.find("normalTexture")) {
-    material.norm = texture(*info);
-    if (const auto scale = info->find("scale")) material.norm.strength = scale->number();
-  }
-  model_.materials.push_back(std::move(material));
+  model_.materials.push_back(read_material(
+      item, [&](const Item& info) { return texture(info); },
+      [&](const std::string& place, const std::string& message) { warn_once(place, message); }));
   return next;
+}
+
+void ModelReader::warn_once(const std::string& place, const std::string& message) {
+  if (warned_.insert(message).second) warnings_.push_back(place + ": " + message);
 }
 
 MeshTexture ModelReader::texture(const Item& info) {
@@ -343,7 +333,12 @@ MeshTexture ModelReader::texture(const Item& info) {
   const Item item = listed("textures", info["index"]);
   const std::optional<Item> source = item.find("source");
   if (!source) return texture;  // that of an extension
-  if (info.whole("texCoord", 0) != 0) {
+  std::uint64_t coordinates = info.whole("texCoord", 0);
+  if (const auto transform = extension(info, "KHR_texture_transform")) {
+    coordinates = transform->whole("texCoord", coordinates);
+    place_texture(*transform, texture);
+  }
+  if (coordinates != 0) {
     warnings_.push_back(info.place() + ": has coordinates other than TEXCOORD_0, and is left out");
     return texture;
   }

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "raytrace/math/color.h"
@@ -52,16 +53,30 @@ struct MeshTexture {
 
   std::string file;  ///< as in the file, with '/' between folders; empty: none
   std::array<double, 2> scale{1, 1}, offset{0, 0};
-  double strength = 1;       ///< of a bump or normal map
-  bool alpha = false;        ///< of an opacity: that it is its alpha, which is 1 where it has none
-  Edge edge = Edge::repeat;  ///< what is beyond
+  double rotation = 0;                       ///< in degrees, from u to v, between both
+  double value_scale = 1, value_offset = 0;  ///< of what is in the picture
+  double strength = 1;                       ///< of a bump or normal map
+  bool alpha = false;                        ///< of an opacity: that it is its alpha, which is 1 where it has none
+  Edge edge = Edge::repeat;                  ///< what is beyond
   /// The picture's file, where it is within the model's; `file` is then a name for messages.
   std::shared_ptr<const std::string> bytes{};
 };
 
-/// A material by the names of Wavefront's MTL. No value: the file does not say.
+/// A parameter of an OpenPBR material.
+struct MeshParameter {
+  std::string_view name;       ///< OpenPBR's
+  Rgb<double> value{1, 1, 1};  ///< a number's is red
+  MeshTexture texture{};       ///< multiplies it
+  int channel = 0;             ///< of it, for a number: red, green, blue or alpha
+  bool of_vertices = false;    ///< colours of vertices multiply it, if there are any
+};
+
+/// A material: of an OpenPBR's parameters, if it has any, or by the names of Wavefront's MTL, where no value says that
+/// the file does not say. Opacity and normals are MTL's for both.
 struct MeshMaterial {
   std::string name;
+  std::vector<MeshParameter> openpbr{};
+  bool thin_walled = false;
   std::optional<Rgb<double>> ka, kd, ks, ke, tf;
   std::optional<double> ns, d, ni, pr, pm;
   std::optional<int> illum;

@@ -6,9 +6,10 @@
 //     <specular_roughness>0.4</specular_roughness> <coat_weight>1</coat_weight>
 //   </openpbr>
 //
-// From below: a base that is a metal, or a dielectric, which is clear or has a diffuse inside; a coat; fuzz. Each layer
-// lets through what it does not reflect. geometry_opacity is every material's `opacity`. Not there: subsurface_...,
-// transmission_scatter..., transmission_dispersion..., and the coat's own normal and tangent.
+// From below: a base that is a metal, or a dielectric, which is clear or has a diffuse inside; a thin film on it, whose
+// colours are those of waves that interfere; a coat; fuzz. Each layer lets through what it does not reflect.
+// geometry_opacity is every material's `opacity`. Not there: subsurface_..., transmission_scatter...,
+// transmission_dispersion..., and the coat's own normal and tangent.
 #pragma once
 
 #include <string>
@@ -37,6 +38,7 @@ class OpenPbr {
     T fuzz_weight = T(0);
     Rgb<T> fuzz_color{T(1), T(1), T(1)};
     T fuzz_roughness = T(0.5);
+    T thin_film_weight = T(0), thin_film_thickness = T(0.5), thin_film_ior = T(1.5);
     T emission_luminance = T(0);
     Rgb<T> emission_color{T(1), T(1), T(1)};
     T opacity = T(1), normalmap = T(1), bump = T(1);  ///< of surface_detail.h
@@ -50,6 +52,7 @@ class OpenPbr {
       base_color = {0.8, 0.8, 0.8};
       specular_roughness = 0.3;
       coat_ior = 1.6;
+      thin_film_ior = 1.4;
     }
   };
   static constexpr std::string_view group = "openpbrs";
@@ -84,6 +87,9 @@ class OpenPbr {
         number("fuzz_weight", &P::fuzz_weight),
         color("fuzz_color", &P::fuzz_color),
         number("fuzz_roughness", &P::fuzz_roughness),
+        number("thin_film_weight", &P::thin_film_weight),
+        number("thin_film_thickness", &P::thin_film_thickness),
+        number("thin_film_ior", &P::thin_film_ior),
         number("emission_luminance", &P::emission_luminance),
         color("emission_color", &P::emission_color),
         optional("geometry_thin_walled", &P::geometry_thin_walled),
@@ -100,11 +106,12 @@ class OpenPbr {
       if (name.ends_with("_ior")) {
         const double ior = field.get<double>(const_cast<Parameters*>(&parameters));
         if (ior < 0.1 || ior > 10) return error(name, "not between 0.1 and 10");
+        if (name == "thin_film_ior" && ior < 1) return error(name, "below 1, which lets no light in at grazing angles");
       } else if (name == "transmission_color" || name == "coat_color") {
         const auto& color = field.get<Rgb<double>>(const_cast<Parameters*>(&parameters));
         if (color.red > 1 || color.green > 1 || color.blue > 1) return error(name, "above 1: light would grow inside");
       } else if (field.is<double>() && name != "specular_weight" && name != "transmission_depth" &&
-                 name != "emission_luminance") {
+                 name != "thin_film_thickness" && name != "emission_luminance") {
         if (field.get<double>(const_cast<Parameters*>(&parameters)) > 1) return error(name, "above 1");
       }
     }

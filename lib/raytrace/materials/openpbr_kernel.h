@@ -1,21 +1,12 @@
-// How OpenPBR's surfaces scatter light: lobes over each other, of which each lets through what it does not reflect of
-// light from wo's side (OpenPBR 1.1.1, "Reduction to a mixture of lobes"). Their f is not reciprocal.
-//
-// On the inside of what light comes through, the dielectric's boundary alone counts. Emission is the same in all
-// directions: the coat takes from it what it takes of light that leaves straight away.
+// What OpenPBR's parameters say of the lobes of openpbr_bsdf.h.
 #pragma once
 
 #include <cmath>
 #include <type_traits>
 
-#include "raytrace/bsdfs/fuzz.h"
-#include "raytrace/bsdfs/ggx_shares.h"
-#include "raytrace/bsdfs/lambertian.h"
-#include "raytrace/bsdfs/oren_nayar.h"
-#include "raytrace/bsdfs/stretched_ggx.h"
 #include "raytrace/materials/openpbr.h"
+#include "raytrace/materials/openpbr_bsdf.h"
 #include "raytrace/math/kernel.h"
-#include "raytrace/math/rgba.h"
 
 namespace raytrace {
 
@@ -23,256 +14,7 @@ template <>
 class Kernel<OpenPbr> {
  public:
   template <class T>
-  struct Bsdf {
-    Rgb<T> base, metal, specular_color, tint;  ///< tint: of what comes through
-    T base_weight, diffuse_roughness, metalness, specular_weight, roughness, anisotropy;
-    T eta;  ///< of the base, over what is on wo's side
-    T transmission, thin;
-    Rgb<T> extinction;  ///< inside, for a unit of length
-    T coat, coat_roughness, coat_anisotropy, coat_eta, coat_darkening;
-    T coat_inside;           ///< the share of evenly spread light from below that the coat reflects
-    Rgb<T> coat_extinction;  ///< for the coat's thickness
-    T fuzz, fuzz_roughness;
-    Rgb<T> fuzz_color;
-    Rgb<T> radiance;
-
-    /// evaluate() is in the local frame, as all others are.
-    static constexpr bool in_local_frame = true;
-
-    template <class Front>
-    void set_side(const Front& front) {
-      const auto inside = (transmission > T(0)) & !(front | is_thin());
-      eta = select(inside, T(1) / eta, eta);
-      transmission = select(inside, T(1), transmission);
-      metalness = select(inside, T(0), metalness);
-      coat = select(inside, T(0), coat);
-      fuzz = select(inside, T(0), fuzz);
-      specular_color = select(inside, white(), specular_color);
-    }
-
-    Rgb<T> emitted() const { return radiance; }
-    Rgb<T> ambient_radiance(const Rgb<T>&) const { return black(); }
-    Rgb<T> albedo() const {
-      return mix(mix(base * base_weight, tint, transmission), metal * specular_weight, metalness);
-    }
-    /// As of a conductor.
-    Rgb<T> usual_f() const { return albedo(); }
-    Rgb<T> transmittance(const T& distance) const { return exp_of(extinction, -distance); }
-
-    /// What evaluate(), pdf() and sample() have in common for one wo.
-    struct Lobes {
-      Vec3<T> from;
-      Fuzz<T> fibers;
-      T under_fuzz;                     ///< what fuzz leaves of all below it
-      T coat_albedo, coat_share;        ///< what the coat reflects; what its facets send on
-      Rgb<T> darkening;                 ///< of what is below the coat
-      T base_reflection;                ///< what the boundary of the dielectric reflects
-      T dielectric_share, white_share;  ///< what the base's facets send on
-      T fuzz_choice, coat_choice, specular_choice,
-          through_choice;  ///< how often sample() takes them; the rest is diffuse
-    };
-    [[gnu::noinline]] Lobes lobes(const Vec3<T>& wo) const {
-      Lobes layers{};
-      layers.from = above_surface(wo, local_normal<T>());
-      const T cosine = min(layers.from.z, T(1)), one(1);
-      const Mask<T> rough = ggx().is_rough();
-      layers.base_reflection = fresnel_reflection(cosine, eta).reflectance;
-      layers.dielectric_share = layers.white_share = one;
-      if (any(rough)) {
-        const T even = ggx().even_roughness();
-        layers.white_share = select(rough, ggx_reflected_share(cosine, even), one);
-        layers.dielectric_share = select(rough, ggx_dielectric_share(cosine, even, eta), one);
-        layers.base_reflection = select(rough, ggx_dielectric_share<true>(cosine, even, eta) / layers.dielectric_share,
-                                        layers.base_reflection);
-      }
-      layers.under_fuzz = one;
-      if (any(fuzz > T(0))) {
-        layers.fibers = Fuzz<T>(layers.from, fuzz_roughness);
-        layers.under_fuzz = one - fuzz * layers.fibers.albedo;
-      }
-      layers.coat_albedo = T(0);
-      layers.coat_share = one;
-      layers.darkening = white();
-      if (any(coat > T(0))) {
-        const Mask<T> rough_coat = coat_ggx().is_rough();
-        const T smooth = fresnel_reflection(cosine, coat_eta).reflectance;
-        layers.coat_albedo = smooth;
-        if (any(rough_coat)) {
-          const T even = coat_ggx().even_roughness();
-          layers.coat_share = select(rough_coat, ggx_dielectric_share(cosine, even, coat_eta), one);
-          const T reflected = ggx_dielectric_share<true>(cosine, even, coat_eta) / layers.coat_share;
-          layers.coat_albedo = select(rough_coat, reflected, smooth);
-        }
-        layers.coat_albedo = layers.coat_albedo * coat;
-        // What comes from below is reflected by the coat's inside again and again.
-        const T straight = normal_reflectance(eta);
-        const Rgb<T> below = mix(mix(mix(base * base_weight, tint, transmission), white(), straight),
-                                 metal * specular_weight, metalness);
-        const T spread = mix(mix(one, roughness, straight), roughness, metalness);
-        const T again = mix(smooth, coat_inside, spread);
-        const auto darkened = [&](const T& b) {
-          return one - coat * coat_darkening * (one - (one - again) / max(one - b * again, T(1e-3F)));
-        };
-        layers.darkening = {darkened(below.red), darkened(below.green), darkened(below.blue)};
-      }
-      // As much as comes of each.
-      const Rgb<T> under = under_coat(layers, layers.from.z);
-      const T of_base = mean(under) * (one - layers.base_reflection) * (one - metalness);
-      const T specular = mean(under * at_facet_of(layers, cosine, layers.base_reflection));
-      const T coated = layers.coat_albedo * layers.under_fuzz, fibers = (one - layers.under_fuzz) * mean(fuzz_color);
-      // The table is coarse where total reflection sets in: something may come through where it says nothing does.
-      const T least_through = select(rough, mean(under) * (one - metalness) * T(0.2F), T(0));
-      const T through = max(of_base, least_through) * transmission * mean(tint);
-      const T diffuse = of_base * (one - transmission) * base_weight * mean(base);
-      const T all = fibers + coated + specular + through + diffuse;
-      const Mask<T> some = all > T(0);
-      const T scale = one / select(some, all, one);
-      layers.fuzz_choice = fibers * scale;
-      layers.coat_choice = coated * scale;
-      layers.specular_choice = specular * scale;
-      layers.through_choice = through * scale;
-      return layers;
-    }
-
-    struct Value {
-      Rgb<T> f;
-      T pdf;  ///< at which sample() draws wi
-    };
-    /// Of what is not smooth; wi: above the surface, else it is 0.
-    [[gnu::noinline]] Value value(const Lobes& layers, const Vec3<T>& wi) const {
-      const Mask<T> is_above = wi.z > T(1e-6F);
-      const T even = T(1) - layers.fuzz_choice - layers.coat_choice - layers.specular_choice - layers.through_choice;
-      const T diffuse = (T(1) - metalness) * (T(1) - transmission) * (T(1) - layers.base_reflection) * base_weight;
-      Value result{OrenNayar<T>{base, diffuse_roughness}.f(layers.from, wi) * diffuse,
-                   max(even, T(0)) * wi.z * T(std::numbers::inv_pi_v<float>)};
-      if (const Mask<T> rough = ggx().is_rough(); any(rough)) {
-        const auto reflection = ggx().reflection(layers.from, wi);
-        result.f += select(rough, at_facet(layers, reflection.cosine) * reflection.f, black());
-        result.pdf = result.pdf + select(rough, layers.specular_choice * reflection.pdf, T(0));
-      }
-      result.f = result.f * under_coat(layers, wi.z);
-      if (const Mask<T> rough = coat_ggx().is_rough() & (coat > T(0)); any(rough)) {
-        const auto reflection = coat_ggx().reflection(layers.from, wi);
-        const T reflectance = fresnel_reflection(reflection.cosine, coat_eta).reflectance / layers.coat_share;
-        result.f += select(rough, white() * (coat * reflectance * reflection.f * layers.under_fuzz), black());
-        result.pdf = result.pdf + select(rough, layers.coat_choice * reflection.pdf, T(0));
-      }
-      if (const Mask<T> fuzzy = fuzz > T(0); any(fuzzy)) {
-        const T density = layers.fibers.density(wi);
-        result.f += select(fuzzy, fuzz_color * (fuzz * layers.fibers.albedo * density), black());
-        result.pdf = result.pdf + select(fuzzy, layers.fuzz_choice * density * wi.z, T(0));
-      }
-      return {select(is_above, result.f, black()), select(is_above, result.pdf, T(0))};
-    }
-
-    Rgb<T> evaluate(const Vec3<T>& wo, const Vec3<T>& wi, const Vec3<T>&) const { return value(lobes(wo), wi).f; }
-    T pdf(const Vec3<T>& wo, const Vec3<T>& wi) const { return value(lobes(wo), wi).pdf; }
-    BsdfSample<T> sample(const Vec3<T>& wo, const T& u, const T& u1, const T& u2) const {
-      return sample(lobes(wo), u, u1, u2);
-    }
-
-    BsdfSample<T> sample(const Lobes& layers, const T& u, const T& u1, const T& u2) const {
-      const Vec3<T>& from = layers.from;
-      T before = layers.fuzz_choice;
-      const auto next = [&](const T& choice) {
-        const Mask<T> taken = (u >= before) & (u < before + choice);
-        before = before + choice;
-        return taken;
-      };
-      const Mask<T> on_fuzz = u < before, coated = next(layers.coat_choice);
-      before = before + layers.specular_choice;
-      const Mask<T> through = next(layers.through_choice), is_diffuse = u >= before;
-
-      const auto facets =
-          StretchedGgx<T>::of(select(coated, coat_roughness, roughness), select(coated, coat_anisotropy, anisotropy));
-      const Mask<T> rough = facets.is_rough();
-      const Vec3<T> facet = select(rough, facets.sample_facet(from, u1, u2), local_normal<T>());
-      const T cosine = min(max(dot(from, facet), T(1e-6F)), T(1));
-      const Vec3<T> mirrored = facet * (T(2) * cosine) - from;
-      const Vec3<T> diffuse = Lambertian<T>{base}.sample(from, local_normal<T>(), u1, u2);
-      Vec3<T> wi = normalize(select(is_diffuse, diffuse, mirrored));
-      if (any(on_fuzz)) wi = select(on_fuzz, layers.fibers.sample(u1, u2), wi);
-      const Value above = value(layers, wi);
-      // Of finitely many directions: as if of their own.
-      const Mask<T> specular = !(rough | is_diffuse | on_fuzz);
-      const Rgb<T> mirrored_part = select(coated, white() * (layers.coat_albedo * layers.under_fuzz),
-                                          under_coat(layers, wi.z) * at_facet(layers, from.z));
-      BsdfSample<T> result{wi, select(specular, mirrored_part * (T(1) / from.z), above.f),
-                           select(specular, select(coated, layers.coat_choice, layers.specular_choice), above.pdf),
-                           T(1), specular};
-      if (any(through)) result = select(through, refracted(layers, facets, facet, cosine), result);
-      return result;
-    }
-
-   private:
-    static Rgb<T> white() { return Rgb<T>(T(1), T(1), T(1)); }
-    static Rgb<T> black() { return Rgb<T>(T(0), T(0), T(0)); }
-    static T square(const T& x) { return x * x; }
-    static T mean(const Rgb<T>& c) { return (c.red + c.green + c.blue) * T(1.0F / 3); }
-    static Rgb<T> exp_of(const Rgb<T>& a, const T& factor) {
-      return {exp(a.red * factor), exp(a.green * factor), exp(a.blue * factor)};
-    }
-    static T normal_reflectance(const T& eta) { return square((eta - T(1)) / (eta + T(1))); }
-    auto ggx() const { return StretchedGgx<T>::of(roughness, anisotropy); }
-    auto coat_ggx() const { return StretchedGgx<T>::of(coat_roughness, coat_anisotropy); }
-    auto is_thin() const { return thin > T(0); }
-
-    /// What is left of light between what is below coat and fuzz, and a direction of that cosine.
-    Rgb<T> under_coat(const Lobes& layers, const T& cosine) const {
-      const auto depth = [&](const T& c) {
-        return T(1) / sqrt(max(T(1) - (T(1) - min(c * c, T(1))) / square(coat_eta), T(1e-3F)));
-      };
-      const Rgb<T> left = exp_of(coat_extinction, -(depth(layers.from.z) + depth(cosine)));
-      const auto channel = [&](const T& absorbed, const T& darkening) {
-        return (T(1) - coat + (coat - layers.coat_albedo) * absorbed) * darkening * layers.under_fuzz;
-      };
-      return {channel(left.red, layers.darkening.red), channel(left.green, layers.darkening.green),
-              channel(left.blue, layers.darkening.blue)};
-    }
-
-    /// What a facet of the base reflects at an angle of that cosine, over the shares of facets.
-    Rgb<T> at_facet(const Lobes& layers, const T& cosine) const {
-      return at_facet_of(layers, cosine, fresnel_reflection(cosine, eta).reflectance / layers.dielectric_share);
-    }
-    /// reflected: by the dielectric, likewise.
-    Rgb<T> at_facet_of(const Lobes& layers, const T& cosine, const T& reflected) const {
-      const T rest = T(1) - min(cosine, T(1)), fifth = square(square(rest)) * rest;
-      const T lost = (T(1) - layers.white_share) / layers.white_share;
-      const T pane = pane_reflectance(min(reflected * layers.dielectric_share, T(1))) / layers.white_share;
-      const T dielectric = mix(reflected, pane, select(is_thin(), transmission, T(0)));
-      const auto channel = [&](const T& normal, const T& color) {
-        const T reflectance = normal + (T(1) - normal) * fifth - f82_dip(normal, color) * (cosine * fifth * rest);
-        const T of_metal = reflectance * (T(1) + normal * lost);
-        return mix(dielectric * color, of_metal * specular_weight, metalness);
-      };
-      return {channel(metal.red, specular_color.red), channel(metal.green, specular_color.green),
-              channel(metal.blue, specular_color.blue)};
-    }
-
-    /// A sample that comes through a facet, as through a dielectric's.
-    [[gnu::noinline]] BsdfSample<T> refracted(const Lobes& layers, const StretchedGgx<T>& ggx, const Vec3<T>& facet,
-                                              const T& cosine) const {
-      const Vec3<T>& from = layers.from;
-      const auto [reflectance, below_cosine] = fresnel_reflection(cosine, eta);
-      const T reflected = select(is_thin(), pane_reflectance(reflectance), reflectance);
-      Vec3<T> flipped = facet * (T(2) * cosine) - from;
-      flipped.z = -flipped.z;
-      const Vec3<T> bent = facet * (cosine / eta - below_cosine) - from * (T(1) / eta);
-      const Vec3<T> wi = select(is_thin(), flipped, bent);
-      const T eta2 = select(is_thin(), T(1), square(eta)), cosine_i = max(-wi.z, T(1e-6F));
-      const T lambda_o = ggx.lambda(from), lambda_i = ggx.lambda({wi.x, wi.y, cosine_i});
-      const T across = max(abs(cosine - eta * below_cosine), T(1e-6F));
-      const T spread = select(is_thin(), T(0.25F) / cosine, square(eta) * below_cosine / square(across));
-      const T facets = ggx.density(facet) * cosine / (from.z * (T(1) + lambda_o));
-      const Mask<T> rough = ggx.is_rough(), comes = (reflected < T(1)) & (-wi.z > T(1e-6F));
-      const T share = select(is_thin(), layers.white_share, layers.dielectric_share);
-      const T density = select(rough, facets * spread, T(1));
-      const T shape = select(rough, (T(1) + lambda_o) / ((T(1) + lambda_o + lambda_i) * share), T(1));
-      const T part = (T(1) - metalness) * transmission * (T(1) - reflected) * shape * density / (cosine_i * eta2);
-      return {wi, select(comes, under_coat(layers, cosine_i) * tint * part, black()),
-              select(comes, layers.through_choice * density, T(0)), eta2, !rough};
-    }
-  };
+  using Bsdf = OpenPbrBsdf<T>;
 
   template <class T, class Value>
   static Bsdf<T> bsdf_of(const OpenPbr::Values<Value>& values) {
@@ -314,12 +56,19 @@ class Kernel<OpenPbr> {
     const Value &r = values.specular_roughness, &rc = values.coat_roughness, &coat = values.coat_weight;
     const Value rougher = sqrt(sqrt(min(r * r * r * r + Value(2) * rc * rc * rc * rc, one)));
     bsdf.roughness = number(r + (rougher - r) * coat);
-    const Value ratio = values.specular_ior / values.coat_ior, under = pick(ratio < one, one / ratio, ratio);
-    const Value index = values.specular_ior + (under - values.specular_ior) * coat;
+    const auto under_coat = [&](const Value& ior) {
+      const Value ratio = ior / values.coat_ior, under = pick(ratio < one, one / ratio, ratio);
+      return ior + (under - ior) * coat;
+    };
+    const Value index = under_coat(values.specular_ior);
     const Value root = (index - one) / (index + one);
     const Value size = sqrt(min(values.specular_weight * root * root, Value(0.9F)));
     const Value signed_size = pick(root < none, -size, size);
     bsdf.eta = number((one + signed_size) / (one - signed_size));
+    bsdf.film.weight = number(values.thin_film_weight);
+    bsdf.film.eta = number(max(under_coat(values.thin_film_ior), one));
+    // A tenth of a millimetre has long lost all colours.
+    bsdf.film.depth = number(min(Value(2.0F) * values.thin_film_thickness * values.thin_film_ior, Value(100.0F)));
     bsdf.coat = number(coat);
     bsdf.anisotropy = number(values.specular_roughness_anisotropy);
     bsdf.coat_roughness = number(rc);

@@ -5,7 +5,8 @@
 //   </image>
 //
 // (0, 0) is the picture's lower left corner and (1, 1) its upper right one, with u to the right and v upwards. The
-// place in the picture is the surface's, scaled, then turned, then moved.
+// place in the picture is the surface's, scaled, then turned, then moved. valuescale multiplies what is there, alpha
+// included, and valueoffset is added to that: a mask becomes sharp, or a number from 0.2 to 0.5.
 #pragma once
 
 #include <array>
@@ -52,6 +53,7 @@ class Image {
     Vec2d uvscale{1, 1};    ///< how often the picture fits into one unit of u and v
     Vec2d uvoffset{0, 0};   ///< added to the place in the picture
     double uvrotation = 0;  ///< degrees by which the place turns about (0, 0), from u to v
+    double valuescale = 1, valueoffset = 0;
   };
   static constexpr std::string_view group = "images";
   static constexpr std::string_view element = "image";
@@ -62,7 +64,9 @@ class Image {
             optional("filter", &Parameters::filter),
             optional("uvscale", &Parameters::uvscale),
             optional("uvoffset", &Parameters::uvoffset),
-            optional("uvrotation", &Parameters::uvrotation)};
+            optional("uvrotation", &Parameters::uvrotation),
+            optional("valuescale", &Parameters::valuescale),
+            optional("valueoffset", &Parameters::valueoffset)};
   }
   static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {
     if (!parameters.file.path.empty()) return std::nullopt;

@@ -27,13 +27,15 @@ class Kernel<Image> {
       : texels_(texels ? std::move(texels) : TexelImage::of_color(255, 0, 255)),
         wrap_(image.wrap),
         filter_(image.filter),
-        offset_{static_cast<float>(image.uvoffset.x), static_cast<float>(image.uvoffset.y)} {
+        offset_{static_cast<float>(image.uvoffset.x), static_cast<float>(image.uvoffset.y)},
+        value_scale_(static_cast<float>(image.valuescale)),
+        value_offset_(static_cast<float>(image.valueoffset)) {
     const double angle = image.uvrotation * std::numbers::pi / 180, c = std::cos(angle), s = std::sin(angle);
     across_ = {static_cast<float>(c * image.uvscale.x), static_cast<float>(-s * image.uvscale.y)};
     up_ = {static_cast<float>(s * image.uvscale.x), static_cast<float>(c * image.uvscale.y)};
   }
 
-  float largest() const { return texels_->largest(); }
+  float largest() const { return std::abs(value_scale_) * texels_->largest() + std::abs(value_offset_); }
   bool has_alpha() const { return texels_->has_alpha(); }
   std::int32_t width() const { return texels_->levels()[0].width; }
   std::int32_t height() const { return texels_->levels()[0].height; }
@@ -44,6 +46,14 @@ class Kernel<Image> {
   }
 
   Rgba<FloatN> at(const TexturePoint<FloatN>& point) const {
+    const Rgba<FloatN> value = in_file(point);
+    if (value_scale_ == 1 && value_offset_ == 0) return value;
+    const auto changed = [&](const FloatN& x) { return x * FloatN(value_scale_) + FloatN(value_offset_); };
+    return {{changed(value.color.red), changed(value.color.green), changed(value.color.blue)}, changed(value.alpha)};
+  }
+
+ private:
+  Rgba<FloatN> in_file(const TexturePoint<FloatN>& point) const {
     const Vec2<FloatN> turned = in_picture(point.uv);
     const Vec2<FloatN> uv{turned.x + FloatN(offset_.x), turned.y + FloatN(offset_.y)};
     if (filter_ == TextureFilter::nearest) return nearest(uv);
@@ -64,7 +74,6 @@ class Kernel<Image> {
     return mix(sharper, level_at(min(lower + IntN(1), IntN(last))), part);
   }
 
- private:
   /// The texels of a row or column that a look-up is between, those left out being black.
   struct Neighbours {
     IntN low, high;
@@ -260,6 +269,7 @@ class Kernel<Image> {
   TextureFilter filter_;
   Vec2<float> across_{}, up_{};  ///< of the place in the picture: what u and v give to its coordinates
   Vec2<float> offset_;
+  float value_scale_, value_offset_;
 };
 
 }  // namespace raytrace

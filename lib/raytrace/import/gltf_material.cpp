@@ -1,0 +1,241 @@
+// glTF's metallic-roughness model and its extensions, in OpenPBR's terms: both have GGX's alpha as the square of the
+// roughness, and dielectrics of index 1.5.
+#include "raytrace/import/gltf_material.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace raytrace::gltf {
+namespace {
+
+enum Channel { red, green, blue, alpha };
+
+double number(const std::optional<Item>& object, const char* key, double otherwise) {
+  const std::optional<Item> found = object ? object->find(key) : std::nullopt;
+  return found ? found->number() : otherwise;
+}
+double share(const std::optional<Item>& object, const char* key, double otherwise) {
+  return std::clamp(number(object, key, otherwise), 0.0, 1.0);
+}
+Rgb<double> color(const std::optional<Item>& object, const char* key, double otherwise, double most = 1e30) {
+  const auto found = object ? object->numbers<3>(key) : std::nullopt;
+  const auto [r, g, b] = found.value_or(std::array{otherwise, otherwise, otherwise});
+  return {std::clamp(r, 0.0, most), std::clamp(g, 0.0, most), std::clamp(b, 0.0, most)};
+}
+double largest(const Rgb<double>& c) { return std::max({c.red, c.green, c.blue}); }
+
+class MaterialReader {
+ public:
+  MaterialReader(const Item& item, const std::function<MeshTexture(const Item&)>& texture,
+                 const std::function<void(const std::string&, const std::string&)>& warn_once)
+      : item_(item), texture_of_(texture), warn_once_(warn_once) {}
+
+  MeshMaterial read() {
+    const std::optional<Item> name = item_.find("name");
+    material_.name = name ? name->text() : item_.place();
+    surface_ = item_.find("pbrMetallicRoughness");
+    if (const auto factor = surface_ ? surface_->numbers<4>("baseColorFactor") : std::nullopt) {
+      base_color_ = {std::clamp((*factor)[0], 0.0, 1.0), std::clamp((*factor)[1], 0.0, 1.0),
+                     std::clamp((*factor)[2], 0.0, 1.0)};
+      base_alpha_ = std::clamp((*factor)[3], 0.0, 1.0);
+    }
+    base_texture_ = texture(surface_, "baseColorTexture");
+    read_opacity();
+    if (extension(item_, "KHR_materials_unlit")) {
+      add("base_weight", 0);
+      add("specular_weight", 0);
+      add("emission_luminance", 1);
+      add_base_color("emission_color");
+      material_.thin_walled = is_double_sided();
+      return std::move(material_);
+    }
+    read_surface();
+    read_emission();
+    read_transmission();
+    read_coat();
+    read_sheen();
+    read_anisotropy();
+    read_iridescence();
+    return std::move(material_);
+  }
+
+ private:
+  std::optional<Item> find(const char* extension_name) const { return extension(item_, extension_name); }
+
+  MeshTexture texture(const std::optional<Item>& object, const char* key) const {
+    const std::optional<Item> info = object ? object->find(key) : std::nullopt;
+    return info ? texture_of_(*info) : MeshTexture{};
+  }
+  void add(std::string_view name, double value, const MeshTexture& texture = {}, Channel channel = red) {
+    material_.openpbr.push_back({name, {value, value, value}, texture, channel});
+  }
+  void add(std::string_view name, const Rgb<double>& value, const MeshTexture& texture = {}) {
+    material_.openpbr.push_back({name, value, texture});
+  }
+  void add_base_color(std::string_view name) {
+    add(name, base_color_, base_texture_);
+    material_.openpbr.back().of_vertices = true;
+  }
+  bool is_double_sided() const {
+    const std::optional<Item> found = item_.find("doubleSided");
+    return found && found->is_true();
+  }
+
+  void read_opacity() {
+    const std::optional<Item> mode = item_.find("alphaMode");
+    if (!mode || mode->text() == "OPAQUE") return;
+    if (mode->text() != "MASK" && mode->text() != "BLEND") mode->fail("is none of OPAQUE, MASK and BLEND");
+    material_.map_d = base_texture_;
+    material_.map_d.alpha = true;
+    material_.d = base_alpha_;
+    if (mode->text() == "BLEND") return;
+    const double cutoff = number(item_, "alphaCutoff", 0.5);
+    if (material_.map_d.file.empty()) {
+      material_.d = base_alpha_ >= cutoff ? 1 : 0;
+      return;
+    }
+    // All or nothing, but for a hundredth about the cutoff.
+    constexpr double steep = 100;
+    material_.d = 1;
+    material_.map_d.value_scale = steep * base_alpha_;
+    material_.map_d.value_offset = 0.5 - steep * cutoff;
+  }
+
+  void read_surface() {
+    add_base_color("base_color");
+    const MeshTexture both = texture(surface_, "metallicRoughnessTexture");
+    metalness_ = share(surface_, "metallicFactor", 1);
+    roughness_ = share(surface_, "roughnessFactor", 1);
+    add("base_metalness", metalness_, both, blue);
+    add("specular_roughness", roughness_, both, green);
+    if (const auto info = item_.find("normalTexture")) {
+      material_.norm = texture_of_(*info);
+      material_.norm.strength = number(*info, "scale", 1);
+    }
+    if (const auto ior = find("KHR_materials_ior")) {
+      const double index = number(ior, "ior", 1.5);
+      add("specular_ior", index == 0 ? 10 : std::clamp(index, 1.0, 10.0));  // 0: reflects all
+    }
+    // They are of what is no metal; OpenPBR's are of metals, too.
+    const auto specular = find("KHR_materials_specular");
+    const bool is_metal = metalness_ == 1 && both.file.empty();
+    if (!specular || is_metal) return;
+    add("specular_weight", share(specular, "specularFactor", 1), texture(specular, "specularTexture"), alpha);
+    add("specular_color", color(specular, "specularColorFactor", 1), texture(specular, "specularColorTexture"));
+  }
+
+  void read_emission() {
+    const Rgb<double> factor = color(item_, "emissiveFactor", 0);
+    if (largest(factor) == 0) return;
+    add("emission_luminance", std::max(0.0, number(find("KHR_materials_emissive_strength"), "emissiveStrength", 1)));
+    add("emission_color", factor, texture(item_, "emissiveTexture"));
+    material_.thin_walled = is_double_sided();
+  }
+
+  void read_transmission() {
+    const auto transmission = find("KHR_materials_transmission"), volume = find("KHR_materials_volume");
+    const double weight = share(transmission, "transmissionFactor", 0);
+    if (weight == 0) return;
+    add("transmission_weight", weight, texture(transmission, "transmissionTexture"), red);
+    material_.thin_walled = number(volume, "thicknessFactor", 0) <= 0;
+    const double distance = number(volume, "attenuationDistance", 0);
+    if (material_.thin_walled || !(distance > 0)) return add_base_color("transmission_color");
+    add("transmission_depth", distance);
+    add("transmission_color", color(volume, "attenuationColor", 1, 1));
+  }
+
+  void read_coat() {
+    const auto coat = find("KHR_materials_clearcoat");
+    const double weight = share(coat, "clearcoatFactor", 0);
+    if (weight == 0) return;
+    add("coat_weight", weight, texture(coat, "clearcoatTexture"), red);
+    add("coat_roughness", share(coat, "clearcoatRoughnessFactor", 0), texture(coat, "clearcoatRoughnessTexture"),
+        green);
+    add("coat_ior", 1.5);
+    add("coat_darkening", 0);  // glTF's base keeps its colour
+    if (const auto normals = coat->find("clearcoatNormalTexture"))
+      warn_once_(normals->place(), "a coat's own normals are left out");
+  }
+
+  void read_sheen() {
+    const auto sheen = find("KHR_materials_sheen");
+    const Rgb<double> factor = color(sheen, "sheenColorFactor", 0, 1);
+    const double weight = largest(factor);
+    if (weight == 0) return;
+    add("fuzz_weight", weight);
+    add("fuzz_color", factor * (1 / weight), texture(sheen, "sheenColorTexture"));
+    add("fuzz_roughness", share(sheen, "sheenRoughnessFactor", 0), texture(sheen, "sheenRoughnessTexture"), alpha);
+  }
+
+  void read_anisotropy() {
+    const auto anisotropy = find("KHR_materials_anisotropy");
+    const double strength = share(anisotropy, "anisotropyStrength", 0);
+    if (strength == 0) return;
+    if (number(anisotropy, "anisotropyRotation", 0) != 0)
+      warn_once_(anisotropy->place(), "its rotation is left out: it is along the direction in which u grows");
+    // glTF's alphas are those of the roughness across, and along of what grows to 1 with the strength.
+    const double across = std::max(roughness_ * roughness_, 1e-6), along = across + (1 - across) * strength * strength;
+    const MeshTexture map = texture(anisotropy, "anisotropyTexture");
+    add("specular_roughness_anisotropy", 1 - across / along, map, blue);
+    if (!map.file.empty()) warn_once_(anisotropy->place(), "of its texture the strength alone counts");
+    for (MeshParameter& parameter : material_.openpbr)
+      if (parameter.name == "specular_roughness")
+        parameter.value.red = std::min(1.0, std::pow((along * along + across * across) / 2, 0.25));
+  }
+
+  void read_iridescence() {
+    const auto film = find("KHR_materials_iridescence");
+    const double weight = share(film, "iridescenceFactor", 0);
+    if (weight == 0) return;
+    add("thin_film_weight", weight, texture(film, "iridescenceTexture"), red);
+    add("thin_film_ior", std::clamp(number(film, "iridescenceIor", 1.3), 1.0, 10.0));
+    // From nanometres.
+    const double least = std::max(0.0, number(film, "iridescenceThicknessMinimum", 100) * 1e-3),
+                 most = std::max(0.0, number(film, "iridescenceThicknessMaximum", 400) * 1e-3);
+    MeshTexture map = texture(film, "iridescenceThicknessTexture");
+    map.value_scale = most - least;
+    map.value_offset = least;
+    add("thin_film_thickness", map.file.empty() ? most : 1, map, green);
+  }
+
+  const Item& item_;
+  const std::function<MeshTexture(const Item&)>& texture_of_;
+  const std::function<void(const std::string&, const std::string&)>& warn_once_;
+  MeshMaterial material_;
+  std::optional<Item> surface_;
+  Rgb<double> base_color_{1, 1, 1};
+  double base_alpha_ = 1, metalness_ = 1, roughness_ = 1;
+  MeshTexture base_texture_;
+};
+
+}  // namespace
+
+bool is_material_extension(std::string_view name) {
+  constexpr std::string_view start = "KHR_materials_";
+  constexpr std::array<std::string_view, 10> read{"anisotropy",  "clearcoat", "emissive_strength", "ior",
+                                                  "iridescence", "sheen",     "specular",          "transmission",
+                                                  "unlit",       "volume"};
+  return name.starts_with(start) && std::find(read.begin(), read.end(), name.substr(start.size())) != read.end();
+}
+
+MeshMaterial read_material(const Item& material, const std::function<MeshTexture(const Item&)>& texture,
+                           const std::function<void(const std::string&, const std::string&)>& warn_once) {
+  return MaterialReader(material, texture, warn_once).read();
+}
+
+std::optional<Item> extension(const Item& object, const char* name) {
+  const std::optional<Item> all = object.find("extensions");
+  return all ? all->find(name) : std::nullopt;
+}
+
+void place_texture(const Item& transform, MeshTexture& texture) {
+  const auto [x, y] = transform.numbers<2>("offset").value_or(std::array{0.0, 0.0});
+  texture.scale = transform.numbers<2>("scale").value_or(std::array{1.0, 1.0});
+  const double angle = number(transform, "rotation", 0), sine = std::sin(angle), cosine = std::cos(angle);
+  // u' = x + c su u + s sv (1 - v), 1 - v' = 1 - y + s su u - c sv (1 - v).
+  texture.rotation = angle * 180 / std::numbers::pi;
+  texture.offset = {x + sine * texture.scale[1], 1 - y - cosine * texture.scale[1]};
+}
+
+}  // namespace raytrace::gltf

@@ -1,0 +1,27 @@
+// Materials of a glTF file as OpenPBR's. Inside of read_gltf().
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "raytrace/import/gltf_json.h"
+#include "raytrace/import/mesh_data.h"
+
+namespace raytrace::gltf {
+
+/// Whether read_material() reads it.
+bool is_material_extension(std::string_view name);
+
+/// texture: that of a JSON object with its index. warn_once(place, message): for what is left out.
+MeshMaterial read_material(const Item& material, const std::function<MeshTexture(const Item&)>& texture,
+                           const std::function<void(const std::string&, const std::string&)>& warn_once);
+
+/// What an object has of an extension.
+std::optional<Item> extension(const Item& object, const char* name);
+
+/// Sets scale, rotation and offset from KHR_texture_transform, whose v grows downwards.
+void place_texture(const Item& transform, MeshTexture& texture);
+
+}  // namespace raytrace::gltf

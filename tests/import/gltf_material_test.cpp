@@ -1,0 +1,211 @@
+// glTF's materials in OpenPBR's terms.
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <string>
+
+#include "import/support.h"
+#include "raytrace/materials/openpbr.h"
+#include "support/catch.h"
+#include "support/gltf.h"
+
+namespace raytrace::test {
+
+namespace {
+
+/// What becomes of a material, in a file with textures 0 to 3.
+struct ReadMaterial {
+  MeshMaterial material;
+  std::string messages;
+
+  explicit ReadMaterial(const std::string& members) {
+    GltfFile file;
+    file.add(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3", 5126, 3);
+    std::string images, textures;
+    for (const char* const number : {"0", "1", "2", "3"}) {
+      images += std::string(images.empty() ? "" : ",") + R"({"uri":")" + number + R"(.png"})";
+      textures += std::string(textures.empty() ? "" : ",") + R"({"source":)" + number + "}";
+    }
+    const ReadResult read = read_bytes(
+        "a.gltf",
+        file.text(
+            R"("scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},
+            "material":0}]}],"images":[)" +
+            images + R"(],"textures":[)" + textures + R"(],"materials":[{)" + members + "}]"));
+    messages = read.messages;
+    if (read.mesh) material = read.mesh->materials.at(0);
+    // The names are those of fields.
+    const Fields fields = OpenPbr::fields();
+    for (const MeshParameter& parameter : material.openpbr)
+      CHECK(std::any_of(fields.begin(), fields.end(), [&](const Field& f) { return f.name == parameter.name; }));
+  }
+  const MeshParameter* find(std::string_view name) const {
+    for (const MeshParameter& parameter : material.openpbr)
+      if (parameter.name == name) return &parameter;
+    return nullptr;
+  }
+  const MeshParameter& at(std::string_view name) const {
+    INFO(messages << ": " << name);
+    const MeshParameter* const found = find(name);
+    REQUIRE(found);
+    return *found;
+  }
+  double number(std::string_view name) const { return at(name).value.red; }
+};
+
+std::string extended(const std::string& name, const std::string& members) {
+  return R"("extensions":{"KHR_materials_)" + name + R"(":{)" + members + "}}";
+}
+
+}  // namespace
+
+TEST_CASE("glTF: metal, roughness, base colour, normals and light") {
+  const ReadMaterial plain("");
+  CHECK(plain.number("base_metalness") == 1);
+  CHECK(plain.number("specular_roughness") == 1);
+  CHECK(plain.at("base_color").of_vertices);
+  CHECK(plain.find("emission_luminance") == nullptr);
+  CHECK_FALSE(plain.material.d);
+
+  const ReadMaterial full(R"("pbrMetallicRoughness":{"baseColorFactor":[0.1,0.2,0.3,1],"baseColorTexture":{"index":1},
+      "metallicFactor":0.25,"roughnessFactor":0.75,"metallicRoughnessTexture":{"index":2}},
+      "normalTexture":{"index":3,"scale":0.5},"emissiveFactor":[1,0.5,0],"emissiveTexture":{"index":0},)" +
+                          extended("emissive_strength", R"("emissiveStrength":7)"));
+  CHECK(full.messages.empty());
+  CHECK(full.at("base_color").value.blue == 0.3);
+  CHECK(full.at("base_color").texture.file == "1.png");
+  CHECK(full.number("base_metalness") == 0.25);
+  CHECK(full.at("base_metalness").channel == 2);
+  CHECK(full.number("specular_roughness") == 0.75);
+  CHECK(full.at("specular_roughness").channel == 1);
+  CHECK(full.at("specular_roughness").texture.file == "2.png");
+  CHECK(full.material.norm.file == "3.png");
+  CHECK(full.material.norm.strength == 0.5);
+  CHECK(full.number("emission_luminance") == 7);
+  CHECK(full.at("emission_color").value.green == 0.5);
+  CHECK(full.at("emission_color").texture.file == "0.png");
+  CHECK_FALSE(full.material.thin_walled);
+  CHECK(ReadMaterial(R"("emissiveFactor":[1,1,1],"doubleSided":true)").material.thin_walled);
+}
+
+TEST_CASE("glTF: alpha is opacity, of a mask all or nothing") {
+  const auto of = [](const std::string& mode, const std::string& surface) {
+    return ReadMaterial(R"("alphaMode":")" + mode + R"(","pbrMetallicRoughness":{)" + surface + "}").material;
+  };
+  const std::string half = R"("baseColorFactor":[1,1,1,0.4])", texture = R"(,"baseColorTexture":{"index":0})";
+  CHECK_FALSE(of("OPAQUE", half + texture).d);
+  CHECK(of("OPAQUE", half + texture).map_d.file.empty());
+  CHECK(of("BLEND", half).d == 0.4);
+  CHECK(of("BLEND", half + texture).map_d.alpha);
+  CHECK(of("BLEND", half + texture).map_d.value_scale == 1);
+  CHECK(of("MASK", half).d == 0);
+  CHECK(of("MASK", R"("baseColorFactor":[1,1,1,0.5])").d == 1);
+  const MeshMaterial mask = of("MASK", half + texture);
+  CHECK(mask.d == 1);
+  CHECK(mask.map_d.value_scale * 0.5 / 0.4 + mask.map_d.value_offset == Approx(0.5));
+  CHECK(ReadMaterial(R"("alphaMode":"GLASS")").messages ==
+        "a.gltf: error: materials[0].alphaMode: is none of OPAQUE, MASK and BLEND\n");
+}
+
+TEST_CASE("glTF: clear, thin and filled") {
+  const std::string pane =
+      R"("KHR_materials_transmission":{"transmissionFactor":0.9,"transmissionTexture":{"index":1}})";
+  const ReadMaterial thin(R"("pbrMetallicRoughness":{"baseColorFactor":[0.5,1,1,1]},"extensions":{)" + pane +
+                          R"(,"KHR_materials_ior":{"ior":1.33}})");
+  CHECK(thin.number("transmission_weight") == 0.9);
+  CHECK(thin.at("transmission_weight").texture.file == "1.png");
+  CHECK(thin.material.thin_walled);
+  CHECK(thin.at("transmission_color").value.red == 0.5);
+  CHECK(thin.number("specular_ior") == 1.33);
+  const ReadMaterial filled(R"("extensions":{)" + pane + R"(,"KHR_materials_volume":{"thicknessFactor":1,
+      "attenuationDistance":0.2,"attenuationColor":[0.1,0.2,0.3]}})");
+  CHECK_FALSE(filled.material.thin_walled);
+  CHECK(filled.number("transmission_depth") == 0.2);
+  CHECK(filled.at("transmission_color").value.green == 0.2);
+}
+
+TEST_CASE("glTF: a coat, sheen, a film and specular colours") {
+  const ReadMaterial coat(
+      extended("clearcoat", R"("clearcoatFactor":0.5,"clearcoatTexture":{"index":0},"clearcoatRoughnessFactor":0.2,
+      "clearcoatRoughnessTexture":{"index":1},"clearcoatNormalTexture":{"index":2})"));
+  CHECK(coat.number("coat_weight") == 0.5);
+  CHECK(coat.at("coat_weight").channel == 0);
+  CHECK(coat.number("coat_roughness") == 0.2);
+  CHECK(coat.at("coat_roughness").channel == 1);
+  CHECK(coat.number("coat_ior") == 1.5);
+  CHECK(coat.messages ==
+        "a.gltf: warning: materials[0].extensions.KHR_materials_clearcoat.clearcoatNormalTexture: "
+        "a coat's own normals are left out\n");
+
+  const ReadMaterial sheen(extended("sheen", R"("sheenColorFactor":[0.1,0.4,0.2],"sheenRoughnessFactor":0.3,
+      "sheenRoughnessTexture":{"index":3})"));
+  CHECK(sheen.number("fuzz_weight") == 0.4);
+  CHECK(sheen.at("fuzz_color").value.blue == 0.5);
+  CHECK(sheen.number("fuzz_roughness") == 0.3);
+  CHECK(sheen.at("fuzz_roughness").channel == 3);
+
+  const ReadMaterial film(extended("iridescence", R"("iridescenceFactor":1,"iridescenceIor":1.8,
+      "iridescenceThicknessMinimum":200,"iridescenceThicknessMaximum":800,"iridescenceThicknessTexture":{"index":0})"));
+  CHECK(film.number("thin_film_weight") == 1);
+  CHECK(film.number("thin_film_ior") == 1.8);
+  CHECK(film.number("thin_film_thickness") == 1);
+  CHECK(film.at("thin_film_thickness").channel == 1);
+  CHECK(film.at("thin_film_thickness").texture.value_offset == Approx(0.2));
+  CHECK(film.at("thin_film_thickness").texture.value_scale == Approx(0.6));
+  CHECK(ReadMaterial(extended("iridescence", R"("iridescenceFactor":1)")).number("thin_film_thickness") == Approx(0.4));
+
+  const std::string specular = extended("specular", R"("specularFactor":0.5,"specularColorFactor":[1,0.5,0])");
+  const ReadMaterial plastic(R"("pbrMetallicRoughness":{"metallicFactor":0},)" + specular);
+  CHECK(plastic.number("specular_weight") == 0.5);
+  CHECK(plastic.at("specular_color").value.green == 0.5);
+  CHECK(ReadMaterial(specular).find("specular_weight") == nullptr);  // a metal keeps its edges
+}
+
+TEST_CASE("glTF: an anisotropic surface has the alphas of OpenPBR's") {
+  const ReadMaterial brushed(R"("pbrMetallicRoughness":{"roughnessFactor":0.4},)" +
+                             extended("anisotropy", R"("anisotropyStrength":0.6,"anisotropyRotation":1)"));
+  const double r = brushed.number("specular_roughness"), rest = 1 - brushed.number("specular_roughness_anisotropy"),
+               along = r * r * std::sqrt(2 / (1 + rest * rest));
+  CHECK(along == Approx(0.16 + 0.84 * 0.36));
+  CHECK(along * rest == Approx(0.16));
+  CHECK(brushed.messages ==
+        "a.gltf: warning: materials[0].extensions.KHR_materials_anisotropy: its rotation is left "
+        "out: it is along the direction in which u grows\n");
+}
+
+TEST_CASE("glTF: what is unlit shines with its base colour and reflects nothing") {
+  const ReadMaterial unlit(
+      R"("pbrMetallicRoughness":{"baseColorFactor":[0.1,0.2,0.3,1],"baseColorTexture":{"index":1}},)" +
+      extended("unlit", ""));
+  CHECK(unlit.number("base_weight") == 0);
+  CHECK(unlit.number("specular_weight") == 0);
+  CHECK(unlit.number("emission_luminance") == 1);
+  CHECK(unlit.at("emission_color").value.green == 0.2);
+  CHECK(unlit.at("emission_color").texture.file == "1.png");
+  CHECK(unlit.at("emission_color").of_vertices);
+  CHECK(unlit.find("base_color") == nullptr);
+}
+
+TEST_CASE("glTF: KHR_texture_transform, whose v grows downwards") {
+  const ReadMaterial turned(R"("pbrMetallicRoughness":{"baseColorTexture":{"index":1,"texCoord":1,"extensions":{
+      "KHR_texture_transform":{"offset":[0.1,0.3],"rotation":0.5,"scale":[2,3],"texCoord":0}}}})");
+  CHECK(turned.messages.empty());
+  const MeshTexture& texture = turned.at("base_color").texture;
+  CHECK(texture.rotation == Approx(0.5 * 180 / std::numbers::pi));
+  const double s = std::sin(texture.rotation * std::numbers::pi / 180), c = std::cos(0.5);
+  for (const double u : {0.0, 0.7})
+    for (const double v : {0.0, 0.4}) {
+      // As the extension has it, from the upper left corner; and ours from the lower left one.
+      const double there_u = c * 2 * u + s * 3 * v + 0.1, there_v = -s * 2 * u + c * 3 * v + 0.3;
+      const double x = texture.scale[0] * u, y = texture.scale[1] * (1 - v);
+      CHECK(c * x - s * y + texture.offset[0] == Approx(there_u));
+      CHECK(s * x + c * y + texture.offset[1] == Approx(1 - there_v));
+    }
+  CHECK(ReadMaterial(R"("pbrMetallicRoughness":{"baseColorTexture":{"index":1,"extensions":{
+      "KHR_texture_transform":{"texCoord":1}}}})")
+            .messages ==
+        "a.gltf: warning: materials[0].pbrMetallicRoughness.baseColorTexture: has coordinates other "
+        "than TEXCOORD_0, and is left out\n");
+}
+
+}  // namespace raytrace::test
