@@ -1,13 +1,12 @@
 """Renders the scenes with Mitsuba's moment integrator, and writes what the Z-test needs of that: references/NAME.exr with
 the mean of each pixel, and the standard deviation of its samples, both in the CIE's XYZ, as that integrator has them.
 
-python references.py [--samples 16384] [NAME...]
+make_references runs it.
 """
 
 import argparse
 import glob
 import os
-import sys
 import tempfile
 import time
 
@@ -16,7 +15,6 @@ import mitsuba
 import numpy
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(HERE, "..", "..", "benchmarks"))
 AT_ONCE = 512  # samples: what is in memory
 
 
@@ -24,7 +22,9 @@ def options():
     parser = argparse.ArgumentParser()
     parser.add_argument("--samples", type=int, default=16384)
     parser.add_argument("names", nargs="*")
-    return parser.parse_args()
+    chosen = parser.parse_args()
+    chosen.samples = max(1, chosen.samples // AT_ONCE) * AT_ONCE
+    return chosen
 
 
 def moments(scene, samples):
@@ -53,6 +53,9 @@ def write(name, means, variances, samples):
 
 def main():
     chosen = options()
+    from comparison.renderers.mitsuba import llvm_library
+
+    os.environ["DRJIT_LIBLLVM_PATH"] = llvm_library()
     mitsuba.set_variant("llvm_ad_rgb")
     mitsuba.set_log_level(mitsuba.LogLevel.Error)
     drjit.set_thread_count(max(os.cpu_count(), 2))
