@@ -1,7 +1,7 @@
 // Which of many lights a point is lit by: each as often as the tree says, and none never that could light it.
 //
 // Wide code is compiled for each instruction set apart, so the test has its own.
-#include "raytrace/scene/light_tree.cpp"
+#include "raytrace/scene/light_tree.cpp"  // NOLINT(bugprone-suspicious-include)
 
 #include <algorithm>
 #include <cmath>

@@ -51,13 +51,11 @@ MomentPicture moments(int width, int height, const std::vector<std::vector<Xyz>>
 /// Each block's sums.
 template <class Value>
 std::vector<Xyz> block_sums(int width, int height, int edge, const Value& value) {
-  const int columns = width / edge;
-  std::vector<Xyz> sums(static_cast<std::size_t>(columns * (height / edge)), Xyz{});
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      for (std::size_t c = 0; c < 3; ++c)
-        sums[static_cast<std::size_t>(y / edge * columns + x / edge)][c] +=
-            value(static_cast<std::size_t>(y * width + x), c);
+  const auto size = static_cast<std::size_t>(edge), across = static_cast<std::size_t>(width), columns = across / size;
+  std::vector<Xyz> sums(columns * (static_cast<std::size_t>(height) / size), Xyz{});
+  for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y)
+    for (std::size_t x = 0; x < across; ++x)
+      for (std::size_t c = 0; c < 3; ++c) sums[y / size * columns + x / size][c] += value(y * across + x, c);
   return sums;
 }
 
