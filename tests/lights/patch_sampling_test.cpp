@@ -1,7 +1,7 @@
 // Points drawn on patches: as often as their density says, which integrates to 1, near and far.
 //
 // Wide code is compiled for each instruction set apart, so the test has its own.
-#include "raytrace/scene/patch_sampling.cpp"
+#include "raytrace/scene/patch_sampling.cpp"  // NOLINT(bugprone-suspicious-include)
 
 #include <algorithm>
 #include <cmath>
