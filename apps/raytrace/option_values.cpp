@@ -1,10 +1,12 @@
 #include "option_values.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <tuple>
 
 #include "raytrace/aovs/aov_selection.h"
 #include "raytrace/text/message.h"
@@ -78,6 +80,23 @@ int bit_depth(const std::string& text) {
 
 MissingTexture missing_texture(const std::string& text) {
   return one_of(text, {"error", "warn"}) == "warn" ? MissingTexture::warn : MissingTexture::error;
+}
+
+ModelView model_view(const std::string& text) {
+  constexpr std::array<std::tuple<std::string_view, double, double>, 5> words{
+      {{"front", 0, 0}, {"back", 180, 0}, {"side", 90, 0}, {"top", 0, 90}, {"iso", 45, 35.264389682754654}}};
+  Names names;
+  for (const auto& [word, azimuth, elevation] : words) {
+    if (text == word) return {azimuth, elevation};
+    names.emplace_back(word);
+  }
+  const std::vector<std::string_view> parts = split(text, ',');
+  if (parts.size() == 2) {
+    const auto azimuth = number<double>(std::string(parts[0])), elevation = number<double>(std::string(parts[1]));
+    if (azimuth && elevation && std::abs(*azimuth) <= 3600 && std::abs(*elevation) <= 90) return {*azimuth, *elevation};
+  }
+  throw UsageError(in_quotes(text) + " is neither one of " + joined(names, ", ") +
+                   " nor two angles such as 30,15, the second from -90 to 90" + suggestion(text, names));
 }
 
 std::string one_of(const std::string& text, const Names& names) {

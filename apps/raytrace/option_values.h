@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "raytrace/batch/model_scene.h"
 #include "raytrace/batch/render_job.h"
 #include "raytrace/batch/settings_error.h"
 #include "raytrace/display/display_server.h"
@@ -48,6 +49,8 @@ std::uint64_t natural_number(const std::string& text);
 /// 8 or 16.
 int bit_depth(const std::string& text);
 MissingTexture missing_texture(const std::string& text);
+/// "front", "back", "side", "top", "iso", or "30,15".
+ModelView model_view(const std::string& text);
 
 /// The text, if it is one of the names.
 std::string one_of(const std::string& text, const Names& names);

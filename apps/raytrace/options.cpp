@@ -94,7 +94,10 @@ void define_options(OptionParser& parser, Options& options) {
   constexpr int largest = std::numeric_limits<int>::max();
   constexpr int most_threads = 1024;
   parser.group("Input");
-  parser.add_arguments("SCENE.xml", "Scene files; - reads one from standard input", options.scenes);
+  parser.add_arguments("SCENE.xml",
+                       "Scene files; - reads one from standard input. Or models (.glb, .gltf, .obj, .ply, .stl), which "
+                       "get a camera and lights",
+                       options.scenes);
   parser.add(
       "--frames", "FRAMES",
       "Render these frames, e.g. 1-10:2,15; #### or %04d in the names of scenes, outputs and statistics is the number, "
@@ -105,6 +108,19 @@ void define_options(OptionParser& parser, Options& options) {
   parser.add("--missing-texture", "error|warn",
              "What a texture is whose file cannot be read: an error, or a warning and magenta (error)",
              options.missing_texture, missing_texture, {"error", "warn"});
+
+  parser.add("--view", "front|back|side|top|iso|A,E",
+             "Where a model is looked at from: A degrees from its front to its right, E degrees above (30,15)",
+             [&](const std::string& text) {
+               const ModelView view = model_view(text);
+               if (!options.view) options.view.emplace();
+               options.view->azimuth = view.azimuth;
+               options.view->elevation = view.elevation;
+             });
+  parser.add("--up", "y|z", "Which way is up in a model's file (y); z in most of CAD", [&](const std::string& text) {
+    if (!options.view) options.view.emplace();
+    options.view->z_is_up = one_of(text, {"y", "z"}) == "z";
+  });
 
   parser.group("Output");
   parser.add_repeatable(

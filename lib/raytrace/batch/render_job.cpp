@@ -112,8 +112,16 @@ std::optional<SceneDescription> load_picture(const RenderJob& job, RenderObserve
   std::optional<SceneDescription> description;
   {
     const PhaseTimer timer(phase);
-    description = load_scene(job.scene, diagnostics, job.threads, {job.frame, job.variables, job.missing_texture});
-    if (description) {
+    if (is_model(job.scene)) {
+      if (!job.variables.empty()) throw SettingsError("--define: " + job.scene + " is a model, which has no variables");
+      description =
+          load_model(job.scene, job.view.value_or(ModelView()), diagnostics, job.threads, job.missing_texture);
+      if (description) refuse_to_overwrite(*description, job);
+    } else {
+      if (job.view) throw SettingsError("--view and --up are for models: " + job.scene_name() + " has a camera");
+      description = load_scene(job.scene, diagnostics, job.threads, {job.frame, job.variables, job.missing_texture});
+    }
+    if (description && !is_model(job.scene)) {
       refuse_to_overwrite(*description, job);
       if (!load_meshes(*description, diagnostics, job.threads, job.missing_texture)) description.reset();
     }

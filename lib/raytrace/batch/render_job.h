@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "raytrace/batch/model_scene.h"
 #include "raytrace/batch/render_observer.h"
 #include "raytrace/batch/render_statistics.h"
 #include "raytrace/batch/settings_error.h"
@@ -25,7 +26,8 @@ struct Resolution {
 
 /// What a render reads, the picture that it makes, and the files that it writes.
 struct RenderJob {
-  std::string scene;  ///< its file; "-": standard input
+  std::string scene;              ///< its file; "-": standard input; or a model's (model_scene.h)
+  std::optional<ModelView> view;  ///< of a model; none: the usual
   int frame = 1;
   bool is_one_of_frames = false;  ///< the picture says which frame it is
   std::map<std::string, std::string> variables;

@@ -1,0 +1,136 @@
+#include "raytrace/batch/model_scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+#include "raytrace/output/pixel_format.h"
+
+namespace raytrace {
+
+namespace {
+
+/// The directions of a picture: to the right, upwards, and towards the viewer.
+struct Directions {
+  Vec3d right, up, back;
+
+  explicit Directions(const ModelView& view) {
+    constexpr double degree = std::numbers::pi / 180;
+    const double turn = view.azimuth * degree, rise = view.elevation * degree;
+    right = {std::cos(turn), 0, -std::sin(turn)};
+    back = {std::sin(turn) * std::cos(rise), std::sin(rise), std::cos(turn) * std::cos(rise)};
+    up = cross(back, right);
+  }
+};
+
+/// f(vertex), as its transform has it.
+template <class Function>
+void for_each_vertex(const SceneDescription& description, const Function& f) {
+  for (const auto& mesh : std::get<ObjectItems<Mesh>>(description.objects)) {
+    const Affine affine = mesh.transform.affine();
+    const float* const p = mesh.data->positions.data();
+    for (std::size_t i = 0; i < mesh.data->vertex_count(); ++i)
+      f(affine.point(Vec3d{double{p[3 * i]}, double{p[3 * i + 1]}, double{p[3 * i + 2]}} + mesh.data->origin));
+  }
+}
+
+/// What a picture shows of a model, in its directions.
+struct Extent {
+  Vec3d lower{1e300, 1e300, 1e300}, upper{-1e300, -1e300, -1e300};
+
+  void add(const Vec3d& p) {
+    lower = {std::min(lower.x, p.x), std::min(lower.y, p.y), std::min(lower.z, p.z)};
+    upper = {std::max(upper.x, p.x), std::max(upper.y, p.y), std::max(upper.z, p.z)};
+  }
+  Vec3d middle() const { return (lower + upper) * 0.5; }
+  double radius() const { return length(upper - lower) / 2; }
+};
+
+void add_camera(SceneDescription& description, const Directions& to, const Extent& extent) {
+  constexpr double margin = 0.92;                                         // of the picture
+  const double half_angle = std::tan(39.6 / 2 * std::numbers::pi / 180);  // 50 mm on full frame
+  const ViewPlane& picture = description.viewplane;
+  const double longer = std::max(picture.hres, picture.vres);
+  const double across = half_angle * picture.hres / longer * margin,
+               upwards = half_angle * picture.vres / longer * margin;
+  const Vec3d middle = extent.middle();
+  // So far from the middle that the way to each vertex is within the picture.
+  double distance = 0;
+  for_each_vertex(description, [&](const Vec3d& p) {
+    const Vec3d way = Vec3d(dot(p, to.right), dot(p, to.up), dot(p, to.back)) - middle;
+    distance = std::max({distance, way.z + std::abs(way.x) / across, way.z + std::abs(way.y) / upwards});
+  });
+  if (!(distance > 0)) distance = 1;
+  PinholeCamera::Parameters camera;
+  camera.lookat = to.right * middle.x + to.up * middle.y + to.back * middle.z;
+  camera.eye = camera.lookat + to.back * distance;
+  camera.up = to.up;
+  camera.viewdistance = picture.pixelsize * longer / (2 * half_angle);
+  description.camera = camera;
+}
+
+/// A rectangle that faces the model, `distance` radii away in a direction of the picture, of that size in radii.
+struct Lamp {
+  const char* name;
+  Vec3d direction;
+  double distance, width, height;
+  Rgb<double> radiance;
+};
+constexpr std::array<Lamp, 2> lamps{{{"key light", {-0.8, 0.75, 0.75}, 4, 2.6, 2.6, {7, 6.7, 6.3}},
+                                     {"rim light", {0.85, 0.6, -0.8}, 4, 0.7, 3, {7, 7.4, 8}}}};
+
+void add_lamps(SceneDescription& description, const Directions& to, const Extent& extent) {
+  const Vec3d middle = extent.middle();
+  const Vec3d center = to.right * middle.x + to.up * middle.y + to.back * middle.z;
+  const double radius = extent.radius() > 0 ? extent.radius() : 1;
+  auto& materials = std::get<MaterialItems<Emissive>>(description.materials);
+  for (const Lamp& lamp : lamps) {
+    Emissive::Parameters emission;
+    emission.ce = lamp.radiance;
+    const MaterialReference material{static_cast<std::uint32_t>(index_of<Emissive>(Materials{})),
+                                     static_cast<std::uint32_t>(materials.size())};
+    materials.push_back({emission, lamp.name});
+    const Vec3d& d = lamp.direction;
+    const Vec3d outwards = normalize(to.right * d.x + to.up * d.y + to.back * d.z);
+    const Vec3d across = normalize(cross(outwards, to.up)) * (lamp.width * radius);
+    const Vec3d upwards = normalize(cross(across, outwards)) * (lamp.height * radius);
+    // edge1 turns to edge2 anticlockwise as the model has it in view.
+    const Vec3d corner = center + outwards * (lamp.distance * radius) - (across + upwards) * 0.5;
+    std::get<ObjectItems<Rectangle>>(description.objects).push_back({{corner, across, upwards}, lamp.name, material});
+  }
+  LightItem<EnvironmentLight> sky;
+  sky.parameters.color = {0.33, 0.335, 0.345};
+  std::get<LightItems<EnvironmentLight>>(description.lights).push_back(sky);
+}
+
+}  // namespace
+
+bool is_model(const std::string& file) {
+  constexpr std::array<std::string_view, 5> extensions = {".glb", ".gltf", ".obj", ".ply", ".stl"};
+  return std::find(extensions.begin(), extensions.end(), lower_extension(file)) != extensions.end();
+}
+
+std::optional<SceneDescription> load_model(const std::string& file, const ModelView& view, Diagnostics& diagnostics,
+                                           int threads, MissingTexture missing_texture) {
+  SceneDescription description;
+  description.file = file;
+  description.viewplane.hres = 1280;
+  description.viewplane.vres = 720;
+  description.viewplane.samples = 128;
+  description.integrator = Path::Parameters{};
+  ObjectItem<Mesh> mesh;
+  mesh.parameters.file.path = file;
+  if (view.z_is_up) mesh.transform.steps.push_back({TransformStep::rotate, {1, 0, 0, -90}});
+  std::get<ObjectItems<Mesh>>(description.objects).push_back(mesh);
+  if (!load_meshes(description, diagnostics, threads, missing_texture)) return std::nullopt;
+  const Directions to(view);
+  Extent extent;
+  for_each_vertex(description, [&](const Vec3d& p) { extent.add({dot(p, to.right), dot(p, to.up), dot(p, to.back)}); });
+  add_camera(description, to, extent);
+  add_lamps(description, to, extent);
+  return description;
+}
+
+}  // namespace raytrace

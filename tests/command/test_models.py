@@ -1,0 +1,97 @@
+"""A model's file in a scene's place: its camera and lights, and the scene that it stands for."""
+
+import unittest
+
+from exr import Exr
+from support import CommandTest
+
+# A slab, 4 wide, 1 high and 0.5 deep, with a post on its left front corner.
+CORNERS = [(x, y, z) for x in (10, 14) for y in (5, 6) for z in (-1, -0.5)]
+FACES = ["0 1 3 2", "4 6 7 5", "0 4 5 1", "2 3 7 6", "0 2 6 4", "1 5 7 3"]
+PLY = f"""ply
+format ascii 1.0
+element vertex {len(CORNERS) + 3}
+property float x
+property float y
+property float z
+element face {len(FACES) + 1}
+property list uchar int vertex_indices
+end_header
+""" + "".join(f"{x} {y} {z}\n" for x, y, z in CORNERS) + "10 6 -0.5\n10.2 6 -0.5\n10.1 8 -0.5\n" + "".join(
+    f"4 {face}\n" for face in FACES) + "3 8 9 10\n"
+OPTIONS = ["-q", "-r", "96x54", "-s", "4"]
+
+
+class Models(CommandTest):
+    def setUp(self):
+        super().setUp()
+        self.write("slab.ply", PLY)
+
+    def covered(self, *options):
+        """The columns and rows in which some pixel shows the model: the first and the last."""
+        self.succeed("slab.ply", *OPTIONS, "--transparent", *options, "-o", "covered.exr")
+        shown = [place for place, pixel in Exr(self.read("covered.exr")).pixels().items() if pixel[3] > 0]
+        columns, rows = zip(*shown)
+        return (min(columns), max(columns)), (min(rows), max(rows)), len(shown)
+
+    def test_all_of_it_is_in_view(self):
+        for view in ([], ["--view", "front"], ["--view", "back"], ["--view", "side"], ["--view", "top"],
+                     ["--view", "iso"], ["--view", "-130,-40"], ["--up", "z"], ["--up", "z", "--view", "top"],
+                     ["-r", "54x96"]):
+            with self.subTest(view=view):
+                (left, right), (top, bottom), count = self.covered(*view)
+                width, height = (54, 96) if "-r" in view else (96, 54)
+                self.assertGreater(min(left, top), 0)
+                self.assertLess(right, width - 1)
+                self.assertLess(bottom, height - 1)
+                # It fills the picture along one of its sides.
+                self.assertGreater(max((right - left) / width, (bottom - top) / height), 0.8)
+                self.assertGreater(count, 100)
+
+    def test_views_are_from_where_they_say(self):
+        (left, right), (top, bottom), _ = self.covered("--view", "front")
+        self.assertAlmostEqual((right - left) / (bottom - top), 4 / 3, delta=0.1)
+        (left, right), (top, bottom), _ = self.covered("--view", "side")
+        self.assertAlmostEqual((right - left) / (bottom - top), 0.5 / 3, delta=0.06)
+        (left, right), (top, bottom), _ = self.covered("--view", "top")
+        self.assertAlmostEqual((right - left) / (bottom - top), 4 / 0.5, delta=1.2)
+        # Of a file whose z is up, the front is what y has from below.
+        (left, right), (top, bottom), _ = self.covered("--up", "z", "--view", "front")
+        self.assertAlmostEqual((right - left) / (bottom - top), 4 / 0.5, delta=1.2)
+
+    def test_it_is_the_scene_that_is_printed(self):
+        for view in ([], ["--view", "200,30", "--up", "z"]):
+            self.succeed("slab.ply", *OPTIONS, *view, "-o", "model.exr")
+            self.write("printed.xml", self.succeed("slab.ply", *view, "--print-scene").stdout)
+            self.succeed("printed.xml", *OPTIONS, "-o", "printed.exr")
+            model = Exr(self.read("model.exr"))
+            self.assertEqual(model.row_bytes, Exr(self.read("printed.exr")).row_bytes)
+            self.assertGreater(max(pixel[1] for pixel in model.pixels().values()), 0.1)
+            self.assertIn("<hres>1280</hres>", self.read("printed.xml").decode())
+
+    def test_several_models_are_several_pictures(self):
+        self.write("other.ply", PLY.replace("10.1 8", "10.1 12"))
+        self.succeed("slab.ply", "other.ply", *OPTIONS, "-o", "{scene}.png")
+        self.assertNotEqual(self.read("slab.png"), self.read("other.png"))
+        self.assertEqual(self.succeed("slab.ply", "--validate").returncode, 0)
+
+    def test_what_is_wrong_is_said(self):
+        self.write("broken.ply", PLY[:-30])
+        for arguments, code, text in (
+                (["broken.ply", "-o", "a.png"], 1, "broken.ply"),
+                (["missing.glb", "-o", "a.png"], 1, "missing.glb"),
+                (["scene.xml", "--view", "top", "-o", "a.png"], 2, "scene.xml has a camera"),
+                (["slab.ply", "--view", "tpo", "-o", "a.png"], 2, "did you mean 'top'?"),
+                (["slab.ply", "--view", "30,95", "-o", "a.png"], 2, "from -90 to 90"),
+                (["slab.ply", "--up", "x", "-o", "a.png"], 2, "is not one of y, z"),
+                (["slab.ply", "-D", "a=1", "-o", "a.png"], 2, "no variables"),
+                (["slab.ply", "-o", "slab.ply"], 2, "slab.ply")):
+            with self.subTest(arguments=arguments):
+                done = self.run_program(*arguments)
+                self.assertIn(text, done.stderr)
+                self.assertEqual(done.returncode, code, done.stderr)
+                self.assertNotIn("a.png", self.names())
+
+
+if __name__ == "__main__":
+    unittest.main()
