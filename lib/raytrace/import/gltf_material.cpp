@@ -18,7 +18,7 @@ double number(const std::optional<Item>& object, const char* key, double otherwi
 double share(const std::optional<Item>& object, const char* key, double otherwise) {
   return std::clamp(number(object, key, otherwise), 0.0, 1.0);
 }
-Rgb<double> color(const std::optional<Item>& object, const char* key, double otherwise, double most = 1e30) {
+Rgb<double> color(const std::optional<Item>& object, const char* key, double otherwise, double most = 1e15) {
   const auto found = object ? object->numbers<3>(key) : std::nullopt;
   const auto [r, g, b] = found.value_or(std::array{otherwise, otherwise, otherwise});
   return {std::clamp(r, 0.0, most), std::clamp(g, 0.0, most), std::clamp(b, 0.0, most)};
@@ -128,7 +128,8 @@ class MaterialReader {
   void read_emission() {
     const Rgb<double> factor = color(item_, "emissiveFactor", 0);
     if (largest(factor) == 0) return;
-    add("emission_luminance", std::max(0.0, number(find("KHR_materials_emissive_strength"), "emissiveStrength", 1)));
+    add("emission_luminance",
+        std::clamp(number(find("KHR_materials_emissive_strength"), "emissiveStrength", 1), 0.0, 1e15));
     add("emission_color", factor, texture(item_, "emissiveTexture"));
     material_.thin_walled = is_double_sided();
   }
@@ -191,8 +192,8 @@ class MaterialReader {
     add("thin_film_weight", weight, texture(film, "iridescenceTexture"), red);
     add("thin_film_ior", std::clamp(number(film, "iridescenceIor", 1.3), 1.0, 10.0));
     // From nanometres.
-    const double least = std::max(0.0, number(film, "iridescenceThicknessMinimum", 100) * 1e-3),
-                 most = std::max(0.0, number(film, "iridescenceThicknessMaximum", 400) * 1e-3);
+    const double least = std::clamp(number(film, "iridescenceThicknessMinimum", 100), 0.0, 1e6) * 1e-3,
+                 most = std::clamp(number(film, "iridescenceThicknessMaximum", 400), 0.0, 1e6) * 1e-3;
     MeshTexture map = texture(film, "iridescenceThicknessTexture");
     map.value_scale = most - least;
     map.value_offset = least;
