@@ -48,23 +48,35 @@ struct Extent {
   double radius() const { return length(upper - lower) / 2; }
 };
 
+/// Of the numbers p.x + t p.z and p.z t - p.x, the largest: how far a picture of half width t, seen from far behind,
+/// must reach to either side.
+struct Reach {
+  double tangent, right = -1e300, left = -1e300;
+
+  void add(double across, double back) {
+    right = std::max(right, across + tangent * back);
+    left = std::max(left, tangent * back - across);
+  }
+  double middle() const { return (right - left) / 2; }
+  /// Of the eye, in the direction towards the viewer.
+  double distance() const { return (right + left) / (2 * tangent); }
+};
+
 void add_camera(SceneDescription& description, const Directions& to, const Extent& extent) {
   constexpr double margin = 0.92;                                         // of the picture
   const double half_angle = std::tan(39.6 / 2 * std::numbers::pi / 180);  // 50 mm on full frame
   const ViewPlane& picture = description.viewplane;
   const double longer = std::max(picture.hres, picture.vres);
-  const double across = half_angle * picture.hres / longer * margin,
-               upwards = half_angle * picture.vres / longer * margin;
-  const Vec3d middle = extent.middle();
-  // So far from the middle that the way to each vertex is within the picture.
-  double distance = 0;
+  // The eye is as near as the way to each vertex is within the picture, which has the model in its middle.
+  Reach across{half_angle * picture.hres / longer * margin}, upwards{half_angle * picture.vres / longer * margin};
   for_each_vertex(description, [&](const Vec3d& p) {
-    const Vec3d way = Vec3d(dot(p, to.right), dot(p, to.up), dot(p, to.back)) - middle;
-    distance = std::max({distance, way.z + std::abs(way.x) / across, way.z + std::abs(way.y) / upwards});
+    across.add(dot(p, to.right), dot(p, to.back));
+    upwards.add(dot(p, to.up), dot(p, to.back));
   });
-  if (!(distance > 0)) distance = 1;
+  const double depth = extent.middle().z, least = extent.radius() > 0 ? extent.radius() * 1e-3 : 1;
+  const double distance = std::max({across.distance() - depth, upwards.distance() - depth, least});
   PinholeCamera::Parameters camera;
-  camera.lookat = to.right * middle.x + to.up * middle.y + to.back * middle.z;
+  camera.lookat = to.right * across.middle() + to.up * upwards.middle() + to.back * depth;
   camera.eye = camera.lookat + to.back * distance;
   camera.up = to.up;
   camera.viewdistance = picture.pixelsize * longer / (2 * half_angle);
@@ -78,8 +90,8 @@ struct Lamp {
   double distance, width, height;
   Rgb<double> radiance;
 };
-constexpr std::array<Lamp, 2> lamps{{{"key light", {-0.8, 0.75, 0.75}, 4, 2.6, 2.6, {7, 6.7, 6.3}},
-                                     {"rim light", {0.85, 0.6, -0.8}, 4, 0.7, 3, {7, 7.4, 8}}}};
+constexpr std::array<Lamp, 2> lamps{{{"key light", {-0.8, 0.75, 0.75}, 4, 2.6, 2.6, {5, 4.8, 4.5}},
+                                     {"rim light", {0.85, 0.6, -0.8}, 4, 0.7, 3, {5.2, 5.6, 6}}}};
 
 void add_lamps(SceneDescription& description, const Directions& to, const Extent& extent) {
   const Vec3d middle = extent.middle();
@@ -101,7 +113,7 @@ void add_lamps(SceneDescription& description, const Directions& to, const Extent
     std::get<ObjectItems<Rectangle>>(description.objects).push_back({{corner, across, upwards}, lamp.name, material});
   }
   LightItem<EnvironmentLight> sky;
-  sky.parameters.color = {0.33, 0.335, 0.345};
+  sky.parameters.color = {0.28, 0.284, 0.292};
   std::get<LightItems<EnvironmentLight>>(description.lights).push_back(sky);
 }
 
@@ -112,12 +124,12 @@ bool is_model(const std::string& file) {
   return std::find(extensions.begin(), extensions.end(), lower_extension(file)) != extensions.end();
 }
 
-std::optional<SceneDescription> load_model(const std::string& file, const ModelView& view, Diagnostics& diagnostics,
-                                           int threads, MissingTexture missing_texture) {
+std::optional<SceneDescription> load_model(const std::string& file, const ModelView& view, int width, int height,
+                                           Diagnostics& diagnostics, int threads, MissingTexture missing_texture) {
   SceneDescription description;
   description.file = file;
-  description.viewplane.hres = 1280;
-  description.viewplane.vres = 720;
+  description.viewplane.hres = width;
+  description.viewplane.vres = height;
   description.viewplane.samples = 128;
   description.integrator = Path::Parameters{};
   ObjectItem<Mesh> mesh;

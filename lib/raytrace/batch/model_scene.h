@@ -19,9 +19,9 @@ struct ModelView {
 /// Whether it is one of those files, by its extension: .glb, .gltf, .obj, .ply, .stl.
 bool is_model(const std::string& file);
 
-/// The model in a studio: a large soft lamp from the left, a strip behind on the right, and an even dim sky; 1280 x 720
-/// pixels, 128 samples. None if it cannot be read, which the diagnostics say. threads: as load_scene()'s.
-std::optional<SceneDescription> load_model(const std::string& file, const ModelView& view, Diagnostics& diagnostics,
-                                           int threads, MissingTexture missing_texture);
+/// The model in a studio: a large soft lamp from the left, a strip behind on the right, and an even dim sky; width x
+/// height pixels, 128 samples. None if it cannot be read, which the diagnostics say. threads: as load_scene()'s.
+std::optional<SceneDescription> load_model(const std::string& file, const ModelView& view, int width, int height,
+                                           Diagnostics& diagnostics, int threads, MissingTexture missing_texture);
 
 }  // namespace raytrace

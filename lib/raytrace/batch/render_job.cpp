@@ -114,8 +114,9 @@ std::optional<SceneDescription> load_picture(const RenderJob& job, RenderObserve
     const PhaseTimer timer(phase);
     if (is_model(job.scene)) {
       if (!job.variables.empty()) throw SettingsError("--define: " + job.scene + " is a model, which has no variables");
-      description =
-          load_model(job.scene, job.view.value_or(ModelView()), diagnostics, job.threads, job.missing_texture);
+      const Resolution size = job.resolution.value_or(Resolution{1280, 720});
+      description = load_model(job.scene, job.view.value_or(ModelView()), size.width, size.height, diagnostics,
+                               job.threads, job.missing_texture);
       if (description) refuse_to_overwrite(*description, job);
     } else {
       if (job.view) throw SettingsError("--view and --up are for models: " + job.scene_name() + " has a camera");
