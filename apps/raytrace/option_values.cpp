@@ -82,7 +82,20 @@ MissingTexture missing_texture(const std::string& text) {
   return one_of(text, {"error", "warn"}) == "warn" ? MissingTexture::warn : MissingTexture::error;
 }
 
-ModelView model_view(const std::string& text) {
+namespace {
+
+/// "30,15"; none if it is anything else.
+std::optional<std::array<double, 2>> two_angles(const std::string& text) {
+  const std::vector<std::string_view> parts = split(text, ',');
+  if (parts.size() != 2) return std::nullopt;
+  const auto azimuth = number<double>(parts[0]), elevation = number<double>(parts[1]);
+  if (!azimuth || !elevation || !(std::abs(*azimuth) <= 3600) || !(std::abs(*elevation) <= 90)) return std::nullopt;
+  return std::array{*azimuth, *elevation};
+}
+
+}  // namespace
+
+std::array<double, 2> model_view(const std::string& text) {
   constexpr std::array<std::tuple<std::string_view, double, double>, 5> words{
       {{"front", 0, 0}, {"back", 180, 0}, {"side", 90, 0}, {"top", 0, 90}, {"iso", 45, 35.264389682754654}}};
   Names names;
@@ -90,13 +103,15 @@ ModelView model_view(const std::string& text) {
     if (text == word) return {azimuth, elevation};
     names.emplace_back(word);
   }
-  const std::vector<std::string_view> parts = split(text, ',');
-  if (parts.size() == 2) {
-    const auto azimuth = number<double>(std::string(parts[0])), elevation = number<double>(std::string(parts[1]));
-    if (azimuth && elevation && std::abs(*azimuth) <= 3600 && std::abs(*elevation) <= 90) return {*azimuth, *elevation};
-  }
+  if (const auto angles = two_angles(text)) return *angles;
   throw UsageError(in_quotes(text) + " is neither one of " + joined(names, ", ") +
                    " nor two angles such as 30,15, the second from -90 to 90" + suggestion(text, names));
+}
+
+std::array<double, 2> sun_angles(const std::string& text) {
+  if (const auto angles = two_angles(text); angles && (*angles)[1] > 0) return *angles;
+  throw UsageError(in_quotes(text) +
+                   " is no place of a sun: two angles such as -40,35, the second above 0, at most 90");
 }
 
 std::string one_of(const std::string& text, const Names& names) {

@@ -1,6 +1,7 @@
 // The values that options take: from text, or a UsageError that says what would have been right.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -50,7 +51,9 @@ std::uint64_t natural_number(const std::string& text);
 int bit_depth(const std::string& text);
 MissingTexture missing_texture(const std::string& text);
 /// "front", "back", "side", "top", "iso", or "30,15".
-ModelView model_view(const std::string& text);
+std::array<double, 2> model_view(const std::string& text);
+/// "-40,35": the second above 0, at most 90.
+std::array<double, 2> sun_angles(const std::string& text);
 
 /// The text, if it is one of the names.
 std::string one_of(const std::string& text, const Names& names);

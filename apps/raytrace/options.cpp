@@ -109,18 +109,30 @@ void define_options(OptionParser& parser, Options& options) {
              "What a texture is whose file cannot be read: an error, or a warning and magenta (error)",
              options.missing_texture, missing_texture, {"error", "warn"});
 
+  const auto stage = [&]() -> ModelStage& {
+    if (!options.stage) options.stage.emplace();
+    return *options.stage;
+  };
+  parser.group("Models");
   parser.add("--view", "front|back|side|top|iso|A,E",
-             "Where a model is looked at from: A degrees from its front to its right, E degrees above (30,15)",
-             [&](const std::string& text) {
-               const ModelView view = model_view(text);
-               if (!options.view) options.view.emplace();
-               options.view->azimuth = view.azimuth;
-               options.view->elevation = view.elevation;
+             "Look from there: A degrees from the model's front to its right, E degrees above (30,15)",
+             [stage](const std::string& text) {
+               const auto [azimuth, elevation] = model_view(text);
+               stage().azimuth = azimuth;
+               stage().elevation = elevation;
              });
-  parser.add("--up", "y|z", "Which way is up in a model's file (y); z in most of CAD", [&](const std::string& text) {
-    if (!options.view) options.view.emplace();
-    options.view->z_is_up = one_of(text, {"y", "z"}) == "z";
-  });
+  parser.add("--up", "y|z", "Which way is up in the file (y); z in most of CAD",
+             [stage](const std::string& text) { stage().z_is_up = one_of(text, {"y", "z"}) == "z"; });
+  parser.add("--turntable", "N", "Render a full turn in N frames, or those of --frames",
+             [stage](const std::string& text) { stage().turntable = integer(text, 1, 100'000); });
+  parser.add("--environment", "FILE|sky",
+             "Light by a picture of all that is around (.exr, .hdr), or by a sky with its sun",
+             [stage](const std::string& text) {
+               if (text.empty()) throw UsageError("the file name is empty");
+               stage().environment = text;
+             });
+  parser.add("--sun", "A,E", "Light by a sun there, as --view has angles; in the sky of --environment, if it has one",
+             [stage](const std::string& text) { stage().sun = sun_angles(text); });
 
   parser.group("Output");
   parser.add_repeatable(
@@ -227,6 +239,8 @@ Options parse_options(int argc, const char* const* argv) {
   define_options(parser, options);
   parser.parse(argc, argv);
   options.threads = thread_count(options.threads);
+  if (options.stage && options.stage->turntable > 0 && options.frames.empty())
+    options.frames = frame_numbers("1-" + std::to_string(options.stage->turntable));
   // Not by CLI11's excludes(): from version 2.4 on, a counting flag counts as given when it is not.
   if (options.quiet && options.verbose > 0) throw UsageError("--quiet excludes --verbose");
   if (options.quiet && options.progress == ProgressStyle::automatic) options.progress = ProgressStyle::none;

@@ -43,7 +43,8 @@ class Manual(CommandTest):
             "--validate", "--print-scene", "--list", "--version", "-h", "--help", "--tile", "--sample-offset", "--pixel",
             "--time-limit", "--checkpoint", "--checkpoint-interval", "--resume", "--log-file", "--display-server",
             "--frames", "-D", "--define", "--skip-existing", "--aov", "--transparent", "--exposure",
-            "--integrator", "--missing-texture", "--view", "--up"})
+            "--integrator", "--missing-texture", "--view", "--up",
+            "--turntable", "--environment", "--sun"})
 
     def test_man_page_has_the_same_options(self):
         terms = re.findall(r"^\.TP\n\\fB(.*)\\fR$", self.man_page.replace(r"\-", "-"), re.M)

@@ -71,6 +71,43 @@ class Models(CommandTest):
             self.assertGreater(max(pixel[1] for pixel in model.pixels().values()), 0.1)
         self.assertIn("<hres>1280</hres>", self.succeed("slab.ply", "--print-scene").stdout)
 
+    def test_a_turntable_is_a_full_turn(self):
+        self.succeed("slab.ply", *OPTIONS, "--turntable", "4", "--transparent", "-o", "turn.#.exr")
+        self.assertEqual([name for name in self.names() if name.startswith("turn")],
+                         [f"turn.{frame}.exr" for frame in (1, 2, 3, 4)])
+        pictures = [Exr(self.read(f"turn.{frame}.exr")) for frame in (1, 2, 3, 4)]
+        shown = [{place for place, pixel in picture.pixels().items() if pixel[3] > 0} for picture in pictures]
+        for i, (one, other) in enumerate(zip(shown, shown[1:])):
+            self.assertGreater(len(one ^ other), 50, i)
+        # As near in all of them, and in view.
+        tops = [min(y for _, y in places) for places in shown]
+        self.assertLess(max(tops) - min(tops), 10)
+        for places in shown:
+            self.assertGreater(len(places), 100)
+            self.assertFalse({x for x, _ in places} & {0, 95})
+            self.assertFalse({y for _, y in places} & {0, 53})
+        self.succeed("slab.ply", *OPTIONS, "--turntable", "4", "--frames", "5", "--transparent", "-o", "again.exr")
+        self.assertEqual(Exr(self.read("again.exr")).pixels(), pictures[0].pixels())
+
+    def test_other_light(self):
+        self.succeed("slab.ply", *OPTIONS, "-o", "studio.exr")
+        studio = Exr(self.read("studio.exr"))
+        with open(self.path("sky.exr"), "wb") as file:
+            file.write(self.read("studio.exr"))  # any picture
+        seen = [studio.row_bytes]
+        for options in (["--environment", "sky"], ["--environment", "sky", "--sun", "100,10"], ["--sun", "-60,30"],
+                        ["--environment", "sky.exr"], ["--environment", "sky.exr", "--sun", "-60,30"]):
+            self.succeed("slab.ply", *OPTIONS, *options, "-o", "other.exr")
+            other = Exr(self.read("other.exr"))
+            self.assertGreater(max(pixel[1] for pixel in other.pixels().values()), 0.02)
+            self.assertNotIn(other.row_bytes, seen)
+            seen.append(other.row_bytes)
+            self.write("printed.xml", self.succeed("slab.ply", *OPTIONS, *options, "--print-scene").stdout)
+            self.succeed("printed.xml", "-q", "-o", "printed.exr")
+            self.assertEqual(Exr(self.read("printed.exr")).row_bytes, other.row_bytes)
+
+        self.assertEqual(self.run_program("slab.ply", "--environment", "sky.exr", "-o", "sky.exr").returncode, 2)
+
     def test_several_models_are_several_pictures(self):
         self.write("other.ply", PLY.replace("10.1 8", "10.1 12"))
         self.succeed("slab.ply", "other.ply", *OPTIONS, "-o", "{scene}.png")
@@ -86,6 +123,11 @@ class Models(CommandTest):
                 (["slab.ply", "--view", "tpo", "-o", "a.png"], 2, "did you mean 'top'?"),
                 (["slab.ply", "--view", "30,95", "-o", "a.png"], 2, "from -90 to 90"),
                 (["slab.ply", "--up", "x", "-o", "a.png"], 2, "is not one of y, z"),
+                (["scene.xml", "--sun", "1,1", "-o", "a.png"], 2, "scene.xml has a camera"),
+                (["slab.ply", "--sun", "10,-5", "-o", "a.png"], 2, "no place of a sun"),
+                (["slab.ply", "--turntable", "0", "-o", "a.png"], 2, "from 1 to"),
+                (["slab.ply", "--turntable", "8", "-o", "a.png"], 2, "more than one render would write"),
+                (["slab.ply", "--environment", "none.exr", "-o", "a.png"], 1, "none.exr"),
                 (["slab.ply", "-D", "a=1", "-o", "a.png"], 2, "no variables"),
                 (["slab.ply", "-o", "slab.ply"], 2, "slab.ply")):
             with self.subTest(arguments=arguments):

@@ -6,23 +6,32 @@
 #include <numbers>
 #include <string_view>
 
+#include "raytrace/description/load_images.h"
 #include "raytrace/output/pixel_format.h"
 
 namespace raytrace {
 
 namespace {
 
+constexpr double degree = std::numbers::pi / 180;
+
+/// From the model towards that place.
+Vec3d towards(double azimuth, double elevation) {
+  const double turn = azimuth * degree, rise = elevation * degree;
+  return {std::sin(turn) * std::cos(rise), std::sin(rise), std::cos(turn) * std::cos(rise)};
+}
+
 /// The directions of a picture: to the right, upwards, and towards the viewer.
 struct Directions {
   Vec3d right, up, back;
 
-  explicit Directions(const ModelView& view) {
-    constexpr double degree = std::numbers::pi / 180;
-    const double turn = view.azimuth * degree, rise = view.elevation * degree;
-    right = {std::cos(turn), 0, -std::sin(turn)};
-    back = {std::sin(turn) * std::cos(rise), std::sin(rise), std::cos(turn) * std::cos(rise)};
+  Directions(double azimuth, double elevation)
+      : right(std::cos(azimuth * degree), 0, -std::sin(azimuth * degree)),
+        up(0, 0, 0),
+        back(towards(azimuth, elevation)) {
     up = cross(back, right);
   }
+  Vec3d of(const Vec3d& p) const { return {dot(p, right), dot(p, up), dot(p, back)}; }
 };
 
 /// f(vertex), as its transform has it.
@@ -62,14 +71,16 @@ struct Reach {
   double distance() const { return (right + left) / (2 * tangent); }
 };
 
-void add_camera(SceneDescription& description, const Directions& to, const Extent& extent) {
-  constexpr double margin = 0.92;                                         // of the picture
-  const double half_angle = std::tan(39.6 / 2 * std::numbers::pi / 180);  // 50 mm on full frame
+/// points: all that is to be in view.
+template <class Points>
+void add_camera(SceneDescription& description, const Directions& to, const Extent& extent, const Points& points) {
+  constexpr double margin = 0.92;                         // of the picture
+  const double half_angle = std::tan(39.6 / 2 * degree);  // 50 mm on full frame
   const ViewPlane& picture = description.viewplane;
   const double longer = std::max(picture.hres, picture.vres);
   // The eye is as near as the way to each vertex is within the picture, which has the model in its middle.
   Reach across{half_angle * picture.hres / longer * margin}, upwards{half_angle * picture.vres / longer * margin};
-  for_each_vertex(description, [&](const Vec3d& p) {
+  points([&](const Vec3d& p) {
     across.add(dot(p, to.right), dot(p, to.back));
     upwards.add(dot(p, to.up), dot(p, to.back));
   });
@@ -112,9 +123,56 @@ void add_lamps(SceneDescription& description, const Directions& to, const Extent
     const Vec3d corner = center + outwards * (lamp.distance * radius) - (across + upwards) * 0.5;
     std::get<ObjectItems<Rectangle>>(description.objects).push_back({{corner, across, upwards}, lamp.name, material});
   }
+}
+
+void add_even_sky(SceneDescription& description) {
   LightItem<EnvironmentLight> sky;
   sky.parameters.color = {0.28, 0.284, 0.292};
   std::get<LightItems<EnvironmentLight>>(description.lights).push_back(sky);
+}
+
+/// The stage's own, in place of the studio.
+void add_daylight(SceneDescription& description, const ModelStage& stage) {
+  const auto [azimuth, elevation] = stage.sun.value_or(std::array{-40.0, 40.0});
+  const Vec3d sun = towards(azimuth, elevation);
+  if (stage.environment == "sky") {
+    SkyLight::Parameters sky;
+    sky.sundirection = sun;
+    std::get<LightItems<SkyLight>>(description.lights).push_back({sky});
+    return;
+  }
+  if (stage.environment.empty()) {
+    add_even_sky(description);
+  } else {
+    LightItem<EnvironmentLight> picture;
+    picture.parameters.file.path = stage.environment;
+    std::get<LightItems<EnvironmentLight>>(description.lights).push_back(picture);
+  }
+  if (!stage.sun) return;
+  DirectionalLight::Parameters light;
+  light.direction = sun;
+  light.scaleradiance = 2.5;
+  light.color = {1, 0.95, 0.88};
+  light.angle = 0.53;
+  std::get<LightItems<DirectionalLight>>(description.lights).push_back({light});
+}
+
+/// f(point) of circles about the axis upwards through the middle of all vertices: the ways of each on a turntable.
+template <class Function>
+void for_each_turned_vertex(const SceneDescription& description, const Function& f) {
+  constexpr int points = 16;
+  Extent extent;
+  for_each_vertex(description, [&](const Vec3d& p) { extent.add(p); });
+  const Vec3d middle = extent.middle();
+  // A circle is within the polygon.
+  const double larger = 1 / std::cos(std::numbers::pi / points);
+  for_each_vertex(description, [&](const Vec3d& p) {
+    const double radius = larger * std::hypot(p.x - middle.x, p.z - middle.z);
+    for (int i = 0; i < points; ++i) {
+      const Vec3d around = towards(360.0 * i / points, 0) * radius;
+      f(Vec3d{middle.x + around.x, p.y, middle.z + around.z});
+    }
+  });
 }
 
 }  // namespace
@@ -124,8 +182,9 @@ bool is_model(const std::string& file) {
   return std::find(extensions.begin(), extensions.end(), lower_extension(file)) != extensions.end();
 }
 
-std::optional<SceneDescription> load_model(const std::string& file, const ModelView& view, int width, int height,
-                                           Diagnostics& diagnostics, int threads, MissingTexture missing_texture) {
+std::optional<SceneDescription> load_model(const std::string& file, const ModelStage& stage, int frame, int width,
+                                           int height, Diagnostics& diagnostics, int threads,
+                                           MissingTexture missing_texture) {
   SceneDescription description;
   description.file = file;
   description.viewplane.hres = width;
@@ -134,14 +193,29 @@ std::optional<SceneDescription> load_model(const std::string& file, const ModelV
   description.integrator = Path::Parameters{};
   ObjectItem<Mesh> mesh;
   mesh.parameters.file.path = file;
-  if (view.z_is_up) mesh.transform.steps.push_back({TransformStep::rotate, {1, 0, 0, -90}});
+  if (stage.z_is_up) mesh.transform.steps.push_back({TransformStep::rotate, {1, 0, 0, -90}});
   std::get<ObjectItems<Mesh>>(description.objects).push_back(mesh);
   if (!load_meshes(description, diagnostics, threads, missing_texture)) return std::nullopt;
-  const Directions to(view);
+  const double turned = stage.turntable > 0 ? 360.0 * (frame - 1) / stage.turntable : 0;
+  const Directions to(stage.azimuth + turned, stage.elevation);
   Extent extent;
-  for_each_vertex(description, [&](const Vec3d& p) { extent.add({dot(p, to.right), dot(p, to.up), dot(p, to.back)}); });
-  add_camera(description, to, extent);
-  add_lamps(description, to, extent);
+  const auto show = [&](const auto& points) {
+    points([&](const Vec3d& p) { extent.add(to.of(p)); });
+    add_camera(description, to, extent, points);
+  };
+  if (stage.turntable > 0) {
+    // As near in all frames.
+    show([&](const auto& f) { for_each_turned_vertex(description, f); });
+  } else {
+    show([&](const auto& f) { for_each_vertex(description, f); });
+  }
+  if (stage.environment.empty() && !stage.sun) {
+    add_lamps(description, to, extent);
+    add_even_sky(description);
+  } else {
+    add_daylight(description, stage);
+    if (!load_images(description, diagnostics, threads, missing_texture)) return std::nullopt;
+  }
   return description;
 }
 

@@ -2,6 +2,7 @@
 // renders.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 
@@ -9,19 +10,26 @@
 
 namespace raytrace {
 
-/// Where a model is looked at from: degrees about its middle. All of it is in view.
-struct ModelView {
-  double azimuth = 30;    ///< from its front, +z, towards its +x
-  double elevation = 15;  ///< above, from -90 to 90
-  bool z_is_up = false;   ///< in the model's file; else y is, as glTF has it
+/// How a model is shown. Angles are degrees about its middle: from its front, +z, towards its +x; and above, from -90
+/// to 90.
+struct ModelStage {
+  double azimuth = 30, elevation = 15;  ///< where it is looked at from; all of it is in view
+  bool z_is_up = false;                 ///< in the model's file; else y is, as glTF has it
+  int turntable = 0;                    ///< so many frames are a full turn; 0: it stands still
+
+  // In place of the studio.
+  std::string environment;                   ///< "sky", or the file of a picture; empty: none
+  std::optional<std::array<double, 2>> sun;  ///< where it is, by its angles
 };
 
 /// Whether it is one of those files, by its extension: .glb, .gltf, .obj, .ply, .stl.
 bool is_model(const std::string& file);
 
-/// The model in a studio: a large soft lamp from the left, a strip behind on the right, and an even dim sky; width x
-/// height pixels, 128 samples. None if it cannot be read, which the diagnostics say. threads: as load_scene()'s.
-std::optional<SceneDescription> load_model(const std::string& file, const ModelView& view, int width, int height,
-                                           Diagnostics& diagnostics, int threads, MissingTexture missing_texture);
+/// The model in a studio, a large soft lamp from the left, a strip behind on the right, and an even dim sky, or in the
+/// stage's own light; width x height pixels, 128 samples. On a turntable, the studio stays before the camera. frame:
+/// from 1 on. None if it cannot be read, which the diagnostics say. threads: as load_scene()'s.
+std::optional<SceneDescription> load_model(const std::string& file, const ModelStage& stage, int frame, int width,
+                                           int height, Diagnostics& diagnostics, int threads,
+                                           MissingTexture missing_texture);
 
 }  // namespace raytrace

@@ -26,8 +26,8 @@ struct Resolution {
 
 /// What a render reads, the picture that it makes, and the files that it writes.
 struct RenderJob {
-  std::string scene;              ///< its file; "-": standard input; or a model's (model_scene.h)
-  std::optional<ModelView> view;  ///< of a model; none: the usual
+  std::string scene;                ///< its file; "-": standard input; or a model's (model_scene.h)
+  std::optional<ModelStage> stage;  ///< of a model; none: the usual
   int frame = 1;
   bool is_one_of_frames = false;  ///< the picture says which frame it is
   std::map<std::string, std::string> variables;
