@@ -41,7 +41,7 @@ Film film_of(const SamplePiece& piece) {
       const std::int64_t high = piece.large ? std::int64_t{samples} * 1000 : 0;
       film.add(x, y, {light, light / 2, light / 3, hits, samples}, {high, -high, high});
       if (SplatLayer* const splats = film.splats(); splats != nullptr) {
-        splats->add(piece.whole.x0 + x % 3, piece.whole.y0 + y % 5, {light, from_limbs({light, high}), -light});
+        splats->add((region.x0 + x) / 2, (region.y0 + y) / 2, {light, from_limbs({light, high}), -light});
         splats->add_paths(samples * splats->paths_per_sample(x, y));
       }
       AovFilm* const aovs = film.aovs();
