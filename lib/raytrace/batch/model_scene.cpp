@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "raytrace/description/load_images.h"
-#include "raytrace/output/pixel_format.h"
+#include "raytrace/output/image_encoder.h"
 
 namespace raytrace {
 
