@@ -64,8 +64,8 @@ Colors reference(double cosine, double film, double thickness, double own, Compl
         std::exp(Complex(0, 4 * std::numbers::pi * own * thickness / (l * 1e-3)) * (g2 / Complex(film)));
     double reflected = 0;
     for (const bool along : {false, true}) {
-      const Complex e1 = along ? 1.0 : 1.0, e2 = along ? film * film : 1.0, e3 = along ? base * base : 1.0;
-      const Complex upper = r(g1 / e1, g2 / e2), lower = r(g2 / e2, g3 / e3);
+      const Complex e2 = along ? film * film : 1.0, e3 = along ? base * base : 1.0;
+      const Complex upper = r(g1, g2 / e2), lower = r(g2 / e2, g3 / e3);
       reflected += std::norm((upper + lower * wave) / (1.0 + upper * lower * wave)) / 2;
     }
     for (std::size_t c = 0; c < 3; ++c)

@@ -84,8 +84,10 @@ TEST_CASE("points of flat patches are drawn with their density, which integrates
         all_within = all_within && u >= 0 && v >= 0 && u <= 1 && v <= 1 && (!is_triangle || u + v < 1.000001);
         const Vec3d place = flat.origin + flat.a * u + flat.b * v;
         worst_place = std::max(worst_place, length(lane_of(sample.p, lane) - place));
-        const auto cell = [](double x) { return std::min(static_cast<int>(x * cells), cells - 1); };
-        ++observed[static_cast<std::size_t>(cell(v) * cells + cell(u))];
+        const auto cell = [](double x) {
+          return static_cast<std::size_t>(std::min(static_cast<int>(x * cells), cells - 1));
+        };
+        ++observed[cell(v) * static_cast<std::size_t>(cells) + cell(u)];
       }
     }
     CHECK(all_within);

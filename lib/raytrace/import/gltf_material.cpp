@@ -111,7 +111,7 @@ class MaterialReader {
     add("specular_roughness", roughness_, both, green);
     if (const auto info = item_.find("normalTexture")) {
       material_.norm = texture_of_(*info);
-      material_.norm.strength = number(*info, "scale", 1);
+      material_.norm.strength = number(info, "scale", 1);
     }
     if (const auto ior = find("KHR_materials_ior")) {
       const double index = number(ior, "ior", 1.5);
