@@ -20,12 +20,12 @@ float to_srgb(float light) {
 }
 
 /// How numbers are kept, and what they mean.
-struct Bytes {
+struct ByteValues {
   using Stored = std::uint8_t;
   bool srgb;
   std::array<float, 256> decoded{};
 
-  explicit Bytes(bool is_srgb) : srgb(is_srgb) {
+  explicit ByteValues(bool is_srgb) : srgb(is_srgb) {
     for (std::size_t code = 0; code < decoded.size(); ++code) {
       const float number = static_cast<float>(code) / 255;
       decoded[code] = srgb ? from_srgb(number) : number;
@@ -115,7 +115,7 @@ TexelImage::TexelImage(const Picture& picture, bool srgb, int threads)
                                          bytes_of(format_));
   switch (format_) {
     case TexelFormat::bytes:
-      fill(picture, Bytes(srgb), threads);
+      fill(picture, ByteValues(srgb), threads);
       break;
     case TexelFormat::shorts:
       fill(picture, Shorts{}, threads);
