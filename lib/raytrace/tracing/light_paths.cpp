@@ -2,13 +2,10 @@
 
 #include <bit>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <variant>
 
 #include "raytrace/math/frame.h"
-#include "raytrace/math/turns.h"
-#include "raytrace/math/unit_disk.h"
 #include "raytrace/sampling/pixel_sampler.h"
 #include "raytrace/sampling/sampler.h"
 #include "raytrace/tracing/direct_light.h"
@@ -18,51 +15,14 @@ namespace raytrace {
 
 namespace {
 
-constexpr float two_pi = static_cast<float>(2 * std::numbers::pi);
-
 std::uint64_t count_of(const MaskN& lanes) { return static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(lanes))); }
 
-Vec3<FloatN> normalized(const Vec3<FloatN>& v) { return v * (FloatN(1) / max(length(v), FloatN(1e-30F))); }
+/// The keys of a path's rays, by what they are among them.
+UintN keys(const LightPathPacket& path, std::uint32_t purpose) {
+  return ray_keys(path.pixel, path.sample, purpose | 0x40000000U);
+}
 
 }  // namespace
-
-/// Light paths, one a lane.
-struct LightPaths::Packet {
-  UintN pixel, sample;
-  std::array<std::uint64_t, packet_lanes> picture_pixel;  ///< that each belongs to
-
-  CausticTable::Target target[packet_lanes];
-  alignas(64) std::array<std::int32_t, packet_lanes> sources, targets;
-  FloatN choices;  ///< the probability of both
-
-  Ray<FloatN> rays;
-  /// The light that the path carries: the flux along it over the density of all that was drawn for it, where `share`
-  /// of what left the light is not lost yet.
-  Rgb<FloatN> flux, share;
-  int depth = 0;     ///< points that it has come to
-  MaskN from_point;  ///< whose light is known by the irradiance where the path comes to first
-
-  Vec3<FloatN> center() const {
-    return gathered([](const CausticTable::Target& t) { return t.center.x; }, [](const auto& t) { return t.center.y; },
-                    [](const auto& t) { return t.center.z; });
-  }
-  FloatN radius() const {
-    return lanes_of([](const CausticTable::Target& t) { return t.radius; });
-  }
-  UintN keys(std::uint32_t purpose) const { return ray_keys(pixel, sample, purpose | 0x40000000U); }
-
- private:
-  template <class Number>
-  FloatN lanes_of(const Number& number) const {
-    alignas(64) std::array<float, packet_lanes> numbers;
-    for (std::size_t lane = 0; lane < packet_lanes; ++lane) numbers[lane] = number(target[lane]);
-    return FloatN::load_aligned(numbers.data());
-  }
-  template <class X, class Y, class Z>
-  Vec3<FloatN> gathered(const X& x, const Y& y, const Z& z) const {
-    return {lanes_of(x), lanes_of(y), lanes_of(z)};
-  }
-};
 
 LightPaths::LightPaths(const TracedScene& scene, Film& film)
     : scene_(scene),
@@ -77,7 +37,7 @@ void LightPaths::trace(const Pixels& pixels, const UintN& samples, const MaskN& 
   report_ = &report;
   SplatLayer& splats = *film_.splats();
   const auto width = static_cast<std::uint64_t>(film_.settings().extent.full_width);
-  Packet path;
+  LightPathPacket path;
   path.sample = samples;
   std::uint32_t left = bits_of<FloatN>(wanted);
   for (std::uint64_t i = 0; left != 0; ++i) {
@@ -98,152 +58,21 @@ void LightPaths::trace(const Pixels& pixels, const UintN& samples, const MaskN& 
     path.pixel =
         pixel_hash(UintN::load_aligned(columns.data()), UintN::load_aligned(rows.data()), film_.settings().seed);
     const MaskN here = float_mask<FloatN>(UintN::load_aligned(lanes.data()) != UintN(0u));
-    follow(path, start(path) & here);
+    follow(path, start_light_paths(tables_, path) & here);
     splats.add_paths(count_of(here));
   }
 }
 
-/// Draws a light, a target, a place on the light and a direction to the target. The result: the lanes that have light.
-MaskN LightPaths::start(Packet& path) const {
-  const Sample2D choice = get_2d(path.pixel, path.sample, light_path_dimension(LightPathDraw::source));
-  alignas(64) std::array<float, packet_lanes> probabilities;
-  for (std::size_t lane = 0; lane < packet_lanes; ++lane) {
-    const auto source = caustics_.choose_source(choice.x.get(lane)),
-               target = caustics_.choose_target(choice.y.get(lane));
-    path.sources[lane] = source.number;
-    path.targets[lane] = target.number;
-    path.target[lane] = caustics_.target(target.number);
-    probabilities[lane] = source.probability * target.probability;
-  }
-  path.choices = FloatN::load_aligned(probabilities.data());
-  path.flux = path.share = Rgb<FloatN>(Rgb<float>(0, 0, 0));
-  path.rays.near = FloatN(0);
-  path.rays.origin = path.rays.direction = Vec3<FloatN>(Vec3f(0, 0, 1));
-  path.from_point = MaskN(false);
-  const IntN source = IntN::load_aligned(path.sources.data());
-  const auto lights = static_cast<std::int32_t>(tables_.lights().size());
-  const auto patches = static_cast<std::int32_t>(tables_.emitters().size());
-  for (MaskN left = float_mask<FloatN>(source < IntN(lights)); any(left);) {
-    const std::int32_t number = path.sources[static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(left)))];
-    const MaskN here = left & float_mask<FloatN>(source == IntN(number));
-    start_at_source(path, number, here);
-    left = left & !here;
-  }
-  const MaskN at_patch =
-      float_mask<FloatN>(source >= IntN(lights)) & float_mask<FloatN>(source < IntN(lights + patches));
-  if (any(at_patch)) start_at_patches(path, at_patch);
-  const MaskN far = float_mask<FloatN>(source >= IntN(lights + patches));
-  if (any(far)) {
-    const Sample2D place = get_2d(path.pixel, path.sample, light_path_dimension(LightPathDraw::direction));
-    const EnvironmentSample sky = tables_.environment()->sample(place.x, place.y);
-    path.rays.direction = select(far, -sky.wi, path.rays.direction);
-    path.flux = select(far, sky.radiance * (FloatN(1) / sky.pdf), path.flux);
-    start_far_away(path, far);
-  }
-  path.flux = path.flux * (FloatN(1) / path.choices);
-  return largest(path.flux) > FloatN(0);
-}
-
-/// Directions from the rays' origins into the cone around the target. Divides the light by their density.
-MaskN LightPaths::aim(Packet& path, const MaskN& lanes) const {
-  const Sample2D u = get_2d(path.pixel, path.sample, light_path_dimension(LightPathDraw::direction));
-  const Vec3<FloatN> way = path.center() - path.rays.origin;
-  const FloatN radius = path.radius(), distance2 = dot(way, way);
-  const MaskN outside = distance2 > radius * radius;
-  const FloatN sine2 = radius * radius / max(distance2, FloatN(1e-30F));
-  const FloatN cone = select(outside, sine2 / (FloatN(1) + sqrt(max(FloatN(1) - sine2, FloatN(0)))), FloatN(2));
-  const FloatN height = u.x * cone, across = sqrt(max(height * (FloatN(2) - height), FloatN(0)));
-  const auto [sine, cosine] = sin_cos_of_turns(u.y);
-  const Frame<FloatN> frame(normalized(select(outside, way, Vec3<FloatN>(Vec3f(0, 0, 1)))));
-  path.rays.direction =
-      select(lanes, frame.to_world({across * cosine, across * sine, FloatN(1) - height}), path.rays.direction);
-  path.flux = select(lanes, path.flux * (cone * FloatN(two_pi)), path.flux);
-  return lanes;
-}
-
-void LightPaths::start_at_source(Packet& path, std::int32_t source, const MaskN& lanes) const {
-  const LightSource& light = *tables_.lights()[static_cast<std::size_t>(source)];
-  if (const auto location = light.location()) {
-    path.rays.origin = select(lanes, Vec3<FloatN>(*location), path.rays.origin);
-    path.flux = select(lanes, Rgb<FloatN>(Rgb<float>(1, 1, 1)), path.flux);
-    path.from_point = path.from_point | lanes;
-    aim(path, lanes);
-    return;
-  }
-  Ray<FloatN> ray;
-  ray.origin = path.center();
-  Rgb<FloatN> radiance;
-  light.sample(ray, get_2d(path.pixel, path.sample, light_path_dimension(LightPathDraw::direction)), radiance);
-  path.rays.direction = select(lanes, -normalized(ray.direction), path.rays.direction);
-  path.flux = select(lanes, radiance, path.flux);
-  start_far_away(path, lanes);
-}
-
-/// Parallel rays onto the target, of those directions, from beyond all objects with bounds.
-void LightPaths::start_far_away(Packet& path, const MaskN& lanes) const {
-  const Sample2D u = get_2d(path.pixel, path.sample, light_path_dimension(LightPathDraw::place));
-  const DiskPoint<FloatN> disk = on_unit_disk(u.x, u.y);
-  const FloatN radius = path.radius();
-  const Frame<FloatN> frame(path.rays.direction);
-  const Vec3<FloatN> at = path.center() + (frame.x * disk.x + frame.y * disk.y) * radius;
-  const BoundingSphere& scene = caustics_.scene_sphere();
-  const FloatN back = length(at - Vec3<FloatN>(Vec3f(scene.center))) + FloatN(static_cast<float>(scene.radius));
-  path.rays.origin = select(lanes, at - path.rays.direction * back, path.rays.origin);
-  path.flux = select(lanes, path.flux * (radius * radius * FloatN(two_pi / 2)), path.flux);
-}
-
-void LightPaths::start_at_patches(Packet& path, const MaskN& lanes) const {
-  const auto first = static_cast<std::int32_t>(tables_.lights().size());
-  const IntN source = IntN::load_aligned(path.sources.data());
-  const IntN patch = select_lanes(lanes, source - IntN(first), IntN(0));
-  // Places are drawn for a point of the target that no plane of a lamp is likely to go through; of spheres, whose far
-  // sides such a point does not see, for one inside.
-  Vec3<FloatN> from = path.center() + Vec3<FloatN>(Vec3f(0.137F, 0.271F, 0.391F)) * path.radius();
-  alignas(64) std::array<float, packet_lanes> x, y, z;
-  from.x.store_aligned(x.data());
-  from.y.store_aligned(y.data());
-  from.z.store_aligned(z.data());
-  for (std::size_t lane = 0; lane < packet_lanes; ++lane) {
-    const PatchRecord<float>& record = tables_.emitters().patch(static_cast<std::size_t>(patch.get(lane)));
-    if (PatchCode::shape_of(record.code) != PatchShape::sphere) continue;
-    x[lane] = record.origin.x;
-    y[lane] = record.origin.y;
-    z[lane] = record.origin.z + record.a.x * 0.25F;
-  }
-  from = {FloatN::load_aligned(x.data()), FloatN::load_aligned(y.data()), FloatN::load_aligned(z.data())};
-  const Sample2D place = get_2d(path.pixel, path.sample, light_path_dimension(LightPathDraw::place));
-  const EmitterTable::Sample sample = tables_.emitters().sample(patch, from, place.x, place.y);
-  const PatchSample& drawn = sample.point;
-  // Per area, from per solid angle.
-  const Vec3<FloatN> way = drawn.p - from;
-  const FloatN distance2 = dot(way, way);
-  const FloatN per_area = drawn.pdf * abs(dot(drawn.normal, way)) / (distance2 * sqrt(distance2));
-  const MaskN good = lanes & (drawn.pdf < infinity<FloatN>()) & (per_area > FloatN(0));
-  path.rays.origin = select(lanes, drawn.p, path.rays.origin);
-  path.flux = select(good, Rgb<FloatN>(Rgb<float>(1, 1, 1)) * (FloatN(1) / per_area), path.flux);
-  aim(path, lanes);
-  SurfaceInteraction<FloatN> light{};
-  light.front = dot(drawn.normal, path.rays.direction) > FloatN(0);
-  light.ng = light.ns = select(light.front, drawn.normal, -drawn.normal);
-  light.wo = path.rays.direction;
-  light.p = drawn.p;
-  light.error = drawn.error;
-  const Rgb<FloatN> radiance = tables_.emitted(
-      sample, good, light, [&](const Hits& hits) { return texture_point(tables_, FloatN(0), hits, light); });
-  path.rays.origin = select(lanes, offset_ray_origin(light), path.rays.origin);
-  path.flux = select(lanes, path.flux * radiance * dot(light.ng, path.rays.direction), path.flux);
-}
-
-Hits LightPaths::intersect(Packet& path, const MaskN& lanes) {
+Hits LightPaths::intersect(LightPathPacket& path, const MaskN& lanes) {
   report_->rays.indirect += count_of(lanes);
   path.rays.far = infinity<FloatN>();
   if (!tables_.has_cutouts()) return scene_.accelerator().intersect(path.rays, lanes, Coherence::incoherent);
   const CutoutQuery query{tables_, scene_.accelerator(), path.rays,
-                          path.keys(static_cast<std::uint32_t>(path.depth) * 2)};
+                          keys(path, static_cast<std::uint32_t>(path.depth) * 2)};
   return scene_.accelerator().intersect(path.rays, lanes, Coherence::incoherent, nullptr, &query);
 }
 
-void LightPaths::follow(Packet& path, MaskN alive) {
+void LightPaths::follow(LightPathPacket& path, MaskN alive) {
   path.share = Rgb<FloatN>(Rgb<float>(1, 1, 1));
   const auto lights = static_cast<std::int32_t>(tables_.lights().size());
   const IntN source = IntN::load_aligned(path.sources.data()), aimed_at = IntN::load_aligned(path.targets.data());
@@ -280,9 +109,9 @@ void LightPaths::follow(Packet& path, MaskN alive) {
           !path.from_point;
       if (any(far)) {
         const Ray<FloatN> back{from, -path.rays.direction, FloatN(0), infinity<FloatN>()};
-        const MaskN hidden = tables_.has_cutouts()
-                                 ? occluded_with_cutouts(scene_, back, far, path.keys(~0U >> 2U), Coherence::incoherent)
-                                 : scene_.accelerator().occluded(back, far, Coherence::incoherent);
+        const MaskN hidden = tables_.has_cutouts() ? occluded_with_cutouts(scene_, back, far, keys(path, ~0U >> 2U),
+                                                                           Coherence::incoherent)
+                                                   : scene_.accelerator().occluded(back, far, Coherence::incoherent);
         alive = alive & !hidden;
       }
     }
@@ -300,7 +129,7 @@ void LightPaths::follow(Packet& path, MaskN alive) {
 
 /// On to the next points. BSDFs are asked the other way round than on paths from the camera: for the direction that
 /// light comes from, of which they draw one that it goes to.
-MaskN LightPaths::scatter(Packet& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface,
+MaskN LightPaths::scatter(LightPathPacket& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface,
                           const TexturePoint<FloatN>* point, const MaskN& lanes) const {
   const Frame<FloatN> frame = tables_.shading_frame(hits, surface, point);
   const Vec3<FloatN> wi = frame.to_local(surface.wo);
@@ -341,7 +170,7 @@ MaskN LightPaths::scatter(Packet& path, const Hits& hits, const SurfaceInteracti
 }
 
 /// Sends what reaches those points to the camera, where it shows them.
-void LightPaths::connect(Packet& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface,
+void LightPaths::connect(LightPathPacket& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface,
                          const MaskN& lanes) {
   const Sample2D lens = get_2d(path.pixel, path.sample, light_path_dimension(LightPathDraw::lens));
   std::array<FilmPoint, packet_lanes> points;
@@ -364,7 +193,7 @@ void LightPaths::connect(Packet& path, const Hits& hits, const SurfaceInteractio
   const Vec3<FloatN> way{FloatN::load_aligned(x.data()), FloatN::load_aligned(y.data()),
                          FloatN::load_aligned(z.data())};
   SurfaceInteraction<FloatN> seen = surface;
-  seen.wo = normalized(way);
+  seen.wo = unit_vector(way);
   const FloatN distance = length(way), cosine = dot(seen.wo, seen.ng), true_wi = dot(surface.wo, surface.ng);
   const MaskN facing = lanes & (FloatN::load_aligned(areas.data()) > FloatN(0)) & (cosine > FloatN(0));
   if (none(facing)) return;
@@ -393,7 +222,7 @@ void LightPaths::connect(Packet& path, const Hits& hits, const SurfaceInteractio
   report_->rays.shadow += count_of(arrives);
   const MaskN hidden =
       tables_.has_cutouts()
-          ? occluded_with_cutouts(scene_, ray, arrives, path.keys(static_cast<std::uint32_t>(path.depth) * 2 + 1),
+          ? occluded_with_cutouts(scene_, ray, arrives, keys(path, static_cast<std::uint32_t>(path.depth) * 2 + 1),
                                   Coherence::incoherent)
           : scene_.accelerator().occluded(ray, arrives, Coherence::incoherent);
   for (std::uint32_t left = bits_of<FloatN>(arrives & !hidden); left != 0; left &= left - 1) {
@@ -402,7 +231,8 @@ void LightPaths::connect(Packet& path, const Hits& hits, const SurfaceInteractio
   }
 }
 
-void LightPaths::splat(const Packet& path, std::size_t lane, const FilmPoint& point, const Rgb<FloatN>& radiance) {
+void LightPaths::splat(const LightPathPacket& path, std::size_t lane, const FilmPoint& point,
+                       const Rgb<FloatN>& radiance) {
   const PictureExtent& extent = film_.settings().extent;
   const FilterTable& filter = tables_.pixel_filter();
   const double pixels = static_cast<double>(extent.full_width) * static_cast<double>(extent.full_height);

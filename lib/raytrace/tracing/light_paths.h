@@ -14,6 +14,7 @@
 
 #include "raytrace/accel/traced_scene.h"
 #include "raytrace/film/splat_layer.h"
+#include "raytrace/tracing/light_path_start.h"
 #include "raytrace/tracing/render_report.h"
 
 namespace raytrace {
@@ -31,19 +32,12 @@ class LightPaths {
   void trace(const Pixels& pixels, const UintN& samples, const MaskN& wanted, RenderReport& report);
 
  private:
-  struct Packet;
-
-  MaskN start(Packet& path) const;
-  MaskN aim(Packet& path, const MaskN& lanes) const;
-  void start_at_patches(Packet& path, const MaskN& lanes) const;
-  void start_at_source(Packet& path, std::int32_t source, const MaskN& lanes) const;
-  void start_far_away(Packet& path, const MaskN& lanes) const;
-  void follow(Packet& path, MaskN alive);
-  Hits intersect(Packet& path, const MaskN& lanes);
-  void connect(Packet& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface, const MaskN& lanes);
-  MaskN scatter(Packet& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface,
+  void follow(LightPathPacket& path, MaskN alive);
+  Hits intersect(LightPathPacket& path, const MaskN& lanes);
+  void connect(LightPathPacket& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface, const MaskN& lanes);
+  MaskN scatter(LightPathPacket& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface,
                 const TexturePoint<FloatN>* point, const MaskN& lanes) const;
-  void splat(const Packet& path, std::size_t lane, const FilmPoint& point, const Rgb<FloatN>& radiance);
+  void splat(const LightPathPacket& path, std::size_t lane, const FilmPoint& point, const Rgb<FloatN>& radiance);
 
   const TracedScene& scene_;
   const SceneTables& tables_;

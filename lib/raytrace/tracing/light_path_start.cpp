@@ -1,0 +1,150 @@
+#include "raytrace/tracing/light_path_start.h"
+
+#include <bit>
+#include <numbers>
+
+#include "raytrace/accel/surface_uv.h"
+#include "raytrace/math/frame.h"
+#include "raytrace/math/turns.h"
+#include "raytrace/math/unit_disk.h"
+#include "raytrace/sampling/sampler.h"
+#include "raytrace/tracing/sampled_light.h"
+
+namespace raytrace {
+
+namespace {
+
+constexpr float two_pi = static_cast<float>(2 * std::numbers::pi);
+
+/// Directions from the rays' origins into the cone around the target. Divides the light by their density.
+void aim(LightPathPacket& path, const MaskN& lanes) {
+  const Sample2D u = get_2d(path.pixel, path.sample, light_path_dimension(LightPathDraw::direction));
+  const Vec3<FloatN> way = path.center() - path.rays.origin;
+  const FloatN radius = path.radius(), distance2 = dot(way, way);
+  const MaskN outside = distance2 > radius * radius;
+  const FloatN sine2 = radius * radius / max(distance2, FloatN(1e-30F));
+  const FloatN cone = select(outside, sine2 / (FloatN(1) + sqrt(max(FloatN(1) - sine2, FloatN(0)))), FloatN(2));
+  const FloatN height = u.x * cone, across = sqrt(max(height * (FloatN(2) - height), FloatN(0)));
+  const auto [sine, cosine] = sin_cos_of_turns(u.y);
+  const Frame<FloatN> frame(unit_vector(select(outside, way, Vec3<FloatN>(Vec3f(0, 0, 1)))));
+  path.rays.direction =
+      select(lanes, frame.to_world({across * cosine, across * sine, FloatN(1) - height}), path.rays.direction);
+  path.flux = select(lanes, path.flux * (cone * FloatN(two_pi)), path.flux);
+}
+
+/// Parallel rays onto the target, of those directions, from beyond all objects with bounds.
+void start_far_away(const SceneTables& scene, LightPathPacket& path, const MaskN& lanes) {
+  const Sample2D u = get_2d(path.pixel, path.sample, light_path_dimension(LightPathDraw::place));
+  const DiskPoint<FloatN> disk = on_unit_disk(u.x, u.y);
+  const FloatN radius = path.radius();
+  const Frame<FloatN> frame(path.rays.direction);
+  const Vec3<FloatN> at = path.center() + (frame.x * disk.x + frame.y * disk.y) * radius;
+  const BoundingSphere& all = scene.caustics()->scene_sphere();
+  const FloatN back = length(at - Vec3<FloatN>(Vec3f(all.center))) + FloatN(static_cast<float>(all.radius));
+  path.rays.origin = select(lanes, at - path.rays.direction * back, path.rays.origin);
+  path.flux = select(lanes, path.flux * (radius * radius * FloatN(two_pi / 2)), path.flux);
+}
+
+void start_at_source(const SceneTables& scene, LightPathPacket& path, std::int32_t source, const MaskN& lanes) {
+  const LightSource& light = *scene.lights()[static_cast<std::size_t>(source)];
+  if (const auto location = light.location()) {
+    path.rays.origin = select(lanes, Vec3<FloatN>(*location), path.rays.origin);
+    path.flux = select(lanes, Rgb<FloatN>(Rgb<float>(1, 1, 1)), path.flux);
+    path.from_point = path.from_point | lanes;
+    aim(path, lanes);
+    return;
+  }
+  Ray<FloatN> ray;
+  ray.origin = path.center();
+  Rgb<FloatN> radiance;
+  light.sample(ray, get_2d(path.pixel, path.sample, light_path_dimension(LightPathDraw::direction)), radiance);
+  path.rays.direction = select(lanes, -unit_vector(ray.direction), path.rays.direction);
+  path.flux = select(lanes, radiance, path.flux);
+  start_far_away(scene, path, lanes);
+}
+
+void start_at_patches(const SceneTables& scene, LightPathPacket& path, const MaskN& lanes) {
+  const auto first = static_cast<std::int32_t>(scene.lights().size());
+  const IntN source = IntN::load_aligned(path.sources.data());
+  const IntN patch = select_lanes(lanes, source - IntN(first), IntN(0));
+  // Places are drawn for a point of the target that no plane of a lamp is likely to go through; of spheres, whose far
+  // sides such a point does not see, for one inside.
+  Vec3<FloatN> from = path.center() + Vec3<FloatN>(Vec3f(0.137F, 0.271F, 0.391F)) * path.radius();
+  alignas(64) std::array<float, packet_lanes> x, y, z;
+  from.x.store_aligned(x.data());
+  from.y.store_aligned(y.data());
+  from.z.store_aligned(z.data());
+  for (std::size_t lane = 0; lane < packet_lanes; ++lane) {
+    const PatchRecord<float>& record = scene.emitters().patch(static_cast<std::size_t>(patch.get(lane)));
+    if (PatchCode::shape_of(record.code) != PatchShape::sphere) continue;
+    x[lane] = record.origin.x;
+    y[lane] = record.origin.y;
+    z[lane] = record.origin.z + record.a.x * 0.25F;
+  }
+  from = {FloatN::load_aligned(x.data()), FloatN::load_aligned(y.data()), FloatN::load_aligned(z.data())};
+  const Sample2D place = get_2d(path.pixel, path.sample, light_path_dimension(LightPathDraw::place));
+  const EmitterTable::Sample sample = scene.emitters().sample(patch, from, place.x, place.y);
+  const PatchSample& drawn = sample.point;
+  // Per area, from per solid angle.
+  const Vec3<FloatN> way = drawn.p - from;
+  const FloatN distance2 = dot(way, way);
+  const FloatN per_area = drawn.pdf * abs(dot(drawn.normal, way)) / (distance2 * sqrt(distance2));
+  const MaskN good = lanes & (drawn.pdf < infinity<FloatN>()) & (per_area > FloatN(0));
+  path.rays.origin = select(lanes, drawn.p, path.rays.origin);
+  path.flux = select(good, Rgb<FloatN>(Rgb<float>(1, 1, 1)) * (FloatN(1) / per_area), path.flux);
+  aim(path, lanes);
+  SurfaceInteraction<FloatN> light{};
+  light.front = dot(drawn.normal, path.rays.direction) > FloatN(0);
+  light.ng = light.ns = select(light.front, drawn.normal, -drawn.normal);
+  light.wo = path.rays.direction;
+  light.p = drawn.p;
+  light.error = drawn.error;
+  const Rgb<FloatN> radiance = scene.emitted(
+      sample, good, light, [&](const Hits& hits) { return texture_point(scene, FloatN(0), hits, light); });
+  path.rays.origin = select(lanes, offset_ray_origin(light), path.rays.origin);
+  path.flux = select(lanes, path.flux * radiance * dot(light.ng, path.rays.direction), path.flux);
+}
+
+}  // namespace
+
+MaskN start_light_paths(const SceneTables& scene, LightPathPacket& path) {
+  const CausticTable& caustics = *scene.caustics();
+  const Sample2D choice = get_2d(path.pixel, path.sample, light_path_dimension(LightPathDraw::source));
+  alignas(64) std::array<float, packet_lanes> probabilities;
+  for (std::size_t lane = 0; lane < packet_lanes; ++lane) {
+    const auto source = caustics.choose_source(choice.x.get(lane)), target = caustics.choose_target(choice.y.get(lane));
+    path.sources[lane] = source.number;
+    path.targets[lane] = target.number;
+    path.target[lane] = caustics.target(target.number);
+    probabilities[lane] = source.probability * target.probability;
+  }
+  const FloatN choices = FloatN::load_aligned(probabilities.data());
+  path.flux = path.share = Rgb<FloatN>(Rgb<float>(0, 0, 0));
+  path.rays.near = FloatN(0);
+  path.rays.origin = path.rays.direction = Vec3<FloatN>(Vec3f(0, 0, 1));
+  path.from_point = MaskN(false);
+  const IntN source = IntN::load_aligned(path.sources.data());
+  const auto lights = static_cast<std::int32_t>(scene.lights().size());
+  const auto patches = static_cast<std::int32_t>(scene.emitters().size());
+  for (MaskN left = float_mask<FloatN>(source < IntN(lights)); any(left);) {
+    const std::int32_t number = path.sources[static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(left)))];
+    const MaskN here = left & float_mask<FloatN>(source == IntN(number));
+    start_at_source(scene, path, number, here);
+    left = left & !here;
+  }
+  const MaskN at_patch =
+      float_mask<FloatN>(source >= IntN(lights)) & float_mask<FloatN>(source < IntN(lights + patches));
+  if (any(at_patch)) start_at_patches(scene, path, at_patch);
+  const MaskN far = float_mask<FloatN>(source >= IntN(lights + patches));
+  if (any(far)) {
+    const Sample2D place = get_2d(path.pixel, path.sample, light_path_dimension(LightPathDraw::direction));
+    const EnvironmentSample sky = scene.environment()->sample(place.x, place.y);
+    path.rays.direction = select(far, -sky.wi, path.rays.direction);
+    path.flux = select(far, sky.radiance * (FloatN(1) / sky.pdf), path.flux);
+    start_far_away(scene, path, far);
+  }
+  path.flux = path.flux * (FloatN(1) / choices);
+  return largest(path.flux) > FloatN(0);
+}
+
+}  // namespace raytrace
