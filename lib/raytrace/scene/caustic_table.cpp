@@ -68,7 +68,10 @@ WeightedChoice::WeightedChoice(std::span<const double> weights) {
   for (const double weight : weights) shares_.push_back(sum += weight);
   for (double& share : shares_) share /= sum;
   // What follows the last that may be chosen never is.
-  for (std::size_t i = shares_.size(); i-- > 0 && (i + 1 == shares_.size() || weights[i + 1] == 0);) shares_[i] = 1;
+  for (std::size_t i = shares_.size(); i > 0; --i) {
+    shares_[i - 1] = 1;
+    if (weights[i - 1] != 0) break;
+  }
 }
 
 WeightedChoice::Choice WeightedChoice::choose(float u) const {
