@@ -121,15 +121,20 @@ std::string one_of(const std::string& text, const Names& names) {
 
 Names aov_choices() {
   Names choices = aov_names();
-  choices.emplace_back("all");
+  choices.insert(choices.end(), {"light_NAME", "all"});
   return choices;
 }
 
 AovSet aovs(const std::string& text) {
   Names wanted;
-  for (const std::string_view name : split(text, ',')) wanted.push_back(one_of(std::string(name), aov_choices()));
-  const bool everything = std::find(wanted.begin(), wanted.end(), "all") != wanted.end();
-  return aov_set(everything ? aov_names() : wanted);
+  for (const std::string_view name : split(text, ','))
+    wanted.push_back(light_group_of(name) ? std::string(name) : one_of(std::string(name), aov_choices()));
+  if (std::find(wanted.begin(), wanted.end(), "all") == wanted.end()) return aov_set(wanted);
+  const Names all = aov_names();
+  wanted.insert(wanted.end(), all.begin(), all.end());
+  AovSet set = aov_set(wanted);
+  set.wants_all_light_groups = true;
+  return set;
 }
 
 Resolution resolution(const std::string& text) {

@@ -149,7 +149,8 @@ void define_options(OptionParser& parser, Options& options) {
                     "PNG and TIFF");
   parser.add("--exposure", exposure_value_name, exposure_help, options.exposure, exposure);
   parser.add("--aov", "LIST",
-             "What EXR files hold besides the colour, separated by commas: " + joined(aov_names(), ", ") + "; or all",
+             "What EXR files hold besides the colour, separated by commas: " + joined(aov_names(), ", ") +
+                 "; light_NAME, what the lights of a group bring; or all",
              options.aovs, aovs, aov_choices());
   parser.add("--bit-depth", "8|16", "Bits per channel in PNG, TIFF and other sRGB-encoded files (8)", options.bit_depth,
              bit_depth, {"8", "16"});

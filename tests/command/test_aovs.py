@@ -40,6 +40,11 @@ def mattes(exr, layer):
 
 
 class Aovs(CommandTest):
+    def setUp(self):
+        super().setUp()
+        self.write("scene.xml", support.SCENE.replace("</scaleradiance></pointlight>",
+                                                      "</scaleradiance><group>key</group></pointlight>"))
+
     def render(self, *options, name="a.exr", scene="scene.xml", **keywords):
         self.succeed(scene, "-q", "-o", name, *options, **keywords)
         return Exr(self.read(name))
@@ -52,6 +57,10 @@ class Aovs(CommandTest):
         self.assertIn("--aov: 'normals' is not one of depth, position,", message)
         self.assertIn("did you mean 'normal'?", message)
         self.fail_with(2, "scene.xml", "-o", "a.exr", "--aov", "")
+        self.fail_with(2, "scene.xml", "-o", "a.exr", "--aov", "light_")
+        message = self.fail_with(2, "scene.xml", "-o", "a.exr", "--aov", "light_kye")
+        self.assertIn("--aov: no light of the scene is in the group 'kye'; there are light_default, light_key", message)
+        self.assertEqual(self.names(), ["scene.xml"])
 
     def test_some_output_must_hold_them(self):
         message = self.fail_with(2, "scene.xml", "-o", "a.png", "--aov", "depth")
@@ -67,6 +76,7 @@ class Aovs(CommandTest):
         types.update({f"albedo.{color}": "f" for color in "RGB"})
         types.update({f"{layer}{level}.{part}": "f" for layer in ("crypto_object", "crypto_material")
                       for level in ("00", "01", "02") for part in "RGBA"})
+        types.update({f"light_{group}.{color}": "f" for group in ("default", "key") for color in "RGB"})
         self.assertEqual(picture.channels, types)
         self.assertEqual(picture.pixels(), plain.pixels())
         self.assertEqual(self.render("--aov", "normal,depth", "--float").channels,
@@ -90,6 +100,17 @@ class Aovs(CommandTest):
         sky = {name: values[0] for name, values in picture.rows[0].items()}
         self.assertEqual([sky["Z"], sky["id.object"], sky["N.Y"], sky["crypto_object00.G"]],
                          [struct.unpack("<f", struct.pack("<f", 1e30))[0], 0, 0, 0])
+
+    def test_light_groups_add_up_to_the_picture(self):
+        picture = self.render("--aov", "light_key,light_default", "--float")
+        self.write("unlit.xml", support.SCENE.replace("<scaleradiance>2<", "<scaleradiance>0<"))
+        unlit = self.render("--float", name="b.exr", scene="unlit.xml")
+        for y, row in picture.rows.items():
+            for color in "RGB":
+                for whole, key, other, alone in zip(row[color], row[f"light_key.{color}"], row[f"light_default.{color}"],
+                                                    unlit.rows[y][color]):
+                    self.assertAlmostEqual(whole, key + other, places=6)
+                    self.assertAlmostEqual(other, alone, places=6)
 
     def test_a_matte_is_the_coverage_of_its_object(self):
         picture = self.render("--aov", "crypto_object,crypto_material", "-s", "16")

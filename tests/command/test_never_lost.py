@@ -142,7 +142,7 @@ class Stopped(SafetyTest):
                     while not support.catches(process, number) and time.monotonic() < end:
                         time.sleep(0.01)
                 process.send_signal(number)
-                if "TSAN_OPTIONS" in ENVIRONMENT:
+                if "thread" in support.SANITIZERS:
                     process.stdin.close()  # the thread sanitizer keeps handlers back until a library's call returns
                 self.assertEqual(process.wait(timeout=LIMIT), code)
                 process.stdin.close()

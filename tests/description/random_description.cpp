@@ -43,7 +43,9 @@ void randomize(Random& random, Range, const ChoiceReference& value) { value.set(
 void randomize(Random& random, Range, FileName& value) {
   value.path = below(random, 2) == 0 ? "" : "models/" + random_name(random) + ".ply";
 }
-void randomize(Random&, Range, Reference& value) { value.name = "a group"; }
+void randomize(Random& random, Range range, Reference& value) {
+  value.name = range != Range::identifier ? "a group" : below(random, 2) == 0 ? "" : "Key_light-1";
+}
 void randomize(Random& random, Range, NumberGroups& value) {
   // Such as a mesh takes for positions, faces, normals and uvs.
   value = {};

@@ -12,10 +12,10 @@ namespace raytrace::test {
 TEST_CASE("sums of splats are exact whoever adds them") {
   // Large ones of both signs: the lower 64 bits overflow again and again, and the sum is far from all of them.
   std::mt19937_64 bits(7);
-  std::vector<SplatSum> terms;
-  SplatSum total{};
+  std::vector<RadianceSum> terms;
+  RadianceSum total{};
   for (int i = 0; i < 4000; ++i) {
-    SplatSum term;
+    RadianceSum term;
     for (std::size_t channel = 0; channel < 3; ++channel) {
       const auto value = static_cast<std::int64_t>(bits());
       term[channel] = Int128{value} * static_cast<std::int64_t>(bits() % (std::uint64_t{1} << (bits() % 18)) + 1);
@@ -32,7 +32,7 @@ TEST_CASE("sums of splats are exact whoever adds them") {
   for (std::thread& thread : threads) thread.join();
   CHECK(layer.sum(9, 8) == total);
   CHECK(layer.has_high());
-  CHECK(layer.sum(9, 7) == SplatSum{});
+  CHECK(layer.sum(9, 7) == RadianceSum{});
 }
 
 TEST_CASE("pixels of a part share all light paths of the picture") {

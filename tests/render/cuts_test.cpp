@@ -2,7 +2,6 @@
 // have the same bits. The gallery's scenes are cut at random, rendered piece by piece into files, and merged;
 // command/test_pieces.py does one of each kind through the program.
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <filesystem>
 #include <memory>
@@ -13,8 +12,10 @@
 #include <string>
 #include <vector>
 
+#include "raytrace/aovs/aov_selection.h"
 #include "raytrace/batch/merge_pieces.h"
 #include "raytrace/batch/provenance.h"
+#include "raytrace/description/light_groups.h"
 #include "raytrace/description/scene_description.h"
 #include "raytrace/film/tiles.h"
 #include "raytrace/output/exr_reader.h"
@@ -89,15 +90,16 @@ class Chance {
   std::mt19937 bits_;
 };
 
-/// The colours of a picture as its file holds them.
+/// The colours of a picture, and what each light group brings to it, as its file holds them.
 struct Colors {
   Region region;
-  std::array<std::vector<float>, 4> planes;
+  std::vector<std::vector<float>> planes;
 
   /// The same pixels' bits in both.
   friend bool same(const Colors& part, const Colors& whole) {
     const auto row_length = static_cast<std::size_t>(part.region.width());
-    for (std::size_t plane = 0; plane < 4; ++plane)
+    if (part.planes.size() != whole.planes.size()) return false;
+    for (std::size_t plane = 0; plane < part.planes.size(); ++plane)
       for (int y = part.region.y0; y < part.region.y1; ++y) {
         const auto at = [&](const Colors& picture) {
           const auto row = static_cast<std::size_t>(y - picture.region.y0);
@@ -122,6 +124,7 @@ class CutRender {
         transparent_(transparent),
         description_(small_scene(file, samples)),
         scene_(build_scene(description_, {8, isa})),
+        aovs_(all_light_groups(description_)),
         whole_(in_one(overscan, 1)) {}
 
   /// Whether the picture, or a crop of it, has the same bits when it is rendered in a way of this kind. What was done
@@ -152,7 +155,7 @@ class CutRender {
 
   /// whole: that the region is a part of.
   Film empty_film(const Region& region, const SampleRange& samples, const Region& whole) const {
-    FilmSettings settings = film_settings(*scene_, description_, {1, 0, region, samples, {}, transparent_, whole});
+    FilmSettings settings = film_settings(*scene_, description_, {1, 0, region, samples, aovs_, transparent_, whole});
     settings.unit_exponent -= finer_;
     return Film(settings);
   }
@@ -207,7 +210,7 @@ class CutRender {
     metadata.software = identity.provenance.software;
     metadata.samples = static_cast<int>(samples.count);
     metadata.attributes = identity_attributes(identity);
-    std::vector<Channel> channels = color_channels(true);
+    std::vector<Channel> channels = picture_channels();
     const std::vector<Channel> sums = keeps_sums ? sum_channels(film) : std::vector<Channel>();
     ++(film.has_high() ? with_high_ : without_high_);
     channels.insert(channels.end(), sums.begin(), sums.end());
@@ -215,6 +218,7 @@ class CutRender {
     ImageFile image(file, film.settings().extent, channels, metadata, {.full_float = true, .threads = 1});
     ImageBand band;
     fill_color(band, film, film.region().y0, film.region().y1);
+    fill_aovs(band, ImageBand::colors, film);
     if (keeps_sums) append_sums(band, sums, film);
     image.write(band);
     image.commit();
@@ -231,18 +235,32 @@ class CutRender {
     merge_pieces(settings);
     ExrReader reader(file);
     const Region& region = reader.extent().region;
-    const ImageBand band = reader.read(color_channels(true), region.y0, region.y1);
-    Colors colors{region, {}};
-    for (std::size_t i = 0; i < 4; ++i) colors.planes[i] = std::get<std::vector<float>>(band.planes[i]);
-    return colors;
+    return colors_in(reader.read(picture_channels(), region.y0, region.y1), region);
   }
 
   Colors colors_of(const Film& film) const {
     ImageBand band;
     fill_color(band, film, film.region().y0, film.region().y1);
-    Colors colors{film.region(), {}};
-    for (std::size_t i = 0; i < 4; ++i) colors.planes[i] = std::get<std::vector<float>>(band.planes[i]);
+    fill_aovs(band, ImageBand::colors, film);
+    return colors_in(band, film.region());
+  }
+
+  static Colors colors_in(const ImageBand& band, const Region& region) {
+    Colors colors{region, {}};
+    for (const ChannelValues& plane : band.planes) colors.planes.push_back(std::get<std::vector<float>>(plane));
     return colors;
+  }
+
+  static AovSet all_light_groups(const SceneDescription& description) {
+    AovSet aovs;
+    aovs.wants_all_light_groups = true;
+    return with_light_groups(aovs, light_group_names(description));
+  }
+
+  std::vector<Channel> picture_channels() const {
+    std::vector<Channel> channels = color_channels(true);
+    for (const Channel& channel : aov_channels(aovs_)) channels.push_back(channel);
+    return channels;
   }
 
   SampleRange all_samples() const { return {0, static_cast<std::uint32_t>(samples_), false}; }
@@ -253,6 +271,7 @@ class CutRender {
   bool transparent_;
   SceneDescription description_;
   std::unique_ptr<const Scene> scene_;
+  AovSet aovs_;
   int pieces_ = 0, with_high_ = 0, without_high_ = 0;
   std::string* steps_ = nullptr;
   Colors whole_;

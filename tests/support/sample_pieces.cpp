@@ -24,7 +24,11 @@ PieceIdentity identity_of(const SamplePiece& piece) {
   }
   film.samples = piece.samples;
   film.seed = 7;
-  if (piece.aovs) film.aovs = aov_settings(aov_set(aov_names()));
+  if (piece.aovs) {
+    std::vector<std::string> names = aov_names();
+    names.insert(names.end(), {"light_default", "light_key"});
+    film.aovs = aov_settings(aov_set(names));
+  }
   return identity;
 }
 
@@ -43,6 +47,10 @@ Film film_of(const SamplePiece& piece) {
       if (SplatLayer* const splats = film.splats(); splats != nullptr) {
         splats->add((region.x0 + x) / 2, (region.y0 + y) / 2, {light, from_limbs({light, high}), -light});
         splats->add_paths(samples * splats->paths_per_sample(x, y));
+      }
+      for (LightLayer& layer : film.lights()) {
+        layer.samples->add(x, y, {light, from_limbs({light, high}), -light});
+        if (layer.splats) layer.splats->add(x, y, {from_limbs({light, high}), 1, light});
       }
       AovFilm* const aovs = film.aovs();
       if (aovs == nullptr) continue;

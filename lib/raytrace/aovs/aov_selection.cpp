@@ -1,17 +1,25 @@
 #include "raytrace/aovs/aov_selection.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <unordered_set>
 
 #include "raytrace/aovs/cryptomatte.h"
+#include "raytrace/description/parse_value.h"
 #include "raytrace/film/aov_film.h"
+#include "raytrace/film/light_layer.h"
+#include "raytrace/parameters/light_group.h"
+#include "raytrace/text/message.h"
 
 namespace raytrace {
 
 namespace {
+
+const std::string light_prefix = "light_";
 
 std::vector<Aov> selected(const AovSet& aovs) {
   std::vector<Aov> list;
@@ -68,6 +76,7 @@ std::vector<std::string> aov_names() {
 std::vector<std::string> aov_names(const AovSet& aovs) {
   std::vector<std::string> names;
   for (const Aov& aov : selected(aovs)) names.emplace_back(aov.name);
+  for (const std::string& group : aovs.light_groups()) names.push_back(light_prefix + group);
   return names;
 }
 
@@ -75,7 +84,30 @@ AovSet aov_set(const std::vector<std::string>& names) {
   AovSet set;
   for (std::size_t i = 0; i < std::size(aov_table); ++i)
     if (std::find(names.begin(), names.end(), aov_table[i].name) != names.end()) set.add(i);
+  for (const std::string& name : names)
+    if (const auto group = light_group_of(name)) set.add_light_group(*group);
   return set;
+}
+
+std::optional<std::string> light_group_of(std::string_view aov) {
+  if (!aov.starts_with(light_prefix) || aov.size() == light_prefix.size()) return std::nullopt;
+  aov.remove_prefix(light_prefix.size());
+  if (check_value(Reference{std::string(aov)}, Range::identifier)) return std::nullopt;
+  return std::string(aov);
+}
+
+AovSet with_light_groups(AovSet aovs, const std::vector<std::string>& groups) {
+  if (aovs.wants_all_light_groups && groups.size() > 1)
+    for (const std::string& group : groups) aovs.add_light_group(group);
+  aovs.wants_all_light_groups = false;
+  for (const std::string& group : aovs.light_groups()) {
+    if (std::find(groups.begin(), groups.end(), group) != groups.end()) continue;
+    std::vector<std::string> names;
+    for (const std::string& name : groups) names.push_back(light_prefix + name);
+    throw std::invalid_argument("no light of the scene is in the group " + in_quotes(group) + "; there are " +
+                                joined(names, ", "));
+  }
+  return aovs;
 }
 
 AovSettings aov_settings(const AovSet& aovs) {
@@ -110,6 +142,9 @@ std::vector<Channel> aov_channels(const AovSet& aovs) {
   std::vector<Channel> channels;
   for (const Aov& aov : selected(aovs))
     for (Channel& channel : file_channels(aov)) channels.push_back(std::move(channel));
+  for (const std::string& group : aovs.light_groups())
+    for (const char* const color : {".R", ".G", ".B"})
+      channels.push_back({light_prefix + group + color, ChannelType::float32});
   return channels;
 }
 
@@ -153,6 +188,16 @@ void fill_aovs(ImageBand& band, std::size_t first_plane, const Film& film) {
         fill_nearest(floats->data(), rows, next_nearest++, aov.without_hit, *film.aovs());
       }
     }
+  }
+  for (const LightLayer& light : film.lights()) {
+    std::array<float*, 3> colors;
+    for (float*& color : colors) color = std::get<std::vector<float>>(*plane++).data();
+    for_each_pixel(rows, [&](std::size_t pixel, int x, int y) {
+      const Pixel mean = film.light_pixel(light, x, y);
+      colors[0][pixel] = mean.red;
+      colors[1][pixel] = mean.green;
+      colors[2][pixel] = mean.blue;
+    });
   }
 }
 

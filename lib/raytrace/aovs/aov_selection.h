@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "raytrace/aovs/aov_table.h"
@@ -14,12 +16,19 @@
 
 namespace raytrace {
 
-/// All there are, in the table's order.
+/// All of the table, in its order. Those of light groups are none of it: light_NAME.
 std::vector<std::string> aov_names();
 std::vector<std::string> aov_names(const AovSet& aovs);
 
-/// names: all of them in aov_names().
+/// names: all of them in aov_names(), or of light groups.
 AovSet aov_set(const std::vector<std::string>& names);
+
+/// "light_key" -> "key": none if that is no name of an AOV of a light group.
+std::optional<std::string> light_group_of(std::string_view aov);
+
+/// The set for a scene of these light groups (description/light_groups.h): with the names of all if it wants all.
+/// Throws std::invalid_argument for a group that the scene does not have, with what to write instead.
+AovSet with_light_groups(AovSet aovs, const std::vector<std::string>& groups);
 
 /// But for the units of means, which are 0, and the ids, as an empty film of a file's sums needs it.
 AovSettings aov_settings(const AovSet& aovs);

@@ -131,7 +131,7 @@ std::vector<std::string> split(const std::string& text) {
 AovSettings aovs_of(const ExrReader& piece, const std::string& names) {
   const std::vector<std::string> all = aov_names(), wanted = split(names);
   for (const std::string& name : wanted)
-    if (std::find(all.begin(), all.end(), name) == all.end())
+    if (std::find(all.begin(), all.end(), name) == all.end() && !light_group_of(name))
       throw InputError(piece.file() + " has an AOV that this version does not know: " + printable(name));
   std::vector<int> units;
   for (const std::string& unit : split(needed<std::string>(piece, aov_units_name)))

@@ -14,6 +14,7 @@
 #include "raytrace/batch/provenance.h"
 #include "raytrace/batch/settings_error.h"
 #include "raytrace/description/check_scene.h"
+#include "raytrace/description/light_groups.h"
 #include "raytrace/display/display_client.h"
 #include "raytrace/film/aov_film.h"
 #include "raytrace/film/samples_done.h"
@@ -58,6 +59,7 @@ class PictureRender {
     if (!may_skip) check();
     if (!description_) description_ = load_picture(job_, observer_, result_.statistics.phases.load);
     if (!description_) return end_with(RenderOutcome::invalid_scene);
+    resolve_light_groups();
     identity_.whole = crop_window(description_->viewplane, job_);
     settings_.region = render_window(identity_.whole, job_);
     if (may_skip) {
@@ -78,7 +80,8 @@ class PictureRender {
     // What goes on later, or may end at any sample, needs the whole film; so does the number of channels that a piece's
     // AOVs need.
     const bool whole_film = !job_.checkpoint.empty() || job_.time_limit || (job_.sample_offset && aovs.gather()) ||
-                            scene_->traces_light_paths();  // which reach any row
+                            scene_->traces_light_paths() ||  // which reach any row
+                            !job_.aovs.light_groups().empty();
     in_bands_ = !whole_film && rows < settings_.region.height();
     const RenderOutcome outcome = in_bands_ ? render_in_bands(rows) : render_at_once();
     report_invalid_samples();
@@ -90,6 +93,14 @@ class PictureRender {
   void check() {
     observer_.on_stage(RenderStage::check_outputs);
     check_outputs(job_);
+  }
+
+  void resolve_light_groups() {
+    try {
+      job_.aovs = with_light_groups(job_.aovs, light_group_names(*description_));
+    } catch (const std::invalid_argument& problem) {
+      throw SettingsError(std::string("--aov: ") + problem.what());
+    }
   }
 
   void build() {
@@ -149,7 +160,8 @@ class PictureRender {
   FilmContent film_content() const {
     const Region picture{0, 0, description_->viewplane.hres, description_->viewplane.vres};
     if (!job_.checkpoint.empty() || job_.time_limit || job_.sample_offset || job_.display_server ||
-        !job_.aovs.empty() || settings_.region != picture || scene_->traces_light_paths())
+        !job_.aovs.empty() || settings_.region != picture || scene_->traces_light_paths() ||
+        light_group_names(*description_).size() > 1)
       return FilmContent::sums;
     const bool halves = std::all_of(job_.outputs.begin(), job_.outputs.end(), [&](const std::string& file) {
       return image_format(file, job_.image_file_settings()).halves();
@@ -358,7 +370,7 @@ class PictureRender {
 
   void report(MessageLevel level, const std::string& text) const { observer_.on_message(level, text); }
 
-  const RenderJob& job_;
+  RenderJob job_;  ///< with the names of all light groups that it wants
   RenderObserver& observer_;
   RenderControl& control_;
   const Clock::time_point start_ = Clock::now();

@@ -220,6 +220,13 @@ OptionalMessage check_value(const FileName& value, Range) {
   return value.path.empty() ? std::nullopt : check_value(value.path, Range::any);
 }
 
+OptionalMessage check_value(const Reference& value, Range range) {
+  if (range != Range::identifier) return check_value(value.name, range);
+  constexpr std::string_view characters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+  if (value.name.find_first_not_of(characters) == std::string::npos) return std::nullopt;
+  return "has other characters than letters from a to z, digits, _ and -";
+}
+
 OptionalMessage check_value(const std::string& value, Range) {
   if (value.empty()) return "is empty";
   if (find_invalid_utf8(value, 1) != std::string_view::npos) return "is no text in UTF-8 without control characters";

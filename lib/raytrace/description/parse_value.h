@@ -43,7 +43,7 @@ OptionalMessage check_value(const ChoiceReference& choice, Range range);
 OptionalMessage check_value(const std::string& value, Range range);  ///< a name
 OptionalMessage check_value(const FileName& value, Range range);
 OptionalMessage check_value(const NumberGroups& value, Range range);
-inline OptionalMessage check_value(const Reference& value, Range range) { return check_value(value.name, range); }
+OptionalMessage check_value(const Reference& value, Range range);
 OptionalMessage check_value(const WordOrGroups& value, Range range);
 
 /// Of a text that XML allows and that has no white space at its ends, as one that was read.

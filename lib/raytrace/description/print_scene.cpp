@@ -174,6 +174,7 @@ class ScenePrinter : private XmlWriter {
 
   // No element is written without a value.
   static bool is_absent(const FileName& value) { return value.path.empty(); }
+  static bool is_absent(const Reference& value) { return value.name.empty(); }
   static bool is_absent(const NumberGroups& value) { return value.empty(); }
   template <class Value>
   static bool is_absent(const Value&) {

@@ -83,7 +83,7 @@ class ValueReader {
     return read_text(text_node, [&](std::string_view text) -> OptionalMessage {
       const SourceLocation location = text_node.location();
       *reference = {std::string(text), location.line, location.column};
-      return check_label(text);
+      return info_.range == Range::identifier ? check_value(*reference, info_.range) : check_label(text);
     });
   }
 

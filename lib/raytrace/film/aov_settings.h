@@ -4,20 +4,28 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <set>
+#include <string>
 #include <vector>
 
 namespace raytrace {
 
-/// Some of the AOVs of aov_table (aovs/aov_table.h), by their indices in it.
+/// Some of the AOVs of aov_table (aovs/aov_table.h), by their indices in it, and what some light groups bring.
 class AovSet {
  public:
   void add(std::size_t aov) { bits_ |= std::uint32_t{1} << aov; }
   bool has(std::size_t aov) const { return (bits_ >> aov & 1U) != 0; }
-  bool empty() const { return bits_ == 0; }
+  void add_light_group(const std::string& name) { light_groups_.insert(name); }
+  const std::set<std::string>& light_groups() const { return light_groups_; }
+  /// All light groups of the scene, if it has any but the default one: replaced by their names when it is read.
+  bool wants_all_light_groups = false;
+
+  bool empty() const { return bits_ == 0 && light_groups_.empty(); }
   friend bool operator==(const AovSet&, const AovSet&) = default;
 
  private:
   std::uint32_t bits_ = 0;
+  std::set<std::string> light_groups_;
 };
 
 /// The wanted AOVs' values follow each other in the table's order, rule by rule.

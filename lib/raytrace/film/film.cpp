@@ -31,18 +31,21 @@ int exponent_for_dimmest(const RadianceRange& range) {
 
 /// Where there are as many light paths for each pixel as it has samples, one exact sum; else, while a render goes on,
 /// the sum of two means.
-Pixel mean_with_splats(const PixelSum& sum, const PixelSumHigh& high, const SplatLayer& splats, int x, int y,
+/// paths: light paths for each pixel; sum: the pixel's, with the numbers of samples.
+Pixel mean_with_splats(const RadianceSum& own, const RadianceSum& splat, double paths, const PixelSum& sum,
                        const FilmSettings& settings) {
-  const double unit = std::ldexp(1.0, settings.unit_exponent), paths = splats.samples();
-  const SplatSum splat = splats.sum(x, y);
   const bool is_whole = paths == sum.samples;
-  const auto total = [&](const Limbs& own, Int128 brought) {
-    if (is_whole) return static_cast<double>(from_limbs(own) + brought);
-    const double rest = paths > 0 ? static_cast<double>(brought) * (sum.samples / paths) : 0;
-    return static_cast<double>(from_limbs(own)) + rest;
+  const auto total = [&](std::size_t channel) {
+    if (is_whole) return static_cast<double>(own[channel] + splat[channel]);
+    const double rest = paths > 0 ? static_cast<double>(splat[channel]) * (sum.samples / paths) : 0;
+    return static_cast<double>(own[channel]) + rest;
   };
-  return mean(total({sum.red, high.red}, splat[0]), total({sum.green, high.green}, splat[1]),
-              total({sum.blue, high.blue}, splat[2]), settings.transparent ? sum.hits : sum.samples, sum.samples, unit);
+  return mean(total(0), total(1), total(2), settings.transparent ? sum.hits : sum.samples, sum.samples,
+              std::ldexp(1.0, settings.unit_exponent));
+}
+
+RadianceSum in_one(const PixelSum& sum, const PixelSumHigh& high) {
+  return {from_limbs({sum.red, high.red}), from_limbs({sum.green, high.green}), from_limbs({sum.blue, high.blue})};
 }
 
 }  // namespace
@@ -81,6 +84,9 @@ Film::Film(const FilmSettings& settings, FilmContent content)
       if (settings.light_paths_of)
         splats_ = std::make_unique<SplatLayer>(region(), static_cast<std::uint64_t>(settings.extent.full_width) *
                                                              static_cast<std::uint64_t>(settings.extent.full_height));
+      for (const std::string& group : settings.aovs.wanted.light_groups())
+        lights_.push_back({group, std::make_unique<RadianceLayer>(region()),
+                           splats_ ? std::make_unique<RadianceLayer>(region()) : nullptr});
       if (settings.aovs.gather()) aovs_ = std::make_unique<AovFilm>(region(), settings.aovs);
       break;
     case FilmContent::means:
@@ -95,7 +101,10 @@ Film::Film(const FilmSettings& settings, FilmContent content)
 Pixel Film::pixel(int x, int y) const {
   switch (content_) {
     case FilmContent::sums:
-      if (splats_) return mean_with_splats(sums_[index(x, y)], high(x, y), *splats_, x, y, settings_);
+      if (splats_) {
+        const PixelSum& own = sums_[index(x, y)];
+        return mean_with_splats(in_one(own, high(x, y)), splats_->sum(x, y), splats_->samples(), own, settings_);
+      }
       if (highs_.data() == nullptr) return mean(sums_[index(x, y)], unit_, settings_.transparent);
       return mean(sums_[index(x, y)], high(x, y), unit_, settings_.transparent);
     case FilmContent::means:
@@ -105,6 +114,13 @@ Pixel Film::pixel(int x, int y) const {
   }
   const auto& [red, green, blue, alpha] = half_means_[index(x, y)];
   return {imath_half_to_float(red), imath_half_to_float(green), imath_half_to_float(blue), imath_half_to_float(alpha)};
+}
+
+Pixel Film::light_pixel(const LightLayer& light, int x, int y) const {
+  const RadianceSum splat = light.splats ? light.splats->sum(x, y) : RadianceSum{};
+  const PixelSum& own = sums_[index(x, y)];
+  const double paths = splats_ ? splats_->samples() : own.samples;
+  return mean_with_splats(light.samples->sum(x, y), splat, paths, own, settings_);
 }
 
 void Film::add(int x, int y, const PixelSum& more, const PixelSumHigh& more_high) {
@@ -137,6 +153,10 @@ void Film::add_to(ContentHash& hash) const {
   hash.add(sums_.data(), sums().size_bytes());
   if (has_high()) hash.add(highs_.data(), count() * sizeof(PixelSumHigh));
   if (splats_) splats_->add_to(hash);
+  for (const LightLayer& light : lights_) {
+    light.samples->add_to(hash);
+    if (light.splats) light.splats->add_to(hash);
+  }
   if (aovs_) aovs_->add_to(hash);
 }
 

@@ -9,9 +9,11 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "raytrace/film/aov_settings.h"
+#include "raytrace/film/light_layer.h"
 #include "raytrace/film/region.h"
 #include "raytrace/math/color.h"
 #include "raytrace/memory/large_array.h"
@@ -130,7 +132,7 @@ enum class FilmContent {
 /// Holds the pixels of a region, all zero at first. Threads may write different pixels at the same time.
 class Film {
  public:
-  /// Throws std::bad_alloc. With means, no AOVs are gathered, and no light paths.
+  /// Throws std::bad_alloc. With means, no AOVs are gathered, and no light paths; the scene has a single light group.
   explicit Film(const FilmSettings& settings, FilmContent content = FilmContent::sums);
   ~Film();
   Film(Film&&) noexcept;
@@ -186,6 +188,13 @@ class Film {
   SplatLayer* splats() { return splats_.get(); }
   const SplatLayer* splats() const { return splats_.get(); }
 
+  /// What the light groups bring that settings().aovs names, in their order. With that of all other groups, it adds up
+  /// to the film's own sums and splats.
+  std::span<LightLayer> lights() { return lights_; }
+  std::span<const LightLayer> lights() const { return lights_; }
+  /// As pixel(), of one of them.
+  Pixel light_pixel(const LightLayer& light, int x, int y) const;
+
   /// The fewest samples that a pixel has, of those that are rendered.
   std::uint32_t fewest_samples() const;
 
@@ -217,6 +226,7 @@ class Film {
   LateArray<PixelSumHigh> highs_;  ///< of the sums
   std::unique_ptr<AovFilm> aovs_;
   std::unique_ptr<SplatLayer> splats_;
+  std::vector<LightLayer> lights_;
 };
 
 }  // namespace raytrace

@@ -7,7 +7,7 @@
 //   </directionallight>
 #pragma once
 
-#include "raytrace/parameters/fields.h"
+#include "raytrace/parameters/light_group.h"
 
 namespace raytrace {
 
@@ -18,14 +18,18 @@ class DirectionalLight {
     double scaleradiance = 1;
     Rgb<double> color{1, 1, 1};
     bool shadows = true;
-    double angle = 0;  ///< of the disk's diameter, in degrees, at most 180; its radiance is spread over it
+    double angle = 0;   ///< of the disk's diameter, in degrees, at most 180; its radiance is spread over it
+    Reference group{};  ///< light_group.h
   };
   static constexpr std::string_view group = "directionallights";
   static constexpr std::string_view element = "directionallight";
   static Fields fields() {
     return {required("direction", &Parameters::direction, Range::nonzero),
-            optional("scaleradiance", &Parameters::scaleradiance), optional("color", &Parameters::color),
-            optional("shadows", &Parameters::shadows), optional("angle", &Parameters::angle, Range::not_negative)};
+            optional("scaleradiance", &Parameters::scaleradiance),
+            optional("color", &Parameters::color),
+            optional("shadows", &Parameters::shadows),
+            optional("angle", &Parameters::angle, Range::not_negative),
+            light_group<Parameters>()};
   }
   static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {
     if (parameters.angle <= 180) return std::nullopt;

@@ -10,7 +10,7 @@
 // the right of it, and its upper edge is +y. The sphericalcamera that looks at +z makes such pictures.
 #pragma once
 
-#include "raytrace/parameters/fields.h"
+#include "raytrace/parameters/light_group.h"
 
 namespace raytrace {
 
@@ -21,13 +21,15 @@ class EnvironmentLight {
     double scaleradiance = 1;
     Rgb<double> color{1, 1, 1};
     bool visible = true;  ///< to the camera, in place of the background
+    Reference group{};    ///< light_group.h
   };
   static constexpr std::string_view group = "environmentlights";  ///< a scene has one item at most
   static constexpr std::string_view element = "environmentlight";
   static constexpr bool may_be_turned = true;  ///< it has a transform, which turns and mirrors alone
   static Fields fields() {
     return {optional("file", &Parameters::file), optional("scaleradiance", &Parameters::scaleradiance),
-            optional("color", &Parameters::color), optional("visible", &Parameters::visible)};
+            optional("color", &Parameters::color), optional("visible", &Parameters::visible),
+            light_group<Parameters>()};
   }
 };
 

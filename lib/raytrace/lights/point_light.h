@@ -7,6 +7,7 @@
 #pragma once
 
 #include "raytrace/lights/falloff.h"
+#include "raytrace/parameters/light_group.h"
 
 namespace raytrace {
 
@@ -19,6 +20,7 @@ class PointLight {
     bool shadows = true;
     Falloff falloff = Falloff::none;
     FileName iesfile{};  ///< of how much goes into each direction (photometry.h); none: the same into all
+    Reference group{};   ///< light_group.h
   };
   static constexpr std::string_view group = "pointlights";
   static constexpr std::string_view element = "pointlight";
@@ -28,7 +30,8 @@ class PointLight {
             optional("color", &Parameters::color),
             optional("shadows", &Parameters::shadows),
             optional("falloff", &Parameters::falloff),
-            optional("iesfile", &Parameters::iesfile)};
+            optional("iesfile", &Parameters::iesfile),
+            light_group<Parameters>()};
   }
 };
 

@@ -9,7 +9,7 @@
 // (Hosek and Wilkie 2012) need tables that are larger than all of this. It holds for turbidities of 2 and more.
 #pragma once
 
-#include "raytrace/parameters/fields.h"
+#include "raytrace/parameters/light_group.h"
 
 namespace raytrace {
 
@@ -21,6 +21,7 @@ class SkyLight {
     Rgb<double> groundalbedo{0.2, 0.2, 0.2};  ///< of the ground, which is what is below the horizon
     double scaleradiance = 1;
     bool visible = true;  ///< to the camera, in place of the background
+    Reference group{};    ///< light_group.h
   };
   static constexpr std::string_view group = "skylights";  ///< a scene has one item at most, and no environment light
   static constexpr std::string_view element = "skylight";
@@ -29,7 +30,8 @@ class SkyLight {
             optional("turbidity", &Parameters::turbidity, Range::not_negative),
             optional("groundalbedo", &Parameters::groundalbedo, Range::not_negative),
             optional("scaleradiance", &Parameters::scaleradiance, Range::not_negative),
-            optional("visible", &Parameters::visible)};
+            optional("visible", &Parameters::visible),
+            light_group<Parameters>()};
   }
   static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {
     const auto error = [](const char* message) {

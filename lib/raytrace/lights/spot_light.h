@@ -8,6 +8,7 @@
 #pragma once
 
 #include "raytrace/lights/falloff.h"
+#include "raytrace/parameters/light_group.h"
 
 namespace raytrace {
 
@@ -22,6 +23,7 @@ class SpotLight {
     bool shadows = true;
     Falloff falloff = Falloff::none;
     FileName iesfile{};  ///< as of a point light; its axis is that of the cone
+    Reference group{};   ///< light_group.h
   };
   static constexpr std::string_view group = "spotlights";
   static constexpr std::string_view element = "spotlight";
@@ -34,7 +36,8 @@ class SpotLight {
             optional("color", &Parameters::color),
             optional("shadows", &Parameters::shadows),
             optional("falloff", &Parameters::falloff),
-            optional("iesfile", &Parameters::iesfile)};
+            optional("iesfile", &Parameters::iesfile),
+            light_group<Parameters>()};
   }
   static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {
     const auto error = [](const char* message) {

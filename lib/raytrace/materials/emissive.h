@@ -7,6 +7,7 @@
 #pragma once
 
 #include "raytrace/materials/surface_detail.h"
+#include "raytrace/parameters/light_group.h"
 
 namespace raytrace {
 
@@ -21,13 +22,14 @@ class Emissive {
   };
   struct Parameters : Values<double> {
     bool twosided = false;  ///< its back shines, too
+    Reference group{};      ///< light_group.h
   };
   static constexpr std::string_view group = "emissives";
   static constexpr std::string_view element = "emissive";
   static Fields fields() {
     return with_surface_detail<Parameters>({required("ce", &Parameters::ce),
                                             optional("scaleradiance", &Parameters::scaleradiance, Range::not_negative),
-                                            optional("twosided", &Parameters::twosided)});
+                                            optional("twosided", &Parameters::twosided), light_group<Parameters>()});
   }
   static bool is_two_sided(const Parameters& parameters) { return parameters.twosided; }
 };

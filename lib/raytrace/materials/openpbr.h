@@ -15,6 +15,7 @@
 #include <string>
 
 #include "raytrace/materials/surface_detail.h"
+#include "raytrace/parameters/light_group.h"
 
 namespace raytrace {
 
@@ -46,6 +47,7 @@ class OpenPbr {
   };
   struct Parameters : Values<double> {
     bool geometry_thin_walled = false;
+    Reference group{};  ///< of its emission (light_group.h)
 
     /// Defaults that no float is.
     Parameters() {
@@ -93,6 +95,7 @@ class OpenPbr {
         number("emission_luminance", &P::emission_luminance),
         color("emission_color", &P::emission_color),
         optional("geometry_thin_walled", &P::geometry_thin_walled),
+        light_group<P>(),
     });
   }
   static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {

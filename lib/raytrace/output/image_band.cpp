@@ -7,6 +7,7 @@
 #include <string>
 
 #include "raytrace/film/aov_film.h"
+#include "raytrace/film/light_layer.h"
 #include "raytrace/film/splat_layer.h"
 #include "raytrace/math/limbs.h"
 #include "raytrace/parallel/for_each_index.h"
@@ -21,7 +22,14 @@ struct SumLayout {
   AovSettings aovs;
   bool has_high = false, has_splats = false, has_splat_high = false;
   std::vector<std::size_t> ids{};  ///< of each coverage: as many as the pixel with the most has
+
+  struct Light {
+    bool has_high = false, has_splat_high = false;
+  };
+  std::vector<Light> lights{};  ///< of each light group, in the order of their names
 };
+
+std::string light_start(const std::string& group) { return "sums.light." + group + "."; }
 
 std::string coverage_name(std::size_t coverage) { return "sums.aov.cover" + std::to_string(coverage); }
 
@@ -53,6 +61,14 @@ std::vector<Channel> channels_of(const SumLayout& layout) {
       add(coverage_name(coverage) + ".id" + digits);
       add(coverage_name(coverage) + ".count" + digits);
     }
+  auto light = layout.lights.begin();
+  for (const std::string& group : layout.aovs.wanted.light_groups()) {
+    add_colors(light_start(group));
+    if (light->has_high) add_colors(light_start(group) + "limb2.");
+    if (layout.has_splats) add_colors(light_start(group) + "splat.");
+    if (light->has_splat_high) add_colors(light_start(group) + "splat.limb2.");
+    ++light;
+  }
   return channels;
 }
 
@@ -66,36 +82,44 @@ SumLayout layout_of(const FilmSettings& settings, const std::vector<Channel>& ch
                    settings.light_paths_of && count("sums.splat.limb2.red.low") > 0};
   for (std::size_t coverage = 0; coverage < settings.aovs.coverages; ++coverage)
     layout.ids.push_back(count(coverage_name(coverage) + ".id"));
+  for (const std::string& group : settings.aovs.wanted.light_groups())
+    layout.lights.push_back({count(light_start(group) + "limb2.red.low") > 0,
+                             layout.has_splats && count(light_start(group) + "splat.limb2.red.low") > 0});
   return layout;
 }
 
-void append_words(const Film& film, const SumLayout& layout, int x, int y, std::vector<std::uint32_t>& words) {
-  const auto append_halves = [&](std::int64_t number) {
-    words.push_back(static_cast<std::uint32_t>(number));
-    words.push_back(static_cast<std::uint32_t>(static_cast<std::uint64_t>(number) >> 32U));
-  };
-  const PixelSum& sum = film.sum(x, y);
-  for (const std::int64_t color : {sum.red, sum.green, sum.blue}) append_halves(color);
-  words.insert(words.end(), {sum.hits, sum.samples});
-  if (layout.has_high) {
-    const PixelSumHigh high = film.high(x, y);
-    for (const std::int64_t color : {high.red, high.green, high.blue}) append_halves(color);
-  }
-  if (layout.has_splats) {
-    const SplatSum splat = film.splats()->sum(x, y);
-    for (const Int128 color : splat) append_halves(limbs_of(color).low);
-    if (layout.has_splat_high)
-      for (const Int128 color : splat) append_halves(limbs_of(color).high);
-  }
-  if (film.aovs() == nullptr) return;
-  const AovFilm& aovs = *film.aovs();
+void append_halves(std::int64_t number, std::vector<std::uint32_t>& words) {
+  words.push_back(static_cast<std::uint32_t>(number));
+  words.push_back(static_cast<std::uint32_t>(static_cast<std::uint64_t>(number) >> 32U));
+}
+
+/// low, and high if there is one: of all channels.
+void append_sum(const RadianceSum& sum, bool has_high, std::vector<std::uint32_t>& words) {
+  for (const Int128 color : sum) append_halves(limbs_of(color).low, words);
+  if (has_high)
+    for (const Int128 color : sum) append_halves(limbs_of(color).high, words);
+}
+
+/// As append_sum() wrote it. take_halves(): the next number.
+template <class TakeHalves>
+RadianceSum take_sum(bool has_high, const TakeHalves& take_halves) {
+  std::array<Limbs, 3> limbs;
+  for (Limbs& color : limbs) color.low = take_halves();
+  if (has_high)
+    for (Limbs& color : limbs) color.high = take_halves();
+  RadianceSum sum;
+  std::transform(limbs.begin(), limbs.end(), sum.begin(), from_limbs);
+  return sum;
+}
+
+void append_aovs(const AovFilm& aovs, const SumLayout& layout, int x, int y, std::vector<std::uint32_t>& words) {
   if (layout.aovs.nearest_values > 0) {
     const AovFilm::Nearest nearest = aovs.nearest(x, y);
     const bool any = nearest.values != nullptr;
     words.insert(words.end(), {any ? nearest.sample + 1 : 0, std::bit_cast<std::uint32_t>(nearest.depth)});
     for (std::size_t i = 0; i < layout.aovs.nearest_values; ++i) words.push_back(any ? nearest.values[i] : 0);
   }
-  for (std::size_t i = 0; i < layout.aovs.mean_units.size(); ++i) append_halves(aovs.sum(x, y, i));
+  for (std::size_t i = 0; i < layout.aovs.mean_units.size(); ++i) append_halves(aovs.sum(x, y, i), words);
   for (std::size_t coverage = 0; coverage < layout.aovs.coverages; ++coverage) {
     std::vector<IdCount> ranked = aovs.ranked(x, y, coverage);
     ranked.resize(layout.ids[coverage]);
@@ -103,13 +127,67 @@ void append_words(const Film& film, const SumLayout& layout, int x, int y, std::
   }
 }
 
+void append_words(const Film& film, const SumLayout& layout, int x, int y, std::vector<std::uint32_t>& words) {
+  const PixelSum& sum = film.sum(x, y);
+  for (const std::int64_t color : {sum.red, sum.green, sum.blue}) append_halves(color, words);
+  words.insert(words.end(), {sum.hits, sum.samples});
+  if (layout.has_high) {
+    const PixelSumHigh high = film.high(x, y);
+    for (const std::int64_t color : {high.red, high.green, high.blue}) append_halves(color, words);
+  }
+  if (layout.has_splats) append_sum(film.splats()->sum(x, y), layout.has_splat_high, words);
+  if (film.aovs() != nullptr) append_aovs(*film.aovs(), layout, x, y, words);
+  auto light = layout.lights.begin();
+  for (const LightLayer& layer : film.lights()) {
+    append_sum(layer.samples->sum(x, y), light->has_high, words);
+    if (layer.splats) append_sum(layer.splats->sum(x, y), light->has_splat_high, words);
+    ++light;
+  }
+}
+
+std::int64_t halves(const std::uint32_t* words) {
+  return static_cast<std::int64_t>(words[0] | std::uint64_t{words[1]} << 32U);
+}
+
+/// Adds what AOVs gather, but light groups. False as add_words(). next: their words; goes on to what comes after them.
+bool add_aov_words(const std::uint32_t*& next, const SumLayout& layout, const SampleRange& range, std::uint32_t samples,
+                   AovFilm& aovs, int x, int y) {
+  bool sound = true;
+  if (layout.aovs.nearest_values > 0) {
+    if (next[0] != 0) {
+      const std::uint32_t index = next[0] - 1;
+      sound = index >= range.first && index - range.first < range.count && samples > 0;
+      aovs.add_nearest(x, y, std::bit_cast<float>(next[1]), index, next + 2);
+    }
+    next += 2 + layout.aovs.nearest_values;
+  }
+  for (std::size_t i = 0; i < layout.aovs.mean_units.size(); ++i) {
+    sound = aovs.add_mean(x, y, i, halves(next)) && sound;
+    next += 2;
+  }
+  for (std::size_t coverage = 0; coverage < layout.aovs.coverages; ++coverage) {
+    std::uint32_t left = samples;  // that no id has yet
+    for (std::size_t i = 0; i < layout.ids[coverage]; ++i, next += 2) {
+      const IdCount one{next[0], next[1]};
+      if (one.count == 0) continue;
+      if (one.count > left) {
+        sound = false;
+        continue;
+      }
+      left -= one.count;
+      aovs.add_coverage(x, y, coverage, one);
+    }
+  }
+  return sound;
+}
+
 /// Adds the sums to the pixel's. False, with some of them added, if they cannot be of samples of the range.
 bool add_words(const std::vector<std::uint32_t>& words, const SumLayout& layout, const SampleRange& range, Film& film,
                int x, int y) {
   const std::uint32_t* next = words.data();
   const auto take_halves = [&] {
-    const std::uint64_t low = *next++;
-    return static_cast<std::int64_t>(low | std::uint64_t{*next++} << 32U);
+    next += 2;
+    return halves(next - 2);
   };
   PixelSum sum;
   for (std::int64_t* const color : {&sum.red, &sum.green, &sum.blue}) *color = take_halves();
@@ -126,40 +204,24 @@ bool add_words(const std::vector<std::uint32_t>& words, const SumLayout& layout,
   if (!fits(sum.red, high.red) || !fits(sum.green, high.green) || !fits(sum.blue, high.blue)) return false;
   film.add(x, y, sum, high);
   if (layout.has_splats) {
-    std::array<Limbs, 3> limbs;
-    for (Limbs& color : limbs) color.low = take_halves();
-    if (layout.has_splat_high)
-      for (Limbs& color : limbs) color.high = take_halves();
-    SplatSum splat;
-    std::transform(limbs.begin(), limbs.end(), splat.begin(), from_limbs);
-    film.splats()->add(x, y, splat);
+    film.splats()->add(x, y, take_sum(layout.has_splat_high, take_halves));
     film.splats()->add_paths(sum.samples * film.splats()->paths_per_sample(x, y));
   }
-  if (film.aovs() == nullptr) return true;
-
-  AovFilm& aovs = *film.aovs();
-  bool sound = true;
-  if (layout.aovs.nearest_values > 0) {
-    if (next[0] != 0) {
-      const std::uint32_t index = next[0] - 1;
-      sound = index >= range.first && index - range.first < range.count && sum.samples > 0;
-      aovs.add_nearest(x, y, std::bit_cast<float>(next[1]), index, next + 2);
-    }
-    next += 2 + layout.aovs.nearest_values;
+  const bool sound = film.aovs() == nullptr || add_aov_words(next, layout, range, sum.samples, *film.aovs(), x, y);
+  bool lights_fit = true;
+  const auto take_into = [&](RadianceLayer& layer, bool has_high) {
+    const RadianceSum more = take_sum(has_high, take_halves);
+    constexpr double most = 0x1p120;  // beyond all that is rendered
+    for (const Int128 color : more) lights_fit = lights_fit && std::abs(static_cast<double>(color)) <= most;
+    if (lights_fit) layer.add(x, y, more);
+  };
+  auto light = layout.lights.begin();
+  for (const LightLayer& layer : film.lights()) {
+    take_into(*layer.samples, light->has_high);
+    if (layer.splats) take_into(*layer.splats, light->has_splat_high);
+    ++light;
   }
-  for (std::size_t i = 0; i < layout.aovs.mean_units.size(); ++i)
-    sound = aovs.add_mean(x, y, i, take_halves()) && sound;
-  for (std::size_t coverage = 0; coverage < layout.aovs.coverages; ++coverage) {
-    std::uint32_t left = sum.samples;  // that no id has yet
-    for (std::size_t i = 0; i < layout.ids[coverage]; ++i, next += 2) {
-      const IdCount one{next[0], next[1]};
-      if (one.count == 0) continue;
-      if (one.count > left) return false;
-      left -= one.count;
-      aovs.add_coverage(x, y, coverage, one);
-    }
-  }
-  return sound;
+  return sound && lights_fit;
 }
 
 }  // namespace
@@ -223,6 +285,8 @@ std::vector<Channel> sum_channels(const Film& film) {
   const SplatLayer* const splats = film.splats();
   SumLayout layout{film.settings().aovs, film.has_high(), splats != nullptr, splats != nullptr && splats->has_high(),
                    std::vector<std::size_t>(film.settings().aovs.coverages)};
+  for (const LightLayer& light : film.lights())
+    layout.lights.push_back({light.samples->has_high(), light.splats && light.splats->has_high()});
   for_each_pixel(film.region(), [&](std::size_t, int x, int y) {
     for (std::size_t coverage = 0; coverage < layout.ids.size(); ++coverage)
       layout.ids[coverage] = std::max(layout.ids[coverage], film.aovs()->ranked(x, y, coverage).size());

@@ -35,6 +35,7 @@ enum class Range {
   not_negative,  ///< numbers, and each component of vectors and colours: 0 or more
   positive,      ///< the same: at least `smallest_size`; integers: 1 or more
   nonzero,       ///< vectors: a direction, so not all of x, y, z are 0 (or below `smallest_size`)
+  identifier,    ///< references: letters, digits, _ and -; or none
 };
 
 /// Scene coordinates, sizes and coefficients must lie within +-largest_number, so that no float computation on them

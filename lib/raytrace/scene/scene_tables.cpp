@@ -4,7 +4,9 @@
 #include <bit>
 #include <cmath>
 #include <memory>
+#include <numeric>
 
+#include "raytrace/description/light_groups.h"
 #include "raytrace/lights/sky_model.h"
 #include "raytrace/math/gather.h"
 
@@ -49,6 +51,7 @@ SceneTables::SceneTables(const SceneDescription& description, int threads)
       viewplane_(description.viewplane),
       pixel_filter_(description.viewplane),
       integrator_(description.integrator.value_or(default_integrator(description))) {
+  for (std::string& name : light_group_names(description)) light_groups_.push_back({std::move(name)});
   textures_ = std::make_unique<const TextureTable>(description);
   add_materials(description);
   geometry_ = std::make_unique<const GeometryTable>(description, origin_, first_material_, threads);
@@ -111,9 +114,16 @@ void SceneTables::add_light_bounds(const LightKernel& light, const Parameters& p
 
 void SceneTables::add_lights(const SceneDescription& description, int threads) {
   const Vec3d eye = std::visit([](const auto& camera) { return camera.eye; }, description.camera);
-  for (const auto& item : std::get<LightItems<EnvironmentLight>>(description.lights))
+  const std::vector<std::string> names = light_group_names(description);
+  const auto group_of = [&](const auto& item) {
+    return static_cast<std::int32_t>(find_light_group(names, item.parameters.group));
+  };
+  for (const auto& item : std::get<LightItems<EnvironmentLight>>(description.lights)) {
     environment_.emplace(item, threads);
+    environment_group_ = group_of(item);
+  }
   for (const auto& item : std::get<LightItems<SkyLight>>(description.lights)) {
+    environment_group_ = group_of(item);
     LightItem<EnvironmentLight> sky{{.file = {"sky"}, .visible = item.parameters.visible}};
     sky.image.color = std::make_shared<const TexelImage>(SkyModel(item.parameters).picture(threads), false, threads);
     environment_.emplace(sky, threads);
@@ -128,11 +138,12 @@ void SceneTables::add_lights(const SceneDescription& description, int threads) {
             return Kernel<Light>(moved<Light>(item.parameters));
         }();
         if constexpr (Kernel<Light>::ambient) {
-          ambient_radiance_ += light.radiance();
+          light_groups_[static_cast<std::size_t>(group_of(item))].ambient_radiance += light.radiance();
           light_bounds_.ambient += abs(light.radiance());
         } else {
           add_light_bounds(light, item.parameters, eye);
           lights_.push_back(std::make_unique<LightSourceOf<Kernel<Light>>>(light));
+          groups_of_lights_.push_back(group_of(item));
           light_origins_.emplace_back();
           has_sampled_lights_ |= lights_.back()->takes_samples();
           if (!light.shadows() || lights_.back()->takes_samples()) continue;
@@ -141,6 +152,28 @@ void SceneTables::add_lights(const SceneDescription& description, int threads) {
         }
       }
   });
+  sort_lights();
+}
+
+void SceneTables::sort_lights() {
+  std::vector<std::size_t> order(lights_.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return groups_of_lights_[a] < groups_of_lights_[b]; });
+  const auto sorted = [&](auto& values) {
+    std::remove_reference_t<decltype(values)> result;
+    for (const std::size_t from : order) result.push_back(std::move(values[from]));
+    values = std::move(result);
+  };
+  sorted(lights_);
+  sorted(light_origins_);
+  sorted(groups_of_lights_);
+  for (std::size_t i = 0; i < light_groups_.size(); ++i) {
+    const auto [first, last] =
+        std::equal_range(groups_of_lights_.begin(), groups_of_lights_.end(), static_cast<std::int32_t>(i));
+    light_groups_[i].first_light = static_cast<std::size_t>(first - groups_of_lights_.begin());
+    light_groups_[i].last_light = static_cast<std::size_t>(last - groups_of_lights_.begin());
+  }
 }
 
 template <class Material>
@@ -185,6 +218,7 @@ SceneTables::SurfaceDetail SceneTables::surface_detail(const MaterialItem<Materi
 }
 
 void SceneTables::add_materials(const SceneDescription& description) {
+  const std::vector<std::string> names = light_group_names(description);
   for_each_type(Materials{}, [&]<class Material>(std::type_identity<Material>) {
     constexpr std::size_t type = index_of<Material>(Materials{});
     std::vector<typename Kernel<Material>::template Bsdf<float>> bsdfs;
@@ -203,6 +237,9 @@ void SceneTables::add_materials(const SceneDescription& description) {
         details_.back().emission = {size.red + size.green + size.blue, Material::is_two_sided(parameters)};
       }
       emitted_.insert(emitted_.end(), {radiance.red, radiance.green, radiance.blue});
+      std::size_t group = 0;
+      if constexpr (requires { parameters.group; }) group = find_light_group(names, parameters.group);
+      groups_of_materials_.push_back(static_cast<std::int32_t>(group));
     }
     first_material_[type + 1] = first_material_[type] + static_cast<std::int32_t>(bsdfs.size());
     if (!textured.empty()) textured_.resize(static_cast<std::size_t>(first_material_[type]) + bsdfs.size());

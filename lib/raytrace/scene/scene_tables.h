@@ -73,12 +73,25 @@ class SceneTables {
   /// The point that all camera rays start at; none if there is none.
   const std::optional<BufferOrigin>& camera_origin() const { return camera_origin_; }
 
-  /// The sum of all ambient lights.
-  const Rgb<float>& ambient_radiance() const { return ambient_radiance_; }
-  bool has_ambient_light() const {
-    return ambient_radiance_.red != 0 || ambient_radiance_.green != 0 || ambient_radiance_.blue != 0;
-  }
-  /// All others.
+  /// What of the lights is in the same light group (description/light_groups.h, which has their order).
+  struct LightGroup {
+    std::string name;
+    std::size_t first_light = 0, last_light = 0;  ///< [first, last) of lights()
+    Rgb<float> ambient_radiance{0, 0, 0};         ///< the sum of all ambient lights
+
+    bool is_dark() const {
+      return first_light == last_light && ambient_radiance.red == 0 && ambient_radiance.green == 0 &&
+             ambient_radiance.blue == 0;
+    }
+  };
+  /// At least one: the first is the default.
+  const std::vector<LightGroup>& light_groups() const { return light_groups_; }
+  /// The group that a light of lights() is in, the environment, or, each lane's, a material that shines.
+  std::int32_t light_group(std::size_t light) const { return groups_of_lights_[light]; }
+  std::int32_t environment_group() const { return environment_group_; }
+  IntN light_group_of_material(const IntN& material) const { return gather(groups_of_materials_.data(), material); }
+
+  /// All lights but ambient ones, group by group.
   const std::vector<std::unique_ptr<LightSource>>& lights() const { return lights_; }
   /// Whether any of them takes_samples().
   bool has_sampled_lights() const { return has_sampled_lights_; }
@@ -190,6 +203,7 @@ class SceneTables {
   void set_camera(const SceneDescription& description);
   bool camera_is_far_from(const BoundingSphere& sphere, const SceneDescription& description) const;
   void add_lights(const SceneDescription& description, int threads);
+  void sort_lights();
   template <class LightKernel, class Parameters>
   void add_light_bounds(const LightKernel& light, const Parameters& parameters, const Vec3d& eye);
   template <class Material>
@@ -214,7 +228,9 @@ class SceneTables {
   Vec3f viewing_direction_{};
   bool depth_is_distance_ = false, camera_has_lens_ = false;
   std::optional<BufferOrigin> camera_origin_;
-  Rgb<float> ambient_radiance_{0, 0, 0};
+  std::vector<LightGroup> light_groups_;
+  std::vector<std::int32_t> groups_of_lights_, groups_of_materials_;  ///< the latter of all materials
+  std::int32_t environment_group_ = 0;
   LightBounds light_bounds_;
   bool has_sampled_lights_ = false;
   std::optional<Environment> environment_;

@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "raytrace/film/film_means.h"
+#include "raytrace/film/radiance_layer.h"
 #include "raytrace/math/fixed_point_sums.h"
 #include "raytrace/math/limbs.h"
 #include "raytrace/tracing/lane_counts.h"
@@ -82,22 +83,25 @@ class BlockSums {
 
   /// Adds a sample of each lane of `wanted`. The result: those whose radiance is still to be added, with add_large().
   RAYTRACE_INLINE MaskN add(const RayResult& result, const MaskN& wanted) {
+    hits_.add(result.hit & wanted);
+    samples_.add(wanted);
+    return add_light(result.radiance, wanted);
+  }
+  /// The same without counting samples.
+  RAYTRACE_INLINE MaskN add_light(const Rgb<FloatN>& light, const MaskN& wanted) {
     // The sum is large where one of them is, and NaN compares false.
-    const MaskN fine = wanted & (abs(result.radiance.red) + abs(result.radiance.green) + abs(result.radiance.blue) <=
-                                 FloatN(scale_.most_at_once));
-    const Rgb<FloatN> radiance = select(fine, result.radiance, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
+    const MaskN fine = wanted & (abs(light.red) + abs(light.green) + abs(light.blue) <= FloatN(scale_.most_at_once));
+    const Rgb<FloatN> radiance = select(fine, light, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
     red_.add(radiance.red, scale_.inverse_unit);
     green_.add(radiance.green, scale_.inverse_unit);
     blue_.add(radiance.blue, scale_.inverse_unit);
-    hits_.add(result.hit & wanted);
-    samples_.add(wanted);
     return wanted & !fine;
   }
 
   /// The same for large radiances, of few lanes. The result: those whose radiance is not finite, or beyond what the
   /// sums can hold, which are counted as black.
-  std::uint32_t add_large(const RayResult& result, const MaskN& lanes) {
-    return large_.add(result.radiance, bits_of<FloatN>(lanes), scale_);
+  std::uint32_t add_large(const Rgb<FloatN>& radiance, const MaskN& lanes) {
+    return large_.add(radiance, bits_of<FloatN>(lanes), scale_);
   }
 
   /// Makes room for most_packets more.
@@ -108,6 +112,17 @@ class BlockSums {
       sums = {sums[0] + red[i], sums[1] + green[i], sums[2] + blue[i]};
     }
     red_ = green_ = blue_ = {};
+  }
+
+  /// Adds the radiance alone to those pixels of a layer.
+  void add_to(RadianceLayer& layer, const Block& block, const Region& region) const {
+    const auto red = red_.sums(), green = green_.sums(), blue = blue_.sums();
+    block.for_each_pixel(region, [&](int x, int y, std::size_t i) {
+      RadianceSum sum{red[i], green[i], blue[i]};
+      if (!large_.empty())
+        for (std::size_t channel = 0; channel < sum.size(); ++channel) sum[channel] += large_[i][channel];
+      layer.add(x, y, sum);
+    });
   }
 
   /// Adds them to the pixels of the block that lie in the region; to a film of means, they are all there is to come.

@@ -49,16 +49,17 @@ struct ShadowNumbers {
   std::uint32_t number(std::size_t light) const { return before + static_cast<std::uint32_t>(light); }
 };
 
-/// What of the lights' radiance leaves the surface along wo, in the lanes that were hit; of the ambient light, too.
-RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const Hits& hits,
-                                         const SurfaceInteraction<FloatN>& surface,
+/// What of the group's lights' radiance leaves the surface along wo, in the lanes that were hit; of its ambient light,
+/// too.
+RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const SceneTables::LightGroup& group,
+                                         const Hits& hits, const SurfaceInteraction<FloatN>& surface,
                                          const TexturePoint<FloatN>* textures, Coherence coherence,
                                          const MaskN& counted, RayCounts& counts, const ShadowNumbers& numbers) {
   const SceneTables& tables = scene.tables();
   std::array<IncidentLight, lights_per_run> incident;
   std::size_t count = 0;
   Rgb<FloatN> radiance{Rgb<float>(0, 0, 0)};
-  Rgb<float> ambient = tables.ambient_radiance();
+  Rgb<float> ambient = group.ambient_radiance;
   const auto shade_run = [&] {
     radiance += tables.shade(hits, surface, ambient, {incident.data(), count}, textures);
     ambient = Rgb<float>(0, 0, 0);
@@ -68,9 +69,10 @@ RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const Hits& h
   shadow_rays.origin = offset_ray_origin(surface);
   shadow_rays.near = FloatN(0);
   const Sample2D middle{FloatN(0), FloatN(0)};
-  for (std::size_t number = 0; number < tables.lights().size(); ++number) {
+  for (std::size_t number = group.first_light; number < group.last_light; ++number) {
     // The first run has the ambient light, whatever the others reach.
-    if (number > 0 && number % lights_per_run == 0 && (count > 0 || number == lights_per_run)) shade_run();
+    const std::size_t before = number - group.first_light;
+    if (before > 0 && before % lights_per_run == 0 && (count > 0 || before == lights_per_run)) shade_run();
     const LightSource& light = *tables.lights()[number];
     const bool shadows = light.shadows();
     IncidentLight& here = incident[count];  // written in its array at once: it is large
@@ -95,7 +97,7 @@ RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const Hits& h
       here.cosine = here.cosine * relief_shadow(surface, here.wi);
     ++count;
   }
-  if (count > 0 || tables.lights().size() <= lights_per_run) shade_run();
+  if (count > 0 || group.last_light - group.first_light <= lights_per_run) shade_run();
   return radiance;
 }
 

@@ -45,7 +45,12 @@ void start_far_away(const SceneTables& scene, LightPathPacket& path, const MaskN
   path.flux = select(lanes, path.flux * (radius * radius * FloatN(two_pi / 2)), path.flux);
 }
 
+void set_group(LightPathPacket& path, const IntN& group, const MaskN& lanes) {
+  select_lanes(lanes, group, IntN::load_aligned(path.groups.data())).store_aligned(path.groups.data());
+}
+
 void start_at_source(const SceneTables& scene, LightPathPacket& path, std::int32_t source, const MaskN& lanes) {
+  set_group(path, IntN(scene.light_group(static_cast<std::size_t>(source))), lanes);
   const LightSource& light = *scene.lights()[static_cast<std::size_t>(source)];
   if (const auto location = light.location()) {
     path.rays.origin = select(lanes, Vec3<FloatN>(*location), path.rays.origin);
@@ -84,6 +89,7 @@ void start_at_patches(const SceneTables& scene, LightPathPacket& path, const Mas
   from = {FloatN::load_aligned(x.data()), FloatN::load_aligned(y.data()), FloatN::load_aligned(z.data())};
   const Sample2D place = get_2d(path.pixel, path.sample, light_path_dimension(LightPathDraw::place));
   const EmitterTable::Sample sample = scene.emitters().sample(patch, from, place.x, place.y);
+  set_group(path, scene.light_group_of_material(sample.material), lanes);
   const PatchSample& drawn = sample.point;
   // Per area, from per solid angle.
   const Vec3<FloatN> way = drawn.p - from;
@@ -123,6 +129,7 @@ MaskN start_light_paths(const SceneTables& scene, LightPathPacket& path) {
   path.rays.near = FloatN(0);
   path.rays.origin = path.rays.direction = Vec3<FloatN>(Vec3f(0, 0, 1));
   path.from_point = MaskN(false);
+  path.groups = {};
   const IntN source = IntN::load_aligned(path.sources.data());
   const auto lights = static_cast<std::int32_t>(scene.lights().size());
   const auto patches = static_cast<std::int32_t>(scene.emitters().size());
@@ -139,6 +146,7 @@ MaskN start_light_paths(const SceneTables& scene, LightPathPacket& path) {
   if (any(far)) {
     const Sample2D place = get_2d(path.pixel, path.sample, light_path_dimension(LightPathDraw::direction));
     const EnvironmentSample sky = scene.environment()->sample(place.x, place.y);
+    set_group(path, IntN(scene.environment_group()), far);
     path.rays.direction = select(far, -sky.wi, path.rays.direction);
     path.flux = select(far, sky.radiance * (FloatN(1) / sky.pdf), path.flux);
     start_far_away(scene, path, far);

@@ -17,6 +17,7 @@ struct LightPathPacket {
 
   std::array<CausticTable::Target, packet_lanes> target;
   alignas(64) std::array<std::int32_t, packet_lanes> sources, targets;  ///< their numbers in the CausticTable
+  alignas(64) std::array<std::int32_t, packet_lanes> groups;            ///< of the lights
 
   Ray<FloatN> rays;
   /// The light that the path carries: the flux along it over the density of all that was drawn for it, where `share`

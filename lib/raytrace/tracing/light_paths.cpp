@@ -9,6 +9,7 @@
 #include "raytrace/sampling/pixel_sampler.h"
 #include "raytrace/sampling/sampler.h"
 #include "raytrace/tracing/direct_light.h"
+#include "raytrace/tracing/light_layers.h"
 #include "raytrace/tracing/sampled_light.h"
 
 namespace raytrace {
@@ -31,7 +32,10 @@ LightPaths::LightPaths(const TracedScene& scene, Film& film)
       film_(film),
       most_points_(std::get<Path::Parameters>(tables_.integrator()).maxdepth),
       roulette_depth_(std::get<Path::Parameters>(tables_.integrator()).roulettedepth),
-      inverse_unit_(std::ldexp(1.0, -film.settings().unit_exponent)) {}
+      inverse_unit_(std::ldexp(1.0, -film.settings().unit_exponent)) {
+  for (const LightLayer* const layer : light_layers(tables_, film))
+    layers_.push_back(layer == nullptr ? nullptr : layer->splats.get());
+}
 
 void LightPaths::trace(const Pixels& pixels, const UintN& samples, const MaskN& wanted, RenderReport& report) {
   report_ = &report;
@@ -251,7 +255,7 @@ void LightPaths::splat(const LightPathPacket& path, std::size_t lane, const Film
       const double share =
           moves ? filter.density(x - to_x - 0.5) * filter.density(y - to_y - 0.5) / pixels : 1 / pixels;
       if (share == 0) continue;
-      SplatSum units;
+      RadianceSum units;
       std::size_t channel = 0;
       bool fits = true;
       for (const float value : {brought.red, brought.green, brought.blue}) {
@@ -261,6 +265,8 @@ void LightPaths::splat(const LightPathPacket& path, std::size_t lane, const Film
       }
       if (fits) {
         film_.splats()->add(to_x, to_y, units);
+        if (RadianceLayer* const layer = layers_[static_cast<std::size_t>(path.groups[lane])])
+          layer->add(to_x, to_y, units);
       } else {
         const auto width = static_cast<std::uint64_t>(extent.full_width);
         report_->invalid_samples.add({static_cast<int>(path.picture_pixel[lane] % width),

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "raytrace/accel/traced_scene.h"
 #include "raytrace/film/splat_layer.h"
@@ -45,7 +46,8 @@ class LightPaths {
   Film& film_;
   int most_points_, roulette_depth_;
   double inverse_unit_;
-  RenderReport* report_ = nullptr;  ///< while trace() runs
+  std::vector<RadianceLayer*> layers_;  ///< of each light group; null where the film has none
+  RenderReport* report_ = nullptr;      ///< while trace() runs
 };
 
 }  // namespace raytrace

@@ -25,10 +25,11 @@ PathBatch::PathBatch(const TracedScene& scene)
     : scene_(scene),
       settings_(std::get<Path::Parameters>(scene.tables().integrator())),
       paths_(most_packets * packet_lanes),
-      next_(most_packets * packet_lanes) {
+      next_(most_packets * packet_lanes),
+      groups_(scene.tables().light_groups().size()) {
   order_.reserve(most_packets * packet_lanes);
-  direct_.reserve(most_packets);
-  indirect_.reserve(most_packets);
+  direct_.reserve(most_packets * groups_);
+  indirect_.reserve(most_packets * groups_);
 }
 
 void PathBatch::clear() {
@@ -48,8 +49,8 @@ MaskN PathBatch::add(CameraRays& camera, const MaskN& active, const MaskN& wante
     }
   }
   const auto first_slot = static_cast<std::int32_t>(packets() * packet_lanes);
-  direct_.emplace_back();
-  indirect_.emplace_back();
+  direct_.resize(direct_.size() + groups_);
+  indirect_.resize(indirect_.size() + groups_);
   PathPacket path;
   path.rays = camera.rays;
   path.set_hits(hits);
@@ -90,11 +91,13 @@ void PathBatch::trace(RayCounts& counts) {
   }
 }
 
-void PathBatch::add(std::vector<Sums>& sums, const IntN& slot, const MaskN& lanes, const Rgb<FloatN>& radiance) {
+void PathBatch::add(std::vector<Sums>& sums, const IntN& slot, const MaskN& lanes, const Rgb<FloatN>& radiance,
+                    const IntN& group) const {
   std::uint32_t bits = bits_of<FloatN>(lanes);
   if (bits == 0) return;
-  alignas(64) std::array<std::int32_t, packet_lanes> slots;
+  alignas(64) std::array<std::int32_t, packet_lanes> slots, groups;
   slot.store_aligned(slots.data());
+  group.store_aligned(groups.data());
   alignas(64) Sums terms;
   radiance.red.store_aligned(terms[0].data());
   radiance.green.store_aligned(terms[1].data());
@@ -102,22 +105,31 @@ void PathBatch::add(std::vector<Sums>& sums, const IntN& slot, const MaskN& lane
   for (; bits != 0; bits &= bits - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
     const auto to = static_cast<std::size_t>(slots[lane]);
-    Sums& sum = sums[to / packet_lanes];
+    Sums& sum = sums[to / packet_lanes * groups_ + static_cast<std::size_t>(groups[lane])];
     for (std::size_t channel = 0; channel < 3; ++channel) sum[channel][to % packet_lanes] += terms[channel][lane];
   }
 }
 
-Rgb<FloatN> PathBatch::radiance(std::size_t packet) const {
+Rgb<FloatN> PathBatch::radiance(std::size_t packet, std::size_t group) const {
   const auto load = [](const Sums& sums) {
     return Rgb<FloatN>(FloatN::load_unaligned(sums[0].data()), FloatN::load_unaligned(sums[1].data()),
                        FloatN::load_unaligned(sums[2].data()));
   };
-  Rgb<FloatN> indirect = load(indirect_[packet]);
+  const std::size_t first = packet * groups_;
+  Rgb<FloatN> indirect = load(indirect_[first + group]);
   if (settings_.clampindirect > 0) {
     const FloatN most(static_cast<float>(settings_.clampindirect));
-    indirect = {min(indirect.red, most), min(indirect.green, most), min(indirect.blue, most)};
+    if (groups_ == 1) {
+      indirect = {min(indirect.red, most), min(indirect.green, most), min(indirect.blue, most)};
+    } else {
+      // Groups lose the same share of a sum that is too large.
+      Rgb<FloatN> all = load(indirect_[first]);
+      for (std::size_t i = 1; i < groups_; ++i) all += load(indirect_[first + i]);
+      const auto left = [&](const FloatN& sum) { return select(sum > most, most / sum, FloatN(1)); };
+      indirect = indirect * Rgb<FloatN>(left(all.red), left(all.green), left(all.blue));
+    }
   }
-  return load(direct_[packet]) + indirect;
+  return load(direct_[first + group]) + indirect;
 }
 
 void PathBatch::extend(PathPacket& path, const MaskN& lanes, int depth, RayCounts& counts) {
@@ -151,7 +163,8 @@ void PathBatch::extend(PathPacket& path, const MaskN& lanes, int depth, RayCount
             tables.emitters().pdf(path.from, path.from_normal, hits, drawn, surface) * FloatN(1 - environment_share);
         emitted = select(drawn, emitted * power_heuristic(path.pdf, other), emitted);
       }
-      add(depth <= 1 ? direct_ : indirect_, path.slot, shines, path.throughput * emitted);
+      add(depth <= 1 ? direct_ : indirect_, path.slot, shines, path.throughput * emitted,
+          tables.light_group_of_material(tables.material(hits)));
     }
   }
   if (depth == settings_.maxdepth) return;
@@ -163,13 +176,17 @@ void PathBatch::extend(PathPacket& path, const MaskN& lanes, int depth, RayCount
   const auto draw = [&](PathDraw what) { return get_2d(path.pixel, path.sample, path_dimension(depth, what)); };
   const Coherence coherence = depth == 0 ? Coherence::coherent : Coherence::incoherent;
   std::vector<Sums>& sums = depth == 0 ? direct_ : indirect_;
-  Rgb<FloatN> light = black();
-  if (lights > 0 || tables.has_ambient_light())
-    light = direct_light(scene_, hits, surface, point, coherence, lanes, counts,
-                         ShadowNumbers{path.pixel, path.sample, first_key + 1});
-
   const MaskN on_way = focuses & float_mask<FloatN>(path.way != IntN(any_way));
-  if (any(on_way)) light = select(on_way, black(), light);
+  Rgb<FloatN> light = black();
+  for (std::size_t group = 0; group < groups_; ++group) {
+    if (tables.light_groups()[group].is_dark()) continue;
+    light = direct_light(scene_, tables.light_groups()[group], hits, surface, point, coherence, lanes, counts,
+                         ShadowNumbers{path.pixel, path.sample, first_key + 1});
+    if (any(on_way)) light = select(on_way, black(), light);
+    if (groups_ == 1) break;  // which is added with the light that is drawn
+    add(sums, path.slot, lanes, path.throughput * light, IntN(static_cast<std::int32_t>(group)));
+    light = black();
+  }
   const PathVertex vertex{hits, surface, point, tables.shading_frame(hits, surface, point), path.distance};
   const Vec3<FloatN> wo = vertex.frame.to_local(surface.wo);
   DrawnLight drawn;
@@ -184,7 +201,13 @@ void PathBatch::extend(PathPacket& path, const MaskN& lanes, int depth, RayCount
       tables.scatter(hits, surface.front, wo, drawn.lit, drawn.local_wi, choices.x, direction.x, direction.y, point);
   if (any(drawn.lit))
     light += arriving_light(scene_, vertex, drawn, scattering.towards, coherence, key(lights + 1), counts);
-  add(sums, path.slot, lanes, path.throughput * light);
+  IntN group(0);
+  if (groups_ > 1) {
+    group = IntN(tables.environment_group());
+    if (!tables.emitters().empty())
+      group = select_lanes(drawn.is_sky, group, tables.light_group_of_material(drawn.sample.material));
+  }
+  add(sums, path.slot, lanes, path.throughput * light, group);
   if (!goes_on) return;
 
   const BsdfSample<FloatN>& sample = scattering.sample;
@@ -226,9 +249,10 @@ void PathBatch::extend(PathPacket& path, const MaskN& lanes, int depth, RayCount
       const EnvironmentSample sky = environment->at(rays.direction);
       const FloatN other = sky.pdf * FloatN(environment_share);
       const MaskN left_out = float_mask<FloatN>(path.way == IntN(by_focus));
-      add(sums, path.slot, escaped & !left_out, path.throughput * (sky.radiance * power_heuristic(path.pdf, other)));
+      add(sums, path.slot, escaped & !left_out, path.throughput * (sky.radiance * power_heuristic(path.pdf, other)),
+          IntN(tables.environment_group()));
     } else if (!is_last) {
-      add(sums, path.slot, escaped, path.throughput * Rgb<FloatN>(Rgb<float>(tables.viewplane().background)));
+      add(sums, path.slot, escaped, path.throughput * Rgb<FloatN>(Rgb<float>(tables.viewplane().background)), IntN(0));
     }
   }
   if (none(hits.hit)) return;

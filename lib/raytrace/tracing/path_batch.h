@@ -24,7 +24,7 @@ class PathBatch {
   /// Throws std::bad_alloc.
   explicit PathBatch(const TracedScene& scene);
 
-  std::size_t packets() const { return direct_.size(); }
+  std::size_t packets() const { return direct_.size() / groups_; }
   bool is_full() const { return packets() == most_packets; }
 
   /// Begins a path in each lane of `wanted`, where its camera ray hits something. Ends the rays there, and sets `first`
@@ -34,8 +34,8 @@ class PathBatch {
   /// Follows all paths to their ends.
   void trace(RayCounts& counts);
 
-  /// What came along the camera rays of that packet, in its lanes with a path.
-  Rgb<FloatN> radiance(std::size_t packet) const;
+  /// What came along the camera rays of that packet from lights of that group, in its lanes with a path.
+  Rgb<FloatN> radiance(std::size_t packet, std::size_t group) const;
 
   /// Removes all.
   void clear();
@@ -45,8 +45,9 @@ class PathBatch {
 
   using Sums = std::array<std::array<float, packet_lanes>, 3>;  ///< red, green and blue of each lane
 
-  /// Adds to those lanes' paths.
-  static void add(std::vector<Sums>& sums, const IntN& slot, const MaskN& lanes, const Rgb<FloatN>& radiance);
+  /// Adds to those lanes' paths what came from lights of each lane's group.
+  void add(std::vector<Sums>& sums, const IntN& slot, const MaskN& lanes, const Rgb<FloatN>& radiance,
+           const IntN& group) const;
   /// From the points that these paths have met, in those lanes, to the next ones.
   void extend(PathPacket& path, const MaskN& lanes, int depth, RayCounts& counts);
   void append(PathChunk& chunk, const PathPacket& path, const Hits& hits, const MaskN& lanes) const;
@@ -54,8 +55,10 @@ class PathBatch {
   const TracedScene& scene_;
   const Path::Parameters& settings_;
   PathChunk paths_, next_;
-  std::vector<std::int32_t> order_;      ///< the numbers of paths, in the lowest 16 bits of their keys
-  std::vector<Sums> direct_, indirect_;  ///< of each packet: what was scattered once or never, and all else
+  std::vector<std::int32_t> order_;  ///< the numbers of paths, in the lowest 16 bits of their keys
+  std::size_t groups_;               ///< of the scene's lights
+  /// Of each packet, group by group: what was scattered once or never, and all else.
+  std::vector<Sums> direct_, indirect_;
 };
 
 }  // namespace raytrace

@@ -1,7 +1,9 @@
 // Direct light by ray casting.
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <span>
 
 #include "raytrace/accel/surface_uv.h"
 #include "raytrace/accel/traced_scene.h"
@@ -22,11 +24,23 @@ class Kernel<Raycast> {
 
   static RayResult radiance(const TracedScene& scene, const Rgb<float>& background, CameraRays& camera,
                             const MaskN& active, const MaskN& counted, RayCounts& counts, FirstHits* first);
+  /// The same by light groups: sets `groups`, one for each, where something was hit. The result: the lanes where it
+  /// was.
+  static MaskN radiance_by_group(const TracedScene& scene, CameraRays& camera, const MaskN& active,
+                                 const MaskN& counted, RayCounts& counts, FirstHits* first,
+                                 std::span<Rgb<FloatN>> groups);
+
+ private:
+  /// shade(hits, surface, textures): the radiance where something was hit.
+  template <class Shade>
+  static RayResult trace(const TracedScene& scene, const Rgb<float>& background, CameraRays& camera,
+                         const MaskN& active, FirstHits* first, const Shade& shade);
 };
 
-inline RayResult Kernel<Raycast>::radiance(const TracedScene& scene, const Rgb<float>& background, CameraRays& camera,
-                                           const MaskN& active, const MaskN& counted, RayCounts& counts,
-                                           FirstHits* first) {
+template <class Shade>
+RAYTRACE_INLINE RayResult Kernel<Raycast>::trace(const TracedScene& scene, const Rgb<float>& background,
+                                                 CameraRays& camera, const MaskN& active, FirstHits* first,
+                                                 const Shade& shade) {
   const SceneTables& tables = scene.tables();
   const Hits hits = intersect_camera_rays(scene, camera, active);
   if (first != nullptr) {
@@ -42,13 +56,52 @@ inline RayResult Kernel<Raycast>::radiance(const TracedScene& scene, const Rgb<f
     first->surface = surface;
     first->textures = textures;
   }
-  // What a ray meets on its way to one light says nothing of that to another, nor of the camera ray's.
-  const ShadowNumbers numbers{camera.pixel, camera.sample, 1};
-  Rgb<FloatN> radiance = direct_light(scene, hits, surface, textures ? &*textures : nullptr, Coherence::coherent,
-                                      counted, counts, numbers);
-  if (tables.has_emission()) [[unlikely]]
-    radiance += tables.emitted(hits, surface, textures ? &*textures : nullptr);
-  return {select(hits.hit, radiance, Rgb<FloatN>(background)), hits.hit};
+  return {select(hits.hit, shade(hits, surface, textures ? &*textures : nullptr), Rgb<FloatN>(background)), hits.hit};
+}
+
+inline RayResult Kernel<Raycast>::radiance(const TracedScene& scene, const Rgb<float>& background, CameraRays& camera,
+                                           const MaskN& active, const MaskN& counted, RayCounts& counts,
+                                           FirstHits* first) {
+  const SceneTables& tables = scene.tables();
+  return trace(scene, background, camera, active, first,
+               [&](const Hits& hits, const SurfaceInteraction<FloatN>& surface, const TexturePoint<FloatN>* textures)
+                   RAYTRACE_INLINE_LAMBDA {
+                     // What a ray meets on its way to one light says nothing of that to another, nor of the camera
+                     // ray's.
+                     const ShadowNumbers numbers{camera.pixel, camera.sample, 1};
+                     Rgb<FloatN> radiance = direct_light(scene, tables.light_groups().front(), hits, surface, textures,
+                                                         Coherence::coherent, counted, counts, numbers);
+                     if (tables.has_emission()) [[unlikely]]
+                       radiance += tables.emitted(hits, surface, textures);
+                     return radiance;
+                   });
+}
+
+[[gnu::noinline]] inline MaskN Kernel<Raycast>::radiance_by_group(const TracedScene& scene, CameraRays& camera,
+                                                                  const MaskN& active, const MaskN& counted,
+                                                                  RayCounts& counts, FirstHits* first,
+                                                                  std::span<Rgb<FloatN>> groups) {
+  const SceneTables& tables = scene.tables();
+  const Rgb<float> black(0, 0, 0);
+  const auto shade = [&](const Hits& hits, const SurfaceInteraction<FloatN>& surface,
+                         const TexturePoint<FloatN>* textures) {
+    const ShadowNumbers numbers{camera.pixel, camera.sample, 1};
+    Rgb<FloatN> emitted(black);
+    IntN emitter(0);
+    if (tables.has_emission()) {
+      emitted = tables.emitted(hits, surface, textures);
+      emitter = tables.light_group_of_material(tables.material(hits));
+    }
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+      const SceneTables::LightGroup& group = tables.light_groups()[i];
+      const MaskN shines = float_mask<FloatN>(emitter == IntN(static_cast<std::int32_t>(i)));
+      groups[i] = select(shines, emitted, Rgb<FloatN>(black));
+      if (!group.is_dark())
+        groups[i] += direct_light(scene, group, hits, surface, textures, Coherence::coherent, counted, counts, numbers);
+    }
+    return Rgb<FloatN>(black);
+  };
+  return trace(scene, black, camera, active, first, shade).hit;
 }
 
 }  // namespace raytrace

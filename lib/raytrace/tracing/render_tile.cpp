@@ -11,7 +11,9 @@
 #include "raytrace/sampling/pixel_sampler.h"
 #include "raytrace/tracing/block_aovs.h"
 #include "raytrace/tracing/block_sums.h"
+#include "raytrace/tracing/group_sums.h"
 #include "raytrace/tracing/kernels.h"
+#include "raytrace/tracing/light_layers.h"
 #include "raytrace/tracing/light_paths.h"
 #include "raytrace/tracing/packet_block.h"
 
@@ -71,7 +73,10 @@ class BlockRenderer {
         scale_(film.settings().unit_exponent),
         group_(Block::slots(), shape.samples),
         scrambles_(film.settings().seed),
-        usual_camera_(scene.tables().pixel_filter().moves_samples() ? nullptr : scene.tables().usual_camera()) {
+        usual_camera_(scene.tables().pixel_filter().moves_samples() ? nullptr : scene.tables().usual_camera()),
+        layers_(light_layers(scene.tables(), film)),
+        group_light_(layers_.size()),
+        by_group_(layers_.size() > 1 || layers_.front() != nullptr) {
     if (!raycast && integrator_.radiance == nullptr) batch_.emplace(scene);
     if (film.splats() != nullptr) light_paths_.emplace(scene, film);
   }
@@ -150,6 +155,8 @@ class BlockRenderer {
     std::uint32_t base = left.first / group * group;
     PixelSampler sampler(scramble_of(block), group_, base, settings.samples.centered);
     BlockSums<Block> sums(scale_);
+    std::optional<GroupSums<Block>> group_sums;
+    if (by_group_) group_sums.emplace(scale_, layers_.size());
     FirstHits first;
     for (int packets = 1; base < left.last; base += group, ++packets) {
       const UintN sample = UintN(base) + slot;
@@ -172,6 +179,9 @@ class BlockRenderer {
       RayResult result;
       if (!raycast && batch_)
         result = {Rgb<FloatN>(background_), batch_->add(camera, traced, wanted, first_hits)};
+      else if (raycast && by_group_)
+        result = {Rgb<FloatN>(background_), Kernel<Raycast>::radiance_by_group(scene_, camera, traced, wanted,
+                                                                               report_.rays, first_hits, group_light_)};
       else
         result = raycast
                      ? Kernel<Raycast>::radiance(scene_, background_, camera, traced, wanted, report_.rays, first_hits)
@@ -188,14 +198,32 @@ class BlockRenderer {
       if (!raycast && batch_) {
         waiting_.push_back({block, base, wanted, result});
         if (batch_->is_full()) trace_batch();
+      } else if (by_group_) {
+        if (!raycast) group_light_.front() = result.radiance;
+        add_by_group(*group_sums, result, wanted, block, base);
       } else {
         const MaskN large = sums.add(result, wanted);
-        if (any(large)) add_invalid(sums.add_large(result, large), block, base);
+        if (any(large)) add_invalid(sums.add_large(result.radiance, large), block, base);
         if (packets % (sums.most_packets / packets_per_look * packets_per_look) == 0) sums.carry();
       }
       if (packets % packets_per_look == 0 && stopped()) break;
     }
-    if (raycast || !batch_) sums.add_to(film_, block, region_);
+    if (!raycast && batch_) return;
+    if (by_group_)
+      group_sums->add_to(film_, layers_, block, region_);
+    else
+      sums.add_to(film_, block, region_);
+  }
+
+  /// Adds group_light_ where something was hit. missed: its radiance is what arrives elsewhere.
+  void add_by_group(GroupSums<Block>& sums, const RayResult& missed, const MaskN& wanted, const Block& block,
+                    std::uint32_t base) {
+    const Rgb<FloatN> black(Rgb<float>(0, 0, 0));
+    const auto group = static_cast<std::size_t>(environment_ != nullptr ? scene_.tables().environment_group() : 0);
+    for (std::size_t i = 0; i < group_light_.size(); ++i)
+      group_light_[i] = select(missed.hit, group_light_[i], i == group ? missed.radiance : black);
+    if (const std::uint32_t refused = sums.add(group_light_, missed.hit, wanted); refused != 0)
+      add_invalid(refused, block, base);
   }
 
   /// Those of the lanes' pixels and samples. They are in the film before the samples are, but in one call of render():
@@ -219,13 +247,19 @@ class BlockRenderer {
       const WaitingPacket& packet = waiting_[i];
       if (!open_ || open_->block.left != packet.block.left || open_->block.top != packet.block.top) {
         if (open_) close_block();
-        open_ = std::make_unique<OpenBlock>(packet.block, scale_);
+        open_ = std::make_unique<OpenBlock>(packet.block, scale_, layers_.size());
+      }
+      if (by_group_) {
+        for (std::size_t group = 0; group < group_light_.size(); ++group)
+          group_light_[group] = batch_->radiance(i, group);
+        add_by_group(open_->group_sums, packet.missed, packet.wanted, packet.block, packet.base);
+        continue;
       }
       BlockSums<Block>& sums = open_->sums;
       const MaskN hit = packet.missed.hit;
-      const RayResult result{select(hit, batch_->radiance(i), packet.missed.radiance), hit};
+      const RayResult result{select(hit, batch_->radiance(i, 0), packet.missed.radiance), hit};
       const MaskN large = sums.add(result, packet.wanted);
-      if (any(large)) add_invalid(sums.add_large(result, large), packet.block, packet.base);
+      if (any(large)) add_invalid(sums.add_large(result.radiance, large), packet.block, packet.base);
       if (++open_->packets % sums.most_packets == 0) sums.carry();
     }
     waiting_.clear();
@@ -233,7 +267,10 @@ class BlockRenderer {
   }
 
   void close_block() {
-    open_->sums.add_to(film_, open_->block, region_);
+    if (by_group_)
+      open_->group_sums.add_to(film_, layers_, open_->block, region_);
+    else
+      open_->sums.add_to(film_, open_->block, region_);
     open_.reset();
   }
 
@@ -303,6 +340,11 @@ class BlockRenderer {
   decltype(std::declval<SceneTables>().usual_camera()) usual_camera_;  ///< if samples stay in their pixels
   RenderReport report_;
 
+  // Of light groups.
+  std::vector<LightLayer*> layers_;
+  std::vector<Rgb<FloatN>> group_light_;  ///< of the packet at hand
+  bool by_group_;                         ///< whether the picture is put together of them
+
   // Of integrators with batches.
   struct WaitingPacket {
     Block block;
@@ -314,8 +356,10 @@ class BlockRenderer {
   struct OpenBlock {
     Block block;
     BlockSums<Block> sums;
+    GroupSums<Block> group_sums;  ///< in place of them where there are groups
     int packets = 0;
-    OpenBlock(const Block& block, const SumScale& scale) : block(block), sums(scale) {}
+    OpenBlock(const Block& block, const SumScale& scale, std::size_t groups)
+        : block(block), sums(scale), group_sums(scale, groups) {}
   };
   std::optional<PathBatch> batch_;
   std::optional<LightPaths> light_paths_;  ///< where the scene has them

@@ -1,4 +1,4 @@
-#include "raytrace/film/splat_layer.h"
+#include "raytrace/film/radiance_layer.h"
 
 #include <algorithm>
 
@@ -6,10 +6,9 @@
 
 namespace raytrace {
 
-SplatLayer::SplatLayer(const Region& region, std::uint64_t picture_pixels)
-    : region_(region), picture_pixels_(picture_pixels), sums_(LargeArray<Low>::zeros(pixels())) {}
+RadianceLayer::RadianceLayer(const Region& region) : region_(region), sums_(LargeArray<Low>::zeros(pixels())) {}
 
-void SplatLayer::add(int x, int y, const SplatSum& units) {
+void RadianceLayer::add(int x, int y, const RadianceSum& units) {
   const std::uint64_t at = number(x, y);
   for (std::size_t channel = 0; channel < units.size(); ++channel) {
     const Limbs limbs = limbs_of(units[channel]);
@@ -23,22 +22,22 @@ void SplatLayer::add(int x, int y, const SplatSum& units) {
   }
 }
 
-SplatSum SplatLayer::sum(int x, int y) const {
+RadianceSum RadianceLayer::sum(int x, int y) const {
   const std::uint64_t at = number(x, y);
   const Low& low = sums_[at];
   const Low high = highs_.data() == nullptr ? Low{} : highs_.data()[at];
-  SplatSum sum;
+  RadianceSum sum;
   for (std::size_t channel = 0; channel < sum.size(); ++channel)
     sum[channel] = from_limbs({low[channel], high[channel]});
   return sum;
 }
 
-bool SplatLayer::has_high() const {
+bool RadianceLayer::has_high() const {
   const Low* const highs = highs_.data();
   return highs != nullptr && std::any_of(highs, highs + pixels(), [](const Low& high) { return high != Low{}; });
 }
 
-void SplatLayer::add_to(ContentHash& hash) const {
+void RadianceLayer::add_to(ContentHash& hash) const {
   hash.add(sums_.data(), pixels() * sizeof(Low));
   if (has_high()) hash.add(highs_.data(), pixels() * sizeof(Low));
 }
