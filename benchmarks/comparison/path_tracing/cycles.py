@@ -4,8 +4,8 @@ import importlib.util
 import os
 import pickle
 
-from .files import rendered_by
-from .scenes import sky
+from .files import rendered_by, write_texture
+from .scenes import Textured, sky
 
 VARIANTS = {"Cycles": "cycles"}
 
@@ -23,6 +23,8 @@ def write(scene, folder, chosen):
 
         picture = sky(lambda row, height: (row + 0.5) / height)
         write_exr(numpy.roll(picture, picture.shape[1] // 4, axis=1), os.path.join(folder, "sky.exr"))
+    if any(isinstance(material, Textured) for material in scene.materials.values()):
+        write_texture(folder)
     with open(os.path.join(folder, "scene.pickle"), "wb") as file:
         pickle.dump((scene, chosen.samples, chosen.depth), file)
 

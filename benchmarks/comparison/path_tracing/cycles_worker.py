@@ -16,7 +16,7 @@ import mathutils
 import numpy
 
 from ..pictures import read_exr
-from .scenes import WIDTH, Diffuse, Glass, Lamp, Mesh, Metal, Rectangle, Sphere
+from .scenes import WIDTH, Diffuse, Glass, Lamp, Mesh, Metal, Rectangle, Sphere, Textured
 
 
 def turned(v):
@@ -34,6 +34,12 @@ def node_material(name, material):
         case Diffuse():
             shader = nodes.new("ShaderNodeBsdfDiffuse")
             shader.inputs["Color"].default_value = (*material.color, 1)
+        case Textured():
+            shader = nodes.new("ShaderNodeBsdfDiffuse")
+            picture = nodes.new("ShaderNodeTexImage")
+            picture.image = bpy.data.images.load(os.path.abspath("texture.exr"))
+            picture.image.colorspace_settings.name = "Linear Rec.709"
+            links.new(picture.outputs["Color"], shader.inputs["Color"])
         case Metal():
             shader = nodes.new("ShaderNodeBsdfAnisotropic")
             shader.distribution = "GGX"
@@ -57,10 +63,12 @@ def node_material(name, material):
     return result
 
 
-def add_mesh(vertices, faces, material):
+def add_mesh(vertices, faces, material, uvs=None):
     mesh = bpy.data.meshes.new("mesh")
     mesh.from_pydata([turned(v) for v in vertices], [], [tuple(face) for face in faces])
     mesh.materials.append(material)
+    if uvs is not None:
+        mesh.uv_layers.new().data.foreach_set("uv", uvs[numpy.array(faces).reshape(-1)].reshape(-1))
     bpy.context.scene.collection.objects.link(bpy.data.objects.new("object", mesh))
     return mesh
 
@@ -92,7 +100,7 @@ def build(scene, samples, depth, threads):
     for s in scene.of(Sphere):
         add_sphere(s, materials[s.material])
     for mesh in scene.of(Mesh):
-        add_mesh(mesh.vertices.tolist(), mesh.faces.tolist(), materials[mesh.material])
+        add_mesh(mesh.vertices.tolist(), mesh.faces.tolist(), materials[mesh.material], mesh.uvs)
     here.world = bpy.data.worlds.new("world")
     here.world.use_nodes = True
     background = here.world.node_tree.nodes["Background"]

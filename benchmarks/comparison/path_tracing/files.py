@@ -7,21 +7,24 @@ import sys
 import numpy
 
 from ..paths import REPOSITORY
-from .scenes import sky
+from .scenes import sky, texture
 
 
 def write_ply(mesh, folder, name):
     faces = numpy.empty(len(mesh.faces), dtype=[("count", "u1"), ("vertices", "<i4", 3)])
     faces["count"], faces["vertices"] = 3, mesh.faces
+    vertices, more = mesh.vertices, ""
+    if mesh.uvs is not None:
+        vertices, more = numpy.concatenate([mesh.vertices, mesh.uvs], axis=1), "property float s\nproperty float t\n"
     with open(os.path.join(folder, name), "wb") as file:
         file.write(
             (
                 "ply\nformat binary_little_endian 1.0\n"
-                f"element vertex {len(mesh.vertices)}\nproperty float x\nproperty float y\nproperty float z\n"
+                f"element vertex {len(vertices)}\nproperty float x\nproperty float y\nproperty float z\n{more}"
                 f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n"
             ).encode()
         )
-        file.write(mesh.vertices.astype("<f4").tobytes())
+        file.write(vertices.astype("<f4").tobytes())
         file.write(faces.tobytes())
 
 
@@ -35,6 +38,10 @@ def write_exr(picture, file):
 
 def write_sky(folder, rows):
     write_exr(sky(rows), os.path.join(folder, "sky.exr"))
+
+
+def write_texture(folder):
+    write_exr(texture(), os.path.join(folder, "texture.exr"))
 
 
 def rendered_by(module, arguments, folder, environment):

@@ -5,8 +5,8 @@ import os
 import numpy
 
 from ..renderers.mitsuba import _point, _vector, available, llvm_library  # noqa: F401
-from .files import rendered_by, write_ply, write_sky
-from .scenes import WIDTH, Diffuse, Glass, Lamp, Mesh, Metal, Rectangle, Sphere
+from .files import rendered_by, write_ply, write_sky, write_texture
+from .scenes import WIDTH, Diffuse, Glass, Lamp, Mesh, Metal, Rectangle, Sphere, Textured
 
 VARIANTS = {"Mitsuba, independent": "independent", "Mitsuba, multijitter": "multijitter"}
 
@@ -23,6 +23,9 @@ def _material(name, material):
     match material:
         case Diffuse():
             bsdf = f'<bsdf type="diffuse">{_rgb("reflectance", material.color)}</bsdf>'
+        case Textured():
+            picture = '<string name="filename" value="texture.exr"/><boolean name="raw" value="true"/>'
+            bsdf = f'<bsdf type="diffuse"><texture type="bitmap" name="reflectance">{picture}</texture></bsdf>'
         case Metal():
             rough = f'{_float("alpha", material.roughness**2)}<string name="distribution" value="ggx"/>'
             color = f'<string name="material" value="none"/>{_rgb("specular_reflectance", material.color)}'
@@ -69,6 +72,8 @@ def write(scene, folder, chosen):
             # Its outermost rows lie at the poles themselves.
             write_sky(folder, lambda row, height: row / (height - 1))
             say('<emitter type="envmap"><string name="filename" value="sky.exr"/></emitter>\n')
+        if any(isinstance(material, Textured) for material in scene.materials.values()):
+            write_texture(folder)
         for name, material in scene.materials.items():
             say(f"{_material(name, material)}\n")
         for r in scene.of(Rectangle):

@@ -6,8 +6,8 @@ import os
 from ..paths import PROGRAM
 from ..pictures import read_exr
 from ..process import run
-from .files import write_ply, write_sky
-from .scenes import WIDTH, Diffuse, Glass, Lamp, Mesh, Metal, Rectangle, Sphere
+from .files import write_ply, write_sky, write_texture
+from .scenes import WIDTH, Diffuse, Glass, Lamp, Mesh, Metal, Rectangle, Sphere, Textured
 
 VARIANTS = {"raytrace": None}
 LIMIT = 3600  # seconds for one render
@@ -30,6 +30,8 @@ def _material(name, material):
     match material:
         case Diffuse():
             return f"<mattes><matte>{name}<ka>0</ka><kd>1</kd>{_color('cd', material.color)}</matte></mattes>"
+        case Textured():
+            return f'<mattes><matte>{name}<ka>0</ka><kd>1</kd><cd texture="texture"/></matte></mattes>'
         case Metal():
             roughness = f"<roughness>{material.roughness:.9g}</roughness>"
             return f"<conductors><conductor>{name}{_color('cr', material.color)}{roughness}</conductor></conductors>"
@@ -46,11 +48,16 @@ def write(scene, folder, chosen):
         say(f"<samples>{chosen.samples}</samples></viewplane>\n<camera>{_vector('eye', scene.eye)}")
         say(f"{_vector('lookat', scene.lookat)}<fov>{scene.fov:.9g}</fov></camera>\n")
         # A depth here is a scattering: one less than the segments of a path, which the others count.
-        say(f"<integrator><path><maxdepth>{chosen.depth - 1}</maxdepth></path></integrator>\n<lights>")
+        caustics = "<caustics>light</caustics>" if scene.caustics else ""
+        say(f"<integrator><path><maxdepth>{chosen.depth - 1}</maxdepth>{caustics}</path></integrator>\n<lights>")
         if scene.sky:
             say("<environmentlights><environmentlight><file>sky.exr</file></environmentlight></environmentlights>")
             write_sky(folder, lambda row, height: (row + 0.5) / height)
-        say("</lights>\n<materials>\n")
+        say("</lights>\n")
+        if any(isinstance(material, Textured) for material in scene.materials.values()):
+            say("<textures><images><image><name>texture</name><file>texture.exr</file></image></images></textures>\n")
+            write_texture(folder)
+        say("<materials>\n")
         for name, material in scene.materials.items():
             say(f"{_material(name, material)}\n")
         say("</materials>\n<objects>\n<rectangles>\n")

@@ -12,9 +12,9 @@ import numpy
 
 from .. import pictures, report
 from ..paths import WORK
-from . import cycles, mitsuba, raytrace, scenes
+from . import cycles, luxcore, mitsuba, raytrace, scenes
 
-RENDERERS = {"raytrace": raytrace, "mitsuba": mitsuba, "cycles": cycles}
+RENDERERS = {"raytrace": raytrace, "mitsuba": mitsuba, "cycles": cycles, "luxcore": luxcore}
 DARK = 0.01  # added to squares of radiance that errors are divided by (Rousselle et al. 2011)
 BLOCK = 16  # edge of the blocks, in pixels, whose means are compared
 
@@ -63,6 +63,8 @@ def measured(scene, chosen):
     """The figures of every variant of every renderer. They take turns."""
     running = {}
     for name in chosen.renderers:
+        if hasattr(RENDERERS[name], "can") and not RENDERERS[name].can(scene):
+            continue
         folder = os.path.join(WORK, "scenes", f"paths-{scene.name}-{name}")
         shutil.rmtree(folder, ignore_errors=True)
         os.makedirs(folder)

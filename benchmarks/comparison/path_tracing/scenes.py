@@ -11,11 +11,17 @@ import numpy
 
 WIDTH = 256  # and height, in pixels
 SKY_SIZE = (1024, 512)
+TEXTURE_EDGE = 1024  # texels
 
 
 @dataclass
 class Diffuse:
     color: tuple
+
+
+@dataclass
+class Textured:
+    """Diffuse, in the colours of texture()."""
 
 
 @dataclass
@@ -57,11 +63,12 @@ class Rectangle:
 
 @dataclass
 class Mesh:
-    """vertices: n x 3; faces: m x 3, counter-clockwise from the front."""
+    """vertices: n x 3; faces: m x 3, counter-clockwise from the front; uvs: n x 2, v upwards."""
 
     vertices: numpy.ndarray
     faces: numpy.ndarray
     material: str
+    uvs: numpy.ndarray | None = None
 
 
 @dataclass
@@ -74,6 +81,7 @@ class Scene:
     materials: dict = field(default_factory=dict)
     objects: list = field(default_factory=list)
     sky: bool = False
+    caustics: bool = False  # on paths from the lights, where a renderer has them
 
     def of(self, shape):
         return [item for item in self.objects if isinstance(item, shape)]
@@ -94,6 +102,15 @@ def sky(rows):
     apart = numpy.arccos(numpy.clip((x * sun[0] + y * sun[1] + z * sun[2]) / numpy.linalg.norm(sun), -1, 1))
     disk = 1500 * numpy.exp(-0.5 * (apart / math.radians(1)) ** 2)
     return (colors + disk[..., None] * numpy.array([1, 0.9, 0.75])).astype(numpy.float32)
+
+
+def texture():
+    """Linear colours, the upper row first."""
+    side = (numpy.arange(TEXTURE_EDGE) + 0.5) / TEXTURE_EDGE * 2 * math.pi
+    u, v = numpy.meshgrid(side, side)
+    waves = [numpy.sin(f * u + 2 * numpy.sin(g * v)) * numpy.cos(g * v + f) for f, g in ((3, 8), (7, 5), (19, 23))]
+    mixed = numpy.clip(0.5 + 0.25 * sum(waves), 0, 1)[..., None]
+    return ((1 - mixed) * numpy.array([0.05, 0.12, 0.3]) + mixed * numpy.array([0.8, 0.55, 0.25])).astype(numpy.float32)
 
 
 def box(center, half, angle, material):
@@ -210,6 +227,63 @@ def sparks(name, title, count=25_000):
     return scene
 
 
+def grid_faces(columns, rows):
+    """Of (columns + 1) x (rows + 1) vertices, row by row."""
+    a = (numpy.arange(rows)[:, None] * (columns + 1) + numpy.arange(columns)).reshape(-1)
+    b, c, d = a + 1, a + columns + 1, a + columns + 2
+    return numpy.concatenate([numpy.stack([a, b, d], 1), numpy.stack([a, d, c], 1)]).astype(numpy.int32)
+
+
+def knot(name, title, columns=1024, rows=96):
+    """A textured tube, knotted, in a white room."""
+    scene = furnished(name, title)
+    scene.objects = scene.objects[:5] + [Rectangle((-0.25, 0.998, -0.2), (0.5, 0, 0), (0, 0, 0.4), "lamp")]
+    scene.materials["knot"] = Textured()
+    t, s = numpy.meshgrid(numpy.linspace(0, 2 * math.pi, columns + 1), numpy.linspace(0, 2 * math.pi, rows + 1))
+
+    def center(t):
+        r = 0.42 + 0.17 * numpy.cos(3 * t)
+        return numpy.stack([r * numpy.cos(2 * t), r * numpy.sin(2 * t) - 0.15, 0.3 * numpy.sin(3 * t)], axis=-1)
+
+    along = center(t + 1e-4) - center(t - 1e-4)
+    along /= numpy.linalg.norm(along, axis=-1, keepdims=True)
+    across = numpy.cross(along, numpy.array([0, 0, 1.0]))
+    across /= numpy.linalg.norm(across, axis=-1, keepdims=True)
+    up = numpy.cross(across, along)
+    vertices = center(t) + 0.13 * (numpy.cos(s)[..., None] * across + numpy.sin(s)[..., None] * up)
+    uvs = numpy.stack([t / (2 * math.pi), s / (2 * math.pi)], axis=-1)
+    scene.objects.append(Mesh(vertices.reshape(-1, 3).astype(numpy.float32), grid_faces(columns, rows), "knot",
+                              uvs.reshape(-1, 2).astype(numpy.float32)))
+    return scene
+
+
+def ball(center, radius, columns, rows, material):
+    """Of flat faces."""
+    t, s = numpy.meshgrid(numpy.linspace(0, 2 * math.pi, columns + 1), numpy.linspace(-math.pi / 2, math.pi / 2, rows + 1))
+    unit = numpy.stack([numpy.cos(s) * numpy.cos(t), numpy.sin(s), -numpy.cos(s) * numpy.sin(t)], axis=-1)
+    vertices = (center + radius * unit).reshape(-1, 3).astype(numpy.float32)
+    faces = grid_faces(columns, rows)
+    corners = vertices[faces]
+    area = numpy.linalg.norm(numpy.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    return Mesh(vertices, faces[area > 1e-9], material)
+
+
+def crystal(name, title):
+    """A ball of cut glass and a ring of mirrors on a floor, under a lamp."""
+    scene = Scene(name, title, (0.1, 5, 2.2), (0.1, 0.2, 0.25), 36, caustics=True)
+    scene.materials = {"floor": Diffuse((0.7, 0.68, 0.65)), "lamp": Lamp((375, 340, 275)), "glass": Glass(),
+                       "mirror": Metal((0.95, 0.85, 0.6))}
+    t, y = numpy.meshgrid(numpy.linspace(0, 2 * math.pi, 65), numpy.array([0.001, 0.25]))
+    band = numpy.stack([0.8 + 0.6 * numpy.cos(t), y, 0.35 - 0.6 * numpy.sin(t)], axis=-1)
+    scene.objects = [
+        Rectangle((-6, 0, 6), (12, 0, 0), (0, 0, -12), "floor"),
+        Rectangle((-1.5, 3.2, -0.8), (0.2, 0, 0), (0, 0, 0.2), "lamp"),
+        ball((-0.75, 0.9, -0.1), 0.5, 24, 12, "glass"),
+        Mesh(band.reshape(-1, 3).astype(numpy.float32), grid_faces(64, 1), "mirror"),
+    ]
+    return scene
+
+
 # name: what the table calls it, and what makes it.
 SCENES = {
     "cornell": ("Cornell box, diffuse", lambda *names: cornell(*names, WHITE, WHITE)),
@@ -223,6 +297,8 @@ SCENES = {
     "lamps": ("400 small lamps in a room", lamps),
     "window": ("a room lit through a window", window),
     "sparks": ("100,000 lamps: a mesh that shines", sparks),
+    "knot": ("a textured mesh of 200,000 triangles", knot),
+    "crystal": ("caustics of cut glass and a mirror", crystal),
 }
 
 
