@@ -14,6 +14,7 @@
 #include "raytrace/render/renderer.h"
 #include "raytrace/text/message.h"
 #include "raytrace/text/utf8.h"
+#include "view_arguments.h"
 
 namespace raytrace {
 
@@ -147,7 +148,7 @@ void define_options(OptionParser& parser, Options& options) {
   parser.add_switch("--transparent", options.transparent,
                     "Leave the background out of the colour; alpha is coverage: premultiplied in EXR, straight RGBA in "
                     "PNG and TIFF");
-  parser.add("--exposure", exposure_value_name, exposure_help, options.exposure, exposure);
+  define_view_options(parser, options.view);
   parser.add("--aov", "LIST",
              "What EXR files hold besides the colour, separated by commas: " + joined(aov_names(), ", ") + "; or all",
              options.aovs, aovs, aov_choices());
@@ -243,6 +244,7 @@ Options parse_options(int argc, const char* const* argv) {
     options.frames = frame_numbers("1-" + std::to_string(options.stage->turntable));
   // Not by CLI11's excludes(): from version 2.4 on, a counting flag counts as given when it is not.
   if (options.quiet && options.verbose > 0) throw UsageError("--quiet excludes --verbose");
+  refuse_two_views(options.view);
   if (options.quiet && options.progress == ProgressStyle::automatic) options.progress = ProgressStyle::none;
   if (!options.help && !options.version && options.list.empty()) refuse_incomplete(options);
   options.shows_statistics = options.statistics == statistics_as_text;

@@ -190,6 +190,7 @@ std::optional<SceneDescription> load_model(const std::string& file, const ModelS
   description.viewplane.hres = width;
   description.viewplane.vres = height;
   description.viewplane.samples = 128;
+  description.viewplane.viewtransform = ViewTransform::khronos_neutral;
   description.integrator = Path::Parameters{};
   ObjectItem<Mesh> mesh;
   mesh.parameters.file.path = file;
