@@ -126,6 +126,7 @@ void define_options(OptionParser& parser, Options& options) {
              [stage](const std::string& text) { stage().z_is_up = one_of(text, {"y", "z"}) == "z"; });
   parser.add("--turntable", "N", "Render a full turn in N frames, or those of --frames",
              [stage](const std::string& text) { stage().turntable = integer(text, 1, 100'000); });
+  parser.add_switch("--floor", options.floor, "Stand the model on an endless grey floor");
   parser.add("--environment", "FILE|sky",
              "Light by a picture of all that is around (.exr, .hdr), or by a sky with its sun",
              [stage](const std::string& text) {
@@ -240,6 +241,10 @@ Options parse_options(int argc, const char* const* argv) {
   define_options(parser, options);
   parser.parse(argc, argv);
   options.threads = thread_count(options.threads);
+  if (options.floor) {
+    if (!options.stage) options.stage.emplace();
+    options.stage->floor = true;
+  }
   if (options.stage && options.stage->turntable > 0 && options.frames.empty())
     options.frames = frame_numbers("1-" + std::to_string(options.stage->turntable));
   // Not by CLI11's excludes(): from version 2.4 on, a counting flag counts as given when it is not.

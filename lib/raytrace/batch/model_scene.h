@@ -16,6 +16,7 @@ struct ModelStage {
   double azimuth = 30, elevation = 15;  ///< where it is looked at from; all of it is in view
   bool z_is_up = false;                 ///< in the model's file; else y is, as glTF has it
   int turntable = 0;                    ///< so many frames are a full turn; 0: it stands still
+  bool floor = false;                   ///< an endless one, which the model stands on
 
   // In place of the studio.
   std::string environment;                   ///< "sky", or the file of a picture; empty: none

@@ -134,7 +134,7 @@ std::optional<SceneDescription> load_picture(const RenderJob& job, RenderObserve
       if (description) refuse_to_overwrite(*description, job);
     } else {
       if (job.stage)
-        throw SettingsError("--view, --up, --turntable, --environment and --sun are for models: " + job.scene_name() +
+        throw SettingsError("--view, --up, --turntable, --floor, --environment and --sun are for models: " + job.scene_name() +
                             " has a camera and lights");
       description = load_scene(job.scene, diagnostics, job.threads, {job.frame, job.variables, job.missing_texture});
     }
