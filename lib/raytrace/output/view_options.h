@@ -1,6 +1,7 @@
 // What of a picture's view is chosen apart from its scene.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
