@@ -134,8 +134,8 @@ std::optional<SceneDescription> load_picture(const RenderJob& job, RenderObserve
       if (description) refuse_to_overwrite(*description, job);
     } else {
       if (job.stage)
-        throw SettingsError("--view, --up, --turntable, --floor, --environment and --sun are for models: " + job.scene_name() +
-                            " has a camera and lights");
+        throw SettingsError("--view, --up, --turntable, --floor, --environment and --sun are for models: " +
+                            job.scene_name() + " has a camera and lights");
       description = load_scene(job.scene, diagnostics, job.threads, {job.frame, job.variables, job.missing_texture});
     }
     if (description && !is_model(job.scene)) {
