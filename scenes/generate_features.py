@@ -1019,6 +1019,36 @@ write(
     objects=f"    <cylinders>\n{FAN}    </cylinders>\n",
 )
 
+PAINTS = {"red": (-2.7, 0.9, 0.03, 0.02), "yellow": (-0.9, 0.95, 0.6, 0.02), "blue": (0.9, 0.02, 0.08, 0.9),
+          "grey": (2.7, 0.5, 0.5, 0.5)}
+for transform in ("srgb", "agx", "khronos-neutral"):
+    write(
+        f"view-{transform}",
+        f"Strong light on saturated paints, through the view transform {transform}.",
+        room=ROOM.replace("<samples>16</samples>", f"<samples>16</samples> <viewtransform>{transform}</viewtransform>")
+        .replace("<hres>320</hres> <vres>240</vres>", "<hres>320</hres> <vres>120</vres>")
+        .replace("520", "340"),
+        lights=LIGHTS.replace("<scaleradiance>3<", "<scaleradiance>8<"),
+        mattes="",
+        phongs="".join(
+            f"""\
+      <phong>
+        <name>{name}</name> <ka>0.12</ka> <kd>0.9</kd> <ks>0.3</ks> <cd red="{red}" green="{green}" blue="{blue}"/>
+        <cs red="1" green="1" blue="1"/> <exp>60</exp>
+      </phong>
+"""
+            for name, (_, red, green, blue) in PAINTS.items()
+        ),
+        objects="    <spheres>\n"
+        + "".join(
+            f"""\
+      <sphere> <center x="{x}" y="0.85" z="0"/> <radius>0.85</radius> <material>{name}</material> </sphere>
+"""
+            for name, (x, *_) in PAINTS.items()
+        )
+        + "    </spheres>\n",
+    )
+
 # Integrator
 BOUNCES = dict(
     mattes="""\

@@ -17,6 +17,7 @@
 #include "raytrace/render/renderer.h"
 #include "raytrace/text/message.h"
 #include "signals.h"
+#include "view_arguments.h"
 
 namespace raytrace {
 
@@ -84,7 +85,10 @@ MergeOptions parsed(int argc, const char* const* argv) {
   if (settings.pieces.empty()) throw UsageError(no_pieces);
   if (settings.outputs.empty())
     throw UsageError("no output given; for example: raytrace merge tile.*.exr -o whole.exr");
-  if (settings.exposure) refuse_useless_exposure(settings.outputs, {});
+  refuse_two_views(settings.view);
+  ImageFileSettings image_settings;
+  image_settings.ocio = settings.view.ocio;
+  refuse_useless_view(settings.outputs, image_settings, settings.view);
   refuse_clashes(names, settings);
   return options;
 }
@@ -119,7 +123,7 @@ void define_merge_options(OptionParser& parser, MergeOptions& options) {
                         [&](const std::string& text) { settings.outputs.push_back(text); });
   parser.add("--bit-depth", "8|16", "Bits per channel in PNG, TIFF and other sRGB-encoded files (8)",
              settings.bit_depth, bit_depth, {"8", "16"});
-  parser.add("--exposure", exposure_value_name, exposure_help, settings.exposure, exposure);
+  define_view_options(parser, settings.view);
   parser.group("Work");
   parser.add("-t,--threads", "N", "Use N threads (all processors)", settings.threads, integer_between(1, most_threads));
   parser.group("Messages");

@@ -153,10 +153,9 @@ double scale(const std::string& text) {
 }
 
 double exposure(const std::string& text) {
-  constexpr double most = 64;  // beyond it, all that is not black is white
   const bool has_plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
   const std::optional<double> value = number<double>(std::string_view(text).substr(has_plus ? 1 : 0));
-  if (!value || !(std::abs(*value) <= most)) {
+  if (!value || !(std::abs(*value) <= largest_exposure)) {
     throw UsageError(in_quotes(text) +
                      " is not an exposure; use a number of stops from -64 to 64, e.g. 1 for twice the light, or -1.5");
   }

@@ -101,9 +101,6 @@ double scale(const std::string& text);
 
 /// A number of stops: "-1.5", "+2".
 double exposure(const std::string& text);
-inline constexpr const char* exposure_value_name = "EV";
-inline constexpr const char* exposure_help =
-    "Multiply the colour by 2^EV in PNG, JPEG and other sRGB-encoded files (0); EXR and floats stay as they are";
 
 /// "x0,y0,x1,y1", at least one pixel; it may reach beyond the picture.
 Region crop(const std::string& text);

@@ -14,6 +14,7 @@
 #include "raytrace/render/renderer.h"
 #include "raytrace/text/message.h"
 #include "raytrace/text/utf8.h"
+#include "view_arguments.h"
 
 namespace raytrace {
 
@@ -125,6 +126,7 @@ void define_options(OptionParser& parser, Options& options) {
              [stage](const std::string& text) { stage().z_is_up = one_of(text, {"y", "z"}) == "z"; });
   parser.add("--turntable", "N", "Render a full turn in N frames, or those of --frames",
              [stage](const std::string& text) { stage().turntable = integer(text, 1, 100'000); });
+  parser.add_switch("--floor", options.floor, "Stand the model on an endless grey floor");
   parser.add("--environment", "FILE|sky",
              "Light by a picture of all that is around (.exr, .hdr), or by a sky with its sun",
              [stage](const std::string& text) {
@@ -147,7 +149,7 @@ void define_options(OptionParser& parser, Options& options) {
   parser.add_switch("--transparent", options.transparent,
                     "Leave the background out of the colour; alpha is coverage: premultiplied in EXR, straight RGBA in "
                     "PNG and TIFF");
-  parser.add("--exposure", exposure_value_name, exposure_help, options.exposure, exposure);
+  define_view_options(parser, options.view);
   parser.add("--aov", "LIST",
              "What EXR files hold besides the colour, separated by commas: " + joined(aov_names(), ", ") +
                  "; light_NAME, what the lights of a group bring; or all",
@@ -240,10 +242,15 @@ Options parse_options(int argc, const char* const* argv) {
   define_options(parser, options);
   parser.parse(argc, argv);
   options.threads = thread_count(options.threads);
+  if (options.floor) {
+    if (!options.stage) options.stage.emplace();
+    options.stage->floor = true;
+  }
   if (options.stage && options.stage->turntable > 0 && options.frames.empty())
     options.frames = frame_numbers("1-" + std::to_string(options.stage->turntable));
   // Not by CLI11's excludes(): from version 2.4 on, a counting flag counts as given when it is not.
   if (options.quiet && options.verbose > 0) throw UsageError("--quiet excludes --verbose");
+  refuse_two_views(options.view);
   if (options.quiet && options.progress == ProgressStyle::automatic) options.progress = ProgressStyle::none;
   if (!options.help && !options.version && options.list.empty()) refuse_incomplete(options);
   options.shows_statistics = options.statistics == statistics_as_text;

@@ -21,6 +21,8 @@ struct Options : RenderJob {
   std::vector<int> frames;          ///< in increasing order; empty: not asked for
   std::optional<PixelIndex> pixel;  ///< to be printed instead of a picture
 
+  bool floor = false;  ///< ModelStage::floor
+
   int verbose = 0;  ///< how often asked
   bool quiet = false;
   ProgressStyle progress = ProgressStyle::automatic;

@@ -82,12 +82,20 @@ TEST_CASE("every option reaches its setting, in each of its spellings") {
     CHECK(options.resolution->height == 30);
   }
   CHECK(with({"--scale", "0.25"}).scale == 0.25);
-  CHECK_FALSE(with({}).exposure.has_value());
-  CHECK(with({"--exposure", "-1.5"}).exposure == -1.5);
-  CHECK(with({"--exposure=-1.5"}).exposure == -1.5);
-  CHECK(with({"--exposure", "-.5"}).exposure == -0.5);
-  CHECK(with({"--exposure", "+2"}).exposure == 2);
-  CHECK(with({"--exposure", "0"}).exposure == 0);
+  CHECK_FALSE(with({}).view.exposure.has_value());
+  CHECK(with({"--exposure", "-1.5"}).view.exposure == -1.5);
+  CHECK(with({"--exposure=-1.5"}).view.exposure == -1.5);
+  CHECK(with({"--exposure", "-.5"}).view.exposure == -0.5);
+  CHECK(with({"--exposure", "+2"}).view.exposure == 2);
+  CHECK(with({"--exposure", "0"}).view.exposure == 0);
+  CHECK_FALSE(with({}).view.transform.has_value());
+  CHECK(with({"--view-transform", "agx"}).view.transform == ViewTransform::agx);
+  CHECK(with({"--view-transform=khronos-neutral"}).view.transform == ViewTransform::khronos_neutral);
+  CHECK(with({"--view-transform=srgb"}).view.transform == ViewTransform::srgb);
+  CHECK_FALSE(with({}).view.auto_exposure);
+  CHECK(with({"--auto-exposure"}).view.auto_exposure);
+  CHECK(with({"--ocio", "a.ocio", "--ocio-display", "d", "--ocio-view", "v", "--ocio-colorspace", "c"}).view.ocio ==
+        OcioSettings{"a.ocio", "d", "v", "c"});
   CHECK(with({"--transparent"}).transparent);
   CHECK_FALSE(with({}).transparent);
   CHECK(with({"--crop", "1,2,3,4"}).crop == Region{1, 2, 3, 4});
@@ -277,6 +285,13 @@ TEST_CASE("what is no value of an option is refused with what would be one") {
   CHECK_REFUSED(with({"--bit-depth", "12"}), "neither 8 nor 16");
   for (const char* const text : {"", "bright", "1x", "nan", "inf", "-inf", "64.5", "-65", "+", "+-1", "--1", "1,5"})
     CHECK_REFUSED(with({"--exposure", text}), "is not an exposure");
+  CHECK_REFUSED(with({"--view-transform", "agxx"}), "did you mean 'agx'?");
+  CHECK_REFUSED(with({"--view-transform", "khronos"}), "is not one of srgb, agx, khronos-neutral");
+  CHECK_REFUSED(with({"--ocio", ""}), "the name is empty");
+  CHECK_REFUSED(with({"--ocio", "a.ocio", "--view-transform", "agx"}), "takes the place of a view transform");
+  CHECK_REFUSED(with({"--ocio-view", "v"}), "say which with --ocio");
+  CHECK_REFUSED(with({"--ocio-display", "v"}), "say which with --ocio");
+  CHECK_REFUSED(with({"--ocio-colorspace", "v"}), "say which with --ocio");
   CHECK_REFUSED(with({"--log-file="}), "--log-file");
   CHECK_REFUSED(with({"--progress", "plan"}), "did you mean 'plain'?");
   CHECK_REFUSED(with({"--isa", (isa_names().front() + "x").c_str()}), "did you mean '" + isa_names().front() + "'?");

@@ -275,7 +275,8 @@ class SkipExisting(CommandTest):
                 self.assertFalse(skipped(*change), change)
                 self.assertTrue(skipped(*change), change)
         for kept, change in (("a.exr", ["--float"]), ("a.exr", ["--aov", "depth"]), ("a.exr", ["--sample-offset", "0"]),
-                             ("a.png", ["--bit-depth", "16"]), ("a.png", ["--exposure", "-0.75"])):
+                             ("a.png", ["--bit-depth", "16"]), ("a.png", ["--exposure", "-0.75"]),
+                             ("a.png", ["--view-transform", "agx"]), ("a.png", ["--auto-exposure"])):
             outputs = ["-o", kept]
             skipped()
             self.assertTrue(skipped(), change)

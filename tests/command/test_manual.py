@@ -44,7 +44,8 @@ class Manual(CommandTest):
             "--time-limit", "--checkpoint", "--checkpoint-interval", "--resume", "--log-file", "--display-server",
             "--frames", "-D", "--define", "--skip-existing", "--aov", "--transparent", "--exposure",
             "--integrator", "--missing-texture", "--view", "--up",
-            "--turntable", "--environment", "--sun"})
+            "--turntable", "--floor", "--environment", "--sun", "--view-transform", "--auto-exposure",
+            "--ocio", "--ocio-display", "--ocio-view", "--ocio-colorspace"})
 
     def test_man_page_has_the_same_options(self):
         terms = re.findall(r"^\.TP\n\\fB(.*)\\fR$", self.man_page.replace(r"\-", "-"), re.M)

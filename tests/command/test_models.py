@@ -108,6 +108,25 @@ class Models(CommandTest):
 
         self.assertEqual(self.run_program("slab.ply", "--environment", "sky.exr", "-o", "sky.exr").returncode, 2)
 
+    def test_a_floor(self):
+        self.succeed("slab.ply", *OPTIONS, "--transparent", "-o", "model.exr")
+        self.succeed("slab.ply", *OPTIONS, "--transparent", "--floor", "--view", "30,15", "-o", "floor.exr")
+        model, floor = (Exr(self.read(name)).pixels() for name in ("model.exr", "floor.exr"))
+        # It hides nothing of the model, and is below all of it.
+        below = [place for place, pixel in floor.items() if pixel[3] == 1 and model[place][3] == 0]
+        self.assertGreater(len(below), 96 * 54 / 4)
+        self.assertTrue(all(floor[place][3] == 1 for place, pixel in model.items() if pixel[3] == 1))
+        self.assertEqual(floor[0, 53][3], 1)
+        # The model's shadow is on it.
+        brightness = sorted(floor[place][1] for place in below)
+        self.assertLess(brightness[len(brightness) // 100], brightness[len(brightness) // 2] / 1.5)
+        printed = self.succeed("slab.ply", *OPTIONS, "--floor", "--print-scene").stdout
+        self.assertIn('<point x="12" y="5" z="-0.75"/>', printed)
+        self.write("printed.xml", printed)
+        self.succeed("printed.xml", "-q", "--transparent", "-o", "printed.exr")
+        self.assertEqual(Exr(self.read("printed.exr")).pixels(), floor)
+        self.assertIn("--floor", self.fail_with(2, "printed.xml", "--floor", "-o", "a.exr"))
+
     def test_several_models_are_several_pictures(self):
         self.write("other.ply", PLY.replace("10.1 8", "10.1 12"))
         self.succeed("slab.ply", "other.ply", *OPTIONS, "-o", "{scene}.png")

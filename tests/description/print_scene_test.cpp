@@ -46,6 +46,9 @@ TEST_CASE("a scene is printed with every value spelled out") {
     <background red="0" green="0" blue="0"/>
     <filter>box</filter>
     <filterwidth>0</filterwidth>
+    <viewtransform>srgb</viewtransform>
+    <exposure>0</exposure>
+    <autoexposure>false</autoexposure>
   </viewplane>
   <camera>
     <eye x="0" y="0" z="9"/>

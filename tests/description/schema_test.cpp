@@ -180,8 +180,8 @@ TEST_CASE("the schema refuses most of the bad scenes, the program all", "[schema
       "box_inside_out",          "cone_without_length", "cone_without_width", "annulus_without_area",
       "include_missing"};
   // Nor that one element stands in place of another, or goes with some only.
-  expected.insert({"filter_too_wide", "fisheye_beyond_all", "fov_and_pixelsize", "fov_and_viewdistance", "fov_too_wide",
-                   "lens_of_two_blades", "missing_viewdistance"});
+  expected.insert({"exposure_too_low", "filter_too_wide", "fisheye_beyond_all", "fov_and_pixelsize",
+                   "fov_and_viewdistance", "fov_too_wide", "lens_of_two_blades", "missing_viewdistance"});
   // Nor what a material's numbers and colours are together.
   expected.insert({"conductor_of_two_colors", "conductor_of_two_edges", "conductor_too_rough",
                    "conductor_too_stretched", "conductor_without_color", "dielectric_that_shines",

@@ -9,6 +9,7 @@
 #include "raytrace/batch/output_files.h"
 #include "raytrace/batch/piece_layout.h"
 #include "raytrace/batch/provenance.h"
+#include "raytrace/output/auto_exposure.h"
 #include "raytrace/output/image_band.h"
 #include "raytrace/text/message.h"
 
@@ -185,17 +186,25 @@ class Merger {
     image_settings.bit_depth = settings_.bit_depth;
     image_settings.threads = settings_.threads;
     image_settings.transparent = identity.film.transparent;
-    image_settings.exposure = settings_.exposure.value_or(0);
-    refuse_useless_exposure(image_settings);
-    std::vector<std::unique_ptr<ImageFile>> files;
-    for (const std::string& file : settings_.outputs)
-      files.push_back(std::make_unique<ImageFile>(file, identity.film.extent, channels_, metadata_, image_settings));
+    image_settings.ocio = settings_.view.ocio;
+    refuse_useless_options(image_settings);
     const Region& whole = first.whole;
     std::size_t most_sums = 0;
     for (const Piece& piece : pieces_) most_sums = std::max(most_sums, piece.sums.size());
     // Each light path reaches any row, and how many there are says what each counts.
     const int rows =
         identity.film.light_paths_of ? whole.height() : band_rows(whole.width(), channels_.size() + most_sums);
+    if (any_for_display(settings_.outputs, image_settings)) {
+      refuse_other_views();
+      const ViewSettings view = view_of(pieces_.front());
+      set_view(image_settings, view, view.auto_exposure ? exposure_of(whole, rows) : 0);
+    }
+    if (agree_in_view())
+      for (ImageAttribute& attribute : wished_view(settings_.view.over(first.view)))
+        metadata_.data_attributes.push_back(std::move(attribute));
+    std::vector<std::unique_ptr<ImageFile>> files;
+    for (const std::string& file : settings_.outputs)
+      files.push_back(std::make_unique<ImageFile>(file, identity.film.extent, channels_, metadata_, image_settings));
     for (Region band = whole; band.y0 < whole.y1; band.y0 = band.y1) {
       heed_stop();
       band.y1 = std::min(band.y0 + rows, whole.y1);
@@ -211,10 +220,45 @@ class Merger {
     }
   }
 
-  void refuse_useless_exposure(const ImageFileSettings& image_settings) const {
-    const auto uses_it = [&](const std::string& file) { return image_format(file, image_settings).for_display; };
-    if (settings_.exposure && std::none_of(settings_.outputs.begin(), settings_.outputs.end(), uses_it))
-      refuse({"--exposure: all outputs hold linear colour, which it does not change, for the pieces hold floats"});
+  void refuse_useless_options(const ImageFileSettings& image_settings) const {
+    const std::string option = settings_.view.first_given();
+    if (!option.empty() && !any_for_display(settings_.outputs, image_settings))
+      refuse({option + ": all outputs hold linear colour, which it does not change, for the pieces hold floats"});
+  }
+
+  /// The options', else the piece's.
+  ViewSettings view_of(const Piece& piece) const {
+    ViewSettings view = settings_.view.over(piece.identity.view);
+    if (!settings_.view.ocio.empty()) view.transform = ViewTransform::srgb;  // whatever it was
+    return view;
+  }
+
+  bool agree_in_view() const {
+    return std::all_of(pieces_.begin(), pieces_.end(),
+                       [&](const Piece& piece) { return view_of(piece) == view_of(pieces_.front()); });
+  }
+
+  void refuse_other_views() const {
+    for (const Piece& piece : pieces_) {
+      const ViewSettings view = view_of(pieces_.front()), other = view_of(piece);
+      if (other == view) continue;
+      const char* const option = other.transform != view.transform ? "--view-transform"
+                                 : other.exposure != view.exposure ? "--exposure"
+                                                                   : "--auto-exposure";
+      refuse({piece.file + " is to be shown in another way than " + pieces_.front().file + ": say how with " + option});
+    }
+  }
+
+  /// That the merged picture asks for itself, which takes another reading of all pieces.
+  double exposure_of(const Region& whole, int rows) {
+    AutoExposure exposure;
+    for (Region band = whole; band.y0 < whole.y1; band.y0 = band.y1) {
+      heed_stop();
+      band.y1 = std::min(band.y0 + rows, whole.y1);
+      exposure.add(merged_band(band));
+    }
+    refuse_problems();
+    return exposure.stops();
   }
 
   ImageBand merged_band(const Region& region) {

@@ -18,7 +18,7 @@ struct MergeSettings {
   bool partial = false;  ///< what is missing has fewer samples, or is filled with checks of alpha 0; with nothing in a
                          ///< transparent picture
   int bit_depth = 8;
-  std::optional<double> exposure;  ///< ImageFileSettings::exposure; some output must be for display. None: 0
+  ViewOptions view;  ///< in place of the pieces' own; some output must be for display
   int threads = 0;
 };
 

@@ -125,6 +125,22 @@ void add_lamps(SceneDescription& description, const Directions& to, const Extent
   }
 }
 
+/// Of matte grey, at the lowest vertex.
+void add_floor(SceneDescription& description) {
+  Extent extent;
+  for_each_vertex(description, [&](const Vec3d& p) { extent.add(p); });
+  Matte::Parameters paint;
+  paint.kd = 1;
+  paint.cd = {0.5, 0.5, 0.5};
+  auto& materials = std::get<MaterialItems<Matte>>(description.materials);
+  const MaterialReference material{static_cast<std::uint32_t>(index_of<Matte>(Materials{})),
+                                   static_cast<std::uint32_t>(materials.size())};
+  materials.push_back({paint, "floor"});
+  const Vec3d middle = extent.middle();
+  std::get<ObjectItems<Plane>>(description.objects)
+      .push_back({{{middle.x, extent.lower.y, middle.z}, {0, 1, 0}}, "floor", material});
+}
+
 void add_even_sky(SceneDescription& description) {
   LightItem<EnvironmentLight> sky;
   sky.parameters.color = {0.28, 0.284, 0.292};
@@ -190,6 +206,7 @@ std::optional<SceneDescription> load_model(const std::string& file, const ModelS
   description.viewplane.hres = width;
   description.viewplane.vres = height;
   description.viewplane.samples = 128;
+  description.viewplane.viewtransform = ViewTransform::khronos_neutral;
   description.integrator = Path::Parameters{};
   ObjectItem<Mesh> mesh;
   mesh.parameters.file.path = file;
@@ -209,6 +226,7 @@ std::optional<SceneDescription> load_model(const std::string& file, const ModelS
   } else {
     show([&](const auto& f) { for_each_vertex(description, f); });
   }
+  if (stage.floor) add_floor(description);
   if (stage.environment.empty() && !stage.sun) {
     add_lamps(description, to, extent);
     add_even_sky(description);

@@ -16,6 +16,7 @@ struct ModelStage {
   double azimuth = 30, elevation = 15;  ///< where it is looked at from; all of it is in view
   bool z_is_up = false;                 ///< in the model's file; else y is, as glTF has it
   int turntable = 0;                    ///< so many frames are a full turn; 0: it stands still
+  bool floor = false;                   ///< an endless one, which the model stands on
 
   // In place of the studio.
   std::string environment;                   ///< "sky", or the file of a picture; empty: none
@@ -26,8 +27,9 @@ struct ModelStage {
 bool is_model(const std::string& file);
 
 /// The model in a studio, a large soft lamp from the left, a strip behind on the right, and an even dim sky, or in the
-/// stage's own light; width x height pixels, 128 samples. On a turntable, the studio stays before the camera. frame:
-/// from 1 on. None if it cannot be read, which the diagnostics say. threads: as load_scene()'s.
+/// stage's own light; width x height pixels, 128 samples, shown through the Khronos PBR Neutral Tone Mapper. On a
+/// turntable, the studio stays before the camera. frame: from 1 on. None if it cannot be read, which the diagnostics
+/// say. threads: as load_scene()'s.
 std::optional<SceneDescription> load_model(const std::string& file, const ModelStage& stage, int frame, int width,
                                            int height, Diagnostics& diagnostics, int threads,
                                            MissingTexture missing_texture);

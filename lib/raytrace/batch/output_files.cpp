@@ -10,6 +10,7 @@
 #include "raytrace/output/atomic_file.h"
 #include "raytrace/output/complete_picture.h"
 #include "raytrace/output/image_band.h"
+#include "raytrace/output/pixel_format.h"
 #include "raytrace/text/message.h"
 
 namespace raytrace {
@@ -26,7 +27,9 @@ void check_output_settings(const RenderJob& job) {
     throw SettingsError("--float: none of the outputs can hold floats; .exr and .tif can");
   if (job.transparent && none(&ImageFormat::alpha))
     throw SettingsError("--transparent: none of the outputs can hold alpha; .exr, .png and .tif can");
-  if (job.exposure) refuse_useless_exposure(files, settings);
+  ViewOptions view = job.view;
+  if (job.tile || job.crop || job.sample_offset) view = {{}, {}, false, job.view.ocio};  // pieces tell those who merge
+  refuse_useless_view(files, settings, view);
   if (!job.aovs.empty() && none(&ImageFormat::data))
     throw SettingsError("--aov: none of the outputs can hold more than colour; .exr can");
   if (!job.checkpoint.empty() && !job.resume && std::filesystem::exists(job.checkpoint))
@@ -41,12 +44,38 @@ void check_outputs(const RenderJob& job) {
   }
 }
 
-void refuse_useless_exposure(const std::vector<std::string>& files, const ImageFileSettings& settings) {
-  const auto uses_it = [&](const std::string& file) { return image_format(file, settings).for_display; };
-  if (std::none_of(files.begin(), files.end(), uses_it))
-    throw SettingsError(
-        "--exposure: all outputs hold linear colour, which it does not change; .png, .jpg and .tif (without "
-        "--float) are sRGB-encoded");
+bool any_for_display(const std::vector<std::string>& files, const ImageFileSettings& settings) {
+  return std::any_of(files.begin(), files.end(),
+                     [&](const std::string& file) { return image_format(file, settings).for_display; });
+}
+
+void refuse_useless_view(const std::vector<std::string>& files, const ImageFileSettings& settings,
+                         const ViewOptions& view) {
+  const std::string option = view.first_given();
+  if (!option.empty() && !any_for_display(files, settings))
+    throw SettingsError(option +
+                        ": all outputs hold linear colour, which it does not change; .png, .jpg and .tif (without "
+                        "--float) are sRGB-encoded");
+}
+
+void refuse_useless_tile(const RenderJob& job, const ViewPlane& viewplane, bool light_paths_of_others) {
+  for (const std::string& file : job.outputs) {
+    const ImageFormat format = image_format(file, job.image_file_settings());
+    if (light_paths_of_others && !format.data)
+      throw SettingsError("--tile: " + file +
+                          ": the scene's light paths (<caustics>) reach all tiles; write EXR files and merge them");
+    if (job.tile && viewplane.autoexposure && format.for_display)
+      throw SettingsError("--tile: " + file +
+                          ": the whole picture's brightness says how it is exposed; write EXR files and merge them");
+  }
+}
+
+void set_view(ImageFileSettings& settings, const ViewSettings& view, double found) {
+  settings.view_transform = view.transform;
+  settings.exposure = view.exposure;
+  if (!view.auto_exposure) return;
+  settings.auto_exposure = view.exposure;
+  settings.exposure += found;
 }
 
 bool may_be_skipped(const RenderJob& job) {
@@ -71,7 +100,14 @@ bool outputs_are_complete(const RenderJob& job, const SceneDescription& descript
   if (job.sample_offset)
     for (Channel& channel : sum_channels()) wanted.channels.push_back(std::move(channel));
   wanted.bit_depth = job.bit_depth;
-  wanted.exposure = job.exposure.value_or(0);
+  const ViewSettings view = view_settings(description.viewplane);
+  ImageFileSettings settings = job.image_file_settings();
+  set_view(settings, view, 0);
+  for (const char* const keyword : {view_transform_keyword, ocio_keyword, exposure_keyword, auto_exposure_keyword})
+    wanted.view[keyword];
+  for (const ImageAttribute& attribute : view_attributes(settings))
+    wanted.view[attribute.name] = std::get<std::string>(attribute.value);
+  if (view.auto_exposure) wanted.view.erase(exposure_keyword);  // which only the picture knows
   wanted.attributes = picture_attributes(identity, job.time_limit.has_value());
   return std::all_of(job.outputs.begin(), job.outputs.end(),
                      [&](const std::string& file) { return is_complete_picture(file, wanted); });
@@ -100,17 +136,16 @@ bool OutputFiles::succeeds(const Action& action) const {
   }
 }
 
-OutputFiles::OutputFiles(const RenderJob& job, const std::vector<std::string>& files, const PictureExtent& extent,
-                         const ImageMetadata& metadata, std::vector<Channel> sums, RenderObserver& observer)
+OutputFiles::OutputFiles(const RenderJob& job, const std::vector<std::string>& files, const ImageFileSettings& settings,
+                         const PictureExtent& extent, const ImageMetadata& metadata, std::vector<Channel> sums,
+                         RenderObserver& observer)
     : job_(job), observer_(observer), sums_(std::move(sums)), channels_(color_channels(job.full_float)) {
   const std::vector<Channel> aovs = aov_channels(job.aovs);
   channels_.insert(channels_.end(), aovs.begin(), aovs.end());
   channels_.insert(channels_.end(), sums_.begin(), sums_.end());
   for (const std::string& name : files) {
-    succeeds([&] {
-      files_.push_back(
-          {name, std::make_unique<ImageFile>(name, extent, channels_, metadata, job.image_file_settings())});
-    });
+    succeeds(
+        [&] { files_.push_back({name, std::make_unique<ImageFile>(name, extent, channels_, metadata, settings)}); });
   }
 }
 

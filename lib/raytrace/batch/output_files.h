@@ -19,8 +19,19 @@ void check_outputs(const RenderJob& job);
 /// The part of it that opens no file.
 void check_output_settings(const RenderJob& job);
 
-/// Throws SettingsError if the exposure matters to none of the files.
-void refuse_useless_exposure(const std::vector<std::string>& files, const ImageFileSettings& settings);
+/// Throws SettingsError if options for the view are given and matter to none of the files.
+void refuse_useless_view(const std::vector<std::string>& files, const ImageFileSettings& settings,
+                         const ViewOptions& view);
+
+/// Throws SettingsError for files of a tile that cannot be put together, where that needs the whole picture: light
+/// paths of other tiles reach this one; or the picture is to be exposed by itself.
+void refuse_useless_tile(const RenderJob& job, const ViewPlane& viewplane, bool light_paths_of_others);
+
+/// Whether any is for display.
+bool any_for_display(const std::vector<std::string>& files, const ImageFileSettings& settings);
+
+/// Sets the exposure and the view transform. found: the exposure that the picture itself asks for, where it is wanted.
+void set_view(ImageFileSettings& settings, const ViewSettings& view, double found);
 
 /// Whether all outputs are there and may be left as they are (RenderJob::skip_existing). A checkpoint that is still
 /// there says that they are not complete, whatever their formats can.
@@ -35,9 +46,11 @@ std::vector<std::string> warnings_of(const Repairs& repairs, const std::string& 
 /// Writes the outputs of a job. One that fails is reported, and the others go on.
 class OutputFiles {
  public:
-  /// files: those of job.outputs to write. sums: the sum_channels() that EXR files keep, too; empty if none.
-  OutputFiles(const RenderJob& job, const std::vector<std::string>& files, const PictureExtent& extent,
-              const ImageMetadata& metadata, std::vector<Channel> sums, RenderObserver& observer);
+  /// files: those of job.outputs to write. settings: the job's, with the picture's view. sums: the sum_channels() that
+  /// EXR files keep, too; empty if none.
+  OutputFiles(const RenderJob& job, const std::vector<std::string>& files, const ImageFileSettings& settings,
+              const PictureExtent& extent, const ImageMetadata& metadata, std::vector<Channel> sums,
+              RenderObserver& observer);
 
   /// film: whole rows of the extent's region, the next below those written before. False if no file is left.
   bool write(const Film& film);

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <limits>
 #include <sstream>
 
 #include "raytrace/aovs/aov_selection.h"
 #include "raytrace/description/scene_description.h"
 #include "raytrace/film/samples_done.h"
+#include "raytrace/output/pixel_format.h"
 #include "raytrace/text/message.h"
 
 namespace raytrace {
@@ -121,6 +123,27 @@ std::string other(const std::string& what, const std::string& got, const std::st
   return what + " (" + got + ", not " + wanted + ")";
 }
 
+ViewSettings read_view(const ExrReader& piece) {
+  ViewSettings view;
+  if (const auto name = piece.attribute<std::string>(view_transform_keyword)) {
+    constexpr const auto& words = Choices<ViewTransform>::words;
+    const auto* const found = std::find(words.begin(), words.end(), *name);
+    if (found == words.end()) refuse(piece, view_transform_keyword, *name);
+    view.transform = static_cast<ViewTransform>(found - words.begin());
+  }
+  if (const auto text = piece.attribute<std::string>(exposure_keyword)) {
+    const char* const end = text->data() + text->size();
+    const auto [stop, error] = std::from_chars(text->data(), end, view.exposure);
+    if (error != std::errc() || stop != end || !(std::abs(view.exposure) <= largest_exposure))
+      refuse(piece, exposure_keyword, *text);
+  }
+  if (const auto text = piece.attribute<std::string>(auto_exposure_keyword)) {
+    if (*text != "1") refuse(piece, auto_exposure_keyword, *text);
+    view.auto_exposure = true;
+  }
+  return view;
+}
+
 std::vector<std::string> split(const std::string& text) {
   std::vector<std::string> parts;
   std::istringstream stream(text);
@@ -168,6 +191,14 @@ std::string variables_text(const std::map<std::string, std::string>& variables) 
     }
   }
   return text;
+}
+
+std::vector<ImageAttribute> wished_view(const ViewSettings& view) {
+  std::vector<ImageAttribute> attributes;
+  if (view.transform != ViewTransform::srgb) attributes.push_back({view_transform_keyword, name_of(view.transform)});
+  if (view.exposure != 0) attributes.push_back({exposure_keyword, exposure_text(view.exposure)});
+  if (view.auto_exposure) attributes.push_back({auto_exposure_keyword, "1"});
+  return attributes;
 }
 
 std::string software_name() { return "raytrace " RAYTRACE_VERSION; }
@@ -241,6 +272,7 @@ PieceIdentity identity_of(const ExrReader& piece) {
   film.transparent = flag(piece, transparent_name, piece.attribute<int>(transparent_name).value_or(0));
   identity.partial = flag(piece, partial_name, piece.attribute<int>(partial_name).value_or(0));
   identity.frame = piece.attribute<int>(frame_name);
+  identity.view = read_view(piece);
   identity.variables = piece.attribute<std::string>(variables_name).value_or("");
   return identity;
 }

@@ -10,6 +10,7 @@
 #include "raytrace/film/tiles.h"
 #include "raytrace/output/exr_reader.h"
 #include "raytrace/output/image_file.h"
+#include "raytrace/output/view_options.h"
 #include "raytrace/render/renderer.h"
 
 namespace raytrace {
@@ -41,9 +42,13 @@ struct PieceIdentity {
   bool partial = false;      ///< stopped before all its samples were taken; pixels may have different numbers of them
   std::optional<int> frame = std::nullopt;  ///< none: not one of several
   std::string variables{};                  ///< variables_text()
+  ViewSettings view{};                      ///< for the files for display that it becomes a part of
 };
 
-/// All of it that ImageMetadata has no member for.
+/// What a file of linear colour says of how it is to be shown: nothing where all is the default.
+std::vector<ImageAttribute> wished_view(const ViewSettings& view);
+
+/// All of it that ImageMetadata has no member for, but for the view.
 std::vector<ImageAttribute> identity_attributes(const PieceIdentity& identity);
 
 /// Of a picture whose render has not ended: marked as partial, with the fewest and the most samples that its pixels
@@ -63,7 +68,7 @@ void refuse_other_channels(const ExrReader& piece, const std::vector<Channel>& w
 
 /// What must not differ between pictures of which one continues or completes another, and does: "the scene",
 /// "the instruction set (x86-64-v3, not x86-64-v4): pin one with --isa"; none if all is the same. Regions and sample
-/// ranges may differ; so may frames and variables, where they make the same scene.
+/// ranges may differ; so may views, and frames and variables, where they make the same scene.
 std::optional<std::string> difference(const PieceIdentity& wanted, const PieceIdentity& got);
 
 }  // namespace raytrace

@@ -19,9 +19,19 @@ std::vector<std::string> RenderJob::files() const {
   return files;
 }
 
+ImageFileSettings RenderJob::image_file_settings() const {
+  ImageFileSettings settings;
+  settings.full_float = full_float;
+  settings.bit_depth = bit_depth;
+  settings.threads = threads;
+  settings.transparent = transparent;
+  settings.ocio = view.ocio;
+  return settings;
+}
+
 namespace {
 
-/// The scene's view plane with the job's resolution, scale and samples.
+/// The scene's view plane with the job's resolution, scale, samples and view.
 ViewPlane requested_view_plane(const ViewPlane& viewplane, const RenderJob& job) {
   const Resolution unscaled = job.resolution.value_or(Resolution{viewplane.hres, viewplane.vres});
   const double width = std::max(1.0, std::round(unscaled.width * job.scale));
@@ -34,6 +44,10 @@ ViewPlane requested_view_plane(const ViewPlane& viewplane, const RenderJob& job)
   ViewPlane requested = viewplane;
   if (width != viewplane.hres || height != viewplane.vres)
     requested = with_resolution(viewplane, static_cast<int>(width), static_cast<int>(height));
+  const ViewSettings view = job.view.over(view_settings(viewplane));
+  requested.viewtransform = view.transform;
+  requested.exposure = view.exposure;
+  requested.autoexposure = view.auto_exposure;
   requested.samples = job.samples.value_or(viewplane.samples);
   if (std::int64_t{job.sample_offset.value_or(0)} + requested.samples > std::numeric_limits<int>::max())
     throw SettingsError("--sample-offset: a picture has at most 2147483647 samples per pixel");
@@ -120,8 +134,8 @@ std::optional<SceneDescription> load_picture(const RenderJob& job, RenderObserve
       if (description) refuse_to_overwrite(*description, job);
     } else {
       if (job.stage)
-        throw SettingsError("--view, --up, --turntable, --environment and --sun are for models: " + job.scene_name() +
-                            " has a camera and lights");
+        throw SettingsError("--view, --up, --turntable, --floor, --environment and --sun are for models: " +
+                            job.scene_name() + " has a camera and lights");
       description = load_scene(job.scene, diagnostics, job.threads, {job.frame, job.variables, job.missing_texture});
     }
     if (description && !is_model(job.scene)) {

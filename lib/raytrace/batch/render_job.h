@@ -48,8 +48,8 @@ struct RenderJob {
   bool skip_existing = false;        ///< render nothing if all outputs are there, and complete
   bool full_float = false;
   int bit_depth = 8;
-  std::optional<double> exposure;  ///< in stops; none: not asked for
-  std::string statistics;          ///< JSON file; empty: none
+  ViewOptions view;        ///< of files for display
+  std::string statistics;  ///< JSON file; empty: none
 
   std::string checkpoint;            ///< file; empty: none
   double checkpoint_interval = 60;   ///< seconds
@@ -64,13 +64,12 @@ struct RenderJob {
   std::string scene_name() const { return scene == "-" ? "<stdin>" : scene; }
   /// All that the render writes.
   std::vector<std::string> files() const;
-  ImageFileSettings image_file_settings() const {
-    return {full_float, bit_depth, true, threads, transparent, exposure.value_or(0)};
-  }
+  /// But for the picture's exposure and view transform, which its scene may say.
+  ImageFileSettings image_file_settings() const;
 };
 
-/// Gives the scene the job's resolution, scale, samples and integrator. Throws SettingsError if the picture gets too
-/// large, or there is no such integrator.
+/// Gives the scene the job's resolution, scale, samples, view and integrator. Throws SettingsError if the picture gets
+/// too large, or there is no such integrator.
 void apply_job(const RenderJob& job, SceneDescription& description);
 
 /// Which of each pixel's samples: a sample offset makes them a part of the picture's.

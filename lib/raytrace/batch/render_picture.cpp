@@ -19,6 +19,7 @@
 #include "raytrace/film/aov_film.h"
 #include "raytrace/film/samples_done.h"
 #include "raytrace/output/atomic_file.h"
+#include "raytrace/output/auto_exposure.h"
 #include "raytrace/output/complete_picture.h"
 #include "raytrace/output/image_band.h"
 #include "raytrace/render/renderer.h"
@@ -74,14 +75,15 @@ class PictureRender {
 
     observer_.on_stage(RenderStage::render);
     begin_film();
-    refuse_useless_parts();
+    const bool others_reach_it = identity_.film.rendered() != identity_.film.extent.region;
+    refuse_useless_tile(job_, description_->viewplane, others_reach_it);
     const AovSettings aovs = aov_settings(job_.aovs);
     const int rows = rows_at_once(settings_.region, sizeof(PixelSum) + AovFilm::pixel_bytes(aovs));
     // What goes on later, or may end at any sample, needs the whole film; so does the number of channels that a piece's
     // AOVs need.
     const bool whole_film = !job_.checkpoint.empty() || job_.time_limit || (job_.sample_offset && aovs.gather()) ||
                             scene_->traces_light_paths() ||  // which reach any row
-                            !job_.aovs.light_groups().empty();
+                            !job_.aovs.light_groups().empty() || is_exposed_by_itself();
     in_bands_ = !whole_film && rows < settings_.region.height();
     const RenderOutcome outcome = in_bands_ ? render_in_bands(rows) : render_at_once();
     report_invalid_samples();
@@ -146,15 +148,6 @@ class PictureRender {
     }
   }
 
-  /// Parts that light paths of others belong to, in files that cannot be put together.
-  void refuse_useless_parts() const {
-    if (identity_.film.rendered() == identity_.film.extent.region) return;
-    for (const std::string& file : job_.outputs)
-      if (!image_format(file, job_.image_file_settings()).data)
-        throw SettingsError("--tile: " + file +
-                            ": the scene's light paths (<caustics>) reach all tiles; write EXR files and merge them");
-  }
-
   /// Means where nobody asks for more: neither for samples to come after a while, nor for pieces to be put together, be
   /// they stopped or not.
   FilmContent film_content() const {
@@ -204,7 +197,7 @@ class PictureRender {
   RenderOutcome render_in_bands(int band_rows) {
     const Region region = settings_.region;
     Phases& phases = result_.statistics.phases;
-    OutputFiles outputs(job_, job_.outputs, identity_.film.extent, metadata(),
+    OutputFiles outputs(job_, job_.outputs, file_settings(0), identity_.film.extent, metadata(),
                         job_.sample_offset ? all_sum_channels() : std::vector<Channel>(), observer_);
     for (Region band = region; band.y0 < region.y1; band.y0 = band.y1) {
       band.y1 = std::min(band.y0 + band_rows, region.y1);
@@ -326,11 +319,27 @@ class PictureRender {
     }
     const bool is_part = film.settings().rendered() != film.region();  // without what others' light paths bring
     const bool keeps_sums = film.content() == FilmContent::sums && (partial || job_.sample_offset || is_part);
-    OutputFiles outputs(job_, files, film.settings().extent, its_metadata,
+    const ImageFileSettings settings = file_settings(is_exposed_by_itself() ? automatic_exposure(film) : 0);
+    OutputFiles outputs(job_, files, settings, film.settings().extent, its_metadata,
                         keeps_sums ? sum_channels(film) : std::vector<Channel>(), observer_);
     if (!outputs.write(film)) return false;
     result_.statistics.outputs = outputs.commit();
     return result_.statistics.outputs.size() == files.size();
+  }
+
+  /// Whether an output needs all of the picture before its first row can be written.
+  bool is_exposed_by_itself() const {
+    return description_->viewplane.autoexposure && any_for_display(job_.outputs, job_.image_file_settings());
+  }
+
+  /// exposure: that the picture itself asks for.
+  ImageFileSettings file_settings(double exposure) {
+    ImageFileSettings settings = job_.image_file_settings();
+    set_view(settings, view_settings(description_->viewplane), exposure);
+    if (!any_for_display(job_.outputs, settings)) return settings;
+    result_.statistics.view_transform = settings.ocio.empty() ? name_of(settings.view_transform) : "ocio";
+    result_.statistics.exposure = settings.exposure;
+    return settings;
   }
 
   ImageMetadata metadata() const {
@@ -344,18 +353,13 @@ class PictureRender {
     metadata.camera = camera_matrices(*description_);
     metadata.attributes = identity_attributes(identity_);
     metadata.data_attributes = aov_attributes(job_.aovs, *description_);
+    for (ImageAttribute& attribute : wished_view(view_settings(description_->viewplane)))
+      metadata.data_attributes.push_back(std::move(attribute));
     return metadata;
   }
 
   void report_invalid_samples() const {
-    if (invalid_samples_.count == 0) return;
-    std::string text = counted(invalid_samples_.count, "sample") + " without a finite radiance, counted as black:";
-    for (const SampleId& id : invalid_samples_.listed)
-      text += " sample " + std::to_string(id.sample) + " of pixel " + std::to_string(id.x) + "," +
-              std::to_string(id.y) + ";";
-    const SampleId& first = invalid_samples_.listed.front();
-    report(MessageLevel::warning,
-           text + " to see it again: --pixel " + std::to_string(first.x) + "," + std::to_string(first.y));
+    if (invalid_samples_.count > 0) report(MessageLevel::warning, invalid_samples_text(invalid_samples_));
   }
 
   /// Completes the statistics, and writes them to their file.

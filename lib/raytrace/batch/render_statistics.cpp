@@ -39,6 +39,15 @@ double RenderStatistics::rays_per_second() const {
   return phases.render.seconds > 0 ? static_cast<double>(total_rays()) / phases.render.seconds : 0;
 }
 
+std::string invalid_samples_text(const InvalidSamples& invalid) {
+  std::string text = counted(invalid.count, "sample") + " without a finite radiance, counted as black:";
+  for (const SampleId& id : invalid.listed)
+    text +=
+        " sample " + std::to_string(id.sample) + " of pixel " + std::to_string(id.x) + "," + std::to_string(id.y) + ";";
+  const SampleId& first = invalid.listed.front();
+  return text + " to see it again: --pixel " + std::to_string(first.x) + "," + std::to_string(first.y);
+}
+
 std::uint64_t peak_memory_bytes() {
   // Linux counts pages in batches, thread by thread, so that its peak may be a few pages less than it was before.
   static std::uint64_t highest = 0;
@@ -55,13 +64,16 @@ std::string statistics_text(const RenderStatistics& s) {
   const std::string picture = std::to_string(s.width) + " x " + std::to_string(s.height) + ", " +
                               counted(static_cast<std::uint64_t>(s.samples), "sample") + " per pixel";
   const std::string crop = s.region == Region{0, 0, s.width, s.height} ? "" : ", crop " + text_of(s.region);
+  std::string view;
+  if (s.view_transform != "srgb" || s.exposure != 0)
+    view = aligned_line("view", s.view_transform + formatted(", exposure %g", s.exposure));
   std::string seconds, peaks;
   for (const auto& [name, phase] : s.phases.named()) {
     seconds += aligned_line(name, seconds_text(phase.seconds));
     const std::string peak = amount_text(phase.peak_memory_bytes, "B");
     peaks += (peaks.empty() ? " (" : ", ") + std::string(name) + " " + peak.substr(peak.find_first_not_of(' '));
   }
-  return aligned_line("scene", on_one_line(s.scene_file)) + aligned_line("picture", picture + crop) + seconds +
+  return aligned_line("scene", on_one_line(s.scene_file)) + aligned_line("picture", picture + crop) + view + seconds +
          aligned_line("total", seconds_text(s.phases.seconds())) +
          aligned_line("camera rays", amount_text(s.rays.camera, "")) +
          aligned_line("shadow rays", amount_text(s.rays.shadow, "")) +
@@ -92,7 +104,9 @@ std::string statistics_json(const RenderStatistics& s) {
         {"height", s.height},
         {"region", {s.region.x0, s.region.y0, s.region.x1, s.region.y1}},
         {"samples", s.samples},
-        {"seed", s.seed}}},
+        {"seed", s.seed},
+        {"view_transform", s.view_transform},
+        {"exposure", s.exposure}}},
       {"seconds", seconds},
       {"rays",
        {{"camera", s.rays.camera},

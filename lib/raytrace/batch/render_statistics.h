@@ -39,6 +39,8 @@ struct RenderStatistics {
   Region region;              ///< rendered
   int samples = 0;            ///< per pixel
   std::uint64_t seed = 0;
+  std::string view_transform = "srgb";  ///< of files for display; "ocio" with OpenColorIO
+  double exposure = 0;                  ///< the same: in stops, with what the picture itself asked for
   int threads = 0;
   Phases phases;
   RayCounts rays;
@@ -48,6 +50,9 @@ struct RenderStatistics {
   std::uint64_t total_rays() const { return rays.camera + rays.shadow + rays.indirect; }
   double rays_per_second() const;
 };
+
+/// "2 samples without a finite radiance...": which they were, and how to see them again.
+std::string invalid_samples_text(const InvalidSamples& invalid);
 
 /// The most memory that this process has held so far.
 std::uint64_t peak_memory_bytes();

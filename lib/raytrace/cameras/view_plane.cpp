@@ -1,6 +1,7 @@
 #include "raytrace/cameras/view_plane.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "raytrace/film/region.h"
 
@@ -13,12 +14,17 @@ Fields ViewPlane::fields() {
           optional("samples", &ViewPlane::samples, Range::positive),
           optional("background", &ViewPlane::background),
           optional("filter", &ViewPlane::filter),
-          optional("filterwidth", &ViewPlane::filterwidth, Range::not_negative)};
+          optional("filterwidth", &ViewPlane::filterwidth, Range::not_negative),
+          optional("viewtransform", &ViewPlane::viewtransform),
+          optional("exposure", &ViewPlane::exposure),
+          optional("autoexposure", &ViewPlane::autoexposure)};
 }
 
 std::optional<ParameterDiagnostic> ViewPlane::check(const ViewPlane& viewplane) {
   if (viewplane.filterwidth > 100)
     return ParameterDiagnostic{ParameterDiagnostic::Effect::error, "a <filterwidth> is at most 100 pixels"};
+  if (std::abs(viewplane.exposure) > largest_exposure)
+    return ParameterDiagnostic{ParameterDiagnostic::Effect::error, "an <exposure> is from -64 to 64 stops"};
   if (is_allowed_size(viewplane.hres, viewplane.vres)) return std::nullopt;
   return ParameterDiagnostic{
       ParameterDiagnostic::Effect::error,

@@ -4,6 +4,7 @@
 //     <hres>400</hres> <vres>400</vres> <pixelsize>1</pixelsize> <samples>16</samples>
 //     <background red="0" green="0" blue="0"/>
 //     <filter>gaussian</filter> <filterwidth>3</filterwidth>
+//     <viewtransform>agx</viewtransform> <exposure>-0.5</exposure> <autoexposure>true</autoexposure>
 //   </viewplane>
 #pragma once
 
@@ -22,6 +23,17 @@ struct Choices<PixelFilter> {
   static constexpr std::array<std::string_view, 4> words = {"box", "triangle", "gaussian", "blackmanharris"};
 };
 
+/// How files for display show linear colour. (output/view_transform.h)
+enum class ViewTransform { srgb, agx, khronos_neutral };
+
+template <>
+struct Choices<ViewTransform> {
+  static constexpr std::array<std::string_view, 3> words = {"srgb", "agx", "khronos-neutral"};
+};
+
+/// In stops, to either side: beyond it, all that is not black is white.
+inline constexpr double largest_exposure = 64;
+
 struct ViewPlane {
   int hres = 0;                     ///< pixels across
   int vres = 0;                     ///< pixels down
@@ -30,6 +42,11 @@ struct ViewPlane {
   Rgb<double> background{0, 0, 0};  ///< radiance where nothing is hit
   PixelFilter filter = PixelFilter::box;
   double filterwidth = 0;  ///< from edge to edge, in pixels; 0: the filter's own (filter_width())
+
+  // Of files for display alone: no radiance depends on them.
+  ViewTransform viewtransform = ViewTransform::srgb;
+  double exposure = 0;        ///< in stops: the colour is multiplied by 2^exposure
+  bool autoexposure = false;  ///< first, as the picture's own brightness asks for (output/auto_exposure.h)
 
   using Parameters = ViewPlane;
   static constexpr std::string_view element = "viewplane";

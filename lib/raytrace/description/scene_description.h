@@ -210,9 +210,10 @@ std::string print_scene(const SceneDescription& description);
 /// exists; nor, since files may be included, that there is a camera.
 std::string print_schema();
 
-/// 32 hexadecimal digits (XXH3, 128 bits) of all names and values of the description but the number of samples and
-/// where in which file they stood: two files that mean the same have the same. Of meshes and clouds, what load_meshes()
-/// read counts, not their files' names. threads: so many at most share the work; 0: all that the machine has.
+/// 32 hexadecimal digits (XXH3, 128 bits) of all names and values of the description but the number of samples, the
+/// view of files for display and where in which file they stood: two files that mean the same have the same. Of meshes
+/// and clouds, what load_meshes() read counts, not their files' names. threads: so many at most share the work; 0: all
+/// that the machine has.
 std::string scene_hash(const SceneDescription& description, int threads = 0);
 
 }  // namespace raytrace

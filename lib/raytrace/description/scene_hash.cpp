@@ -1,5 +1,8 @@
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -18,10 +21,13 @@ class SceneHash {
 
   std::string of(const SceneDescription& scene) {
     for_each_single(scene, [&]<class T>(std::type_identity<T>, const auto& parameters) {
-      // The view plane is always the same type, and its samples do not count.
-      constexpr bool is_viewplane = std::is_same_v<T, ViewPlane>;
-      if (!is_viewplane) add(T::element);
-      add_parameters(element_type<T>().fields, &parameters, is_viewplane ? "samples" : "");
+      // The view plane is always the same type. Its samples do not count, nor does what only files for display show.
+      if constexpr (std::is_same_v<T, ViewPlane>) {
+        add_parameters(element_type<T>().fields, &parameters, {"samples", "viewtransform", "exposure", "autoexposure"});
+      } else {
+        add(T::element);
+        add_parameters(element_type<T>().fields, &parameters);
+      }
     });
     for_each_item_type([&]<class Section, class T>(std::type_identity<Section>, std::type_identity<T>) {
       add(T::element);
@@ -52,10 +58,10 @@ class SceneHash {
         if constexpr (requires { item.data; }) {
           hash.add_loaded(fields, item);
         } else if constexpr (requires { item.image; }) {
-          hash.add_parameters(fields, &item.parameters, item.image.hash.empty() ? "" : "file");
+          hash.add_parameters(fields, &item.parameters, {item.image.hash.empty() ? "" : "file"});
           hash.add(item.image.hash);
         } else if constexpr (requires { item.photometry; }) {
-          hash.add_parameters(fields, &item.parameters, item.photometry.hash.empty() ? "" : "iesfile");
+          hash.add_parameters(fields, &item.parameters, {item.photometry.hash.empty() ? "" : "iesfile"});
           hash.add(item.photometry.hash);
         } else {
           hash.add_parameters(fields, &item.parameters);
@@ -88,17 +94,19 @@ class SceneHash {
     add(item.index);
   }
 
-  /// left_out: the name of a field that does not count.
-  void add_parameters(const Fields& fields, const void* parameters, std::string_view left_out = {}) {
+  /// left_out: the names of fields that do not count.
+  void add_parameters(const Fields& fields, const void* parameters,
+                      std::initializer_list<std::string_view> left_out = {}) {
     for (const Field& field : fields)
-      if (field.name != left_out) field.visit(parameters, [&](const auto& value) { add(value); });
+      if (std::find(left_out.begin(), left_out.end(), field.name) == left_out.end())
+        field.visit(parameters, [&](const auto& value) { add(value); });
   }
 
   /// By what it was read from a file, if it was.
   template <class Item>
   void add_loaded(const Fields& fields, const Item& item) {
     const bool from_file = item.data != nullptr && !item.parameters.file.path.empty();
-    add_parameters(fields, &item.parameters, from_file ? "file" : "");
+    add_parameters(fields, &item.parameters, {from_file ? "file" : ""});
     if (!from_file) return;
     add(item.data->origin);
     add(*item.data);

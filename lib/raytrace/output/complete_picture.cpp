@@ -12,7 +12,6 @@
 #include "raytrace/output/file_handle.h"
 #include "raytrace/output/image_encoder.h"
 #include "raytrace/output/openimageio_module.h"
-#include "raytrace/output/pixel_format.h"
 
 namespace raytrace {
 
@@ -34,10 +33,13 @@ bool has(const Texts& texts, const std::string& name, const std::string& value) 
   return (found == texts.end() ? std::string() : found->second) == value;
 }
 
+bool have(const Texts& texts, const Texts& wanted) {
+  return std::all_of(wanted.begin(), wanted.end(),
+                     [&](const auto& pair) { return has(texts, pair.first, pair.second); });
+}
+
 bool fit(const Texts& texts, const WantedPicture* wanted) {
-  return has(texts, partial_mark, "") &&
-         (wanted == nullptr || std::all_of(wanted->attributes.begin(), wanted->attributes.end(),
-                                           [&](const auto& pair) { return has(texts, pair.first, pair.second); }));
+  return has(texts, partial_mark, "") && (wanted == nullptr || have(texts, wanted->attributes));
 }
 
 bool is_whole_exr(const std::string& file, const WantedPicture* wanted) {
@@ -70,7 +72,7 @@ bool is_whole_png(const std::string& file, const WantedPicture* wanted) {
   if (!picture || !fit(picture->texts, wanted)) return false;
   return wanted == nullptr ||
          (picture->width == wanted->extent.region.width() && picture->height == wanted->extent.region.height() &&
-          picture->bits == wanted->bit_depth && has(picture->texts, exposure_keyword, exposure_text(wanted->exposure)));
+          picture->bits == wanted->bit_depth && have(picture->texts, wanted->view));
 }
 
 bool is_whole(const std::string& file, const WantedPicture* wanted) {

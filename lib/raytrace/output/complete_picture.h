@@ -13,11 +13,11 @@ namespace raytrace {
 
 /// What a file must hold to be the picture that is wanted. Of each format, what it keeps is compared.
 struct WantedPicture {
-  PictureExtent extent;           ///< EXR: where in the picture; all others: the size
-  Region light_paths_extent{};    ///< EXR: where in the picture, if it has light paths
-  std::vector<Channel> channels;  ///< EXR: these, or more
-  int bit_depth = 8;              ///< PNG
-  double exposure = 0;            ///< PNG
+  PictureExtent extent;                       ///< EXR: where in the picture; all others: the size
+  Region light_paths_extent{};                ///< EXR: where in the picture, if it has light paths
+  std::vector<Channel> channels;              ///< EXR: these, or more
+  int bit_depth = 8;                          ///< PNG
+  std::map<std::string, std::string> view{};  ///< PNG: names and values as `attributes` has them
   /// EXR and PNG: names and values, as text; "" for what the file must not have.
   std::map<std::string, std::string> attributes;
 };

@@ -1,7 +1,8 @@
 // Writes a film to an image file; the format follows from the file name's extension.
 //
 // .exr and .hdr (and .pfm, where OpenImageIO writes it) hold linear radiance as it is. PNG and every other format that
-// OpenImageIO writes (.jpg, .tif, ...) hold it clamped to [0, 1] and encoded with the sRGB curve.
+// OpenImageIO writes (.jpg, .tif, ...) hold it exposed, through a view transform (by default none), clamped to [0, 1]
+// and encoded with the sRGB curve.
 //
 // EXR has alpha always, with premultiplied colour. Of a transparent picture so have PNG and TIFF: of 8 and 16 bits with
 // straight colour, that of the covered part alone; TIFF of floats with premultiplied colour. All others hold it as it
@@ -20,6 +21,7 @@
 #include "raytrace/output/atomic_file.h"
 #include "raytrace/output/file_handle.h"
 #include "raytrace/output/image_band.h"
+#include "raytrace/output/view_options.h"
 
 namespace raytrace {
 
@@ -30,6 +32,11 @@ struct ImageFileSettings {
   int threads = 0;           ///< for compression; 0: all processors. Holds for the process, as OpenImageIO has it.
   bool transparent = false;  ///< FilmSettings::transparent: PNG and TIFF get alpha
   double exposure = 0;       ///< formats for display: the linear colour is multiplied by 2^exposure
+
+  // Formats for display, too.
+  ViewTransform view_transform = ViewTransform::srgb;
+  OcioSettings ocio{};                    ///< in its place
+  std::optional<double> auto_exposure{};  ///< `exposure` is this, and what the picture itself asked for
 };
 
 /// Something more that a picture says about itself. EXR keeps the type, PNG stores text, and other formats nothing but
@@ -49,7 +56,7 @@ struct ImageMetadata {
   std::optional<double> render_seconds;  ///< absent where the file is begun before the render ends
   CameraMatrices camera;
   std::vector<ImageAttribute> attributes;
-  std::vector<ImageAttribute> data_attributes;  ///< about channels besides colour: only where those are stored
+  std::vector<ImageAttribute> data_attributes;  ///< only of formats that hold linear data
 };
 
 /// Values (not pixels) that were changed because the format, or any format, cannot hold them.
@@ -70,7 +77,7 @@ struct ImageFormat {
   bool floats = false;       ///< linear colour in 32 bits
   bool data = false;         ///< channels besides color_channels(), and ImageMetadata::data_attributes
   bool alpha = false;        ///< that of a transparent picture
-  bool for_display = false;  ///< a picture for eyes, clamped and sRGB-encoded, which ImageFileSettings::exposure is for
+  bool for_display = false;  ///< a picture for eyes, which ImageFileSettings::exposure and its view are for
 
   /// Whether FilmContent::half_means is all that they want.
   bool halves() const { return data && !floats; }

@@ -37,7 +37,8 @@ void* load_module() {
     reasons += (reasons.empty() ? " " : "; ") + reason;
   }
   throw OutputError(
-      "textures, and formats other than EXR and PNG, need the module raytrace_openimageio.so, which cannot be loaded:" +
+      "textures, formats other than EXR and PNG, and OpenColorIO need the module raytrace_openimageio.so, which cannot "
+      "be loaded:" +
       reasons);
 }
 
@@ -53,6 +54,14 @@ std::unique_ptr<ImageEncoder> make_openimageio_encoder(const std::string& file, 
                                                        const ImageFileSettings& settings) {
   static auto* const make = symbol<MakeOpenImageIOEncoder>("raytrace_make_openimageio_encoder");
   return std::unique_ptr<ImageEncoder>(make(file, extension, settings));
+}
+
+std::shared_ptr<const ColorTransform> ocio_transform(const OcioSettings& settings) {
+  if (settings.empty()) return nullptr;
+  static auto* const transform = symbol<OpenImageIOColorTransform>("raytrace_openimageio_color_transform");
+  std::shared_ptr<const ColorTransform> result;
+  transform(settings, result);
+  return result;
 }
 
 namespace {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "raytrace/output/color_transform.h"
 #include "raytrace/output/image_encoder.h"
 #include "raytrace/output/picture.h"
 
@@ -15,6 +16,10 @@ namespace raytrace {
 std::unique_ptr<ImageEncoder> make_openimageio_encoder(const std::string& file, const std::string& extension,
                                                        const ImageFileSettings& settings);
 
+/// From linear Rec. 709 to the settings' display and view; null if they have no configuration. Throws OutputError if
+/// there are no such things, or if the module is missing.
+std::shared_ptr<const ColorTransform> ocio_transform(const OcioSettings& settings);
+
 /// Whether the file is a picture that OpenImageIO can read from its first row to its last, of this size; 0 x 0: of any.
 /// Throws OutputError if the module is missing.
 bool openimageio_reads_all_of(const std::string& file, int width, int height);
@@ -23,6 +28,8 @@ bool openimageio_reads_all_of(const std::string& file, int width, int height);
 using MakeOpenImageIOEncoder = ImageEncoder*(const std::string& file, const std::string& extension,
                                              const ImageFileSettings& settings);
 extern "C" MakeOpenImageIOEncoder raytrace_make_openimageio_encoder;
+using OpenImageIOColorTransform = void(const OcioSettings& settings, std::shared_ptr<const ColorTransform>& transform);
+extern "C" OpenImageIOColorTransform raytrace_openimageio_color_transform;
 using OpenImageIOReadsAllOf = bool(const std::string& file, int width, int height);
 extern "C" OpenImageIOReadsAllOf raytrace_openimageio_reads_all_of;
 using OpenImageIOReadPicture = void(const std::string& file, std::string_view bytes, Picture& picture);

@@ -1,8 +1,11 @@
 // How formats other than EXR store a pixel, and how radiance becomes that.
 #pragma once
 
+#include <memory>
 #include <string>
+#include <vector>
 
+#include "raytrace/output/color_transform.h"
 #include "raytrace/output/image_band.h"
 #include "raytrace/output/image_file.h"
 
@@ -11,20 +14,35 @@ namespace raytrace {
 /// RGB or RGBA. By default a display format's: clamped to [0, 1] and encoded with the sRGB curve.
 struct PixelFormat {
   bool alpha = false;
-  bool srgb = true;  ///< with straight alpha: the colour is that of the covered part alone. Otherwise linear, and
-                     ///< premultiplied as in EXR
+  bool for_display = true;  ///< with straight alpha: the colour is that of the covered part alone. Otherwise linear,
+                            ///< and premultiplied as in EXR
   float lowest = 0, highest = 1;
   float gain = 1;  ///< of the linear colour
+  // Of display formats.
+  ViewTransform view = ViewTransform::srgb;
+  std::shared_ptr<const ColorTransform> ocio{};  ///< null, or in place of the view transform and the curve
 
   int channels() const { return alpha ? 4 : 3; }
 };
 
-/// A display format's, with the settings' alpha and exposure.
+/// A display format's, with the settings' alpha, exposure and view transform, but without OpenColorIO, which is
+/// the module's (openimageio_module.h).
 PixelFormat display_format(const ImageFileSettings& settings);
 
-/// The attribute of ImageFileSettings::exposure: absent where that is 0, and its text is empty then.
+inline constexpr const char* view_transform_keyword = "raytrace:viewTransform";
 inline constexpr const char* exposure_keyword = "raytrace:exposure";
+inline constexpr const char* auto_exposure_keyword = "raytrace:autoExposure";
+inline constexpr const char* ocio_keyword = "raytrace:ocio";
+
+/// As short as it can be without being another number.
 std::string exposure_text(double exposure);
+
+/// What a file for display says of the settings' view: only of what is not the default. What the picture's own
+/// brightness asked for, and what was asked for beside it, are two.
+std::vector<ImageAttribute> view_attributes(const ImageFileSettings& settings);
+
+/// The colour of a pixel, which `index` counts from the band's left upper one, row by row.
+Pixel color_at(const ImageBand& band, std::size_t index);
 
 /// OpenImageIO's linear_to_sRGB(), bit for bit.
 float srgb_encoded(float linear);

@@ -12,6 +12,7 @@
 
 #include "raytrace/output/file_handle.h"
 #include "raytrace/output/image_encoder.h"
+#include "raytrace/output/openimageio_module.h"
 #include "raytrace/output/picture_date.h"
 #include "raytrace/output/pixel_format.h"
 #include "raytrace/parallel/for_each_index.h"
@@ -71,10 +72,10 @@ std::vector<PngText> png_texts(const ImageMetadata& metadata, const ImageFileSet
     all.push_back({"raytrace:threads", std::to_string(metadata.threads)});
     if (metadata.render_seconds) all.push_back({"raytrace:renderSeconds", attribute_text(*metadata.render_seconds)});
   }
-  if (settings.exposure != 0) all.push_back({exposure_keyword, exposure_text(settings.exposure)});
-  for (const ImageAttribute& attribute : metadata.attributes)
-    all.push_back(
-        {attribute.name, std::visit([](const auto& value) { return attribute_text(value); }, attribute.value)});
+  for (const auto& attributes : {view_attributes(settings), metadata.attributes})
+    for (const ImageAttribute& attribute : attributes)
+      all.push_back(
+          {attribute.name, std::visit([](const auto& value) { return attribute_text(value); }, attribute.value)});
   return all;
 }
 
@@ -132,7 +133,9 @@ struct OpenPng {
 class PngEncoder final : public ImageEncoder {
  public:
   PngEncoder(const std::string& file, const ImageFileSettings& settings)
-      : ImageEncoder(file, settings), pixels_(display_format(settings)) {}
+      : ImageEncoder(file, settings), pixels_(display_format(settings)) {
+    pixels_.ocio = ocio_transform(settings.ocio);
+  }
 
   ImageFormat format() const override { return {.floats = false, .data = false, .alpha = true, .for_display = true}; }
 
@@ -150,13 +153,14 @@ class PngEncoder final : public ImageEncoder {
     const auto width = static_cast<png_uint_32>(extent.region.width());
     const auto height = static_cast<png_uint_32>(extent.region.height());
     const int color = pixels_.alpha ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB;
+    const bool is_srgb = !pixels_.ocio;  // of which only its configuration knows
     open_ = std::make_unique<OpenPng>(destination);
     const png_structp png = open_->png;
     const png_infop info = open_->info;
     guard([&] {
       png_set_IHDR(png, info, width, height, settings_.bit_depth, color, PNG_INTERLACE_NONE,
                    PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-      png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_ABSOLUTE);
+      if (is_srgb) png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_ABSOLUTE);
       png_time time;
       png_convert_from_struct_tm(&time, &utc);
       png_set_tIME(png, info, &time);

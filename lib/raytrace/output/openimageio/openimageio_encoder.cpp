@@ -80,16 +80,27 @@ EdgeLimits edge_limits(const std::string& oiio_name) {
   return found == limits.end() ? EdgeLimits{1, unlimited} : found->second;
 }
 
+/// ", view transform agx, exposure -1.5"; empty where all is the default.
+std::string view_text(const ImageFileSettings& settings) {
+  std::string text;
+  for (const ImageAttribute& attribute : view_attributes(settings)) {
+    const std::string& value = std::get<std::string>(attribute.value);
+    if (attribute.name == view_transform_keyword) text += ", view transform " + value;
+    if (attribute.name == ocio_keyword) text += ", OpenColorIO " + value;
+    if (attribute.name == exposure_keyword) text += ", exposure " + value;
+  }
+  return text;
+}
+
 /// Adds the metadata as standard attributes, which are all that these formats keep: one line of description holds most
-/// of it. exposure: of a picture for display, else 0. Throws OutputError if SOURCE_DATE_EPOCH is not a time.
-void add_metadata(OIIO::ImageSpec& spec, const ImageMetadata& metadata, double exposure) {
+/// of it. view: view_text() of a picture for display. Throws OutputError if SOURCE_DATE_EPOCH is not a time.
+void add_metadata(OIIO::ImageSpec& spec, const ImageMetadata& metadata, const std::string& view) {
   spec.attribute("DateTime", picture_date().text);
   if (!metadata.software.empty()) spec.attribute("Software", metadata.software);  // JPEG's IPTC aborts on empty text
   std::ostringstream description;
   description.imbue(std::locale::classic());
   description << "scene " << metadata.scene_file << ", " << metadata.samples << " samples per pixel, seed "
-              << metadata.seed;
-  if (exposure != 0) description << ", exposure " << exposure;
+              << metadata.seed << view;
   for (const ImageAttribute& attribute : metadata.attributes)
     if (attribute.name == "raytrace:partial") description << ", partial";
   spec.attribute("ImageDescription", description.str());
@@ -158,7 +169,7 @@ class OpenImageIOEncoder final : public ImageEncoder {
   }
 
   ImageFormat format() const override {
-    return {.floats = type_ == OIIO::TypeFloat, .data = false, .alpha = is_tiff(), .for_display = pixels_.srgb};
+    return {.floats = type_ == OIIO::TypeFloat, .data = false, .alpha = is_tiff(), .for_display = pixels_.for_display};
   }
 
   void check_size(int width, int height) const override {
@@ -217,33 +228,43 @@ class OpenImageIOEncoder final : public ImageEncoder {
  private:
   bool is_tiff() const { return writer_->format_name() == std::string_view("tiff"); }
 
+  static PixelFormat linear_format(bool alpha, float lowest, float highest) {
+    PixelFormat format;
+    format.alpha = alpha;
+    format.for_display = false;
+    format.lowest = lowest;
+    format.highest = highest;
+    return format;
+  }
+
   void choose_pixels(const std::string& extension) {
     constexpr float largest_float = std::numeric_limits<float>::max();
     constexpr float largest_rgbe = 1.6e38F;  // 255/256 x 2^127, with room for its rounding
     type_ = OIIO::TypeFloat;
     if (writer_->format_name() == std::string_view("hdr")) {
-      pixels_ = {false, false, 0, largest_rgbe};
+      pixels_ = linear_format(false, 0, largest_rgbe);
     } else if (extension == ".pfm" || (is_tiff() && settings_.full_float)) {
-      pixels_ = {is_tiff() && settings_.transparent, false, -largest_float, largest_float};
+      pixels_ = linear_format(is_tiff() && settings_.transparent, -largest_float, largest_float);
     } else {
       type_ = settings_.bit_depth == 16 ? OIIO::TypeUInt16 : OIIO::TypeUInt8;
       pixels_ = display_format(settings_);
+      if (!settings_.ocio.empty()) raytrace_openimageio_color_transform(settings_.ocio, pixels_.ocio);
       pixels_.alpha = is_tiff() && settings_.transparent;
     }
   }
 
   OIIO::ImageSpec image_spec(const ImageMetadata& metadata) const {
     OIIO::ImageSpec spec(extent_.region.width(), extent_.region.height(), pixels_.channels(), type_);
-    if (pixels_.srgb) {
-      spec.attribute("oiio:ColorSpace", "sRGB");
-      if (pixels_.alpha)
-        spec.attribute("oiio:UnassociatedAlpha", 1);  // else its files say that the colour is premultiplied
-    } else if (is_tiff()) {
+    const bool is_srgb = pixels_.for_display && !pixels_.ocio;  // of which only its configuration knows
+    if (is_srgb) spec.attribute("oiio:ColorSpace", "sRGB");
+    if (is_tiff() && !is_srgb) {
       constexpr int uncalibrated = 0xFFFF;
       spec.attribute("Exif:ColorSpace",
                      uncalibrated);  // OpenImageIO 2.4 reports an error where there is no Exif at all
     }
-    add_metadata(spec, metadata, pixels_.srgb ? settings_.exposure : 0);
+    if (pixels_.for_display && pixels_.alpha)
+      spec.attribute("oiio:UnassociatedAlpha", 1);  // else its files say that the colour is premultiplied
+    add_metadata(spec, metadata, pixels_.for_display ? view_text(settings_) : "");
     return spec;
   }
 

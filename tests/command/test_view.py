@@ -1,0 +1,238 @@
+"""View transforms and exposures of files for display: by options, scenes, models, pieces, and OpenColorIO."""
+
+import json
+import math
+import re
+import unittest
+
+import support
+from exr import Exr
+from png import Png
+from support import CommandTest
+from test_models import PLY
+
+OCIO = """ocio_profile_version: 1
+strictparsing: true
+roles: {default: raw, scene_linear: lin}
+displays:
+  monitor:
+    - !<View> {name: Root, colorspace: root}
+    - !<View> {name: Square, colorspace: square}
+  cinema:
+    - !<View> {name: Half, colorspace: half}
+colorspaces:
+  - !<ColorSpace> {name: lin, bitdepth: 32f, isdata: false, allocation: uniform}
+  - !<ColorSpace> {name: raw, bitdepth: 32f, isdata: true, allocation: uniform}
+  - !<ColorSpace>
+    name: root
+    bitdepth: 32f
+    isdata: false
+    allocation: uniform
+    from_reference: !<ExponentTransform> {value: [0.5, 0.5, 0.5, 1]}
+  - !<ColorSpace>
+    name: square
+    bitdepth: 32f
+    isdata: false
+    allocation: uniform
+    from_reference: !<ExponentTransform> {value: [2, 2, 2, 1]}
+  - !<ColorSpace>
+    name: half
+    bitdepth: 32f
+    isdata: false
+    allocation: uniform
+    from_reference: !<MatrixTransform> {matrix: [0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 1]}
+"""
+
+
+def srgb(linear):
+    linear = min(1, max(0, linear))
+    return 12.92 * linear if linear <= 0.0031308 else 1.055 * linear**(1 / 2.4) - 0.055
+
+
+def neutral(color):
+    """The Khronos PBR Neutral Tone Mapper, by its specification."""
+    x = min(color)
+    f = x - x * x / 0.16 if x <= 0.08 else 0.04
+    peak = max(color) - f
+    if peak <= 0.76:
+        return [part - f for part in color]
+    new = 1 - 0.24**2 / (peak + 1 - 1.52)
+    g = 1 / (0.15 * (peak - new) + 1)
+    return [(part - f) * new / peak * g + new * (1 - g) for part in color]
+
+
+def asked(pixels):
+    """The exposure that a picture without gaps in its alpha asks for."""
+    logarithms = [math.log2((0.2126 * r + 0.7152 * g + 0.0722 * b) / 0.18) for r, g, b, _ in pixels if r + g + b > 0]
+    return -sum(logarithms) / len(logarithms)
+
+
+class View(CommandTest):
+    def setUp(self):
+        super().setUp()
+        self.write("view.ocio", OCIO)
+        self.write("slab.ply", PLY)
+
+    def rendered(self, *options, scene="scene.xml"):
+        """EXR of floats, and PNG."""
+        self.succeed(scene, "-q", "--float", "-o", "a.exr", "-o", "a.png", *options)
+        return Exr(self.read("a.exr")), Png(self.read("a.png"))
+
+    def check(self, exr, png, shown, exposure=0, bits=8):
+        """shown(color): encoded, from 0 to 1."""
+        steps = 2**bits - 1
+        for place, (*color, _) in exr.pixels().items():
+            wanted = shown([part * 2**exposure for part in color])
+            for value, part in zip(png.pixel(*place), wanted):
+                self.assertAlmostEqual(value, min(1, max(0, part)) * steps, delta=0.51 if bits == 8 else 0.6)
+
+    def test_scenes_are_shown_as_before(self):
+        exr, png = self.rendered()
+        self.check(exr, png, lambda color: map(srgb, color))
+        self.assertNotIn("raytrace:viewTransform", png.text)
+        pixels = png.rows
+        self.assertEqual(self.rendered("--view-transform", "srgb")[1].rows, pixels)
+        self.assertNotEqual(self.rendered("--view-transform", "agx")[1].rows, pixels)
+
+    def test_khronos_neutral_in_files(self):
+        for bits, exposure in ((8, 0), (16, 1.5)):
+            exr, png = self.rendered("--view-transform", "khronos-neutral", "--bit-depth", str(bits), "--exposure",
+                                     str(exposure))
+            self.check(exr, png, lambda color: map(srgb, neutral(color)), exposure, bits)
+            self.assertEqual(png.text["raytrace:viewTransform"], "khronos-neutral")
+
+    def test_linear_files_stay_as_they_are(self):
+        before = self.rendered()[0]
+        for options in (["--view-transform", "agx"], ["--exposure", "2"], ["--auto-exposure"], ["--ocio", "view.ocio"]):
+            self.assertEqual(self.rendered(*options)[0].row_bytes, before.row_bytes)
+
+    def test_the_printed_scene_is_shown_in_the_same_way(self):
+        for options in (["--view-transform", "agx"], ["--exposure=-1.3"], ["--auto-exposure", "--exposure", "0.5"],
+                        ["--view-transform", "khronos-neutral", "--auto-exposure"]):
+            exr, png = self.rendered(*options)
+            self.write("printed.xml", self.succeed("scene.xml", *options, "--print-scene").stdout)
+            printed_exr, printed = self.rendered(scene="printed.xml")
+            self.assertEqual(printed.rows, png.rows)
+            self.assertEqual(printed_exr.row_bytes, exr.row_bytes)
+            for name in ("viewTransform", "exposure", "autoExposure"):
+                self.assertEqual(printed.text.get("raytrace:" + name), png.text.get("raytrace:" + name))
+            # The options' values take the place of the scene's.
+            self.assertEqual(self.rendered("--exposure", "0", "--view-transform", "srgb", scene="printed.xml")[1].rows,
+                             self.rendered(*(["--auto-exposure"] if "--auto-exposure" in options else []))[1].rows)
+
+    def test_models_are_shown_through_khronos_neutral(self):
+        small = ["-r", "48x27", "-s", "2"]
+        exr, png = self.rendered(*small, scene="slab.ply")
+        self.assertEqual(png.text["raytrace:viewTransform"], "khronos-neutral")
+        self.check(exr, png, lambda color: map(srgb, neutral(color)))
+        printed = self.succeed("slab.ply", *small, "--print-scene").stdout
+        self.assertIn("<viewtransform>khronos-neutral</viewtransform>", printed)
+        self.write("printed.xml", printed)
+        self.assertEqual(self.rendered(scene="printed.xml")[1].rows, png.rows)
+        plain_exr, plain = self.rendered(*small, "--view-transform", "srgb", scene="slab.ply")
+        self.check(plain_exr, plain, lambda color: map(srgb, color))
+        self.assertEqual(plain_exr.row_bytes, exr.row_bytes)
+        self.succeed("slab.ply", "-q", *small, "--turntable", "2", "-o", "turn.#.png")
+        self.assertEqual(Png(self.read("turn.1.png")).text["raytrace:viewTransform"], "khronos-neutral")
+
+    def test_auto_exposure(self):
+        exr, png = self.rendered("--auto-exposure", "-t", "1")
+        found = float(png.text["raytrace:exposure"])
+        self.assertAlmostEqual(found, asked(exr.pixels().values()), delta=0.0051)
+        self.check(exr, png, lambda color: map(srgb, color), found)
+        self.assertEqual(self.rendered("--auto-exposure", "-t", "3")[1].rows, png.rows)
+        self.assertAlmostEqual(
+            float(self.rendered("--auto-exposure", "--exposure", "0.5")[1].text["raytrace:exposure"]), found + 0.5)
+        self.succeed("scene.xml", "-q", "-o", "a.png", "--auto-exposure", "--view-transform", "agx", "--stats=s.json")
+        picture = json.loads(self.read("s.json"))["picture"]
+        self.assertEqual((picture["view_transform"], picture["exposure"]), ("agx", found))
+        self.assertIn(f"view            srgb, exposure {found:g}",
+                      self.succeed("scene.xml", "-o", "a.png", "--auto-exposure", "--stats").stderr)
+        # Twice the light, one stop less.
+        brighter = re.sub(r"(<scaleradiance>)([\d.]+)", lambda m: m[1] + str(2 * float(m[2])), support.SCENE)
+        brighter = brighter.replace('<background red="0.1" green="0.2" blue="0.4"/>',
+                                    '<background red="0.2" green="0.4" blue="0.8"/>')
+        brighter = brighter.replace('<color red="1" green="0.5" blue="0.25"/>',
+                                    '<scaleradiance>2</scaleradiance><color red="1" green="0.5" blue="0.25"/>')
+        self.write("brighter.xml", brighter)
+        other = self.rendered("--auto-exposure", scene="brighter.xml")[1]
+        self.assertEqual(float(other.text["raytrace:exposure"]), found - 1)
+        self.assertEqual(other.rows, png.rows)
+
+    def test_pieces_become_the_whole_picture(self):
+        for options in (["--view-transform", "agx", "--auto-exposure"], ["--exposure", "1", "--transparent"],
+                        ["--view-transform", "khronos-neutral", "--auto-exposure", "--transparent"]):
+            whole = self.rendered(*options)[1]
+            pieces = [["--tile", "0/4"], ["--tile", "1/4", "-s", "1", "--sample-offset", "0"], ["--tile", "3/4"],
+                      ["--tile", "1/4", "-s", "3", "--sample-offset", "1"], ["--tile", "2/4"]]
+            for i, piece in enumerate(pieces):
+                self.succeed("scene.xml", "-q", "--float", *options, *piece, "-o", f"piece.{i}.exr")
+            names = [f"piece.{i}.exr" for i in range(len(pieces))]
+            self.succeed("merge", "-q", *names, "-o", "merged.png", "-o", "merged.exr")
+            merged = Png(self.read("merged.png"))
+            self.assertEqual(merged.rows, whole.rows)
+            for name in ("viewTransform", "exposure", "autoExposure"):
+                self.assertEqual(merged.text.get("raytrace:" + name), whole.text.get("raytrace:" + name))
+            # Which is what the merged EXR says, too.
+            self.succeed("merge", "-q", "merged.exr", "-o", "again.png")
+            self.assertEqual(Png(self.read("again.png")).rows, whole.rows)
+            # Or as the options say.
+            self.succeed("merge", "-q", *names, "-o", "merged.png", "--view-transform", "khronos-neutral",
+                         "--exposure", "0.5")
+            kept = [option for option in options if option in ("--auto-exposure", "--transparent")]
+            self.assertEqual(Png(self.read("merged.png")).rows,
+                             self.rendered(*kept, "--view-transform", "khronos-neutral", "--exposure", "0.5")[1].rows)
+            self.succeed("merge", "-q", "--partial", *names[1:], "-o", "partial.png")
+
+    def test_pieces_that_differ(self):
+        self.succeed("scene.xml", "-q", "--float", "--tile", "0/2", "--view-transform", "agx", "-o", "0.exr")
+        self.succeed("scene.xml", "-q", "--float", "--tile", "1/2", "-o", "1.exr")
+        self.assertIn("1.exr is to be shown in another way than 0.exr: say how with --view-transform",
+                      self.fail_with(1, "merge", "0.exr", "1.exr", "-o", "a.png"))
+        self.succeed("merge", "-q", "0.exr", "1.exr", "-o", "a.exr")
+        self.succeed("merge", "-q", "0.exr", "1.exr", "-o", "a.png", "--view-transform", "agx")
+        self.assertEqual(Png(self.read("a.png")).rows, self.rendered("--view-transform", "agx")[1].rows)
+
+    def test_a_tile_is_not_exposed_by_itself(self):
+        self.assertIn("--tile: a.png: the whole picture's brightness says how it is exposed",
+                      self.fail_with(2, "scene.xml", "-o", "a.png", "--tile", "0/2", "--auto-exposure"))
+        self.succeed("scene.xml", "-q", "-o", "a.png", "--crop", "0,0,8,8", "--auto-exposure")
+        self.assertIn("--ocio: all outputs hold linear colour",
+                      self.fail_with(2, "scene.xml", "-o", "a.exr", "--tile", "0/2", "--ocio", "view.ocio"))
+
+    def test_what_is_wrong_in_a_scene(self):
+        for element, text in (("<viewtransform>agks</viewtransform>", "is neither srgb, agx nor khronos-neutral"),
+                              ("<exposure>65</exposure>", "an <exposure> is from -64 to 64 stops"),
+                              ("<autoexposure>perhaps</autoexposure>", "perhaps")):
+            self.write("scene.xml", support.SCENE.replace("<hres>", element + "<hres>"))
+            self.assertIn(text, self.fail_with(1, "scene.xml", "-o", "a.png"))
+
+    def test_opencolorio(self):
+        exr, png = self.rendered("--ocio", "view.ocio", "--exposure=-1")
+        self.check(exr, png, lambda color: map(math.sqrt, color), -1)
+        self.assertEqual(png.text["raytrace:ocio"], "view.ocio")
+        exr, png = self.rendered("--ocio", "view.ocio", "--ocio-view", "Square", "--bit-depth", "16", "--transparent")
+        for place, (*color, alpha) in exr.pixels().items():
+            for part, value in zip(color, png.pixel(*place)):
+                self.assertAlmostEqual(value, min(1, (part / alpha)**2) * 65535 if alpha else 0, delta=2)
+        exr, png = self.rendered("--ocio", "view.ocio", "--ocio-display", "cinema", "--ocio-colorspace", "lin",
+                                 scene="slab.ply", *(["-r", "48x27", "-s", "2"]))
+        self.check(exr, png, lambda color: [part / 2 for part in color])
+        self.succeed("merge", "-q", "a.exr", "-o", "b.png", "--ocio", "view.ocio", "--ocio-display", "cinema")
+        self.assertEqual(Png(self.read("b.png")).rows, png.rows)
+        self.succeed("slab.ply", "-q", "-r", "48x27", "-s", "2", "--ocio", "view.ocio", "-o", "a.jpg", "-o", "a.tif")
+
+    def test_what_is_wrong_with_opencolorio(self):
+        self.write("broken.ocio", "no configuration")
+        for options, text in ((["absent.ocio"], "--ocio: absent.ocio: there is no such file"),
+                              (["broken.ocio"], "--ocio: broken.ocio: "),
+                              (["view.ocio", "--ocio-display", "monitr"], "no display 'monitr'; did you mean 'monitor'?"),
+                              (["view.ocio", "--ocio-view", "Rot"], "no view 'Rot'; did you mean 'Root'?"),
+                              (["view.ocio", "--ocio-view", "Half"], "no view 'Half'"),
+                              (["view.ocio", "--ocio-colorspace", "lim"], "no colour space 'lim'; did you mean 'lin'?")):
+            self.assertIn(text, self.fail_with(1, "scene.xml", "-o", "a.png", "--ocio", *options))
+            self.assertNotIn("a.png", self.names())
+
+
+if __name__ == "__main__":
+    unittest.main()
