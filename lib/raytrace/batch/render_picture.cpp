@@ -230,6 +230,8 @@ class PictureRender {
       };
       const RenderReport done = render(*scene_, film, target, job_.threads, update, &control_.pause());
       result_.statistics.rays += done.rays;
+      result_.statistics.stages += done.stages;
+      result_.statistics.processor_seconds += done.processor_seconds;
       result_.statistics.scene.bvh_bytes = scene_->statistics().bvh_bytes;  // rays may have been the first to want it
       invalid_samples_ += done.invalid_samples;
       if (!control_.pause()) return true;

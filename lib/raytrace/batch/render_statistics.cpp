@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <nlohmann/json.hpp>
 
 #include "raytrace/memory/process_status.h"
@@ -39,6 +40,14 @@ double RenderStatistics::rays_per_second() const {
   return phases.render.seconds > 0 ? static_cast<double>(total_rays()) / phases.render.seconds : 0;
 }
 
+std::vector<std::pair<const char*, double>> RenderStatistics::stage_seconds() const {
+  std::vector<std::pair<const char*, double>> result;
+  if (stages.empty()) return result;
+  for (std::size_t stage = 0; stage < StageTimes::names.size(); ++stage)
+    result.emplace_back(StageTimes::names[stage], processor_seconds * stages.share(static_cast<Stage>(stage)));
+  return result;
+}
+
 std::uint64_t peak_memory_bytes() {
   // Linux counts pages in batches, thread by thread, so that its peak may be a few pages less than it was before.
   static std::uint64_t highest = 0;
@@ -55,7 +64,9 @@ std::string statistics_text(const RenderStatistics& s) {
   const std::string picture = std::to_string(s.width) + " x " + std::to_string(s.height) + ", " +
                               counted(static_cast<std::uint64_t>(s.samples), "sample") + " per pixel";
   const std::string crop = s.region == Region{0, 0, s.width, s.height} ? "" : ", crop " + text_of(s.region);
-  std::string seconds, peaks;
+  std::string seconds, peaks, stages;
+  for (const auto& [name, processor_seconds] : s.stage_seconds())
+    stages += (stages.empty() ? "" : ", ") + std::string(name) + formatted(" %.3f s", processor_seconds);
   for (const auto& [name, phase] : s.phases.named()) {
     seconds += aligned_line(name, seconds_text(phase.seconds));
     const std::string peak = amount_text(phase.peak_memory_bytes, "B");
@@ -63,6 +74,7 @@ std::string statistics_text(const RenderStatistics& s) {
   }
   return aligned_line("scene", on_one_line(s.scene_file)) + aligned_line("picture", picture + crop) + seconds +
          aligned_line("total", seconds_text(s.phases.seconds())) +
+         (stages.empty() ? stages : aligned_line("stages", stages)) +
          aligned_line("camera rays", amount_text(s.rays.camera, "")) +
          aligned_line("shadow rays", amount_text(s.rays.shadow, "")) +
          (s.rays.indirect > 0 ? aligned_line("indirect rays", amount_text(s.rays.indirect, "")) : std::string()) +
@@ -82,6 +94,8 @@ std::string statistics_json(const RenderStatistics& s) {
     peaks[name] = phase.peak_memory_bytes;
   }
   seconds["total"] = s.phases.seconds();
+  nlohmann::ordered_json stages = nlohmann::ordered_json::object();
+  for (const auto& [name, processor_seconds] : s.stage_seconds()) stages[name] = processor_seconds;
   const nlohmann::ordered_json report = {
       {"schema_version", 1},
       {"software", s.software},
@@ -94,6 +108,8 @@ std::string statistics_json(const RenderStatistics& s) {
         {"samples", s.samples},
         {"seed", s.seed}}},
       {"seconds", seconds},
+      {"processor_seconds", s.processor_seconds},
+      {"stage_seconds", stages},
       {"rays",
        {{"camera", s.rays.camera},
         {"shadow", s.rays.shadow},

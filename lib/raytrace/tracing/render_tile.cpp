@@ -14,6 +14,7 @@
 #include "raytrace/tracing/kernels.h"
 #include "raytrace/tracing/light_paths.h"
 #include "raytrace/tracing/packet_block.h"
+#include "raytrace/tracing/stage_times.h"
 
 namespace raytrace {
 
@@ -81,6 +82,7 @@ class BlockRenderer {
     render_blocks(samples);
     if (batch_) trace_batch();
     if (open_) close_block();
+    if (batch_) report_.stages += batch_->clock().times();
     return report_;
   }
 
@@ -152,6 +154,7 @@ class BlockRenderer {
     BlockSums<Block> sums(scale_);
     FirstHits first;
     for (int packets = 1; base < left.last; base += group, ++packets) {
+      if (!raycast && batch_) batch_->clock().begin_packet();
       const UintN sample = UintN(base) + slot;
       const bool all_wanted = base >= left.all_from && left.last - base >= group;
       const MaskN wanted = all_wanted ? active : active & in_range(sample, left.lane_first, UintN(left.last));
@@ -184,7 +187,11 @@ class BlockRenderer {
         aovs->add(AovInputs(scene_.tables(), camera, first.hits, first.surface, textures), wanted, sample);
       }
       report_.rays.camera += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(wanted & traced)));
-      if (!raycast && light_paths_) trace_light_paths(block, sample, wanted);
+      if (!raycast && batch_) batch_->clock().end(Stage::film);
+      if (!raycast && light_paths_) {
+        trace_light_paths(block, sample, wanted);
+        batch_->clock().end(Stage::light_paths);
+      }
       if (!raycast && batch_) {
         waiting_.push_back({block, base, wanted, result});
         if (batch_->is_full()) trace_batch();
@@ -217,6 +224,7 @@ class BlockRenderer {
     batch_->trace(report_.rays);
     for (std::size_t i = 0; i < waiting_.size(); ++i) {
       const WaitingPacket& packet = waiting_[i];
+      batch_->clock().begin_packet();
       if (!open_ || open_->block.left != packet.block.left || open_->block.top != packet.block.top) {
         if (open_) close_block();
         open_ = std::make_unique<OpenBlock>(packet.block, scale_);
@@ -227,6 +235,7 @@ class BlockRenderer {
       const MaskN large = sums.add(result, packet.wanted);
       if (any(large)) add_invalid(sums.add_large(result, large), packet.block, packet.base);
       if (++open_->packets % sums.most_packets == 0) sums.carry();
+      batch_->clock().end(Stage::film);
     }
     waiting_.clear();
     batch_->clear();
