@@ -1,6 +1,6 @@
 // Where the time of path tracing goes, stage by stage.
 //
-// A clock that is read for every packet and stage would cost more than some stages do. So one packet of 17 is timed, at
+// A clock that is read for every packet and stage would cost more than some stages do. So one packet of 61 is timed, at
 // all of its stages; as all packets do the same, the shares of those are the shares of all, but for chance. The number
 // is prime, so that it falls into step with no number of packets of a pixel.
 #pragma once
@@ -59,7 +59,7 @@ class StageClock {
 
   /// A packet, whose first stage begins.
   void begin_packet() {
-    is_timed_ = ++packets_ % 17 == 0;
+    is_timed_ = ++packets_ % 61 == 0;
     if (is_timed_) [[unlikely]]
       last_ = Clock::now();
   }
