@@ -163,6 +163,25 @@ class Statistics(CommandTest):
         self.assertRegex(report["embree"], r"^\d+\.\d+")
         self.assertRegex(report["software"], r"^raytrace \d")
 
+    def test_stages_of_path_tracing(self):
+        stages = ["camera", "trace", "surface", "texture", "lights", "shade", "film", "light_paths"]
+        self.succeed("scene.xml", "-q", "-o", "a.exr", "--stats=stats.json", "-s", "64", "--integrator", "path")
+        report = json.loads(self.read("stats.json"))
+        self.assertEqual(list(report["stage_seconds"]), stages)
+        for stage in stages:
+            self.assertEqual(report["stage_seconds"][stage] > 0, stage != "light_paths", stage)
+        self.assertGreater(report["processor_seconds"], 0)
+        # A thread may have been on its processor for no longer than the render took.
+        self.assertLessEqual(report["processor_seconds"], 1.05 * report["threads"] * report["seconds"]["render"])
+        self.assertAlmostEqual(sum(report["stage_seconds"].values()), report["processor_seconds"])
+        done = self.succeed("scene.xml", "-o", "a.exr", "-s", "16", "--stats", "--integrator", "path", "--progress=none")
+        self.assertRegex(done.stderr, r"(?m)^stages +" + ", ".join(stage + r" \d+\.\d{3} s" for stage in stages) + "$")
+        # Ray casting is not timed stage by stage.
+        self.succeed("scene.xml", "-q", "-o", "a.exr", "--stats=stats.json")
+        report = json.loads(self.read("stats.json"))
+        self.assertEqual(report["stage_seconds"], {})
+        self.assertGreater(report["processor_seconds"], 0)
+
     def test_memory_of_whoever_starts_it_does_not_count(self):
         ballast = b"x" * (400 << 20)
         self.succeed("scene.xml", "-q", "-o", "a.exr", "--stats=stats.json")
@@ -173,7 +192,8 @@ class Statistics(CommandTest):
             schema = json.load(file)
         jsonschema.Draft202012Validator.check_schema(schema)
         lenient, strict = (jsonschema.Draft202012Validator(form) for form in (schema, closed(schema)))
-        for arguments in ([], ["-t", "2", "--crop", "0,0,1,1"], ["-", "--seed", "18446744073709551615", "-o", "b.png"]):
+        for arguments in ([], ["-t", "2", "--crop", "0,0,1,1"], ["--integrator", "path"],
+                          ["-", "--seed", "18446744073709551615", "-o", "b.png"]):
             scene = [] if "-" in arguments else ["scene.xml"]
             self.succeed(*scene, "-q", "-o", "a.exr", "--stats=stats.json", *arguments, input=support.SCENE)
             report = json.loads(self.read("stats.json"))
@@ -187,7 +207,7 @@ class Statistics(CommandTest):
             self.assertFalse(lenient.is_valid({name: report[name] for name in report if name != key}), key)
 
     def test_every_key_is_documented(self):
-        self.succeed("scene.xml", "-q", "-o", "a.exr", "--stats=stats.json")
+        self.succeed("scene.xml", "-q", "-o", "a.exr", "--stats=stats.json", "--integrator", "path")
         with open(os.path.join(support.REPOSITORY, "docs", "command-line.md"), encoding="utf-8") as file:
             document = file.read()
         for key, value in json.loads(self.read("stats.json")).items():

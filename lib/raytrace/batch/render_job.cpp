@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 
+#include "raytrace/aovs/aov_selection.h"
 #include "raytrace/batch/frames.h"
 #include "raytrace/batch/settings_error.h"
+#include "raytrace/description/light_groups.h"
 #include "raytrace/text/message.h"
 
 namespace raytrace {
@@ -233,6 +236,14 @@ std::vector<std::string> RenderBatch::names(const std::vector<std::size_t>& some
     names.push_back(numbers.size() == 1 ? name(first) : scenes_[scene_number] + ", frames " + frames_text(numbers));
   }
   return names;
+}
+
+AovSet aovs_in(const RenderJob& job, const SceneDescription& description) {
+  try {
+    return with_light_groups(job.aovs, light_group_names(description));
+  } catch (const std::invalid_argument& problem) {
+    throw SettingsError(std::string("--aov: ") + problem.what());
+  }
 }
 
 }  // namespace raytrace

@@ -85,6 +85,9 @@ Region render_window(const Region& crop_window, const RenderJob& job);
 /// The job's scene with the view plane that the job wants. None if it has errors, which the observer knows.
 std::optional<SceneDescription> load_picture(const RenderJob& job, RenderObserver& observer, Phase& phase);
 
+/// With the names of the light groups that the job wants. Throws SettingsError for one that the scene does not have.
+AovSet aovs_in(const RenderJob& job, const SceneDescription& description);
+
 /// "3 objects, 2 lights"
 std::string contents_text(const SceneDescription& description);
 

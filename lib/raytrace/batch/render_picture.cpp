@@ -60,7 +60,7 @@ class PictureRender {
     if (!may_skip) check();
     if (!description_) description_ = load_picture(job_, observer_, result_.statistics.phases.load);
     if (!description_) return end_with(RenderOutcome::invalid_scene);
-    resolve_light_groups();
+    job_.aovs = aovs_in(job_, *description_);
     identity_.whole = crop_window(description_->viewplane, job_);
     settings_.region = render_window(identity_.whole, job_);
     if (may_skip) {
@@ -95,14 +95,6 @@ class PictureRender {
   void check() {
     observer_.on_stage(RenderStage::check_outputs);
     check_outputs(job_);
-  }
-
-  void resolve_light_groups() {
-    try {
-      job_.aovs = with_light_groups(job_.aovs, light_group_names(*description_));
-    } catch (const std::invalid_argument& problem) {
-      throw SettingsError(std::string("--aov: ") + problem.what());
-    }
   }
 
   void build() {
@@ -235,6 +227,8 @@ class PictureRender {
       };
       const RenderReport done = render(*scene_, film, target, job_.threads, update, &control_.pause());
       result_.statistics.rays += done.rays;
+      result_.statistics.stages += done.stages;
+      result_.statistics.processor_seconds += done.processor_seconds;
       result_.statistics.scene.bvh_bytes = scene_->statistics().bvh_bytes;  // rays may have been the first to want it
       invalid_samples_ += done.invalid_samples;
       if (!control_.pause()) return true;

@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <nlohmann/json.hpp>
 
 #include "raytrace/memory/process_status.h"
@@ -48,6 +49,14 @@ std::string invalid_samples_text(const InvalidSamples& invalid) {
   return text + " to see it again: --pixel " + std::to_string(first.x) + "," + std::to_string(first.y);
 }
 
+std::vector<std::pair<const char*, double>> RenderStatistics::stage_seconds() const {
+  std::vector<std::pair<const char*, double>> result;
+  if (stages.empty()) return result;
+  for (std::size_t stage = 0; stage < StageTimes::names.size(); ++stage)
+    result.emplace_back(StageTimes::names[stage], processor_seconds * stages.share(static_cast<Stage>(stage)));
+  return result;
+}
+
 std::uint64_t peak_memory_bytes() {
   // Linux counts pages in batches, thread by thread, so that its peak may be a few pages less than it was before.
   static std::uint64_t highest = 0;
@@ -67,7 +76,9 @@ std::string statistics_text(const RenderStatistics& s) {
   std::string view;
   if (s.view_transform != "srgb" || s.exposure != 0)
     view = aligned_line("view", s.view_transform + formatted(", exposure %g", s.exposure));
-  std::string seconds, peaks;
+  std::string seconds, peaks, stages;
+  for (const auto& [name, processor_seconds] : s.stage_seconds())
+    stages += (stages.empty() ? "" : ", ") + std::string(name) + formatted(" %.3f s", processor_seconds);
   for (const auto& [name, phase] : s.phases.named()) {
     seconds += aligned_line(name, seconds_text(phase.seconds));
     const std::string peak = amount_text(phase.peak_memory_bytes, "B");
@@ -75,6 +86,7 @@ std::string statistics_text(const RenderStatistics& s) {
   }
   return aligned_line("scene", on_one_line(s.scene_file)) + aligned_line("picture", picture + crop) + view + seconds +
          aligned_line("total", seconds_text(s.phases.seconds())) +
+         (stages.empty() ? stages : aligned_line("stages", stages)) +
          aligned_line("camera rays", amount_text(s.rays.camera, "")) +
          aligned_line("shadow rays", amount_text(s.rays.shadow, "")) +
          (s.rays.indirect > 0 ? aligned_line("indirect rays", amount_text(s.rays.indirect, "")) : std::string()) +
@@ -94,6 +106,8 @@ std::string statistics_json(const RenderStatistics& s) {
     peaks[name] = phase.peak_memory_bytes;
   }
   seconds["total"] = s.phases.seconds();
+  nlohmann::ordered_json stages = nlohmann::ordered_json::object();
+  for (const auto& [name, processor_seconds] : s.stage_seconds()) stages[name] = processor_seconds;
   const nlohmann::ordered_json report = {
       {"schema_version", 1},
       {"software", s.software},
@@ -108,6 +122,8 @@ std::string statistics_json(const RenderStatistics& s) {
         {"view_transform", s.view_transform},
         {"exposure", s.exposure}}},
       {"seconds", seconds},
+      {"processor_seconds", s.processor_seconds},
+      {"stage_seconds", stages},
       {"rays",
        {{"camera", s.rays.camera},
         {"shadow", s.rays.shadow},

@@ -44,11 +44,15 @@ struct RenderStatistics {
   int threads = 0;
   Phases phases;
   RayCounts rays;
+  StageTimes stages;             ///< of path tracing, else empty
+  double processor_seconds = 0;  ///< of rendering, of all threads together
   SceneStatistics scene;
   std::uint64_t peak_memory_bytes = 0;
 
   std::uint64_t total_rays() const { return rays.camera + rays.shadow + rays.indirect; }
   double rays_per_second() const;
+  /// Of processor_seconds; with their names, in their order. None where no stages were timed.
+  std::vector<std::pair<const char*, double>> stage_seconds() const;
 };
 
 /// "2 samples without a finite radiance...": which they were, and how to see them again.

@@ -1,5 +1,7 @@
 #include "raytrace/render/renderer.h"
 
+#include <time.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -14,6 +16,13 @@
 namespace raytrace {
 
 namespace {
+
+/// What this thread has taken of its processor.
+double thread_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) * 1e-9;
+}
 
 /// Pixels an edge of a tile, the unit of work of a thread: multiples of every packet's block. Large ones cost nothing
 /// to take; small ones leave the threads less to wait for at the end.
@@ -130,8 +139,12 @@ RenderReport render(const Scene& scene, Film& film, std::uint32_t samples, int t
   for_each_index(grid.count(), workers, [&](int index) {
     if (stop != nullptr && stop->load(std::memory_order_relaxed)) return;
     const Region tile = grid.tile(index);
-    if (film.content() != FilmContent::sums || !is_rendered(film, tile, samples))
-      reports[static_cast<std::size_t>(index)] = variant.render(scene, tile, samples, film, stop);
+    if (film.content() != FilmContent::sums || !is_rendered(film, tile, samples)) {
+      RenderReport& of_tile = reports[static_cast<std::size_t>(index)];
+      const double start = thread_seconds();
+      of_tile = variant.render(scene, tile, samples, film, stop);
+      of_tile.processor_seconds = thread_seconds() - start;
+    }
     reporter.report(done.fetch_add(1, std::memory_order_relaxed) + 1);
   });
   reporter.report(done.load(std::memory_order_relaxed));  // the last may have found another thread reporting

@@ -8,6 +8,7 @@
 #include "raytrace/accel/surface_uv.h"
 #include "raytrace/accel/traced_scene.h"
 #include "raytrace/tracing/render_report.h"
+#include "raytrace/tracing/stage_times.h"
 
 namespace raytrace {
 
@@ -50,20 +51,26 @@ struct ShadowNumbers {
 };
 
 /// What of the group's lights' radiance leaves the surface along wo, in the lanes that were hit; of its ambient light,
-/// too.
+/// too. clock: if not null, its stages of this end here.
 RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const SceneTables::LightGroup& group,
                                          const Hits& hits, const SurfaceInteraction<FloatN>& surface,
                                          const TexturePoint<FloatN>* textures, Coherence coherence,
-                                         const MaskN& counted, RayCounts& counts, const ShadowNumbers& numbers) {
+                                         const MaskN& counted, RayCounts& counts, const ShadowNumbers& numbers,
+                                         StageClock* clock = nullptr) {
   const SceneTables& tables = scene.tables();
   std::array<IncidentLight, lights_per_run> incident;
   std::size_t count = 0;
   Rgb<FloatN> radiance{Rgb<float>(0, 0, 0)};
   Rgb<float> ambient = group.ambient_radiance;
+  const auto end = [&](Stage stage) {
+    if (clock != nullptr) clock->end(stage);
+  };
   const auto shade_run = [&] {
+    end(Stage::lights);
     radiance += tables.shade(hits, surface, ambient, {incident.data(), count}, textures);
     ambient = Rgb<float>(0, 0, 0);
     count = 0;
+    end(Stage::shade);
   };
   Ray<FloatN> shadow_rays;
   shadow_rays.origin = offset_ray_origin(surface);
@@ -83,12 +90,14 @@ RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const SceneTa
     // Of any length: the shadow rays need not wait for a square root and a quotient.
     MaskN lit = hits.hit & (dot(surface.ns, shadow_rays.direction) > FloatN(0));
     if (shadows && any(lit)) {
+      end(Stage::lights);
       counts.shadow += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(lit & counted)));
       const MaskN occluded =
           tables.has_cutouts()
               ? occluded_with_cutouts(scene, shadow_rays, lit, numbers.keys(number), coherence)
               : scene.accelerator().occluded(shadow_rays, lit, Coherence::coherent, scene.light_buffer(number));
       lit = lit & !occluded;
+      end(Stage::trace);
     }
     if (none(lit)) continue;
     here.wi = normalize(shadow_rays.direction);

@@ -38,7 +38,9 @@ void PathBatch::clear() {
 }
 
 MaskN PathBatch::add(CameraRays& camera, const MaskN& active, const MaskN& wanted, FirstHits* first) {
+  clock_.end(Stage::camera);
   const Hits hits = intersect_camera_rays(scene_, camera, active);
+  clock_.end(Stage::trace);
   if (first != nullptr) {
     first->hits = hits;
     first->textures.reset();
@@ -64,6 +66,7 @@ MaskN PathBatch::add(CameraRays& camera, const MaskN& active, const MaskN& wante
   path.slot = IntN(first_slot) + lane_numbers<IntN>();
   path.way = IntN(any_way);
   append(paths_, path, hits, hits.hit & wanted);
+  clock_.end(Stage::surface);
   return hits.hit;
 }
 
@@ -84,6 +87,7 @@ void PathBatch::trace(RayCounts& counts) {
       // Lanes beyond the last path follow the first of the packet.
       alignas(64) std::array<std::int32_t, packet_lanes> index;
       for (std::size_t lane = 0; lane < packet_lanes; ++lane) index[lane] = order_[first + (lane < lanes ? lane : 0)];
+      clock_.begin_packet();
       PathPacket path = paths_.load(IntN::load_aligned(index.data()));
       extend(path, first_lanes<FloatN>(static_cast<int>(lanes)), depth, counts);
     }
@@ -138,6 +142,7 @@ void PathBatch::extend(PathPacket& path, const MaskN& lanes, int depth, RayCount
   Hits hits = path.hits(lanes);
   SurfaceInteraction<FloatN> surface = scene_.accelerator().surface(rays, hits);
   path.distance = path.distance + rays.far;
+  clock_.end(Stage::surface);
   const auto textures =
       add_textures(tables, hits, surface, [&] { return tables.ray_cone().half_width(path.distance); });
   const TexturePoint<FloatN>* const point = textures ? &*textures : nullptr;
@@ -145,6 +150,7 @@ void PathBatch::extend(PathPacket& path, const MaskN& lanes, int depth, RayCount
     const Rgb<FloatN> left = tables.transmittance(hits, rays.far, point);
     path.throughput = select(lanes & !surface.front, path.throughput * left, path.throughput);
   }
+  clock_.end(Stage::texture);
   const float environment_share = environment_share_of(tables);
   // Light paths bring what comes by what focuses light to the first point.
   const CausticTable* const caustics = tables.caustics();
@@ -167,6 +173,7 @@ void PathBatch::extend(PathPacket& path, const MaskN& lanes, int depth, RayCount
           tables.light_group_of_material(tables.material(hits)));
     }
   }
+  clock_.end(Stage::lights);
   if (depth == settings_.maxdepth) return;
 
   // The numbers of keys: one for each ray of a point, the next point's own first.
@@ -181,7 +188,7 @@ void PathBatch::extend(PathPacket& path, const MaskN& lanes, int depth, RayCount
   for (std::size_t group = 0; group < groups_; ++group) {
     if (tables.light_groups()[group].is_dark()) continue;
     light = direct_light(scene_, tables.light_groups()[group], hits, surface, point, coherence, lanes, counts,
-                         ShadowNumbers{path.pixel, path.sample, first_key + 1});
+                         ShadowNumbers{path.pixel, path.sample, first_key + 1}, &clock_);
     if (any(on_way)) light = select(on_way, black(), light);
     if (groups_ == 1) break;  // which is added with the light that is drawn
     add(sums, path.slot, lanes, path.throughput * light, IntN(static_cast<std::int32_t>(group)));
@@ -193,14 +200,16 @@ void PathBatch::extend(PathPacket& path, const MaskN& lanes, int depth, RayCount
   if (tables.environment() != nullptr || !tables.emitters().empty())
     drawn = draw_light(tables, vertex, draw(PathDraw::light), draw(PathDraw::light_point));
   drawn.lit = drawn.lit & !on_way;
+  clock_.end(Stage::lights);
   // The last direction is for what shines alone.
   const bool is_last = depth + 1 == settings_.maxdepth;
   const bool goes_on = !is_last || tables.has_emission() || tables.environment() != nullptr;
   const Sample2D direction = draw(PathDraw::direction), choices = draw(PathDraw::lobe_and_roulette);
   const Scattering scattering =
       tables.scatter(hits, surface.front, wo, drawn.lit, drawn.local_wi, choices.x, direction.x, direction.y, point);
+  clock_.end(Stage::shade);
   if (any(drawn.lit))
-    light += arriving_light(scene_, vertex, drawn, scattering.towards, coherence, key(lights + 1), counts);
+    light += arriving_light(scene_, vertex, drawn, scattering.towards, coherence, key(lights + 1), counts, clock_);
   IntN group(0);
   if (groups_ > 1) {
     group = IntN(tables.environment_group());
@@ -208,6 +217,7 @@ void PathBatch::extend(PathPacket& path, const MaskN& lanes, int depth, RayCount
       group = select_lanes(drawn.is_sky, group, tables.light_group_of_material(drawn.sample.material));
   }
   add(sums, path.slot, lanes, path.throughput * light, group);
+  clock_.end(Stage::lights);
   if (!goes_on) return;
 
   const BsdfSample<FloatN>& sample = scattering.sample;
@@ -226,7 +236,7 @@ void PathBatch::extend(PathPacket& path, const MaskN& lanes, int depth, RayCount
     alive = alive & (choices.y < survival);
   }
   alive = alive & (largest(path.throughput) > FloatN(0));
-  if (none(alive)) return;
+  if (none(alive)) return clock_.end(Stage::shade);
   path.pdf = select(sample.specular | through, infinity<FloatN>(), sample.pdf);
   if (caustics != nullptr) {
     const MaskN reflects = MaskN(depth == 0) & (!(focuses | through | sample.specular));
@@ -238,12 +248,14 @@ void PathBatch::extend(PathPacket& path, const MaskN& lanes, int depth, RayCount
   rays.near = FloatN(0);
   rays.far = infinity<FloatN>();
   counts.indirect += count(alive);
+  clock_.end(Stage::shade);
   if (tables.has_cutouts()) {
     const CutoutQuery query{tables, scene_.accelerator(), rays, key(lights + 2)};
     hits = scene_.accelerator().intersect(rays, alive, Coherence::incoherent, nullptr, &query);
   } else {
     hits = scene_.accelerator().intersect(rays, alive, Coherence::incoherent);
   }
+  clock_.end(Stage::trace);
   if (const MaskN escaped = alive & !hits.hit; any(escaped)) {
     if (const Environment* const environment = tables.environment(); environment != nullptr) {
       const EnvironmentSample sky = environment->at(rays.direction);
@@ -255,9 +267,11 @@ void PathBatch::extend(PathPacket& path, const MaskN& lanes, int depth, RayCount
       add(sums, path.slot, escaped, path.throughput * Rgb<FloatN>(Rgb<float>(tables.viewplane().background)), IntN(0));
     }
   }
+  clock_.end(Stage::lights);
   if (none(hits.hit)) return;
   path.set_hits(hits);
   append(next_, path, hits, hits.hit);
+  clock_.end(Stage::surface);
 }
 
 }  // namespace raytrace

@@ -16,6 +16,7 @@
 #include "raytrace/tracing/path_chunk.h"
 #include "raytrace/tracing/ray_result.h"
 #include "raytrace/tracing/render_report.h"
+#include "raytrace/tracing/stage_times.h"
 
 namespace raytrace {
 
@@ -26,6 +27,9 @@ class PathBatch {
 
   std::size_t packets() const { return direct_.size() / groups_; }
   bool is_full() const { return packets() == most_packets; }
+
+  /// Of what is done with packets, here and by who adds them.
+  StageClock& clock() { return clock_; }
 
   /// Begins a path in each lane of `wanted`, where its camera ray hits something. Ends the rays there, and sets `first`
   /// to what all rays of `active` hit if it is not null. The result: the lanes of `active` that hit something.
@@ -54,6 +58,7 @@ class PathBatch {
 
   const TracedScene& scene_;
   const Path::Parameters& settings_;
+  StageClock clock_;
   PathChunk paths_, next_;
   std::vector<std::int32_t> order_;  ///< the numbers of paths, in the lowest 16 bits of their keys
   std::size_t groups_;               ///< of the scene's lights

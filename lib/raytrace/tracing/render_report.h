@@ -7,6 +7,8 @@
 #include <tuple>
 #include <vector>
 
+#include "raytrace/tracing/stage_times.h"
+
 namespace raytrace {
 
 /// The rays of a render, by their purpose.
@@ -51,9 +53,13 @@ struct InvalidSamples {
 struct RenderReport {
   RayCounts rays;
   InvalidSamples invalid_samples;
+  StageTimes stages;             ///< of path tracing
+  double processor_seconds = 0;  ///< of all threads together
   RenderReport& operator+=(const RenderReport& other) {
     rays += other.rays;
     invalid_samples += other.invalid_samples;
+    stages += other.stages;
+    processor_seconds += other.processor_seconds;
     return *this;
   }
 };

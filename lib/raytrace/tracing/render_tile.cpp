@@ -16,6 +16,8 @@
 #include "raytrace/tracing/light_layers.h"
 #include "raytrace/tracing/light_paths.h"
 #include "raytrace/tracing/packet_block.h"
+#include "raytrace/tracing/samples_left.h"
+#include "raytrace/tracing/stage_times.h"
 
 namespace raytrace {
 
@@ -86,6 +88,7 @@ class BlockRenderer {
     render_blocks(samples);
     if (batch_) trace_batch();
     if (open_) close_block();
+    if (batch_) report_.stages += batch_->clock().times();
     return report_;
   }
 
@@ -101,7 +104,7 @@ class BlockRenderer {
   }
 
   void render(const Block& block, std::uint32_t samples) {
-    const SamplesLeft left(film_, block, region_, samples);
+    const SamplesLeft<Block> left(film_, block, region_, samples);
     if (left.first >= left.last) return;
     if (film_.aovs() == nullptr) return render(block, left, nullptr);
     BlockAovs aovs(*film_.aovs(), block, region_);
@@ -109,37 +112,7 @@ class BlockRenderer {
     aovs.finish();
   }
 
-  /// What a block's pixels want of their sequences: [first, last) of those that have the fewest samples. A render of
-  /// packets of another shape that was stopped here leaves some with more.
-  struct SamplesLeft {
-    std::uint32_t first, last;
-    std::uint32_t all_from;  ///< from here on, all pixels want all
-    UintN lane_first;        ///< each lane's own first
-
-    SamplesLeft(const Film& film, const Block& block, const Region& region, std::uint32_t samples) {
-      const std::uint32_t begin = film.settings().samples.first;
-      std::uint32_t least = 0, most = 0;
-      if (film.content() == FilmContent::sums) {
-        least = samples;
-        block.for_each_pixel(region, [&](int x, int y, std::size_t) {
-          const std::uint32_t before = film.sum(x, y).samples;
-          least = std::min(least, before);
-          most = std::max(most, before);
-        });
-      }
-      first = begin + least;
-      all_from = begin + most;
-      last = begin + samples;
-      lane_first = UintN(first);
-      if (least == most) return;
-      alignas(64) std::array<std::uint32_t, packet_lanes> firsts{};
-      block.for_each_lane(region,
-                          [&](int x, int y, std::size_t lane) { firsts[lane] = begin + film.sum(x, y).samples; });
-      lane_first = UintN::load_aligned(firsts.data());
-    }
-  };
-
-  void render(const Block& block, const SamplesLeft& left, BlockAovs* aovs) {
+  void render(const Block& block, const SamplesLeft<Block>& left, BlockAovs* aovs) {
     const FilmSettings& settings = film_.settings();
     const ViewPlane& viewplane = scene_.tables().viewplane();
     const auto column = block.columns(), row = block.rows();
@@ -159,6 +132,7 @@ class BlockRenderer {
     if (by_group_) group_sums.emplace(scale_, layers_.size());
     FirstHits first;
     for (int packets = 1; base < left.last; base += group, ++packets) {
+      if (!raycast && batch_) batch_->clock().begin_packet();
       const UintN sample = UintN(base) + slot;
       const bool all_wanted = base >= left.all_from && left.last - base >= group;
       const MaskN wanted = all_wanted ? active : active & in_range(sample, left.lane_first, UintN(left.last));
@@ -194,7 +168,11 @@ class BlockRenderer {
         aovs->add(AovInputs(scene_.tables(), camera, first.hits, first.surface, textures), wanted, sample);
       }
       report_.rays.camera += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(wanted & traced)));
-      if (!raycast && light_paths_) trace_light_paths(block, sample, wanted);
+      if (!raycast && batch_) batch_->clock().end(Stage::film);
+      if (!raycast && light_paths_) {
+        trace_light_paths(block, sample, wanted);
+        batch_->clock().end(Stage::light_paths);
+      }
       if (!raycast && batch_) {
         waiting_.push_back({block, base, wanted, result});
         if (batch_->is_full()) trace_batch();
@@ -245,6 +223,7 @@ class BlockRenderer {
     batch_->trace(report_.rays);
     for (std::size_t i = 0; i < waiting_.size(); ++i) {
       const WaitingPacket& packet = waiting_[i];
+      batch_->clock().begin_packet();
       if (!open_ || open_->block.left != packet.block.left || open_->block.top != packet.block.top) {
         if (open_) close_block();
         open_ = std::make_unique<OpenBlock>(packet.block, scale_, layers_.size());
@@ -261,6 +240,7 @@ class BlockRenderer {
       const MaskN large = sums.add(result, packet.wanted);
       if (any(large)) add_invalid(sums.add_large(result.radiance, large), packet.block, packet.base);
       if (++open_->packets % sums.most_packets == 0) sums.carry();
+      batch_->clock().end(Stage::film);
     }
     waiting_.clear();
     batch_->clear();

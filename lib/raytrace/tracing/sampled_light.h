@@ -7,6 +7,7 @@
 #include "raytrace/math/frame.h"
 #include "raytrace/sampling/sampler.h"
 #include "raytrace/tracing/direct_light.h"
+#include "raytrace/tracing/stage_times.h"
 
 namespace raytrace {
 
@@ -96,7 +97,8 @@ inline DrawnLight draw_light(const SceneTables& tables, const PathVertex& vertex
 /// What of it leaves the vertex along wo: over the density of the draw, times its share beside directions that the BSDF
 /// draws. bsdf: for wo and the light's direction.
 inline Rgb<FloatN> arriving_light(const TracedScene& scene, const PathVertex& vertex, const DrawnLight& light,
-                                  const BsdfValue& bsdf, Coherence coherence, const UintN& keys, RayCounts& counts) {
+                                  const BsdfValue& bsdf, Coherence coherence, const UintN& keys, RayCounts& counts,
+                                  StageClock& clock) {
   const SceneTables& tables = scene.tables();
   const float environment_share = environment_share_of(tables);
   FloatN weight = light.local_wi.z / light.pdf * power_heuristic(light.pdf, bsdf.pdf);
@@ -113,8 +115,10 @@ inline Rgb<FloatN> arriving_light(const TracedScene& scene, const PathVertex& ve
   const MaskN lit = light.lit & (largest(radiance) > FloatN(0));
   if (none(lit)) return black;
   counts.shadow += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(lit)));
+  clock.end(Stage::lights);
   const MaskN occluded = tables.has_cutouts() ? occluded_with_cutouts(scene, light.ray, lit, keys, coherence)
                                               : scene.accelerator().occluded(light.ray, lit, coherence);
+  clock.end(Stage::trace);
   return select(lit & !occluded, radiance, black);
 }
 
