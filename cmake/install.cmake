@@ -18,7 +18,8 @@ install(DIRECTORY lib/raytrace DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
   PATTERN tracing EXCLUDE
   PATTERN "*kernel*.h" EXCLUDE)
 install(FILES lib/raytrace/scene/scene.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/raytrace/scene)
-install(FILES lib/raytrace/tracing/render_report.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/raytrace/tracing)
+install(FILES lib/raytrace/tracing/render_report.h lib/raytrace/tracing/stage_times.h
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/raytrace/tracing)
 
 install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/raytrace
   FILES_MATCHING PATTERN "*.xml" PATTERN "*.xsd")
