@@ -2,10 +2,9 @@
 
 import importlib.util
 import os
-import pickle
 
-from .files import rendered_by, write_texture
-from .scenes import Textured, sky
+from .files import rendered_by, write_pickle
+from .scenes import sky
 
 VARIANTS = {"Cycles": "cycles"}
 
@@ -23,10 +22,7 @@ def write(scene, folder, chosen):
 
         picture = sky(lambda row, height: (row + 0.5) / height)
         write_exr(numpy.roll(picture, picture.shape[1] // 4, axis=1), os.path.join(folder, "sky.exr"))
-    if any(isinstance(material, Textured) for material in scene.materials.values()):
-        write_texture(folder)
-    with open(os.path.join(folder, "scene.pickle"), "wb") as file:
-        pickle.dump((scene, chosen.samples, chosen.depth), file)
+    write_pickle(scene, folder, chosen)
 
 
 def renders(variant, folder, chosen):

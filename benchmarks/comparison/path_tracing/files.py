@@ -1,6 +1,7 @@
 """What renderers share: meshes and skies as files, and a process that renders."""
 
 import os
+import pickle
 import subprocess
 import sys
 
@@ -42,6 +43,14 @@ def write_sky(folder, rows):
 
 def write_texture(folder):
     write_exr(texture(), os.path.join(folder, "texture.exr"))
+
+
+def write_pickle(scene, folder, chosen):
+    """For a worker in Python, with the samples and the depth."""
+    if scene.is_textured():
+        write_texture(folder)
+    with open(os.path.join(folder, "scene.pickle"), "wb") as file:
+        pickle.dump((scene, chosen.samples, chosen.depth), file)
 
 
 def rendered_by(module, arguments, folder, environment):

@@ -2,11 +2,9 @@
 it. It has no spheres, and its rough metals are of another distribution."""
 
 import importlib.util
-import os
-import pickle
 
-from .files import rendered_by, write_texture
-from .scenes import Metal, Sphere, Textured
+from .files import rendered_by, write_pickle
+from .scenes import Metal, Sphere
 
 VARIANTS = {"LuxCore": "luxcore"}
 
@@ -21,10 +19,7 @@ def can(scene):
 
 
 def write(scene, folder, chosen):
-    if any(isinstance(material, Textured) for material in scene.materials.values()):
-        write_texture(folder)
-    with open(os.path.join(folder, "scene.pickle"), "wb") as file:
-        pickle.dump((scene, chosen.samples, chosen.depth), file)
+    write_pickle(scene, folder, chosen)
 
 
 def renders(variant, folder, chosen):

@@ -72,7 +72,7 @@ def write(scene, folder, chosen):
             # Its outermost rows lie at the poles themselves.
             write_sky(folder, lambda row, height: row / (height - 1))
             say('<emitter type="envmap"><string name="filename" value="sky.exr"/></emitter>\n')
-        if any(isinstance(material, Textured) for material in scene.materials.values()):
+        if scene.is_textured():
             write_texture(folder)
         for name, material in scene.materials.items():
             say(f"{_material(name, material)}\n")

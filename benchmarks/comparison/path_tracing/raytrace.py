@@ -54,7 +54,7 @@ def write(scene, folder, chosen):
             say("<environmentlights><environmentlight><file>sky.exr</file></environmentlight></environmentlights>")
             write_sky(folder, lambda row, height: (row + 0.5) / height)
         say("</lights>\n")
-        if any(isinstance(material, Textured) for material in scene.materials.values()):
+        if scene.is_textured():
             say("<textures><images><image><name>texture</name><file>texture.exr</file></image></images></textures>\n")
             write_texture(folder)
         say("<materials>\n")

@@ -86,6 +86,9 @@ class Scene:
     def of(self, shape):
         return [item for item in self.objects if isinstance(item, shape)]
 
+    def is_textured(self):
+        return any(isinstance(material, Textured) for material in self.materials.values())
+
 
 def sky(rows):
     """The radiance of a sky with a sun, as a picture of longitude and latitude, its upper row first, its middle +z, -x on

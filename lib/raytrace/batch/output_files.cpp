@@ -28,7 +28,7 @@ void check_output_settings(const RenderJob& job) {
   if (job.transparent && none(&ImageFormat::alpha))
     throw SettingsError("--transparent: none of the outputs can hold alpha; .exr, .png and .tif can");
   ViewOptions view = job.view;
-  if (job.tile || job.crop || job.sample_offset) view = {{}, {}, false, job.view.ocio};  // pieces tell those who merge
+  if (job.tile || job.crop || job.sample_offset) view = {{}, {}, false, job.view.ocio};  // the merge shows them
   refuse_useless_view(files, settings, view);
   if (!job.aovs.empty() && none(&ImageFormat::data))
     throw SettingsError("--aov: none of the outputs can hold more than colour; .exr can");
