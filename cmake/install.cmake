@@ -18,7 +18,7 @@ install(DIRECTORY lib/raytrace DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
   PATTERN tracing EXCLUDE
   PATTERN "*kernel*.h" EXCLUDE)
 install(FILES lib/raytrace/scene/scene.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/raytrace/scene)
-install(FILES lib/raytrace/tracing/render_report.h lib/raytrace/tracing/stage_times.h
+install(FILES lib/raytrace/tracing/render_report.h lib/raytrace/tracing/stage_times.h lib/raytrace/tracing/error_estimate.h
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/raytrace/tracing)
 
 install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/raytrace

@@ -37,6 +37,15 @@ std::string duration_text(double seconds) {
 
 std::string percentage(double fraction) { return std::to_string(static_cast<int>(100 * fraction)) + " %"; }
 
+/// ", 16 of 64 samples, error 2.3 %" as far as it is known.
+std::string quality_text(const PictureProgress& picture) {
+  if (!picture.error) return {};
+  std::string text;
+  if (picture.samples < picture.all_samples)
+    text = ", " + std::to_string(picture.samples) + " of " + counted(picture.all_samples, "sample");
+  return text + formatted(", error %.2g %%", 100 * *picture.error);
+}
+
 /// Rounded down, so that 100 means the end.
 double to_tenths(double value) { return std::floor(value * 10) / 10; }
 
@@ -74,35 +83,36 @@ void Progress::begin(std::size_t index, std::size_t count) {
   count_ = count;
 }
 
-void Progress::update(double fraction) {
-  fraction = (static_cast<double>(index_) + std::clamp(fraction, 0.0, 1.0)) / static_cast<double>(count_);
+void Progress::update(const PictureProgress& picture) {
+  const double fraction =
+      (static_cast<double>(index_) + std::clamp(picture.fraction, 0.0, 1.0)) / static_cast<double>(count_);
   if (!first_fraction_) first_fraction_ = fraction;
   if (style_ == ProgressStyle::none || Clock::now() < next_) return;
   if (style_ == ProgressStyle::bar) {
-    draw_bar(fraction);
+    draw_bar(fraction, picture);
     next_ = Clock::now() + std::chrono::milliseconds(100);
   } else {
-    write_line(fraction);
+    write_line(fraction, picture);
     next_ = Clock::now() + std::chrono::seconds(1);
   }
 }
 
 void Progress::skip() {
   // For people, "rendered 100 %" would be wrong.
-  if (first_fraction_ || is_for_programs(style_)) finish();
+  if (first_fraction_ || is_for_programs(style_)) finish({.fraction = 1});
 }
 
-void Progress::finish() {
-  if (index_ + 1 < count_) return update(1);
+void Progress::finish(const PictureProgress& picture) {
+  if (index_ + 1 < count_) return update(picture);
   if (style_ == ProgressStyle::bar) {
     show_bar({});
   } else if (style_ != ProgressStyle::none) {
-    write_line(1);
+    write_line(1, picture);
   }
 }
 
-void Progress::draw_bar(double fraction) {
-  const std::string text = percentage(fraction) + time_left(fraction);
+void Progress::draw_bar(double fraction, const PictureProgress& picture) {
+  const std::string text = percentage(fraction) + quality_text(picture) + time_left(fraction);
   // Two for the brackets, one for a space, and one so that no terminal wraps the line.
   const int room = std::min(terminal_columns() - static_cast<int>(text.size()) - 4, 60);
   std::string line;
@@ -116,11 +126,11 @@ void Progress::draw_bar(double fraction) {
   show_bar(line + text);
 }
 
-void Progress::write_line(double fraction) {
+void Progress::write_line(double fraction, const PictureProgress& picture) {
   if (is_for_programs(style_)) {
-    log_program(progress_line(style_, 100 * fraction, seconds(), seconds_left(fraction)));
+    log_program(progress_line(style_, fraction, seconds(), seconds_left(fraction), picture));
   } else {
-    log_progress("rendered " + percentage(fraction) + time_left(fraction));
+    log_progress("rendered " + percentage(fraction) + quality_text(picture) + time_left(fraction));
   }
 }
 
@@ -143,13 +153,17 @@ bool is_for_programs(ProgressStyle style) {
   return style == ProgressStyle::openjd || style == ProgressStyle::alf || style == ProgressStyle::json;
 }
 
-std::string progress_line(ProgressStyle style, double percent, double seconds, std::optional<double> seconds_left) {
+std::string progress_line(ProgressStyle style, double fraction, double seconds, std::optional<double> seconds_left,
+                          const PictureProgress& picture) {
+  const double percent = 100 * fraction;
   if (style == ProgressStyle::openjd) return formatted("openjd_progress: %.1f\n", to_tenths(percent));
   if (style == ProgressStyle::alf) return "ALF_PROGRESS " + std::to_string(static_cast<int>(percent)) + "%\n";
   if (style != ProgressStyle::json) return {};
   nlohmann::ordered_json event = {
       {"event", "progress"}, {"percent", to_tenths(percent)}, {"seconds", to_tenths(seconds)}};
   if (seconds_left) event["seconds_left"] = to_tenths(*seconds_left);
+  if (picture.all_samples > 0) event["samples"] = {picture.samples, picture.all_samples};
+  if (picture.error) event["error"] = *picture.error;
   return json_line(event);
 }
 

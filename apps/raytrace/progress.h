@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "raytrace/batch/render_observer.h"
+
 namespace raytrace {
 
 enum class ProgressStyle {
@@ -23,8 +25,9 @@ enum class ProgressStyle {
 /// error.
 bool is_for_programs(ProgressStyle style);
 
-/// The lines that programs read, each with its end. percent: 0 to 100; seconds_left: none while nobody can know.
-std::string progress_line(ProgressStyle style, double percent, double seconds, std::optional<double> seconds_left);
+/// The lines that programs read, each with its end. fraction: of all renders; seconds_left: none while nobody can know.
+std::string progress_line(ProgressStyle style, double fraction, double seconds, std::optional<double> seconds_left,
+                          const PictureProgress& picture);
 
 /// What is being done. Empty if the style has no such line; so, too, the next one.
 std::string status_line(ProgressStyle style, const std::string& text);
@@ -43,20 +46,20 @@ class Progress {
   /// What follows is render `index` of `count`.
   void begin(std::size_t index, std::size_t count);
 
-  /// fraction: of the render that is done, 0 to 1.
-  void update(double fraction);
+  /// Of the render at hand.
+  void update(const PictureProgress& picture);
 
   /// The render need not be done.
   void skip();
 
   /// The render is done, and after the last one all is: the last line, or no more bar.
-  void finish();
+  void finish(const PictureProgress& picture);
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  void draw_bar(double fraction);
-  void write_line(double fraction);
+  void draw_bar(double fraction, const PictureProgress& picture);
+  void write_line(double fraction, const PictureProgress& picture);
   double seconds() const;
   std::optional<double> seconds_left(double fraction) const;
   std::string time_left(double fraction) const;

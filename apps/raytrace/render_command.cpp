@@ -50,11 +50,11 @@ class CommandObserver final : public RenderObserver {
 
   void on_diagnostics(const Diagnostics& diagnostics) override { log_diagnostics(diagnostics); }
 
-  void on_progress(double fraction) override {
-    if (fraction < 1) {
-      progress_->update(fraction);
+  void on_progress(const PictureProgress& progress) override {
+    if (progress.fraction < 1) {
+      progress_->update(progress);
     } else {
-      progress_->finish();
+      progress_->finish(progress);
     }
   }
 

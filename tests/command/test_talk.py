@@ -298,11 +298,29 @@ class ProgressForPrograms(CommandTest):
         events = [json.loads(line) for line in done.stdout.splitlines()]
         progress = [event for event in events if event["event"] == "progress"]
         for event in progress:
-            self.assertLessEqual(set(event), {"event", "percent", "seconds", "seconds_left"})
+            self.assertLessEqual(set(event), {"event", "percent", "seconds", "seconds_left", "samples"})
             self.assertGreaterEqual(event["seconds"], 0)
         self.assertEqual((progress[-1]["percent"], progress[-1]["seconds_left"]), (100, 0))
+        self.assertEqual(progress[-1]["samples"], [4, 4])
         self.assertIn({"event": "status", "text": "wrote a.exr"}, events)
         self.assertEqual({event["event"] for event in events}, {"progress", "status"})
+
+    def test_error_of_what_is_drawn_by_chance(self):
+        command = ["scene.xml", "-o", "a.exr", "-s", "16", "--integrator", "path"]
+        self.assertRegex(self.succeed(*command, "--progress=plain").stderr,
+                         r"raytrace: rendered 100 %, error \d+(\.\d+)? %\n$")
+        self.succeed(*command, "-q", "--stats=stats.json")
+        error = json.loads(self.read("stats.json"))["estimated_error"]
+        self.assertTrue(0 < error < 1, error)
+        events = [json.loads(line) for line in self.succeed(*command, "--progress=json").stdout.splitlines()]
+        last = [event for event in events if event["event"] == "progress"][-1]
+        self.assertEqual((last["samples"], last["error"]), ([16, 16], error))
+        # In passes, of which each tells less than the whole.
+        self.succeed(*command, "-q", "--stats=stats.json", "--checkpoint", "a.checkpoint")
+        self.assertTrue(error / 2 < json.loads(self.read("stats.json"))["estimated_error"] < 2 * error)
+        # Ray casting draws nothing by chance.
+        self.succeed("scene.xml", "-o", "a.exr", "-q", "--stats=stats.json")
+        self.assertIsNone(json.loads(self.read("stats.json"))["estimated_error"])
 
     def test_quiet_and_verbose_change_nothing_on_standard_output(self):
         for verbosity in ("-q", "-vv"):

@@ -47,9 +47,9 @@ TEST_CASE("progress grows with each call, one call at a time, and ends at 1") {
     std::atomic<int> inside{0};
     bool overlapped = false;
     RayCounts rays;
-    render(*scene, description, {threads, 0, {3, 7, 200, 130}}, rays, [&](double fraction) {
+    render(*scene, description, {threads, 0, {3, 7, 200, 130}}, rays, [&](const RenderProgress& progress) {
       overlapped = overlapped || ++inside > 1;
-      told.push_back(fraction);
+      told.push_back(progress.fraction);
       --inside;
     });
     CHECK(!overlapped);
@@ -70,7 +70,7 @@ TEST_CASE("a render that is stopped ends early, with pixels that are done or unt
       int told = 0;
       RayCounts rays;
       const FloatPicture film = render(
-          *scene, description, {threads, 0, whole(description)}, rays, [&](double) { stop = ++told >= calls; }, &stop);
+          *scene, description, {threads, 0, whole(description)}, rays, [&](const RenderProgress&) { stop = ++told >= calls; }, &stop);
       const int done = whole_pixels(film, all);
       INFO(threads << " threads, stopped at call " << calls << ", done " << done);
       CHECK(done > 0);
@@ -106,7 +106,7 @@ TEST_CASE("a render that is paused again and again ends in the same sums") {
       const std::uint32_t target = std::min(40U, paused.fewest_samples() + 7);
       // Further on each time, since tiles that are done count again; the other threads are in the middle of theirs.
       int calls = 0;
-      render(*scene, paused, target, threads, [&](double) { stop = calls++ >= pauses; }, &stop);
+      render(*scene, paused, target, threads, [&](const RenderProgress&) { stop = calls++ >= pauses; }, &stop);
       ++pauses;
     }
     CHECK(pauses > 10);

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
+#include <optional>
 #include <string>
 
 #include "raytrace/xml/diagnostics.h"
@@ -18,6 +20,14 @@ enum class MessageLevel {
 /// The parts of a render, in their order.
 enum class RenderStage { check_outputs, load, build, render };
 
+/// How far a render is.
+struct PictureProgress {
+  double fraction = 0;               ///< that is done; 1 in the end alone
+  std::uint32_t samples = 0;         ///< that pixels have on average
+  std::uint32_t all_samples = 0;     ///< that they are to have
+  std::optional<double> error = {};  ///< estimated: RenderStatistics::estimated_error so far
+};
+
 /// Derive from it what is to be known of a render.
 class RenderObserver {
  public:
@@ -32,8 +42,8 @@ class RenderObserver {
   /// What is wrong or doubtful in the scene's file; after an error the render fails.
   virtual void on_diagnostics(const Diagnostics& /*diagnostics*/) {}
 
-  /// fraction: of the render that is done; 1 in the end alone. One at a time, from any thread.
-  virtual void on_progress(double /*fraction*/) {}
+  /// One at a time, from any thread.
+  virtual void on_progress(const PictureProgress& /*progress*/) {}
 };
 
 /// What is asked of a render while it runs. All may be called from any thread, and from signal handlers.

@@ -11,6 +11,7 @@
 #include "raytrace/aovs/aov_selection.h"
 #include "raytrace/batch/checkpoint.h"
 #include "raytrace/batch/output_files.h"
+#include "raytrace/batch/passes.h"
 #include "raytrace/batch/provenance.h"
 #include "raytrace/batch/settings_error.h"
 #include "raytrace/description/check_scene.h"
@@ -170,6 +171,7 @@ class PictureRender {
       if (target == done) break;  // the time is up
       const Clock::time_point pass_start = Clock::now();
       if (!render_pass(film, target, 1.0 * done / all, 1.0 * (target - done) / all)) break;
+      error_.end_pass(target - done);
       seconds_a_sample = seconds_since(pass_start) / (target - done);
       done = target;
     }
@@ -220,14 +222,18 @@ class PictureRender {
       control_.pause() = false;
       if (control_.is_stopped()) return false;
       service_requests(film);
-      const auto update = [&](double fraction) {
+      const auto update = [&](const RenderProgress& pass) {
         const double of_time = job_.time_limit ? seconds_since(start_) / *job_.time_limit : 0;
-        observer_.on_progress(std::min(std::max(work_before + fraction * work, of_time), std::nextafter(1.0, 0.0)));
+        const double of_samples = work_before + pass.fraction * work;
+        const std::uint32_t all = identity_.film.samples.count;
+        observer_.on_progress({std::min(std::max(of_samples, of_time), std::nextafter(1.0, 0.0)),
+                               static_cast<std::uint32_t>(of_samples * all), all, error_.estimate(pass.error)});
         if (is_due()) control_.pause() = true;
       };
       const RenderReport done = render(*scene_, film, target, job_.threads, update, &control_.pause());
       result_.statistics.rays += done.rays;
       result_.statistics.stages += done.stages;
+      error_.add(done.error);
       result_.statistics.processor_seconds += done.processor_seconds;
       result_.statistics.scene.bvh_bytes = scene_->statistics().bvh_bytes;  // rays may have been the first to want it
       invalid_samples_ += done.invalid_samples;
@@ -252,25 +258,20 @@ class PictureRender {
   /// Whether something is to be done that wants the render to pause.
   bool is_due() const { return checkpoint_.is_due() || (display_ && display_->is_due()); }
 
-  /// The samples per pixel after the next pass: early passes are short, so that there is a whole picture soon. With a
-  /// time limit, no pass is begun that would not end in time.
+  /// The samples per pixel after the next pass. With a time limit, none is begun that would not end in time.
   std::uint32_t next_target(std::uint32_t done, double seconds_a_sample) const {
     const std::uint32_t all = identity_.film.samples.count;
     if (!job_.time_limit && job_.checkpoint.empty() && !display_) return all;
-    constexpr std::uint32_t group = 4;  // of samples that are traced together: of fewer, each would cost more
-    constexpr std::uint32_t least_samples = group, most_samples = 32;  // of a pass
-    std::uint32_t samples = std::min(std::clamp(done, least_samples, most_samples), all - done);
-    if (job_.time_limit && done > 0) {
-      const double left = *job_.time_limit - seconds_since(start_);
-      const double fitting = seconds_a_sample > 0 ? std::max(0.0, left / seconds_a_sample) : left > 0 ? group : 0.0;
-      if (fitting < samples) samples = static_cast<std::uint32_t>(fitting) / group * group;
-    }
-    return done + samples;
+    const std::uint32_t samples = samples_of_pass(done, all);
+    if (!job_.time_limit || done == 0) return done + samples;
+    return done + samples_in_time(samples, *job_.time_limit - seconds_since(start_), seconds_a_sample);
   }
 
   void finish_render() {
-    observer_.on_progress(1);
-    const RenderStatistics& statistics = result_.statistics;
+    RenderStatistics& statistics = result_.statistics;
+    statistics.estimated_error = error_.estimate();
+    const std::uint32_t samples = identity_.film.samples.count;
+    observer_.on_progress({1, samples, samples, statistics.estimated_error});
     report(MessageLevel::step, "rendered " + counted(statistics.total_rays(), "ray") + " on " +
                                    counted(static_cast<std::uint64_t>(statistics.threads), "thread") +
                                    time_taken(statistics.phases.render.seconds));
@@ -380,6 +381,7 @@ class PictureRender {
   bool in_bands_ = false;
   CheckpointFile checkpoint_;
   InvalidSamples invalid_samples_;
+  ErrorOfPasses error_;
   std::unique_ptr<DisplayClient> display_;  ///< none if it was not asked for
   RenderResult result_;
 };

@@ -87,6 +87,7 @@ std::string statistics_text(const RenderStatistics& s) {
   return aligned_line("scene", on_one_line(s.scene_file)) + aligned_line("picture", picture + crop) + view + seconds +
          aligned_line("total", seconds_text(s.phases.seconds())) +
          (stages.empty() ? stages : aligned_line("stages", stages)) +
+         (s.estimated_error ? aligned_line("estimated error", formatted("%10.2f %%", 100 * *s.estimated_error)) : "") +
          aligned_line("camera rays", amount_text(s.rays.camera, "")) +
          aligned_line("shadow rays", amount_text(s.rays.shadow, "")) +
          (s.rays.indirect > 0 ? aligned_line("indirect rays", amount_text(s.rays.indirect, "")) : std::string()) +
@@ -108,6 +109,8 @@ std::string statistics_json(const RenderStatistics& s) {
   seconds["total"] = s.phases.seconds();
   nlohmann::ordered_json stages = nlohmann::ordered_json::object();
   for (const auto& [name, processor_seconds] : s.stage_seconds()) stages[name] = processor_seconds;
+  nlohmann::ordered_json error = nullptr;
+  if (s.estimated_error) error = *s.estimated_error;
   const nlohmann::ordered_json report = {
       {"schema_version", 1},
       {"software", s.software},
@@ -124,6 +127,7 @@ std::string statistics_json(const RenderStatistics& s) {
       {"seconds", seconds},
       {"processor_seconds", s.processor_seconds},
       {"stage_seconds", stages},
+      {"estimated_error", error},
       {"rays",
        {{"camera", s.rays.camera},
         {"shadow", s.rays.shadow},

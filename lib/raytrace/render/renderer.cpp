@@ -79,18 +79,37 @@ class ProgressReporter {
  public:
   ProgressReporter(const ProgressFunction& progress, int tiles) : progress_(progress), tiles_(tiles) {}
 
-  void report(int done) {
+  /// A tile is done.
+  void add(const ErrorEstimate& error) {
+    {
+      const std::scoped_lock lock(sum_mutex_);
+      ++done_;
+      error_ += error;
+    }
+    report();
+  }
+
+  void report() {
     if (!progress_) return;
     const std::unique_lock lock(mutex_, std::try_to_lock);
-    if (!lock || done <= reported_) return;
-    reported_ = done;
-    progress_(static_cast<double>(done) / tiles_);
+    if (!lock) return;
+    RenderProgress progress;
+    {
+      const std::scoped_lock sum_lock(sum_mutex_);
+      if (done_ <= reported_) return;
+      reported_ = done_;
+      progress = {static_cast<double>(done_) / tiles_, error_};
+    }
+    progress_(progress);
   }
 
  private:
   const ProgressFunction& progress_;
   int tiles_, reported_ = 0;
-  std::mutex mutex_;
+  std::mutex mutex_;      ///< of who reports
+  std::mutex sum_mutex_;  ///< of the next two, once a tile for a moment
+  int done_ = 0;
+  ErrorEstimate error_;
 };
 
 }  // namespace
@@ -134,20 +153,18 @@ RenderReport render(const Scene& scene, Film& film, std::uint32_t samples, int t
   const Variant variant = choose_variant(scene.isa());
   ProgressReporter reporter(progress, grid.count());
   std::vector<RenderReport> reports(static_cast<std::size_t>(grid.count()));  // of each tile
-  // With the loop's own, all that threads write and others read: once a tile.
-  std::atomic<int> done{0};
   for_each_index(grid.count(), workers, [&](int index) {
     if (stop != nullptr && stop->load(std::memory_order_relaxed)) return;
     const Region tile = grid.tile(index);
+    RenderReport& of_tile = reports[static_cast<std::size_t>(index)];
     if (film.content() != FilmContent::sums || !is_rendered(film, tile, samples)) {
-      RenderReport& of_tile = reports[static_cast<std::size_t>(index)];
       const double start = thread_seconds();
       of_tile = variant.render(scene, tile, samples, film, stop);
       of_tile.processor_seconds = thread_seconds() - start;
     }
-    reporter.report(done.fetch_add(1, std::memory_order_relaxed) + 1);
+    reporter.add(of_tile.error);
   });
-  reporter.report(done.load(std::memory_order_relaxed));  // the last may have found another thread reporting
+  reporter.report();  // the last may have found another thread reporting
   RenderReport report;
   for (const RenderReport& of_tile : reports) report += of_tile;
   return report;

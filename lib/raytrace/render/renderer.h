@@ -24,8 +24,13 @@ struct RenderSettings {
   Region whole{};  ///< the picture or crop that the region is of: films with light paths hold it; not set: the region
 };
 
+struct RenderProgress {
+  double fraction = 0;  ///< that is done
+  ErrorEstimate error;  ///< RenderReport::error of that part
+};
+
 /// Receives how much of a render is done. Calls come from any thread, one at a time and not often.
-using ProgressFunction = std::function<void(double fraction)>;
+using ProgressFunction = std::function<void(const RenderProgress& progress)>;
 
 /// Of a film for a render of the scene with the settings. Throws SceneError if the description's view plane breaks the
 /// rules, and RenderError for a region without pixels or for no samples.

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "raytrace/tracing/error_estimate.h"
 #include "raytrace/tracing/stage_times.h"
 
 namespace raytrace {
@@ -54,11 +55,13 @@ struct RenderReport {
   RayCounts rays;
   InvalidSamples invalid_samples;
   StageTimes stages;             ///< of path tracing
+  ErrorEstimate error;           ///< of what the render added; empty with raycast, and without two samples a pixel
   double processor_seconds = 0;  ///< of all threads together
   RenderReport& operator+=(const RenderReport& other) {
     rays += other.rays;
     invalid_samples += other.invalid_samples;
     stages += other.stages;
+    error += other.error;
     processor_seconds += other.processor_seconds;
     return *this;
   }

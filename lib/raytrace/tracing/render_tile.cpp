@@ -10,6 +10,7 @@
 
 #include "raytrace/sampling/pixel_sampler.h"
 #include "raytrace/tracing/block_aovs.h"
+#include "raytrace/tracing/block_error.h"
 #include "raytrace/tracing/block_sums.h"
 #include "raytrace/tracing/group_sums.h"
 #include "raytrace/tracing/kernels.h"
@@ -130,6 +131,7 @@ class BlockRenderer {
     BlockSums<Block> sums(scale_);
     std::optional<GroupSums<Block>> group_sums;
     if (by_group_) group_sums.emplace(scale_, layers_.size());
+    BlockError<Block> error(left.first, left.last);
     FirstHits first;
     for (int packets = 1; base < left.last; base += group, ++packets) {
       if (!raycast && batch_) batch_->clock().begin_packet();
@@ -174,12 +176,14 @@ class BlockRenderer {
         batch_->clock().end(Stage::light_paths);
       }
       if (!raycast && batch_) {
-        waiting_.push_back({block, base, wanted, result});
+        waiting_.push_back({block, base, left.first, left.last, wanted, result});
         if (batch_->is_full()) trace_batch();
       } else if (by_group_) {
         if (!raycast) group_light_.front() = result.radiance;
         add_by_group(*group_sums, result, wanted, block, base);
+        if (!raycast) error.add(light_of_all_groups(), sample, wanted);
       } else {
+        if (!raycast) error.add(result.radiance, sample, wanted);
         const MaskN large = sums.add(result, wanted);
         if (any(large)) add_invalid(sums.add_large(result.radiance, large), block, base);
         if (packets % (sums.most_packets / packets_per_look * packets_per_look) == 0) sums.carry();
@@ -191,6 +195,7 @@ class BlockRenderer {
       group_sums->add_to(film_, layers_, block, region_);
     else
       sums.add_to(film_, block, region_);
+    if (!raycast) error.add_to(report_.error, block, region_);
   }
 
   /// Adds group_light_ where something was hit. missed: its radiance is what arrives elsewhere.
@@ -202,6 +207,12 @@ class BlockRenderer {
       group_light_[i] = select(missed.hit, group_light_[i], i == group ? missed.radiance : black);
     if (const std::uint32_t refused = sums.add(group_light_, missed.hit, wanted); refused != 0)
       add_invalid(refused, block, base);
+  }
+
+  Rgb<FloatN> light_of_all_groups() const {
+    Rgb<FloatN> light = group_light_.front();
+    for (std::size_t i = 1; i < group_light_.size(); ++i) light += group_light_[i];
+    return light;
   }
 
   /// Those of the lanes' pixels and samples. They are in the film before the samples are, but in one call of render():
@@ -226,17 +237,20 @@ class BlockRenderer {
       batch_->clock().begin_packet();
       if (!open_ || open_->block.left != packet.block.left || open_->block.top != packet.block.top) {
         if (open_) close_block();
-        open_ = std::make_unique<OpenBlock>(packet.block, scale_, layers_.size());
+        open_ = std::make_unique<OpenBlock>(packet, scale_, layers_.size());
       }
+      const UintN sample = UintN(packet.base) + Block::slots();
       if (by_group_) {
         for (std::size_t group = 0; group < group_light_.size(); ++group)
           group_light_[group] = batch_->radiance(i, group);
         add_by_group(open_->group_sums, packet.missed, packet.wanted, packet.block, packet.base);
+        open_->error.add(light_of_all_groups(), sample, packet.wanted);
         continue;
       }
       BlockSums<Block>& sums = open_->sums;
       const MaskN hit = packet.missed.hit;
       const RayResult result{select(hit, batch_->radiance(i, 0), packet.missed.radiance), hit};
+      open_->error.add(result.radiance, sample, packet.wanted);
       const MaskN large = sums.add(result, packet.wanted);
       if (any(large)) add_invalid(sums.add_large(result.radiance, large), packet.block, packet.base);
       if (++open_->packets % sums.most_packets == 0) sums.carry();
@@ -251,6 +265,7 @@ class BlockRenderer {
       open_->group_sums.add_to(film_, layers_, open_->block, region_);
     else
       open_->sums.add_to(film_, open_->block, region_);
+    open_->error.add_to(report_.error, open_->block, region_);
     open_.reset();
   }
 
@@ -328,7 +343,8 @@ class BlockRenderer {
   // Of integrators with batches.
   struct WaitingPacket {
     Block block;
-    std::uint32_t base;  ///< of its samples
+    std::uint32_t base;         ///< of its samples
+    std::uint32_t first, last;  ///< of the samples that the block wants
     MaskN wanted;
     RayResult missed;  ///< what arrives where nothing was hit
   };
@@ -337,9 +353,10 @@ class BlockRenderer {
     Block block;
     BlockSums<Block> sums;
     GroupSums<Block> group_sums;  ///< in place of them where there are groups
+    BlockError<Block> error;
     int packets = 0;
-    OpenBlock(const Block& block, const SumScale& scale, std::size_t groups)
-        : block(block), sums(scale), group_sums(scale, groups) {}
+    OpenBlock(const WaitingPacket& first, const SumScale& scale, std::size_t groups)
+        : block(first.block), sums(scale), group_sums(scale, groups), error(first.first, first.last) {}
   };
   std::optional<PathBatch> batch_;
   std::optional<LightPaths> light_paths_;  ///< where the scene has them
