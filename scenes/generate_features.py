@@ -1218,6 +1218,57 @@ studio(
     </boxes>
 """,
 )
+
+
+def tumbler(x, ice=False, straw=False, water=True):
+    """Of glass, hollowed by air that counts more, where water counts more still and reaches into the glass."""
+
+    def upright(bottom, top, radius, material):
+        return (
+            f'      <cylinder> <bottom x="{x}" y="{bottom}" z="0.5"/> <top x="{x}" y="{top}" z="0.5"/> <radius>{radius}</radius> '
+            f"<caps>true</caps> <material>{material}</material> </cylinder>\n"
+        )
+
+    cylinders = upright(0, 1.6, 0.6, "glass") + upright(0.15, 1.8, 0.53, "air")
+    boxes = ""
+    if water:
+        cylinders += upright(0.14, 1.2, 0.54, "water")
+    if straw:
+        cylinders += (
+            f'      <cylinder> <bottom x="{x - 0.3}" y="0.2" z="0.6"/> <top x="{x + 0.6}" y="2.2" z="0.4"/> <radius>0.05</radius> '
+            "<caps>true</caps> <material>red</material> </cylinder>\n"
+        )
+    if ice:
+        for dx, y, z, angle in ((-0.16, 1.1, 0.68, 20), (0.18, 1.15, 0.35, 65)):
+            boxes += (
+                '      <box> <min x="-0.18" y="-0.18" z="-0.18"/> <max x="0.18" y="0.18" z="0.18"/> <material>ice</material> '
+                f'<transform> <rotate x="0.4" y="1" z="0.3" angle="{angle}"/> '
+                f'<translate x="{x + dx:.4g}" y="{y}" z="{z}"/> </transform> </box>\n'
+            )
+    return cylinders, boxes
+
+
+TUMBLERS = [tumbler(-1.5, water=False), tumbler(0, straw=True), tumbler(1.5, ice=True)]
+studio(
+    "dielectric-priority",
+    "Tumblers: empty, with water and a straw, with water and ice.",
+    """\
+    <dielectrics>
+      <dielectric> <name>glass</name> <ior>1.5</ior> <priority>1</priority> </dielectric>
+      <dielectric> <name>air</name> <ior>1</ior> <priority>2</priority> </dielectric>
+      <dielectric>
+        <name>water</name> <ior>1.33</ior> <priority>3</priority> <attenuationcolor red="0.55" green="0.85" blue="0.9"/>
+        <attenuationdistance>2</attenuationdistance>
+      </dielectric>
+      <dielectric> <name>ice</name> <ior>1.31</ior> <priority>4</priority> </dielectric>
+    </dielectrics>
+""",
+    "    <cylinders>\n"
+    + "".join(cylinders for cylinders, _ in TUMBLERS)
+    + "    </cylinders>\n    <boxes>\n"
+    + "".join(boxes for _, boxes in TUMBLERS)
+    + "    </boxes>\n",
+)
 studio(
     "dielectric-roughness",
     "Glass of roughness 0, 0.15, 0.3, 0.5 and 0.8 before a wall.",

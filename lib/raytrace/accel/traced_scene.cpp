@@ -13,6 +13,28 @@ TracedScene::TracedScene(const SceneDescription& description, int threads, const
   const bool rays_scatter = std::holds_alternative<Path::Parameters>(tables_.integrator()) ||
                             std::holds_alternative<AmbientOcclusion::Parameters>(tables_.integrator());
   if (rays_scatter || tables_.geometry().primitive_count() <= few_primitives) accelerator_.embree_scene();
+  if (std::holds_alternative<Path::Parameters>(tables_.integrator()) && !tables_.media().empty()) find_media();
+}
+
+void TracedScene::find_media() {
+  const MaskN one = first_lanes<FloatN>(1);
+  if (!tables_.camera_is_far())
+    camera_media_ = media_around(tables_, accelerator_, Vec3<FloatN>(tables_.camera_eye()), MaskN(true));
+  if (tables_.caustics() == nullptr) return;
+  const auto is_in_media = [&](const Vec3<FloatN>& points, const MaskN& lanes) {
+    return any(lanes & media_around(tables_, accelerator_, points, lanes).is_in_any());
+  };
+  for (const auto& origin : tables_.light_origins())
+    if (origin && !origin->infinitely_far) lights_in_media_ |= is_in_media(Vec3<FloatN>(origin->position), one);
+  // By a point of each patch.
+  const auto patches = static_cast<std::int32_t>(tables_.emitters().size());
+  for (std::int32_t first = 0; first < patches && !lights_in_media_; first += packet_lanes) {
+    const IntN patch = IntN(first) + lane_numbers<IntN>();
+    const MaskN lanes = float_mask<FloatN>(patch < IntN(patches));
+    const EmitterTable::Sample sample = tables_.emitters().sample(
+        select_lanes(lanes, patch, IntN(first)), Vec3<FloatN>(tables_.camera_eye()), FloatN(0.5F), FloatN(0.5F));
+    lights_in_media_ = is_in_media(sample.point.p, lanes);
+  }
 }
 
 void TracedScene::make_buffers(int threads) {

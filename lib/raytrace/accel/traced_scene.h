@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "raytrace/accel/accelerator.h"
+#include "raytrace/accel/media_around.h"
 #include "raytrace/scene/scene.h"
 #include "raytrace/scene/scene_tables.h"
 
@@ -27,6 +28,12 @@ class TracedScene final : public Scene {
   const SceneTables& tables() const { return tables_; }
   const Accelerator& accelerator() const { return accelerator_; }
 
+  /// The media that the camera is in; lights, by what is around each path's start.
+  const MediumStack& camera_media() const { return camera_media_; }
+  MediumStack light_media(const Vec3<FloatN>& starts, const MaskN& lanes) const {
+    return lights_in_media_ ? media_around(tables_, accelerator_, starts, lanes) : MediumStack();
+  }
+
   /// The objects as met from where all camera rays start, and from where all shadow rays to light `number` go. Null if
   /// there is no such point, or it would not pay.
   const DirectionBuffer* camera_buffer() const { return camera_buffer_ ? &*camera_buffer_ : nullptr; }
@@ -37,11 +44,14 @@ class TracedScene final : public Scene {
 
  private:
   void make_buffers(int threads);
+  void find_media();
 
   SceneTables tables_;
   Accelerator accelerator_;
   std::optional<DirectionBuffer> camera_buffer_;
   std::vector<std::optional<DirectionBuffer>> light_buffers_;
+  MediumStack camera_media_;
+  bool lights_in_media_ = false;  ///< whether any light of light paths is in one
   RadianceRange radiance_range_;
   const char* isa_name_;
 };

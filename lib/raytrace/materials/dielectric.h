@@ -3,15 +3,16 @@
 //   <dielectric>
 //     <name>green glass</name> <ior>1.52</ior> <roughness>0.1</roughness> <cr red="1" green="1" blue="1"/>
 //     <ct red="1" green="1" blue="1"/> <attenuationcolor red="0.4" green="0.9" blue="0.5"/>
-//     <attenuationdistance>2</attenuationdistance> <thinwalled>false</thinwalled>
+//     <attenuationdistance>2</attenuationdistance> <thinwalled>false</thinwalled> <priority>0</priority>
 //   </dielectric>
 //
 // What is behind its front is inside: the front of a closed shape is its outside, that of a triangle the side from
-// which its vertices run counter-clockwise. Light that is inside is attenuated until it meets the dielectric's back. A
-// thin wall has nothing inside: it is a pane of two parallel faces with no distance between them, between which light
-// goes to and fro, and what comes through is not bent. A rough one scatters what comes through as it does what it
-// reflects, but to the other side (Burley, "Extending the Disney BRDF to a BSDF", SIGGRAPH course 2015).
-// Shadow rays do not come through: lights are seen through it only by paths that meet them.
+// which its vertices run counter-clockwise. Light that is inside is attenuated. Where dielectrics are in each other,
+// the one of the highest priority counts (scene/medium_table.h). A thin wall has nothing inside: it is a pane of two
+// parallel faces with no distance between them, between which light goes to and fro, and what comes through is not
+// bent. A rough one scatters what comes through as it does what it reflects, but to the other side (Burley, "Extending
+// the Disney BRDF to a BSDF", SIGGRAPH course 2015). Shadow rays do not come through: lights are seen through it only
+// by paths that meet them.
 #pragma once
 
 #include "raytrace/materials/surface_detail.h"
@@ -34,6 +35,7 @@ class Dielectric {
   };
   struct Parameters : Values<double> {
     bool thinwalled = false;
+    int priority = 0;  ///< where it is in others: the highest counts, of equal ones what light came into last
   };
   static constexpr std::string_view group = "dielectrics";
   static constexpr std::string_view element = "dielectric";
@@ -44,7 +46,8 @@ class Dielectric {
          optional("ct", &Parameters::ct),
          optional("attenuationcolor", &Parameters::attenuationcolor, Range::not_negative),
          optional("attenuationdistance", &Parameters::attenuationdistance, Range::not_negative),
-         optional("thinwalled", &Parameters::thinwalled)});
+         optional("thinwalled", &Parameters::thinwalled),
+         optional("priority", &Parameters::priority, Range::not_negative)});
   }
   static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {
     const auto error = [](const char* message) {

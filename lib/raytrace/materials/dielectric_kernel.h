@@ -1,8 +1,11 @@
 // How clear surfaces reflect and refract light. Their albedo, for denoisers, is the color of what they reflect.
 #pragma once
 
+#include <optional>
+
 #include "raytrace/bsdfs/ggx_shares.h"
 #include "raytrace/materials/dielectric.h"
+#include "raytrace/materials/medium.h"
 #include "raytrace/math/kernel.h"
 
 namespace raytrace {
@@ -18,8 +21,8 @@ class Kernel<Dielectric> {
     Rgb<T> extinction;              ///< inside, for a unit of length
 
     template <class Front>
-    void set_side(const Front& front) {
-      eta = select(front | is_thin(), eta, T(1) / eta);
+    void set_side(const Front& front, const T& outside) {
+      eta = select(front | is_thin(), eta / outside, outside / eta);
     }
 
     Rgb<T> ambient_radiance(const Rgb<T>&) const { return black(); }
@@ -120,6 +123,10 @@ class Kernel<Dielectric> {
   }
   static Bsdf<float> bsdf(const Dielectric::Parameters& parameters) {
     return bsdf_of<float, double>(Dielectric::values(parameters));
+  }
+  static std::optional<Medium> medium(const Dielectric::Parameters& parameters, const Bsdf<float>& bsdf) {
+    if (parameters.thinwalled) return std::nullopt;
+    return Medium{bsdf.eta, parameters.priority, bsdf.extinction};
   }
 };
 

@@ -22,7 +22,9 @@
 //   shines by itself:
 //     Rgb<T> emitted() const;                    radiance, the same in all directions
 //   has two sides:
-//     void set_side(const Mask<T>& front);       whether wo is on the surface's front: called before all others
+//     void set_side(const Mask<T>& front, const T& outside);
+//                                                whether wo is on the surface's front, and the index of refraction of
+//                                                what is outside: called before all others
 //   has highlights far brighter than most of what it reflects:
 //     Rgb<T> usual_f() const;                    in place of evaluate() straight back, for the film's unit
 //   has evaluate() in the local frame, as all others are:
@@ -32,6 +34,8 @@
 //     sample(lobes, u, u1, u2); value(lobes, wi);   the same as sample(wo, ...); evaluate() and pdf(), as f and pdf
 //   sends light through:
 //     Rgb<T> transmittance(const T& distance) const;   the share that is left of light that went so far behind it
+//   and Kernel's
+//     static std::optional<Medium> medium(const Parameters&, const Bsdf<float>&);   what is inside
 //
 // A material that sends what it gets from one direction into one or a few, as mirrors, metals and clear glass do, may
 // say so of its Parameters:

@@ -47,6 +47,7 @@ class OpenPbr {
   };
   struct Parameters : Values<double> {
     bool geometry_thin_walled = false;
+    int priority = 0;   ///< a dielectric's
     Reference group{};  ///< of its emission (light_group.h)
 
     /// Defaults that no float is.
@@ -95,6 +96,7 @@ class OpenPbr {
         number("emission_luminance", &P::emission_luminance),
         color("emission_color", &P::emission_color),
         optional("geometry_thin_walled", &P::geometry_thin_walled),
+        optional("priority", &P::priority, Range::not_negative),
         light_group<P>(),
     });
   }
@@ -120,8 +122,6 @@ class OpenPbr {
     }
     return std::nullopt;
   }
-  /// Whether light comes through.
-  static bool transmits(const Parameters& parameters) { return parameters.transmission_weight > 0; }
   /// As materials/kernels.h has it.
   static bool focuses(const Parameters& parameters, const auto& is_textured) {
     const auto constant = [&](std::string_view name) { return !is_textured(name); };

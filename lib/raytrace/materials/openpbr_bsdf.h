@@ -39,9 +39,11 @@ struct OpenPbrBsdf {
   static constexpr bool in_local_frame = true;
 
   template <class Front>
-  void set_side(const Front& front) {
-    const auto inside = (transmission > T(0)) & !(front | is_thin());
-    eta = select(inside, T(1) / eta, eta);
+  void set_side(const Front& front, const T& outside) {
+    // Below a coat, eta is over the coat's; what light does not come into is as in air.
+    const auto clear = transmission > T(0), inside = clear & !(front | is_thin());
+    film.eta = select(clear & !inside, film.eta / outside, film.eta);
+    eta = select(inside, outside / eta, select(clear & !(coat > T(0)), eta / outside, eta));
     transmission = select(inside, T(1), transmission);
     metalness = select(inside, T(0), metalness);
     coat = select(inside, T(0), coat);

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 #include <type_traits>
 
+#include "raytrace/materials/medium.h"
 #include "raytrace/materials/openpbr.h"
 #include "raytrace/materials/openpbr_bsdf.h"
 #include "raytrace/math/kernel.h"
@@ -97,6 +99,10 @@ class Kernel<OpenPbr> {
   }
   static Bsdf<float> bsdf(const OpenPbr::Parameters& parameters) {
     return bsdf_of<float, double>(OpenPbr::values(parameters));
+  }
+  static std::optional<Medium> medium(const OpenPbr::Parameters& parameters, const Bsdf<float>& bsdf) {
+    if (!(parameters.transmission_weight > 0) || parameters.geometry_thin_walled) return std::nullopt;
+    return Medium{static_cast<float>(parameters.specular_ior), parameters.priority, bsdf.extinction};
   }
 };
 

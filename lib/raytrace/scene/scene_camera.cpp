@@ -28,6 +28,7 @@ void SceneTables::set_camera(const SceneDescription& description) {
     camera_ = camera;
     camera_has_lens_ = has_lens<Kernel<Type>>;
     set_ray_cone(camera);
+    camera_eye_ = Vec3f(parameters->eye - origin_);
     if constexpr (requires { camera.origin(); })
       if (!camera_is_far()) camera_origin_ = BufferOrigin{camera.origin()};
     const CameraMatrices matrices = Type::matrices(*parameters, viewplane_);

@@ -67,15 +67,17 @@ SceneTables::SceneTables(const SceneDescription& description, int threads)
   add_lights(description, threads);
   used_materials_ = geometry_->used_materials(first_material_.back());
   std::vector<MaterialEmission> emissions;
+  std::vector<std::optional<Medium>> media;
   for (std::size_t i = 0; i < details_.size(); ++i) {
     has_cutouts_ |= used_materials_[i] != 0 && details_[i].is_cutout();
     has_relief_ |= used_materials_[i] != 0 && details_[i].has_relief();
     has_emission_ |= used_materials_[i] != 0 && details_[i].emission.radiance > 0;
-    has_transmission_ |= used_materials_[i] != 0 && details_[i].transmits;
+    media.push_back(used_materials_[i] != 0 ? details_[i].medium : std::nullopt);
     const MaterialEmission& emission = details_[i].emission;
     shining_sides_.push_back(!(emission.radiance > 0) ? 0 : emission.two_sided ? 2 : 1);
     emissions.push_back(details_[i].is_cutout() ? MaterialEmission{} : details_[i].emission);
   }
+  media_.set(media);
   const auto* const path = std::get_if<Path::Parameters>(&integrator_);
   if (path == nullptr) emissions.clear();
   emitters_.emplace(*geometry_, emissions, path == nullptr ? LightSampling::tree : path->lightsampling);
@@ -196,10 +198,6 @@ SceneTables::SurfaceDetail SceneTables::surface_detail(const MaterialItem<Materi
   SurfaceDetail detail{{static_cast<float>(item.parameters.opacity)},
                        {static_cast<float>(item.parameters.normalmap)},
                        {static_cast<float>(item.parameters.bump)}};
-  detail.transmits =
-      requires(typename Kernel<Material>::template Bsdf<FloatN> bsdf, FloatN d) { bsdf.transmittance(d); };
-  if constexpr (requires { Material::transmits(item.parameters); })
-    detail.transmits = Material::transmits(item.parameters);
   if constexpr (requires { Material::is_anisotropic(item.parameters); })
     detail.is_anisotropic = Material::is_anisotropic(item.parameters);
   const auto is_textured = [&](std::string_view name) {
@@ -230,6 +228,8 @@ void SceneTables::add_materials(const SceneDescription& description) {
       textures_->multiply_by_largest(reinterpret_cast<double*>(&parameters), textured_item.factors);
       if (!textured_item.factors.empty() || details_.back().has_relief()) textured.push_back(std::move(textured_item));
       bsdfs.push_back(Kernel<Material>::bsdf(parameters));
+      if constexpr (requires { Kernel<Material>::medium(parameters, bsdfs.back()); })
+        details_.back().medium = Kernel<Material>::medium(parameters, bsdfs.back());
       Rgb<float> radiance(0, 0, 0);
       if constexpr (requires { bsdfs.back().emitted(); }) {
         radiance = bsdfs.back().emitted();
@@ -339,11 +339,11 @@ Rgb<FloatN> SceneTables::emitted(const Hits& hits, const SurfaceInteraction<Floa
   return select(shining, radiance, black);
 }
 
-Scattering SceneTables::scatter(const Hits& hits, const MaskN& front, const Vec3<FloatN>& wo, const MaskN& lit,
-                                const Vec3<FloatN>& wi, const FloatN& u, const FloatN& u1, const FloatN& u2,
-                                const TexturePoint<FloatN>* point) const {
+Scattering SceneTables::scatter(const Hits& hits, const MaskN& front, const FloatN& outside, const Vec3<FloatN>& wo,
+                                const MaskN& lit, const Vec3<FloatN>& wi, const FloatN& u, const FloatN& u1,
+                                const FloatN& u2, const TexturePoint<FloatN>* point) const {
   return by_material(hits, [&](const MaterialTable& table, const LaneIndices& materials) {
-    return table.scatter(materials, front, wo, lit, wi, u, u1, u2, point);
+    return table.scatter(materials, front, outside, wo, lit, wi, u, u1, u2, point);
   });
 }
 

@@ -20,6 +20,7 @@
 #include "raytrace/scene/geometry_table.h"
 #include "raytrace/scene/light_source.h"
 #include "raytrace/scene/material_table.h"
+#include "raytrace/scene/medium_table.h"
 #include "raytrace/scene/surface_interaction.h"
 
 namespace raytrace {
@@ -64,6 +65,7 @@ class SceneTables {
   const auto* usual_camera() const { return camera_is_far() ? nullptr : std::get_if<0>(&*camera_); }
   /// Whether the camera is so far away from all objects with bounds that its rays start at them.
   bool camera_is_far() const { return camera_target_.has_value(); }
+  const Vec3f& camera_eye() const { return camera_eye_; }
   /// Unit length.
   const Vec3f& viewing_direction() const { return viewing_direction_; }
   /// Whether depths are distances from the eye: there is no view plane to measure them from.
@@ -152,13 +154,13 @@ class SceneTables {
 
   /// As MaterialTable has it, each lane's of its own material, in its shading_frame(); lanes that hit nothing
   /// get anything.
-  Scattering scatter(const Hits& hits, const MaskN& front, const Vec3<FloatN>& wo, const MaskN& lit,
-                     const Vec3<FloatN>& wi, const FloatN& u, const FloatN& u1, const FloatN& u2,
+  Scattering scatter(const Hits& hits, const MaskN& front, const FloatN& outside, const Vec3<FloatN>& wo,
+                     const MaskN& lit, const Vec3<FloatN>& wi, const FloatN& u, const FloatN& u1, const FloatN& u2,
                      const TexturePoint<FloatN>* point) const;
   /// The share that is left of light that went so far behind the surfaces.
   Rgb<FloatN> transmittance(const Hits& hits, const FloatN& distance, const TexturePoint<FloatN>* point) const;
-  /// Whether light comes through surfaces of the scene.
-  bool has_transmission() const { return has_transmission_; }
+  /// What is inside of clear materials that objects have; empty if there is none.
+  const MediumTable& media() const { return media_; }
 
   /// Whether materials have normal maps or bumps.
   bool has_relief() const { return has_relief_; }
@@ -188,7 +190,8 @@ class SceneTables {
   struct SurfaceDetail {
     TexturedNumber opacity, normalmap, bump;
     MaterialEmission emission{};
-    bool transmits = false, is_anisotropic = false, focuses = false;
+    std::optional<Medium> medium{};
+    bool is_anisotropic = false, focuses = false;
 
     bool is_cutout() const { return opacity.value < 1 || opacity.texture; }
     bool has_relief() const { return normalmap.texture || bump.texture; }
@@ -225,7 +228,7 @@ class SceneTables {
   IntegratorParameters integrator_;
   std::optional<KernelVariant<Cameras>::type> camera_;
   std::optional<BoundingSphere> camera_target_;  ///< around all objects with bounds, if it is far
-  Vec3f viewing_direction_{};
+  Vec3f camera_eye_{}, viewing_direction_{};
   bool depth_is_distance_ = false, camera_has_lens_ = false;
   std::optional<BufferOrigin> camera_origin_;
   std::vector<LightGroup> light_groups_;
@@ -245,7 +248,8 @@ class SceneTables {
   std::optional<const CausticTable> caustics_;
   std::vector<float> emitted_;          ///< of each material, red, green and blue; of those with textures, the most
   std::vector<SurfaceDetail> details_;  ///< of all materials
-  bool has_cutouts_ = false, has_relief_ = false, has_emission_ = false, has_transmission_ = false;
+  MediumTable media_;
+  bool has_cutouts_ = false, has_relief_ = false, has_emission_ = false;
   std::vector<std::int32_t> shining_sides_;  ///< of all materials: 0, 1 for the front, 2 for both
   std::vector<std::int32_t> textured_;       ///< 1 for materials with textures, else 0; empty if there are none
   std::vector<std::int32_t> anisotropic_;    ///< likewise: those whose reflection differs along the surface

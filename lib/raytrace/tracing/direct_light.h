@@ -51,12 +51,12 @@ struct ShadowNumbers {
 };
 
 /// What of the group's lights' radiance leaves the surface along wo, in the lanes that were hit; of its ambient light,
-/// too. clock: if not null, its stages of this end here.
+/// too. clock: if not null, its stages of this end here. medium: if not null, each lane's that the light comes through.
 RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const SceneTables::LightGroup& group,
                                          const Hits& hits, const SurfaceInteraction<FloatN>& surface,
                                          const TexturePoint<FloatN>* textures, Coherence coherence,
                                          const MaskN& counted, RayCounts& counts, const ShadowNumbers& numbers,
-                                         StageClock* clock = nullptr) {
+                                         StageClock* clock = nullptr, const IntN* medium = nullptr) {
   const SceneTables& tables = scene.tables();
   std::array<IncidentLight, lights_per_run> incident;
   std::size_t count = 0;
@@ -100,6 +100,9 @@ RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const SceneTa
       end(Stage::trace);
     }
     if (none(lit)) continue;
+    if (medium != nullptr) [[unlikely]]
+      here.radiance =
+          here.radiance * tables.media().transmittance(*medium, length(shadow_rays.direction) * shadow_rays.far);
     here.wi = normalize(shadow_rays.direction);
     here.cosine = select(lit, max(dot(surface.ns, here.wi), FloatN(0)), FloatN(0));
     if (surface.has_relief) [[unlikely]]

@@ -10,6 +10,13 @@
 
 namespace raytrace {
 
+/// The light of all groups together, of which there is at least one.
+inline Rgb<FloatN> light_of_all(std::span<const Rgb<FloatN>> groups) {
+  Rgb<FloatN> light = groups.front();
+  for (const Rgb<FloatN>& group : groups.subspan(1)) light += group;
+  return light;
+}
+
 /// The picture's sums are those of all groups together: each group's light is rounded by itself, so that they add up
 /// exactly.
 template <class Block>

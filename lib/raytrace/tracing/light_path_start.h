@@ -23,8 +23,9 @@ struct LightPathPacket {
   /// The light that the path carries: the flux along it over the density of all that was drawn for it, where `share`
   /// of what left the light is not lost yet.
   Rgb<FloatN> flux, share;
-  int depth = 0;     ///< points that it has come to
-  MaskN from_point;  ///< whose light is known by the irradiance where the path comes to first
+  MediumStack media;  ///< that the path is in
+  int depth = 0;      ///< points that it has come to
+  MaskN from_point;   ///< whose light is known by the irradiance where the path comes to first
 
   Vec3<FloatN> center() const {
     return {of_targets([](const auto& t) { return t.center.x; }), of_targets([](const auto& t) { return t.center.y; }),

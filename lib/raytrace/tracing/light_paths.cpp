@@ -10,6 +10,7 @@
 #include "raytrace/sampling/sampler.h"
 #include "raytrace/tracing/direct_light.h"
 #include "raytrace/tracing/light_layers.h"
+#include "raytrace/tracing/media.h"
 #include "raytrace/tracing/sampled_light.h"
 
 namespace raytrace {
@@ -67,25 +68,35 @@ void LightPaths::trace(const Pixels& pixels, const UintN& samples, const MaskN& 
   }
 }
 
-Hits LightPaths::intersect(LightPathPacket& path, const MaskN& lanes) {
+Hits LightPaths::intersect(const LightPathPacket& path, Ray<FloatN>& rays, const MaskN& lanes) {
   report_->rays.indirect += count_of(lanes);
-  path.rays.far = infinity<FloatN>();
-  if (!tables_.has_cutouts()) return scene_.accelerator().intersect(path.rays, lanes, Coherence::incoherent);
-  const CutoutQuery query{tables_, scene_.accelerator(), path.rays,
-                          keys(path, static_cast<std::uint32_t>(path.depth) * 2)};
-  return scene_.accelerator().intersect(path.rays, lanes, Coherence::incoherent, nullptr, &query);
+  rays.far = infinity<FloatN>();
+  if (!tables_.has_cutouts()) return scene_.accelerator().intersect(rays, lanes, Coherence::incoherent);
+  const CutoutQuery query{tables_, scene_.accelerator(), rays, keys(path, static_cast<std::uint32_t>(path.depth) * 2)};
+  return scene_.accelerator().intersect(rays, lanes, Coherence::incoherent, nullptr, &query);
 }
 
 void LightPaths::follow(LightPathPacket& path, MaskN alive) {
   path.share = Rgb<FloatN>(Rgb<float>(1, 1, 1));
+  path.media = scene_.light_media(path.rays.origin, alive);
   const auto lights = static_cast<std::int32_t>(tables_.lights().size());
   const IntN source = IntN::load_aligned(path.sources.data()), aimed_at = IntN::load_aligned(path.targets.data());
   // So many points scatter on a path at most, the last of them to the camera.
   for (path.depth = 0; path.depth < most_points_ && any(alive); ++path.depth) {
     const Vec3<FloatN> from = path.rays.origin;
-    const Hits hits = intersect(path, alive);
+    Hits hits = intersect(path, path.rays, alive);
     if (none(hits.hit)) return;
     SurfaceInteraction<FloatN> surface = scene_.accelerator().surface(path.rays, hits);
+    MediumBoundary boundary;
+    if (!tables_.media().empty()) {
+      const auto went = [&](const MaskN& lanes, const Rgb<FloatN>& left) {
+        path.flux = select(lanes, path.flux * left, path.flux);
+      };
+      boundary = next_boundary(
+          scene_, path.media, path.rays, hits, surface, went, [] { return FloatN(0); },
+          [&](Ray<FloatN>& rays, const MaskN& lanes) { return intersect(path, rays, lanes); });
+      if (none(hits.hit)) return;
+    }
     const auto textures = add_textures(tables_, hits, surface, [] { return FloatN(0); });
     const IntN target = caustics_.target_of(tables_.geometry(), hits, tables_.material(hits));
     alive = alive & hits.hit;
@@ -120,21 +131,18 @@ void LightPaths::follow(LightPathPacket& path, MaskN alive) {
       }
     }
     const TexturePoint<FloatN>* const point = textures ? &*textures : nullptr;
-    if (tables_.has_transmission() && any(alive & !surface.front))
-      path.flux =
-          select(alive & !surface.front, path.flux * tables_.transmittance(hits, path.rays.far, point), path.flux);
     const MaskN focuses = float_mask<FloatN>(target >= IntN(0));
-    if (const MaskN shown = alive & !focuses; any(shown)) connect(path, hits, surface, shown);
+    if (const MaskN shown = alive & !focuses; any(shown)) connect(path, hits, surface, boundary, shown);
     alive = alive & focuses;
     if (path.depth + 2 > most_points_ || none(alive)) return;
-    alive = scatter(path, hits, surface, point, alive);
+    alive = scatter(path, hits, surface, boundary, point, alive);
   }
 }
 
 /// On to the next points. BSDFs are asked the other way round than on paths from the camera: for the direction that
 /// light comes from, of which they draw one that it goes to.
 MaskN LightPaths::scatter(LightPathPacket& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface,
-                          const TexturePoint<FloatN>* point, const MaskN& lanes) const {
+                          const MediumBoundary& boundary, const TexturePoint<FloatN>* point, const MaskN& lanes) const {
   const Frame<FloatN> frame = tables_.shading_frame(hits, surface, point);
   const Vec3<FloatN> wi = frame.to_local(surface.wo);
   const auto draw = [&](LightPathPointDraw what) {
@@ -142,7 +150,7 @@ MaskN LightPaths::scatter(LightPathPacket& path, const Hits& hits, const Surface
   };
   const Sample2D u = draw(LightPathPointDraw::direction), choice = draw(LightPathPointDraw::lobe_and_roulette);
   const BsdfSample<FloatN> sample =
-      tables_.scatter(hits, surface.front, wi, MaskN(false), wi, choice.x, u.x, u.y, point).sample;
+      tables_.scatter(hits, surface.front, boundary.outside, wi, MaskN(false), wi, choice.x, u.x, u.y, point).sample;
   const Vec3<FloatN> wo = frame.to_world(sample.wi);
   const MaskN through = sample.wi.z < FloatN(0);
   const FloatN true_wi = dot(surface.wo, surface.ng), true_wo = dot(wo, surface.ng);
@@ -151,7 +159,8 @@ MaskN LightPaths::scatter(LightPathPacket& path, const Hits& hits, const Surface
   // many facets share the light, f is not quite the same both ways: there, that of this way.
   Rgb<FloatN> f = sample.f * sample.eta2;
   if (const MaskN rough = alive & !sample.specular & !through; any(rough)) {
-    const auto back = tables_.scatter(hits, surface.front, sample.wi, rough, wi, choice.x, u.x, u.y, point).towards;
+    const auto back =
+        tables_.scatter(hits, surface.front, boundary.outside, sample.wi, rough, wi, choice.x, u.x, u.y, point).towards;
     f = select(rough, back.f, f);
   }
   // Of shading normals: Veach 1997, section 5.3.
@@ -168,6 +177,7 @@ MaskN LightPaths::scatter(LightPathPacket& path, const Hits& hits, const Surface
     path.share = path.share * more;
     alive = alive & (choice.y < survival);
   }
+  boundary.cross(path.media, through & alive, surface.front);
   path.rays.origin = offset_ray_origin(surface, through & alive);
   path.rays.direction = select(alive, wo, path.rays.direction);
   return alive & (largest(path.flux) > FloatN(0));
@@ -175,7 +185,7 @@ MaskN LightPaths::scatter(LightPathPacket& path, const Hits& hits, const Surface
 
 /// Sends what reaches those points to the camera, where it shows them.
 void LightPaths::connect(LightPathPacket& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface,
-                         const MaskN& lanes) {
+                         const MediumBoundary& boundary, const MaskN& lanes) {
   const Sample2D lens = get_2d(path.pixel, path.sample, light_path_dimension(LightPathDraw::lens));
   std::array<FilmPoint, packet_lanes> points;
   alignas(64) std::array<float, packet_lanes> x{}, y{}, z{}, areas{};
@@ -210,12 +220,12 @@ void LightPaths::connect(LightPathPacket& path, const Hits& hits, const SurfaceI
   if (none(lit)) return;
   const FloatN any_number(0.5F);
   const BsdfValue bsdf =
-      tables_.scatter(hits, seen.front, wo, lit, wi, any_number, any_number, any_number, point).towards;
+      tables_.scatter(hits, seen.front, boundary.outside, wo, lit, wi, any_number, any_number, any_number, point)
+          .towards;
   FloatN weight = FloatN::load_aligned(areas.data()) * cosine * (wi.z / max(true_wi, FloatN(1e-6F)));
   if (seen.has_relief) weight = weight * relief_shadow(seen, surface.wo);
   Rgb<FloatN> radiance = path.flux * bsdf.f * weight;
-  if (tables_.has_transmission() && any(lit & !seen.front))
-    radiance = select(lit & !seen.front, radiance * tables_.transmittance(hits, distance, point), radiance);
+  if (!tables_.media().empty()) radiance = radiance * tables_.media().transmittance(boundary.current, distance);
   MaskN arrives = lit & (largest(radiance) > FloatN(0));
   if (none(arrives)) return;
   Ray<FloatN> ray;

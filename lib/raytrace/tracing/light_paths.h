@@ -34,10 +34,11 @@ class LightPaths {
 
  private:
   void follow(LightPathPacket& path, MaskN alive);
-  Hits intersect(LightPathPacket& path, const MaskN& lanes);
-  void connect(LightPathPacket& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface, const MaskN& lanes);
+  Hits intersect(const LightPathPacket& path, Ray<FloatN>& rays, const MaskN& lanes);
+  void connect(LightPathPacket& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface,
+               const MediumBoundary& boundary, const MaskN& lanes);
   MaskN scatter(LightPathPacket& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface,
-                const TexturePoint<FloatN>* point, const MaskN& lanes) const;
+                const MediumBoundary& boundary, const TexturePoint<FloatN>* point, const MaskN& lanes) const;
   void splat(const LightPathPacket& path, std::size_t lane, const FilmPoint& point, const Rgb<FloatN>& radiance);
 
   const TracedScene& scene_;

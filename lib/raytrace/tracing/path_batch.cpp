@@ -9,6 +9,7 @@
 #include "raytrace/sampling/sampler.h"
 #include "raytrace/tracing/camera_hits.h"
 #include "raytrace/tracing/direct_light.h"
+#include "raytrace/tracing/media.h"
 #include "raytrace/tracing/sampled_light.h"
 
 namespace raytrace {
@@ -24,8 +25,8 @@ std::uint64_t count(const MaskN& lanes) { return static_cast<std::uint64_t>(std:
 PathBatch::PathBatch(const TracedScene& scene)
     : scene_(scene),
       settings_(std::get<Path::Parameters>(scene.tables().integrator())),
-      paths_(most_packets * packet_lanes),
-      next_(most_packets * packet_lanes),
+      paths_(most_packets * packet_lanes, !scene.tables().media().empty()),
+      next_(most_packets * packet_lanes, !scene.tables().media().empty()),
       groups_(scene.tables().light_groups().size()) {
   order_.reserve(most_packets * packet_lanes);
   direct_.reserve(most_packets * groups_);
@@ -65,6 +66,9 @@ MaskN PathBatch::add(CameraRays& camera, const MaskN& active, const MaskN& wante
   path.sample = camera.sample;
   path.slot = IntN(first_slot) + lane_numbers<IntN>();
   path.way = IntN(any_way);
+  const MediumStack::Packed media = scene_.camera_media().packed();
+  path.first_media = media.first;
+  path.last_media = media.last;
   append(paths_, path, hits, hits.hit & wanted);
   clock_.end(Stage::surface);
   return hits.hit;
@@ -136,20 +140,72 @@ Rgb<FloatN> PathBatch::radiance(std::size_t packet, std::size_t group) const {
   return load(direct_[first + group]) + indirect;
 }
 
-void PathBatch::extend(PathPacket& path, const MaskN& lanes, int depth, RayCounts& counts) {
+void PathBatch::add_escaped(const PathPacket& path, const MaskN& lanes, int depth) {
+  const SceneTables& tables = scene_.tables();
+  std::vector<Sums>& sums = depth <= 1 ? direct_ : indirect_;
+  const Environment* const environment = tables.environment();
+  if (environment != nullptr && (depth > 0 || environment->visible())) {
+    const EnvironmentSample sky = environment->at(path.rays.direction);
+    const FloatN other = sky.pdf * FloatN(environment_share_of(tables));
+    const MaskN left_out = float_mask<FloatN>(path.way == IntN(by_focus));
+    add(sums, path.slot, lanes & !left_out, path.throughput * (sky.radiance * power_heuristic(path.pdf, other)),
+        IntN(tables.environment_group()));
+  } else if (environment == nullptr ? depth < settings_.maxdepth : depth == 0) {
+    add(sums, path.slot, lanes, path.throughput * Rgb<FloatN>(Rgb<float>(tables.viewplane().background)), IntN(0));
+  }
+}
+
+MediumBoundary PathBatch::find_boundary(PathPacket& path, MediumStack& media, Hits& hits,
+                                        SurfaceInteraction<FloatN>& surface, int depth, RayCounts& counts) {
+  const SceneTables& tables = scene_.tables();
+  const auto went = [&](const MaskN& lanes, const Rgb<FloatN>& left) {
+    path.distance = select(lanes, path.distance + path.rays.far, path.distance);
+    path.throughput = select(lanes, path.throughput * left, path.throughput);
+  };
+  std::uint32_t passes = 0;
+  const auto intersect = [&](Ray<FloatN>& rays, const MaskN& lanes) {
+    counts.indirect += count(lanes);
+    // Surfaces that are not there hide lights from shadow rays: from here on, paths alone bring theirs.
+    path.pdf = select(lanes, infinity<FloatN>(), path.pdf);
+    const UintN keys =
+        ray_keys(path.pixel, path.sample, 0x20000000U | static_cast<std::uint32_t>(depth) << 8U | (passes++ & 0xFFU));
+    const CutoutQuery query{tables, scene_.accelerator(), rays, keys};
+    const Hits next = scene_.accelerator().intersect(rays, lanes, Coherence::incoherent, nullptr,
+                                                     tables.has_cutouts() ? &query : nullptr);
+    if (const MaskN escaped = lanes & !next.hit; any(escaped)) {
+      const Ray<FloatN> last = path.rays;
+      path.rays = rays;
+      add_escaped(path, escaped, depth);
+      path.rays = last;
+    }
+    return next;
+  };
+  return next_boundary(
+      scene_, media, path.rays, hits, surface, went, [&] { return tables.ray_cone().half_width(path.distance); },
+      intersect);
+}
+
+void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCounts& counts) {
   const SceneTables& tables = scene_.tables();
   Ray<FloatN>& rays = path.rays;
-  Hits hits = path.hits(lanes);
+  Hits hits = path.hits(arrived);
   SurfaceInteraction<FloatN> surface = scene_.accelerator().surface(rays, hits);
-  path.distance = path.distance + rays.far;
+  const bool has_media = !tables.media().empty();
+  MediumStack media;
+  MediumBoundary boundary;
+  MaskN lanes = arrived;
+  if (!has_media) {
+    path.distance = path.distance + rays.far;
+  } else {
+    media = MediumStack({path.first_media, path.last_media});
+    boundary = find_boundary(path, media, hits, surface, depth, counts);
+    lanes = hits.hit;
+    if (none(lanes)) return;
+  }
   clock_.end(Stage::surface);
   const auto textures =
       add_textures(tables, hits, surface, [&] { return tables.ray_cone().half_width(path.distance); });
   const TexturePoint<FloatN>* const point = textures ? &*textures : nullptr;
-  if (tables.has_transmission() && any(lanes & !surface.front)) {
-    const Rgb<FloatN> left = tables.transmittance(hits, rays.far, point);
-    path.throughput = select(lanes & !surface.front, path.throughput * left, path.throughput);
-  }
   clock_.end(Stage::texture);
   const float environment_share = environment_share_of(tables);
   // Light paths bring what comes by what focuses light to the first point.
@@ -188,7 +244,8 @@ void PathBatch::extend(PathPacket& path, const MaskN& lanes, int depth, RayCount
   for (std::size_t group = 0; group < groups_; ++group) {
     if (tables.light_groups()[group].is_dark()) continue;
     light = direct_light(scene_, tables.light_groups()[group], hits, surface, point, coherence, lanes, counts,
-                         ShadowNumbers{path.pixel, path.sample, first_key + 1}, &clock_);
+                         ShadowNumbers{path.pixel, path.sample, first_key + 1}, &clock_,
+                         has_media ? &boundary.current : nullptr);
     if (any(on_way)) light = select(on_way, black(), light);
     if (groups_ == 1) break;  // which is added with the light that is drawn
     add(sums, path.slot, lanes, path.throughput * light, IntN(static_cast<std::int32_t>(group)));
@@ -205,11 +262,15 @@ void PathBatch::extend(PathPacket& path, const MaskN& lanes, int depth, RayCount
   const bool is_last = depth + 1 == settings_.maxdepth;
   const bool goes_on = !is_last || tables.has_emission() || tables.environment() != nullptr;
   const Sample2D direction = draw(PathDraw::direction), choices = draw(PathDraw::lobe_and_roulette);
-  const Scattering scattering =
-      tables.scatter(hits, surface.front, wo, drawn.lit, drawn.local_wi, choices.x, direction.x, direction.y, point);
+  const Scattering scattering = tables.scatter(hits, surface.front, boundary.outside, wo, drawn.lit, drawn.local_wi,
+                                               choices.x, direction.x, direction.y, point);
   clock_.end(Stage::shade);
-  if (any(drawn.lit))
-    light += arriving_light(scene_, vertex, drawn, scattering.towards, coherence, key(lights + 1), counts, clock_);
+  if (any(drawn.lit)) {
+    Rgb<FloatN> arriving =
+        arriving_light(scene_, vertex, drawn, scattering.towards, coherence, key(lights + 1), counts, clock_);
+    if (has_media) arriving = arriving * tables.media().transmittance(boundary.current, drawn.distance());
+    light += arriving;
+  }
   IntN group(0);
   if (groups_ > 1) {
     group = IntN(tables.environment_group());
@@ -242,6 +303,12 @@ void PathBatch::extend(PathPacket& path, const MaskN& lanes, int depth, RayCount
     const MaskN reflects = MaskN(depth == 0) & (!(focuses | through | sample.specular));
     path.way = select_lanes(on_way, IntN(by_focus), select_lanes(reflects, IntN(by_reflection), IntN(any_way)));
   }
+  if (has_media) {
+    boundary.cross(media, through & alive, surface.front);
+    const MediumStack::Packed packed = media.packed();
+    path.first_media = packed.first;
+    path.last_media = packed.last;
+  }
   path.from = surface.p;
   path.from_normal = surface.ns;
   rays.origin = offset_ray_origin(surface, through & alive);
@@ -256,17 +323,7 @@ void PathBatch::extend(PathPacket& path, const MaskN& lanes, int depth, RayCount
     hits = scene_.accelerator().intersect(rays, alive, Coherence::incoherent);
   }
   clock_.end(Stage::trace);
-  if (const MaskN escaped = alive & !hits.hit; any(escaped)) {
-    if (const Environment* const environment = tables.environment(); environment != nullptr) {
-      const EnvironmentSample sky = environment->at(rays.direction);
-      const FloatN other = sky.pdf * FloatN(environment_share);
-      const MaskN left_out = float_mask<FloatN>(path.way == IntN(by_focus));
-      add(sums, path.slot, escaped & !left_out, path.throughput * (sky.radiance * power_heuristic(path.pdf, other)),
-          IntN(tables.environment_group()));
-    } else if (!is_last) {
-      add(sums, path.slot, escaped, path.throughput * Rgb<FloatN>(Rgb<float>(tables.viewplane().background)), IntN(0));
-    }
-  }
+  if (const MaskN escaped = alive & !hits.hit; any(escaped)) add_escaped(path, escaped, depth + 1);
   clock_.end(Stage::lights);
   if (none(hits.hit)) return;
   path.set_hits(hits);

@@ -13,6 +13,7 @@
 
 #include "raytrace/accel/traced_scene.h"
 #include "raytrace/integrators/path.h"
+#include "raytrace/scene/medium_table.h"
 #include "raytrace/tracing/path_chunk.h"
 #include "raytrace/tracing/ray_result.h"
 #include "raytrace/tracing/render_report.h"
@@ -53,7 +54,12 @@ class PathBatch {
   void add(std::vector<Sums>& sums, const IntN& slot, const MaskN& lanes, const Rgb<FloatN>& radiance,
            const IntN& group) const;
   /// From the points that these paths have met, in those lanes, to the next ones.
-  void extend(PathPacket& path, const MaskN& lanes, int depth, RayCounts& counts);
+  void extend(PathPacket& path, const MaskN& arrived, int depth, RayCounts& counts);
+  /// next_boundary() of paths whose ray to there was their ray number `depth`.
+  MediumBoundary find_boundary(PathPacket& path, MediumStack& media, Hits& hits, SurfaceInteraction<FloatN>& surface,
+                               int depth, RayCounts& counts);
+  /// What comes to paths from where nothing is, along their ray number `depth`: 0 is the camera's.
+  void add_escaped(const PathPacket& path, const MaskN& lanes, int depth);
   void append(PathChunk& chunk, const PathPacket& path, const Hits& hits, const MaskN& lanes) const;
 
   const TracedScene& scene_;

@@ -35,9 +35,10 @@ struct PathPacket {
   // Of the last direction: its density, infinite where light cannot be drawn for it, and where it starts.
   FloatN pdf;
   Vec3<FloatN> from, from_normal;
-  UintN pixel, sample;  ///< as CameraRays have them
-  IntN slot;            ///< where the path's radiance goes
-  IntN way;             ///< PathWay, where light paths bring some of the light
+  UintN pixel, sample;           ///< as CameraRays have them
+  IntN slot;                     ///< where the path's radiance goes
+  IntN way;                      ///< PathWay, where light paths bring some of the light
+  IntN first_media, last_media;  ///< MediumStack::Packed, in scenes with media
 
   void set_hits(const Hits& hits) {
     instance = hits.instance;
@@ -62,8 +63,10 @@ struct PathPacket {
 class PathChunk {
  public:
   /// Takes so many paths. Throws std::bad_alloc.
-  explicit PathChunk(std::size_t capacity)
-      : stride_((capacity / packet_lanes + 2) * packet_lanes), numbers_(stride_ * fields) {
+  explicit PathChunk(std::size_t capacity, bool has_media)
+      : stride_((capacity / packet_lanes + 2) * packet_lanes),
+        fields_(has_media ? fields : fields - media_fields),
+        numbers_(stride_ * fields_) {
     buckets_.reserve(capacity + packet_lanes);
   }
 
@@ -88,7 +91,7 @@ class PathChunk {
     }
     const IntN index = IntN::load_aligned(from.data());
     const auto* numbers = reinterpret_cast<const float*>(&packet);
-    for (std::size_t field = 0; field < fields; ++field, numbers += packet_lanes, to += stride_)
+    for (std::size_t field = 0; field < fields_; ++field, numbers += packet_lanes, to += stride_)
       gather(numbers, index).store_unaligned(to);
   }
 
@@ -96,7 +99,7 @@ class PathChunk {
   PathPacket load(const IntN& index) const {
     PathPacket packet;
     auto* field = reinterpret_cast<FloatN*>(&packet);
-    for (const float* numbers = numbers_.data(); numbers != numbers_.data() + fields * stride_; numbers += stride_)
+    for (const float* numbers = numbers_.data(); numbers != numbers_.data() + fields_ * stride_; numbers += stride_)
       *field++ = gather(numbers, index);
     return packet;
   }
@@ -111,10 +114,10 @@ class PathChunk {
   }
 
  private:
-  static constexpr std::size_t fields = sizeof(PathPacket) / sizeof(FloatN);
+  static constexpr std::size_t fields = sizeof(PathPacket) / sizeof(FloatN), media_fields = 2;
   static_assert(sizeof(PathPacket) == fields * packet_lanes * sizeof(float));
 
-  std::size_t stride_;
+  std::size_t stride_, fields_;
   std::vector<float> numbers_;            ///< field by field
   std::vector<std::uint8_t> buckets_;     ///< of each path
   std::array<std::int32_t, 256> ends_{};  ///< of each bucket: how many are in it; while they are sorted, where it ends

@@ -13,7 +13,7 @@
 #include "raytrace/tracing/block_error.h"
 #include "raytrace/tracing/block_sums.h"
 #include "raytrace/tracing/group_sums.h"
-#include "raytrace/tracing/kernels.h"
+#include "raytrace/tracing/integrator_calls.h"
 #include "raytrace/tracing/light_layers.h"
 #include "raytrace/tracing/light_paths.h"
 #include "raytrace/tracing/packet_block.h"
@@ -36,24 +36,6 @@ FloatN to_float(std::uint32_t number) { return FloatN(static_cast<float>(static_
                                              const Vec3<FloatN>& direction) {
   if (all(result.hit)) return result.radiance;
   return select(result.hit, result.radiance, environment.radiance(direction));
-}
-
-/// An integrator, as one that is called by a pointer.
-struct IntegratorCalls {
-  decltype(&Kernel<Raycast>::radiance) radiance;  ///< null: it has a batch
-  bool takes_samples;
-};
-
-template <class Integrator>
-constexpr bool has_batch = requires { typename Kernel<Integrator>::Batch; };
-
-/// Of a scene's integrator.
-IntegratorCalls calls_of(const SceneTables& scene) {
-  return with_type(Integrators{}, scene.integrator().index(), [&]<class Integrator>(std::type_identity<Integrator>) {
-    IntegratorCalls calls{nullptr, Kernel<Integrator>::takes_samples};
-    if constexpr (!has_batch<Integrator>) calls.radiance = &Kernel<Integrator>::radiance;
-    return calls;
-  });
 }
 
 /// The pixels of a part of a film, block by block. Ray casting takes so little time that a call for each packet shows,
@@ -181,7 +163,7 @@ class BlockRenderer {
       } else if (by_group_) {
         if (!raycast) group_light_.front() = result.radiance;
         add_by_group(*group_sums, result, wanted, block, base);
-        if (!raycast) error.add(light_of_all_groups(), sample, wanted);
+        if (!raycast) error.add(light_of_all(group_light_), sample, wanted);
       } else {
         if (!raycast) error.add(result.radiance, sample, wanted);
         const MaskN large = sums.add(result, wanted);
@@ -207,12 +189,6 @@ class BlockRenderer {
       group_light_[i] = select(missed.hit, group_light_[i], i == group ? missed.radiance : black);
     if (const std::uint32_t refused = sums.add(group_light_, missed.hit, wanted); refused != 0)
       add_invalid(refused, block, base);
-  }
-
-  Rgb<FloatN> light_of_all_groups() const {
-    Rgb<FloatN> light = group_light_.front();
-    for (std::size_t i = 1; i < group_light_.size(); ++i) light += group_light_[i];
-    return light;
   }
 
   /// Those of the lanes' pixels and samples. They are in the film before the samples are, but in one call of render():
@@ -244,7 +220,7 @@ class BlockRenderer {
         for (std::size_t group = 0; group < group_light_.size(); ++group)
           group_light_[group] = batch_->radiance(i, group);
         add_by_group(open_->group_sums, packet.missed, packet.wanted, packet.block, packet.base);
-        open_->error.add(light_of_all_groups(), sample, packet.wanted);
+        open_->error.add(light_of_all(group_light_), sample, packet.wanted);
         continue;
       }
       BlockSums<Block>& sums = open_->sums;

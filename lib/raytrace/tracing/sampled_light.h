@@ -46,6 +46,8 @@ struct DrawnLight {
   EmitterTable::Sample sample;         ///< of a surface
   SurfaceInteraction<FloatN> surface;  ///< where it leaves from
   Rgb<FloatN> radiance;                ///< the environment's
+
+  FloatN distance() const { return select(is_sky, infinity<FloatN>(), length(ray.direction)); }
 };
 
 inline void draw_from_surfaces(const SceneTables& tables, const SurfaceInteraction<FloatN>& surface,

@@ -1,0 +1,29 @@
+#include "raytrace/accel/media_around.h"
+
+namespace raytrace {
+
+MediumStack media_around(const SceneTables& tables, const Accelerator& accelerator, const Vec3<FloatN>& points,
+                         const MaskN& lanes) {
+  constexpr int most_surfaces = 1000;  // where rounding keeps a ray at one
+  MediumStack around, entered;
+  // A little aslant, so that it does not run along walls.
+  Ray<FloatN> rays{points, Vec3<FloatN>(Vec3f(0.013F, 1, 0.007F)), FloatN(0), infinity<FloatN>()};
+  MaskN goes_on = lanes;
+  for (int surfaces = 0; surfaces < most_surfaces && any(goes_on); ++surfaces) {
+    const Hits hits = accelerator.intersect(rays, goes_on, Coherence::incoherent);
+    goes_on = goes_on & hits.hit;
+    if (none(goes_on)) break;
+    const SurfaceInteraction<FloatN> surface = accelerator.surface(rays, hits);
+    const IntN inside = tables.media().of_material(tables.material(hits));
+    const MaskN is_boundary = goes_on & float_mask<FloatN>(inside != IntN(0)), leaves = is_boundary & !surface.front;
+    const MaskN entered_here = leaves & entered.contains(inside);
+    entered.add(is_boundary & surface.front, inside);
+    entered.remove(entered_here, inside);
+    around.add_first(leaves & !entered_here, inside);  // what ends farther away is around the rest
+    rays.origin = offset_ray_origin(surface, goes_on);
+    rays.far = infinity<FloatN>();
+  }
+  return around;
+}
+
+}  // namespace raytrace

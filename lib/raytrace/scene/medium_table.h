@@ -1,0 +1,168 @@
+// The media of a scene, and which of them a path is in: dielectrics in each other, such as ice in water in a glass.
+//
+// Modelled walls overlap, or leave gaps, where real ones touch. So each clear material has a priority, and where
+// several of them are, the one of the highest counts, of equal ones the one that the path came into last; what lies
+// inside of one that counts more is not there (Schmidt and Budge, "Simple Nested Dielectrics in Ray Traced Images",
+// JGT 2002).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "raytrace/materials/medium.h"
+#include "raytrace/math/color.h"
+#include "raytrace/math/gather.h"
+#include "raytrace/math/simd.h"
+#include "raytrace/scene/scene.h"
+
+namespace raytrace {
+
+/// Media have numbers from 1 on. 0 is none: the air about all objects.
+class MediumTable {
+ public:
+  /// media: each material's; none where nothing is inside. Throws RenderError for more than numbers of 16 bits count.
+  void set(const std::vector<std::optional<Medium>>& media) {
+    *this = {};
+    for (const auto& medium : media) {
+      numbers_.push_back(0);
+      if (!medium) continue;
+      add(*medium);
+      numbers_.back() = static_cast<std::int32_t>(ior_.size() - 1);
+    }
+    if (ior_.size() > 1U << 16U) throw RenderError("there are more than 65,535 clear materials");
+  }
+
+  bool empty() const { return ior_.size() == 1; }
+
+  IntN of_material(const IntN& material) const { return gather(numbers_.data(), material); }
+  FloatN ior(const IntN& medium) const { return gather(ior_.data(), medium); }
+  /// Of none the least there is.
+  IntN priority(const IntN& medium) const { return gather(priority_.data(), medium); }
+  /// The share that is left of light that went so far in it. distance: may be infinite, of rays that meet nothing.
+  Rgb<FloatN> transmittance(const IntN& medium, const FloatN& distance) const {
+    const FloatN way = min(distance, FloatN(1e30F));
+    return {exp(gather(red_.data(), medium) * way), exp(gather(green_.data(), medium) * way),
+            exp(gather(blue_.data(), medium) * way)};
+  }
+
+ private:
+  void add(const Medium& medium) {
+    ior_.push_back(medium.ior);
+    priority_.push_back(medium.priority);
+    red_.push_back(-medium.extinction.red);
+    green_.push_back(-medium.extinction.green);
+    blue_.push_back(-medium.extinction.blue);
+  }
+
+  std::vector<std::int32_t> numbers_, priority_{std::numeric_limits<std::int32_t>::min()};
+  std::vector<float> ior_{1}, red_{0}, green_{0}, blue_{0};  ///< colours: what is left of them, as exponents
+};
+
+/// The media that each lane's path is in, in the order in which it came into them: four at most. Of more, the last
+/// ones are not known.
+class MediumStack {
+ public:
+  /// As they are kept in paths' records: two media in each number.
+  struct Packed {
+    IntN first{0}, last{0};
+  };
+
+  MediumStack() = default;
+  explicit MediumStack(const Packed& packed)
+      : media_{low(packed.first), high(packed.first), low(packed.last), high(packed.last)} {}
+  Packed packed() const { return {media_[0] | media_[1] << 16, media_[2] | media_[3] << 16}; }
+
+  MaskN is_in_any() const { return is(media_[0] != IntN(0)); }
+
+  /// The medium that counts.
+  IntN current(const MediumTable& table) const {
+    IntN medium(0), priority(std::numeric_limits<std::int32_t>::min());
+    for (const IntN& other : media_) {
+      const IntN its_priority = table.priority(other);
+      const MaskN counts = is(other != IntN(0)) & is(its_priority >= priority);
+      medium = select_lanes(counts, other, medium);
+      priority = select_lanes(counts, its_priority, priority);
+    }
+    return medium;
+  }
+
+  MaskN contains(const IntN& medium) const {
+    return is(media_[0] == medium) | is(media_[1] == medium) | is(media_[2] == medium) | is(media_[3] == medium);
+  }
+
+  /// The path has come into it, in those lanes.
+  void add(const MaskN& lanes, const IntN& medium) {
+    MaskN left = lanes;
+    for (IntN& place : media_) {
+      const MaskN here = left & is(place == IntN(0));
+      place = select_lanes(here, medium, place);
+      left = left & !here;
+    }
+  }
+
+  /// The path was in it before it came into all others.
+  void add_first(const MaskN& lanes, const IntN& medium) {
+    for (std::size_t i = media_.size() - 1; i > 0; --i) media_[i] = select_lanes(lanes, media_[i - 1], media_[i]);
+    media_[0] = select_lanes(lanes, medium, media_[0]);
+  }
+
+  /// The path has come out of it: of the last one of that number.
+  void remove(const MaskN& lanes, const IntN& medium) {
+    MaskN left = lanes;
+    std::array<MaskN, 4> found;
+    for (std::size_t i = media_.size(); i-- > 0;) {
+      found[i] = left & is(media_[i] == medium);
+      left = left & !found[i];
+    }
+    MaskN moves(false);
+    for (std::size_t i = 0; i < media_.size(); ++i) {
+      moves = moves | found[i];
+      media_[i] = select_lanes(moves, i + 1 < media_.size() ? media_[i + 1] : IntN(0), media_[i]);
+    }
+  }
+
+ private:
+  static MaskN is(const typename IntN::batch_bool_type& mask) { return float_mask<FloatN>(mask); }
+  static IntN low(const IntN& packed) { return packed & IntN(0xFFFF); }
+  static IntN high(const IntN& packed) { return same_bits<IntN>(same_bits<UintN>(packed) >> 16); }
+
+  std::array<IntN, 4> media_{IntN(0), IntN(0), IntN(0), IntN(0)};
+};
+
+/// What is on the two sides of the surfaces that paths come to.
+struct MediumBoundary {
+  IntN inside{0};        ///< the surface's own medium; 0 where it has none
+  IntN current{0};       ///< that the path came through
+  FloatN outside{1.0F};  ///< the index of refraction of what is outside of the surface
+  MaskN is_there{true};  ///< false: it lies inside of a medium that counts more
+
+  /// stack: of paths that came to surfaces of materials with that inside, from the front or not. Paths that come from
+  /// the inside of what they are not known to be in have been there since they began.
+  MediumBoundary(const MediumTable& table, MediumStack& stack, const MaskN& lanes, const IntN& its_inside,
+                 const MaskN& front)
+      : inside(its_inside) {
+    const MaskN has_inside = float_mask<FloatN>(inside != IntN(0)), leaves = lanes & has_inside & !front;
+    stack.add_first(leaves & !stack.contains(inside), inside);
+    current = stack.current(table);
+    MediumStack around = stack;
+    around.remove(leaves, inside);
+    const IntN other = around.current(table);
+    outside = table.ior(other);
+    const MaskN hidden_ahead = float_mask<FloatN>(table.priority(current) > table.priority(inside)) & front;
+    const MaskN hidden_behind = float_mask<FloatN>(current != inside) & !front;
+    is_there = !(has_inside & (hidden_ahead | hidden_behind));
+  }
+  MediumBoundary() = default;
+
+  /// The paths go through the surfaces, in those lanes.
+  void cross(MediumStack& stack, const MaskN& lanes, const MaskN& front) const {
+    const MaskN has_inside = lanes & float_mask<FloatN>(inside != IntN(0));
+    stack.add(has_inside & front, inside);
+    stack.remove(has_inside & !front, inside);
+  }
+};
+
+}  // namespace raytrace

@@ -1,0 +1,52 @@
+// Paths through clear media.
+#pragma once
+
+#include "raytrace/accel/surface_uv.h"
+#include "raytrace/accel/traced_scene.h"
+#include "raytrace/scene/medium_table.h"
+
+namespace raytrace {
+
+/// The boundary of media that paths are at which hit something, or, where it lies inside of a medium that counts more,
+/// the next one along the ray that does not: rays, hits and surface are set anew there; lanes that meet nothing more
+/// are none of hits.hit any longer.
+///
+/// went(lanes, share): called for each part of the way, before rays.far is set anew; what media have left of the light
+/// on it. radius(): as texture_point()'s, for media with textures. intersect(rays, lanes): the next hits of rays that
+/// go on; it ends them there.
+template <class Went, class Radius, class Intersect>
+MediumBoundary next_boundary(const TracedScene& scene, MediumStack& stack, Ray<FloatN>& rays, Hits& hits,
+                             SurfaceInteraction<FloatN>& surface, const Went& went, const Radius& radius,
+                             const Intersect& intersect) {
+  const SceneTables& tables = scene.tables();
+  const MediumTable& media = tables.media();
+  for (MaskN arrives = hits.hit;;) {
+    const IntN inside = media.of_material(tables.material(hits));
+    if (none(hits.hit & (stack.is_in_any() | float_mask<FloatN>(inside != IntN(0))))) {
+      went(arrives, Rgb<FloatN>(Rgb<float>(1, 1, 1)));
+      return {};
+    }
+    const MediumBoundary boundary(media, stack, hits.hit, inside, surface.front);
+    Rgb<FloatN> left = media.transmittance(boundary.current, rays.far);
+    const MaskN in_own = arrives & !surface.front & float_mask<FloatN>(boundary.current == inside);
+    if (any(in_own) && tables.has_textures(hits)) {
+      const TexturePoint<FloatN> point = texture_point(tables, radius(), hits, surface);
+      left = select(in_own, tables.transmittance(hits, rays.far, &point), left);
+    }
+    went(arrives, left);
+    const MaskN passes = hits.hit & !boundary.is_there;
+    if (none(passes)) return boundary;
+    boundary.cross(stack, passes, surface.front);
+    Ray<FloatN> onward{select(passes, offset_ray_origin(surface, passes), rays.origin), rays.direction, FloatN(0),
+                       infinity<FloatN>()};
+    const Hits next = intersect(onward, passes);
+    rays.origin = onward.origin;
+    rays.far = select(passes, onward.far, rays.far);
+    hits = select(passes, next, hits);
+    arrives = passes & hits.hit;
+    if (none(hits.hit)) return boundary;
+    surface = scene.accelerator().surface(rays, hits);
+  }
+}
+
+}  // namespace raytrace
