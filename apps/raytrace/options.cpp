@@ -119,8 +119,12 @@ void define_options(OptionParser& parser, Options& options) {
              "Look from there: A degrees from the model's front to its right, E degrees above (30,15)",
              [stage](const std::string& text) {
                const auto [azimuth, elevation] = model_view(text);
-               stage().azimuth = azimuth;
-               stage().elevation = elevation;
+               stage().view = {azimuth, elevation};
+             });
+  parser.add("--camera", "NAME", "Look by this camera of the file (its first, if it has any and there is no --view)",
+             [stage](const std::string& text) {
+               if (text.empty()) throw UsageError("the name is empty");
+               stage().camera = text;
              });
   parser.add("--up", "y|z", "Which way is up in the file (y); z in most of CAD",
              [stage](const std::string& text) { stage().z_is_up = one_of(text, {"y", "z"}) == "z"; });

@@ -1,5 +1,9 @@
 """A model's file in a scene's place: its camera and lights, and the scene that it stands for."""
 
+import base64
+import json
+import math
+import struct
 import unittest
 
 from exr import Exr
@@ -126,6 +130,56 @@ class Models(CommandTest):
         self.succeed("printed.xml", "-q", "--transparent", "-o", "printed.exr")
         self.assertEqual(Exr(self.read("printed.exr")).pixels(), floor)
         self.assertIn("--floor", self.fail_with(2, "printed.xml", "--floor", "-o", "a.exr"))
+
+    def write_gltf(self, cameras, lights, nodes):
+        """A square from -1 to 1 that faces +z, of a matte white, and these."""
+        data = struct.pack("<12f6H", -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0, 0, 1, 2, 0, 2, 3)
+        self.write("square.gltf", json.dumps({
+            "asset": {"version": "2.0"}, "scenes": [{"nodes": list(range(1 + len(nodes)))}],
+            "nodes": [{"mesh": 0}, *nodes], "cameras": cameras,
+            "extensionsUsed": ["KHR_lights_punctual"], "extensions": {"KHR_lights_punctual": {"lights": lights}},
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
+            "materials": [{"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 1},
+                           "extensions": {"KHR_materials_specular": {"specularFactor": 0}}}],
+            "buffers": [{"byteLength": len(data),
+                         "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}],
+            "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 12}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
+                          {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"}]}))
+
+    def test_cameras_and_lights_of_the_file(self):
+        self.write_gltf([{"type": "perspective", "name": "near", "perspective": {"yfov": 2 * math.atan(0.5), "znear": 1}},
+                         {"type": "orthographic", "name": "plan",
+                          "orthographic": {"xmag": 4, "ymag": 4, "znear": 0, "zfar": 9}}],
+                        [{"type": "point", "intensity": 12, "color": [1, 0.5, 0]}],
+                        [{"camera": 0, "translation": [0, 0, 4]}, {"camera": 1, "translation": [0, 0, 4]},
+                         {"extensions": {"KHR_lights_punctual": {"light": 0}}, "translation": [0, 0, 2]}])
+        options = ["square.gltf", "-q", "-r", "64x64", "-s", "4", "--transparent"]
+
+        def shown(*more):
+            self.succeed(*options, *more, "-o", "a.exr")
+            picture = Exr(self.read("a.exr")).pixels()
+            return picture, [place for place, pixel in picture.items() if pixel[3] > 0.5]
+
+        # Half of the picture's height at a distance of 4, and a quarter of what the plan shows.
+        picture, places = shown()
+        self.assertEqual({x for x, _ in places}, set(range(16, 48)))
+        self.assertEqual({y for _, y in places}, set(range(16, 48)))
+        # The lamp's 12 candela at 2 units: an irradiance of 3, of which a white matte surface sends 1 / pi on.
+        red, green, blue, _ = picture[32, 32]
+        self.assertAlmostEqual(red, 3 / math.pi, delta=0.02)
+        self.assertAlmostEqual(green, 1.5 / math.pi, delta=0.01)
+        self.assertEqual(blue, 0)
+        self.assertEqual({x for x, _ in shown("--camera", "plan")[1]}, set(range(24, 40)))
+        self.assertGreater(len(shown("--view", "front")[1]), 32 * 32)
+        self.assertGreater(shown("--environment", "sky")[0][32, 32][2], 0)
+        for camera in ("near", "plan"):
+            self.succeed(*options, "--camera", camera, "-o", "model.exr")
+            self.write("printed.xml", self.succeed(*options, "--camera", camera, "--print-scene").stdout)
+            self.succeed("printed.xml", "-q", "--transparent", "-o", "printed.exr")
+            self.assertEqual(Exr(self.read("model.exr")).row_bytes, Exr(self.read("printed.exr")).row_bytes)
+        message = self.fail_with(1, *options, "--camera", "far", "-o", "b.exr")
+        self.assertIn("has no camera 'far'; there are 'near', 'plan'", message)
 
     def test_several_models_are_several_pictures(self):
         self.write("other.ply", PLY.replace("10.1 8", "10.1 12"))

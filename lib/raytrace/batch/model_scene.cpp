@@ -8,12 +8,14 @@
 
 #include "raytrace/description/load_images.h"
 #include "raytrace/output/image_encoder.h"
+#include "raytrace/text/message.h"
 
 namespace raytrace {
 
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
+constexpr std::array<double, 2> usual_view{30, 15};
 
 /// From the model towards that place.
 Vec3d towards(double azimuth, double elevation) {
@@ -92,6 +94,72 @@ void add_camera(SceneDescription& description, const Directions& to, const Exten
   camera.up = to.up;
   camera.viewdistance = picture.pixelsize * longer / (2 * half_angle);
   description.camera = camera;
+}
+
+const MeshData& data_of(const SceneDescription& description) {
+  return *std::get<ObjectItems<Mesh>>(description.objects).front().data;
+}
+
+/// The one that the stage wants; null if there is none to choose from, or if it has another view.
+const FileCamera* choose_camera(const SceneDescription& description, const ModelStage& stage,
+                                Diagnostics& diagnostics) {
+  const std::vector<FileCamera>& cameras = data_of(description).cameras;
+  if (stage.camera.empty()) return cameras.empty() || stage.view || stage.turntable > 0 ? nullptr : &cameras.front();
+  std::vector<std::string> names;
+  for (const FileCamera& camera : cameras) {
+    if (camera.name == stage.camera) return &camera;
+    names.push_back(in_quotes(camera.name));
+  }
+  diagnostics.error({}, "has no camera " + in_quotes(stage.camera) +
+                            (names.empty() ? ", nor any other" : "; there are " + joined(names, ", ")));
+  return nullptr;
+}
+
+void add_file_camera(SceneDescription& description, const FileCamera& camera) {
+  const Affine affine = std::get<ObjectItems<Mesh>>(description.objects).front().transform.affine();
+  const Vec3d eye = affine.point(camera.eye), up = affine.vector(camera.up);
+  const Vec3d lookat = eye + affine.vector(camera.forward) * std::max(1.0, length(eye) * 1e-3);
+  ViewPlane& picture = description.viewplane;
+  if (camera.angle == 0) {
+    picture.pixelsize = camera.height / picture.vres;
+    description.camera = OrthographicCamera::Parameters{eye, lookat, up};
+    return;
+  }
+  PinholeCamera::Parameters parameters;
+  parameters.eye = eye;
+  parameters.lookat = lookat;
+  parameters.up = up;
+  parameters.viewdistance = picture.pixelsize * picture.vres / (2 * std::tan(camera.angle / 2));
+  description.camera = parameters;
+}
+
+void add_file_lights(SceneDescription& description) {
+  const Affine affine = std::get<ObjectItems<Mesh>>(description.objects).front().transform.affine();
+  for (const FileLight& light : data_of(description).lights) {
+    const Vec3d position = affine.point(light.position), direction = affine.vector(light.direction);
+    if (light.kind == FileLight::Kind::directional) {
+      DirectionalLight::Parameters parameters;
+      parameters.direction = -direction;
+      parameters.color = light.intensity;
+      std::get<LightItems<DirectionalLight>>(description.lights).push_back({parameters});
+    } else if (light.kind == FileLight::Kind::spot) {
+      SpotLight::Parameters parameters;
+      parameters.location = position;
+      parameters.lookat = position + direction;
+      parameters.coneangle = 2 * light.outer_angle / degree;
+      parameters.penumbraangle = (light.outer_angle - light.inner_angle) / degree;
+      parameters.color = light.intensity;
+      parameters.falloff = Falloff::inverse_square;
+      std::get<LightItems<SpotLight>>(description.lights).push_back({parameters});
+    } else {
+      PointLight::Parameters parameters;
+      parameters.location = position;
+      parameters.color = light.intensity;
+      parameters.falloff = Falloff::inverse_square;
+      std::get<LightItems<PointLight>>(description.lights).push_back({parameters});
+    }
+  }
+  description.viewplane.autoexposure = true;
 }
 
 /// A rectangle that faces the model, `distance` radii away in a direction of the picture, of that size in radii.
@@ -213,8 +281,19 @@ std::optional<SceneDescription> load_model(const std::string& file, const ModelS
   if (stage.z_is_up) mesh.transform.steps.push_back({TransformStep::rotate, {1, 0, 0, -90}});
   std::get<ObjectItems<Mesh>>(description.objects).push_back(mesh);
   if (!load_meshes(description, diagnostics, threads, missing_texture)) return std::nullopt;
+  const std::size_t errors_before = diagnostics.error_count();
+  const FileCamera* const camera = choose_camera(description, stage, diagnostics);
+  if (diagnostics.error_count() > errors_before) return std::nullopt;
   const double turned = stage.turntable > 0 ? 360.0 * (frame - 1) / stage.turntable : 0;
-  const Directions to(stage.azimuth + turned, stage.elevation);
+  auto [azimuth, elevation] = stage.view.value_or(usual_view);
+  if (camera != nullptr) {
+    // The studio stands about it as about any other.
+    const Affine affine = std::get<ObjectItems<Mesh>>(description.objects).front().transform.affine();
+    const Vec3d back = -affine.vector(camera->forward);
+    azimuth = std::atan2(back.x, back.z) / degree;
+    elevation = std::asin(std::clamp(back.y, -1.0, 1.0)) / degree;
+  }
+  const Directions to(azimuth + turned, elevation);
   Extent extent;
   const auto show = [&](const auto& points) {
     points([&](const Vec3d& p) { extent.add(to.of(p)); });
@@ -226,8 +305,11 @@ std::optional<SceneDescription> load_model(const std::string& file, const ModelS
   } else {
     show([&](const auto& f) { for_each_vertex(description, f); });
   }
+  if (camera != nullptr) add_file_camera(description, *camera);
   if (stage.floor) add_floor(description);
-  if (stage.environment.empty() && !stage.sun) {
+  if (stage.environment.empty() && !stage.sun && !data_of(description).lights.empty()) {
+    add_file_lights(description);
+  } else if (stage.environment.empty() && !stage.sun) {
     add_lamps(description, to, extent);
     add_even_sky(description);
   } else {

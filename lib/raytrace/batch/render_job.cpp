@@ -137,7 +137,7 @@ std::optional<SceneDescription> load_picture(const RenderJob& job, RenderObserve
       if (description) refuse_to_overwrite(*description, job);
     } else {
       if (job.stage)
-        throw SettingsError("--view, --up, --turntable, --floor, --environment and --sun are for models: " +
+        throw SettingsError("--view, --camera, --up, --turntable, --floor, --environment and --sun are for models: " +
                             job.scene_name() + " has a camera and lights");
       description = load_scene(job.scene, diagnostics, job.threads, {job.frame, job.variables, job.missing_texture});
     }

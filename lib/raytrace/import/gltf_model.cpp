@@ -7,6 +7,7 @@
 
 #include "raytrace/import/gltf_json.h"
 #include "raytrace/import/gltf_material.h"
+#include "raytrace/import/gltf_view.h"
 
 namespace raytrace::gltf {
 namespace {
@@ -63,6 +64,7 @@ class ModelReader {
   void check_version() const;
   void check_extensions(Diagnostics& diagnostics) const;
   void read_nodes();
+  void add_light(const Item& number, const Affine& transform);
   static Affine transform_of(const Item& node);
   const std::vector<Primitive>& mesh(const Item& number);
   std::vector<Primitive> primitives_of(const Item& mesh);
@@ -93,7 +95,8 @@ void ModelReader::check_version() const {
 
 void ModelReader::check_extensions(Diagnostics& diagnostics) const {
   const auto is_read = [](std::string_view name) {
-    return name == "KHR_mesh_quantization" || name == "KHR_texture_transform" || is_material_extension(name);
+    return name == "KHR_mesh_quantization" || name == "KHR_texture_transform" || name == lights_extension ||
+           is_material_extension(name);
   };
   const auto names = [&](const char* key) {
     std::vector<std::string> unknown;
@@ -131,8 +134,18 @@ void ModelReader::read_nodes() {
     const Item node = (*nodes)[number];
     const Affine transform = parent * transform_of(node);
     if (const auto mesh_number = node.find("mesh")) model_.instances.push_back({&mesh(*mesh_number), transform});
+    if (const auto camera = node.find("camera"))
+      model_.cameras.push_back(read_camera(listed("cameras", *camera), transform));
+    if (const auto light = extension(node, lights_extension)) add_light((*light)["light"], transform);
     add(node.find("children"), transform);
   }
+}
+
+void ModelReader::add_light(const Item& number, const Affine& transform) {
+  const std::optional<Item> all = extension(root_, lights_extension);
+  const std::optional<Item> lights = all ? all->find("lights") : std::nullopt;
+  if (!lights || number.whole() >= lights->size()) number.fail("there is no such light");
+  model_.lights.push_back(read_light((*lights)[number.whole()], transform));
 }
 
 Affine ModelReader::transform_of(const Item& node) {

@@ -43,7 +43,9 @@ struct Model {
   std::vector<Instance> instances;  ///< in the order of the nodes
   std::map<std::uint64_t, std::vector<Primitive>> meshes;
   std::vector<MeshMaterial> materials;  ///< those that are used
-  std::size_t other_primitives = 0;     ///< those of points and lines, which are left out
+  std::vector<FileCamera> cameras;
+  std::vector<FileLight> lights;
+  std::size_t other_primitives = 0;  ///< those of points and lines, which are left out
 
   // What accessors point into.
   std::map<std::string, MeshFile> files;

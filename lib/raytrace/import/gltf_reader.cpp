@@ -48,6 +48,8 @@ class MeshWriter {
       return degenerate;
     });
     mesh_.materials = model_.materials;
+    mesh_.cameras = model_.cameras;
+    mesh_.lights = model_.lights;
     for (MeshMaterial& material : mesh_.materials) material.vertex_colors = !mesh_.colors.empty();
     if (!finish_mesh(mesh_, faults, false, settings_.threads, diagnostics_)) return std::nullopt;
     return std::move(mesh_);
