@@ -360,9 +360,7 @@ TEST_CASE("extensions that a glTF file uses are one warning") {
       "a.gltf", square().text(of_square + R"(,"extensionsUsed":["KHR_lights_punctual","KHR_mesh_quantization",
       "KHR_materials_sheen","KHR_texture_transform","KHR_materials_dispersion","B"])"));
   CHECK(read.mesh);
-  CHECK(read.messages ==
-        "a.gltf: warning: uses extensions that are not read: 'KHR_lights_punctual', "
-        "'KHR_materials_dispersion', 'B'\n");
+  CHECK(read.messages == "a.gltf: warning: uses extensions that are not read: 'KHR_materials_dispersion', 'B'\n");
 }
 
 TEST_CASE("damaged glTF files are read or refused") {

@@ -39,7 +39,7 @@ auto with_component_type(ComponentType type, const Function& f) {
 }
 
 struct Elements {
-  static constexpr std::size_t most_components = 4;
+  static constexpr std::size_t most_components = 16;
 
   const char* first = nullptr;  ///< null: all are 0
   std::size_t count = 0, stride = 0, components = 0;
@@ -93,5 +93,8 @@ void for_each_element(const Accessor& accessor, int threads, const Store& store)
     store(indices[i], values);
   });
 }
+
+/// Element i alone, which must be there.
+std::array<double, Elements::most_components> element_at(const Accessor& accessor, std::size_t i);
 
 }  // namespace raytrace::gltf

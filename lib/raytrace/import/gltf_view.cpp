@@ -6,16 +6,6 @@ namespace raytrace::gltf {
 
 namespace {
 
-std::string name_of(const Item& item) {
-  const std::optional<Item> name = item.find("name");
-  return name ? name->text() : std::string();
-}
-
-double number(const Item& item, const char* key, double otherwise) {
-  const std::optional<Item> found = item.find(key);
-  return found ? found->number() : otherwise;
-}
-
 /// Of unit length.
 Vec3d direction(const Affine& transform, const Vec3d& local, const Item& item) {
   const Vec3d result = transform.vector(local);
@@ -28,7 +18,7 @@ Vec3d direction(const Affine& transform, const Vec3d& local, const Item& item) {
 
 FileCamera read_camera(const Item& camera, const Affine& transform) {
   FileCamera result;
-  result.name = name_of(camera);
+  result.name = camera.name();
   result.eye = transform.origin;
   result.forward = direction(transform, {0, 0, -1}, camera);
   result.up = direction(transform, {0, 1, 0}, camera);
@@ -49,11 +39,11 @@ FileCamera read_camera(const Item& camera, const Affine& transform) {
 
 FileLight read_light(const Item& light, const Affine& transform) {
   FileLight result;
-  result.name = name_of(light);
+  result.name = light.name();
   result.position = transform.origin;
   result.direction = direction(transform, {0, 0, -1}, light);
   const auto [red, green, blue] = light.numbers<3>("color").value_or(std::array<double, 3>{1, 1, 1});
-  const double intensity = number(light, "intensity", 1);
+  const double intensity = light.number("intensity", 1);
   result.intensity = Rgb<double>(red, green, blue) * intensity;
   for (const double channel : {result.intensity.red, result.intensity.green, result.intensity.blue})
     if (!(channel >= 0 && channel < 1e15)) light.fail("its colour or intensity is negative or too large");
@@ -65,8 +55,8 @@ FileLight read_light(const Item& light, const Affine& transform) {
   } else if (type.text() == "spot") {
     result.kind = FileLight::Kind::spot;
     const std::optional<Item> cone = light.find("spot");
-    if (cone) result.inner_angle = number(*cone, "innerConeAngle", 0);
-    if (cone) result.outer_angle = number(*cone, "outerConeAngle", std::numbers::pi / 4);
+    if (cone) result.inner_angle = cone->number("innerConeAngle", 0);
+    if (cone) result.outer_angle = cone->number("outerConeAngle", std::numbers::pi / 4);
     if (!(result.inner_angle >= 0 && result.inner_angle <= result.outer_angle && result.outer_angle > 1e-6 &&
           result.outer_angle <= std::numbers::pi / 2))
       light.fail("its cone's angles are not 0 <= inner <= outer <= pi / 2");

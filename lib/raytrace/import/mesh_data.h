@@ -126,6 +126,8 @@ struct MeshData {
   // In the order of the file's nodes; not part of the mesh.
   std::vector<FileCamera> cameras;
   std::vector<FileLight> lights;
+  /// The time of the last key of the animation that was asked for, or 0. None: the file has no animations.
+  std::optional<double> animation_end{};
 
   std::size_t vertex_count() const { return positions.size() / 3; }
   std::size_t face_count() const { return indices.size() / static_cast<std::size_t>(corners); }
