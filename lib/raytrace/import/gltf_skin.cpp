@@ -11,7 +11,7 @@ using Components = std::array<double, Elements::most_components>;
 
 Vec3d vector_of(const Components& values) { return {values[0], values[1], values[2]}; }
 
-Affine matrix_of(const Components& m) {
+Affine matrix_of(const std::array<double, Elements::of_matrix>& m) {
   const auto column = [&](std::size_t i) { return Vec3d{m[4 * i], m[4 * i + 1], m[4 * i + 2]}; };
   return {column(0), column(1), column(2), column(3)};
 }
