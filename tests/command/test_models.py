@@ -181,6 +181,20 @@ class Models(CommandTest):
         message = self.fail_with(1, *options, "--camera", "far", "-o", "b.exr")
         self.assertIn("has no camera 'far'; there are 'near', 'plan'", message)
 
+    def test_a_camera_of_the_file_does_not_see_the_studio(self):
+        # Which lights as much as the one that others see.
+        self.write_gltf([{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}], [],
+                        [{"camera": 0, "translation": [0, 0, 4]}])
+        lights = []
+        for view in ([], ["--view", "front"]):
+            self.succeed("square.gltf", "-q", "-r", "32x32", "-s", "64", *view, "-o", "a.exr")
+            pixels = Exr(self.read("a.exr")).pixels()
+            lights.append(sum(pixels[x, y][0] for x in range(12, 20) for y in range(12, 20)) / 64)
+        self.assertAlmostEqual(lights[0] / lights[1], 1, delta=0.1)
+        self.assertGreater(lights[0], 0.4)
+        self.assertNotIn("rectangle", self.succeed("square.gltf", "--print-scene").stdout)
+        self.assertIn("rectangle", self.succeed("square.gltf", "--view", "front", "--print-scene").stdout)
+
     def test_frames_of_an_animation(self):
         # A square of half the picture's height: it goes to the right by one square a second, then up.
         data = struct.pack("<12f6H", -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0, 0, 1, 2, 0, 2, 3)

@@ -225,15 +225,16 @@ void add_lamps(SceneDescription& description, const Directions& to, const Extent
   }
 }
 
-/// In place of lamps that a file's camera might see: as much light from as large a part of the sky.
+/// In place of lamps that a file's camera might see: as much light as from disks of their areas, infinitely far.
 void add_unseen_lamps(SceneDescription& description, const Directions& to) {
   for (const Lamp& lamp : lamps) {
     const Vec3d& d = lamp.direction;
-    const double solid_angle = lamp.width * lamp.height / (lamp.distance * lamp.distance * dot(d, d));
+    const double half_angle = std::atan(std::sqrt(lamp.width * lamp.height / std::numbers::pi) / lamp.distance);
+    const double solid_angle = 2 * std::numbers::pi * (1 - std::cos(half_angle));
     DirectionalLight::Parameters light;
     light.direction = to.right * d.x + to.up * d.y + to.back * d.z;
     light.color = lamp.radiance * solid_angle;
-    light.angle = 2 * std::acos(1 - solid_angle / (2 * std::numbers::pi)) / degree;
+    light.angle = 2 * half_angle / degree;
     std::get<LightItems<DirectionalLight>>(description.lights).push_back({light});
   }
 }
