@@ -10,6 +10,7 @@
 
 #include "raytrace/aovs/aov_selection.h"
 #include "raytrace/text/message.h"
+#include "raytrace/text/utf8.h"
 
 namespace raytrace {
 
@@ -150,6 +151,21 @@ double scale(const std::string& text) {
     throw UsageError(in_quotes(text) + " is not a scale; use a number above 0, e.g. 0.5 for half the resolution");
   }
   return *value;
+}
+
+double frames_per_second(const std::string& text) {
+  const std::optional<double> value = number<double>(text);
+  if (!value || !(*value >= 1e-3 && *value <= 1e6))
+    throw UsageError(in_quotes(text) + " is no rate of frames; use a number from 0.001 to 1000000, e.g. 25");
+  return *value;
+}
+
+std::string label(const std::string& text) {
+  const bool has_control = std::any_of(text.begin(), text.end(), [](char c) { return c >= 0 && c < ' '; });
+  if (text.empty() || has_control || text.front() == ' ' || text.back() == ' ' ||
+      text.find("  ") != std::string::npos || find_invalid_utf8(text, 1) != std::string_view::npos)
+    throw UsageError(in_quotes(text) + " is no name with single spaces inside; use its number, from 0");
+  return text;
 }
 
 double exposure(const std::string& text) {

@@ -54,6 +54,9 @@ MissingTexture missing_texture(const std::string& text);
 std::array<double, 2> model_view(const std::string& text);
 /// "-40,35": the second above 0, at most 90.
 std::array<double, 2> sun_angles(const std::string& text);
+double frames_per_second(const std::string& text);
+/// A name that a scene file may have.
+std::string label(const std::string& text);
 
 /// The text, if it is one of the names.
 std::string one_of(const std::string& text, const Names& names);

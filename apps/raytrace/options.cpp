@@ -119,9 +119,20 @@ void define_options(OptionParser& parser, Options& options) {
              "Look from there: A degrees from the model's front to its right, E degrees above (30,15)",
              [stage](const std::string& text) {
                const auto [azimuth, elevation] = model_view(text);
-               stage().azimuth = azimuth;
-               stage().elevation = elevation;
+               stage().view = {azimuth, elevation};
              });
+  parser.add("--camera", "NAME", "Look by this camera of the file (its first, if it has any and there is no --view)",
+             [stage](const std::string& text) {
+               if (text.empty()) throw UsageError("the name is empty");
+               stage().camera = text;
+             });
+  parser.add("--animation", "NAME",
+             "Animate by this one of the file (its first, if there are --frames), by its name or its number from 0",
+             [stage](const std::string& text) { stage().animation = label(text); });
+  parser.add("--fps", "F", "Frame 1 is the animation's beginning, and F frames are a second of it (24)",
+             [stage](const std::string& text) { stage().frames_per_second = frames_per_second(text); });
+  parser.add("--variant", "NAME", "Take this variant of the file's materials, by its name or its number from 0",
+             [stage](const std::string& text) { stage().variant = label(text); });
   parser.add("--up", "y|z", "Which way is up in the file (y); z in most of CAD",
              [stage](const std::string& text) { stage().z_is_up = one_of(text, {"y", "z"}) == "z"; });
   parser.add("--turntable", "N", "Render a full turn in N frames, or those of --frames",

@@ -1,5 +1,9 @@
 """A model's file in a scene's place: its camera and lights, and the scene that it stands for."""
 
+import base64
+import json
+import math
+import struct
 import unittest
 
 from exr import Exr
@@ -126,6 +130,135 @@ class Models(CommandTest):
         self.succeed("printed.xml", "-q", "--transparent", "-o", "printed.exr")
         self.assertEqual(Exr(self.read("printed.exr")).pixels(), floor)
         self.assertIn("--floor", self.fail_with(2, "printed.xml", "--floor", "-o", "a.exr"))
+
+    def write_gltf(self, cameras, lights, nodes):
+        """A square from -1 to 1 that faces +z, of a matte white, and these."""
+        data = struct.pack("<12f6H", -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0, 0, 1, 2, 0, 2, 3)
+        self.write("square.gltf", json.dumps({
+            "asset": {"version": "2.0"}, "scenes": [{"nodes": list(range(1 + len(nodes)))}],
+            "nodes": [{"mesh": 0}, *nodes], "cameras": cameras,
+            "extensionsUsed": ["KHR_lights_punctual"], "extensions": {"KHR_lights_punctual": {"lights": lights}},
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
+            "materials": [{"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 1},
+                           "extensions": {"KHR_materials_specular": {"specularFactor": 0}}}],
+            "buffers": [{"byteLength": len(data),
+                         "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}],
+            "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 12}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
+                          {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"}]}))
+
+    def test_cameras_and_lights_of_the_file(self):
+        self.write_gltf([{"type": "perspective", "name": "near", "perspective": {"yfov": 2 * math.atan(0.5), "znear": 1}},
+                         {"type": "orthographic", "name": "plan",
+                          "orthographic": {"xmag": 4, "ymag": 4, "znear": 0, "zfar": 9}}],
+                        [{"type": "point", "intensity": 12, "color": [1, 0.5, 0]}],
+                        [{"camera": 0, "translation": [0, 0, 4]}, {"camera": 1, "translation": [0, 0, 4]},
+                         {"extensions": {"KHR_lights_punctual": {"light": 0}}, "translation": [0, 0, 2]}])
+        options = ["square.gltf", "-q", "-r", "64x64", "-s", "4", "--transparent"]
+
+        def shown(*more):
+            self.succeed(*options, *more, "-o", "a.exr")
+            picture = Exr(self.read("a.exr")).pixels()
+            return picture, [place for place, pixel in picture.items() if pixel[3] > 0.5]
+
+        # Half of the picture's height at a distance of 4, and a quarter of what the plan shows.
+        picture, places = shown()
+        self.assertEqual({x for x, _ in places}, set(range(16, 48)))
+        self.assertEqual({y for _, y in places}, set(range(16, 48)))
+        # The lamp's 12 candela at 2 units: an irradiance of 3, of which a white matte surface sends 1 / pi on.
+        red, green, blue, _ = picture[32, 32]
+        self.assertAlmostEqual(red, 3 / math.pi, delta=0.02)
+        self.assertAlmostEqual(green, 1.5 / math.pi, delta=0.01)
+        self.assertEqual(blue, 0)
+        self.assertEqual({x for x, _ in shown("--camera", "plan")[1]}, set(range(24, 40)))
+        self.assertGreater(len(shown("--view", "front")[1]), 32 * 32)
+        self.assertGreater(shown("--environment", "sky")[0][32, 32][2], 0)
+        for camera in ("near", "plan"):
+            self.succeed(*options, "--camera", camera, "-o", "model.exr")
+            self.write("printed.xml", self.succeed(*options, "--camera", camera, "--print-scene").stdout)
+            self.succeed("printed.xml", "-q", "--transparent", "-o", "printed.exr")
+            self.assertEqual(Exr(self.read("model.exr")).row_bytes, Exr(self.read("printed.exr")).row_bytes)
+        message = self.fail_with(1, *options, "--camera", "far", "-o", "b.exr")
+        self.assertIn("has no camera 'far'; there are 'near', 'plan'", message)
+
+    def test_a_camera_of_the_file_does_not_see_the_studio(self):
+        # Which lights as much as the one that others see.
+        self.write_gltf([{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}], [],
+                        [{"camera": 0, "translation": [0, 0, 4]}])
+        lights = []
+        for view in ([], ["--view", "front"]):
+            self.succeed("square.gltf", "-q", "-r", "32x32", "-s", "64", *view, "-o", "a.exr")
+            pixels = Exr(self.read("a.exr")).pixels()
+            lights.append(sum(pixels[x, y][0] for x in range(12, 20) for y in range(12, 20)) / 64)
+        self.assertAlmostEqual(lights[0] / lights[1], 1, delta=0.1)
+        self.assertGreater(lights[0], 0.4)
+        self.assertNotIn("rectangle", self.succeed("square.gltf", "--print-scene").stdout)
+        self.assertIn("rectangle", self.succeed("square.gltf", "--view", "front", "--print-scene").stdout)
+
+    def test_frames_of_an_animation(self):
+        # A square of half the picture's height: it goes to the right by one square a second, then up.
+        data = struct.pack("<12f6H", -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0, 0, 1, 2, 0, 2, 3)
+        data += struct.pack("<3f9f", 0, 1, 2, 0, 0, 0, 2, 0, 0, 2, 2, 0)
+        self.write("moves.gltf", json.dumps({
+            "asset": {"version": "2.0"}, "scenes": [{"nodes": [0, 1]}],
+            "nodes": [{"mesh": 0, "translation": [-2, 0, 0]}, {"camera": 0, "translation": [0, 0, 5]}],
+            "cameras": [{"type": "orthographic", "orthographic": {"xmag": 4, "ymag": 4, "znear": 0, "zfar": 9}}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+            "animations": [{"name": "go", "samplers": [{"input": 2, "output": 3}],
+                            "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}],
+            "buffers": [{"byteLength": len(data),
+                         "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}],
+            "bufferViews": [{"buffer": 0, "byteOffset": offset, "byteLength": length}
+                            for offset, length in ((0, 48), (48, 12), (60, 12), (72, 36))],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
+                          {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"},
+                          {"bufferView": 2, "componentType": 5126, "count": 3, "type": "SCALAR"},
+                          {"bufferView": 3, "componentType": 5126, "count": 3, "type": "VEC3"}]}))
+        options = ["moves.gltf", "-q", "-r", "64x64", "-s", "4", "--transparent"]
+
+        def corner(file):
+            """The column and the row of the square's upper left pixel."""
+            shown = [place for place, pixel in Exr(self.read(file)).pixels().items() if pixel[3] > 0.5]
+            self.assertEqual(len(shown), 16 * 16)
+            return min(shown)
+
+        self.succeed(*options, "-o", "rest.exr")
+        self.assertEqual(corner("rest.exr"), (8, 24))
+        self.succeed(*options, "--animation", "go", "-o", "rest.exr")
+        self.assertEqual(corner("rest.exr"), (24, 24))
+        self.succeed(*options, "--frames", "1-37:12", "-o", "a.##.exr")
+        self.assertEqual([corner(f"a.{frame:02}.exr") for frame in (1, 13, 25, 37)],
+                         [(24, 24), (32, 24), (40, 24), (40, 16)])
+        self.succeed(*options, "--frames", "2-4", "--fps", "2", "-o", "a.##.exr")
+        self.assertEqual([corner(f"a.{frame:02}.exr") for frame in (2, 3, 4)], [(32, 24), (40, 24), (40, 16)])
+        # On a turntable it is at rest, unless it is asked to move.
+        turned = [*options, "--turntable", "4", "--frames", "2", "--print-scene"]
+        self.assertNotIn("<animation>", self.succeed(*turned).stdout)
+        self.assertIn("<time>0.5</time>", self.succeed(*turned, "--fps", "2").stdout)
+        # A camera of ours has all of the movement in view, and stands still.
+        views = [self.succeed(*options, "--view", "front", "--frames", str(frame), "--print-scene").stdout
+                 for frame in (1, 25)]
+        cameras = [view[view.index("<camera>"):view.index("</camera>")] for view in views]
+        self.assertEqual(*cameras)
+        # As a scene it has the same bits, and its time is the scene's to say.
+        printed = self.succeed(*options, "--frames", "31", "--print-scene").stdout
+        self.assertIn("<animation>0</animation>\n", printed)
+        self.assertIn("<time>1.25</time>\n", printed)
+        self.write("printed.xml", printed)
+        self.succeed("printed.xml", "-q", "--transparent", "-o", "printed.exr")
+        self.succeed(*options, "--frames", "31", "-o", "model.exr")
+        self.assertEqual(Exr(self.read("model.exr")).row_bytes, Exr(self.read("printed.exr")).row_bytes)
+        self.write("keys.xml", printed.replace(
+            "<time>1.25</time>", '<time> <key frame="1" value="0"/> <key frame="3" value="2"/> </time>'))
+        self.succeed("keys.xml", "-q", "--transparent", "--frames", "2", "-o", "keys.exr")
+        self.assertEqual(corner("keys.exr"), (40, 24))
+        self.assertIn("has no animation 'run'; there are 'go'",
+                      self.fail_with(1, *options, "--animation", "run", "-o", "b.exr"))
+        self.assertIn("has no material variant 'red', nor any other",
+                      self.fail_with(1, *options, "--variant", "red", "-o", "b.exr"))
+        self.assertIn("is no rate of frames", self.fail_with(2, *options, "--fps", "0", "-o", "b.exr"))
+        self.assertIn("--fps", self.fail_with(2, "printed.xml", "--fps", "25", "-o", "b.exr"))
+        self.assertIn("it is no glTF", self.fail_with(1, "slab.ply", "--animation", "go", "-o", "b.exr"))
 
     def test_several_models_are_several_pictures(self):
         self.write("other.ply", PLY.replace("10.1 8", "10.1 12"))

@@ -1,5 +1,6 @@
-// libFuzzer target: any bytes as a mesh file. The first byte says of which type; they are read without a crash, a hang,
-// a report of a sanitizer, or memory that follows from a claim. What is read can be rendered: indices are of vertices.
+// libFuzzer target: any bytes as a mesh file. The first byte says of which type, and of glTF at which time of its
+// animation; they are read without a crash, a hang, a report of a sanitizer, or memory that follows from a claim. What
+// is read can be rendered: indices are of vertices.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -38,6 +39,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   MeshReadSettings settings;
   settings.threads = 1;
+  const bool is_gltf = name == "a.gltf" || name == "a.glb";
+  const std::size_t moment = data[0] / std::size(names);
+  if (is_gltf) settings.animation = "0";
+  settings.time = 0.25 * static_cast<double>(moment);
+  if (is_gltf && moment % 2 == 0) settings.variant = "0";
   Diagnostics diagnostics(file);
   const auto mesh = read_mesh(file, settings, diagnostics);
   require(mesh.has_value() == !diagnostics.has_errors(), "refused without an error, or read with one\n");

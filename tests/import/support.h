@@ -43,9 +43,8 @@ inline ReadResult read_bytes(const std::string& name, const std::string& bytes, 
 
 /// Reads a file with these bytes, which may be damaged. True: it was read, and the mesh is sound; false: an error says
 /// why not. The file stays.
-inline bool is_read_or_refused(const std::string& file, const std::string& bytes) {
+inline bool is_read_or_refused(const std::string& file, const std::string& bytes, MeshReadSettings settings = {}) {
   write_text(file, bytes);
-  MeshReadSettings settings;
   settings.threads = 1;
   Diagnostics diagnostics(file);
   const auto mesh = read_mesh(file, settings, diagnostics);

@@ -3,17 +3,22 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <string_view>
+#include <utility>
 
 #include "raytrace/description/load_images.h"
+#include "raytrace/import/read_mesh.h"
 #include "raytrace/output/image_encoder.h"
+#include "raytrace/text/message.h"
 
 namespace raytrace {
 
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
+constexpr std::array<double, 2> usual_view{30, 15};
 
 /// From the model towards that place.
 Vec3d towards(double azimuth, double elevation) {
@@ -94,6 +99,101 @@ void add_camera(SceneDescription& description, const Directions& to, const Exten
   description.camera = camera;
 }
 
+const MeshData& data_of(const SceneDescription& description) {
+  return *std::get<ObjectItems<Mesh>>(description.objects).front().data;
+}
+
+void animate(Mesh::Parameters& mesh, const ModelStage& stage, std::optional<int> frame) {
+  constexpr double usual_frames_per_second = 24;
+  const bool is_wanted = !stage.animation.empty() || (frame && (stage.turntable == 0 || stage.frames_per_second));
+  if (!is_wanted) return;
+  mesh.animation.name = stage.animation.empty() ? "0" : stage.animation;
+  mesh.time = (frame.value_or(1) - 1) / stage.frames_per_second.value_or(usual_frames_per_second);
+}
+
+/// The model at some times of its animation, so that a camera that has them in view stands still; without any, if it is
+/// at rest.
+SceneDescription moving(const SceneDescription& description, int threads) {
+  constexpr int moments = 5;
+  SceneDescription result;
+  const ObjectItem<Mesh>& mesh = std::get<ObjectItems<Mesh>>(description.objects).front();
+  if (mesh.parameters.animation.name.empty()) return result;
+  MeshReadSettings settings;
+  settings.animation = mesh.parameters.animation.name;
+  settings.threads = threads;
+  for (int i = 0; i < moments; ++i) {
+    settings.time = data_of(description).animation_end.value_or(0) * i / (moments - 1);
+    Diagnostics known(description.file);  // by the time of this frame
+    std::optional<MeshData> data = read_mesh(mesh.parameters.file.path, settings, known);
+    if (!data) continue;
+    ObjectItem<Mesh>& moment = std::get<ObjectItems<Mesh>>(result.objects).emplace_back(mesh);
+    moment.data = std::make_shared<const MeshData>(std::move(*data));
+  }
+  return result;
+}
+
+/// The one that the stage wants; null if there is none to choose from, or if it has another view.
+const FileCamera* choose_camera(const SceneDescription& description, const ModelStage& stage,
+                                Diagnostics& diagnostics) {
+  const std::vector<FileCamera>& cameras = data_of(description).cameras;
+  if (stage.camera.empty()) return cameras.empty() || stage.view || stage.turntable > 0 ? nullptr : &cameras.front();
+  std::vector<std::string> names;
+  for (const FileCamera& camera : cameras) {
+    if (camera.name == stage.camera) return &camera;
+    names.push_back(in_quotes(camera.name));
+  }
+  diagnostics.error({}, "has no camera " + in_quotes(stage.camera) +
+                            (names.empty() ? ", nor any other" : "; there are " + joined(names, ", ")));
+  return nullptr;
+}
+
+void add_file_camera(SceneDescription& description, const FileCamera& camera) {
+  const Affine affine = std::get<ObjectItems<Mesh>>(description.objects).front().transform.affine();
+  const Vec3d eye = affine.point(camera.eye), up = affine.vector(camera.up);
+  const Vec3d lookat = eye + affine.vector(camera.forward) * std::max(1.0, length(eye) * 1e-3);
+  ViewPlane& picture = description.viewplane;
+  if (camera.angle == 0) {
+    picture.pixelsize = camera.height / picture.vres;
+    description.camera = OrthographicCamera::Parameters{eye, lookat, up};
+    return;
+  }
+  PinholeCamera::Parameters parameters;
+  parameters.eye = eye;
+  parameters.lookat = lookat;
+  parameters.up = up;
+  parameters.viewdistance = picture.pixelsize * picture.vres / (2 * std::tan(camera.angle / 2));
+  description.camera = parameters;
+}
+
+void add_file_lights(SceneDescription& description) {
+  const Affine affine = std::get<ObjectItems<Mesh>>(description.objects).front().transform.affine();
+  for (const FileLight& light : data_of(description).lights) {
+    const Vec3d position = affine.point(light.position), direction = affine.vector(light.direction);
+    if (light.kind == FileLight::Kind::directional) {
+      DirectionalLight::Parameters parameters;
+      parameters.direction = -direction;
+      parameters.color = light.intensity;
+      std::get<LightItems<DirectionalLight>>(description.lights).push_back({parameters});
+    } else if (light.kind == FileLight::Kind::spot) {
+      SpotLight::Parameters parameters;
+      parameters.location = position;
+      parameters.lookat = position + direction;
+      parameters.coneangle = 2 * light.outer_angle / degree;
+      parameters.penumbraangle = (light.outer_angle - light.inner_angle) / degree;
+      parameters.color = light.intensity;
+      parameters.falloff = Falloff::inverse_square;
+      std::get<LightItems<SpotLight>>(description.lights).push_back({parameters});
+    } else {
+      PointLight::Parameters parameters;
+      parameters.location = position;
+      parameters.color = light.intensity;
+      parameters.falloff = Falloff::inverse_square;
+      std::get<LightItems<PointLight>>(description.lights).push_back({parameters});
+    }
+  }
+  description.viewplane.autoexposure = true;
+}
+
 /// A rectangle that faces the model, `distance` radii away in a direction of the picture, of that size in radii.
 struct Lamp {
   const char* name;
@@ -125,10 +225,24 @@ void add_lamps(SceneDescription& description, const Directions& to, const Extent
   }
 }
 
-/// Of matte grey, at the lowest vertex.
-void add_floor(SceneDescription& description) {
+/// In place of lamps that a file's camera might see: as much light as from disks of their areas, infinitely far.
+void add_unseen_lamps(SceneDescription& description, const Directions& to) {
+  for (const Lamp& lamp : lamps) {
+    const Vec3d& d = lamp.direction;
+    const double half_angle = std::atan(std::sqrt(lamp.width * lamp.height / std::numbers::pi) / lamp.distance);
+    const double solid_angle = 2 * std::numbers::pi * (1 - std::cos(half_angle));
+    DirectionalLight::Parameters light;
+    light.direction = to.right * d.x + to.up * d.y + to.back * d.z;
+    light.color = lamp.radiance * solid_angle;
+    light.angle = 2 * half_angle / degree;
+    std::get<LightItems<DirectionalLight>>(description.lights).push_back({light});
+  }
+}
+
+/// Of matte grey, at the lowest vertex of what is shown.
+void add_floor(SceneDescription& description, const SceneDescription& shown) {
   Extent extent;
-  for_each_vertex(description, [&](const Vec3d& p) { extent.add(p); });
+  for_each_vertex(shown, [&](const Vec3d& p) { extent.add(p); });
   Matte::Parameters paint;
   paint.kd = 1;
   paint.cd = {0.5, 0.5, 0.5};
@@ -198,8 +312,8 @@ bool is_model(const std::string& file) {
   return std::find(extensions.begin(), extensions.end(), lower_extension(file)) != extensions.end();
 }
 
-std::optional<SceneDescription> load_model(const std::string& file, const ModelStage& stage, int frame, int width,
-                                           int height, Diagnostics& diagnostics, int threads,
+std::optional<SceneDescription> load_model(const std::string& file, const ModelStage& stage, std::optional<int> frame,
+                                           int width, int height, Diagnostics& diagnostics, int threads,
                                            MissingTexture missing_texture) {
   SceneDescription description;
   description.file = file;
@@ -210,11 +324,32 @@ std::optional<SceneDescription> load_model(const std::string& file, const ModelS
   description.integrator = Path::Parameters{};
   ObjectItem<Mesh> mesh;
   mesh.parameters.file.path = file;
+  mesh.parameters.variant.name = stage.variant;
+  animate(mesh.parameters, stage, frame);
   if (stage.z_is_up) mesh.transform.steps.push_back({TransformStep::rotate, {1, 0, 0, -90}});
   std::get<ObjectItems<Mesh>>(description.objects).push_back(mesh);
   if (!load_meshes(description, diagnostics, threads, missing_texture)) return std::nullopt;
-  const double turned = stage.turntable > 0 ? 360.0 * (frame - 1) / stage.turntable : 0;
-  const Directions to(stage.azimuth + turned, stage.elevation);
+  if (!data_of(description).animation_end) {
+    // So that a printed scene does not ask for what is not there.
+    auto& parameters = std::get<ObjectItems<Mesh>>(description.objects).front().parameters;
+    parameters.animation = {};
+    parameters.time = 0;
+  }
+  const std::size_t errors_before = diagnostics.error_count();
+  const FileCamera* const camera = choose_camera(description, stage, diagnostics);
+  if (diagnostics.error_count() > errors_before) return std::nullopt;
+  const double turned = stage.turntable > 0 ? 360.0 * (frame.value_or(1) - 1) / stage.turntable : 0;
+  auto [azimuth, elevation] = stage.view.value_or(usual_view);
+  if (camera != nullptr) {
+    // The studio stands about it as about any other.
+    const Affine affine = std::get<ObjectItems<Mesh>>(description.objects).front().transform.affine();
+    const Vec3d back = -affine.vector(camera->forward);
+    azimuth = std::atan2(back.x, back.z) / degree;
+    elevation = std::asin(std::clamp(back.y, -1.0, 1.0)) / degree;
+  }
+  const SceneDescription moments = moving(description, threads);
+  const SceneDescription& shown = std::get<ObjectItems<Mesh>>(moments.objects).empty() ? description : moments;
+  const Directions to(azimuth + turned, elevation);
   Extent extent;
   const auto show = [&](const auto& points) {
     points([&](const Vec3d& p) { extent.add(to.of(p)); });
@@ -222,13 +357,19 @@ std::optional<SceneDescription> load_model(const std::string& file, const ModelS
   };
   if (stage.turntable > 0) {
     // As near in all frames.
-    show([&](const auto& f) { for_each_turned_vertex(description, f); });
+    show([&](const auto& f) { for_each_turned_vertex(shown, f); });
   } else {
-    show([&](const auto& f) { for_each_vertex(description, f); });
+    show([&](const auto& f) { for_each_vertex(shown, f); });
   }
-  if (stage.floor) add_floor(description);
-  if (stage.environment.empty() && !stage.sun) {
-    add_lamps(description, to, extent);
+  if (camera != nullptr) add_file_camera(description, *camera);
+  if (stage.floor) add_floor(description, shown);
+  if (stage.environment.empty() && !stage.sun && !data_of(description).lights.empty()) {
+    add_file_lights(description);
+  } else if (stage.environment.empty() && !stage.sun) {
+    if (camera != nullptr)
+      add_unseen_lamps(description, to);
+    else
+      add_lamps(description, to, extent);
     add_even_sky(description);
   } else {
     add_daylight(description, stage);

@@ -1,5 +1,4 @@
-// A scene around a model's file, which has neither a camera nor lights that are read: what `raytrace model.glb`
-// renders.
+// A scene around a model's file: what `raytrace model.glb` renders. The file may have cameras and lights of its own.
 #pragma once
 
 #include <array>
@@ -13,12 +12,20 @@ namespace raytrace {
 /// How a model is shown. Angles are degrees about its middle: from its front, +z, towards its +x; and above, from -90
 /// to 90.
 struct ModelStage {
-  double azimuth = 30, elevation = 15;  ///< where it is looked at from; all of it is in view
-  bool z_is_up = false;                 ///< in the model's file; else y is, as glTF has it
-  int turntable = 0;                    ///< so many frames are a full turn; 0: it stands still
-  bool floor = false;                   ///< an endless one, which the model stands on
+  /// Where it is looked at from, azimuth and elevation; all of it is in view. None: by the file's camera of that name,
+  /// or its first if there is no name; where it has none, from (30, 15).
+  std::optional<std::array<double, 2>> view;
+  std::string camera;
+  bool z_is_up = false;     ///< in the model's file; else y is, as glTF has it
+  int turntable = 0;        ///< so many frames are a full turn; 0: it stands still. No file's camera then
+  std::string variant{};    ///< of the file's materials; empty: those that it has by itself
+  std::string animation{};  ///< empty: the first, if there is one
+  /// Of its time: frame 1 is its beginning. None: 24; and on a turntable the model stands still, unless an animation
+  /// is asked for.
+  std::optional<double> frames_per_second{};
+  bool floor = false;  ///< an endless one, which the model stands on
 
-  // In place of the studio.
+  // In place of the studio, or of the file's lights.
   std::string environment;                   ///< "sky", or the file of a picture; empty: none
   std::optional<std::array<double, 2>> sun;  ///< where it is, by its angles
 };
@@ -26,12 +33,14 @@ struct ModelStage {
 /// Whether it is one of those files, by its extension: .glb, .gltf, .obj, .ply, .stl.
 bool is_model(const std::string& file);
 
-/// The model in a studio, a large soft lamp from the left, a strip behind on the right, and an even dim sky, or in the
-/// stage's own light; width x height pixels, 128 samples, shown through the Khronos PBR Neutral Tone Mapper. On a
-/// turntable, the studio stays before the camera. frame: from 1 on. None if it cannot be read, which the diagnostics
-/// say. threads: as load_scene()'s.
-std::optional<SceneDescription> load_model(const std::string& file, const ModelStage& stage, int frame, int width,
-                                           int height, Diagnostics& diagnostics, int threads,
+/// The model in the file's lights, exposed by its own brightness since they may be of any; where there are none in a
+/// studio, a large soft lamp from the left, a strip behind on the right, and an even dim sky; or in the stage's own
+/// light; width x height pixels, 128 samples, shown through the Khronos PBR Neutral Tone Mapper. On a turntable, the
+/// studio stays before the camera; a file's camera does not see its lamps. frame: of the film, from 1 on; without one,
+/// the model is at rest, or at the beginning of an animation that is asked for. The camera and the studio are the same
+/// for all frames. None if it cannot be read, which the diagnostics say. threads: as load_scene()'s.
+std::optional<SceneDescription> load_model(const std::string& file, const ModelStage& stage, std::optional<int> frame,
+                                           int width, int height, Diagnostics& diagnostics, int threads,
                                            MissingTexture missing_texture);
 
 }  // namespace raytrace

@@ -132,13 +132,17 @@ std::optional<SceneDescription> load_picture(const RenderJob& job, RenderObserve
     if (is_model(job.scene)) {
       if (!job.variables.empty()) throw SettingsError("--define: " + job.scene + " is a model, which has no variables");
       const Resolution size = job.resolution.value_or(Resolution{1280, 720});
-      description = load_model(job.scene, job.stage.value_or(ModelStage()), job.frame, size.width, size.height,
-                               diagnostics, job.threads, job.missing_texture);
+      const std::optional<int> frame = job.is_one_of_frames ? std::optional(job.frame) : std::nullopt;
+      description = load_model(job.scene, job.stage.value_or(ModelStage()), frame, size.width, size.height, diagnostics,
+                               job.threads, job.missing_texture);
       if (description) refuse_to_overwrite(*description, job);
     } else {
       if (job.stage)
-        throw SettingsError("--view, --up, --turntable, --floor, --environment and --sun are for models: " +
-                            job.scene_name() + " has a camera and lights");
+        throw SettingsError(
+            "--view, --camera, --animation, --fps, --variant, --up, --turntable, --floor, --environment and --sun are "
+            "for "
+            "models: " +
+            job.scene_name() + " has a camera and lights");
       description = load_scene(job.scene, diagnostics, job.threads, {job.frame, job.variables, job.missing_texture});
     }
     if (description && !is_model(job.scene)) {

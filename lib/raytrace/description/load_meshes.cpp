@@ -57,7 +57,7 @@ class MeshLoader {
     const auto& [file, radius] = cloud.parameters;
     const auto [known, is_new] = clouds_.try_emplace(file.path);
     if (is_new)
-      if (std::optional<PointCloud> data = read(file, read_point_cloud))
+      if (std::optional<PointCloud> data = read(file, {}, read_point_cloud))
         known->second = std::make_shared<const PointCloud>(std::move(*data));
     if (known->second == nullptr) return;
     cloud.data = known->second;
@@ -86,10 +86,16 @@ class MeshLoader {
 
   const LoadedFile& from_file(const ObjectItem<Mesh>& mesh) {
     const FileName& file = mesh.parameters.file;
-    const auto [known, is_new] = files_.try_emplace(file.path);
+    MeshReadSettings settings;
+    settings.animation = mesh.parameters.animation.name;
+    settings.time = mesh.parameters.time;
+    settings.variant = mesh.parameters.variant.name;
+    // The time is of an animation alone.
+    const double time = settings.animation.empty() ? 0 : settings.time;
+    const auto [known, is_new] = files_.try_emplace({file.path, settings.animation, time, settings.variant});
     LoadedFile& loaded = known->second;
     if (!is_new) return loaded;
-    std::optional<MeshData> data = read(file, read_mesh);
+    std::optional<MeshData> data = read(file, settings, read_mesh);
     if (!data) return loaded;
     if (mesh.material == no_material) {
       const auto folder = std::filesystem::absolute(file.path).parent_path();
@@ -108,9 +114,8 @@ class MeshLoader {
 
   /// reader: read_mesh() or read_point_cloud().
   template <class Data>
-  std::optional<Data> read(const FileName& file,
+  std::optional<Data> read(const FileName& file, MeshReadSettings settings,
                            std::optional<Data> (*reader)(const std::string&, const MeshReadSettings&, Diagnostics&)) {
-    MeshReadSettings settings;
     settings.threads = threads_;
     Diagnostics found(on_one_line(file.path));
     std::optional<Data> data = reader(file.path, settings, found);
@@ -251,7 +256,8 @@ class MeshLoader {
   SceneDescription& scene_;
   Diagnostics& diagnostics_;
   int threads_;
-  std::map<std::string, LoadedFile> files_;
+  /// By the file, its animation, the time and the variant.
+  std::map<std::tuple<std::string, std::string, double, std::string>, LoadedFile> files_;
   std::map<std::string, std::shared_ptr<const PointCloud>> clouds_;
   std::set<std::string> taken_names_;
   std::map<

@@ -39,7 +39,7 @@ auto with_component_type(ComponentType type, const Function& f) {
 }
 
 struct Elements {
-  static constexpr std::size_t most_components = 4;
+  static constexpr std::size_t most_components = 4, of_matrix = 16;
 
   const char* first = nullptr;  ///< null: all are 0
   std::size_t count = 0, stride = 0, components = 0;
@@ -58,14 +58,15 @@ struct Accessor {
   Elements changed_indices{}, changed_values{};  ///< those that a sparse accessor has in place of others
 };
 
-/// Calls store(i, components) for each element. Threads call it at the same time.
-template <class Store>
+/// Calls store(i, components) for each element, with so many components at most. Threads call it at the same time.
+template <std::size_t most = Elements::most_components, class Store>
 void for_each_element(const Elements& elements, int threads, const Store& store) {
   with_component_type(elements.type, [&]<class T>(std::type_identity<T>) {
     for_each_chunk(elements.count, threads, [&](std::size_t, std::size_t first, std::size_t last) {
-      std::array<double, Elements::most_components> values{};
+      std::array<double, most> values{};
+      const std::size_t components = std::min(elements.components, most);
       for (std::size_t i = first; i < last; ++i) {
-        for (std::size_t c = 0; c < elements.components && elements.first != nullptr; ++c) {
+        for (std::size_t c = 0; c < components && elements.first != nullptr; ++c) {
           T value{};
           std::memcpy(&value, elements.first + i * elements.stride + c * sizeof value, sizeof value);
           values[c] = static_cast<double>(value);
@@ -93,5 +94,8 @@ void for_each_element(const Accessor& accessor, int threads, const Store& store)
     store(indices[i], values);
   });
 }
+
+/// Element i alone, which must be there.
+std::array<double, Elements::of_matrix> element_at(const Accessor& accessor, std::size_t i);
 
 }  // namespace raytrace::gltf

@@ -64,6 +64,15 @@ class Item {
     if (!value_->is_string()) fail("must be a text");
     return value_->get_ref<const std::string&>();
   }
+  double number(const char* key, double otherwise) const {
+    const std::optional<Item> found = find(key);
+    return found ? found->number() : otherwise;
+  }
+  /// Empty: it has none.
+  [[gnu::noinline]] std::string name() const {
+    const std::optional<Item> found = find("name");
+    return found ? found->text() : std::string();
+  }
   bool is_true() const { return value_->is_boolean() && value_->get<bool>(); }
 
   /// So many numbers, if it has that key.

@@ -11,6 +11,9 @@
 
 namespace raytrace::gltf {
 
+/// What primitives have several materials by.
+inline constexpr const char* variants_extension = "KHR_materials_variants";
+
 /// Whether read_material() reads it.
 bool is_material_extension(std::string_view name);
 

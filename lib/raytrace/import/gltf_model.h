@@ -1,56 +1,44 @@
 // What a glTF file says of its default scene, before a mesh is made of it. Inside of read_gltf().
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "raytrace/import/gltf_accessor.h"
+#include "raytrace/import/gltf_primitive.h"
+#include "raytrace/import/gltf_skin.h"
 #include "raytrace/import/mesh_data.h"
-#include "raytrace/import/mesh_file.h"
+#include "raytrace/import/read_mesh.h"
 #include "raytrace/math/affine.h"
 #include "raytrace/xml/diagnostics.h"
 
 namespace raytrace::gltf {
 
-/// How corners make triangles, as the format numbers it.
-enum class Mode { triangles = 4, strip, fan };
-
-struct Primitive {
-  Accessor positions;
-  std::optional<Accessor> normals, uvs, colors, indices;
-  Mode mode = Mode::triangles;
-  std::uint32_t material = MeshData::no_material;  ///< its number in the model
-  std::size_t vertices_of = 0;                     ///< the first primitive of the mesh that has the same vertices
-
-  std::size_t corners() const { return indices ? indices->elements.count : positions.elements.count; }
-  std::size_t faces() const {
-    if (mode == Mode::triangles) return corners() / 3;
-    return corners() < 3 ? 0 : corners() - 2;
-  }
-};
-
 struct Instance {
   const std::vector<Primitive>* mesh;
-  Affine transform;
+  Affine transform;                    ///< of what has no skin
+  const std::vector<double>* weights;  ///< of the morph targets
+  const Skin* skin = nullptr;          ///< null: none
 };
 
 struct Model {
-  std::vector<Instance> instances;  ///< in the order of the nodes
+  std::unique_ptr<Document> document;  ///< what accessors point into
+  std::vector<Instance> instances;     ///< in the order of the nodes
   std::map<std::uint64_t, std::vector<Primitive>> meshes;
+  std::map<std::uint64_t, std::vector<double>> weights;  ///< of a node's mesh, if it has any
+  std::map<std::uint64_t, Skin> skins;
   std::vector<MeshMaterial> materials;  ///< those that are used
-  std::size_t other_primitives = 0;     ///< those of points and lines, which are left out
-
-  // What accessors point into.
-  std::map<std::string, MeshFile> files;
-  std::map<std::uint64_t, std::string> data;  ///< of the buffers that the file has as URIs
+  std::vector<FileCamera> cameras;
+  std::vector<FileLight> lights;
+  std::optional<double> animation_end{};  ///< as MeshData has it
+  std::size_t other_primitives = 0;       ///< those of points and lines, which are left out
 };
 
 /// file: all of it. name: its file's, beside which others are. Warnings go to `diagnostics`. Throws Error.
-Model read_model(std::string_view file, const std::string& name, int threads, Diagnostics& diagnostics);
+Model read_model(std::string_view file, const std::string& name, const MeshReadSettings& settings,
+                 Diagnostics& diagnostics);
 
 }  // namespace raytrace::gltf

@@ -24,8 +24,8 @@ class MeshWriter {
       for (const Primitive& primitive : *instance.mesh) {
         const bool is_new = primitive.vertices_of == first_vertices.size();
         first_vertices.push_back(is_new ? next_vertex_ : first_vertices[primitive.vertices_of]);
-        if (is_new) write_vertices(primitive, instance.transform);
-        write_faces(primitive, first_vertices.back(), instance.transform.determinant() < 0);
+        if (is_new) write_vertices(primitive, instance);
+        write_faces(primitive, first_vertices.back(), is_mirrored(primitive, instance));
       }
     }
     MeshFaults faults;
@@ -48,6 +48,9 @@ class MeshWriter {
       return degenerate;
     });
     mesh_.materials = model_.materials;
+    mesh_.cameras = model_.cameras;
+    mesh_.lights = model_.lights;
+    mesh_.animation_end = model_.animation_end;
     for (MeshMaterial& material : mesh_.materials) material.vertex_colors = !mesh_.colors.empty();
     if (!finish_mesh(mesh_, faults, false, settings_.threads, diagnostics_)) return std::nullopt;
     return std::move(mesh_);
@@ -55,7 +58,18 @@ class MeshWriter {
 
  private:
   bool allocate(std::size_t file_size);
-  void write_vertices(const Primitive& primitive, const Affine& transform);
+  static bool has_skin(const Primitive& primitive, const Instance& instance) {
+    return instance.skin != nullptr && !primitive.joint_sets.empty();
+  }
+  static bool is_deformed(const Primitive& primitive, const Instance& instance) {
+    return has_skin(primitive, instance) || is_morphed(primitive, *instance.weights);
+  }
+  /// A skin mirrors as its first joint does.
+  static bool is_mirrored(const Primitive& primitive, const Instance& instance) {
+    const Affine& affine = has_skin(primitive, instance) ? instance.skin->joints.front() : instance.transform;
+    return affine.determinant() < 0;
+  }
+  void write_vertices(const Primitive& primitive, const Instance& instance);
   void write_faces(const Primitive& primitive, std::size_t first_vertex, bool mirrored);
 
   const Model& model_;
@@ -69,10 +83,13 @@ bool MeshWriter::allocate(std::size_t file_size) {
   bool normals = false, uvs = false, colors = false, materials = false;
   std::size_t vertices = 0;
   FaceCounts faces;
+  std::size_t deformed_at_once = 0;
   for (const Instance& instance : model_.instances)
     for (const Primitive& primitive : *instance.mesh) {
       if (primitive.vertices_of == static_cast<std::size_t>(&primitive - instance.mesh->data()))
         vertices += primitive.positions.elements.count;
+      if (is_deformed(primitive, instance))
+        deformed_at_once = std::max(deformed_at_once, primitive.positions.elements.count);
       faces.triangles += primitive.faces();
       normals = normals || primitive.normals;
       uvs = uvs || primitive.uvs;
@@ -81,7 +98,8 @@ bool MeshWriter::allocate(std::size_t file_size) {
     }
   // What each node has for itself is some times as large as in the file.
   constexpr std::size_t bytes_of_vertex = 11 * sizeof(float), bytes_of_face = 4 * sizeof(std::uint32_t);
-  const std::size_t bytes = vertices * bytes_of_vertex + faces.triangles * bytes_of_face;
+  const std::size_t bytes =
+      vertices * bytes_of_vertex + faces.triangles * bytes_of_face + deformed_at_once * bytes_of_deformed_vertex;
   if (bytes / 64 > file_size && bytes > available_memory() / 4) {
     diagnostics_.error({}, "its nodes have " + std::to_string(faces.triangles) +
                                " faces, more than fit into a quarter of the memory that is available");
@@ -100,30 +118,49 @@ bool MeshWriter::allocate(std::size_t file_size) {
   return true;
 }
 
-void MeshWriter::write_vertices(const Primitive& primitive, const Affine& transform) {
+void MeshWriter::write_vertices(const Primitive& primitive, const Instance& instance) {
+  // Of what a skin has placed already: none.
+  const Affine transform = has_skin(primitive, instance) ? Affine() : instance.transform;
   const std::size_t first = next_vertex_, count = primitive.positions.elements.count;
   next_vertex_ += count;
   using Values = std::array<double, Elements::most_components>;
+  const auto put = [](float* out, std::size_t numbers, const Vec3d& value) {
+    for (std::size_t k = 0; k < numbers; ++k) out[k] = finite_or_zero(rounded(component(value, static_cast<int>(k))));
+  };
   const auto write = [&](MeshBuffer<float>& buffer, std::size_t numbers, const std::optional<Accessor>& accessor,
                          float otherwise, const auto& converted) {
     if (buffer.empty()) return;
     float* const out = buffer.data() + numbers * first;
     if (!accessor) return void(std::fill_n(out, numbers * count, otherwise));
     for_each_element(*accessor, settings_.threads, [&](std::size_t i, const Values& values) {
-      const Vec3d value = converted(Vec3d{values[0], values[1], values[2]});
-      for (std::size_t k = 0; k < numbers; ++k)
-        out[numbers * i + k] = finite_or_zero(rounded(component(value, static_cast<int>(k))));
+      put(out + numbers * i, numbers, converted(Vec3d{values[0], values[1], values[2]}));
     });
   };
-  for_each_element(primitive.positions, settings_.threads, [&](std::size_t i, const Values& values) {
-    const Vec3d position = transform.point({values[0], values[1], values[2]}) - settings_.origin;
+  const auto put_position = [&](std::size_t i, const Vec3d& local) {
+    const Vec3d position = transform.point(local) - settings_.origin;
     for (std::size_t k = 0; k < 3; ++k)
       mesh_.positions[3 * (first + i) + k] = rounded(component(position, static_cast<int>(k)));
-  });
-  write(mesh_.normals, 3, primitive.normals, 0, [&](const Vec3d& n) {
+  };
+  const auto placed_normal = [&](const Vec3d& n) {
     const Vec3d normal = transform.normal(n);
     return normal * (1 / length(normal));
-  });
+  };
+  if (is_deformed(primitive, instance)) {
+    const Skin* const skin = has_skin(primitive, instance) ? instance.skin : nullptr;
+    const Vertices vertices = deformed(primitive, *instance.weights, skin, settings_.threads);
+    for_each_chunk(count, settings_.threads, [&](std::size_t, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        put_position(i, vertices.positions[i]);
+        if (mesh_.normals.empty()) continue;
+        const Vec3d normal = vertices.normals.empty() ? Vec3d(0, 0, 0) : placed_normal(vertices.normals[i]);
+        put(&mesh_.normals[3 * (first + i)], 3, normal);
+      }
+    });
+  } else {
+    for_each_element(primitive.positions, settings_.threads,
+                     [&](std::size_t i, const Values& values) { put_position(i, {values[0], values[1], values[2]}); });
+    write(mesh_.normals, 3, primitive.normals, 0, placed_normal);
+  }
   write(mesh_.uvs, 2, primitive.uvs, 0, [](const Vec3d& uv) { return Vec3d{uv.x, 1 - uv.y, 0}; });
   write(mesh_.colors, 3, primitive.colors, 1, [](const Vec3d& color) { return color; });
 }
@@ -165,14 +202,12 @@ std::optional<MeshData> read_gltf(MeshFile& file, const std::string& name, const
                                   Diagnostics& diagnostics) {
   if (!file.load(settings.threads, diagnostics)) return std::nullopt;
   try {
-    const gltf::Model model = gltf::read_model(file.text(false), name, settings.threads, diagnostics);
+    const gltf::Model model = gltf::read_model(file.text(false), name, settings, diagnostics);
     if (model.other_primitives > 0)
       diagnostics.warning({}, counted(model.other_primitives, "primitive") +
                                   " of points or lines, or without "
                                   "positions, are left out");
-    std::size_t size = file.size();
-    for (const auto& [_, buffer] : model.files) size += buffer.size();
-    return gltf::MeshWriter(model, settings, diagnostics).write(size);
+    return gltf::MeshWriter(model, settings, diagnostics).write(model.document->size());
   } catch (const gltf::Error& error) {
     diagnostics.error({}, error.what());
     return std::nullopt;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -84,6 +85,24 @@ struct MeshMaterial {
   MeshTexture map_ka, map_kd, map_ks, map_ke, map_ns, map_d, map_bump, map_pr, map_pm, norm;
 };
 
+/// A camera that the mesh's file has, in the file's space.
+struct FileCamera {
+  std::string name;  ///< may be empty
+  Vec3d eye{}, forward{0, 0, -1}, up{0, 1, 0};
+  double angle = 0;   ///< of view, upright, in radians; 0: it is orthographic,
+  double height = 0;  ///< and shows so much from the picture's lower edge to its upper one
+};
+
+/// A light that it has.
+struct FileLight {
+  enum class Kind { point, spot, directional };
+  std::string name;
+  Kind kind = Kind::point;
+  Vec3d position{}, direction{0, 0, -1};                       ///< direction: into which it shines
+  Rgb<double> intensity{1, 1, 1};                              ///< in candela; of a directional one, in lux
+  double inner_angle = 0, outer_angle = std::numbers::pi / 4;  ///< a spot's, from the axis, in radians
+};
+
 struct MeshData {
   static constexpr std::uint32_t no_material = 0xffffffff;
 
@@ -103,6 +122,12 @@ struct MeshData {
   /// Of each face its material, or no_material. Empty: all have the first material, or none if there is none.
   MeshBuffer<std::uint32_t> face_materials;
   std::vector<MeshMaterial> materials;
+
+  // In the order of the file's nodes; not part of the mesh.
+  std::vector<FileCamera> cameras;
+  std::vector<FileLight> lights;
+  /// The time of the last key of the animation that was asked for, or 0. None: the file has no animations.
+  std::optional<double> animation_end{};
 
   std::size_t vertex_count() const { return positions.size() / 3; }
   std::size_t face_count() const { return indices.size() / static_cast<std::size_t>(corners); }

@@ -9,6 +9,7 @@
 #include "raytrace/import/mesh_faces.h"
 #include "raytrace/import/mesh_file.h"
 #include "raytrace/import/mesh_readers.h"
+#include "raytrace/text/message.h"
 
 namespace raytrace {
 namespace {
@@ -40,11 +41,20 @@ std::optional<MeshData> read_mesh(const std::string& name, const MeshReadSetting
   if (!file) return std::nullopt;
   const std::string type = mesh_type(name);
   std::optional<MeshData> mesh;
+  const bool is_gltf = type == ".gltf" || type == ".glb";
+  if (!is_gltf && !settings.variant.empty()) {
+    diagnostics.error({}, "has no material variant " + in_quotes(settings.variant) + ": it is no glTF");
+    return std::nullopt;
+  }
+  if (!is_gltf && !settings.animation.empty() && settings.animation != "0") {
+    diagnostics.error({}, "has no animation " + in_quotes(settings.animation) + ": it is no glTF");
+    return std::nullopt;
+  }
   if (type == ".ply")
     mesh = read_ply(*file, settings, diagnostics);
   else if (type == ".stl")
     mesh = read_stl(*file, settings, diagnostics);
-  else if (type == ".gltf" || type == ".glb")
+  else if (is_gltf)
     mesh = read_gltf(*file, name, settings, diagnostics);
   else
     mesh = read_obj(*file, std::filesystem::path(name).parent_path().string(), settings, diagnostics);

@@ -6,10 +6,10 @@
 //   OBJ  .obj: polygons (v, vt, vn, f; negative indices; colours after a position); materials from MTL files. Groups,
 //        objects and smoothing groups are not kept; lines, points, curves and free-form surfaces are skipped.
 //   STL  .stl: ASCII and binary.
-//   glTF .gltf, .glb: 2.0, the meshes of the default scene's nodes, in world space; materials, of which the base colour
-//        and its texture are read. Buffers and images may be files, URIs "data:" or parts of a GLB file. Skins,
-//        morph targets, animations, cameras, lights and extensions but KHR_mesh_quantization are not read; points and
-//        lines are skipped.
+//   glTF .gltf, .glb: 2.0, the meshes of the default scene's nodes, in world space, morphed and skinned, as an
+//   animation
+//        has them at a time; materials, of one variant; cameras and lights. Buffers and images may be files, URIs
+//        "data:" or parts of a GLB file. docs/models.md lists the extensions; points and lines are skipped.
 //
 // Each may be compressed by gzip, with .gz behind the name.
 //
@@ -47,7 +47,11 @@ struct MeshReadSettings {
   /// Corners of an STL file at the same position are one vertex, which smooth normals need. Each facet has its
   /// own three otherwise.
   bool weld = true;
-  int threads = 0;  ///< at most; 0: all that the machine has
+  // Of a glTF file; for others they must be empty, but that the first animation may be asked for as "0".
+  std::string animation{};  ///< its name, or its number from 0; empty: the model is at rest
+  double time = 0;          ///< of it, in seconds; beyond its ends it stands still
+  std::string variant{};  ///< of the materials, by its name or number; empty: those that primitives have by themselves
+  int threads = 0;        ///< at most; 0: all that the machine has
 };
 
 /// No value, and errors, if the file cannot be read or is not what it should be. Errors have the line, or name the byte

@@ -14,11 +14,13 @@ ParameterDiagnostic refused(std::string message) { return {ParameterDiagnostic::
 }  // namespace
 
 std::optional<ParameterDiagnostic> Mesh::check(const Parameters& parameters) {
-  const auto& [file, positions, faces, normals, uvs] = parameters;
+  const auto& [file, positions, faces, normals, uvs, animation, _, variant] = parameters;
   const bool has_values = !positions.empty() || !faces.empty() || !normals.groups.empty() || !uvs.empty();
   if (!file.path.empty() && has_values)
     return refused("a mesh with <file> has its positions, faces, normals and uvs there; remove them here");
   if (!file.path.empty()) return std::nullopt;
+  if (!animation.name.empty() || !variant.name.empty())
+    return refused("<animation> and <variant> are of a glTF file, and the mesh has no <file>");
   if (positions.empty() || faces.empty()) return refused("a mesh needs <file>, or <positions> and <faces>");
 
   const std::size_t vertices = positions.numbers.size() / 3;

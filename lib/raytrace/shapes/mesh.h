@@ -5,6 +5,8 @@
 //     <material>clay</material>
 //   </mesh>
 //
+//   <mesh> <file>fox.glb</file> <animation>run</animation> <time>0.25</time> </mesh>
+//
 //   <mesh>
 //     <positions>0 0 0, 1 0 0, 1 1 0, 0 1 0</positions> <faces>0 1 2 3</faces>
 //     <material>clay</material>
@@ -33,15 +35,20 @@ class Mesh {
     NumberGroups faces;      ///< the vertices of each, from 0, counter-clockwise as its front shows them (face_ends())
     WordOrGroups normals{normals_words, of_file, {}};  ///< one of the words, or x y z of each vertex
     NumberGroups uvs;                                  ///< u v of each vertex; (0, 0) is the lower left of an image
+    // Of a glTF file (import/read_mesh.h).
+    Reference animation;  ///< its name, or its number from 0; none: the model is at rest
+    double time = 0;      ///< of the animation, in seconds
+    Reference variant;    ///< of its materials; none: those that primitives have by themselves
   };
   using Data = MeshData;  ///< of the file, or of the values
   static constexpr std::string_view group = "meshes";
   static constexpr std::string_view element = "mesh";
   static constexpr bool may_lack_material = true;  ///< then it has those of its file
   static Fields fields() {
-    return {optional("file", &Parameters::file), optional("positions", &Parameters::positions),
+    return {optional("file", &Parameters::file),   optional("positions", &Parameters::positions),
             optional("faces", &Parameters::faces), optional("normals", &Parameters::normals),
-            optional("uvs", &Parameters::uvs)};
+            optional("uvs", &Parameters::uvs),     optional("animation", &Parameters::animation),
+            optional("time", &Parameters::time),   optional("variant", &Parameters::variant)};
   }
 
   static std::optional<ParameterDiagnostic> check(const Parameters& parameters);

@@ -1,0 +1,76 @@
+// A glTF file's JSON and buffers: what its numbers name. Inside of read_gltf().
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "raytrace/import/gltf_accessor.h"
+#include "raytrace/import/gltf_json.h"
+#include "raytrace/import/mesh_file.h"
+#include "raytrace/xml/diagnostics.h"
+
+namespace raytrace::gltf {
+
+/// What is wrong is thrown as Error.
+class Document {
+ public:
+  /// file: all of it, which stays where it is. name: its file's, beside which others are.
+  Document(std::string_view file, std::string name, int threads);
+  Document(const Document&) = delete;
+  Document& operator=(const Document&) = delete;
+
+  const Item& root() const { return root_; }
+  const std::string& name() const { return name_; }
+  int threads() const { return threads_; }
+  /// Bytes of all files that are read so far.
+  std::size_t size() const { return size_; }
+
+  /// The item of a list at the root that `from` names by its number.
+  Item listed(const char* list, const Item& from) const {
+    const std::uint64_t number = from.whole();
+    const std::optional<Item> items = root_.find(list);
+    if (!items || number >= items->size())
+      from.fail("there is no " + std::string(list) + '[' + std::to_string(number) + ']');
+    return (*items)[number];
+  }
+  /// That of the list's items which has that name, else that number.
+  std::uint64_t number_by_name(const std::optional<Item>& list, const std::string& name, const char* what) const;
+
+  /// What it points into lives as long as this.
+  Accessor accessor(const Item& number);
+  std::string_view view_bytes(const Item& view);
+
+  /// Counts values that are read to evaluate an animation, of which a file has only so many: parts of it that say the
+  /// same numbers again and again take no endless time.
+  void spend(std::size_t values, const Item& place);
+
+  void warn(const std::string& place, const std::string& message) { warnings_.push_back(place + ": " + message); }
+  /// Of the first place alone.
+  void warn_once(const std::string& place, const std::string& message);
+  void report(Diagnostics& diagnostics) const;
+
+ private:
+  void read_values(const Item& item, const Item& view, Elements& elements);
+  std::string_view buffer(const Item& number);
+
+  Chunks chunks_;
+  nlohmann::json json_;
+  Item root_;
+  std::string name_;
+  int threads_;
+  std::map<std::string, MeshFile> files_;
+  std::map<std::uint64_t, std::string> data_;  ///< of the buffers that the file has as URIs
+  std::size_t size_, spent_ = 0;
+  std::vector<std::string> warnings_;
+  std::set<std::string> warned_;
+};
+
+/// Of a URI, with '/' between folders.
+std::string file_name(const Item& uri);
+
+}  // namespace raytrace::gltf

@@ -1,0 +1,131 @@
+#include "raytrace/import/gltf_primitive.h"
+
+#include <map>
+#include <string>
+#include <utility>
+
+#include "raytrace/import/gltf_material.h"
+#include "raytrace/text/message.h"
+
+namespace raytrace::gltf {
+namespace {
+
+/// An attribute is one of so many numbers to each vertex.
+void check_components(const Accessor& of, std::size_t components, std::size_t most, const Item& place) {
+  if (of.elements.components < components || of.elements.components > most)
+    place.fail(of.place + " has elements of " + counted(of.elements.components, "number") + ", and not of " +
+               std::to_string(components));
+}
+
+/// Integers are from 0 to 1, whether they say so or not.
+void be_normalized(Accessor& accessor) { accessor.elements.normalized = accessor.changed_values.normalized = true; }
+void be_whole(Accessor& accessor, const Item& place) {
+  if (!accessor.elements.has_whole_numbers()) place.fail("its accessor is none of whole numbers");
+  accessor.elements.normalized = accessor.changed_values.normalized = false;
+}
+
+/// Of a primitive, as many elements as it has positions. Keeps the numbers of the accessors.
+class VertexReader {
+ public:
+  VertexReader(Document& document, std::size_t count, std::vector<std::uint64_t>& numbers)
+      : document_(document), count_(count), numbers_(numbers) {}
+
+  std::optional<Accessor> read(const Item& attributes, const std::string& name, std::size_t components,
+                               std::size_t most) {
+    const std::optional<Item> place = attributes.find(name.c_str());
+    numbers_.push_back(place ? place->whole() + 1 : 0);
+    if (!place) return std::nullopt;
+    Accessor values = document_.accessor(*place);
+    check_components(values, components, most, *place);
+    if (values.elements.count != count_)
+      place->fail(values.place + " has " + std::to_string(values.elements.count) + " elements, and there are " +
+                  std::to_string(count_) + " positions");
+    return values;
+  }
+
+  std::vector<JointSet> joint_sets(const Item& attributes) {
+    std::vector<JointSet> sets;
+    for (;;) {
+      const std::string joints_name = "JOINTS_" + std::to_string(sets.size()),
+                        weights_name = "WEIGHTS_" + std::to_string(sets.size());
+      std::optional<Accessor> joints = read(attributes, joints_name, 4, 4);
+      std::optional<Accessor> weights = read(attributes, weights_name, 4, 4);
+      if (!joints || !weights) return sets;
+      be_whole(*joints, attributes[joints_name.c_str()]);
+      be_normalized(*weights);
+      sets.push_back({std::move(*joints), std::move(*weights)});
+    }
+  }
+
+  std::vector<MorphTarget> targets(const Item& primitive) {
+    std::vector<MorphTarget> targets;
+    const std::optional<Item> items = primitive.find("targets");
+    for (std::size_t i = 0; items && i < items->size(); ++i) {
+      const Item item = (*items)[i];
+      targets.push_back({read(item, "POSITION", 3, 3), read(item, "NORMAL", 3, 3)});
+      if (item.find("TEXCOORD_0") || item.find("COLOR_0"))
+        document_.warn_once(item.place(), "morphs of texture coordinates and colours are left out");
+    }
+    return targets;
+  }
+
+ private:
+  Document& document_;
+  std::size_t count_;
+  std::vector<std::uint64_t>& numbers_;  ///< counted from 1; 0: none
+};
+
+/// That of the variant, if it has one.
+std::optional<Item> material_of(const Item& primitive, std::optional<std::uint64_t> variant) {
+  const std::optional<Item> variants = variant ? extension(primitive, variants_extension) : std::nullopt;
+  const std::optional<Item> mappings = variants ? variants->find("mappings") : std::nullopt;
+  for (std::size_t i = 0; mappings && i < mappings->size(); ++i) {
+    const Item mapping = (*mappings)[i], of = mapping["variants"];
+    for (std::size_t k = 0; k < of.size(); ++k)
+      if (of[k].whole() == *variant) return mapping["material"];
+  }
+  return primitive.find("material");
+}
+
+}  // namespace
+
+std::vector<Primitive> read_primitives(Document& document, const Item& mesh, std::optional<std::uint64_t> variant,
+                                       const std::function<std::uint32_t(const Item&)>& material,
+                                       std::size_t& other_primitives) {
+  const Item items = mesh["primitives"];
+  std::vector<Primitive> primitives;
+  std::map<std::vector<std::uint64_t>, std::size_t> with_vertices;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const Item item = items[i];
+    const std::uint64_t mode = item.whole("mode", static_cast<std::uint64_t>(Mode::triangles));
+    if (mode > static_cast<std::uint64_t>(Mode::fan)) item.fail("its mode is none of 0 to 6");
+    const Item attributes = item["attributes"];
+    const std::optional<Item> positions = attributes.find("POSITION");
+    if (mode < static_cast<std::uint64_t>(Mode::triangles) || !positions) {
+      ++other_primitives;
+      continue;
+    }
+    Primitive primitive{document.accessor(*positions), {}, {}, {}, {}, {}, {}, static_cast<Mode>(mode)};
+    check_components(primitive.positions, 3, 3, *positions);
+    std::vector<std::uint64_t> numbers{positions->whole()};
+    VertexReader vertices(document, primitive.positions.elements.count, numbers);
+    primitive.normals = vertices.read(attributes, "NORMAL", 3, 3);
+    primitive.uvs = vertices.read(attributes, "TEXCOORD_0", 2, 2);
+    primitive.colors = vertices.read(attributes, "COLOR_0", 3, 4);
+    if (primitive.colors) be_normalized(*primitive.colors);
+    primitive.joint_sets = vertices.joint_sets(attributes);
+    primitive.targets = vertices.targets(item);
+    if (const auto indices = item.find("indices")) {
+      primitive.indices = document.accessor(*indices);
+      check_components(*primitive.indices, 1, 1, *indices);
+      be_whole(*primitive.indices, *indices);
+    }
+    if (primitive.faces() == 0) continue;
+    if (const auto number = material_of(item, variant)) primitive.material = material(*number);
+    primitive.vertices_of = with_vertices.try_emplace(std::move(numbers), primitives.size()).first->second;
+    primitives.push_back(std::move(primitive));
+  }
+  return primitives;
+}
+
+}  // namespace raytrace::gltf

@@ -1,0 +1,49 @@
+// Primitives of a glTF file's meshes. Inside of read_gltf().
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "raytrace/import/gltf_document.h"
+#include "raytrace/import/mesh_data.h"
+
+namespace raytrace::gltf {
+
+/// How corners make triangles, as the format numbers it.
+enum class Mode { triangles = 4, strip, fan };
+
+/// What a morph target adds to each vertex, times its weight.
+struct MorphTarget {
+  std::optional<Accessor> positions, normals;
+};
+
+/// Four joints of a skin for each vertex, and how much each counts.
+struct JointSet {
+  Accessor joints, weights;
+};
+
+struct Primitive {
+  Accessor positions;
+  std::optional<Accessor> normals, uvs, colors, indices;
+  std::vector<MorphTarget> targets;
+  std::vector<JointSet> joint_sets;
+  Mode mode = Mode::triangles;
+  std::uint32_t material = MeshData::no_material;  ///< its number in the model
+  std::size_t vertices_of = 0;                     ///< the first primitive of the mesh that has the same vertices
+
+  std::size_t corners() const { return indices ? indices->elements.count : positions.elements.count; }
+  std::size_t faces() const {
+    if (mode == Mode::triangles) return corners() / 3;
+    return corners() < 3 ? 0 : corners() - 2;
+  }
+};
+
+/// Those of a mesh that have faces. material: the number that the model has for that of the file. other_primitives
+/// counts those of points and lines, or without positions.
+std::vector<Primitive> read_primitives(Document& document, const Item& mesh, std::optional<std::uint64_t> variant,
+                                       const std::function<std::uint32_t(const Item&)>& material,
+                                       std::size_t& other_primitives);
+
+}  // namespace raytrace::gltf

@@ -1,0 +1,56 @@
+#include "raytrace/import/gltf_texture.h"
+
+#include <filesystem>
+
+#include "raytrace/import/gltf_material.h"
+
+namespace raytrace::gltf {
+
+MeshTexture TextureReader::read(const Item& info) {
+  MeshTexture texture;
+  const Item item = document_.listed("textures", info["index"]);
+  const std::optional<Item> source = item.find("source");
+  if (!source) return texture;  // that of an extension
+  std::uint64_t coordinates = info.whole("texCoord", 0);
+  if (const auto transform = extension(info, "KHR_texture_transform")) {
+    coordinates = transform->whole("texCoord", coordinates);
+    place_texture(*transform, texture);
+  }
+  if (coordinates != 0) {
+    document_.warn(info.place(), "has coordinates other than TEXCOORD_0, and is left out");
+    return texture;
+  }
+  if (const auto number = item.find("sampler")) {
+    constexpr std::uint64_t repeat = 10497, mirrored_repeat = 33648, clamp_to_edge = 33071;
+    const Item sampler = document_.listed("samplers", *number);
+    const std::uint64_t u = sampler.whole("wrapS", repeat), v = sampler.whole("wrapT", repeat);
+    // Where one repeats the image, coordinates are more likely to be beyond it.
+    if (u == clamp_to_edge && v == clamp_to_edge)
+      texture.edge = MeshTexture::Edge::clamp;
+    else if (u != repeat && v != repeat && (u == mirrored_repeat || v == mirrored_repeat))
+      texture.edge = MeshTexture::Edge::mirror;
+    if (u != v) document_.warn(sampler.place(), "has two wrap modes, of which one is used for both directions");
+  }
+  const Item image = document_.listed("images", *source);
+  const std::optional<Item> uri = image.find("uri");
+  if (uri && !uri->text().starts_with("data:")) {
+    texture.file = file_name(*uri);
+    return texture;
+  }
+  texture.file = std::filesystem::path(document_.name()).filename().string() + '#' + image.place();
+  std::shared_ptr<const std::string>& bytes = images_[source->whole()];
+  if (bytes == nullptr) {
+    try {
+      bytes = std::make_shared<const std::string>(
+          uri ? data_of_uri(uri->text()).value()
+              : std::string(document_.view_bytes(document_.listed("bufferViews", image["bufferView"]))));
+    } catch (const Error& error) {
+      if (uri) uri->fail(error.what());
+      throw;
+    }
+  }
+  texture.bytes = bytes;
+  return texture;
+}
+
+}  // namespace raytrace::gltf
