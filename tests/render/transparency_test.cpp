@@ -4,7 +4,6 @@
 
 #include "render/scenes.h"
 #include "support/catch.h"
-#include "support/sanitized.h"
 #include "support/usable_isas.h"
 
 namespace raytrace::test {
@@ -24,8 +23,7 @@ Film film_of(const Scene& scene, const SceneDescription& description, bool trans
 
 TEST_CASE("over its background, a transparent picture is the opaque one: in sums exactly") {
   const int samples = GENERATE(1, 3, 16, 64);  // packets of all shapes
-  const int height = is_sanitized ? 23 : 47;
-  const SceneDescription description = parsed_scene(busy_scene(61, height, samples));
+  const SceneDescription description = parsed_scene(busy_scene(61, 47, samples));
   const Rgb<float> background(description.viewplane.background);
   for (const std::string& isa : usable_isas()) {
     const auto scene = build_scene(description, {1, isa});
