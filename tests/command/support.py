@@ -44,7 +44,7 @@ SCENE = """<raytracer>
 """
 
 # So many rays that nobody waits for the end, and yet a tile is done in a moment.
-ENDLESS = ["-r", "800x800", "-s", "1000"] if SANITIZERS else ["-r", "2000x2000", "-s", "20000"]
+ENDLESS = ["-r", "800x800", "-s", "1000" if SANITIZERS else "100000"]
 
 
 def samples(count):
