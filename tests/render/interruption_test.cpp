@@ -70,7 +70,8 @@ TEST_CASE("a render that is stopped ends early, with pixels that are done or unt
       int told = 0;
       RayCounts rays;
       const FloatPicture film = render(
-          *scene, description, {threads, 0, whole(description)}, rays, [&](const RenderProgress&) { stop = ++told >= calls; }, &stop);
+          *scene, description, {threads, 0, whole(description)}, rays,
+          [&](const RenderProgress&) { stop = ++told >= calls; }, &stop);
       const int done = whole_pixels(film, all);
       INFO(threads << " threads, stopped at call " << calls << ", done " << done);
       CHECK(done > 0);
