@@ -56,6 +56,10 @@ std::optional<MeshFile> MeshFile::open(const std::string& name, Diagnostics& dia
   file.file_ = std::unique_ptr<int, Close>(new int(number));
   if (fstat(number, &status) != 0 || !S_ISREG(status.st_mode)) return refuse("it is not a regular file");
   file.size_ = static_cast<std::size_t>(status.st_size);
+  if (file.size_ == 0) {
+    diagnostics.error({}, "is empty");
+    return std::nullopt;
+  }
   if (name.ends_with(".gz") && !file.decompress(diagnostics)) return std::nullopt;
   return file;
 }
