@@ -1,0 +1,81 @@
+"""From a model to a film, by the very lines of docs/farms.md: a model from a package, another light, a turntable, its
+frames on a Slurm of one node, and one of them in tiles that are merged. README.md leads there."""
+
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+import support
+from farm import SHARE, FarmTest, skip_all
+from slurm_cluster import CannotRun, SlurmCluster
+
+MODEL = os.path.join(support.REPOSITORY, "build", "models", "assimp", "glTF2", "BoxTextured-glTF-Binary", "BoxTextured.glb")
+SIZE = "-r 48x27 -s 4"  # what is added to the lines, for the test's time
+cluster = None
+cluster_folder = tempfile.TemporaryDirectory(prefix="raytrace-newcomer-")
+
+
+def setUpModule():
+    global cluster
+    if not os.path.exists(MODEL):
+        cluster_folder.cleanup()
+        skip_all("there is no model: tests/models/environment.sh brings it")
+    starting = SlurmCluster(cluster_folder.name)
+    try:
+        starting.start()
+    except CannotRun as problem:
+        starting.stop()
+        cluster_folder.cleanup()
+        skip_all(f"{problem}")
+    except BaseException:
+        starting.stop()
+        raise
+    cluster = starting
+
+
+def tearDownModule():
+    cluster.stop()
+    cluster_folder.cleanup()
+
+
+def documented(file, heading):
+    """The lines of the first block of commands below a heading."""
+    with open(os.path.join(support.REPOSITORY, file), encoding="utf-8") as text:
+        section = text.read().split(f"\n## {heading}\n", 1)[1]
+    return re.search(r"\n```\n(.*?)\n```\n", section, re.S).group(1).splitlines()
+
+
+class Newcomer(FarmTest):
+    def test_lines_of_the_manual(self):
+        shutil.copy(MODEL, self.path("chair.glb"))
+        os.mkdir(self.path("bin"))
+        os.symlink(support.PROGRAM, self.path("bin/raytrace"))
+        lines = documented("docs/farms.md", "From a model to a film")
+        script = "\n".join(lines).replace("/usr/local/share/raytrace", SHARE)
+        script = re.sub(r"^(raytrace .*) -o", rf"\1 {SIZE} -o", script, flags=re.M).replace("24\"", f"24 {SIZE}\"")
+        environment = {**cluster.environment, "PATH": f"{self.path('bin')}:{os.environ['PATH']}",
+                       "INSTRUCTION_SET": self.instruction_set, "SLURM_CPUS_PER_TASK": "1"}
+        done = subprocess.run(["bash", "-eu", "-o", "pipefail", "-c", script], cwd=self.folder, env=environment, text=True,
+                              stdin=subprocess.DEVNULL, capture_output=True, timeout=900)
+        logs = {name: self.read(name).decode() for name in self.names() if name.startswith("slurm-")}
+        self.assertEqual(done.returncode, 0, f"{done.stderr} {logs}")
+        self.assertEqual(self.read("chair.png")[1:4], b"PNG")
+        turn = [f"chair.{frame:02}.png" for frame in range(1, 25)]
+        self.assertLessEqual(set(turn), set(self.names()))
+        self.assertEqual(len({self.read(name) for name in turn}), 24)
+        self.assertEqual(sorted(os.listdir(self.path("pictures"))),
+                         ["large.0007.exr", *(f"picture.{frame:04}.exr" for frame in range(1, 25)), "pieces"])
+        self.assert_same(self.picture("pictures/large.0007.exr"), self.picture("pictures/picture.0007.exr"))
+
+    def test_readme_leads_there(self):
+        with open(os.path.join(support.REPOSITORY, "README.md"), encoding="utf-8") as text:
+            readme = text.read()
+        for link in ("cmake/run chair.glb -o chair.png", "docs/models.md", "docs/farms.md"):
+            self.assertIn(link, readme)
+
+
+if __name__ == "__main__":
+    unittest.main()
