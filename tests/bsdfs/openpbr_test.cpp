@@ -17,7 +17,7 @@ using PbrBsdf = Kernel<OpenPbr>::Bsdf<FloatN>;
 
 PbrBsdf bsdf_of(const OpenPbr::Parameters& parameters, bool front = true) {
   PbrBsdf bsdf = spread_bsdf<Kernel<OpenPbr>::Bsdf>(Kernel<OpenPbr>::bsdf(parameters));
-  bsdf.set_side(MaskN(front));
+  bsdf.set_side(MaskN(front), FloatN(1));
   return bsdf;
 }
 
@@ -216,7 +216,7 @@ TEST_CASE("OpenPBR: a metal and a glass are those of <conductor> and <dielectric
   Dielectric::Parameters dielectric;
   dielectric.roughness = 0.5;
   auto same_glass = spread_bsdf<Kernel<Dielectric>::Bsdf>(Kernel<Dielectric>::bsdf(dielectric));
-  same_glass.set_side(MaskN(true));
+  same_glass.set_side(MaskN(true), FloatN(1));
   Random random(6);
   double worst = 0;
   for (int i = 0; i < 300; ++i) {

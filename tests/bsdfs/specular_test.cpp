@@ -19,7 +19,7 @@ GlassBsdf glass(double ior, double roughness, bool front, bool thinwalled = fals
   parameters.roughness = roughness;
   parameters.thinwalled = thinwalled;
   GlassBsdf bsdf = spread_bsdf<Kernel<Dielectric>::Bsdf>(Kernel<Dielectric>::bsdf(parameters));
-  bsdf.set_side(MaskN(front));
+  bsdf.set_side(MaskN(front), FloatN(1));
   return bsdf;
 }
 
@@ -340,6 +340,20 @@ TEST_CASE("a lane's sample does not depend on its neighbours") {
     }
   }
   CHECK(wrong == 0);
+}
+
+TEST_CASE("dielectric: in another one, the ratio of the two indices counts") {
+  const auto in_water = [](bool front) {
+    Dielectric::Parameters parameters;
+    parameters.ior = 1.8;
+    GlassBsdf bsdf = spread_bsdf<Kernel<Dielectric>::Bsdf>(Kernel<Dielectric>::bsdf(parameters));
+    bsdf.set_side(MaskN(front), FloatN(1.2F));
+    return bsdf;
+  };
+  for (const bool front : {true, false}) {
+    const GlassBsdf bsdf = in_water(front), in_air = glass(1.5, 0, front);
+    CHECK(std::abs(bsdf.eta.get(0) / in_air.eta.get(0) - 1) < 1e-6F);
+  }
 }
 
 }  // namespace raytrace::test
