@@ -135,7 +135,7 @@ TEST_CASE("animations of glTF are chosen by name or number") {
   const std::string still = triangle().text(R"("scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],)" + mesh_of_triangle);
   CHECK(near_to(vertex(still, at(0, "0"), 1), {1, 0, 0}));
   CHECK(read_bytes("a.gltf", still, at(0, "1")).messages == "a.gltf: error: has no animation '1', nor any other\n");
-  CHECK(read_bytes("a.stl", "", at(0)).messages == "a.stl: error: has no animation 'walk': it is no glTF\n");
+  CHECK(read_bytes("a.stl", "solid", at(0)).messages == "a.stl: error: has no animation 'walk': it is no glTF\n");
 }
 
 TEST_CASE("a vertex of glTF moves with the joints that it has, by their weights") {

@@ -77,7 +77,7 @@ TEST_CASE("what is wrong in an OBJ file is an error in its line") {
         "a.obj:6: error: '0' is not one of the 3 vertices\na.obj:7: error: '1/1' is not one of the 0 texture "
         "coordinates\n"
         "a.obj:8: error: 'a' is no corner of a face, which is v, v/vt, v//vn or v/vt/vn\n");
-  CHECK(read_bytes("a.obj", "").messages == "a.obj: error: has no faces\n");
+  CHECK(read_bytes("a.obj", "").messages == "a.obj: error: is empty\n");
   CHECK(contains(read_bytes("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2\nf 1 2 3\n").messages,
                  "a.obj:4: warning: 1 statements are skipped, the first of which is 'l'"));
 }

@@ -221,6 +221,7 @@ OptionalMessage check_value(const FileName& value, Range) {
 }
 
 OptionalMessage check_value(const Reference& value, Range range) {
+  if (value.name.empty()) return std::nullopt;  // there is none, likewise
   if (range != Range::identifier) return check_value(value.name, range);
   constexpr std::string_view characters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
   if (value.name.find_first_not_of(characters) == std::string::npos) return std::nullopt;
