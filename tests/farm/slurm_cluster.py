@@ -8,6 +8,8 @@ import socket
 import subprocess
 import time
 
+from farm import skip_all
+
 PROGRAMS = ["munged", "slurmctld", "slurmd", "sbatch", "setpriv", "unshare"]
 
 # cred_expire is also how long a requeued job waits. Memory and processors are declared, not looked up: nothing here is
@@ -178,6 +180,21 @@ class SlurmCluster:
                 with open(self.path(f"{name}.log"), encoding="utf-8", errors="replace") as file:
                     logs += f"---- {name}\n" + "".join(file.readlines()[-20:])
         return logs
+
+
+def start_or_skip(folder):
+    """From setUpModule(): a running cluster in a temporary folder; where none can run, the module's tests are skipped."""
+    cluster = SlurmCluster(folder.name)
+    try:
+        cluster.start()
+    except CannotRun as problem:
+        cluster.stop()
+        folder.cleanup()
+        skip_all(f"{problem}")
+    except BaseException:
+        cluster.stop()
+        raise
+    return cluster
 
 
 def _free_ports(count):

@@ -10,7 +10,7 @@ import unittest
 
 import support
 from farm import SHARE, FarmTest, skip_all
-from slurm_cluster import CannotRun, SlurmCluster
+from slurm_cluster import start_or_skip
 
 MODEL = os.path.join(support.REPOSITORY, "build", "models", "assimp", "glTF2", "BoxTextured-glTF-Binary", "BoxTextured.glb")
 SIZE = "-r 48x27 -s 4"  # what is added to the lines, for the test's time
@@ -23,17 +23,7 @@ def setUpModule():
     if not os.path.exists(MODEL):
         cluster_folder.cleanup()
         skip_all("there is no model: tests/models/environment.sh brings it")
-    starting = SlurmCluster(cluster_folder.name)
-    try:
-        starting.start()
-    except CannotRun as problem:
-        starting.stop()
-        cluster_folder.cleanup()
-        skip_all(f"{problem}")
-    except BaseException:
-        starting.stop()
-        raise
-    cluster = starting
+    cluster = start_or_skip(cluster_folder)
 
 
 def tearDownModule():

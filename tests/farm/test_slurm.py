@@ -5,8 +5,8 @@ import tempfile
 import unittest
 
 import support
-from farm import SHARE, FarmTest, skip_all
-from slurm_cluster import CannotRun, SlurmCluster
+from farm import SHARE, FarmTest
+from slurm_cluster import start_or_skip
 
 SCRIPTS = os.path.join(SHARE, "slurm")
 cluster = None
@@ -15,17 +15,7 @@ cluster_folder = tempfile.TemporaryDirectory(prefix="raytrace-slurm-")
 
 def setUpModule():
     global cluster
-    starting = SlurmCluster(cluster_folder.name)
-    try:
-        starting.start()
-    except CannotRun as problem:
-        starting.stop()
-        cluster_folder.cleanup()
-        skip_all(f"{problem}")
-    except BaseException:
-        starting.stop()
-        raise
-    cluster = starting
+    cluster = start_or_skip(cluster_folder)
 
 
 def tearDownModule():
