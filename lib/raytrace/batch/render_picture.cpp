@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "raytrace/aovs/aov_selection.h"
+#include "raytrace/batch/bands.h"
 #include "raytrace/batch/checkpoint.h"
 #include "raytrace/batch/output_files.h"
 #include "raytrace/batch/passes.h"
@@ -30,19 +31,6 @@ namespace raytrace {
 namespace {
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
-
-/// Films up to this size are held as a whole: of 67 million pixels, twice those of 8K, if nothing but colour is asked
-/// for.
-constexpr std::size_t largest_film = std::size_t{2} << 30U;
-constexpr std::size_t largest_band = std::size_t{1} << 30U;
-
-/// All of the region's, or of a band: the most whose film is not too large, and a multiple of every packet's height.
-int rows_at_once(const Region& region, std::size_t pixel_bytes) {
-  constexpr int unit = 32;
-  const std::size_t row_bytes = pixel_bytes * static_cast<std::size_t>(region.width());
-  if (row_bytes * static_cast<std::size_t>(region.height()) <= largest_film) return region.height();
-  return unit * static_cast<int>(std::max<std::size_t>(1, largest_band / (unit * row_bytes)));
-}
 
 double seconds_since(Clock::time_point start) { return Seconds(Clock::now() - start).count(); }
 
