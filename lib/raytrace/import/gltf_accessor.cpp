@@ -1,6 +1,60 @@
 #include "raytrace/import/gltf_accessor.h"
 
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+
 namespace raytrace::gltf {
+
+namespace {
+
+template <class T>
+void read_elements_of(const Elements& elements, std::size_t first, std::size_t last, std::size_t most, double* values) {
+  const std::size_t components = std::min(elements.components, most);
+  for (std::size_t i = first; i < last; ++i, values += most) {
+    for (std::size_t c = 0; c < components; ++c) {
+      T value{};
+      std::memcpy(&value, elements.first + i * elements.stride + c * sizeof value, sizeof value);
+      values[c] = static_cast<double>(value);
+      if constexpr (std::is_integral_v<T>)
+        if (elements.normalized) values[c] = std::max(values[c] / double{std::numeric_limits<T>::max()}, -1.0);
+    }
+  }
+}
+
+}  // namespace
+
+std::size_t size_of(ComponentType type) {
+  switch (type) {
+    case ComponentType::byte:
+    case ComponentType::unsigned_byte:
+      return 1;
+    case ComponentType::short_integer:
+    case ComponentType::unsigned_short:
+      return 2;
+    default:
+      return 4;
+  }
+}
+
+void read_elements(const Elements& elements, std::size_t first, std::size_t last, std::size_t most, double* values) {
+  if (elements.first == nullptr) return;  // all are 0
+  switch (elements.type) {
+    case ComponentType::byte:
+      return read_elements_of<std::int8_t>(elements, first, last, most, values);
+    case ComponentType::unsigned_byte:
+      return read_elements_of<std::uint8_t>(elements, first, last, most, values);
+    case ComponentType::short_integer:
+      return read_elements_of<std::int16_t>(elements, first, last, most, values);
+    case ComponentType::unsigned_short:
+      return read_elements_of<std::uint16_t>(elements, first, last, most, values);
+    case ComponentType::unsigned_integer:
+      return read_elements_of<std::uint32_t>(elements, first, last, most, values);
+    default:
+      return read_elements_of<float>(elements, first, last, most, values);
+  }
+}
 
 std::array<double, Elements::of_matrix> element_at(const Accessor& accessor, std::size_t i) {
   std::array<double, Elements::of_matrix> result{};

@@ -4,11 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdint>
-#include <cstring>
-#include <limits>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include "raytrace/import/gltf_bytes.h"
@@ -19,24 +15,8 @@ namespace raytrace::gltf {
 /// As the format numbers them.
 enum class ComponentType { byte = 5120, unsigned_byte, short_integer, unsigned_short, unsigned_integer = 5125, number };
 
-/// Calls f with the C++ type.
-template <class Function>
-auto with_component_type(ComponentType type, const Function& f) {
-  switch (type) {
-    case ComponentType::byte:
-      return f(std::type_identity<std::int8_t>{});
-    case ComponentType::unsigned_byte:
-      return f(std::type_identity<std::uint8_t>{});
-    case ComponentType::short_integer:
-      return f(std::type_identity<std::int16_t>{});
-    case ComponentType::unsigned_short:
-      return f(std::type_identity<std::uint16_t>{});
-    case ComponentType::unsigned_integer:
-      return f(std::type_identity<std::uint32_t>{});
-    default:
-      return f(std::type_identity<float>{});
-  }
-}
+/// In bytes.
+std::size_t size_of(ComponentType type);
 
 struct Elements {
   static constexpr std::size_t most_components = 4, of_matrix = 16;
@@ -58,24 +38,21 @@ struct Accessor {
   Elements changed_indices{}, changed_values{};  ///< those that a sparse accessor has in place of others
 };
 
+/// Writes the first `most` components of each of the elements [first, last) to `values`, one after the other. Those
+/// that the elements do not have are left as they are.
+void read_elements(const Elements& elements, std::size_t first, std::size_t last, std::size_t most, double* values);
+
 /// Calls store(i, components) for each element, with so many components at most. Threads call it at the same time.
 template <std::size_t most = Elements::most_components, class Store>
 void for_each_element(const Elements& elements, int threads, const Store& store) {
-  with_component_type(elements.type, [&]<class T>(std::type_identity<T>) {
-    for_each_chunk(elements.count, threads, [&](std::size_t, std::size_t first, std::size_t last) {
-      std::array<double, most> values{};
-      const std::size_t components = std::min(elements.components, most);
-      for (std::size_t i = first; i < last; ++i) {
-        for (std::size_t c = 0; c < components && elements.first != nullptr; ++c) {
-          T value{};
-          std::memcpy(&value, elements.first + i * elements.stride + c * sizeof value, sizeof value);
-          values[c] = static_cast<double>(value);
-          if constexpr (std::is_integral_v<T>)
-            if (elements.normalized) values[c] = std::max(values[c] / double{std::numeric_limits<T>::max()}, -1.0);
-        }
-        store(i, values);
-      }
-    });
+  for_each_chunk(elements.count, threads, [&](std::size_t, std::size_t first, std::size_t last) {
+    // Some at a time, so that how they are stored is looked at once for all of them.
+    std::array<std::array<double, most>, 128> some{};
+    for (std::size_t begin = first; begin < last; begin += some.size()) {
+      const std::size_t end = std::min(begin + some.size(), last);
+      read_elements(elements, begin, end, most, some.front().data());
+      for (std::size_t i = begin; i < end; ++i) store(i, some[i - begin]);
+    }
   });
 }
 

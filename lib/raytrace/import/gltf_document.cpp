@@ -85,7 +85,7 @@ Accessor Document::accessor(const Item& number) {
 
 void Document::read_values(const Item& item, const Item& view, Elements& elements) {
   const std::string_view bytes = view_bytes(view);
-  const std::size_t size = with_component_type(elements.type, []<class T>(std::type_identity<T>) { return sizeof(T); });
+  const std::size_t size = size_of(elements.type);
   const std::size_t element = elements.components * size;
   elements.stride = view.whole("byteStride", element);
   if (elements.stride < element || elements.stride > 252)

@@ -1,4 +1,4 @@
-// The library's header of this name, on threads of the standard library, as for_each_index.h beside it.
+// The library's header of this name, on threads of the standard library, as run_loop.h beside it.
 #pragma once
 
 #include <tbb/task_arena.h>
@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <mutex>
 
-#include "raytrace/parallel/for_each_index.h"
+#include "raytrace/parallel/run_loop.h"
 
 namespace raytrace {
 

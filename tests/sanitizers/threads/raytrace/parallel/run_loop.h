@@ -5,15 +5,12 @@
 // happens in loops. The standard library's threads and locks it knows.
 #pragma once
 
-#include <algorithm>
 #include <atomic>
-#include <cstddef>
 #include <exception>
+#include <functional>
 #include <mutex>
 #include <thread>
 #include <vector>
-
-#include "raytrace/parallel/worker_count.h"
 
 namespace raytrace {
 
@@ -37,13 +34,7 @@ void run_in_threads(int threads, const Work& work) {
   if (error) std::rethrow_exception(error);
 }
 
-template <class Function>
-void for_each_index(int count, int threads, const Function& f) {
-  const int workers = std::min(worker_count(threads), count);
-  if (workers <= 1) {
-    for (int i = 0; i < count; ++i) f(i);
-    return;
-  }
+inline void run_loop(int count, int workers, const std::function<void(int)>& f) {
   std::atomic<int> next{0};
   run_in_threads(workers, [&] {
     // Relaxed, so that this counter orders nothing that the loop's calls do.
@@ -56,20 +47,6 @@ void for_each_index(int count, int threads, const Function& f) {
         throw;
       }
     }
-  });
-}
-
-inline std::size_t chunk_count(std::size_t count) {
-  constexpr std::size_t items_a_chunk = std::size_t{1} << 14U;
-  return (count + items_a_chunk - 1) / items_a_chunk;
-}
-
-template <class Function>
-void for_each_chunk(std::size_t count, int threads, const Function& f) {
-  const std::size_t chunks = chunk_count(count);
-  for_each_index(static_cast<int>(chunks), threads, [&](int index) {
-    const auto chunk = static_cast<std::size_t>(index);
-    f(chunk, count * chunk / chunks, count * (chunk + 1) / chunks);
   });
 }
 
