@@ -23,7 +23,13 @@ if(RAYTRACE_SANITIZERS)
     -fsanitize=${RAYTRACE_SANITIZERS} -fno-sanitize-recover=all -fno-omit-frame-pointer
     # With -O2 and all of -g the compiler takes twice as long, and its files thrice the disk, for the same reports. The wide
     # code is worth it, or renders would take that time.
-    $<IF:$<BOOL:$<TARGET_PROPERTY:RAYTRACE_WIDE>>,-O2,-O1> -g1)
+    $<IF:$<BOOL:$<TARGET_PROPERTY:RAYTRACE_WIDE>>,-O2,-O1> -g1
+    # Less is inlined there, too: every check is code.
+    "$<$<AND:$<CXX_COMPILER_ID:Clang>,$<NOT:$<BOOL:$<TARGET_PROPERTY:RAYTRACE_WIDE>>>>:SHELL:-mllvm -inline-threshold=20>")
+  if(RAYTRACE_SANITIZERS MATCHES "address" AND RAYTRACE_SANITIZERS MATCHES "undefined")
+    # The address sanitizer reports what these would.
+    target_compile_options(raytrace_options INTERFACE -fno-sanitize=null,object-size)
+  endif()
   target_link_options(raytrace_options INTERFACE -fsanitize=${RAYTRACE_SANITIZERS})
 endif()
 if(RAYTRACE_SANITIZERS MATCHES "thread")

@@ -15,6 +15,8 @@ else()
 endif()
 set(RAYTRACE_ISAS "${raytrace_default_isas}" CACHE STRING
   "Instruction sets to build, least first: values of -march=, or \"generic\" for what the compiler takes by default")
+set(RAYTRACE_QUICKLY_BUILT_ISAS "" CACHE STRING
+  "Those of them whose code is compiled with -O1: in two thirds of the time, and slower")
 
 find_program(RAYTRACE_LD NAMES ${CMAKE_LIBRARY_ARCHITECTURE}-ld.bfd ld.bfd REQUIRED
   DOC "GNU ld: the one that can allocate section groups in a relocatable link")
@@ -59,7 +61,7 @@ function(raytrace_add_variants target)
     target_compile_options(${objects} PRIVATE
       $<$<NOT:$<STREQUAL:${isa},generic>>:-march=${isa}>
       # Rays are traced here, whatever the rest is built with (the preset "run": -O1).
-      $<$<CONFIG:Release>:-O3>
+      $<$<AND:$<CONFIG:Release>,$<NOT:$<IN_LIST:${isa},${RAYTRACE_QUICKLY_BUILT_ISAS}>>>:-O3>
       # Without it, the compiler's choices are those for all processors: toruses take 4 % longer.
       $<$<STREQUAL:${isa},x86-64-v3>:-mtune=haswell>
       # Without these, GCC 12 copies structs 16 bytes at a time, and whoever then reads a register's width waits for the stores.

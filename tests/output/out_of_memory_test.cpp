@@ -11,14 +11,6 @@
 
 // Not with sanitizers: OpenEXR itself leaks where an allocation fails, and the thread sanitizer knows by their callers
 // which allocations are OpenImageIO's, which it passes over.
-#if defined(__has_feature)
-#define RAYTRACE_HAS_FEATURE(name) __has_feature(name)
-#else
-#define RAYTRACE_HAS_FEATURE(name) 0
-#endif
-#if !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__) && !RAYTRACE_HAS_FEATURE(address_sanitizer) && \
-    !RAYTRACE_HAS_FEATURE(thread_sanitizer)
-
 namespace {
 
 /// The allocation of that number, from 0, fails; below 0: none.
@@ -97,5 +89,3 @@ TEST_CASE("what libraries say of memory") {
 }
 
 }  // namespace raytrace::test
-
-#endif

@@ -1,4 +1,6 @@
 // Light drawn from shining surfaces: against closed forms, and against paths that meet them by chance.
+//
+// Not with the thread sanitizer: statistics of code that cuts_test runs in threads.
 #include <cmath>
 #include <string>
 

@@ -1,4 +1,6 @@
 // Light paths: what they bring against closed forms, and against paths from the camera that chance to meet the lamps.
+//
+// Not with the thread sanitizer: statistics of code that cuts_test runs in threads.
 #include <cmath>
 #include <cstring>
 #include <functional>

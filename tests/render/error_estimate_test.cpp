@@ -1,4 +1,6 @@
 // The error that a render estimates of itself, beside the one it has.
+//
+// Not with sanitizers: statistics of code that cuts_test runs.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

@@ -1,4 +1,6 @@
 // The integrators that look at models: ambient occlusion, texture coordinates and albedo.
+//
+// Not with the thread sanitizer: statistics of code that cuts_test runs in threads.
 #include <cmath>
 #include <string>
 

@@ -1,4 +1,6 @@
 // Clear media in each other: against closed forms of slabs, and light paths against paths from the camera.
+//
+// Not with the thread sanitizer: statistics of code that cuts_test runs in threads.
 #include <cmath>
 #include <string>
 #include <utility>

@@ -1,4 +1,6 @@
 // Path tracing against closed forms, and its bits against themselves.
+//
+// Not with the thread sanitizer: statistics of code that cuts_test runs in threads.
 #include <cmath>
 #include <string>
 

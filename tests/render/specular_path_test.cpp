@@ -1,4 +1,6 @@
 // Paths by mirrors, metals and glass against closed forms, and their bits against themselves.
+//
+// Not with the thread sanitizer: statistics of code that cuts_test runs in threads.
 #include <cmath>
 #include <initializer_list>
 #include <string>

@@ -1,4 +1,6 @@
 // Directional lights that are disks, and skylights: soft shadows, and as much light as they should give.
+//
+// Not with the thread sanitizer: statistics of code that cuts_test runs in threads.
 #include <cmath>
 #include <cstring>
 #include <numbers>
