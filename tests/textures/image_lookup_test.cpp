@@ -223,6 +223,65 @@ TEST_CASE("values are scaled, then moved, alpha with them") {
   CHECK(double{kernel.largest()} == Approx(3 * double{as_it_is.largest()} + 0.5));
 }
 
+TEST_CASE("a place among tiles is looked up in its own, to the bit; nothing is where there is none") {
+  std::mt19937 random(53);
+  RandomPlaces chance(59);
+  struct Alone {
+    int column, row, width, height;
+  };
+  constexpr std::array<Alone, 3> sizes{{{0, 0, 16, 8}, {1, 0, 7, 13}, {0, 1, 1, 4}}};
+  for (const TextureFilter filter : {TextureFilter::smart, TextureFilter::nearest}) {
+    std::vector<TexelImage> alone;
+    std::vector<TexelImage::Tile> tiles;
+    for (const Alone& one : sizes) {
+      const Picture picture = random_picture(random, one.width, one.height, 4, TexelFormat::floats);
+      alone.emplace_back(picture, false, 1);
+      tiles.push_back({one.column, one.row, TexelImage(picture, false, 1)});
+    }
+    const TexelImage all = TexelImage::of_tiles(std::move(tiles));
+    Image::Parameters parameters;
+    parameters.filter = filter;
+    const Kernel<Image> kernel = kernel_of(all, parameters);
+    parameters.wrap = Wrap::clamp;
+    int different = 0, outside = 0;
+    for (int i = 0; i < 100; ++i) {
+      const auto places = chance.places(2.5, 0.3);
+      const Rgba<FloatN> found = kernel.at(point_of(places));
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        Place place = places[lane];
+        const double column = std::floor(place.u), row = std::floor(place.v);
+        Color4 expected{};
+        bool is_there = false;
+        for (std::size_t tile = 0; tile < sizes.size(); ++tile) {
+          if (column != sizes[tile].column || row != sizes[tile].row) continue;
+          place.u -= column;
+          place.v -= row;
+          std::array<Place, lanes> same{};
+          same.fill(place);
+          expected = lane_of(kernel_of(alone[tile], parameters).at(point_of(same)), 0);
+          is_there = true;
+        }
+        outside += is_there ? 0 : 1;
+        different += lane_of(found, lane) != expected ? 1 : 0;
+      }
+    }
+    CHECK(different == 0);
+    CHECK(outside > 0);
+  }
+  // Whatever the place is.
+  const TexelImage tiled = [&] {
+    std::vector<TexelImage::Tile> tiles;
+    tiles.push_back({9, 3, TexelImage(random_picture(random, 2, 2, 4, TexelFormat::floats), false, 1)});
+    return TexelImage::of_tiles(std::move(tiles));
+  }();
+  for (const double u : {std::nan(""), std::numeric_limits<double>::infinity(), -1e30, 1e30, 10.0, 4e9})
+    for (const double v : {0.5, std::nan(""), 3.5, 1e30}) {
+      std::array<Place, lanes> places{};
+      places.fill({u, v, 0, 0});
+      CHECK(lane_of(kernel_of(tiled, {}).at(point_of(places)), 0) == Color4{0, 0, 0, 0});
+    }
+}
+
 TEST_CASE("a lane's colour does not depend on the others, to the bit") {
   std::mt19937 random(41);
   RandomPlaces chance(43);

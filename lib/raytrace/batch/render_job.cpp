@@ -12,6 +12,7 @@
 #include "raytrace/batch/settings_error.h"
 #include "raytrace/description/light_groups.h"
 #include "raytrace/text/message.h"
+#include "raytrace/textures/udim.h"
 
 namespace raytrace {
 
@@ -107,7 +108,11 @@ void refuse_to_overwrite(const SceneDescription& description, const RenderJob& j
       files.add({"a cloud of spheres", cloud.parameters.file.path, false});
   };
   for (const auto& image : std::get<TextureItems<Image>>(description.textures))
-    files.add({"a texture", image.parameters.file.path, false});
+    if (is_udim(image.parameters.file.path))
+      for (const UdimTile& tile : find_udim_tiles(image.parameters.file.path))
+        files.add({"a texture", tile.file, false});
+    else
+      files.add({"a texture", image.parameters.file.path, false});
   for (const auto& light : std::get<LightItems<EnvironmentLight>>(description.lights))
     if (!light.parameters.file.path.empty()) files.add({"an environment", light.parameters.file.path, false});
   for_each_type(Lights{}, [&]<class Light>(std::type_identity<Light>) {

@@ -10,13 +10,17 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <tuple>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "raytrace/math/content_hash.h"
 #include "raytrace/output/image_file.h"
 #include "raytrace/output/picture.h"
 #include "raytrace/text/message.h"
+#include "raytrace/textures/udim.h"
 
 namespace raytrace {
 namespace {
@@ -97,10 +101,49 @@ class ImageLoader {
     return loaded;
   }
 
+  /// The same of the files of tiles.
+  LoadedImage load_tiles(const Image::Parameters& image, const std::array<bool, 2>& used) {
+    const std::vector<UdimTile> files = find_udim_tiles(image.file.path);
+    if (files.empty()) throw PictureError("there is no file of a tile, whose number would be from 1001 to 9999");
+    const auto of_tile = [](const UdimTile& tile, const auto& f) {
+      try {
+        return f();
+      } catch (const PictureError& error) {
+        throw PictureError("tile " + std::to_string(tile.number()) + ": " + error.what());
+      }
+    };
+    ContentHash hash;
+    for (const UdimTile& tile : files) {
+      const std::string of_file =
+          std::to_string(tile.number()) + ' ' + of_tile(tile, [&] { return file_hash(tile.file); }) + ' ';
+      hash.add(of_file.data(), of_file.size());
+    }
+    LoadedImage loaded{hash.digits(), nullptr, nullptr};
+    const std::array<std::shared_ptr<const TexelImage>*, 2> wanted{&loaded.color, &loaded.number};
+    for (std::size_t use = 0; use < 2; ++use) {
+      if (!used[use]) continue;
+      auto& texels = tiles_[{loaded.hash, image.colorspace, image.colorspace == ColorSpace::automatic ? use : 0}];
+      if (!texels) {
+        std::vector<TexelImage::Tile> tiles;
+        for (const UdimTile& tile : files) {
+          const Picture picture = of_tile(tile, [&] { return read_picture(tile.file); });
+          const bool srgb = is_srgb(image.colorspace, picture.format)[use];
+          tiles.push_back({tile.column, tile.row, TexelImage(picture, srgb, threads_)});
+        }
+        texels = std::make_shared<const TexelImage>(TexelImage::of_tiles(std::move(tiles)));
+        if (texels->format() != TexelFormat::bytes) tiles_[{loaded.hash, image.colorspace, 1 - use}] = texels;
+      }
+      *wanted[use] = texels;
+    }
+    return loaded;
+  }
+
  private:
   int threads_;
   std::map<std::string, TexelFormat> formats_;                                        ///< by hash
   std::map<std::pair<std::string, bool>, std::shared_ptr<const TexelImage>> texels_;  ///< by hash and colour space
+  /// By hash, colour space and use.
+  std::map<std::tuple<std::string, ColorSpace, std::size_t>, std::shared_ptr<const TexelImage>> tiles_;
 };
 
 /// For each image, whether materials use it as a colour, and as a number.
@@ -122,19 +165,20 @@ bool load_images(SceneDescription& scene, Diagnostics& diagnostics, int threads,
   diagnostics.add_files(scene.included);
   ImageLoader loader(threads);
   bool fine = true;
-  /// what: the image is for.
-  const auto load = [&](const char* what, const Image::Parameters& parameters, const std::array<bool, 2>& used,
+  /// what: the image is for. Textures may have tiles.
+  const auto load = [&](std::string_view what, const Image::Parameters& parameters, const std::array<bool, 2>& used,
                         const std::string& name, std::uint32_t line, LoadedImage& image) {
     const FileName& file = parameters.file;
     if (!image.hash.empty()) return;
     try {
-      image = loader.load(parameters, image.bytes.get(), used);
+      const bool has_tiles = what == "texture" && !image.bytes && is_udim(file.path);
+      image = has_tiles ? loader.load_tiles(parameters, used) : loader.load(parameters, image.bytes.get(), used);
     } catch (const std::runtime_error& error) {
       const bool warns = missing == MissingTexture::warn;
       fine = fine && warns;
       const SourceLocation location = file.line > 0 ? SourceLocation{file.line, file.column} : SourceLocation{line, 0};
       diagnostics.add(warns ? Severity::warning : Severity::error, location,
-                      std::string("the ") + what + " " + in_quotes(name) + " cannot be used: " + error.what() +
+                      "the " + std::string(what) + " " + in_quotes(name) + " cannot be used: " + error.what() +
                           (warns ? "; it is magenta" : ""));
       if (warns) image = {"missing", TexelImage::of_color(255, 0, 255), TexelImage::of_color(255, 0, 255)};
     }

@@ -7,12 +7,15 @@
 // (0, 0) is the picture's lower left corner and (1, 1) its upper right one, with u to the right and v upwards. The
 // place in the picture is the surface's, scaled, then turned, then moved. valuescale multiplies what is there, alpha
 // included, and valueoffset is added to that: a mask becomes sharp, or a number from 0.2 to 0.5.
+//
+// Of a file with <UDIM> or %(UDIM)d in its name there are several, each of which covers a unit of u and v (udim.h).
 #pragma once
 
 #include <array>
 #include <string>
 
 #include "raytrace/parameters/fields.h"
+#include "raytrace/textures/udim.h"
 
 namespace raytrace {
 
@@ -69,8 +72,11 @@ class Image {
             optional("valueoffset", &Parameters::valueoffset)};
   }
   static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {
-    if (!parameters.file.path.empty()) return std::nullopt;
-    return ParameterDiagnostic{ParameterDiagnostic::Effect::error, "an image needs a <file>"};
+    using enum ParameterDiagnostic::Effect;
+    if (parameters.file.path.empty()) return ParameterDiagnostic{error, "an image needs a <file>"};
+    if (is_udim(parameters.file.path) && parameters.wrap != Wrap::repeat)
+      return ParameterDiagnostic{error, "an image of UDIM tiles has no <wrap>: beyond a tile is the next one"};
+    return std::nullopt;
   }
 };
 

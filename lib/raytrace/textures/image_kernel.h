@@ -8,6 +8,7 @@
 #include <memory>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include "raytrace/math/gather.h"
 #include "raytrace/math/kernel.h"
@@ -33,6 +34,7 @@ class Kernel<Image> {
     const double angle = image.uvrotation * std::numbers::pi / 180, c = std::cos(angle), s = std::sin(angle);
     across_ = {static_cast<float>(c * image.uvscale.x), static_cast<float>(-s * image.uvscale.y)};
     up_ = {static_cast<float>(s * image.uvscale.x), static_cast<float>(c * image.uvscale.y)};
+    if (!texels_->tiles().empty()) wrap_ = Wrap::clamp;
   }
 
   float largest() const { return std::abs(value_scale_) * texels_->largest() + std::abs(value_offset_); }
@@ -56,10 +58,35 @@ class Kernel<Image> {
   Rgba<FloatN> in_file(const TexturePoint<FloatN>& point) const {
     const Vec2<FloatN> turned = in_picture(point.uv);
     const Vec2<FloatN> uv{turned.x + FloatN(offset_.x), turned.y + FloatN(offset_.y)};
-    if (filter_ == TextureFilter::nearest) return nearest(uv);
-    const auto last = static_cast<std::int32_t>(texels_->levels().size()) - 1;
+    return texels_->tiles().empty() ? in_picture_at(point, uv, LaneIndices(0)) : in_tiles(point, uv);
+  }
+
+  /// Each lane in the tile that its place is in. Nothing, not even opaque, is where there is none.
+  Rgba<FloatN> in_tiles(const TexturePoint<FloatN>& point, const Vec2<FloatN>& uv) const {
+    const Vec2<FloatN> corner{floor(uv.x), floor(uv.y)};
+    const std::vector<std::int32_t>& tiles = texels_->tiles();
+    const auto columns = static_cast<float>(TexelImage::tile_columns);
+    const float rows = static_cast<float>(tiles.size()) / columns;
+    const MaskN in_rows =
+        (corner.x >= FloatN(0)) & (corner.x < FloatN(columns)) & (corner.y >= FloatN(0)) & (corner.y < FloatN(rows));
+    const FloatN place = select(in_rows, multiply_add(corner.y, FloatN(columns), corner.x), FloatN(0));
+    const IntN first = gather(tiles.data(), to_int(place));
+    const MaskN is_there = in_rows & float_mask<FloatN>(first >= IntN(0));
+    const Rgba<FloatN> found =
+        in_picture_at(point, {uv.x - corner.x, uv.y - corner.y}, LaneIndices(max(first, IntN(0))));
+    const FloatN zero(0);
+    return select(is_there, found, Rgba<FloatN>{{zero, zero, zero}, zero});
+  }
+
+  /// first: the picture's first level.
+  Rgba<FloatN> in_picture_at(const TexturePoint<FloatN>& point, const Vec2<FloatN>& uv,
+                             const LaneIndices& first) const {
+    if (filter_ == TextureFilter::nearest) return nearest(uv, first);
+    const std::int32_t last = texels_->levels_of_picture() - 1;
     // What the view stretches most is left to the samples of the pixel, up to a factor of two.
-    const FloatN a = texels_covered(point.uv_across), b = texels_covered(point.uv_along);
+    const Levels sharpest = levels_of(first);
+    const Vec2<FloatN> size{to_float(sharpest.width), to_float(sharpest.height)};
+    const FloatN a = texels_covered(point.uv_across, size), b = texels_covered(point.uv_along, size);
     const FloatN wide = max(min(a, b), max(a, b) * FloatN(0.5F));
     const FloatN level = min(max(log(max(wide, FloatN(1))) * FloatN(std::numbers::log2e_v<float>), FloatN(0)),
                              FloatN(static_cast<float>(last)));
@@ -67,7 +94,8 @@ class Kernel<Image> {
     const FloatN part = level - to_float(lower);
     // Most images by code of their own, without a choice of the format for each texel.
     const auto level_at = [&](const IntN& number) {
-      return is_usual() ? between_texels<true>(number, uv) : between_texels<false>(number, uv);
+      const IntN level = first.lanes() + number;
+      return is_usual() ? between_texels<true>(level, uv) : between_texels<false>(level, uv);
     };
     const Rgba<FloatN> sharper = level_at(lower);
     if (none(part > FloatN(0))) return sharper;
@@ -88,11 +116,10 @@ class Kernel<Image> {
             multiply_add(FloatN(up_.x), uv.x, FloatN(up_.y) * uv.y)};
   }
 
-  FloatN texels_covered(const Vec2<FloatN>& axis) const {
+  /// size: of the picture.
+  FloatN texels_covered(const Vec2<FloatN>& axis, const Vec2<FloatN>& size) const {
     const Vec2<FloatN> turned = in_picture(axis);
-    const TexelImage::Level& picture = texels_->levels()[0];
-    return covered(turned.x * FloatN(static_cast<float>(picture.width)),
-                   turned.y * FloatN(static_cast<float>(picture.height)));
+    return covered(turned.x * size.x, turned.y * size.y);
   }
 
   /// The coordinate in [0, 1], or near it where what lies beyond has its own rule.
@@ -166,8 +193,8 @@ class Kernel<Image> {
     return mix(row(y.low, y.has_low), row(y.high, y.has_high), y.part);
   }
 
-  Rgba<FloatN> nearest(const Vec2<FloatN>& uv) const {
-    const Levels level = levels_of(LaneIndices(0));
+  Rgba<FloatN> nearest(const Vec2<FloatN>& uv, const LaneIndices& first) const {
+    const Levels level = levels_of(first);
     const auto column = [&](const FloatN& u, const IntN& size, MaskN& is_there) {
       const IntN i = to_int(floor(wrapped(u) * to_float(size))), inside = clamped(i, size - IntN(1));
       is_there = is_there & float_mask<FloatN>(i == inside);

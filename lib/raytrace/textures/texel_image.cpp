@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <type_traits>
+#include <utility>
 
 #include "raytrace/parallel/for_each_index.h"
 
@@ -95,6 +97,23 @@ Picture linear_floats(const Picture& picture) {
   return result;
 }
 
+std::string tile_name(int column, int row) { return std::to_string(1001 + column + TexelImage::tile_columns * row); }
+
+/// From texels of one number to opaque ones of four.
+void copy_grey(const std::byte* from, std::size_t count, TexelFormat format, std::byte* to) {
+  const std::size_t bytes = bytes_of(format);
+  std::array<std::byte, sizeof(float)> one{std::byte{0xff}, std::byte{0xff}};
+  const float one_float = 1;
+  const Imath::half one_half(1.0F);
+  if (format == TexelFormat::floats) std::memcpy(one.data(), &one_float, sizeof one_float);
+  if (format == TexelFormat::halves) std::memcpy(one.data(), &one_half, sizeof one_half);
+  for (std::size_t i = 0; i < count; ++i, from += bytes) {
+    for (int color = 0; color < 3; ++color, to += bytes) std::memcpy(to, from, bytes);
+    std::memcpy(to, one.data(), bytes);
+    to += bytes;
+  }
+}
+
 }  // namespace
 
 TexelImage::TexelImage(const Picture& picture, bool srgb, int threads)
@@ -111,6 +130,7 @@ TexelImage::TexelImage(const Picture& picture, bool srgb, int threads)
     texels += blocks * rows * block_texels;
     if (width == 1 && height == 1) break;
   }
+  levels_of_picture_ = static_cast<int>(levels_.size());
   texels_ = LargeArray<std::byte>::zeros(static_cast<std::size_t>(texels) * static_cast<std::size_t>(channels_) *
                                          bytes_of(format_));
   switch (format_) {
@@ -133,6 +153,58 @@ std::shared_ptr<const TexelImage> TexelImage::of_color(std::uint8_t red, std::ui
   Picture picture{1, 1, 4, TexelFormat::bytes, LargeArray<std::byte>::zeros(4)};
   for (std::size_t i = 0; i < 4; ++i) picture.pixels[i] = std::byte{std::array{red, green, blue, std::uint8_t{255}}[i]};
   return std::make_shared<const TexelImage>(picture, false, 1);
+}
+
+std::size_t TexelImage::texel_count() const {
+  const Level& last = levels_.back();
+  return static_cast<std::size_t>(last.first) + block_texels;
+}
+
+TexelImage TexelImage::of_tiles(std::vector<Tile> tiles) {
+  TexelImage all;
+  std::size_t texels = 0;
+  const Tile& first = tiles.front();
+  all.format_ = first.image.format_;
+  all.srgb_ = first.image.srgb_;
+  int rows = 0;
+  for (const Tile& tile : tiles) {
+    const TexelImage& image = tile.image;
+    if (image.format_ != all.format_)
+      throw PictureError("the numbers of its tiles " + tile_name(first.column, first.row) + " and " +
+                         tile_name(tile.column, tile.row) + " have different formats");
+    all.channels_ = std::max(all.channels_, image.channels_);
+    all.has_alpha_ = all.has_alpha_ || image.has_alpha_;
+    all.largest_ = std::max(all.largest_, image.largest_);
+    all.levels_of_picture_ = std::max(all.levels_of_picture_, image.levels_of_picture_);
+    rows = std::max(rows, tile.row + 1);
+    texels += image.texel_count();
+  }
+  // Look-ups number them by words of 32 bits, with a sign.
+  const std::size_t bytes_a_texel = bytes_of(all.format_) * static_cast<std::size_t>(all.channels_);
+  if (texels * std::max<std::size_t>(bytes_a_texel / 4, 1) > std::numeric_limits<std::int32_t>::max())
+    throw PictureError("its " + std::to_string(tiles.size()) + " tiles are too large together");
+
+  all.tiles_.assign(static_cast<std::size_t>(rows) * tile_columns, -1);
+  all.texels_ = LargeArray<std::byte>::zeros(texels * bytes_a_texel);
+  std::size_t done = 0;
+  for (Tile& tile : tiles) {
+    TexelImage image = std::move(tile.image);  // which is freed at the end
+    all.tiles_[static_cast<std::size_t>(tile.row * tile_columns + tile.column)] =
+        static_cast<std::int32_t>(all.levels_.size());
+    for (int i = 0; i < all.levels_of_picture_; ++i) {
+      Level level = image.levels_[std::min(static_cast<std::size_t>(i), image.levels_.size() - 1)];
+      level.first += static_cast<std::int32_t>(done);
+      all.levels_.push_back(level);
+    }
+    const std::size_t count = image.texel_count();
+    std::byte* const to = all.texels_.data() + done * bytes_a_texel;
+    if (image.channels_ == all.channels_)
+      std::memcpy(to, image.texels_.data(), count * bytes_a_texel);
+    else
+      copy_grey(image.texels_.data(), count, all.format_, to);
+    done += count;
+  }
+  return all;
 }
 
 template <class Numbers>

@@ -29,13 +29,24 @@ class TexelImage {
   /// linear light. threads: so many at most share the work. Throws std::bad_alloc.
   TexelImage(const Picture& picture, bool srgb, int threads);
 
+  /// One of several pictures, each of which covers a unit of u and v.
+  struct Tile;
+  static constexpr int tile_columns = 10;
+
+  /// Of such tiles. Throws PictureError if their numbers have different formats or are too many.
+  static TexelImage of_tiles(std::vector<Tile> tiles);
+
   /// Of one opaque colour.
   static std::shared_ptr<const TexelImage> of_color(std::uint8_t red, std::uint8_t green, std::uint8_t blue);
 
   TexelFormat format() const { return format_; }
   int channels() const { return channels_; }  ///< 1 or 4
   bool has_alpha() const { return has_alpha_; }
+  /// Of a picture, or of one tile after the other, which then have the same number of levels.
   const std::vector<Level>& levels() const { return levels_; }
+  int levels_of_picture() const { return levels_of_picture_; }
+  /// For each place, in rows of tile_columns, the number of its tile's first level, or -1; empty: one picture is all.
+  const std::vector<std::int32_t>& tiles() const { return tiles_; }
   const std::byte* texels() const { return texels_.data(); }
   /// Whether colours are sRGB's, as those of bytes may be; else they are linear light.
   bool srgb() const { return srgb_; }
@@ -50,18 +61,28 @@ class TexelImage {
   }
 
  private:
+  TexelImage() = default;
+  std::size_t texel_count() const;
+
   template <class Numbers>
   void fill(const Picture& picture, const Numbers& numbers, int threads);
   template <class Numbers>
   void fill_level(std::size_t level, const Numbers& numbers, int threads);
 
-  TexelFormat format_;
-  int channels_;
-  bool has_alpha_;
+  TexelFormat format_ = TexelFormat::bytes;
+  int channels_ = 0;
+  bool has_alpha_ = false;
   std::vector<Level> levels_;
+  int levels_of_picture_ = 0;
+  std::vector<std::int32_t> tiles_{};
   LargeArray<std::byte> texels_;
-  bool srgb_;
+  bool srgb_ = false;
   float largest_ = 1;
+};
+
+struct TexelImage::Tile {
+  int column, row;
+  TexelImage image;
 };
 
 /// What the file of an image texture has.
