@@ -111,6 +111,13 @@ GltfFile with_filtered(const std::vector<T>& filtered, const std::string& filter
   return file.add_accessor(accessor_of(2, type, component_type, count));
 }
 
+/// Later versions of the library ask for a mode as well.
+template <class... Mode>
+void encode_exponents(void (*encode)(void*, std::size_t, std::size_t, int, const float*, Mode...),
+                      const std::vector<float>& numbers, std::vector<std::uint32_t>& encoded) {
+  encode(encoded.data(), numbers.size(), sizeof(float), 24, numbers.data(), Mode{}...);
+}
+
 }  // namespace
 
 TEST_CASE("meshoptimizer's attributes and triangles are as they were before") {
@@ -194,7 +201,7 @@ TEST_CASE("meshoptimizer's numbers with exponents are exact") {
     for (const double value : {0.1, -7.7, 1e-20, 3e17})
       numbers.push_back(static_cast<float>(value * static_cast<double>(i + 1) / grid_size));
   std::vector<std::uint32_t> filtered(numbers.size());
-  meshopt_encodeFilterExp(filtered.data(), numbers.size(), 4, 24, numbers.data());
+  encode_exponents(meshopt_encodeFilterExp, numbers, filtered);
   const MeshData mesh = read_compressed(with_filtered(filtered, "EXPONENTIAL", "VEC3", 5126),
                                         R"("attributes":{"POSITION":2},"indices":1)");
   meshopt_decodeFilterExp(filtered.data(), grid_size, 16);

@@ -20,17 +20,18 @@
 #include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
 #include <draco/compression/mesh/mesh_sequential_decoder.h>
 #include <draco/core/decoder_buffer.h>
+#include <draco/core/draco_version.h>
 #include <draco/core/varint_decoding.h>
 #include <draco/mesh/mesh.h>
 #endif
 
 namespace raytrace::gltf {
 
-bool can_read_draco() {
+std::string draco_version() {
 #if defined(RAYTRACE_DRACO)
-  return true;
+  return std::string("Draco ") + draco::kDracoVersion;
 #else
-  return false;
+  return {};
 #endif
 }
 

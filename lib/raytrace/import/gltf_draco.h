@@ -10,8 +10,9 @@
 namespace raytrace::gltf {
 
 inline constexpr const char* draco_extension = "KHR_draco_mesh_compression";
-/// Whether the library is there.
-bool can_read_draco();
+/// The library and its version; empty: it is not there.
+std::string draco_version();
+inline bool can_read_draco() { return !draco_version().empty(); }
 
 /// What a primitive's compressed mesh has.
 struct DracoPrimitive {

@@ -127,11 +127,12 @@ bool is_meshopt_extension(std::string_view name) {
   return std::any_of(std::begin(meshopt_names), std::end(meshopt_names), [&](const char* of) { return name == of; });
 }
 
-bool can_read_meshopt() {
+std::string meshopt_version() {
 #if defined(RAYTRACE_MESHOPTIMIZER)
-  return true;
+  return "meshoptimizer " + std::to_string(MESHOPTIMIZER_VERSION / 1000) + '.' +
+         std::to_string(MESHOPTIMIZER_VERSION % 1000 / 10);
 #else
-  return false;
+  return {};
 #endif
 }
 
@@ -185,9 +186,7 @@ std::string meshopt_decoded(const MeshoptLayout& layout, [[maybe_unused]] std::s
                         ? meshopt_decodeIndexBuffer(decoded.data(), layout.count, layout.stride, from, bytes.size())
                         : meshopt_decodeIndexSequence(decoded.data(), layout.count, layout.stride, from, bytes.size());
   if (error != 0)
-    layout.compressed.fail("its data is damaged, or of a kind that meshoptimizer " +
-                           std::to_string(MESHOPTIMIZER_VERSION / 1000) + '.' +
-                           std::to_string(MESHOPTIMIZER_VERSION % 1000 / 10) + " does not read");
+    layout.compressed.fail("its data is damaged, or of a kind that " + meshopt_version() + " does not read");
   apply_filter(layout.filter, layout.stride, decoded);
   return decoded;
 #else

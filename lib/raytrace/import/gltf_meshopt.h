@@ -12,8 +12,9 @@
 namespace raytrace::gltf {
 
 bool is_meshopt_extension(std::string_view name);
-/// Whether the library is there.
-bool can_read_meshopt();
+/// The library and its version; empty: it is not there.
+std::string meshopt_version();
+inline bool can_read_meshopt() { return !meshopt_version().empty(); }
 
 /// How a buffer view is compressed.
 struct MeshoptLayout {
