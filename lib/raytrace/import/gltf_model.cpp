@@ -57,7 +57,7 @@ class ModelReader {
   const Skin& skin(const Item& number);
   void add_light(const Item& number, const Affine& transform);
   const std::vector<Primitive>& mesh(const Item& number);
-  std::uint32_t material(const Item& number);
+  PrimitiveMaterial material(const Item& number);
 
   const MeshReadSettings& settings_;
   Model model_;
@@ -67,8 +67,8 @@ class ModelReader {
   DracoReader draco_;
   Pose pose_;
   std::optional<std::uint64_t> variant_;
-  std::map<std::uint64_t, std::uint32_t> materials_;  ///< their numbers in the model
-  std::vector<std::optional<Affine>> transforms_;     ///< of the scene's nodes, by their numbers
+  std::map<std::uint64_t, PrimitiveMaterial> materials_;
+  std::vector<std::optional<Affine>> transforms_;  ///< of the scene's nodes, by their numbers
 };
 
 void ModelReader::check_version() const {
@@ -222,15 +222,17 @@ const std::vector<Primitive>& ModelReader::mesh(const Item& number) {
   return known->second;
 }
 
-std::uint32_t ModelReader::material(const Item& number) {
+PrimitiveMaterial ModelReader::material(const Item& number) {
   const Item item = document_.listed("materials", number);
-  const auto next = static_cast<std::uint32_t>(model_.materials.size());
-  const auto [known, is_new] = materials_.try_emplace(number.whole(), next);
+  const auto [known, is_new] = materials_.try_emplace(number.whole());
   if (!is_new) return known->second;
+  known->second.number = static_cast<std::uint32_t>(model_.materials.size());
+  textures_.begin_material();
   model_.materials.push_back(read_material(
       item, [&](const Item& info) { return textures_.read(info); },
       [&](const std::string& place, const std::string& message) { document_.warn_once(place, message); }));
-  return next;
+  known->second.coordinates = textures_.coordinates();
+  return known->second;
 }
 
 }  // namespace

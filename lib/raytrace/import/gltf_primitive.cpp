@@ -116,7 +116,7 @@ std::optional<Item> material_of(const Item& primitive, std::optional<std::uint64
 
 std::vector<Primitive> read_primitives(Document& document, DracoReader& draco, const Item& mesh,
                                        std::optional<std::uint64_t> variant,
-                                       const std::function<std::uint32_t(const Item&)>& material,
+                                       const std::function<PrimitiveMaterial(const Item&)>& material,
                                        std::size_t& other_primitives) {
   const Item items = mesh["primitives"];
   std::vector<Primitive> primitives;
@@ -137,7 +137,6 @@ std::vector<Primitive> read_primitives(Document& document, DracoReader& draco, c
     Primitive primitive{
         vertices.positions(), {}, {}, {}, {}, {}, {}, of_draco ? Mode::triangles : static_cast<Mode>(mode)};
     primitive.normals = vertices.attribute("NORMAL", 3, 3);
-    primitive.uvs = vertices.attribute("TEXCOORD_0", 2, 2);
     primitive.colors = vertices.attribute("COLOR_0", 3, 4);
     if (primitive.colors) be_normalized(*primitive.colors);
     primitive.joint_sets = vertices.joint_sets();
@@ -150,7 +149,10 @@ std::vector<Primitive> read_primitives(Document& document, DracoReader& draco, c
       be_whole(*primitive.indices, *indices);
     }
     if (primitive.faces() == 0) continue;
-    if (const auto number = material_of(item, variant)) primitive.material = material(*number);
+    const std::optional<Item> number = material_of(item, variant);
+    const PrimitiveMaterial of_model = number ? material(*number) : PrimitiveMaterial();
+    primitive.material = of_model.number;
+    primitive.uvs = vertices.attribute("TEXCOORD_" + std::to_string(of_model.coordinates), 2, 2);
     std::vector<std::uint64_t> numbers = vertices.numbers();
     numbers.push_back(of_draco ? (*of_draco)["bufferView"].whole() + 1 : 0);
     primitive.vertices_of = with_vertices.try_emplace(std::move(numbers), primitives.size()).first->second;
