@@ -34,6 +34,23 @@ find_package(PkgConfig REQUIRED)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash>=0.8.1)
 include(cmake/package_faults.cmake)
 
+# What decodes compressed glTF files, where it is installed. Without one, such files are refused by an error that names it.
+set(raytrace_codec_packages "")
+set(raytrace_codec_targets "")
+set(raytrace_codec_definitions "") # which of them the sources have
+macro(raytrace_codec package least_version target definition extension)
+  find_package(${package} CONFIG QUIET)
+  if(${package}_FOUND AND NOT ${package}_VERSION VERSION_LESS ${least_version})
+    list(APPEND raytrace_codec_packages ${package})
+    list(APPEND raytrace_codec_targets ${target})
+    list(APPEND raytrace_codec_definitions ${definition})
+  else()
+    message(STATUS "${package} ${least_version} or later is not installed: glTF files with ${extension} will be refused")
+  endif()
+endmacro()
+raytrace_codec(draco 1.5.5 draco::draco RAYTRACE_DRACO KHR_draco_mesh_compression)
+raytrace_codec(meshoptimizer 0.18 meshoptimizer::meshoptimizer RAYTRACE_MESHOPTIMIZER EXT_meshopt_compression)
+
 # Standalone Asio: headers alone, and no CMake files in Debian's package.
 find_path(ASIO_INCLUDE_DIR asio.hpp REQUIRED)
 mark_as_advanced(ASIO_INCLUDE_DIR)

@@ -11,6 +11,7 @@
 #include "raytrace/aovs/aov_selection.h"
 #include "raytrace/batch/provenance.h"
 #include "raytrace/cameras/registry.h"
+#include "raytrace/import/mesh_codecs.h"
 #include "raytrace/integrators/registry.h"
 #include "raytrace/lights/registry.h"
 #include "raytrace/materials/registry.h"
@@ -34,9 +35,11 @@ std::string help() {
 std::string version() {
   // An empty scene knows which Embree it is made with.
   const std::string embree_version = build_scene({}, {1, "", true})->statistics().embree_version;
+  std::string codecs;
+  for (const std::string& codec : mesh_codecs()) codecs += '\n' + codec;
   return software_name() + "\nEmbree " + embree_version + "\nOpenImageIO " OPENIMAGEIO_VERSION "\noneTBB " +
-         TBB_runtime_version() + "\ninstruction sets: " + joined(isa_names(), ", ") + " (best here: " + best_isa() +
-         ")\n";
+         TBB_runtime_version() + codecs + "\ninstruction sets: " + joined(isa_names(), ", ") +
+         " (best here: " + best_isa() + ")\n";
 }
 
 std::vector<std::pair<std::string, Names>> listings() {

@@ -2,6 +2,7 @@
 #   only lib/raytrace/accel/ includes Embree,
 #   only lib/raytrace/xml/ includes tinyxml2,
 #   only lib/raytrace/display/display_server.cpp includes Asio,
+#   only gltf_draco.cpp and gltf_meshopt.cpp, and their tests, include Draco and meshoptimizer,
 #   only lib/raytrace/math/simd.h and twin_batch.h include intrinsics or the SIMD library.
 
 file(GLOB_RECURSE files RELATIVE ${ROOT}
@@ -28,6 +29,8 @@ endfunction()
 only("lib/raytrace/accel/" "embree[0-9]*/")
 only("lib/raytrace/xml/" "tinyxml2")
 only("lib/raytrace/display/display_server[.]cpp$" "asio[./]")
+only("(lib/raytrace|tests)/import/gltf_draco(_test)?[.]cpp$" "draco/")
+only("(lib/raytrace|tests)/import/gltf_meshopt(_test)?[.]cpp$" "meshoptimizer[.]h")
 only("lib/raytrace/math/(simd|twin_batch)[.]h$" "([a-z0-9]*intrin[.]h|arm_(neon|sve)[.]h|xsimd/)")
 
 if(offenders)

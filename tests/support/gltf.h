@@ -46,6 +46,22 @@ class GltfFile {
     buffer_ += bytes;
     return *this;
   }
+  /// A view of `count` elements in a second buffer, which is not there, that an extension has compressed into these
+  /// bytes.
+  GltfFile& add_compressed_view(const std::string& bytes, std::size_t count, std::size_t stride,
+                                const std::string& mode, const std::string& filter = "NONE",
+                                const std::string& extension = "EXT_meshopt_compression") {
+    add_view(bytes);
+    const std::string stored = view_texts_.substr(view_texts_.rfind('{') + 1);  // with its '}'
+    view_texts_.erase(view_texts_.rfind('{'));
+    const std::string of_stride = ",\"byteStride\":" + std::to_string(stride);
+    view_texts_ += "{\"buffer\":1,\"byteLength\":" + std::to_string(count * stride) +
+                   (mode == "ATTRIBUTES" ? of_stride : "") + ",\"extensions\":{\"" + extension + "\":{\"mode\":\"" +
+                   mode + "\",\"filter\":\"" + filter + "\",\"count\":" + std::to_string(count) + of_stride + ',' +
+                   stored + "}}";
+    fallback_ = ",{\"byteLength\":1000000,\"extensions\":{\"" + extension + "\":{\"fallback\":true}}}";
+    return *this;
+  }
   GltfFile& add_accessor(const std::string& text) {
     accessors_ += (accessors_.empty() ? "" : ",") + text;
     return *this;
@@ -54,8 +70,8 @@ class GltfFile {
   /// members: "meshes", "nodes" and what else there is, without braces. uri: of the buffer; empty: it has none.
   std::string json(const std::string& members, const std::string& uri) const {
     return "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":" + std::to_string(buffer_.size()) +
-           (uri.empty() ? "" : ",\"uri\":\"" + uri + '"') + "}],\"bufferViews\":[" + view_texts_ + "],\"accessors\":[" +
-           accessors_ + "]," + members + '}';
+           (uri.empty() ? "" : ",\"uri\":\"" + uri + '"') + '}' + fallback_ + "],\"bufferViews\":[" + view_texts_ +
+           "],\"accessors\":[" + accessors_ + "]," + members + '}';
   }
   std::string text(const std::string& members) const {
     return json(members, "data:application/octet-stream;base64," + base64(buffer_));
@@ -72,7 +88,7 @@ class GltfFile {
   }
 
  private:
-  std::string buffer_, view_texts_, accessors_;
+  std::string buffer_, view_texts_, accessors_, fallback_;
   std::size_t views_ = 0;
 };
 

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "raytrace/import/gltf_meshopt.h"
+#include "raytrace/memory/process_status.h"
 #include "raytrace/text/message.h"
 
 namespace raytrace::gltf {
@@ -20,6 +22,15 @@ nlohmann::json parsed(std::string_view text) {
     reason.erase(0, reason.find("] ") + 2);
     throw Error("is no glTF: " + printable(reason));
   }
+}
+
+ComponentType component_type(const Item& of) {
+  const Item number = of["componentType"];
+  const auto value = static_cast<ComponentType>(std::min<std::uint64_t>(number.whole(), 9999));
+  const bool is_integer = value >= ComponentType::byte && value <= ComponentType::unsigned_short;
+  if (!is_integer && value != ComponentType::unsigned_integer && value != ComponentType::number)
+    number.fail("is none of 5120 to 5123, 5125 and 5126");
+  return value;
 }
 
 }  // namespace
@@ -39,7 +50,7 @@ Document::Document(std::string_view file, std::string name, int threads)
       threads_(threads),
       size_(file.size()) {}
 
-Accessor Document::accessor(const Item& number) {
+Accessor Document::accessor_of_zeros(const Item& number) const {
   const Item item = listed("accessors", number);
   Accessor accessor{item.place(), {}};
   Elements& elements = accessor.elements;
@@ -49,18 +60,17 @@ Accessor Document::accessor(const Item& number) {
   for (const auto& [name, components] : types)
     if (type.text() == name) elements.components = components;
   if (elements.components == 0) type.fail("is none of SCALAR, VEC2, VEC3, VEC4 and MAT4");
-  const auto component_type = [](const Item& of) {
-    const Item number_of_type = of["componentType"];
-    const auto value = static_cast<ComponentType>(std::min<std::uint64_t>(number_of_type.whole(), 9999));
-    const bool is_integer = value >= ComponentType::byte && value <= ComponentType::unsigned_short;
-    if (!is_integer && value != ComponentType::unsigned_integer && value != ComponentType::number)
-      number_of_type.fail("is none of 5120 to 5123, 5125 and 5126");
-    return value;
-  };
   elements.type = component_type(item);
   elements.count = item["count"].whole();
   if (const auto normalized = item.find("normalized"))
     elements.normalized = normalized->is_true() && elements.type != ComponentType::number;
+  return accessor;
+}
+
+Accessor Document::accessor(const Item& number) {
+  const Item item = listed("accessors", number);
+  Accessor accessor = accessor_of_zeros(number);
+  Elements& elements = accessor.elements;
   if (const auto view = item.find("bufferView"))
     read_values(item, listed("bufferViews", *view), elements);
   else if (!item.find("sparse"))
@@ -102,6 +112,18 @@ void Document::read_values(const Item& item, const Item& view, Elements& element
 }
 
 std::string_view Document::view_bytes(const Item& view) {
+  const std::optional<MeshoptLayout> layout = meshopt_layout(view);
+  if (!layout) return stored_bytes(view);
+  const auto [known, is_new] = decoded_views_.try_emplace(view.place());
+  if (is_new) {
+    const std::string_view stored = stored_bytes(layout->compressed);
+    expand(layout->size(), layout->compressed);
+    known->second = keep(meshopt_decoded(*layout, stored));
+  }
+  return known->second;
+}
+
+std::string_view Document::stored_bytes(const Item& view) {
   const std::string_view bytes = buffer(view["buffer"]);
   const std::uint64_t offset = view.whole("byteOffset", 0), length = view["byteLength"].whole();
   if (offset > bytes.size() || length > bytes.size() - offset)
@@ -146,7 +168,17 @@ std::string_view Document::buffer(const Item& number) {
 void Document::spend(std::size_t values, const Item& place) {
   constexpr std::size_t most_of_small_file = 1'000'000;
   spent_ += std::min(values, std::size_t{1} << 48U);
-  if (spent_ > 4 * size_ + most_of_small_file) place.fail("asks for more numbers than the file can have");
+  if (spent_ > 4 * size() + most_of_small_file) place.fail("asks for more numbers than the file can have");
+}
+
+void Document::expand(std::size_t bytes, const Item& place) {
+  // A flat grid of a million triangles is written by Draco in an eighth of a byte for each, which takes this decoder a
+  // thousand times as much; meshoptimizer writes 256 equal bytes as two bits.
+  constexpr std::size_t most_of_each_byte = 4096, worth_a_look = 64;
+  expanded_ += std::min(bytes, std::size_t{1} << 48U);
+  if (expanded_ > most_of_each_byte * size_ || (expanded_ > worth_a_look * size_ && expanded_ > available_memory() / 4))
+    place.fail("claims to be " + std::to_string(bytes) + " bytes when it is decoded, too many for a file of " +
+               std::to_string(size_));
 }
 
 void Document::warn_once(const std::string& place, const std::string& message) {

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "raytrace/import/gltf_accessor.h"
@@ -27,8 +29,8 @@ class Document {
   const Item& root() const { return root_; }
   const std::string& name() const { return name_; }
   int threads() const { return threads_; }
-  /// Bytes of all files that are read so far.
-  std::size_t size() const { return size_; }
+  /// Bytes of all files that are read so far, and of what was decoded.
+  std::size_t size() const { return size_ + decoded_bytes_; }
 
   /// The item of a list at the root that `from` names by its number.
   Item listed(const char* list, const Item& from) const {
@@ -43,7 +45,17 @@ class Document {
 
   /// What it points into lives as long as this.
   Accessor accessor(const Item& number);
+  /// The same without values: all are 0.
+  Accessor accessor_of_zeros(const Item& number) const;
   std::string_view view_bytes(const Item& view);
+
+  /// Counts bytes that decoding will take, of which a file has only so many: no memory follows from a claim alone.
+  void expand(std::size_t bytes, const Item& place);
+  /// What was decoded, as long as this.
+  const std::string& keep(std::string bytes) {
+    decoded_bytes_ += bytes.size();
+    return decoded_.emplace_back(std::move(bytes));
+  }
 
   /// Counts values that are read to evaluate an animation, of which a file has only so many: parts of it that say the
   /// same numbers again and again take no endless time.
@@ -57,6 +69,8 @@ class Document {
  private:
   void read_values(const Item& item, const Item& view, Elements& elements);
   std::string_view buffer(const Item& number);
+  /// The bytes that a buffer view names, or what is in its place where it is compressed.
+  std::string_view stored_bytes(const Item& view);
 
   Chunks chunks_;
   nlohmann::json json_;
@@ -65,7 +79,9 @@ class Document {
   int threads_;
   std::map<std::string, MeshFile> files_;
   std::map<std::uint64_t, std::string> data_;  ///< of the buffers that the file has as URIs
-  std::size_t size_, spent_ = 0;
+  std::deque<std::string> decoded_;
+  std::map<std::string, std::string_view> decoded_views_;  ///< by their places
+  std::size_t size_, decoded_bytes_ = 0, spent_ = 0, expanded_ = 0;
   std::vector<std::string> warnings_;
   std::set<std::string> warned_;
 };

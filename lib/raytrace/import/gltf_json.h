@@ -1,12 +1,14 @@
 // Values of a JSON text that know where they are, for messages. Inside of read_gltf().
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "raytrace/import/gltf_bytes.h"
 #include "raytrace/text/message.h"
@@ -35,6 +37,14 @@ class Item {
     std::optional<Item> found = find(key);
     if (!found) fail(std::string("has no '") + key + "'");
     return *std::move(found);
+  }
+
+  /// Of a JSON object, in their order.
+  [[gnu::noinline]] std::vector<std::string> keys() const {
+    if (!value_->is_object()) fail("must be a JSON object");
+    std::vector<std::string> keys;
+    for (const auto& item : value_->items()) keys.push_back(item.key());
+    return keys;
   }
 
   std::size_t size() const {

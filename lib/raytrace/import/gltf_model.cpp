@@ -5,8 +5,10 @@
 #include <utility>
 
 #include "raytrace/import/gltf_animation.h"
+#include "raytrace/import/gltf_draco.h"
 #include "raytrace/import/gltf_instancing.h"
 #include "raytrace/import/gltf_material.h"
+#include "raytrace/import/gltf_meshopt.h"
 #include "raytrace/import/gltf_texture.h"
 #include "raytrace/import/gltf_view.h"
 #include "raytrace/memory/process_status.h"
@@ -27,7 +29,8 @@ class ModelReader {
       : settings_(settings),
         document_(*(model_.document = std::make_unique<Document>(file, name, settings.threads))),
         root_(document_.root()),
-        textures_(document_) {}
+        textures_(document_),
+        draco_(document_) {}
 
   Model read(Diagnostics& diagnostics) {
     check_version();
@@ -54,17 +57,18 @@ class ModelReader {
   const Skin& skin(const Item& number);
   void add_light(const Item& number, const Affine& transform);
   const std::vector<Primitive>& mesh(const Item& number);
-  std::uint32_t material(const Item& number);
+  PrimitiveMaterial material(const Item& number);
 
   const MeshReadSettings& settings_;
   Model model_;
   Document& document_;
   const Item& root_;
   TextureReader textures_;
+  DracoReader draco_;
   Pose pose_;
   std::optional<std::uint64_t> variant_;
-  std::map<std::uint64_t, std::uint32_t> materials_;  ///< their numbers in the model
-  std::vector<std::optional<Affine>> transforms_;     ///< of the scene's nodes, by their numbers
+  std::map<std::uint64_t, PrimitiveMaterial> materials_;
+  std::vector<std::optional<Affine>> transforms_;  ///< of the scene's nodes, by their numbers
 };
 
 void ModelReader::check_version() const {
@@ -75,13 +79,19 @@ void ModelReader::check_version() const {
 void ModelReader::check_extensions(Diagnostics& diagnostics) const {
   const auto is_read = [](std::string_view name) {
     return name == "KHR_mesh_quantization" || name == "KHR_texture_transform" || name == lights_extension ||
-           name == instancing_extension || name == variants_extension || is_material_extension(name);
+           name == instancing_extension || name == variants_extension || is_material_extension(name) ||
+           (name == draco_extension && can_read_draco()) || (is_meshopt_extension(name) && can_read_meshopt());
+  };
+  const auto without = [](std::string_view name) -> std::string {
+    if (name == draco_extension) return " (this program was built without the library Draco)";
+    return is_meshopt_extension(name) ? " (this program was built without the library meshoptimizer)" : "";
   };
   const auto names = [&](const char* key) {
     std::vector<std::string> unknown;
     if (const auto list = root_.find(key))
       for (std::size_t i = 0; i < list->size(); ++i)
-        if (const std::string name = (*list)[i].text(); !is_read(name)) unknown.push_back(in_quotes(name));
+        if (const std::string name = (*list)[i].text(); !is_read(name))
+          unknown.push_back(in_quotes(name) + without(name));
     return joined(unknown, ", ");
   };
   if (const std::string required = names("extensionsRequired"); !required.empty())
@@ -207,20 +217,22 @@ const std::vector<Primitive>& ModelReader::mesh(const Item& number) {
   const auto [known, is_new] = model_.meshes.try_emplace(number.whole());
   if (is_new)
     known->second = read_primitives(
-        document_, item, variant_, [&](const Item& of_primitive) { return material(of_primitive); },
+        document_, draco_, item, variant_, [&](const Item& of_primitive) { return material(of_primitive); },
         model_.other_primitives);
   return known->second;
 }
 
-std::uint32_t ModelReader::material(const Item& number) {
+PrimitiveMaterial ModelReader::material(const Item& number) {
   const Item item = document_.listed("materials", number);
-  const auto next = static_cast<std::uint32_t>(model_.materials.size());
-  const auto [known, is_new] = materials_.try_emplace(number.whole(), next);
+  const auto [known, is_new] = materials_.try_emplace(number.whole());
   if (!is_new) return known->second;
+  known->second.number = static_cast<std::uint32_t>(model_.materials.size());
+  textures_.begin_material();
   model_.materials.push_back(read_material(
       item, [&](const Item& info) { return textures_.read(info); },
       [&](const std::string& place, const std::string& message) { document_.warn_once(place, message); }));
-  return next;
+  known->second.coordinates = textures_.coordinates();
+  return known->second;
 }
 
 }  // namespace

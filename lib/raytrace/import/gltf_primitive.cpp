@@ -27,31 +27,34 @@ void be_whole(Accessor& accessor, const Item& place) {
 /// Of a primitive, as many elements as it has positions. Keeps the numbers of the accessors.
 class VertexReader {
  public:
-  VertexReader(Document& document, std::size_t count, std::vector<std::uint64_t>& numbers)
-      : document_(document), count_(count), numbers_(numbers) {}
+  /// compressed: null, none.
+  VertexReader(Document& document, const Item& attributes, const DracoPrimitive* compressed)
+      : document_(document), attributes_(attributes), compressed_(compressed) {}
 
-  std::optional<Accessor> read(const Item& attributes, const std::string& name, std::size_t components,
-                               std::size_t most) {
-    const std::optional<Item> place = attributes.find(name.c_str());
-    numbers_.push_back(place ? place->whole() + 1 : 0);
-    if (!place) return std::nullopt;
-    Accessor values = document_.accessor(*place);
-    check_components(values, components, most, *place);
-    if (values.elements.count != count_)
-      place->fail(values.place + " has " + std::to_string(values.elements.count) + " elements, and there are " +
-                  std::to_string(count_) + " positions");
+  const std::vector<std::uint64_t>& numbers() const { return numbers_; }
+
+  Accessor positions() {
+    const Item place = attributes_["POSITION"];
+    Accessor values = accessor("POSITION", place, compressed_);
+    check_components(values, 3, 3, place);
+    numbers_.push_back(place.whole());
+    count_ = values.elements.count;
     return values;
   }
 
-  std::vector<JointSet> joint_sets(const Item& attributes) {
+  std::optional<Accessor> attribute(const std::string& name, std::size_t components, std::size_t most) {
+    return read(attributes_, name, components, most, compressed_);
+  }
+
+  std::vector<JointSet> joint_sets() {
     std::vector<JointSet> sets;
     for (;;) {
       const std::string joints_name = "JOINTS_" + std::to_string(sets.size()),
                         weights_name = "WEIGHTS_" + std::to_string(sets.size());
-      std::optional<Accessor> joints = read(attributes, joints_name, 4, 4);
-      std::optional<Accessor> weights = read(attributes, weights_name, 4, 4);
+      std::optional<Accessor> joints = attribute(joints_name, 4, 4);
+      std::optional<Accessor> weights = attribute(weights_name, 4, 4);
       if (!joints || !weights) return sets;
-      be_whole(*joints, attributes[joints_name.c_str()]);
+      be_whole(*joints, attributes_[joints_name.c_str()]);
       be_normalized(*weights);
       sets.push_back({std::move(*joints), std::move(*weights)});
     }
@@ -62,7 +65,7 @@ class VertexReader {
     const std::optional<Item> items = primitive.find("targets");
     for (std::size_t i = 0; items && i < items->size(); ++i) {
       const Item item = (*items)[i];
-      targets.push_back({read(item, "POSITION", 3, 3), read(item, "NORMAL", 3, 3)});
+      targets.push_back({read(item, "POSITION", 3, 3, nullptr), read(item, "NORMAL", 3, 3, nullptr)});
       if (item.find("TEXCOORD_0") || item.find("COLOR_0"))
         document_.warn_once(item.place(), "morphs of texture coordinates and colours are left out");
     }
@@ -70,9 +73,31 @@ class VertexReader {
   }
 
  private:
+  Accessor accessor(const std::string& name, const Item& number, const DracoPrimitive* compressed) {
+    if (compressed != nullptr)
+      if (const auto found = compressed->attributes.find(name); found != compressed->attributes.end())
+        return found->second;
+    return document_.accessor(number);
+  }
+
+  std::optional<Accessor> read(const Item& of, const std::string& name, std::size_t components, std::size_t most,
+                               const DracoPrimitive* compressed) {
+    const std::optional<Item> place = of.find(name.c_str());
+    numbers_.push_back(place ? place->whole() + 1 : 0);
+    if (!place) return std::nullopt;
+    Accessor values = accessor(name, *place, compressed);
+    check_components(values, components, most, *place);
+    if (values.elements.count != count_)
+      place->fail(values.place + " has " + std::to_string(values.elements.count) + " elements, and there are " +
+                  std::to_string(count_) + " positions");
+    return values;
+  }
+
   Document& document_;
-  std::size_t count_;
-  std::vector<std::uint64_t>& numbers_;  ///< counted from 1; 0: none
+  const Item& attributes_;
+  const DracoPrimitive* compressed_;
+  std::size_t count_ = 0;
+  std::vector<std::uint64_t> numbers_;  ///< counted from 1; 0: none
 };
 
 /// That of the variant, if it has one.
@@ -89,8 +114,9 @@ std::optional<Item> material_of(const Item& primitive, std::optional<std::uint64
 
 }  // namespace
 
-std::vector<Primitive> read_primitives(Document& document, const Item& mesh, std::optional<std::uint64_t> variant,
-                                       const std::function<std::uint32_t(const Item&)>& material,
+std::vector<Primitive> read_primitives(Document& document, DracoReader& draco, const Item& mesh,
+                                       std::optional<std::uint64_t> variant,
+                                       const std::function<PrimitiveMaterial(const Item&)>& material,
                                        std::size_t& other_primitives) {
   const Item items = mesh["primitives"];
   std::vector<Primitive> primitives;
@@ -100,28 +126,35 @@ std::vector<Primitive> read_primitives(Document& document, const Item& mesh, std
     const std::uint64_t mode = item.whole("mode", static_cast<std::uint64_t>(Mode::triangles));
     if (mode > static_cast<std::uint64_t>(Mode::fan)) item.fail("its mode is none of 0 to 6");
     const Item attributes = item["attributes"];
-    const std::optional<Item> positions = attributes.find("POSITION");
-    if (mode < static_cast<std::uint64_t>(Mode::triangles) || !positions) {
+    if (mode < static_cast<std::uint64_t>(Mode::triangles) || !attributes.find("POSITION")) {
       ++other_primitives;
       continue;
     }
-    Primitive primitive{document.accessor(*positions), {}, {}, {}, {}, {}, {}, static_cast<Mode>(mode)};
-    check_components(primitive.positions, 3, 3, *positions);
-    std::vector<std::uint64_t> numbers{positions->whole()};
-    VertexReader vertices(document, primitive.positions.elements.count, numbers);
-    primitive.normals = vertices.read(attributes, "NORMAL", 3, 3);
-    primitive.uvs = vertices.read(attributes, "TEXCOORD_0", 2, 2);
-    primitive.colors = vertices.read(attributes, "COLOR_0", 3, 4);
+    const std::optional<Item> of_draco = can_read_draco() ? extension(item, draco_extension) : std::nullopt;
+    const DracoPrimitive* const compressed = of_draco ? &draco.read(item, *of_draco) : nullptr;
+    VertexReader vertices(document, attributes, compressed);
+    // What is decoded is triangles, of strips as well.
+    Primitive primitive{
+        vertices.positions(), {}, {}, {}, {}, {}, {}, of_draco ? Mode::triangles : static_cast<Mode>(mode)};
+    primitive.normals = vertices.attribute("NORMAL", 3, 3);
+    primitive.colors = vertices.attribute("COLOR_0", 3, 4);
     if (primitive.colors) be_normalized(*primitive.colors);
-    primitive.joint_sets = vertices.joint_sets(attributes);
+    primitive.joint_sets = vertices.joint_sets();
     primitive.targets = vertices.targets(item);
-    if (const auto indices = item.find("indices")) {
+    if (compressed != nullptr) {
+      primitive.indices = compressed->indices;
+    } else if (const auto indices = item.find("indices")) {
       primitive.indices = document.accessor(*indices);
       check_components(*primitive.indices, 1, 1, *indices);
       be_whole(*primitive.indices, *indices);
     }
     if (primitive.faces() == 0) continue;
-    if (const auto number = material_of(item, variant)) primitive.material = material(*number);
+    const std::optional<Item> number = material_of(item, variant);
+    const PrimitiveMaterial of_model = number ? material(*number) : PrimitiveMaterial();
+    primitive.material = of_model.number;
+    primitive.uvs = vertices.attribute("TEXCOORD_" + std::to_string(of_model.coordinates), 2, 2);
+    std::vector<std::uint64_t> numbers = vertices.numbers();
+    numbers.push_back(of_draco ? (*of_draco)["bufferView"].whole() + 1 : 0);
     primitive.vertices_of = with_vertices.try_emplace(std::move(numbers), primitives.size()).first->second;
     primitives.push_back(std::move(primitive));
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "raytrace/import/gltf_document.h"
+#include "raytrace/import/gltf_draco.h"
 #include "raytrace/import/mesh_data.h"
 
 namespace raytrace::gltf {
@@ -40,10 +41,16 @@ struct Primitive {
   }
 };
 
-/// Those of a mesh that have faces. material: the number that the model has for that of the file. other_primitives
+struct PrimitiveMaterial {
+  std::uint32_t number = MeshData::no_material;  ///< in the model
+  std::uint64_t coordinates = 0;                 ///< its textures are placed by TEXCOORD_n of this number
+};
+
+/// Those of a mesh that have faces. material: what the model has for that of the file. other_primitives
 /// counts those of points and lines, or without positions.
-std::vector<Primitive> read_primitives(Document& document, const Item& mesh, std::optional<std::uint64_t> variant,
-                                       const std::function<std::uint32_t(const Item&)>& material,
+std::vector<Primitive> read_primitives(Document& document, DracoReader& draco, const Item& mesh,
+                                       std::optional<std::uint64_t> variant,
+                                       const std::function<PrimitiveMaterial(const Item&)>& material,
                                        std::size_t& other_primitives);
 
 }  // namespace raytrace::gltf

@@ -16,10 +16,12 @@ MeshTexture TextureReader::read(const Item& info) {
     coordinates = transform->whole("texCoord", coordinates);
     place_texture(*transform, texture);
   }
-  if (coordinates != 0) {
-    document_.warn(info.place(), "has coordinates other than TEXCOORD_0, and is left out");
+  if (coordinates != coordinates_.value_or(coordinates)) {
+    document_.warn(info.place(), "has other coordinates than the material's TEXCOORD_" + std::to_string(*coordinates_) +
+                                     ", and is left out");
     return texture;
   }
+  coordinates_ = coordinates;
   if (const auto number = item.find("sampler")) {
     constexpr std::uint64_t repeat = 10497, mirrored_repeat = 33648, clamp_to_edge = 33071;
     const Item sampler = document_.listed("samplers", *number);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "raytrace/import/gltf_document.h"
@@ -15,11 +16,17 @@ class TextureReader {
  public:
   explicit TextureReader(Document& document) : document_(document) {}
 
+  /// A material's textures have one set of coordinates, which the first that is read says.
+  void begin_material() { coordinates_.reset(); }
+  /// TEXCOORD_n of this number.
+  std::uint64_t coordinates() const { return coordinates_.value_or(0); }
+
   /// info: a JSON object with the texture's index. What it says of an image that it cannot use, it warns of.
   MeshTexture read(const Item& info);
 
  private:
   Document& document_;
+  std::optional<std::uint64_t> coordinates_;
   std::map<std::uint64_t, std::shared_ptr<const std::string>> images_;  ///< those in buffers and URIs
 };
 
