@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "raytrace/description/file_lights.h"
 #include "raytrace/description/load_images.h"
 #include "raytrace/import/read_mesh.h"
 #include "raytrace/output/image_encoder.h"
@@ -163,35 +164,6 @@ void add_file_camera(SceneDescription& description, const FileCamera& camera) {
   parameters.up = up;
   parameters.viewdistance = picture.pixelsize * picture.vres / (2 * std::tan(camera.angle / 2));
   description.camera = parameters;
-}
-
-void add_file_lights(SceneDescription& description) {
-  const Affine affine = std::get<ObjectItems<Mesh>>(description.objects).front().transform.affine();
-  for (const FileLight& light : data_of(description).lights) {
-    const Vec3d position = affine.point(light.position), direction = affine.vector(light.direction);
-    if (light.kind == FileLight::Kind::directional) {
-      DirectionalLight::Parameters parameters;
-      parameters.direction = -direction;
-      parameters.color = light.intensity;
-      std::get<LightItems<DirectionalLight>>(description.lights).push_back({parameters});
-    } else if (light.kind == FileLight::Kind::spot) {
-      SpotLight::Parameters parameters;
-      parameters.location = position;
-      parameters.lookat = position + direction;
-      parameters.coneangle = 2 * light.outer_angle / degree;
-      parameters.penumbraangle = (light.outer_angle - light.inner_angle) / degree;
-      parameters.color = light.intensity;
-      parameters.falloff = Falloff::inverse_square;
-      std::get<LightItems<SpotLight>>(description.lights).push_back({parameters});
-    } else {
-      PointLight::Parameters parameters;
-      parameters.location = position;
-      parameters.color = light.intensity;
-      parameters.falloff = Falloff::inverse_square;
-      std::get<LightItems<PointLight>>(description.lights).push_back({parameters});
-    }
-  }
-  description.viewplane.autoexposure = true;
 }
 
 /// A rectangle that faces the model, `distance` radii away in a direction of the picture, of that size in radii.
@@ -364,7 +336,9 @@ std::optional<SceneDescription> load_model(const std::string& file, const ModelS
   if (camera != nullptr) add_file_camera(description, *camera);
   if (stage.floor) add_floor(description, shown);
   if (stage.environment.empty() && !stage.sun && !data_of(description).lights.empty()) {
-    add_file_lights(description);
+    const Affine affine = std::get<ObjectItems<Mesh>>(description.objects).front().transform.affine();
+    add_file_lights(data_of(description).lights, affine, description);
+    description.viewplane.autoexposure = true;
   } else if (stage.environment.empty() && !stage.sun) {
     if (camera != nullptr)
       add_unseen_lamps(description, to);

@@ -105,6 +105,8 @@ void refuse_to_overwrite(const SceneDescription& description, const RenderJob& j
       if (!mesh.parameters.file.path.empty()) files.add({"a mesh", mesh.parameters.file.path, false});
     for (const auto& cloud : std::get<ObjectItems<SphereCloud>>(objects))
       files.add({"a cloud of spheres", cloud.parameters.file.path, false});
+    for (const auto& model : std::get<ObjectItems<Model>>(objects))
+      files.add({"a model", model.parameters.file.path, false});
   };
   for (const auto& image : std::get<TextureItems<Image>>(description.textures))
     files.add({"a texture", image.parameters.file.path, false});
@@ -148,6 +150,7 @@ std::optional<SceneDescription> load_picture(const RenderJob& job, RenderObserve
     if (description && !is_model(job.scene)) {
       refuse_to_overwrite(*description, job);
       if (!load_meshes(*description, diagnostics, job.threads, job.missing_texture)) description.reset();
+      if (description) refuse_to_overwrite(*description, job);  // the textures that models name, too
     }
   }
   observer.on_diagnostics(diagnostics);
