@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "raytrace/aovs/aov_selection.h"
+#include "raytrace/batch/fit_camera.h"
 #include "raytrace/batch/frames.h"
 #include "raytrace/batch/settings_error.h"
 #include "raytrace/description/light_groups.h"
@@ -135,8 +136,10 @@ std::optional<SceneDescription> load_picture(const RenderJob& job, RenderObserve
       if (!job.variables.empty()) throw SettingsError("--define: " + job.scene + " is a model, which has no variables");
       const Resolution size = job.resolution.value_or(Resolution{1280, 720});
       const std::optional<int> frame = job.is_one_of_frames ? std::optional(job.frame) : std::nullopt;
-      description = load_model(job.scene, job.stage.value_or(ModelStage()), frame, size.width, size.height, diagnostics,
-                               job.threads, job.missing_texture);
+      ModelStage stage = job.stage.value_or(ModelStage());
+      stage.fit = job.fit;
+      description =
+          load_model(job.scene, stage, frame, size.width, size.height, diagnostics, job.threads, job.missing_texture);
       if (description) refuse_to_overwrite(*description, job);
     } else {
       if (job.stage)
@@ -158,6 +161,7 @@ std::optional<SceneDescription> load_picture(const RenderJob& job, RenderObserve
   observer.on_message(MessageLevel::step,
                       job.scene_name() + ": " + contents_text(*description) + ", read" + time_taken(phase.seconds));
   apply_job(job, *description);
+  if (job.fit && !is_model(job.scene)) fit_camera(*description, *description);
   return description;
 }
 
