@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
 """Writes the small scenes beside this file, one a feature: the pictures of docs/scene-format.md."""
+import base64
+import json
 import math
 import os
 import struct
@@ -330,6 +332,87 @@ write(
         <transform> <rotate x="0" y="0" z="1" angle="-65"/> <translate x="0" y="1.2" z="0"/> </transform>
       </spherecloud>
     </sphereclouds>
+""",
+)
+def lantern(file):
+    """A lantern as glTF, with the light in it: four posts between a base and a roof, of two materials."""
+
+    def box(x0, x1, y0, y1, z0, z1):
+        corners = [(x, y, z) for x in (x0, x1) for y in (y0, y1) for z in (z0, z1)]
+        sides = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
+        return corners, [corner for a, b, c, d in sides for corner in (a, b, c, a, c, d)]
+
+    roof = [(-0.42, 1, -0.42), (-0.42, 1, 0.42), (0.42, 1, 0.42), (0.42, 1, -0.42), (0, 1.4, 0)]
+    roof_faces = [corner for i in range(4) for corner in (i, (i + 1) % 4, 4)] + [0, 3, 2, 0, 2, 1]
+    posts = [box(x - 0.03, x + 0.03, 0.1, 1, z - 0.03, z + 0.03) for x in (-0.3, 0.3) for z in (-0.3, 0.3)]
+    data, views, accessors, primitives = b"", [], [], []
+
+    def add(kind, count, layout, values, **more):
+        nonlocal data
+        views.append({"buffer": 0, "byteOffset": len(data), "byteLength": struct.calcsize(layout)})
+        accessors.append({"bufferView": len(views) - 1, "componentType": 5126 if kind == "VEC3" else 5123,
+                          "count": count, "type": kind, **more})
+        data += struct.pack(layout, *values)
+        data += bytes(-len(data) % 4)
+        return len(accessors) - 1
+
+    for material, parts in enumerate(([box(-0.4, 0.4, 0, 0.1, -0.4, 0.4), (roof, roof_faces)], posts)):
+        corners, faces = [], []
+        for part_corners, part_faces in parts:
+            faces += [len(corners) + corner for corner in part_faces]
+            corners += part_corners
+        values = [value for corner in corners for value in corner]
+        position = add("VEC3", len(corners), f"<{len(values)}f", values,
+                       min=[min(axis) for axis in zip(*corners)], max=[max(axis) for axis in zip(*corners)])
+        primitives.append({"attributes": {"POSITION": position}, "material": material,
+                           "indices": add("SCALAR", len(faces), f"<{len(faces)}H", faces)})
+    model = {
+        "asset": {"version": "2.0"},
+        "extensionsUsed": ["KHR_lights_punctual"],
+        "extensions": {"KHR_lights_punctual": {"lights": [
+            {"name": "flame", "type": "point", "color": [1, 0.72, 0.42], "intensity": 7}]}},
+        "scene": 0,
+        "scenes": [{"nodes": [0, 1]}],
+        "nodes": [{"mesh": 0}, {"translation": [0, 0.6, 0], "extensions": {"KHR_lights_punctual": {"light": 0}}}],
+        "meshes": [{"primitives": primitives}],
+        "materials": [
+            {"name": "copper", "pbrMetallicRoughness": {"baseColorFactor": [0.93, 0.52, 0.36, 1], "roughnessFactor": 0.5}},
+            {"name": "iron", "pbrMetallicRoughness": {"baseColorFactor": [0.2, 0.2, 0.2, 1], "roughnessFactor": 0.6}}],
+        "buffers": [{"byteLength": len(data),
+                     "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}],
+        "bufferViews": views,
+        "accessors": accessors,
+    }
+    with open(os.path.join(HERE, file), "w", encoding="ascii", newline="\n") as out:
+        json.dump(model, out, indent=1)
+        out.write("\n")
+
+
+lantern("models/lantern.gltf")
+write(
+    "model",
+    "Two lanterns, one a third smaller: models that bring their lights and materials.",
+    room=ROOM.replace("<samples>16", "<samples>64")
+    + "  <integrator> <path> <clampindirect>0.3</clampindirect> </path> </integrator>\n",
+    lights="""\
+  <lights> <ambientlight> <scaleradiance>0.1</scaleradiance> </ambientlight> </lights>
+""",
+    objects="""\
+    <models>
+      <model>
+        <file>models/lantern.gltf</file>
+        <transform>
+          <scale x="1.5" y="1.5" z="1.5"/> <rotate x="0" y="1" z="0" angle="20"/> <translate x="-1.1" y="0" z="-0.3"/>
+        </transform>
+      </model>
+      <model>
+        <file>models/lantern.gltf</file>
+        <transform> <rotate x="0" y="1" z="0" angle="-35"/> <translate x="1.6" y="0" z="0.8"/> </transform>
+      </model>
+    </models>
+    <spheres>
+      <sphere> <center x="0.5" y="0.5" z="-0.8"/> <radius>0.5</radius> <material>clay</material> </sphere>
+    </spheres>
 """,
 )
 pawns = "".join(

@@ -171,6 +171,8 @@ void define_options(OptionParser& parser, Options& options) {
   parser.group("Picture");
   parser.add("-r,--resolution", "WxH", "Size in pixels instead of the scene's; what was in view stays in view",
              options.resolution, resolution);
+  parser.add_switch("--fit", options.fit,
+                    "Move the camera so that all objects are just in view; it keeps its direction and angle of view");
   parser.add("--scale", "F", "Multiply the resolution by F (1)", options.scale, scale);
   parser.add(
       "--crop", "x0,y0,x1,y1",

@@ -1,6 +1,10 @@
 """Meshes: where their files are looked for, what happens without them, and that pieces know them."""
 
+import base64
+import json
+import math
 import os
+import struct
 
 from exr import Exr
 from support import CommandTest
@@ -83,3 +87,62 @@ class Meshes(CommandTest):
         self.write("there/models/one.ply", PLY % 1)
         self.render("there/scene.xml", "2.exr", "--tile", "1/2")
         self.assertIn("scene", self.fail_with(1, "merge", "1.exr", "2.exr", "-o", "all.exr"))
+
+
+class ModelsOfScenes(CommandTest):
+    """<model>: a mesh and the lights of its file."""
+
+    def setUp(self):
+        super().setUp()
+        data = struct.pack("<9f3H", -1, -1, 0, 1, -1, 0, 0, 1, 0, 0, 1, 2)
+        self.write("lamp.gltf", json.dumps({
+            "asset": {"version": "2.0"}, "scenes": [{"nodes": [0, 1]}],
+            "nodes": [{"mesh": 0},
+                      {"extensions": {"KHR_lights_punctual": {"light": 0}}, "translation": [0, 0, 2]}],
+            "extensionsUsed": ["KHR_lights_punctual"],
+            "extensions": {"KHR_lights_punctual": {"lights": [
+                {"type": "spot", "intensity": 12, "spot": {"innerConeAngle": 0.2, "outerConeAngle": 0.6}}]}},
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
+            "materials": [{"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 1}}],
+            "buffers": [{"byteLength": len(data),
+                         "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}],
+            "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 6}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
+                          {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"}]}))
+        self.write("tile.obj", "mtllib tile.mtl\nv 1 0 0\nv 2 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n"
+                               "usemtl a\nf 1/1 2/2 3/3\n")
+        self.write("tile.mtl", "newmtl a\nKd 1 1 1\nmap_Kd wood.png\n")
+        scene = SCENE[:SCENE.index("  <objects>")] + """  <objects> <models>
+    <model> <file>lamp.gltf</file> <transform> <rotate x="0" y="1" z="0" angle="20"/> </transform> </model>
+    %s
+  </models> </objects>
+</raytracer>
+"""
+        self.write("plain.xml", scene % "")
+        self.write("scene.xml", scene % "<model> <file>tile.obj</file> </model>")
+        self.succeed("plain.xml", "-q", "-o", "wood.png")
+
+    def test_it_is_lit_by_its_own_lights_and_its_printed_form_has_the_same_bits(self):
+        self.succeed("scene.xml", "-q", "-o", "a.exr")
+        picture = Exr(self.read("a.exr"))
+        # 12 candela at a distance of 2, 20 degrees from the normal, on white; the ambient light does not reach it.
+        self.assertAlmostEqual(picture.pixels()[24, 16][1], 3 * math.cos(math.radians(20)) / math.pi, delta=0.1)
+        printed = self.succeed("scene.xml", "--print-scene").stdout
+        self.assertIn("<spotlight>", printed)
+        self.assertNotIn("<model", printed)
+        self.write("printed.xml", printed)
+        self.succeed("printed.xml", "-q", "-o", "b.exr")
+        self.assertEqual(Exr(self.read("b.exr")).row_bytes, picture.row_bytes)
+
+    def test_pieces_with_another_light_are_not_merged(self):
+        self.succeed("plain.xml", "-q", "-o", "1.exr", "--tile", "0/2")
+        self.write("lamp.gltf", self.read("lamp.gltf").decode().replace('"intensity": 12', '"intensity": 13'))
+        self.succeed("plain.xml", "-q", "-o", "2.exr", "--tile", "1/2")
+        self.assertIn("scene", self.fail_with(1, "merge", "1.exr", "2.exr", "-o", "all.exr"))
+
+    def test_an_output_is_no_file_of_a_model(self):
+        os.symlink("lamp.gltf", self.path("lamp.exr"))
+        for output, role in (("lamp.exr", "a model"), ("wood.png", "a texture")):
+            before = self.read(output)
+            self.assertIn(role, self.fail_with(2, "scene.xml", "-o", output))
+            self.assertEqual(self.read(output), before)

@@ -181,6 +181,36 @@ class Models(CommandTest):
         message = self.fail_with(1, *options, "--camera", "far", "-o", "b.exr")
         self.assertIn("has no camera 'far'; there are 'near', 'plan'", message)
 
+    def test_fit_moves_cameras_of_files_and_scenes(self):
+        self.write_gltf([{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}], [],
+                        [{"camera": 0, "translation": [3, 0, 40]}])
+
+        def sides(*options):
+            self.succeed(*options, "-q", "--transparent", "-o", "fit.exr")
+            shown = [place for place, pixel in Exr(self.read("fit.exr")).pixels().items() if pixel[3] > 0]
+            columns, rows = zip(*shown)
+            return min(columns), max(columns), min(rows), max(rows)
+
+        model = ["square.gltf", "-r", "100x100", "-s", "4"]
+        self.assertLess(sides(*model)[1], 50)  # small, on the left
+        self.assertEqual(sides(*model, "--fit"), (4, 95, 4, 95))
+        # A scene with the lamps of a studio, at the size that is asked for; and as it is printed.
+        self.write("scene.xml", self.succeed("square.gltf", "--view", "front", "--print-scene").stdout)
+        scene = ["scene.xml", "-r", "100x200", "-s", "4", "--fit"]
+        left, right, top, bottom = sides(*scene)
+        self.assertEqual((left, right), (4, 95))
+        self.assertEqual(top + bottom, 199)
+        self.write("fitted.xml", self.succeed(*scene, "--print-scene").stdout)
+        bits = Exr(self.read("fit.exr")).row_bytes
+        self.succeed("fitted.xml", "-q", "--transparent", "-o", "fit.exr")
+        self.assertEqual(Exr(self.read("fit.exr")).row_bytes, bits)
+        scene_text = self.read("scene.xml").decode()
+        camera = scene_text[scene_text.index("<camera>"):scene_text.index("</camera>")]
+        view = "".join(line for line in camera.splitlines() if "viewdistance" not in line)
+        self.write("around.xml", scene_text.replace(
+            camera + "</camera>", view.replace("camera", "sphericalcamera") + "</sphericalcamera>"))
+        self.assertIn("--fit", self.fail_with(2, "around.xml", "--fit", "-o", "a.exr"))
+
     def test_a_camera_of_the_file_does_not_see_the_studio(self):
         # Which lights as much as the one that others see.
         self.write_gltf([{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}], [],

@@ -207,7 +207,8 @@ ObjectLists random_objects(Random& random, const SceneDescription& scene,
         if (scene.groups.empty()) continue;
         item.parameters.group.name = scene.groups[below(random, scene.groups.size())].name;
       }
-      if constexpr (std::is_same_v<T, SphereCloud>) item.parameters.file.path = random_name(random);
+      if constexpr (std::is_same_v<T, SphereCloud> || std::is_same_v<T, Model>)
+        item.parameters.file.path = random_name(random);
       if constexpr (requires { T::may_lack_material; })
         if (below(random, 2) == 0) item.material = no_material;
       std::get<ObjectItems<T>>(objects).push_back(std::move(item));

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <utility>
 
+#include "raytrace/batch/fit_camera.h"
+#include "raytrace/description/file_lights.h"
 #include "raytrace/description/load_images.h"
 #include "raytrace/import/read_mesh.h"
 #include "raytrace/output/image_encoder.h"
@@ -62,29 +64,15 @@ struct Extent {
   double radius() const { return length(upper - lower) / 2; }
 };
 
-/// Of the numbers p.x + t p.z and p.z t - p.x, the largest: how far a picture of half width t, seen from far behind,
-/// must reach to either side.
-struct Reach {
-  double tangent, right = -1e300, left = -1e300;
-
-  void add(double across, double back) {
-    right = std::max(right, across + tangent * back);
-    left = std::max(left, tangent * back - across);
-  }
-  double middle() const { return (right - left) / 2; }
-  /// Of the eye, in the direction towards the viewer.
-  double distance() const { return (right + left) / (2 * tangent); }
-};
-
 /// points: all that is to be in view.
 template <class Points>
 void add_camera(SceneDescription& description, const Directions& to, const Extent& extent, const Points& points) {
-  constexpr double margin = 0.92;                         // of the picture
   const double half_angle = std::tan(39.6 / 2 * degree);  // 50 mm on full frame
   const ViewPlane& picture = description.viewplane;
   const double longer = std::max(picture.hres, picture.vres);
   // The eye is as near as the way to each vertex is within the picture, which has the model in its middle.
-  Reach across{half_angle * picture.hres / longer * margin}, upwards{half_angle * picture.vres / longer * margin};
+  Reach across{half_angle * picture.hres / longer * part_in_view},
+      upwards{half_angle * picture.vres / longer * part_in_view};
   points([&](const Vec3d& p) {
     across.add(dot(p, to.right), dot(p, to.back));
     upwards.add(dot(p, to.up), dot(p, to.back));
@@ -163,35 +151,6 @@ void add_file_camera(SceneDescription& description, const FileCamera& camera) {
   parameters.up = up;
   parameters.viewdistance = picture.pixelsize * picture.vres / (2 * std::tan(camera.angle / 2));
   description.camera = parameters;
-}
-
-void add_file_lights(SceneDescription& description) {
-  const Affine affine = std::get<ObjectItems<Mesh>>(description.objects).front().transform.affine();
-  for (const FileLight& light : data_of(description).lights) {
-    const Vec3d position = affine.point(light.position), direction = affine.vector(light.direction);
-    if (light.kind == FileLight::Kind::directional) {
-      DirectionalLight::Parameters parameters;
-      parameters.direction = -direction;
-      parameters.color = light.intensity;
-      std::get<LightItems<DirectionalLight>>(description.lights).push_back({parameters});
-    } else if (light.kind == FileLight::Kind::spot) {
-      SpotLight::Parameters parameters;
-      parameters.location = position;
-      parameters.lookat = position + direction;
-      parameters.coneangle = 2 * light.outer_angle / degree;
-      parameters.penumbraangle = (light.outer_angle - light.inner_angle) / degree;
-      parameters.color = light.intensity;
-      parameters.falloff = Falloff::inverse_square;
-      std::get<LightItems<SpotLight>>(description.lights).push_back({parameters});
-    } else {
-      PointLight::Parameters parameters;
-      parameters.location = position;
-      parameters.color = light.intensity;
-      parameters.falloff = Falloff::inverse_square;
-      std::get<LightItems<PointLight>>(description.lights).push_back({parameters});
-    }
-  }
-  description.viewplane.autoexposure = true;
 }
 
 /// A rectangle that faces the model, `distance` radii away in a direction of the picture, of that size in radii.
@@ -361,10 +320,15 @@ std::optional<SceneDescription> load_model(const std::string& file, const ModelS
   } else {
     show([&](const auto& f) { for_each_vertex(shown, f); });
   }
-  if (camera != nullptr) add_file_camera(description, *camera);
+  if (camera != nullptr) {
+    add_file_camera(description, *camera);
+    if (stage.fit) fit_camera(shown, description);
+  }
   if (stage.floor) add_floor(description, shown);
   if (stage.environment.empty() && !stage.sun && !data_of(description).lights.empty()) {
-    add_file_lights(description);
+    const Affine affine = std::get<ObjectItems<Mesh>>(description.objects).front().transform.affine();
+    add_file_lights(data_of(description).lights, affine, description);
+    description.viewplane.autoexposure = true;
   } else if (stage.environment.empty() && !stage.sun) {
     if (camera != nullptr)
       add_unseen_lamps(description, to);

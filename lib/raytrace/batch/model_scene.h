@@ -23,6 +23,7 @@ struct ModelStage {
   /// Of its time: frame 1 is its beginning. None: 24; and on a turntable the model stands still, unless an animation
   /// is asked for.
   std::optional<double> frames_per_second{};
+  bool fit = false;  ///< moves a camera of the file so that all of the model is just in view, as a view of ours has it
   bool floor = false;  ///< an endless one, which the model stands on
 
   // In place of the studio, or of the file's lights.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "raytrace/aovs/aov_selection.h"
+#include "raytrace/batch/fit_camera.h"
 #include "raytrace/batch/frames.h"
 #include "raytrace/batch/settings_error.h"
 #include "raytrace/description/light_groups.h"
@@ -106,6 +107,8 @@ void refuse_to_overwrite(const SceneDescription& description, const RenderJob& j
       if (!mesh.parameters.file.path.empty()) files.add({"a mesh", mesh.parameters.file.path, false});
     for (const auto& cloud : std::get<ObjectItems<SphereCloud>>(objects))
       files.add({"a cloud of spheres", cloud.parameters.file.path, false});
+    for (const auto& model : std::get<ObjectItems<Model>>(objects))
+      files.add({"a model", model.parameters.file.path, false});
   };
   for (const auto& image : std::get<TextureItems<Image>>(description.textures))
     if (is_udim(image.parameters.file.path))
@@ -138,8 +141,10 @@ std::optional<SceneDescription> load_picture(const RenderJob& job, RenderObserve
       if (!job.variables.empty()) throw SettingsError("--define: " + job.scene + " is a model, which has no variables");
       const Resolution size = job.resolution.value_or(Resolution{1280, 720});
       const std::optional<int> frame = job.is_one_of_frames ? std::optional(job.frame) : std::nullopt;
-      description = load_model(job.scene, job.stage.value_or(ModelStage()), frame, size.width, size.height, diagnostics,
-                               job.threads, job.missing_texture);
+      ModelStage stage = job.stage.value_or(ModelStage());
+      stage.fit = job.fit;
+      description =
+          load_model(job.scene, stage, frame, size.width, size.height, diagnostics, job.threads, job.missing_texture);
       if (description) refuse_to_overwrite(*description, job);
     } else {
       if (job.stage)
@@ -153,6 +158,7 @@ std::optional<SceneDescription> load_picture(const RenderJob& job, RenderObserve
     if (description && !is_model(job.scene)) {
       refuse_to_overwrite(*description, job);
       if (!load_meshes(*description, diagnostics, job.threads, job.missing_texture)) description.reset();
+      if (description) refuse_to_overwrite(*description, job);  // the textures that models name, too
     }
   }
   observer.on_diagnostics(diagnostics);
@@ -160,6 +166,7 @@ std::optional<SceneDescription> load_picture(const RenderJob& job, RenderObserve
   observer.on_message(MessageLevel::step,
                       job.scene_name() + ": " + contents_text(*description) + ", read" + time_taken(phase.seconds));
   apply_job(job, *description);
+  if (job.fit && !is_model(job.scene)) fit_camera(*description, *description);
   return description;
 }
 

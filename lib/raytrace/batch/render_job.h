@@ -34,6 +34,7 @@ struct RenderJob {
   MissingTexture missing_texture = MissingTexture::error;
 
   std::optional<Resolution> resolution;        ///< none: the scene's
+  bool fit = false;                            ///< moves the camera so that all is just in view (fit_camera.h)
   double scale = 1;                            ///< of the resolution
   std::optional<Region> crop;                  ///< none: the whole picture
   std::optional<Tile> tile;                    ///< none: all of the picture, or of the crop

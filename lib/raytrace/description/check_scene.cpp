@@ -109,6 +109,8 @@ class SceneChecker {
       if (item.material != no_material) check_reference<MaterialsSection>(scene, item.material);
       if (item.data == nullptr || item.materials.empty()) return error("has not been loaded (load_meshes())");
       for (const MaterialReference& material : item.materials) check_reference<MaterialsSection>(scene, material);
+    } else if constexpr (std::is_same_v<Item, ObjectItem<Model>>) {
+      error("has not been loaded (load_meshes())");
     } else if constexpr (std::is_same_v<Item, ObjectItem<Instance>>) {
       if (item.material != no_material) check_reference<MaterialsSection>(scene, item.material);
     } else if constexpr (requires { item.material; }) {

@@ -4,7 +4,9 @@
 #include <set>
 #include <string>
 #include <tuple>
+#include <utility>
 
+#include "raytrace/description/file_lights.h"
 #include "raytrace/description/load_images.h"
 #include "raytrace/description/read_value.h"
 #include "raytrace/description/scene_description.h"
@@ -32,7 +34,30 @@ class MeshLoader {
  private:
   void load(ObjectLists& objects) {
     for (auto& mesh : std::get<ObjectItems<Mesh>>(objects)) load(mesh);
+    for (auto& model : std::exchange(std::get<ObjectItems<Model>>(objects), {})) load(std::move(model), objects);
     for (auto& cloud : std::get<ObjectItems<SphereCloud>>(objects)) load(cloud);
+  }
+
+  /// objects: those that it is one of.
+  void load(ObjectItem<Model>&& model, ObjectLists& objects) {
+    ObjectItem<Mesh>& mesh = std::get<ObjectItems<Mesh>>(objects).emplace_back();
+    auto& [file, animation, time, variant] = model.parameters;
+    mesh.parameters.file = std::move(file);
+    mesh.parameters.animation = std::move(animation);
+    mesh.parameters.time = time;
+    mesh.parameters.variant = std::move(variant);
+    mesh.name = std::move(model.name);
+    mesh.material = model.material;
+    mesh.line = model.line;
+    mesh.transform = std::move(model.transform);
+    load(mesh);
+    if (mesh.data == nullptr || mesh.data->lights.empty()) return;
+    if (&objects == &scene_.objects)
+      add_file_lights(mesh.data->lights, mesh.transform.affine(), scene_);
+    else if (unlit_.insert(mesh.parameters.file.path).second)
+      diagnostics_.warning({mesh.parameters.file.line, mesh.parameters.file.column},
+                           on_one_line(mesh.parameters.file.path) +
+                               ": its lights are left out, since the <model> is in a <group>, which has none");
   }
 
   /// What several meshes have of one file.
@@ -260,6 +285,7 @@ class MeshLoader {
   std::map<std::tuple<std::string, std::string, double, std::string>, LoadedFile> files_;
   std::map<std::string, std::shared_ptr<const PointCloud>> clouds_;
   std::set<std::string> taken_names_;
+  std::set<std::string> unlit_;  // files of models whose lights have been left out
   std::map<
       std::tuple<std::string, std::array<double, 2>, std::array<double, 2>, double, double, double, MeshTexture::Edge>,
       std::size_t>

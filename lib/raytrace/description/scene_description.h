@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -131,9 +132,11 @@ struct ObjectItem<Shape> {
   std::vector<MaterialReference> materials = {};  ///< those of the data, at least one
 };
 
-template <>
-struct ObjectItem<Instance> {
-  Instance::Parameters parameters;
+/// Instances and models.
+template <class Object>
+  requires std::is_same_v<Object, Instance> || std::is_same_v<Object, Model>
+struct ObjectItem<Object> {
+  typename Object::Parameters parameters;
   std::string name;
   MaterialReference material = no_material;  ///< where there is one, of all its objects
   std::uint32_t line = 0;
@@ -193,14 +196,15 @@ std::optional<SceneDescription> parse_scene(std::string_view text, Diagnostics& 
                                             const SceneSettings& settings = {});
 
 /// Reads the files of meshes and clouds, and makes the meshes whose values stand in the scene; adds materials for what
-/// has none in the scene: those of the file, else a matte grey. What is wrong with the files goes to `diagnostics`,
-/// with the files' names and lines. False if there is an error.
+/// has none in the scene: those of the file, else a matte grey. Each model becomes a mesh behind the others of its
+/// lists, and the lights of its file become the scene's, behind its own, in the order of the models. What is wrong with
+/// the files goes to `diagnostics`, with the files' names and lines. False if there is an error.
 bool load_meshes(SceneDescription& description, Diagnostics& diagnostics, int threads = 0,
                  MissingTexture missing_texture = MissingTexture::error);
 
 /// Writes the description as a scene file in canonical form: every value spelled out, defaults included; reading it
 /// back gives an equal description (all doubles round-trip). It has neither variables nor keys, nor what load_meshes()
-/// adds.
+/// adds, but for the meshes and lights that it makes of models.
 std::string print_scene(const SceneDescription& description);
 
 /// An XML Schema 1.0 document, made from the registries' tables of fields, so that it knows every type there is. A file

@@ -30,21 +30,26 @@ class SceneHash {
       }
     });
     for_each_item_type([&]<class Section, class T>(std::type_identity<Section>, std::type_identity<T>) {
-      add(T::element);
-      add_items<T>(items_of<Section, T>(scene));
+      add_type<T>(items_of<Section, T>(scene));
     });
     for (const Group& group : scene.groups) {
       add(group_element);
       add(group.name);
-      for_each_type(Objects{}, [&]<class T>(std::type_identity<T>) {
-        add(T::element);
-        add_items<T>(std::get<ObjectItems<T>>(group.objects));
-      });
+      for_each_type(Objects{},
+                    [&]<class T>(std::type_identity<T>) { add_type<T>(std::get<ObjectItems<T>>(group.objects)); });
     }
     return hash_.digits();
   }
 
  private:
+  template <class T, class Item>
+  void add_type(const std::vector<Item>& items) {
+    // What has been made of models counts; scenes without any keep the hashes that they had before there were models.
+    if (std::is_same_v<T, Model> && items.empty()) return;
+    add(T::element);
+    add_items<T>(items);
+  }
+
   /// Hashes of chunks that do not depend on the threads: one of a million objects would take as long as some renders.
   template <class T, class Item>
   void add_items(const std::vector<Item>& items) {

@@ -10,6 +10,7 @@
 #include "raytrace/shapes/disk.h"
 #include "raytrace/shapes/instance.h"
 #include "raytrace/shapes/mesh.h"
+#include "raytrace/shapes/model.h"
 #include "raytrace/shapes/plane.h"
 #include "raytrace/shapes/rectangle.h"
 #include "raytrace/shapes/sphere.h"
@@ -22,7 +23,8 @@ namespace raytrace {
 using Shapes = TypeList<Plane, Sphere, Triangle, Cylinder, Torus, Disk, Rectangle, Box, Cone, Annulus>;
 
 /// All that <objects> holds: the shapes; meshes, which are many triangles or quads each; clouds of many spheres;
-/// instances of groups.
-using Objects = Appended<Appended<Appended<Shapes, Mesh>::type, SphereCloud>::type, Instance>::type;
+/// instances of groups; models, until load_meshes() has made meshes and lights of them.
+using Objects =
+    Appended<Appended<Appended<Appended<Shapes, Mesh>::type, SphereCloud>::type, Instance>::type, Model>::type;
 
 }  // namespace raytrace

@@ -1,0 +1,28 @@
+// A file's objects with its materials, textures and lights: a <mesh>, and lights. load_meshes() makes these of it.
+//
+//   <model> <file>lamp.glb</file> <transform> <translate x="0" y="1" z="0"/> </transform> </model>
+#pragma once
+
+#include "raytrace/parameters/fields.h"
+
+namespace raytrace {
+
+class Model {
+ public:
+  struct Parameters {
+    FileName file;  ///< as a mesh's
+    // Of a glTF file, as a mesh's.
+    Reference animation;
+    double time = 0;
+    Reference variant;
+  };
+  static constexpr std::string_view group = "models";
+  static constexpr std::string_view element = "model";
+  static constexpr bool may_lack_material = true;  ///< then it has those of its file
+  static Fields fields() {
+    return {required("file", &Parameters::file), optional("animation", &Parameters::animation),
+            optional("time", &Parameters::time), optional("variant", &Parameters::variant)};
+  }
+};
+
+}  // namespace raytrace
