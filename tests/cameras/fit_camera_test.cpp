@@ -1,16 +1,21 @@
 // A camera that is moved so that all of a scene is just in view.
 #include "raytrace/batch/fit_camera.h"
 
+#include <algorithm>
 #include <cmath>
-#include <functional>
+#include <initializer_list>
 #include <numbers>
 #include <string>
+#include <tuple>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "raytrace/batch/settings_error.h"
 #include "raytrace/cameras/view_frame.h"
 #include "support/catch.h"
 #include "support/parsed_scene.h"
+#include "support/temporary_folder.h"
 
 namespace raytrace::test {
 
@@ -30,8 +35,7 @@ SceneDescription scene_to_fit(const std::string& objects, const std::string& cam
       objects + "</objects>" + more + "</raytracer>");
 }
 
-/// Where points are in the picture that the camera shows: 1 is its edge. `farthest` is how far they reach along each
-/// of its sides.
+/// Where points are in the picture that the camera shows: how far they reach to each of its edges, which are at 1.
 struct Shown {
   double right = 0, left = 0, top = 0, bottom = 0;
   bool all_before_camera = true;
@@ -219,6 +223,22 @@ TEST_CASE("planes and lamps do not count, but for lamps alone") {
   CHECK(length(eye_of(ball(0, "m") + instance(""), group) - alone) == 0);
   CHECK(length(eye_of(ball(0, "m") + instance("<material>m</material>"), group) - alone) > 1);
   CHECK_THROWS_AS(eye_of(plane), SettingsError);
+}
+
+TEST_CASE("a cloud is in view as its spheres are") {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("cloud.ply");
+  write_text(file,
+             "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
+             "property float radius\nend_header\n1 2 3 0.5\n-2 0 1 0.25\n");
+  SceneDescription cloud =
+      scene_to_fit("<sphereclouds><spherecloud><file>" + file + "</file></spherecloud></sphereclouds>");
+  SceneDescription spheres = scene_to_fit(
+      "<spheres><sphere><center x='1' y='2' z='3'/><radius>0.5</radius><material>m</material></sphere>"
+      "<sphere><center x='-2' y='0' z='1'/><radius>0.25</radius><material>m</material></sphere></spheres>");
+  for (SceneDescription* const scene : {&cloud, &spheres}) fit_camera(*scene, *scene);
+  const auto eye = [](const SceneDescription& scene) { return std::get<PinholeCamera::Parameters>(scene.camera).eye; };
+  CHECK(length(eye(cloud) - eye(spheres)) < 1e-12);
 }
 
 TEST_CASE("a point is in the picture's middle, and a camera that sees all around is refused") {

@@ -24,61 +24,30 @@ struct SightLine {
   double offset = 0;
 
   double of(const Vec3d& p) const { return dot(along, p) + offset; }
+  template <class Shape>
+  double of(const typename Shape::Parameters& shape) const {
+    return Shape::reach(shape, along) + offset;
+  }
   /// The same direction in the space that the map leaves.
   SightLine before(const Affine& map) const {
     return {{dot(along, map.x), dot(along, map.y), dot(along, map.z)}, offset + dot(along, map.origin)};
   }
 };
 
-// How far shapes reach, which are their support functions.
-
-/// The largest of the directions' dot products with the points of a circle about the normal.
-double reach_of_circle(const Vec3d& along, const Vec3d& normal, double radius) {
-  return radius * length(cross(along, normal)) / length(normal);
-}
-double reach(const Sphere::Parameters& sphere, const SightLine& line) {
-  return line.of(sphere.center) + sphere.radius * length(line.along);
-}
-double reach(const Triangle::Parameters& triangle, const SightLine& line) {
-  return std::max({line.of(triangle.vertex1), line.of(triangle.vertex2), line.of(triangle.vertex3)});
-}
-double reach(const Cylinder::Parameters& cylinder, const SightLine& line) {
-  return std::max(line.of(cylinder.bottom), line.of(cylinder.top)) +
-         reach_of_circle(line.along, cylinder.top - cylinder.bottom, cylinder.radius);
-}
-double reach(const Torus::Parameters& torus, const SightLine& line) {
-  return line.of(torus.center) + reach_of_circle(line.along, torus.axis, torus.sweptradius) +
-         torus.tuberadius * length(line.along);
-}
-double reach(const Disk::Parameters& disk, const SightLine& line) {
-  return line.of(disk.center) + reach_of_circle(line.along, disk.normal, disk.radius);
-}
-double reach(const Rectangle::Parameters& rectangle, const SightLine& line) {
-  return line.of(rectangle.corner) + std::max(0.0, dot(line.along, rectangle.edge1)) +
-         std::max(0.0, dot(line.along, rectangle.edge2));
-}
-double reach(const Box::Parameters& box, const SightLine& line) {
-  double sum = line.offset;
-  for (int i = 0; i < 3; ++i) {
-    const double along = component(line.along, i);
-    sum += std::max(along * component(box.min, i), along * component(box.max, i));
-  }
-  return sum;
-}
-double reach(const Cone::Parameters& cone, const SightLine& line) {
-  const Vec3d axis = cone.top - cone.bottom;
-  return std::max(line.of(cone.bottom) + reach_of_circle(line.along, axis, cone.radius),
-                  line.of(cone.top) + reach_of_circle(line.along, axis, cone.topradius));
-}
-double reach(const Annulus::Parameters& annulus, const SightLine& line) {
-  return line.of(annulus.center) + reach_of_circle(line.along, annulus.normal, annulus.outerradius);
-}
-
 /// How far a scene reaches in six directions.
 using SightLines = std::array<SightLine, 6>;
 using Reaches = std::array<double, 6>;
 
 const SightLines along_axes{{{{1, 0, 0}}, {{0, 1, 0}}, {{0, 0, 1}}, {{-1, 0, 0}}, {{0, -1, 0}}, {{0, 0, -1}}}};
+
+/// Shapes without end have no reach(); models are meshes by now.
+template <class T>
+constexpr bool has_end() {
+  if constexpr (has_type<T>(Shapes{}))
+    return requires(const typename T::Parameters& shape) { T::reach(shape, Vec3d()); };
+  else
+    return !std::is_same_v<T, Model>;
+}
 
 class Measurer {
  public:
@@ -114,7 +83,7 @@ class Measurer {
 
   void add(const ObjectLists& objects, bool lamps, const SightLines& directions, Reaches& reaches) {
     for_each_type(Objects{}, [&]<class T>(std::type_identity<T>) {
-      if constexpr (!std::is_same_v<T, Plane> && !std::is_same_v<T, Model>)
+      if constexpr (has_end<T>())
         for (const auto& item : std::get<ObjectItems<T>>(objects))
           if (lamps || !is_lamp(item.material)) add_item(item, lamps, before(item.transform, directions), reaches);
     });
@@ -122,7 +91,7 @@ class Measurer {
 
   template <class Shape>
   static void add_item(const ObjectItem<Shape>& item, bool, const SightLines& directions, Reaches& reaches) {
-    add_each(directions, reaches, [&](const SightLine& line) { return reach(item.parameters, line); });
+    add_each(directions, reaches, [&](const SightLine& line) { return line.of<Shape>(item.parameters); });
   }
 
   void add_item(const ObjectItem<Mesh>& item, bool, const SightLines& directions, Reaches& reaches) {
@@ -159,8 +128,7 @@ class Measurer {
     for (std::size_t i = 0; i < data.size(); ++i) {
       const Vec3d center = Vec3d{double{p[3 * i]}, double{p[3 * i + 1]}, double{p[3 * i + 2]}} + data.origin;
       const double radius = data.radii.empty() ? item.parameters.radius : double{data.radii[i]};
-      add_each(directions, reaches,
-               [&](const SightLine& line) { return reach(Sphere::Parameters{center, radius}, line); });
+      add_each(directions, reaches, [&](const SightLine& line) { return line.of<Sphere>({center, radius}); });
     }
   }
 
@@ -184,7 +152,7 @@ class Measurer {
     if (box[0] == no_reach) return;
     const Box::Parameters corners{{-box[3], -box[4], -box[5]}, {box[0], box[1], box[2]}};
     for (std::size_t i = 0; i < 6; ++i)
-      if (reach(corners, directions[i]) > reaches[i]) return add();
+      if (directions[i].of<Box>(corners) > reaches[i]) return add();
   }
 
   const SceneDescription& scene_;

@@ -201,7 +201,10 @@ const DracoPrimitive& DracoReader::read(const Item& primitive, const Item& exten
   if (!is_new) return result;
   result.indices = described(document_, indices);
   const Accessor positions = described(document_, numbers["POSITION"]);
-  const DracoLimits limits{result.indices.elements.count / 3, positions.elements.count};
+  const std::size_t corners_of_mode = result.indices.elements.count;
+  constexpr std::uint64_t triangle_strip = 5;
+  const DracoLimits limits{primitive.whole("mode", 4) == triangle_strip ? corners_of_mode : corners_of_mode / 3,
+                           positions.elements.count};
   draco::Mesh mesh;
   decode_mesh(document_.view_bytes(document_.listed("bufferViews", view)), document_, extension, limits, mesh);
   for (Wanted& one : wanted) {
@@ -217,9 +220,10 @@ const DracoPrimitive& DracoReader::read(const Item& primitive, const Item& exten
                  document_.keep(values_of(mesh, *attribute, one.accessor.elements, one.id)));
     result.attributes.emplace(one.name, one.accessor);
   }
-  std::string corners(mesh.num_faces() * 3 * sizeof(std::uint32_t), '\0');
-  for (std::uint32_t i = 0; i < mesh.num_faces(); ++i) {
-    const draco::Mesh::Face& face = mesh.face(draco::FaceIndex(i));
+  const std::size_t faces = mesh.num_faces();
+  std::string corners(faces * 3 * sizeof(std::uint32_t), '\0');
+  for (std::size_t i = 0; i < faces; ++i) {
+    const draco::Mesh::Face& face = mesh.face(draco::FaceIndex(static_cast<std::uint32_t>(i)));
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t corner = face[k].value();
       std::memcpy(corners.data() + (3 * i + k) * sizeof corner, &corner, sizeof corner);
@@ -227,7 +231,7 @@ const DracoPrimitive& DracoReader::read(const Item& primitive, const Item& exten
   }
   result.indices.elements.type = ComponentType::unsigned_integer;
   result.indices.elements.components = 1;
-  set_elements(result.indices, 3 * std::size_t{mesh.num_faces()}, document_.keep(std::move(corners)));
+  set_elements(result.indices, 3 * faces, document_.keep(std::move(corners)));
   return result;
 }
 

@@ -96,7 +96,7 @@ void restore_colors(std::string& bytes) {
     using Signed = std::make_signed_t<T>;
     const int first_bit = std::bit_floor(std::max<T>(v[3], 1));
     const double most = 2 * first_bit - 1;
-    const int y = v[0], orange = static_cast<Signed>(v[1]), green = static_cast<Signed>(v[2]);
+    const double y = v[0], orange = static_cast<Signed>(v[1]), green = static_cast<Signed>(v[2]);
     const int alpha = v[3] & (first_bit - 1);
     v = {normalized_integer<T>((y + orange - green) / most), normalized_integer<T>((y + green) / most),
          normalized_integer<T>((y - orange - green) / most), normalized_integer<T>((2 * alpha + (alpha & 1)) / most)};

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "raytrace/parameters/fields.h"
+#include "raytrace/shapes/reach.h"
 
 namespace raytrace {
 
@@ -30,6 +31,10 @@ class Annulus {
     if (parameters.innerradius < parameters.outerradius) return std::nullopt;
     return ParameterDiagnostic{ParameterDiagnostic::Effect::error,
                                "the annulus' <innerradius> is not less than its <outerradius>: it has no area"};
+  }
+
+  static double reach(const Parameters& p, const Vec3d& along) {
+    return dot(along, p.center) + reach_of_disk(p.normal, p.outerradius, along);
   }
 };
 

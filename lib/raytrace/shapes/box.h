@@ -41,6 +41,11 @@ class Box {
         ParameterDiagnostic::Effect::error,
         std::string("the box's <min> is not less than its <max> along ") + flat + ": it has no volume"};
   }
+
+  static double reach(const Parameters& p, const Vec3d& along) {
+    return std::max(along.x * p.min.x, along.x * p.max.x) + std::max(along.y * p.min.y, along.y * p.max.y) +
+           std::max(along.z * p.min.z, along.z * p.max.z);
+  }
 };
 
 }  // namespace raytrace

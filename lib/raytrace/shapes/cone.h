@@ -5,7 +5,10 @@
 //   </cone>
 #pragma once
 
+#include <algorithm>
+
 #include "raytrace/parameters/fields.h"
+#include "raytrace/shapes/reach.h"
 
 namespace raytrace {
 
@@ -33,6 +36,12 @@ class Cone {
       return ParameterDiagnostic{ParameterDiagnostic::Effect::error,
                                  "the cone's <radius> and <topradius> are both 0: it has no width"};
     return std::nullopt;
+  }
+
+  static double reach(const Parameters& p, const Vec3d& along) {
+    const Vec3d axis = p.top - p.bottom;
+    return std::max(dot(along, p.bottom) + reach_of_disk(axis, p.radius, along),
+                    dot(along, p.top) + reach_of_disk(axis, p.topradius, along));
   }
 };
 

@@ -5,7 +5,10 @@
 //   </cylinder>
 #pragma once
 
+#include <algorithm>
+
 #include "raytrace/parameters/fields.h"
+#include "raytrace/shapes/reach.h"
 
 namespace raytrace {
 
@@ -27,6 +30,10 @@ class Cylinder {
     if (length(parameters.top - parameters.bottom) >= smallest_size) return std::nullopt;
     return ParameterDiagnostic{ParameterDiagnostic::Effect::error,
                                "the cylinder's <bottom> and <top> are the same point: it has no length"};
+  }
+
+  static double reach(const Parameters& p, const Vec3d& along) {
+    return std::max(dot(along, p.bottom), dot(along, p.top)) + reach_of_disk(p.top - p.bottom, p.radius, along);
   }
 };
 

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "raytrace/parameters/fields.h"
+#include "raytrace/shapes/reach.h"
 
 namespace raytrace {
 
@@ -22,6 +23,10 @@ class Disk {
   static Fields fields() {
     return {required("center", &Parameters::center, a_point), required("normal", &Parameters::normal, Range::nonzero),
             required("radius", &Parameters::radius, Range::positive)};
+  }
+
+  static double reach(const Parameters& p, const Vec3d& along) {
+    return dot(along, p.center) + reach_of_disk(p.normal, p.radius, along);
   }
 };
 

@@ -6,6 +6,8 @@
 //   </rectangle>
 #pragma once
 
+#include <algorithm>
+
 #include "raytrace/math/affine.h"
 #include "raytrace/parameters/fields.h"
 
@@ -33,6 +35,10 @@ class Rectangle {
     if (area > 1e-12 * length(parameters.edge1) * length(parameters.edge2)) return std::nullopt;
     return ParameterDiagnostic{ParameterDiagnostic::Effect::error,
                                "the rectangle's <edge1> and <edge2> are parallel: it has no area"};
+  }
+
+  static double reach(const Parameters& p, const Vec3d& along) {
+    return dot(along, p.corner) + std::max(0.0, dot(along, p.edge1)) + std::max(0.0, dot(along, p.edge2));
   }
 };
 

@@ -18,6 +18,10 @@ class Sphere {
   static Fields fields() {
     return {required("center", &Parameters::center, a_point), required("radius", &Parameters::radius, Range::positive)};
   }
+
+  static double reach(const Parameters& p, const Vec3d& along) {
+    return dot(along, p.center) + p.radius * length(along);
+  }
 };
 
 }  // namespace raytrace

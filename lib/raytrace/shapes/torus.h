@@ -7,6 +7,7 @@
 #pragma once
 
 #include "raytrace/parameters/fields.h"
+#include "raytrace/shapes/reach.h"
 
 namespace raytrace {
 
@@ -24,6 +25,10 @@ class Torus {
     return {optional("center", &Parameters::center, a_point), optional("axis", &Parameters::axis, Range::nonzero),
             required("sweptradius", &Parameters::sweptradius, Range::positive),
             required("tuberadius", &Parameters::tuberadius, Range::positive)};
+  }
+
+  static double reach(const Parameters& p, const Vec3d& along) {
+    return dot(along, p.center) + reach_of_disk(p.axis, p.sweptradius, along) + p.tuberadius * length(along);
   }
 };
 

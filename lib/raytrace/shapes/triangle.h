@@ -6,6 +6,8 @@
 //   </triangle>
 #pragma once
 
+#include <algorithm>
+
 #include "raytrace/math/affine.h"
 #include "raytrace/parameters/fields.h"
 
@@ -36,6 +38,10 @@ class Triangle {
     if (area > collinear && area > smallest_size * smallest_size) return std::nullopt;
     return ParameterDiagnostic{ParameterDiagnostic::Effect::skip,
                                "the triangle is degenerate (its corners lie on a line) and is left out"};
+  }
+
+  static double reach(const Parameters& p, const Vec3d& along) {
+    return std::max({dot(along, p.vertex1), dot(along, p.vertex2), dot(along, p.vertex3)});
   }
 };
 
