@@ -1,6 +1,5 @@
 #include "raytrace/import/gltf_accessor.h"
 
-#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <type_traits>
@@ -26,34 +25,13 @@ void read_elements_of(const Elements& elements, std::size_t first, std::size_t l
 }  // namespace
 
 std::size_t size_of(ComponentType type) {
-  switch (type) {
-    case ComponentType::byte:
-    case ComponentType::unsigned_byte:
-      return 1;
-    case ComponentType::short_integer:
-    case ComponentType::unsigned_short:
-      return 2;
-    default:
-      return 4;
-  }
+  return with_component_type(type, []<class T>(std::type_identity<T>) { return sizeof(T); });
 }
 
 void read_elements(const Elements& elements, std::size_t first, std::size_t last, std::size_t most, double* values) {
   if (elements.first == nullptr) return;  // all are 0
-  switch (elements.type) {
-    case ComponentType::byte:
-      return read_elements_of<std::int8_t>(elements, first, last, most, values);
-    case ComponentType::unsigned_byte:
-      return read_elements_of<std::uint8_t>(elements, first, last, most, values);
-    case ComponentType::short_integer:
-      return read_elements_of<std::int16_t>(elements, first, last, most, values);
-    case ComponentType::unsigned_short:
-      return read_elements_of<std::uint16_t>(elements, first, last, most, values);
-    case ComponentType::unsigned_integer:
-      return read_elements_of<std::uint32_t>(elements, first, last, most, values);
-    default:
-      return read_elements_of<float>(elements, first, last, most, values);
-  }
+  with_component_type(
+      elements.type, [&]<class T>(std::type_identity<T>) { read_elements_of<T>(elements, first, last, most, values); });
 }
 
 std::array<double, Elements::of_matrix> element_at(const Accessor& accessor, std::size_t i) {

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "raytrace/import/gltf_bytes.h"
@@ -14,6 +16,25 @@ namespace raytrace::gltf {
 
 /// As the format numbers them.
 enum class ComponentType { byte = 5120, unsigned_byte, short_integer, unsigned_short, unsigned_integer = 5125, number };
+
+/// Calls f with std::type_identity of the C++ type.
+template <class Function>
+auto with_component_type(ComponentType type, const Function& f) {
+  switch (type) {
+    case ComponentType::byte:
+      return f(std::type_identity<std::int8_t>{});
+    case ComponentType::unsigned_byte:
+      return f(std::type_identity<std::uint8_t>{});
+    case ComponentType::short_integer:
+      return f(std::type_identity<std::int16_t>{});
+    case ComponentType::unsigned_short:
+      return f(std::type_identity<std::uint16_t>{});
+    case ComponentType::unsigned_integer:
+      return f(std::type_identity<std::uint32_t>{});
+    default:
+      return f(std::type_identity<float>{});
+  }
+}
 
 /// In bytes.
 std::size_t size_of(ComponentType type);
