@@ -284,14 +284,14 @@ TEST_CASE("damaged files of Draco are read or refused") {
   for (const auto method : {draco::MESH_EDGEBREAKER_ENCODING, draco::MESH_SEQUENTIAL_ENCODING}) {
     const std::string good = compressed_sheet(method).glb(draco_scene(sheet_primitive()));
     const std::size_t binary = good.find("BIN") + 4;
-    for (int i = 0; i < 1000; ++i) {
+    for (int i = 0; i < 400; ++i) {
       std::string damaged = good;
       for (std::size_t edits = 1 + random() % 2; edits > 0; --edits)
         damaged[binary + random() % (damaged.size() - binary)] = static_cast<char>(random());
       ++(is_read_or_refused(folder.file("a.glb"), damaged) ? read : refused);
     }
   }
-  CHECK(read > 100);
+  CHECK(read > 50);
   CHECK(refused > 100);
 }
 
