@@ -144,9 +144,15 @@ void Accelerator::add_instances() {
     group_scenes_.push_back(make_scene(*group, instance_callbacks_.group_shapes.emplace_back()));
     instance_callbacks_.groups.push_back(group_scenes_.back().get());
   }
-  const embree::Geometry geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER));
-  set_callbacks(geometry.get(), instance_callbacks_);
-  attach(scene_, geometry, table_.geometries().size());
+  const std::size_t moving = table_.instances().moving().size();
+  for (const bool moves : {false, true}) {
+    InstanceGeometry& instances = instance_geometries_[moves ? 1 : 0];
+    instances = {&instance_callbacks_, moves};
+    if (moves ? moving == 0 : moving == table_.instances().size()) continue;
+    const embree::Geometry geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER));
+    set_callbacks(geometry.get(), instances);
+    attach(scene_, geometry, table_.geometries().size() + (moves ? 1 : 0));
+  }
 }
 
 Accelerator::~Accelerator() = default;

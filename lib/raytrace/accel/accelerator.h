@@ -45,15 +45,15 @@ class Accelerator {
   /// direction of length 0) hit nothing. origin_buffer: from the point that all rays start at, their directions being
   /// of unit length; null if there is none. The same answer, sooner. Where near is negative, shapes with bounds are hit
   /// from the origin on.
-  /// cutouts: null where rays pass nothing; else there are no buffers.
+  /// identity: null where no ray passes a surface and nothing moves; else there are no buffers.
   Hits intersect(Ray<FloatN>& rays, const MaskN& active, Coherence coherence,
-                 const DirectionBuffer* origin_buffer = nullptr, const CutoutQuery* cutouts = nullptr) const;
+                 const DirectionBuffer* origin_buffer = nullptr, const RayIdentity* identity = nullptr) const;
 
   /// The lanes of `active` in which anything lies between near and far. end_buffer: from where all rays go, which is
   /// the point origin + direction, where they end, the same for all but for the rounding of their directions; or
   /// infinitely far, with the same direction for all. Null if there is no such place. The same answer, sooner.
   MaskN occluded(const Ray<FloatN>& rays, const MaskN& active, Coherence coherence,
-                 const DirectionBuffer* end_buffer = nullptr, const CutoutQuery* cutouts = nullptr) const;
+                 const DirectionBuffer* end_buffer = nullptr, const RayIdentity* identity = nullptr) const;
 
   /// The surfaces that were hit, where the rays end, with their normals on the side that the rays come from; lanes
   /// without a hit hold anything.
@@ -67,8 +67,8 @@ class Accelerator {
 
   /// The two parts of a query, for tests and benchmarks that put their own to Embree: the shapes without end, and the
   /// scene that holds all others, whose rays need NearestHits. `active`: lanes that Embree can take.
-  Hits intersect_unbounded(Ray<FloatN>& rays, const MaskN& active, const CutoutQuery* cutouts = nullptr) const;
-  MaskN occluded_unbounded(const Ray<FloatN>& rays, const MaskN& active, const CutoutQuery* cutouts = nullptr) const;
+  Hits intersect_unbounded(Ray<FloatN>& rays, const MaskN& active, const RayIdentity* identity = nullptr) const;
+  MaskN occluded_unbounded(const Ray<FloatN>& rays, const MaskN& active, const RayIdentity* identity = nullptr) const;
   RTCScene embree_scene() const {
     if (!is_built_.load(std::memory_order_acquire)) build();
     return scene_.get();
@@ -97,7 +97,7 @@ class Accelerator {
   void to_world(const Hits& hits, SurfaceInteraction<FloatN>& surface) const;
   // Those of candidates return the lanes that are left to Embree. distance: of the hits so far, or where the rays end;
   // rays.far: as far as they are followed.
-  void intersect_bvh(const Ray<FloatN>& rays, const MaskN& active, Coherence coherence, const CutoutQuery* cutouts,
+  void intersect_bvh(const Ray<FloatN>& rays, const MaskN& active, Coherence coherence, const RayIdentity* identity,
                      FloatN& distance, Hits& hits) const;
   MaskN intersect_candidates(const DirectionBuffer& buffer, Ray<FloatN>& rays, const MaskN& active, FloatN& distance,
                              Hits& hits) const;
@@ -110,6 +110,7 @@ class Accelerator {
   embree::Device device_;
   std::vector<embree::Scene> group_scenes_;
   InstanceCallbacks instance_callbacks_;
+  std::array<InstanceGeometry, 2> instance_geometries_;  ///< what stands still, what moves
   embree::Scene scene_;
   mutable std::atomic<bool> is_built_{false};
 };

@@ -5,6 +5,7 @@
 #include "raytrace/accel/embree_packets.h"
 #include "raytrace/accel/for_each_candidate.h"
 #include "raytrace/math/gather.h"
+#include "raytrace/scene/scene_tables.h"
 
 namespace raytrace {
 
@@ -30,10 +31,17 @@ RTCRay single_ray(const embree::RegisterPacket::Ray& rays, int lane) {
   ray.dir_y = rays.dir_y[lane];
   ray.dir_z = rays.dir_z[lane];
   ray.tfar = rays.tfar[lane];
+  ray.time = rays.time[lane];
   ray.mask = rays.mask[lane];
   ray.id = rays.id[lane];
   return ray;
 }
+
+/// Of a query's identity, which may be null: what its callbacks need where rays pass surfaces, else null.
+const RayIdentity* cutouts_of(const RayIdentity* identity) {
+  return identity != nullptr && identity->scene.has_cutouts() ? identity : nullptr;
+}
+FloatN times_of(const RayIdentity* identity) { return identity != nullptr ? identity->times : FloatN(0); }
 
 /// Calls f(shape_type, primitive, record) for each object of the shapes without end.
 template <class Tables, class Function>
@@ -61,13 +69,13 @@ struct Nearest {
   Hits& hits;
   FloatN& distance;  ///< of the hits, or where the rays end
   FloatN& far;       ///< as far as the rays are followed: those that have hit something, to behind(distance)
-  const CutoutQuery* cutouts = nullptr;
+  const RayIdentity* cutouts = nullptr;
 };
 
 /// Where rays meet an object without end.
 template <class Shape>
 FloatN distance_to_cutout(const typename ShapeTable<Shape>::Record& record, std::uint32_t primitive,
-                          const Ray<FloatN>& rays, const MaskN& active, const CutoutQuery& query) {
+                          const Ray<FloatN>& rays, const MaskN& active, const RayIdentity& query) {
   const auto find = [&](const Ray<FloatN>& some, const MaskN& lanes, FloatN&, FloatN&) {
     return Kernel<Shape>::template intersect<FloatN>(record, some, lanes);
   };
@@ -119,7 +127,7 @@ RAYTRACE_INLINE MaskN is_occluded(const Tables& tables, const DirectionBuffer::O
 
 }  // namespace
 
-Hits Accelerator::intersect_unbounded(Ray<FloatN>& rays, const MaskN& active, const CutoutQuery* cutouts) const {
+Hits Accelerator::intersect_unbounded(Ray<FloatN>& rays, const MaskN& active, const RayIdentity* identity) const {
   Hits hits;
   hits.hit = MaskN(false);
   hits.instance = UintN(0u);
@@ -129,13 +137,14 @@ Hits Accelerator::intersect_unbounded(Ray<FloatN>& rays, const MaskN& active, co
   // They come in the order that decides at equal distances: what lies where the rays end so far comes too late.
   for_each_unbounded(table_, [&](auto type, std::uint32_t primitive, const auto& record) RAYTRACE_INLINE_LAMBDA {
     intersect_object<typename decltype(type)::type>(record, primitive, rays, active,
-                                                    {hits, rays.far, rays.far, cutouts});
+                                                    {hits, rays.far, rays.far, cutouts_of(identity)});
   });
   return hits;
 }
 
-MaskN Accelerator::occluded_unbounded(const Ray<FloatN>& rays, const MaskN& active, const CutoutQuery* cutouts) const {
+MaskN Accelerator::occluded_unbounded(const Ray<FloatN>& rays, const MaskN& active, const RayIdentity* identity) const {
   MaskN occluded(false);
+  const RayIdentity* const cutouts = cutouts_of(identity);
   for_each_unbounded(table_, [&](auto type, std::uint32_t primitive, const auto& record) RAYTRACE_INLINE_LAMBDA {
     using Shape = typename decltype(type)::type;
     if (cutouts == nullptr) [[likely]]
@@ -188,33 +197,34 @@ MaskN Accelerator::occluded_by_candidates(const DirectionBuffer& buffer, const R
 }
 
 Hits Accelerator::intersect(Ray<FloatN>& rays, const MaskN& active, Coherence coherence,
-                            const DirectionBuffer* origin_buffer, const CutoutQuery* cutouts) const {
+                            const DirectionBuffer* origin_buffer, const RayIdentity* identity) const {
   // All rays that start where the origin is can be taken.
   MaskN valid_lanes = origin_buffer != nullptr ? active : active & embree_takes(rays);
   // First the shapes without end: what lies behind their hits need not be looked for.
-  Hits hits = intersect_unbounded(rays, valid_lanes, cutouts);
+  Hits hits = intersect_unbounded(rays, valid_lanes, identity);
   rays.near = max(rays.near, FloatN(0));
   FloatN distance = rays.far;
   rays.far = select(hits.hit, behind(distance), distance);
   if (origin_buffer != nullptr) valid_lanes = intersect_candidates(*origin_buffer, rays, valid_lanes, distance, hits);
-  if (any(valid_lanes)) intersect_bvh(rays, valid_lanes, coherence, cutouts, distance, hits);
+  if (any(valid_lanes)) intersect_bvh(rays, valid_lanes, coherence, identity, distance, hits);
   rays.far = distance;
+  hits.time = times_of(identity);
   hits.find_first();
   return hits;
 }
 
 void Accelerator::intersect_bvh(const Ray<FloatN>& rays, const MaskN& active, Coherence coherence,
-                                const CutoutQuery* cutouts, FloatN& distance, Hits& hits) const {
+                                const RayIdentity* identity, FloatN& distance, Hits& hits) const {
   const RTCScene scene = embree_scene();
   embree::Query query(coherence == Coherence::coherent);
   alignas(64) embree::RegisterPacket::RayHit packets[embree::packets];
-  embree::store_rays(rays, [&](int i) -> auto& { return packets[i].ray; });
+  embree::store_rays(rays, times_of(identity), [&](int i) -> auto& { return packets[i].ray; });
   embree::store(UintN(RTC_INVALID_GEOMETRY_ID), [&](int i) { return packets[i].hit.geomID; });
   embree::store(UintN(RTC_INVALID_GEOMETRY_ID), [&](int i) { return packets[i].hit.instID[0]; });
   embree::store(hits.u, [&](int i) { return packets[i].hit.u; });
   embree::store(hits.v, [&](int i) { return packets[i].hit.v; });
   embree::NearestHits& nearest = query.nearest;
-  nearest.cutouts = cutouts;
+  nearest.cutouts = cutouts_of(identity);
   distance.store_aligned(nearest.distance);
   hits.geometry.store_aligned(nearest.geometry);
   same_bits<UintN>(hits.primitive).store_aligned(nearest.primitive);
@@ -246,11 +256,11 @@ void Accelerator::intersect_bvh(const Ray<FloatN>& rays, const MaskN& active, Co
 }
 
 MaskN Accelerator::occluded(const Ray<FloatN>& rays, const MaskN& active, Coherence coherence,
-                            const DirectionBuffer* end_buffer, const CutoutQuery* cutouts) const {
+                            const DirectionBuffer* end_buffer, const RayIdentity* identity) const {
   MaskN in_reach(false), takeable = active;  // those in reach can be taken
   if (end_buffer != nullptr) in_reach = end_buffer->in_reach(rays.origin, rays.direction);
   if (any(active & !in_reach)) takeable = active & (in_reach | embree_takes(rays));
-  MaskN found = occluded_unbounded(rays, takeable, cutouts);
+  MaskN found = occluded_unbounded(rays, takeable, identity);
   MaskN valid_lanes = takeable & !found;
   if (end_buffer != nullptr) valid_lanes = occluded_by_candidates(*end_buffer, rays, valid_lanes, in_reach, found);
   if (none(valid_lanes)) return found;
@@ -259,9 +269,9 @@ MaskN Accelerator::occluded(const Ray<FloatN>& rays, const MaskN& active, Cohere
   embree::Query query(coherence == Coherence::coherent);
   alignas(64) embree::RegisterPacket::Ray packets[embree::packets];
   const Ray<FloatN> followed{rays.origin, rays.direction, max(rays.near, FloatN(0)), behind(rays.far)};
-  embree::store_rays(followed, [&](int i) -> auto& { return packets[i]; });
+  embree::store_rays(followed, times_of(identity), [&](int i) -> auto& { return packets[i]; });
   rays.far.store_aligned(query.nearest.distance);
-  query.nearest.cutouts = cutouts;
+  query.nearest.cutouts = cutouts_of(identity);
   if (coherence == Coherence::coherent) {
     const embree::ValidLanes valid(valid_lanes);
     embree::for_each_packet(valid_lanes,

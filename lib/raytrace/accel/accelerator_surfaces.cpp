@@ -155,7 +155,7 @@ SurfaceInteraction<FloatN> Accelerator::surface(const Ray<FloatN>& rays, const H
 
 Ray<FloatN> Accelerator::in_instances(const Ray<FloatN>& rays, const Hits& hits) const {
   const MaskN inside = hits.hit & float_mask<FloatN>(hits.instance != UintN(0u));
-  const auto affine = table_.instances().object_from_world(select_lanes(inside, hits.instance, UintN(0u)));
+  const auto affine = table_.instances().object_from_world(select_lanes(inside, hits.instance, UintN(0u)), hits.time);
   Ray<FloatN> local = rays;
   local.origin = select(inside, apply_point(affine, rays.origin), rays.origin);
   local.direction = select(inside, apply_vector(affine, rays.direction), rays.direction);
@@ -165,8 +165,8 @@ Ray<FloatN> Accelerator::in_instances(const Ray<FloatN>& rays, const Hits& hits)
 void Accelerator::to_world(const Hits& hits, SurfaceInteraction<FloatN>& surface) const {
   const MaskN inside = hits.hit & float_mask<FloatN>(hits.instance != UintN(0u));
   const UintN number = select_lanes(inside, hits.instance, UintN(0u));
-  const auto world_from_object = table_.instances().world_from_object(number);
-  const auto object_from_world = table_.instances().object_from_world(number);
+  const auto world_from_object = table_.instances().world_from_object(number, hits.time);
+  const auto object_from_world = table_.instances().object_from_world(number, hits.time);
   // The transpose of the inverse. Of any scale, so that squares neither overflow nor vanish.
   const auto turned = [&](const Vec3<FloatN>& n) {
     const Vec3<FloatN> normal{dot(object_from_world.x, n), dot(object_from_world.y, n), dot(object_from_world.z, n)};

@@ -9,13 +9,22 @@
 
 namespace raytrace {
 
-std::optional<std::int32_t> cutout_material(const CutoutQuery& query, const CutoutSurface& surface) {
+RayIdentity::RayIdentity(const SceneTables& of_scene, const Accelerator& its_accelerator, const Ray<FloatN>& its_rays,
+                         const RayIds& ids, const CameraRays* its_camera)
+    : scene(of_scene),
+      accelerator(its_accelerator),
+      rays(its_rays),
+      keys(of_scene.has_cutouts() ? ids.keys() : UintN(0u)),
+      times(of_scene.has_motion() ? ids.times() : FloatN(0)),
+      camera(its_camera) {}
+
+std::optional<std::int32_t> cutout_material(const RayIdentity& query, const CutoutSurface& surface) {
   const std::int32_t material =
       query.scene.geometry().material_of(surface.instance, surface.geometry, surface.primitive);
   return query.scene.is_cutout(material) ? std::optional(material) : std::nullopt;
 }
 
-std::uint32_t passing_rays(const CutoutQuery& query, unsigned first, std::uint32_t hit, const CutoutSurface& surface,
+std::uint32_t passing_rays(const RayIdentity& query, unsigned first, std::uint32_t hit, const CutoutSurface& surface,
                            std::int32_t material, std::span<const float> t, std::span<const float> u,
                            std::span<const float> v) {
   alignas(64) std::array<float, packet_lanes> far{}, hit_u{}, hit_v{};
@@ -34,6 +43,7 @@ std::uint32_t passing_rays(const CutoutQuery& query, unsigned first, std::uint32
   hits.primitive = IntN(static_cast<std::int32_t>(surface.primitive));
   hits.u = FloatN::load_aligned(hit_u.data());
   hits.v = FloatN::load_aligned(hit_v.data());
+  hits.time = query.times;
   hits.find_first();
   const SceneTables& scene = query.scene;
   const FloatN opacity = scene.opacity(material, [&] {

@@ -11,6 +11,7 @@
 #include "raytrace/math/ray.h"
 #include "raytrace/math/simd.h"
 #include "raytrace/sampling/hash.h"
+#include "raytrace/sampling/ray_ids.h"
 #include "raytrace/scene/camera.h"
 
 namespace raytrace {
@@ -18,19 +19,18 @@ namespace raytrace {
 class Accelerator;
 class SceneTables;
 
-/// The rays of a query, as its callbacks want them there.
-struct CutoutQuery {
+/// What a query knows of its rays besides, in scenes in which rays pass surfaces or things move.
+struct RayIdentity {
   const SceneTables& scene;
   const Accelerator& accelerator;
-  const Ray<FloatN>& rays;             ///< in world space; ray `id` is lane `id`
-  UintN keys;                          ///< a hash for each of them
-  const CameraRays* camera = nullptr;  ///< what camera rays cover, textures are filtered by; null: other rays
-};
+  const Ray<FloatN>& rays;  ///< in world space; ray `id` is lane `id`
+  UintN keys;
+  FloatN times;
+  const CameraRays* camera;  ///< what camera rays cover, textures are filtered by; null: other rays
 
-/// The hashes of rays, by pixel and sample, and by what they are among those of their path.
-inline UintN ray_keys(const UintN& pixel, const UintN& sample, std::uint32_t purpose) {
-  return mix_bits(pixel + sample * UintN(0x9e3779b9u)) + UintN(purpose * 0x9e3779b9u);
-}
+  RayIdentity(const SceneTables& of_scene, const Accelerator& its_accelerator, const Ray<FloatN>& its_rays,
+              const RayIds& ids, const CameraRays* its_camera = nullptr);
+};
 
 /// A primitive that rays hit, and which crossing of its surface that is, counted along the rays.
 struct CutoutSurface {
@@ -38,18 +38,18 @@ struct CutoutSurface {
 };
 
 /// The number of the surface's material, if rays may pass it.
-std::optional<std::int32_t> cutout_material(const CutoutQuery& query, const CutoutSurface& surface);
+std::optional<std::int32_t> cutout_material(const RayIdentity& query, const CutoutSurface& surface);
 
 /// Which of the rays pass the surface, of that material, that they hit at distance t[i], where the bits of `hit` say
 /// so; bit i is that of ray first + i. u, v: barycentric coordinates, on triangles.
-std::uint32_t passing_rays(const CutoutQuery& query, unsigned first, std::uint32_t hit, const CutoutSurface& surface,
+std::uint32_t passing_rays(const RayIdentity& query, unsigned first, std::uint32_t hit, const CutoutSurface& surface,
                            std::int32_t material, std::span<const float> t, std::span<const float> u,
                            std::span<const float> v);
 
 /// The distances t at which rays hit a primitive, or those of their next hits, where they pass what they hit there.
 /// The rays are `count` from `first` on. find(rays, lanes, u, v): their hits behind rays.near.
 template <class F, class Find>
-F without_passed(const CutoutQuery& query, unsigned first, int count, CutoutSurface surface, Ray<F> rays, F t, F& u,
+F without_passed(const RayIdentity& query, unsigned first, int count, CutoutSurface surface, Ray<F> rays, F t, F& u,
                  F& v, const Find& find) {
   const std::optional<std::int32_t> material = cutout_material(query, surface);
   if (!material) return t;

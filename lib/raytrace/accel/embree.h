@@ -12,7 +12,7 @@
 #include <type_traits>
 
 namespace raytrace {
-struct CutoutQuery;  // cutouts.h
+struct RayIdentity;  // cutouts.h
 }
 
 namespace raytrace::embree {
@@ -42,7 +42,7 @@ struct NearestHits {
   alignas(64) std::uint32_t primitive[most_rays];
   alignas(64) std::uint32_t instance[most_rays];  ///< as InstanceTable numbers them; 0: none
   std::uint32_t current_instance = 0;             ///< whose scene the query is in
-  const CutoutQuery* cutouts = nullptr;           ///< null: rays pass nothing
+  const RayIdentity* cutouts = nullptr;           ///< null: rays pass nothing
 
   /// Ray `id` ends at `end`, and has hit nothing.
   void start(unsigned id, float end) {

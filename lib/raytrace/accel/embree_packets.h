@@ -37,7 +37,7 @@ struct ValidLanes {
 
 /// ray(i): Embree's packet number i. A ray's id is its lane.
 template <class EmbreeRay>
-void store_rays(const Ray<FloatN>& rays, const EmbreeRay& ray) {
+void store_rays(const Ray<FloatN>& rays, const FloatN& times, const EmbreeRay& ray) {
   store(rays.origin.x, [&](int i) { return ray(i).org_x; });
   store(rays.origin.y, [&](int i) { return ray(i).org_y; });
   store(rays.origin.z, [&](int i) { return ray(i).org_z; });
@@ -45,7 +45,7 @@ void store_rays(const Ray<FloatN>& rays, const EmbreeRay& ray) {
   store(rays.direction.x, [&](int i) { return ray(i).dir_x; });
   store(rays.direction.y, [&](int i) { return ray(i).dir_y; });
   store(rays.direction.z, [&](int i) { return ray(i).dir_z; });
-  store(FloatN(0), [&](int i) { return ray(i).time; });
+  store(times, [&](int i) { return ray(i).time; });
   store(rays.far, [&](int i) { return ray(i).tfar; });
   store(UintN(0xffffffffu), [&](int i) { return ray(i).mask; });
   store(lane_numbers<UintN>(), [&](int i) { return ray(i).id; });

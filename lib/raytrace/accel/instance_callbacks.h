@@ -1,4 +1,5 @@
-// Embree's callbacks of instances: one user geometry has all of them, a primitive each.
+// Embree's callbacks of instances: one user geometry has all that stand still, a primitive each, and another those that
+// move while the shutter is open, whose boxes Embree knows at each moment.
 //
 // They transform the rays by our own arithmetic, which is the same for packets and single rays, and put them to the
 // group's own scene, or to the callback of a single shape. So a million instances take what their matrices and boxes
@@ -7,11 +8,14 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstdint>
 #include <cstring>
 #include <vector>
 
 #include "raytrace/accel/callbacks.h"
 #include "raytrace/accel/embree.h"
+#include "raytrace/description/motion.h"
 #include "raytrace/scene/instance_table.h"
 
 namespace raytrace {
@@ -37,12 +41,44 @@ struct InstanceCallbacks {
   }
 };
 
+/// What Embree hands to the callbacks: all instances but those that move, or those.
+struct InstanceGeometry {
+  const InstanceCallbacks* callbacks = nullptr;
+  bool moves = false;
+
+  std::uint32_t instance(std::uint32_t primitive) const {
+    return moves ? callbacks->instances->moving()[primitive] : primitive;
+  }
+};
+
 namespace detail {
 
-/// Transforms the `size` rays of a packet in which Embree keeps them; those that it does not take become invalid.
 template <int size>
-void transform_rays(const AffineRecord<float>& object_from_world, RTCRayN* rays, int* valid) {
-  using F = FloatLanes<size == 1 ? 4 : size>;
+using InstanceLanes = FloatLanes<size == 1 ? 4 : size>;
+
+/// The map of an instance that moves, for each ray of a packet at its own time.
+template <int size>
+AffineRecord<InstanceLanes<size>> moving_map(const InstanceTable& instances, std::uint32_t instance, RTCRayN* rays,
+                                             const int* valid) {
+  using F = InstanceLanes<size>;
+  alignas(64) float columns[12][size] = {};
+  for (int lane = 0; lane < size; ++lane) {
+    if (valid[lane] == 0) continue;
+    const float time = RTCRayN_time(rays, size, static_cast<unsigned>(lane));
+    const auto numbers = std::bit_cast<std::array<float, 12>>(instances.maps(instance, time).object_from_world);
+    for (std::size_t i = 0; i < 12; ++i) columns[i][lane] = numbers[i];
+  }
+  const auto vector = [&](std::size_t first) {
+    return Vec3<F>(load_lanes<F>(columns[first], size), load_lanes<F>(columns[first + 1], size),
+                   load_lanes<F>(columns[first + 2], size));
+  };
+  return {vector(0), vector(3), vector(6), vector(9)};
+}
+
+/// Transforms the `size` rays of a packet in which Embree keeps them; those that it does not take become invalid.
+template <int size, class T>
+void transform_rays(const AffineRecord<T>& object_from_world, RTCRayN* rays, int* valid) {
+  using F = InstanceLanes<size>;
   constexpr auto n = static_cast<unsigned>(size);
   const auto load = [](const float& lanes) { return load_lanes<F>(&lanes, size); };
   const Vec3<F> origin = apply_point(
@@ -66,6 +102,15 @@ void transform_rays(const AffineRecord<float>& object_from_world, RTCRayN* rays,
   store(RTCRayN_dir_z(rays, n, 0), direction.z);
 }
 
+/// The same by an instance's map. What moves is a geometry of its own, whose primitives are counted through it alone.
+template <int size>
+void transform_rays(const InstanceTable& instances, std::uint32_t instance, RTCRayN* rays, int* valid) {
+  if (instances.moves(instance)) [[unlikely]]
+    transform_rays<size>(moving_map<size>(instances, instance, rays, valid), rays, valid);
+  else
+    transform_rays<size>(instances.object_from_world(instance), rays, valid);
+}
+
 /// What is instanced, as the rays of a query that is under way see it: its callbacks keep their hits under the
 /// instance's number.
 class InInstance {
@@ -83,16 +128,18 @@ class InInstance {
 
 template <int size>
 void intersect_instance(const RTCIntersectFunctionNArguments* arguments) {
-  const auto& callbacks = *static_cast<const InstanceCallbacks*>(arguments->geometryUserPtr);
+  const auto& geometry = *static_cast<const InstanceGeometry*>(arguments->geometryUserPtr);
+  const InstanceCallbacks& callbacks = *geometry.callbacks;
+  const std::uint32_t instance = geometry.instance(arguments->primID);
   auto& nearest = *reinterpret_cast<embree::NearestHits*>(arguments->context);
-  const InstanceTarget& target = callbacks.instances->target(arguments->primID);
+  const InstanceTarget& target = callbacks.instances->target(instance);
   typename embree::AnyPacket<size>::RayHit packet;
   std::memcpy(&packet, arguments->rayhit, sizeof packet);
   alignas(64) int valid[size];
   std::copy_n(arguments->valid, size, valid);
   auto* const rays = reinterpret_cast<RTCRayN*>(&packet);
-  transform_rays<size>(callbacks.instances->object_from_world(arguments->primID), rays, valid);
-  const std::uint32_t number = callbacks.instances->number(arguments->primID);
+  transform_rays<size>(*callbacks.instances, instance, rays, valid);
+  const std::uint32_t number = callbacks.instances->number(instance);
   {
     const InInstance here(nearest, number);
     if (target.is_shape) {
@@ -127,17 +174,19 @@ void intersect_instance(const RTCIntersectFunctionNArguments* arguments) {
 
 template <int size>
 void occlude_instance(const RTCOccludedFunctionNArguments* arguments) {
-  const auto& callbacks = *static_cast<const InstanceCallbacks*>(arguments->geometryUserPtr);
+  const auto& geometry = *static_cast<const InstanceGeometry*>(arguments->geometryUserPtr);
+  const InstanceCallbacks& callbacks = *geometry.callbacks;
+  const std::uint32_t instance = geometry.instance(arguments->primID);
   auto& nearest = *reinterpret_cast<embree::NearestHits*>(arguments->context);
-  const InstanceTarget& target = callbacks.instances->target(arguments->primID);
+  const InstanceTarget& target = callbacks.instances->target(instance);
   typename embree::AnyPacket<size>::Ray packet;
   std::memcpy(&packet, arguments->ray, sizeof packet);
   alignas(64) int valid[size];
   std::copy_n(arguments->valid, size, valid);
   auto* const rays = reinterpret_cast<RTCRayN*>(&packet);
-  transform_rays<size>(callbacks.instances->object_from_world(arguments->primID), rays, valid);
+  transform_rays<size>(*callbacks.instances, instance, rays, valid);
   {
-    const InInstance here(nearest, callbacks.instances->number(arguments->primID));
+    const InInstance here(nearest, callbacks.instances->number(instance));
     if (target.is_shape) {
       const InstanceCallbacks::Shape& shape = callbacks.shape(target);
       RTCOccludedFunctionNArguments inner = *arguments;
@@ -185,16 +234,24 @@ inline void occlude_instances(const RTCOccludedFunctionNArguments* arguments) {
 }
 
 inline void instance_bounds(const RTCBoundsFunctionArguments* arguments) {
-  const auto& callbacks = *static_cast<const InstanceCallbacks*>(arguments->geometryUserPtr);
-  set_bounds(*arguments->bounds_o, callbacks.instances->bounds(arguments->primID));
+  const auto& geometry = *static_cast<const InstanceGeometry*>(arguments->geometryUserPtr);
+  const InstanceTable& instances = *geometry.callbacks->instances;
+  const std::uint32_t instance = geometry.instance(arguments->primID);
+  if (geometry.moves)
+    set_bounds(*arguments->bounds_o, instances.bounds_at(instance, arguments->timeStep));
+  else
+    set_bounds(*arguments->bounds_o, instances.moves(instance) ? empty_bounds : instances.bounds(instance));
 }
 
 }  // namespace detail
 
-/// The callbacks for a user geometry of all instances; what they need must outlive it.
-inline void set_callbacks(RTCGeometry geometry, InstanceCallbacks& callbacks) {
-  rtcSetGeometryUserData(geometry, &callbacks);
-  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(callbacks.instances->size()));
+/// The callbacks for a user geometry of instances, which must outlive it.
+inline void set_callbacks(RTCGeometry geometry, InstanceGeometry& instances) {
+  const InstanceTable& table = *instances.callbacks->instances;
+  rtcSetGeometryUserData(geometry, &instances);
+  rtcSetGeometryUserPrimitiveCount(geometry,
+                                   static_cast<unsigned>(instances.moves ? table.moving().size() : table.size()));
+  if (instances.moves) rtcSetGeometryTimeStepCount(geometry, shutter_moments);
   rtcSetGeometryBoundsFunction(geometry, &detail::instance_bounds, nullptr);
   rtcSetGeometryIntersectFunction(geometry, &detail::intersect_instances);
   rtcSetGeometryOccludedFunction(geometry, &detail::occlude_instances);

@@ -48,10 +48,11 @@ SurfaceUv<FloatN> surface_uv(const GeometryTable& world, const Hits& hits, const
   const UintN instance = select_lanes(in_instance, hits.instance, UintN(0u));
   SurfaceInteraction<FloatN> local = surface;
   if (hits.in_instances) {
-    const auto to_world = world.instances().world_from_object(instance);
+    const auto to_world = world.instances().world_from_object(instance, hits.time);
     const Vec3<FloatN>& n = surface.ng;
     const Vec3<FloatN> normal{dot(to_world.x, n), dot(to_world.y, n), dot(to_world.z, n)};
-    local.p = select(in_instance, apply_point(world.instances().object_from_world(instance), surface.p), surface.p);
+    local.p = select(in_instance, apply_point(world.instances().object_from_world(instance, hits.time), surface.p),
+                     surface.p);
     local.ng = select(in_instance, normalize(normal), n);
   }
   world.for_each_geometry(hits, [&](const GeometryTable& table, std::uint32_t geometry, const MaskN& here) {
@@ -66,7 +67,7 @@ SurfaceUv<FloatN> surface_uv(const GeometryTable& world, const Hits& hits, const
     });
   });
   if (hits.in_instances) {
-    const auto world_from_object = world.instances().world_from_object(instance);
+    const auto world_from_object = world.instances().world_from_object(instance, hits.time);
     result.dpdu = select(in_instance, apply_vector(world_from_object, result.dpdu), result.dpdu);
     result.dpdv = select(in_instance, apply_vector(world_from_object, result.dpdv), result.dpdv);
   }

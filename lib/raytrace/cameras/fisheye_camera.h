@@ -15,9 +15,10 @@ namespace raytrace {
 class FisheyeCamera {
  public:
   struct Parameters {
-    Vec3d eye{}, lookat{};  ///< they differ
-    Vec3d up{0, 1, 0};      ///< if parallel to the view direction, another is picked
-    double angle = 180;     ///< degrees from edge to edge of the circle, at most 360
+    Vec3d eye{}, lookat{};                     ///< they differ
+    Vec3d up{0, 1, 0};                         ///< if parallel to the view direction, another is picked
+    double angle = 180;                        ///< degrees from edge to edge of the circle, at most 360
+    double shutteropen = 0, shutterclose = 0;  ///< frames after the current one
   };
   static constexpr std::string_view name = "fisheye";  ///< as --list cameras shows it
   static constexpr std::string_view element = "fisheyecamera";
@@ -30,7 +31,7 @@ class FisheyeCamera {
     if (parameters.angle > 360)
       return ParameterDiagnostic{ParameterDiagnostic::Effect::error,
                                  "the <angle> of a fisheye camera is at most 360 degrees: all around"};
-    return check_view(parameters.eye, parameters.lookat);
+    return check_view(parameters);
   }
 
   static CameraMatrices matrices(const Parameters& parameters, const ViewPlane&) {

@@ -13,15 +13,14 @@ namespace raytrace {
 class OrthographicCamera {
  public:
   struct Parameters {
-    Vec3d eye{}, lookat{};  ///< they differ
-    Vec3d up{0, 1, 0};      ///< if parallel to the view direction, another is picked
+    Vec3d eye{}, lookat{};                     ///< they differ
+    Vec3d up{0, 1, 0};                         ///< if parallel to the view direction, another is picked
+    double shutteropen = 0, shutterclose = 0;  ///< frames after the current one
   };
   static constexpr std::string_view name = "orthographic";  ///< as --list cameras shows it
   static constexpr std::string_view element = "orthographiccamera";
   static Fields fields() { return view_fields<Parameters>(); }
-  static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {
-    return check_view(parameters.eye, parameters.lookat);
-  }
+  static std::optional<ParameterDiagnostic> check(const Parameters& parameters) { return check_view(parameters); }
 
   static CameraMatrices matrices(const Parameters& parameters, const ViewPlane& viewplane) {
     const double x_scale = 1 / (viewplane.pixelsize * viewplane.hres),

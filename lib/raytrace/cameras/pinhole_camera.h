@@ -18,7 +18,8 @@ class PinholeCamera {
     Vec3d eye{}, lookat{};  ///< they differ
     Vec3d up{0, 1, 0};      ///< if parallel to the view direction, another is picked
     double viewdistance = 0;
-    double fov = 0;  ///< of files alone, in degrees; load_scene() sets viewdistance by it
+    double fov = 0;                            ///< of files alone, in degrees; load_scene() sets viewdistance by it
+    double shutteropen = 0, shutterclose = 0;  ///< frames after the current one
   };
   static constexpr std::string_view name = "pinhole";  ///< as --list cameras shows it
   static constexpr std::string_view element = "camera";

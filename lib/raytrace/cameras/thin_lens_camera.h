@@ -25,6 +25,7 @@ class ThinLensCamera {
     int blades = 0;            ///< corners of the lens, on a circle of lensradius; 0: it is round
     double bladerotation = 0;  ///< degrees that the first corner is turned from the right towards the top
     double fov = 0;            ///< of files alone, in degrees; load_scene() sets viewdistance by it
+    double shutteropen = 0, shutterclose = 0;  ///< frames after the current one
   };
   static constexpr std::string_view name = "thinlens";  ///< as --list cameras shows it
   static constexpr std::string_view element = "thinlenscamera";

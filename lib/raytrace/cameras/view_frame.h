@@ -33,7 +33,8 @@ struct ViewFrame {
 template <class Parameters>
 Fields view_fields() {
   return {required("eye", &Parameters::eye, a_point), required("lookat", &Parameters::lookat, a_point),
-          optional("up", &Parameters::up, Range::nonzero)};
+          optional("up", &Parameters::up, Range::nonzero), optional("shutteropen", &Parameters::shutteropen),
+          optional("shutterclose", &Parameters::shutterclose)};
 }
 
 /// The same of one with a view plane at `viewdistance`.
@@ -48,19 +49,23 @@ Fields perspective_shorthands() {
   return {shorthand("fov", &Parameters::fov, Range::positive, "viewdistance")};
 }
 
-/// What is wrong with a camera's eye and lookat.
-inline std::optional<ParameterDiagnostic> check_view(const Vec3d& eye, const Vec3d& lookat) {
-  if (length(eye - lookat) >= smallest_size) return std::nullopt;
-  return ParameterDiagnostic{ParameterDiagnostic::Effect::error,
-                             "the camera's <eye> and <lookat> are the same point: it looks nowhere"};
+/// What is wrong with a camera's eye and lookat, or with its shutter.
+template <class Parameters>
+std::optional<ParameterDiagnostic> check_view(const Parameters& parameters) {
+  using enum ParameterDiagnostic::Effect;
+  if (length(parameters.eye - parameters.lookat) < smallest_size)
+    return ParameterDiagnostic{error, "the camera's <eye> and <lookat> are the same point: it looks nowhere"};
+  if (parameters.shutterclose < parameters.shutteropen)
+    return ParameterDiagnostic{
+        error, "the camera's shutter closes before it opens: <shutterclose> is less than <shutteropen>"};
+  return std::nullopt;
 }
 
 /// The same, and with its field of view.
 template <class Parameters>
 std::optional<ParameterDiagnostic> check_perspective(const Parameters& parameters) {
   constexpr double least = 1e-6;
-  if (parameters.fov == 0 || (parameters.fov >= least && parameters.fov < 180))
-    return check_view(parameters.eye, parameters.lookat);
+  if (parameters.fov == 0 || (parameters.fov >= least && parameters.fov < 180)) return check_view(parameters);
   return ParameterDiagnostic{ParameterDiagnostic::Effect::error,
                              "the camera's <fov> is an angle of at least 0.000001 and less than 180 degrees"};
 }

@@ -76,7 +76,7 @@ class KeysReader {
     if (!fine_) return false;
     std::vector<Key> keys;
     for (const KeyElement& read : keys_) keys.push_back(read.key);
-    const std::array<double, 4> components = value_at(keys, context_.variables.frame());
+    const std::array<double, 4> components = value_at(keys, context_.variables.moment());
     for (std::size_t i = 0; i < values.size(); ++i) *values[i] = components[i];
     return true;
   }

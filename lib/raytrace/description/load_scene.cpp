@@ -16,6 +16,7 @@
 #include "raytrace/description/check_groups.h"
 #include "raytrace/description/include.h"
 #include "raytrace/description/load_images.h"
+#include "raytrace/description/motion.h"
 #include "raytrace/description/read_items.h"
 #include "raytrace/description/scene_files.h"
 #include "raytrace/parallel/worker_count.h"
@@ -379,11 +380,31 @@ SceneDescription read_scene(TextBuffer text, const std::string& file, Diagnostic
   return reader.take();
 }
 
+/// What of the scene moves while its shutter is open.
+void read_motion(SceneDescription& scene, std::string_view text, const std::string& file, Diagnostics& diagnostics,
+                 int threads, const SceneSettings& settings) {
+  const Shutter shutter = shutter_of(scene.camera);
+  if (!shutter.is_open()) return;
+  std::vector<SceneDescription> moments;
+  for (int i = 0; i < shutter_moments; ++i) {
+    SceneSettings at_moment = settings;
+    at_moment.after_frame = shutter.moment(i);
+    Diagnostics of_moment(diagnostics.file());
+    moments.push_back(read_scene(TextBuffer(text), file, of_moment, threads, at_moment));
+    if (!of_moment.has_errors()) continue;
+    const Diagnostic& first = of_moment.kept().front();
+    diagnostics.error(first.location, "while the shutter is open: " + first.message);
+    return;
+  }
+  add_motion(scene, moments, diagnostics);
+}
+
 }  // namespace
 
 std::optional<SceneDescription> parse_scene(std::string_view text, Diagnostics& diagnostics, int threads,
                                             const SceneSettings& settings) {
   SceneDescription scene = read_scene(TextBuffer(text), {}, diagnostics, threads, settings);
+  if (!diagnostics.has_errors()) read_motion(scene, text, {}, diagnostics, threads, settings);
   if (diagnostics.has_errors()) return std::nullopt;
   return scene;
 }
@@ -392,8 +413,13 @@ std::optional<SceneDescription> load_scene(const std::string& file, Diagnostics&
                                            const SceneSettings& settings) {
   std::optional<TextBuffer> text = read_text_file(file, threads, diagnostics);
   if (!text) return std::nullopt;
+  // The text may be needed again, at other moments; standard input is read but once.
+  const bool may_move = text->text().find("shutterclose") != std::string_view::npos ||
+                        text->text().find(Include::element) != std::string_view::npos;
+  const std::string again(may_move ? text->text() : std::string_view());
   SceneDescription scene = read_scene(std::move(*text), file, diagnostics, threads, settings);
   scene.file = file;
+  if (!diagnostics.has_errors()) read_motion(scene, again, file, diagnostics, threads, settings);
   // Beside other errors, too, so that one run reports what is wrong with the files.
   load_images(scene, diagnostics, threads, settings.missing_texture);
   if (diagnostics.has_errors()) return std::nullopt;

@@ -141,6 +141,8 @@ struct ObjectItem<Object> {
   MaterialReference material = no_material;  ///< where there is one, of all its objects
   std::uint32_t line = 0;
   Transform transform = {};
+  /// Of an instance that moves while the shutter is open: its transform at each moment (motion.h).
+  std::vector<Affine> motion{};
 };
 
 template <class T>
@@ -175,9 +177,10 @@ struct SceneDescription {
   std::string file;  ///< as given on the command line; "-" for standard input
   ViewPlane viewplane;
   CameraParameters camera;
-  std::optional<IntegratorParameters> integrator;     ///< none: the file leaves it open
-  TupleOf<Lights, LightItems>::type lights;           ///< std::get<LightItems<PointLight>>(lights)
-  TupleOf<Textures, TextureItems>::type textures;     ///< std::get<TextureItems<Checker>>(textures)
+  std::vector<CameraParameters> moving_camera;     ///< at each moment while the shutter is open, if it moves (motion.h)
+  std::optional<IntegratorParameters> integrator;  ///< none: the file leaves it open
+  TupleOf<Lights, LightItems>::type lights;        ///< std::get<LightItems<PointLight>>(lights)
+  TupleOf<Textures, TextureItems>::type textures;  ///< std::get<TextureItems<Checker>>(textures)
   TupleOf<Materials, MaterialItems>::type materials;  ///< std::get<MaterialItems<Matte>>(materials)
   ObjectLists objects;                                ///< std::get<ObjectItems<Sphere>>(objects)
   std::vector<Group> groups;

@@ -25,10 +25,16 @@ class SceneHash {
       if constexpr (std::is_same_v<T, ViewPlane>) {
         add_parameters(element_type<T>().fields, &parameters, {"samples", "viewtransform", "exposure", "autoexposure"});
       } else {
+        // What moves counts, not when the shutter opens and closes.
         add(T::element);
-        add_parameters(element_type<T>().fields, &parameters);
+        add_parameters(element_type<T>().fields, &parameters, {"shutteropen", "shutterclose"});
       }
     });
+    for (const CameraParameters& moment : scene.moving_camera)
+      for_each_type(Cameras{}, [&]<class T>(std::type_identity<T>) {
+        if (const auto* parameters = std::get_if<typename T::Parameters>(&moment))
+          add_parameters(element_type<T>().fields, parameters, {"shutteropen", "shutterclose"});
+      });
     for_each_item_type([&]<class Section, class T>(std::type_identity<Section>, std::type_identity<T>) {
       add_type<T>(items_of<Section, T>(scene));
     });
@@ -78,6 +84,9 @@ class SceneHash {
             for (std::size_t k = 0; k < step.value_count(); ++k) hash.add(step.values[k]);
           }
         }
+        if constexpr (requires { item.motion; })
+          for (const Affine& map : item.motion)
+            for (const Vec3d& column : {map.x, map.y, map.z, map.origin}) hash.add(column);
         if constexpr (requires { item.name; }) hash.add(item.name);
         if constexpr (requires { item.material; }) hash.add_reference(item.material);
         if constexpr (requires { item.textures; }) {

@@ -29,7 +29,7 @@ std::string with_dollars_doubled(std::string_view text) {
   return doubled;
 }
 
-Variables::Variables(const SceneSettings& settings) : frame_(settings.frame) {
+Variables::Variables(const SceneSettings& settings) : frame_(settings.frame), after_frame_(settings.after_frame) {
   for (const auto& [name, value] : settings.variables) variables_[name].value = value;
   Variable& frame = variables_[std::string(frame_variable)];
   frame.value = std::to_string(settings.frame);

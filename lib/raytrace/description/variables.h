@@ -29,6 +29,7 @@ struct SceneSettings {
   int frame = 1;                                 ///< the value of $frame, and the moment at which keys are evaluated
   std::map<std::string, std::string> variables;  ///< name -> value; none is called "frame" (see is_variable_name)
   MissingTexture missing_texture = MissingTexture::error;
+  double after_frame = 0;  ///< so many frames after it keys are evaluated
 };
 
 /// The variable that need not be set.
@@ -45,6 +46,8 @@ class Variables {
   explicit Variables(const SceneSettings& settings);
 
   int frame() const { return frame_; }
+  /// The moment at which keys are evaluated.
+  double moment() const { return frame_ + after_frame_; }
 
   /// In bytes, with the values put in: of a text, and of all texts together as of a scene's file (scene_text.h). A
   /// short text may have a long value many times.
@@ -74,6 +77,7 @@ class Variables {
   std::string explain_unset(std::string_view name) const;
 
   int frame_;
+  double after_frame_;
   mutable std::atomic<std::size_t> scene_length_ = 0;
   std::map<std::string, Variable, std::less<>> variables_;
 };

@@ -17,6 +17,9 @@ namespace raytrace {
 /// What a sample's numbers are for. A new one comes last: the others' numbers stay what they are.
 enum class Dimension : std::uint32_t { lens, first_of_path };
 
+/// When the rays of a sample are sent: none of those above.
+inline constexpr Dimension time_dimension{0x20000000U};
+
 /// What a path draws at each of its points.
 enum class PathDraw : std::uint32_t { direction, lobe_and_roulette, light, light_point, count };
 

@@ -110,6 +110,8 @@ EmitterTable::EmitterTable(const GeometryTable& world, std::span<const MaterialE
   add_table(world, {}, materials, emissions);
   const InstanceTable& instances = world.instances();
   for (std::size_t i = 0; i < instances.size(); ++i) {
+    // Those that move are met by chance alone.
+    if (instances.moves(i)) continue;
     const InstanceTarget& target = instances.target(i);
     const GeometryTable& table =
         target.group == InstanceTarget::no_group ? world : *world.groups()[static_cast<std::size_t>(target.group)];

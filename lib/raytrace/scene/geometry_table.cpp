@@ -20,6 +20,17 @@ Affine moved(Affine affine, const Vec3d& origin) {
   return affine;
 }
 
+/// Where something is: one map, or one for each moment while the shutter is open.
+using Maps = std::vector<Affine>;
+
+/// First the inner ones.
+Maps composed(const Maps& outer, const Maps& inner) {
+  Maps maps;
+  for (std::size_t i = 0; i < std::max(outer.size(), inner.size()); ++i)
+    maps.push_back(outer[outer.size() == 1 ? 0 : i] * inner[inner.size() == 1 ? 0 : i]);
+  return maps;
+}
+
 }  // namespace
 
 GeometryTable::GeometryTable(const ObjectLists& objects, const Vec3d& origin,
@@ -122,34 +133,38 @@ void GeometryTable::add_instances(const SceneDescription& description, const Vec
     return first_materials[item.material.type] + static_cast<std::int32_t>(item.material.index);
   };
   // An instance of a group is one of its own objects, and one of each instance in it.
-  const auto add_group = [&](const auto& self, const ObjectItem<Instance>& item, const Affine& outer,
-                             std::int32_t object, std::int32_t outer_material) -> void {
+  const auto add = [&](const InstanceTarget& target, const Maps& maps, const Bounds& box, std::int32_t object,
+                       std::int32_t material) {
+    if (maps.size() == 1)
+      instances_.add(target, maps.front(), box, object, material);
+    else
+      instances_.add_moving(target, maps, box, object, material);
+  };
+  const auto add_group = [&](const auto& self, const ObjectItem<Instance>& item, const Maps& outer, std::int32_t object,
+                             std::int32_t outer_material) -> void {
     const std::size_t number = numbers.at(item.parameters.group.name);
     const GeometryTable& group = *groups_[number];
-    const Affine affine = outer * item.transform.affine();
+    const Maps maps = composed(outer, item.motion.empty() ? Maps{item.transform.affine()} : item.motion);
     const std::int32_t material = material_number(item, outer_material);
     if (group.bounds_.lower.x <= group.bounds_.upper.x)
-      instances_.add({static_cast<std::int32_t>(number)}, affine, transformed_bounds(affine, group.bounds_), object,
-                     material);
+      add({static_cast<std::int32_t>(number)}, maps, group.bounds_, object, material);
     for (const TransformedShape& shape : group.transformed_) {
-      const Affine both = affine * shape.affine;
       InstanceTarget target = shape.target;
       target.group = static_cast<std::int32_t>(number);
-      instances_.add(target, both, transformed_bounds(both, shape.bounds), object, material);
+      add(target, composed(maps, {shape.affine}), shape.bounds, object, material);
     }
     for (const auto& inner : std::get<ObjectItems<Instance>>(description.groups[number].objects))
-      self(self, inner, affine, object, material);
+      self(self, inner, maps, object, material);
   };
-  const Affine to_origin = moved({}, origin);
+  const Maps to_origin{moved({}, origin)};
   for (const auto& item : std::get<ObjectItems<Instance>>(description.objects)) {
     add_group(add_group, item, to_origin, static_cast<std::int32_t>(object_materials_.size()), -1);
     object_materials_.push_back(std::max(0, material_number(item, -1)));
   }
   for (const TransformedShape& shape : transformed_) {
-    const Affine affine = to_origin * shape.affine;
     const std::int32_t object =
         geometries_[shape.target.shape_type].first_object + static_cast<std::int32_t>(shape.target.primitive);
-    instances_.add(shape.target, affine, transformed_bounds(affine, shape.bounds), object, -1);
+    add(shape.target, composed(to_origin, {shape.affine}), shape.bounds, object, -1);
   }
 }
 

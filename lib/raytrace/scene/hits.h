@@ -16,6 +16,7 @@ struct Hits {
   UintN geometry;  ///< index in the GeometryTable of the world or of the instance's group
   IntN primitive;  ///< index among the geometry's
   FloatN u, v;     ///< barycentric coordinates on triangles
+  FloatN time{0};  ///< of the rays, from the opening of the shutter, 0, to its closing, 1
 
   bool in_instances = false;  ///< whether any lane hit one
 
@@ -48,6 +49,7 @@ inline Hits select(const MaskN& mask, const Hits& a, const Hits& b) {
   hits.primitive = select_lanes(mask, a.primitive, b.primitive);
   hits.u = select(mask, a.u, b.u);
   hits.v = select(mask, a.v, b.v);
+  hits.time = select(mask, a.time, b.time);
   hits.find_first();
   return hits;
 }

@@ -1,5 +1,10 @@
 #include "raytrace/scene/instance_table.h"
 
+#include <algorithm>
+#include <array>
+
+#include "raytrace/description/motion.h"
+
 namespace raytrace {
 
 namespace {
@@ -8,16 +13,53 @@ AffineRecord<float> to_float(const Affine& a) { return {Vec3f(a.x), Vec3f(a.y), 
 
 }  // namespace
 
-void InstanceTable::add(const InstanceTarget& target, const Affine& world_from_object, const Bounds& bounds,
+void InstanceTable::add(const InstanceTarget& target, const Affine& world_from_object, const Bounds& box,
                         std::int32_t object, std::int32_t material) {
   targets_.push_back(target);
   world_from_object_.push_back(to_float(world_from_object));
   object_from_world_.push_back(to_float(world_from_object.inverse()));
-  bounds_.push_back(bounds);
+  bounds_.push_back(transformed_bounds(world_from_object, box));
   scales_.push_back(static_cast<float>(world_from_object.uniform_scale().value_or(0)));
   groups_.push_back(target.group);
   objects_.push_back(object);
   materials_.push_back(material);
+  first_moments_.push_back(-1);
+}
+
+void InstanceTable::add_moving(const InstanceTarget& target, std::span<const Affine> world_from_object,
+                               const Bounds& box, std::int32_t object, std::int32_t material) {
+  moving_.push_back(static_cast<std::uint32_t>(targets_.size()));
+  add(target, world_from_object.front(), box, object, material);
+  first_moments_.back() = static_cast<std::int32_t>(moments_.size());
+  for (const Affine& map : world_from_object) {
+    moments_.push_back(map);
+    // Between two moments all points move straight, and so stay in the box that moves as these do.
+    moving_bounds_.push_back(transformed_bounds(map, box));
+    bounds_.back() = join(bounds_.back(), moving_bounds_.back());
+  }
+}
+
+InstanceTable::Maps InstanceTable::maps(std::size_t i, float time) const {
+  if (!moves(i)) return {world_from_object_[i], object_from_world_[i]};
+  // NaN is the first moment.
+  const double place = time > 0 ? std::min(double{time}, 1.0) * (shutter_moments - 1) : 0;
+  const int before = std::min(static_cast<int>(place), shutter_moments - 2);
+  const double part = place - before;
+  const Affine* const moment = &moments_[static_cast<std::size_t>(first_moments_[i] + before)];
+  const auto between = [&](Vec3d Affine::* column) {
+    return moment[0].*column * (1 - part) + moment[1].*column * part;
+  };
+  const Affine map{between(&Affine::x), between(&Affine::y), between(&Affine::z), between(&Affine::origin)};
+  return {to_float(map), to_float(map.inverse())};
+}
+
+AffineRecord<FloatN> InstanceTable::moving_map(const UintN& number, const FloatN& time,
+                                               AffineRecord<float> Maps::* map) const {
+  std::array<AffineRecord<float>, packet_lanes> of_lanes;
+  const IntN indices = index(number);
+  for (std::size_t lane = 0; lane < packet_lanes; ++lane)
+    of_lanes[lane] = maps(static_cast<std::size_t>(indices.get(lane)), time.get(lane)).*map;
+  return gather_records<AffineRecord, FloatN>(of_lanes.data(), LaneIndices(lane_numbers<IntN>()));
 }
 
 Bounds transformed_bounds(const Affine& affine, const Bounds& box) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "raytrace/math/affine.h"
@@ -53,9 +54,12 @@ class InstanceTable {
   /// world count as its other objects do: as if their number were 0.
   static constexpr std::uint32_t shape_of_world = 0x80000000;
 
-  /// material: in place of the objects' own; -1: none.
-  void add(const InstanceTarget& target, const Affine& world_from_object, const Bounds& bounds, std::int32_t object,
+  /// material: in place of the objects' own; -1: none. box: around what is instanced, before the map.
+  void add(const InstanceTarget& target, const Affine& world_from_object, const Bounds& box, std::int32_t object,
            std::int32_t material);
+  /// One that moves: its maps at each moment while the shutter is open (description/motion.h).
+  void add_moving(const InstanceTarget& target, std::span<const Affine> world_from_object, const Bounds& box,
+                  std::int32_t object, std::int32_t material);
 
   bool empty() const { return targets_.empty(); }
   std::size_t size() const { return targets_.size(); }
@@ -66,22 +70,38 @@ class InstanceTable {
   }
   static std::size_t index_of(std::uint32_t number) { return (number & ~shape_of_world) - 1; }
   const InstanceTarget& target(std::size_t i) const { return targets_[i]; }
-  const Bounds& bounds(std::size_t i) const { return bounds_[i]; }  ///< in the world
+  const Bounds& bounds(std::size_t i) const { return bounds_[i]; }  ///< in the world, all the time
   const AffineRecord<float>& object_from_world(std::size_t i) const { return object_from_world_[i]; }
   const AffineRecord<float>& world_from_object(std::size_t i) const { return world_from_object_[i]; }
+  bool moves(std::size_t i) const { return first_moments_[i] >= 0; }
+  /// Those that move, in their order.
+  const std::vector<std::uint32_t>& moving() const { return moving_; }
+  /// In the world, at a moment.
+  const Bounds& bounds_at(std::size_t i, std::size_t moment) const {
+    return moving_bounds_[static_cast<std::size_t>(first_moments_[i]) + moment];
+  }
+  struct Maps {
+    AffineRecord<float> world_from_object, object_from_world;
+  };
+  /// Of instance i, at a time from 0, when the shutter opens, to 1, when it closes.
+  Maps maps(std::size_t i, float time) const;
   /// By how much it scales all lengths; 0: not all by the same.
   float scale(std::size_t i) const { return scales_[i]; }
   const std::vector<std::int32_t>& materials() const { return materials_; }
 
-  // Of lanes: number is 0 where they hit none. Those get what the first instance has.
+  // Of lanes: number is 0 where they hit none. Those get what the first instance has. time: as of maps().
 
   IntN group(const UintN& number) const { return gather(groups_.data(), index(number)); }
   IntN object(const UintN& number) const { return gather(objects_.data(), index(number)); }
   IntN material(const UintN& number) const { return gather(materials_.data(), index(number)); }
-  AffineRecord<FloatN> object_from_world(const UintN& number) const {
+  AffineRecord<FloatN> object_from_world(const UintN& number, const FloatN& time) const {
+    if (!moving_.empty()) [[unlikely]]
+      return moving_map(number, time, &Maps::object_from_world);
     return gather_records<AffineRecord, FloatN>(object_from_world_.data(), LaneIndices(index(number)));
   }
-  AffineRecord<FloatN> world_from_object(const UintN& number) const {
+  AffineRecord<FloatN> world_from_object(const UintN& number, const FloatN& time) const {
+    if (!moving_.empty()) [[unlikely]]
+      return moving_map(number, time, &Maps::world_from_object);
     return gather_records<AffineRecord, FloatN>(world_from_object_.data(), LaneIndices(index(number)));
   }
 
@@ -91,11 +111,18 @@ class InstanceTable {
            select_lanes(float_mask<FloatN>(number == UintN(0u)), IntN(0), IntN(1));
   }
 
+  AffineRecord<FloatN> moving_map(const UintN& number, const FloatN& time, AffineRecord<float> Maps::* map) const;
+
   std::vector<InstanceTarget> targets_;
   std::vector<AffineRecord<float>> object_from_world_, world_from_object_;
   std::vector<Bounds> bounds_;
   std::vector<float> scales_;
   std::vector<std::int32_t> groups_, objects_, materials_;
+  // Of those that move, all moments of one after the other.
+  std::vector<std::int32_t> first_moments_;  ///< of each instance, among them; -1: it stands still
+  std::vector<std::uint32_t> moving_;
+  std::vector<Affine> moments_;
+  std::vector<Bounds> moving_bounds_;
 };
 
 /// Around a box under a map.

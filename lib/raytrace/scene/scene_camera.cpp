@@ -1,6 +1,9 @@
 // The camera of SceneTables.
+#include <bit>
 #include <variant>
 
+#include "raytrace/description/motion.h"
+#include "raytrace/sampling/ray_ids.h"
 #include "raytrace/scene/scene_tables.h"
 
 namespace raytrace {
@@ -26,11 +29,13 @@ void SceneTables::set_camera(const SceneDescription& description) {
     if (parameters == nullptr) return;
     const Kernel<Type> camera(moved<Type>(*parameters), viewplane_);
     camera_ = camera;
+    for (const CameraParameters& moment : description.moving_camera)
+      moving_camera_.push_back(Kernel<Type>(moved<Type>(std::get<typename Type::Parameters>(moment)), viewplane_));
     camera_has_lens_ = has_lens<Kernel<Type>>;
     set_ray_cone(camera);
     camera_eye_ = Vec3f(parameters->eye - origin_);
     if constexpr (requires { camera.origin(); })
-      if (!camera_is_far()) camera_origin_ = BufferOrigin{camera.origin()};
+      if (!camera_is_far() && moving_camera_.empty()) camera_origin_ = BufferOrigin{camera.origin()};
     const CameraMatrices matrices = Type::matrices(*parameters, viewplane_);
     const float* const m = matrices.world_to_camera;  // its third column turns points into -z, behind the camera
     viewing_direction_ = Vec3f(-m[2], -m[6], -m[10]);
@@ -66,13 +71,43 @@ std::optional<FilmPoint> SceneTables::project(const Vec3d& p, const Sample2D& le
       *camera_);
 }
 
+template <class F, class CameraKernel>
+Ray<F> SceneTables::rays_of(const CameraKernel& camera, const FloatN& x, const FloatN& y, const Sample2D& lens,
+                            const CameraRays& ids) const {
+  if (moving_camera_.empty()) [[likely]]
+    return generate<F>(camera, F(x), F(y), lens);
+  const FloatN place = RayIds{ids.pixel, ids.sample, 0}.times() * FloatN(shutter_moments - 1);
+  const IntN before = min(to_int(place), IntN(shutter_moments - 2));
+  const F part(place - to_float(before));
+  Ray<F> result = generate<F>(camera, F(x), F(y), lens);
+  for (MaskN left(true); any(left);) {
+    const auto moment =
+        static_cast<std::size_t>(before.get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(left)))));
+    const FloatN number(static_cast<float>(moment));
+    const F whole(to_float(before));
+    const auto here = (whole > F(number - FloatN(0.5F))) & (whole < F(number + FloatN(0.5F)));
+    const auto at = [&](std::size_t i) {
+      return generate<F>(std::get<CameraKernel>(moving_camera_[i]), F(x), F(y), lens);
+    };
+    const Ray<F> a = at(moment), b = at(moment + 1);
+    result.origin = select(here, a.origin + (b.origin - a.origin) * part, result.origin);
+    result.direction = select(here, normalize(a.direction + (b.direction - a.direction) * part), result.direction);
+    left = left & (to_float(before) != number);
+  }
+  return result;
+}
+
 MaskN SceneTables::set_camera_rays(const FloatN& x, const FloatN& y, const Sample2D& lens, CameraRays& result) const {
   return std::visit(
       [&](const auto& camera) {
-        if (camera_is_far())
-          result = rays_at(*camera_target_, generate<Doubles<FloatN>>(camera, x, y, lens));
-        else
-          result = {generate<FloatN>(camera, x, y, lens), FloatN(0)};
+        if (camera_is_far()) {
+          const CameraRays far = rays_at(*camera_target_, rays_of<Doubles<FloatN>>(camera, x, y, lens, result));
+          result.rays = far.rays;
+          result.skipped = far.skipped;
+        } else {
+          result.rays = rays_of<FloatN>(camera, x, y, lens, result);
+          result.skipped = FloatN(0);
+        }
         if constexpr (requires { camera.has_ray(x, y); })
           return camera.has_ray(x, y);
         else

@@ -61,8 +61,11 @@ class SceneTables {
   bool camera_has_lens() const { return camera_has_lens_; }
   /// Where the picture shows p, by way of the lens' point for that lane: FilmPoint. None: nowhere.
   std::optional<FilmPoint> project(const Vec3d& p, const Sample2D& lens, std::size_t lane) const;
-  /// The camera, if it is of the first type, whose rays always exist, and is not far away, as most are; else null.
-  const auto* usual_camera() const { return camera_is_far() ? nullptr : std::get_if<0>(&*camera_); }
+  /// The camera, if it is of the first type, whose rays always exist, and is not far away and stands still, as most do;
+  /// else null.
+  const auto* usual_camera() const {
+    return camera_is_far() || !moving_camera_.empty() ? nullptr : std::get_if<0>(&*camera_);
+  }
   /// Whether the camera is so far away from all objects with bounds that its rays start at them.
   bool camera_is_far() const { return camera_target_.has_value(); }
   const Vec3f& camera_eye() const { return camera_eye_; }
@@ -130,6 +133,10 @@ class SceneTables {
 
   /// Whether some rays pass a surface of the scene, since its material has an opacity.
   bool has_cutouts() const { return has_cutouts_; }
+  /// Whether the camera or instances move while the shutter is open.
+  bool has_motion() const { return !moving_camera_.empty() || !geometry_->instances().moving().empty(); }
+  /// Whether queries must know which rays theirs are (accel/cutouts.h).
+  bool identifies_rays() const { return has_cutouts_ || has_motion(); }
   /// Whether that may be of a material.
   bool is_cutout(std::int32_t material) const { return details_[static_cast<std::size_t>(material)].is_cutout(); }
   /// A material's opacity, at least 1 where all rays meet the surface. point(): where the surface is hit.
@@ -215,6 +222,10 @@ class SceneTables {
   static SurfaceDetail surface_detail(const MaterialItem<Material>& item);
   template <class CameraKernel>
   void set_ray_cone(const CameraKernel& camera);
+  /// ids: the pixels and samples, which say when the rays of a camera that moves are sent.
+  template <class F, class CameraKernel>
+  Ray<F> rays_of(const CameraKernel& camera, const FloatN& x, const FloatN& y, const Sample2D& lens,
+                 const CameraRays& ids) const;
   void add_materials(const SceneDescription& description);
   void add_caustics();
 
@@ -227,7 +238,8 @@ class SceneTables {
   FilterTable pixel_filter_;
   IntegratorParameters integrator_;
   std::optional<KernelVariant<Cameras>::type> camera_;
-  std::optional<BoundingSphere> camera_target_;  ///< around all objects with bounds, if it is far
+  std::vector<KernelVariant<Cameras>::type> moving_camera_;  ///< at each moment while the shutter is open
+  std::optional<BoundingSphere> camera_target_;              ///< around all objects with bounds, if it is far
   Vec3f camera_eye_{}, viewing_direction_{};
   bool depth_is_distance_ = false, camera_has_lens_ = false;
   std::optional<BufferOrigin> camera_origin_;

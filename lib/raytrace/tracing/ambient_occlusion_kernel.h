@@ -35,10 +35,10 @@ class Kernel<AmbientOcclusion> {
       // Below the true surface there is the thing itself.
       const MaskN upwards = met.hits.hit & (dot(rays.direction, surface.ng) > FloatN(0));
       counts.shadow += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(upwards & counted)));
-      const MaskN occluded = scene.tables().has_cutouts()
-                                 ? occluded_with_cutouts(scene, rays, upwards, ray_keys(camera.pixel, camera.sample, 1),
-                                                         Coherence::incoherent)
-                                 : scene.accelerator().occluded(rays, upwards, Coherence::incoherent);
+      const MaskN occluded =
+          scene.tables().identifies_rays()
+              ? occluded_identified(scene, rays, upwards, {camera.pixel, camera.sample, 1}, Coherence::incoherent)
+              : scene.accelerator().occluded(rays, upwards, Coherence::incoherent);
       const FloatN white = select(upwards & !occluded, FloatN(1), FloatN(0));
       return Rgb<FloatN>{white, white, white};
     });

@@ -10,11 +10,10 @@ namespace raytrace {
 inline Hits intersect_camera_rays(const TracedScene& scene, CameraRays& camera, const MaskN& active) {
   Ray<FloatN>& rays = camera.rays;
   const auto intersect = [&](Ray<FloatN>& some, const MaskN& lanes, const DirectionBuffer* buffer) {
-    if (!scene.tables().has_cutouts()) [[likely]]
+    if (!scene.tables().identifies_rays()) [[likely]]
       return scene.accelerator().intersect(some, lanes, Coherence::coherent, buffer);
-    const CutoutQuery query{scene.tables(), scene.accelerator(), some, ray_keys(camera.pixel, camera.sample, 0),
-                            &camera};
-    return scene.accelerator().intersect(some, lanes, Coherence::coherent, nullptr, &query);
+    const RayIdentity identity(scene.tables(), scene.accelerator(), some, {camera.pixel, camera.sample, 0}, &camera);
+    return scene.accelerator().intersect(some, lanes, Coherence::coherent, nullptr, &identity);
   };
   Hits hits = intersect(rays, active, scene.camera_buffer());
   if (!scene.tables().camera_is_far()) return hits;

@@ -29,10 +29,11 @@ RAYTRACE_INLINE std::optional<TexturePoint<FloatN>> add_textures(const SceneTabl
   return point;
 }
 
-[[gnu::noinline]] inline MaskN occluded_with_cutouts(const TracedScene& scene, const Ray<FloatN>& rays,
-                                                     const MaskN& active, const UintN& keys, Coherence coherence) {
-  const CutoutQuery query{scene.tables(), scene.accelerator(), rays, keys};
-  return scene.accelerator().occluded(rays, active, coherence, nullptr, &query);
+/// In scenes that identify their rays.
+[[gnu::noinline]] inline MaskN occluded_identified(const TracedScene& scene, const Ray<FloatN>& rays,
+                                                   const MaskN& active, const RayIds& ids, Coherence coherence) {
+  const RayIdentity identity(scene.tables(), scene.accelerator(), rays, ids);
+  return scene.accelerator().occluded(rays, active, coherence, nullptr, &identity);
 }
 
 /// The random numbers of a point's shadow rays, each for its light.
@@ -41,8 +42,7 @@ struct ShadowNumbers {
   const UintN& sample;
   std::uint32_t before;  ///< what of the sample's rays came before the first of them
 
-  /// Rays' hashes, as accel/cutouts.h has them.
-  UintN keys(std::size_t light) const { return ray_keys(pixel, sample, number(light)); }
+  RayIds ids(std::size_t light) const { return {pixel, sample, number(light)}; }
   /// The place on the light.
   Sample2D place(std::size_t light) const { return get_2d(pixel, sample, shadow_dimension(number(light))); }
 
@@ -93,8 +93,8 @@ RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const SceneTa
       end(Stage::lights);
       counts.shadow += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(lit & counted)));
       const MaskN occluded =
-          tables.has_cutouts()
-              ? occluded_with_cutouts(scene, shadow_rays, lit, numbers.keys(number), coherence)
+          tables.identifies_rays()
+              ? occluded_identified(scene, shadow_rays, lit, numbers.ids(number), coherence)
               : scene.accelerator().occluded(shadow_rays, lit, Coherence::coherent, scene.light_buffer(number));
       lit = lit & !occluded;
       end(Stage::trace);

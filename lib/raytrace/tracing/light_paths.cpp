@@ -19,9 +19,9 @@ namespace {
 
 std::uint64_t count_of(const MaskN& lanes) { return static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(lanes))); }
 
-/// The keys of a path's rays, by what they are among them.
-UintN keys(const LightPathPacket& path, std::uint32_t purpose) {
-  return ray_keys(path.pixel, path.sample, purpose | 0x40000000U);
+/// A path's rays, by what they are among them.
+RayIds ray_ids(const LightPathPacket& path, std::uint32_t purpose) {
+  return {path.pixel, path.sample, purpose | 0x40000000U};
 }
 
 }  // namespace
@@ -71,9 +71,10 @@ void LightPaths::trace(const Pixels& pixels, const UintN& samples, const MaskN& 
 Hits LightPaths::intersect(const LightPathPacket& path, Ray<FloatN>& rays, const MaskN& lanes) {
   report_->rays.indirect += count_of(lanes);
   rays.far = infinity<FloatN>();
-  if (!tables_.has_cutouts()) return scene_.accelerator().intersect(rays, lanes, Coherence::incoherent);
-  const CutoutQuery query{tables_, scene_.accelerator(), rays, keys(path, static_cast<std::uint32_t>(path.depth) * 2)};
-  return scene_.accelerator().intersect(rays, lanes, Coherence::incoherent, nullptr, &query);
+  if (!tables_.identifies_rays()) return scene_.accelerator().intersect(rays, lanes, Coherence::incoherent);
+  const RayIdentity identity(tables_, scene_.accelerator(), rays,
+                             ray_ids(path, static_cast<std::uint32_t>(path.depth) * 2));
+  return scene_.accelerator().intersect(rays, lanes, Coherence::incoherent, nullptr, &identity);
 }
 
 void LightPaths::follow(LightPathPacket& path, MaskN alive) {
@@ -124,9 +125,10 @@ void LightPaths::follow(LightPathPacket& path, MaskN alive) {
           !path.from_point;
       if (any(far)) {
         const Ray<FloatN> back{from, -path.rays.direction, FloatN(0), infinity<FloatN>()};
-        const MaskN hidden = tables_.has_cutouts() ? occluded_with_cutouts(scene_, back, far, keys(path, ~0U >> 2U),
-                                                                           Coherence::incoherent)
-                                                   : scene_.accelerator().occluded(back, far, Coherence::incoherent);
+        const MaskN hidden =
+            tables_.identifies_rays()
+                ? occluded_identified(scene_, back, far, ray_ids(path, ~0U >> 2U), Coherence::incoherent)
+                : scene_.accelerator().occluded(back, far, Coherence::incoherent);
         alive = alive & !hidden;
       }
     }
@@ -235,9 +237,9 @@ void LightPaths::connect(LightPathPacket& path, const Hits& hits, const SurfaceI
   ray.far = FloatN(1);
   report_->rays.shadow += count_of(arrives);
   const MaskN hidden =
-      tables_.has_cutouts()
-          ? occluded_with_cutouts(scene_, ray, arrives, keys(path, static_cast<std::uint32_t>(path.depth) * 2 + 1),
-                                  Coherence::incoherent)
+      tables_.identifies_rays()
+          ? occluded_identified(scene_, ray, arrives, ray_ids(path, static_cast<std::uint32_t>(path.depth) * 2 + 1),
+                                Coherence::incoherent)
           : scene_.accelerator().occluded(ray, arrives, Coherence::incoherent);
   for (std::uint32_t left = bits_of<FloatN>(arrives & !hidden); left != 0; left &= left - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(left));

@@ -167,11 +167,11 @@ MediumBoundary PathBatch::find_boundary(PathPacket& path, MediumStack& media, Hi
     counts.indirect += count(lanes);
     // Surfaces that are not there hide lights from shadow rays: from here on, paths alone bring theirs.
     path.pdf = select(lanes, infinity<FloatN>(), path.pdf);
-    const UintN keys =
-        ray_keys(path.pixel, path.sample, 0x20000000U | static_cast<std::uint32_t>(depth) << 8U | (passes++ & 0xFFU));
-    const CutoutQuery query{tables, scene_.accelerator(), rays, keys};
+    const RayIdentity identity(
+        tables, scene_.accelerator(), rays,
+        {path.pixel, path.sample, 0x20000000U | static_cast<std::uint32_t>(depth) << 8U | (passes++ & 0xFFU)});
     const Hits next = scene_.accelerator().intersect(rays, lanes, Coherence::incoherent, nullptr,
-                                                     tables.has_cutouts() ? &query : nullptr);
+                                                     tables.identifies_rays() ? &identity : nullptr);
     if (const MaskN escaped = lanes & !next.hit; any(escaped)) {
       const Ray<FloatN> last = path.rays;
       path.rays = rays;
@@ -235,7 +235,7 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   // The numbers of keys: one for each ray of a point, the next point's own first.
   const auto lights = static_cast<std::uint32_t>(tables.lights().size());
   const std::uint32_t first_key = static_cast<std::uint32_t>(depth) * (lights + 2);
-  const auto key = [&](std::uint32_t ray) { return ray_keys(path.pixel, path.sample, first_key + ray); };
+  const auto ids = [&](std::uint32_t ray) { return RayIds{path.pixel, path.sample, first_key + ray}; };
   const auto draw = [&](PathDraw what) { return get_2d(path.pixel, path.sample, path_dimension(depth, what)); };
   const Coherence coherence = depth == 0 ? Coherence::coherent : Coherence::incoherent;
   std::vector<Sums>& sums = depth == 0 ? direct_ : indirect_;
@@ -267,7 +267,7 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   clock_.end(Stage::shade);
   if (any(drawn.lit)) {
     Rgb<FloatN> arriving =
-        arriving_light(scene_, vertex, drawn, scattering.towards, coherence, key(lights + 1), counts, clock_);
+        arriving_light(scene_, vertex, drawn, scattering.towards, coherence, ids(lights + 1), counts, clock_);
     if (has_media) arriving = arriving * tables.media().transmittance(boundary.current, drawn.distance());
     light += arriving;
   }
@@ -316,9 +316,9 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   rays.far = infinity<FloatN>();
   counts.indirect += count(alive);
   clock_.end(Stage::shade);
-  if (tables.has_cutouts()) {
-    const CutoutQuery query{tables, scene_.accelerator(), rays, key(lights + 2)};
-    hits = scene_.accelerator().intersect(rays, alive, Coherence::incoherent, nullptr, &query);
+  if (tables.identifies_rays()) {
+    const RayIdentity identity(tables, scene_.accelerator(), rays, ids(lights + 2));
+    hits = scene_.accelerator().intersect(rays, alive, Coherence::incoherent, nullptr, &identity);
   } else {
     hits = scene_.accelerator().intersect(rays, alive, Coherence::incoherent);
   }

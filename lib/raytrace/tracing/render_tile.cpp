@@ -122,16 +122,17 @@ class BlockRenderer {
       const MaskN wanted = all_wanted ? active : active & in_range(sample, left.lane_first, UintN(left.last));
       const Sample2D point = sampler.next();
       CameraRays camera;
-      MaskN traced = active;
-      if (usual_camera_ != nullptr) [[likely]] {
-        camera = {usual_camera_->template generate<FloatN>(x + point.x, y + point.y), FloatN(0)};
-      } else {
-        traced = active & set_camera_rays(block, FloatN(x), FloatN(y), Sample2D(point), UintN(sample), camera);
-      }
-      if ((!raycast && integrator_.takes_samples) || scene_.tables().has_cutouts() ||
+      if ((!raycast && integrator_.takes_samples) || scene_.tables().identifies_rays() ||
           scene_.tables().has_sampled_lights()) [[unlikely]] {
         camera.pixel = pixel_hash(UintN(column), UintN(row), film_.settings().seed);
         camera.sample = sample;
+      }
+      MaskN traced = active;
+      if (usual_camera_ != nullptr) [[likely]] {
+        camera.rays = usual_camera_->template generate<FloatN>(x + point.x, y + point.y);
+        camera.skipped = FloatN(0);
+      } else {
+        traced = active & set_camera_rays(block, FloatN(x), FloatN(y), Sample2D(point), UintN(sample), camera);
       }
       FirstHits* const first_hits = aovs != nullptr ? &first : nullptr;
       RayResult result;

@@ -99,7 +99,7 @@ inline DrawnLight draw_light(const SceneTables& tables, const PathVertex& vertex
 /// What of it leaves the vertex along wo: over the density of the draw, times its share beside directions that the BSDF
 /// draws. bsdf: for wo and the light's direction.
 inline Rgb<FloatN> arriving_light(const TracedScene& scene, const PathVertex& vertex, const DrawnLight& light,
-                                  const BsdfValue& bsdf, Coherence coherence, const UintN& keys, RayCounts& counts,
+                                  const BsdfValue& bsdf, Coherence coherence, const RayIds& ids, RayCounts& counts,
                                   StageClock& clock) {
   const SceneTables& tables = scene.tables();
   const float environment_share = environment_share_of(tables);
@@ -118,8 +118,8 @@ inline Rgb<FloatN> arriving_light(const TracedScene& scene, const PathVertex& ve
   if (none(lit)) return black;
   counts.shadow += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(lit)));
   clock.end(Stage::lights);
-  const MaskN occluded = tables.has_cutouts() ? occluded_with_cutouts(scene, light.ray, lit, keys, coherence)
-                                              : scene.accelerator().occluded(light.ray, lit, coherence);
+  const MaskN occluded = tables.identifies_rays() ? occluded_identified(scene, light.ray, lit, ids, coherence)
+                                                  : scene.accelerator().occluded(light.ray, lit, coherence);
   clock.end(Stage::trace);
   return select(lit & !occluded, radiance, black);
 }

@@ -1,0 +1,33 @@
+// What moves while the camera's shutter is open.
+//
+// The scene is read once more for each of some moments from the opening of the shutter to its closing. Where keys give
+// other values there, the camera has its parameters, and an object its transform, at each moment; between two moments
+// all move straight on. An object that moves becomes an instance of a group of its own, so that instances are all that
+// moves behind this.
+#pragma once
+
+#include <vector>
+
+#include "raytrace/description/scene_description.h"
+
+namespace raytrace {
+
+/// So many moments: the first when the shutter opens, the last when it closes, at even distances. A turn by 90 degrees
+/// between them is followed to a thousandth of its radius.
+inline constexpr int shutter_moments = 17;
+
+/// In frames after the scene's.
+struct Shutter {
+  double open = 0, close = 0;
+
+  bool is_open() const { return close > open; }
+  double moment(int i) const { return open + (close - open) * i / (shutter_moments - 1); }
+};
+Shutter shutter_of(const CameraParameters& camera);
+
+/// Adds what moves to the scene. moments: what the scene's file says at each. An object that moves by its own numbers
+/// must keep its form and size, or it is an error, as are objects that are not there all the time. Keys of other things
+/// than the camera and objects are a warning: those stay as they are at the frame.
+void add_motion(SceneDescription& scene, const std::vector<SceneDescription>& moments, Diagnostics& diagnostics);
+
+}  // namespace raytrace
