@@ -1,0 +1,142 @@
+// Pictures of what moves while the shutter is open: the mean of those of its moments.
+#include <cmath>
+#include <string>
+
+#include "raytrace/description/motion.h"
+#include "render/scenes.h"
+#include "support/catch.h"
+#include "support/contains.h"
+#include "support/sanitized.h"
+
+namespace raytrace::test {
+
+namespace {
+
+const std::string shutter_open = "<shutteropen>-0.25</shutteropen><shutterclose>0.75</shutterclose>";
+const std::string still_eye = "<eye x='0' y='2' z='12'/><lookat x='0' y='0' z='0'/>";
+
+/// A floor and a wall under a lamp, with objects. Keys are around frame 1.
+std::string motion_scene(const std::string& objects, const std::string& camera, int samples,
+                         const std::string& groups = {}) {
+  return scene_text(
+      48, 32, samples,
+      "<lights><ambientlight><scaleradiance>0.2</scaleradiance></ambientlight><pointlights><pointlight>"
+      "<location x='4' y='9' z='6'/><scaleradiance>2</scaleradiance></pointlight></pointlights></lights>"
+      "<materials><mattes><matte><name>grey</name><ka>1</ka><kd>0.8</kd><cd red='0.8' green='0.8' blue='0.8'/></matte>"
+      "<matte><name>red</name><ka>1</ka><kd>0.8</kd><cd red='1' green='0.1' blue='0.1'/></matte></mattes></materials>"
+      "<objects><planes><plane><point x='0' y='-2' z='0'/><normal x='0' y='1' z='0'/><material>grey</material></plane>"
+      "</planes>" +
+          objects + "</objects><groups>" + groups + "</groups>",
+      camera);
+}
+
+SceneDescription at_moment(const std::string& text, double after_frame) {
+  Diagnostics diagnostics("scene.xml");
+  SceneSettings settings;
+  settings.after_frame = after_frame;
+  auto scene = parse_scene(text, diagnostics, 1, settings);
+  REQUIRE(scene.has_value());
+  REQUIRE(load_meshes(*scene, diagnostics, 1));
+  return std::move(*scene);
+}
+
+/// The mean over all channels and pixels of the difference between the picture with an open shutter and the mean of
+/// pictures of still scenes, and the largest difference of a pixel.
+struct Differences {
+  double mean, largest;
+};
+Differences compare_with_moments(const std::string& objects, const std::string& camera,
+                                 const std::string& groups = {}) {
+  const FloatPicture moving = rendered(parsed_scene(motion_scene(objects, camera + shutter_open, 1024, groups)));
+  constexpr int moments = 64;
+  std::vector<double> mean(moving.pixels().size() * 3);
+  for (int i = 0; i < moments; ++i) {
+    const FloatPicture still =
+        rendered(at_moment(motion_scene(objects, camera, 16, groups), -0.25 + (i + 0.5) / moments));
+    for (std::size_t pixel = 0; pixel < still.pixels().size(); ++pixel) {
+      mean[3 * pixel] += double{still.pixels()[pixel].red} / moments;
+      mean[3 * pixel + 1] += double{still.pixels()[pixel].green} / moments;
+      mean[3 * pixel + 2] += double{still.pixels()[pixel].blue} / moments;
+    }
+  }
+  Differences result{0, 0};
+  for (std::size_t pixel = 0; pixel < moving.pixels().size(); ++pixel) {
+    const double red = double{moving.pixels()[pixel].red} - mean[3 * pixel];
+    const double green = double{moving.pixels()[pixel].green} - mean[3 * pixel + 1];
+    const double blue = double{moving.pixels()[pixel].blue} - mean[3 * pixel + 2];
+    result.mean += (red + green + blue) / static_cast<double>(mean.size());
+    result.largest = std::max({result.largest, std::abs(red), std::abs(green), std::abs(blue)});
+  }
+  return result;
+}
+
+std::string keys(const std::string& element, const std::string& first, const std::string& last) {
+  return "<" + element + "><key frame='0' " + first + "/><key frame='2' " + last + "/></" + element + ">";
+}
+
+const std::string moving_ball = "<spheres><sphere>" + keys("center", "x='-4' y='0' z='0'", "x='4' y='0' z='0'") +
+                                "<radius>1.5</radius><material>red</material></sphere></spheres>";
+const std::string turning_box =
+    "<boxes><box><min x='-2' y='-1' z='-1'/><max x='2' y='1' z='1'/><material>red</material><transform>" +
+    keys("rotate", "x='0' y='1' z='0' angle='0'", "x='0' y='1' z='0' angle='90'") +
+    keys("translate", "x='0' y='-1' z='0'", "x='0' y='1' z='0'") + "</transform></box></boxes>";
+const std::string mesh_group =
+    "<group><name>thing</name><objects><meshes><mesh><positions>1 0 0, -1 0 0, 0 1 0, 0 -1 0, 0 0 1, 0 0 -1</positions>"
+    "<faces>0 2 4 2 1 4 1 3 4 3 0 4 2 0 5 1 2 5 3 1 5 0 3 5</faces><normals>smooth</normals><material>red</material>"
+    "</mesh></meshes><spheres><sphere><center x='1' y='1' z='0'/><radius>0.5</radius><material>grey</material>"
+    "<transform><scale x='1' y='2' z='1'/></transform></sphere></spheres></objects></group>";
+const std::string moving_instance =
+    "<instances><instance><group>thing</group><transform><scale x='2' y='2' z='2'/>" +
+    keys("rotate", "x='0' y='0' z='1' angle='-40'", "x='0' y='0' z='1' angle='80'") +
+    keys("translate", "x='-2' y='0' z='0'", "x='2' y='1' z='0'") + "</transform></instance></instances>";
+const std::string moving_eye = keys("eye", "x='-2' y='2' z='12'", "x='2' y='2' z='12'") +
+                               keys("lookat", "x='0' y='-1' z='0'", "x='0' y='1' z='0'");
+
+}  // namespace
+
+TEST_CASE("what moves by its own numbers, a transform, as an instance or as the camera is blurred as it moves") {
+  struct Case {
+    const char* what;
+    std::string objects, camera, groups;
+  };
+  for (const Case& one : {Case{"a ball", moving_ball, still_eye, ""}, Case{"a box that turns", turning_box, still_eye, ""},
+                          Case{"an instance", moving_instance, still_eye, mesh_group},
+                          Case{"the camera", turning_box, moving_eye, ""}}) {
+    INFO(one.what);
+    const Differences found = compare_with_moments(one.objects, one.camera, one.groups);
+    CHECK(std::abs(found.mean) < 2e-4);
+    CHECK(found.largest < 0.04);
+  }
+}
+
+TEST_CASE("the bits of what moves do not depend on how the work is cut") {
+  check_same_bits(parsed_scene(motion_scene(moving_ball + turning_box + moving_instance, moving_eye + shutter_open, 16,
+                                            mesh_group)));
+}
+
+TEST_CASE("a scene in which nothing moves is the same with an open shutter") {
+  const std::string ball =
+      "<spheres><sphere><center x='0' y='0' z='0'/><radius>1.5</radius><material>red</material></sphere></spheres>";
+  const SceneDescription open = parsed_scene(motion_scene(ball, still_eye + shutter_open, 4));
+  const SceneDescription closed = parsed_scene(motion_scene(ball, still_eye, 4));
+  CHECK(identical(rendered(open), rendered(closed)));
+  CHECK(scene_hash(open) == scene_hash(closed));
+  CHECK(scene_hash(parsed_scene(motion_scene(moving_ball, still_eye + shutter_open, 4))) !=
+        scene_hash(parsed_scene(motion_scene(moving_ball, still_eye, 4))));
+}
+
+TEST_CASE("what cannot be blurred is said") {
+  const auto message = [](const std::string& text) {
+    Diagnostics diagnostics("scene.xml");
+    (void)parse_scene(text, diagnostics);
+    return diagnostics.kept().empty() ? std::string() : diagnostics.kept().front().message;
+  };
+  CHECK(contains(message(motion_scene("<spheres><sphere><center x='0' y='0' z='0'/><radius><key frame='0' value='1'/>"
+                                      "<key frame='2' value='2'/></radius><material>red</material></sphere></spheres>",
+                                      still_eye + shutter_open, 4)),
+                 "this <sphere> changes its form while the shutter is open"));
+  CHECK(contains(message(motion_scene(moving_ball, still_eye + "<shutteropen>1</shutteropen>", 4)),
+                 "closes before it opens"));
+}
+
+}  // namespace raytrace::test
