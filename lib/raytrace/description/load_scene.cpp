@@ -380,23 +380,16 @@ SceneDescription read_scene(TextBuffer text, const std::string& file, Diagnostic
   return reader.take();
 }
 
-/// What of the scene moves while its shutter is open.
-void read_motion(SceneDescription& scene, std::string_view text, const std::string& file, Diagnostics& diagnostics,
-                 int threads, const SceneSettings& settings) {
-  const Shutter shutter = shutter_of(scene.camera);
-  if (!shutter.is_open()) return;
-  std::vector<SceneDescription> moments;
-  for (int i = 0; i < shutter_moments; ++i) {
+/// What of the scene moves, if its shutter is open.
+void add_motion(SceneDescription& scene, std::string_view text, Diagnostics& diagnostics, int threads,
+                const SceneSettings& settings) {
+  if (diagnostics.has_errors()) return;
+  const auto read = [&](double after_frame, Diagnostics& of_moment) {
     SceneSettings at_moment = settings;
-    at_moment.after_frame = shutter.moment(i);
-    Diagnostics of_moment(diagnostics.file());
-    moments.push_back(read_scene(TextBuffer(text), file, of_moment, threads, at_moment));
-    if (!of_moment.has_errors()) continue;
-    const Diagnostic& first = of_moment.kept().front();
-    diagnostics.error(first.location, "while the shutter is open: " + first.message);
-    return;
-  }
-  add_motion(scene, moments, diagnostics);
+    at_moment.after_frame = after_frame;
+    return read_scene(TextBuffer(text), scene.file, of_moment, threads, at_moment);
+  };
+  add_motion(scene, read, diagnostics);
 }
 
 }  // namespace
@@ -404,7 +397,7 @@ void read_motion(SceneDescription& scene, std::string_view text, const std::stri
 std::optional<SceneDescription> parse_scene(std::string_view text, Diagnostics& diagnostics, int threads,
                                             const SceneSettings& settings) {
   SceneDescription scene = read_scene(TextBuffer(text), {}, diagnostics, threads, settings);
-  if (!diagnostics.has_errors()) read_motion(scene, text, {}, diagnostics, threads, settings);
+  add_motion(scene, text, diagnostics, threads, settings);
   if (diagnostics.has_errors()) return std::nullopt;
   return scene;
 }
@@ -419,7 +412,7 @@ std::optional<SceneDescription> load_scene(const std::string& file, Diagnostics&
   const std::string again(may_move ? text->text() : std::string_view());
   SceneDescription scene = read_scene(std::move(*text), file, diagnostics, threads, settings);
   scene.file = file;
-  if (!diagnostics.has_errors()) read_motion(scene, again, file, diagnostics, threads, settings);
+  add_motion(scene, again, diagnostics, threads, settings);
   // Beside other errors, too, so that one run reports what is wrong with the files.
   load_images(scene, diagnostics, threads, settings.missing_texture);
   if (diagnostics.has_errors()) return std::nullopt;

@@ -5,6 +5,8 @@
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <variant>
+#include <vector>
 
 namespace raytrace {
 
@@ -226,12 +228,19 @@ class MotionFinder {
 
 }  // namespace
 
-Shutter shutter_of(const CameraParameters& camera) {
-  return std::visit([](const auto& parameters) { return Shutter{parameters.shutteropen, parameters.shutterclose}; },
-                    camera);
-}
-
-void add_motion(SceneDescription& scene, const std::vector<SceneDescription>& moments, Diagnostics& diagnostics) {
+void add_motion(SceneDescription& scene, const std::function<SceneDescription(double, Diagnostics&)>& read,
+                Diagnostics& diagnostics) {
+  const auto [open, close] =
+      std::visit([](const auto& camera) { return std::pair(camera.shutteropen, camera.shutterclose); }, scene.camera);
+  if (!(close > open)) return;
+  std::vector<SceneDescription> moments;
+  for (int i = 0; i < shutter_moments; ++i) {
+    Diagnostics of_moment(diagnostics.file());
+    moments.push_back(read(open + (close - open) * i / (shutter_moments - 1), of_moment));
+    if (!of_moment.has_errors()) continue;
+    const Diagnostic& first = of_moment.kept().front();
+    return diagnostics.error(first.location, "while the shutter is open: " + first.message);
+  }
   MotionFinder(scene, moments, diagnostics).find();
 }
 

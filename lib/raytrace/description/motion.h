@@ -6,7 +6,7 @@
 // moves behind this.
 #pragma once
 
-#include <vector>
+#include <functional>
 
 #include "raytrace/description/scene_description.h"
 
@@ -16,18 +16,12 @@ namespace raytrace {
 /// between them is followed to a thousandth of its radius.
 inline constexpr int shutter_moments = 17;
 
-/// In frames after the scene's.
-struct Shutter {
-  double open = 0, close = 0;
-
-  bool is_open() const { return close > open; }
-  double moment(int i) const { return open + (close - open) * i / (shutter_moments - 1); }
-};
-Shutter shutter_of(const CameraParameters& camera);
-
-/// Adds what moves to the scene. moments: what the scene's file says at each. An object that moves by its own numbers
-/// must keep its form and size, or it is an error, as are objects that are not there all the time. Keys of other things
-/// than the camera and objects are a warning: those stay as they are at the frame.
-void add_motion(SceneDescription& scene, const std::vector<SceneDescription>& moments, Diagnostics& diagnostics);
+/// Adds what moves to the scene, if its camera's shutter is open for some time. read(after_frame, diagnostics): what
+/// the scene's file says so many frames after the scene's. An object that moves by its own numbers must keep its form
+/// and size, or it is an error, as are objects that are not there all the time. Keys of other things than the camera
+/// and objects are a warning: those stay as they are at the frame.
+void add_motion(SceneDescription& scene,
+                const std::function<SceneDescription(double after_frame, Diagnostics& diagnostics)>& read,
+                Diagnostics& diagnostics);
 
 }  // namespace raytrace
