@@ -177,8 +177,7 @@ class MotionFinder {
   template <class T>
   ObjectItem<Instance> in_group(ObjectItem<T> item, std::vector<Affine> motion) {
     ObjectItem<Instance> instance;
-    // No name of a file starts with a space.
-    instance.parameters.group.name = " moving " + std::to_string(++groups_made_);
+    instance.parameters.group.name = free_name();
     instance.name = std::exchange(item.name, {});
     instance.line = item.line;
     instance.transform = std::exchange(item.transform, {});
@@ -189,6 +188,15 @@ class MotionFinder {
     std::get<ObjectItems<T>>(group.objects).push_back(std::move(item));
     scene_.groups.push_back(std::move(group));
     return instance;
+  }
+
+  std::string free_name() {
+    while (true) {
+      std::string name = "moving#" + std::to_string(++groups_made_);
+      if (std::none_of(scene_.groups.begin(), scene_.groups.end(),
+                       [&](const Group& group) { return group.name == name; }))
+        return name;
+    }
   }
 
   void warn_of_others() {
