@@ -39,7 +39,7 @@ class PhotometricShare {
   FloatN share(const Vec3<FloatN>& direction) const {
     const FloatN x = dot(direction, Vec3<FloatN>(right_)), y = dot(direction, Vec3<FloatN>(ahead_));
     const auto steps = [](const FloatN& turns) { return turns * FloatN(720); };
-    const auto lower = [](const FloatN& x, int last) { return min(max(to_int(x), IntN(0)), IntN(last)); };
+    const auto lower = [](const FloatN& place, int last) { return min(max(to_int(place), IntN(0)), IntN(last)); };
     const FloatN row = steps(turns(sqrt(x * x + y * y), dot(direction, Vec3<FloatN>(axis_))));
     const IntN low = lower(row, Photometry::rows - 2);
     const auto mixed = [&](const IntN& first, const IntN& next, const FloatN& share) {

@@ -61,17 +61,17 @@ class Kernel<Image> {
     return texels_->tiles().empty() ? in_picture_at(point, uv, LaneIndices(0)) : in_tiles(point, uv);
   }
 
-  /// Each lane in the tile that its place is in. Nothing, not even opaque, is where there is none.
+  /// Each lane in the tile that its place is in. Where there is no tile, all is 0, alpha too.
   Rgba<FloatN> in_tiles(const TexturePoint<FloatN>& point, const Vec2<FloatN>& uv) const {
     const Vec2<FloatN> corner{floor(uv.x), floor(uv.y)};
     const std::vector<std::int32_t>& tiles = texels_->tiles();
     const auto columns = static_cast<float>(TexelImage::tile_columns);
     const float rows = static_cast<float>(tiles.size()) / columns;
-    const MaskN in_rows =
+    const MaskN in_grid =
         (corner.x >= FloatN(0)) & (corner.x < FloatN(columns)) & (corner.y >= FloatN(0)) & (corner.y < FloatN(rows));
-    const FloatN place = select(in_rows, multiply_add(corner.y, FloatN(columns), corner.x), FloatN(0));
+    const FloatN place = select(in_grid, multiply_add(corner.y, FloatN(columns), corner.x), FloatN(0));
     const IntN first = gather(tiles.data(), to_int(place));
-    const MaskN is_there = in_rows & float_mask<FloatN>(first >= IntN(0));
+    const MaskN is_there = in_grid & float_mask<FloatN>(first >= IntN(0));
     const Rgba<FloatN> found =
         in_picture_at(point, {uv.x - corner.x, uv.y - corner.y}, LaneIndices(max(first, IntN(0))));
     const FloatN zero(0);
@@ -94,8 +94,8 @@ class Kernel<Image> {
     const FloatN part = level - to_float(lower);
     // Most images by code of their own, without a choice of the format for each texel.
     const auto level_at = [&](const IntN& number) {
-      const IntN level = first.lanes() + number;
-      return is_usual() ? between_texels<true>(level, uv) : between_texels<false>(level, uv);
+      const IntN of_all = first.lanes() + number;
+      return is_usual() ? between_texels<true>(of_all, uv) : between_texels<false>(of_all, uv);
     };
     const Rgba<FloatN> sharper = level_at(lower);
     if (none(part > FloatN(0))) return sharper;

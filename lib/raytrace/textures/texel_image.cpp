@@ -97,8 +97,6 @@ Picture linear_floats(const Picture& picture) {
   return result;
 }
 
-std::string tile_name(int column, int row) { return std::to_string(1001 + column + TexelImage::tile_columns * row); }
-
 /// From texels of one number to opaque ones of four.
 void copy_grey(const std::byte* from, std::size_t count, TexelFormat format, std::byte* to) {
   const std::size_t bytes = bytes_of(format);
@@ -170,8 +168,8 @@ TexelImage TexelImage::of_tiles(std::vector<Tile> tiles) {
   for (const Tile& tile : tiles) {
     const TexelImage& image = tile.image;
     if (image.format_ != all.format_)
-      throw PictureError("the numbers of its tiles " + tile_name(first.column, first.row) + " and " +
-                         tile_name(tile.column, tile.row) + " have different formats");
+      throw PictureError("the numbers of its tiles " + std::to_string(udim_number(first.column, first.row)) + " and " +
+                         std::to_string(udim_number(tile.column, tile.row)) + " have different formats");
     all.channels_ = std::max(all.channels_, image.channels_);
     all.has_alpha_ = all.has_alpha_ || image.has_alpha_;
     all.largest_ = std::max(all.largest_, image.largest_);

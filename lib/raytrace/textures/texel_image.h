@@ -9,6 +9,7 @@
 
 #include "raytrace/memory/large_array.h"
 #include "raytrace/output/picture.h"
+#include "raytrace/textures/udim.h"
 
 namespace raytrace {
 
@@ -31,7 +32,7 @@ class TexelImage {
 
   /// One of several pictures, each of which covers a unit of u and v.
   struct Tile;
-  static constexpr int tile_columns = 10;
+  static constexpr int tile_columns = udim_columns;
 
   /// Of such tiles. Throws PictureError if their numbers have different formats or are too many.
   static TexelImage of_tiles(std::vector<Tile> tiles);

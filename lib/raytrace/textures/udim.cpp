@@ -11,7 +11,7 @@
 namespace raytrace {
 namespace {
 
-constexpr int first_number = 1001, last_number = 9999, columns = 10;
+constexpr int first_number = udim_number(0, 0), last_number = 9999;
 constexpr std::size_t digits = 4;
 
 /// What is before and behind the number in a file's name without its folder.
@@ -45,7 +45,7 @@ std::vector<UdimTile> find_udim_tiles(const std::string& file) {
     const auto [stop, wrong] = std::from_chars(first, first + digits, number);
     if (wrong != std::errc() || stop != first + digits || number < first_number || number > last_number) continue;
     const int place = number - first_number;
-    tiles.push_back({place % columns, place / columns, (path.parent_path() / name).string()});
+    tiles.push_back({place % udim_columns, place / udim_columns, (path.parent_path() / name).string()});
   }
   std::sort(tiles.begin(), tiles.end(), [](const UdimTile& a, const UdimTile& b) { return a.number() < b.number(); });
   return tiles;

@@ -7,11 +7,16 @@
 
 namespace raytrace {
 
+inline constexpr int udim_columns = 10;
+
+/// column, row: u and v of the tile's lower left corner, from 0.
+constexpr int udim_number(int column, int row) { return 1001 + column + udim_columns * row; }
+
 struct UdimTile {
-  int column, row;  ///< of its lower left corner: u and v, from 0; 10 columns
+  int column, row;
   std::string file;
 
-  int number() const { return 1001 + column + 10 * row; }
+  int number() const { return udim_number(column, row); }
 };
 
 /// Whether a file's name stands for those of tiles: it has <UDIM> or %(UDIM)d in place of their number.
