@@ -79,6 +79,20 @@ int bit_depth(const std::string& text) {
   return integer(text, 8, 16);
 }
 
+std::uint64_t byte_count(const std::string& text) {
+  constexpr std::string_view units = "KMGT";
+  std::string digits = text;
+  unsigned shift = 0;
+  if (const std::size_t unit = text.empty() ? units.npos : units.find(text.back()); unit != units.npos) {
+    shift = 10 * (static_cast<unsigned>(unit) + 1);
+    digits.pop_back();
+  }
+  const std::optional<std::uint64_t> value = number<std::uint64_t>(digits);
+  if (!value || *value > (std::numeric_limits<std::uint64_t>::max() >> shift))
+    throw UsageError(in_quotes(text) + " is not a size, such as 500M or 2G");
+  return *value << shift;
+}
+
 MissingTexture missing_texture(const std::string& text) {
   return one_of(text, {"error", "warn"}) == "warn" ? MissingTexture::warn : MissingTexture::error;
 }

@@ -50,6 +50,8 @@ std::uint64_t natural_number(const std::string& text);
 /// 8 or 16.
 int bit_depth(const std::string& text);
 MissingTexture missing_texture(const std::string& text);
+/// "1000", "500K", "20M", "2G" or "1T", by powers of 1024.
+std::uint64_t byte_count(const std::string& text);
 /// "front", "back", "side", "top", "iso", or "30,15".
 std::array<double, 2> model_view(const std::string& text);
 /// "-40,35": the second above 0, at most 90.

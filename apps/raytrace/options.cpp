@@ -108,7 +108,12 @@ void define_options(OptionParser& parser, Options& options) {
                         [&](const std::string& text) { define(text, options.variables); });
   parser.add("--missing-texture", "error|warn",
              "What a texture is whose file cannot be read: an error, or a warning and magenta (error)",
-             options.missing_texture, missing_texture, {"error", "warn"});
+             options.textures.missing, missing_texture, {"error", "warn"});
+  parser.add(
+      "--texture-memory", "SIZE",
+      "Keep so many bytes of textures in memory, e.g. 2G or 500M, the others in files in $TMPDIR or /var/tmp (half "
+      "of what is free)",
+      options.textures.memory, byte_count);
 
   const auto stage = [&]() -> ModelStage& {
     if (!options.stage) options.stage.emplace();

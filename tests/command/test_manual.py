@@ -43,8 +43,8 @@ class Manual(CommandTest):
             "--validate", "--print-scene", "--list", "--version", "-h", "--help", "--tile", "--sample-offset", "--pixel",
             "--time-limit", "--checkpoint", "--checkpoint-interval", "--resume", "--log-file", "--display-server",
             "--frames", "-D", "--define", "--skip-existing", "--aov", "--transparent", "--exposure",
-            "--integrator", "--missing-texture", "--view", "--camera", "--animation", "--fps", "--variant", "--up",
-            "--turntable", "--floor", "--environment", "--sun", "--view-transform", "--auto-exposure",
+            "--integrator", "--missing-texture", "--texture-memory", "--view", "--camera", "--animation", "--fps",
+            "--variant", "--up", "--turntable", "--floor", "--environment", "--sun", "--view-transform", "--auto-exposure",
             "--ocio", "--ocio-display", "--ocio-view", "--ocio-colorspace"})
 
     def test_man_page_has_the_same_options(self):

@@ -42,6 +42,13 @@ class Textures(CommandTest):
         magenta = [p for p in (png.pixel(x, y) for x in range(64) for y in range(48)) if p[0] > 100 and p[1] == 0]
         self.assertGreater(len(magenta), 100)
 
+    def test_the_memory_for_textures_does_not_change_the_picture(self):
+        wanted = Exr(self.render("there/scene.xml", "a.exr")).rows
+        self.assertEqual(Exr(self.render("there/scene.xml", "b.exr", "--texture-memory", "1K")).rows, wanted)
+        for wrong in ("much", "2g", "-1", "99999999999G"):
+            message = self.fail_with(2, "there/scene.xml", "-o", "c.exr", f"--texture-memory={wrong}")
+            self.assertIn("is not a size, such as 500M or 2G", message)
+
     def test_pieces_with_another_picture_are_not_merged(self):
         self.render("there/scene.xml", "1.exr", "--tile", "0/2")
         with open(self.picture, "ab") as file:

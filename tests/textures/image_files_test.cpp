@@ -1,7 +1,11 @@
 // Files of textures: what is read, and what is said of those that cannot be.
 #include <OpenImageIO/imageio.h>
 
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -125,11 +129,60 @@ TEST_CASE("a picture that cannot be read is an error in the line of its image, o
   CHECK(contains(messages, "half.png' cannot be used: "));
 
   SceneSettings settings;
-  settings.missing_texture = MissingTexture::warn;
+  settings.textures.missing = MissingTexture::warn;
   const auto scene = loaded(folder, scene_of("none.png"), messages, settings);
   REQUIRE(scene.has_value());
   CHECK(contains(messages, "it is magenta"));
   CHECK(texel_of(*image_of(*scene).color, 0, 0, 0, false) == Color4{1, 0, 1, 1});
+}
+
+TEST_CASE("texels beyond the memory for them lie in files, and are the same") {
+  const TemporaryFolder folder;
+  write_picture<std::uint8_t>(folder.file("a.png"), 64, 64, 1, OIIO::TypeUInt8, std::vector<std::uint8_t>(64 * 64, 77));
+  const auto mapped_files = [] {
+    std::ifstream maps("/proc/self/maps");
+    int count = 0;
+    for (std::string line; std::getline(maps, line);) count += contains(line, "(deleted)") ? 1 : 0;
+    return count;
+  };
+  const int before = mapped_files();
+  SceneSettings settings;
+  std::string messages;
+  settings.textures.memory = std::uint64_t{1} << 20U;
+  const auto in_memory = loaded(folder, scene_of("a.png"), messages, settings);
+  REQUIRE(in_memory.has_value());
+  CHECK(mapped_files() == before);
+  settings.textures.memory = 1000;
+  {
+    const auto in_file = loaded(folder, scene_of("a.png"), messages, settings);
+    REQUIRE(in_file.has_value());
+    CHECK(messages.empty());
+    CHECK(mapped_files() > before);
+    const TexelImage &a = *image_of(*in_memory).color, &b = *image_of(*in_file).color;
+    REQUIRE(a.bytes() == b.bytes());
+    CHECK(std::memcmp(a.texels(), b.texels(), a.bytes()) == 0);
+    CHECK(scene_hash(*in_memory) == scene_hash(*in_file));
+  }
+  CHECK(mapped_files() == before);
+}
+
+TEST_CASE("where no file can be written, texels stay in memory, with a warning") {
+  const TemporaryFolder folder;
+  write_picture<std::uint8_t>(folder.file("a.png"), 1, 1, 1, OIIO::TypeUInt8, {77});
+  const char* const usual = std::getenv("TMPDIR");
+  const std::string before = usual != nullptr ? usual : "";
+  setenv("TMPDIR", folder.file("none").c_str(), 1);
+  SceneSettings settings;
+  settings.textures.memory = 0;
+  std::string messages;
+  const auto scene = loaded(folder, scene_of("a.png"), messages, settings);
+  if (usual != nullptr)
+    setenv("TMPDIR", before.c_str(), 1);
+  else
+    unsetenv("TMPDIR");
+  REQUIRE(scene.has_value());
+  CHECK(contains(messages, "none: No such file or directory"));
+  CHECK(texel_of(*image_of(*scene).color, 0, 0, 0, false)[0] == 77 / 255.0);
 }
 
 TEST_CASE("a scene's hash has its textures' bytes") {
@@ -169,7 +222,7 @@ TEST_CASE("an environment's file is loaded, hashed and missed as a texture's is"
   CHECK(contains(messages, "3: the environment '"));
   CHECK(contains(messages, "none.exr' cannot be used: there is no such file"));
   SceneSettings settings;
-  settings.missing_texture = MissingTexture::warn;
+  settings.textures.missing = MissingTexture::warn;
   const auto magenta = loaded(folder, in("none.exr"), messages, settings);
   REQUIRE(magenta.has_value());
   CHECK(texel_of(*light(*magenta).image.color, 0, 0, 0, false) == Color4{1, 0, 1, 1});

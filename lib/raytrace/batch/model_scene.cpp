@@ -273,7 +273,7 @@ bool is_model(const std::string& file) {
 
 std::optional<SceneDescription> load_model(const std::string& file, const ModelStage& stage, std::optional<int> frame,
                                            int width, int height, Diagnostics& diagnostics, int threads,
-                                           MissingTexture missing_texture) {
+                                           const TextureSettings& textures) {
   SceneDescription description;
   description.file = file;
   description.viewplane.hres = width;
@@ -287,7 +287,7 @@ std::optional<SceneDescription> load_model(const std::string& file, const ModelS
   animate(mesh.parameters, stage, frame);
   if (stage.z_is_up) mesh.transform.steps.push_back({TransformStep::rotate, {1, 0, 0, -90}});
   std::get<ObjectItems<Mesh>>(description.objects).push_back(mesh);
-  if (!load_meshes(description, diagnostics, threads, missing_texture)) return std::nullopt;
+  if (!load_meshes(description, diagnostics, threads, textures)) return std::nullopt;
   if (!data_of(description).animation_end) {
     // So that a printed scene does not ask for what is not there.
     auto& parameters = std::get<ObjectItems<Mesh>>(description.objects).front().parameters;
@@ -337,7 +337,7 @@ std::optional<SceneDescription> load_model(const std::string& file, const ModelS
     add_even_sky(description);
   } else {
     add_daylight(description, stage);
-    if (!load_images(description, diagnostics, threads, missing_texture)) return std::nullopt;
+    if (!load_images(description, diagnostics, threads, textures)) return std::nullopt;
   }
   return description;
 }

@@ -42,6 +42,6 @@ bool is_model(const std::string& file);
 /// for all frames. None if it cannot be read, which the diagnostics say. threads: as load_scene()'s.
 std::optional<SceneDescription> load_model(const std::string& file, const ModelStage& stage, std::optional<int> frame,
                                            int width, int height, Diagnostics& diagnostics, int threads,
-                                           MissingTexture missing_texture);
+                                           const TextureSettings& textures);
 
 }  // namespace raytrace

@@ -144,7 +144,7 @@ std::optional<SceneDescription> load_picture(const RenderJob& job, RenderObserve
       ModelStage stage = job.stage.value_or(ModelStage());
       stage.fit = job.fit;
       description =
-          load_model(job.scene, stage, frame, size.width, size.height, diagnostics, job.threads, job.missing_texture);
+          load_model(job.scene, stage, frame, size.width, size.height, diagnostics, job.threads, job.textures);
       if (description) refuse_to_overwrite(*description, job);
     } else {
       if (job.stage)
@@ -154,12 +154,12 @@ std::optional<SceneDescription> load_picture(const RenderJob& job, RenderObserve
             "models: " +
             job.scene_name() + " has a camera and lights");
       const SceneSettings settings{
-          .frame = job.frame, .variables = job.variables, .missing_texture = job.missing_texture, .still = job.still};
+          .frame = job.frame, .variables = job.variables, .textures = job.textures, .still = job.still};
       description = load_scene(job.scene, diagnostics, job.threads, settings);
     }
     if (description && !is_model(job.scene)) {
       refuse_to_overwrite(*description, job);
-      if (!load_meshes(*description, diagnostics, job.threads, job.missing_texture)) description.reset();
+      if (!load_meshes(*description, diagnostics, job.threads, job.textures)) description.reset();
       if (description) refuse_to_overwrite(*description, job);  // the textures that models name, too
     }
   }

@@ -31,7 +31,7 @@ struct RenderJob {
   int frame = 1;
   bool is_one_of_frames = false;  ///< the picture says which frame it is
   std::map<std::string, std::string> variables;
-  MissingTexture missing_texture = MissingTexture::error;
+  TextureSettings textures{};
   bool still = false;  ///< nothing moves while the shutter is open
 
   std::optional<Resolution> resolution;        ///< none: the scene's

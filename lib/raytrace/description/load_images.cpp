@@ -8,15 +8,19 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "raytrace/math/content_hash.h"
+#include "raytrace/memory/file_mapping.h"
+#include "raytrace/memory/process_status.h"
 #include "raytrace/output/image_file.h"
 #include "raytrace/output/picture.h"
 #include "raytrace/text/message.h"
@@ -73,7 +77,9 @@ std::array<bool, 2> is_srgb(ColorSpace space, TexelFormat format) {
 
 class ImageLoader {
  public:
-  explicit ImageLoader(int threads) : threads_(threads) {}
+  /// taken: bytes of texels that are in memory already.
+  ImageLoader(int threads, std::optional<std::uint64_t> memory, std::uint64_t taken)
+      : threads_(threads), memory_(memory.value_or(available_memory() / 2)), taken_(taken) {}
 
   /// bytes: of the file; null: they are read. used: as a colour, as a number. Throws PictureError.
   LoadedImage load(const Image::Parameters& image, const std::string* bytes, const std::array<bool, 2>& used) {
@@ -94,7 +100,7 @@ class ImageLoader {
       auto& texels = texels_[{loaded.hash, srgb[use]}];
       if (!texels) {
         need_picture();
-        texels = std::make_shared<const TexelImage>(*picture, srgb[use], threads_);
+        texels = kept(TexelImage(*picture, srgb[use], threads_));
       }
       *wanted[use] = texels;
     }
@@ -130,7 +136,7 @@ class ImageLoader {
           const bool srgb = is_srgb(image.colorspace, picture.format)[use];
           tiles.push_back({tile.column, tile.row, TexelImage(picture, srgb, threads_)});
         }
-        texels = std::make_shared<const TexelImage>(TexelImage::of_tiles(std::move(tiles)));
+        texels = kept(TexelImage::of_tiles(std::move(tiles)));
         if (texels->format() != TexelFormat::bytes) tiles_[{loaded.hash, image.colorspace, 1 - use}] = texels;
       }
       *wanted[use] = texels;
@@ -138,8 +144,26 @@ class ImageLoader {
     return loaded;
   }
 
+  /// Why texels that have no room in memory are in memory nonetheless; empty if none are.
+  const std::string& failure() const { return failure_; }
+
  private:
+  std::shared_ptr<const TexelImage> kept(TexelImage image) {
+    taken_ += image.bytes();
+    if (taken_ > memory_ && failure_.empty()) {
+      try {
+        image.move_to_file(folder_for_large_files());
+        taken_ -= image.bytes();
+      } catch (const std::system_error& error) {
+        failure_ = error.what();
+      }
+    }
+    return std::make_shared<const TexelImage>(std::move(image));
+  }
+
   int threads_;
+  std::uint64_t memory_, taken_;
+  std::string failure_;
   std::map<std::string, TexelFormat> formats_;                                        ///< by hash
   std::map<std::pair<std::string, bool>, std::shared_ptr<const TexelImage>> texels_;  ///< by hash and colour space
   /// By hash, colour space and use.
@@ -159,11 +183,22 @@ std::vector<std::array<bool, 2>> image_uses(const SceneDescription& scene) {
   return uses;
 }
 
+/// Of the texels of images that are loaded.
+std::uint64_t loaded_bytes(const SceneDescription& scene) {
+  std::set<const TexelImage*> images;
+  for (const TextureItem<Image>& item : std::get<TextureItems<Image>>(scene.textures))
+    images.insert({item.image.color.get(), item.image.number.get()});
+  std::uint64_t bytes = 0;
+  for (const TexelImage* const image : images)
+    if (image != nullptr) bytes += image->bytes();
+  return bytes;
+}
+
 }  // namespace
 
-bool load_images(SceneDescription& scene, Diagnostics& diagnostics, int threads, MissingTexture missing) {
+bool load_images(SceneDescription& scene, Diagnostics& diagnostics, int threads, const TextureSettings& settings) {
   diagnostics.add_files(scene.included);
-  ImageLoader loader(threads);
+  ImageLoader loader(threads, settings.memory, loaded_bytes(scene));
   bool fine = true;
   /// what: the image is for. Textures may have tiles.
   const auto load = [&](std::string_view what, const Image::Parameters& parameters, const std::array<bool, 2>& used,
@@ -174,7 +209,7 @@ bool load_images(SceneDescription& scene, Diagnostics& diagnostics, int threads,
       const bool has_tiles = what == "texture" && !image.bytes && is_udim(file.path);
       image = has_tiles ? loader.load_tiles(parameters, used) : loader.load(parameters, image.bytes.get(), used);
     } catch (const std::runtime_error& error) {
-      const bool warns = missing == MissingTexture::warn;
+      const bool warns = settings.missing == MissingTexture::warn;
       fine = fine && warns;
       const SourceLocation location = file.line > 0 ? SourceLocation{file.line, file.column} : SourceLocation{line, 0};
       diagnostics.add(warns ? Severity::warning : Severity::error, location,
@@ -211,6 +246,9 @@ bool load_images(SceneDescription& scene, Diagnostics& diagnostics, int threads,
         }
       }
   });
+  if (!loader.failure().empty())
+    diagnostics.warning(
+        {}, "textures stay in memory, beyond the limit, for there is no room for them in files: " + loader.failure());
   return fine;
 }
 

@@ -6,8 +6,8 @@
 namespace raytrace {
 
 /// Loads those that have not been loaded. What cannot be read is an error where the scene names it
-/// or, where `missing` says so, a warning, and magenta. threads: so many at most share the work; 0: all that the
+/// or, where the settings say so, a warning, and magenta. threads: so many at most share the work; 0: all that the
 /// machine has. False if there are errors.
-bool load_images(SceneDescription& scene, Diagnostics& diagnostics, int threads, MissingTexture missing);
+bool load_images(SceneDescription& scene, Diagnostics& diagnostics, int threads, const TextureSettings& settings);
 
 }  // namespace raytrace

@@ -295,13 +295,14 @@ class MeshLoader {
 
 }  // namespace
 
-bool load_meshes(SceneDescription& description, Diagnostics& diagnostics, int threads, MissingTexture missing_texture) {
+bool load_meshes(SceneDescription& description, Diagnostics& diagnostics, int threads,
+                 const TextureSettings& textures) {
   diagnostics.add_files(description.included);
   const std::size_t errors_before = diagnostics.error_count();
   const std::size_t images_before = std::get<TextureItems<Image>>(description.textures).size();
   MeshLoader(description, diagnostics, threads).load();
   if (std::get<TextureItems<Image>>(description.textures).size() > images_before)
-    load_images(description, diagnostics, threads, missing_texture);
+    load_images(description, diagnostics, threads, textures);
   return diagnostics.error_count() == errors_before;
 }
 

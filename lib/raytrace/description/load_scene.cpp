@@ -50,7 +50,7 @@ std::optional<SceneDescription> load_scene(const std::string& file, Diagnostics&
   read.scene.file = file;
   SceneDescription scene = with_motion(std::move(read), again, diagnostics, threads, settings);
   // Beside other errors, too, so that one run reports what is wrong with the files.
-  load_images(scene, diagnostics, threads, settings.missing_texture);
+  load_images(scene, diagnostics, threads, settings.textures);
   if (diagnostics.has_errors()) return std::nullopt;
   return scene;
 }

@@ -7,8 +7,10 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,11 +26,19 @@ struct Choices<MissingTexture> {
   static constexpr std::array<std::string_view, 2> words = {"error", "warn"};
 };
 
+/// How textures are loaded.
+struct TextureSettings {
+  MissingTexture missing = MissingTexture::error;
+  /// So many bytes of texels lie in memory; those of further images are in files (memory/file_mapping.h), from which
+  /// the system reads what is used. None: half of the memory that is free.
+  std::optional<std::uint64_t> memory{};
+};
+
 /// What the values of a scene may depend on.
 struct SceneSettings {
   int frame = 1;                                 ///< the value of $frame, and the moment at which keys are evaluated
   std::map<std::string, std::string> variables;  ///< name -> value; none is called "frame" (see is_variable_name)
-  MissingTexture missing_texture = MissingTexture::error;
+  TextureSettings textures{};
   double after_frame = 0;  ///< so many frames after it keys are evaluated
   bool still = false;      ///< nothing moves while the shutter is open: all is as it is at that moment
 };

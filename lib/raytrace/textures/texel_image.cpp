@@ -158,6 +158,15 @@ std::size_t TexelImage::texel_count() const {
   return static_cast<std::size_t>(last.first) + block_texels;
 }
 
+std::size_t TexelImage::bytes() const {
+  return texel_count() * static_cast<std::size_t>(channels_) * bytes_of(format_);
+}
+
+void TexelImage::move_to_file(const std::string& folder) {
+  in_file_ = FileMapping(texels_.data(), bytes(), folder);
+  texels_ = {};
+}
+
 TexelImage TexelImage::of_tiles(std::vector<Tile> tiles) {
   TexelImage all;
   std::size_t texels = 0;

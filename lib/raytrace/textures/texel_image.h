@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "raytrace/memory/file_mapping.h"
 #include "raytrace/memory/large_array.h"
 #include "raytrace/output/picture.h"
 #include "raytrace/textures/udim.h"
@@ -48,7 +49,12 @@ class TexelImage {
   int levels_of_picture() const { return levels_of_picture_; }
   /// For each place, in rows of tile_columns, the number of its tile's first level, or -1; empty: one picture is all.
   const std::vector<std::int32_t>& tiles() const { return tiles_; }
-  const std::byte* texels() const { return texels_.data(); }
+  const std::byte* texels() const { return in_file_.data() != nullptr ? in_file_.data() : texels_.data(); }
+  /// Of the texels.
+  std::size_t bytes() const;
+  /// Puts the texels into a file in that folder, from which the system reads those that are used. Throws
+  /// std::system_error; then they stay where they are.
+  void move_to_file(const std::string& folder);
   /// Whether colours are sRGB's, as those of bytes may be; else they are linear light.
   bool srgb() const { return srgb_; }
   /// No number is larger by magnitude.
@@ -76,7 +82,8 @@ class TexelImage {
   std::vector<Level> levels_;
   int levels_of_picture_ = 0;
   std::vector<std::int32_t> tiles_{};
-  LargeArray<std::byte> texels_;
+  LargeArray<std::byte> texels_;  ///< or else
+  FileMapping in_file_;
   bool srgb_ = false;
   float largest_ = 1;
 };
