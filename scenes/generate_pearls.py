@@ -28,7 +28,7 @@ TEXT = """<!-- {count:,} pearls: a sea of them, and its swell, in the evening. M
       <environmentlight> <scaleradiance>0.3</scaleradiance> <color red="0.62" green="0.7" blue="1"/> <visible>false</visible> </environmentlight>
     </environmentlights>
     <directionallights>
-      <directionallight> <direction x="-1" y="0.34" z="-0.12"/> <angle>3</angle> <scaleradiance>7</scaleradiance> <color red="1" green="0.58" blue="0.3"/> </directionallight>
+      <directionallight> <direction x="-1" y="0.34" z="-0.12"/> <angle>8</angle> <scaleradiance>7</scaleradiance> <color red="1" green="0.58" blue="0.3"/> </directionallight>
     </directionallights>
   </lights>
   <materials>
@@ -194,7 +194,7 @@ pearls = ""
 for name, (base, film) in PEARLS.items():
     pearls += (
         f"      <openpbr> <name>{name}</name> {color('base_color', base)} <specular_roughness>0.28</specular_roughness>\n"
-        f"        <coat_weight>1</coat_weight> <coat_roughness>0.09</coat_roughness> <coat_ior>1.9</coat_ior> <coat_darkening>0.3</coat_darkening>\n"
+        f"        <coat_weight>1</coat_weight> <coat_roughness>0.13</coat_roughness> <coat_ior>1.9</coat_ior> <coat_darkening>0.3</coat_darkening>\n"
         f"        <thin_film_weight>0.35</thin_film_weight> <thin_film_thickness>{film}</thin_film_thickness> </openpbr>\n"
     )
 # The sky is strips far away, from the horizon upwards.

@@ -16,10 +16,10 @@ TEXT = """<!-- A bentwood chair in a plaster room: the light of one window, and 
     <viewtransform>khronos-neutral</viewtransform> <exposure>1.35</exposure>
   </viewplane>
   <thinlenscamera>
-    <eye x="0.8" y="1.2" z="4.1"/> <lookat x="-0.4" y="0.94" z="-1.2"/> <fov>26.5</fov>
+    <eye x="0.8" y="1.2" z="4.1"/> <lookat x="-0.36" y="0.94" z="-1.2"/> <fov>26.5</fov>
     <lensradius>0.012</lensradius> <focaldistance>4.9</focaldistance>
   </thinlenscamera>
-  <integrator> <path> <clampindirect>1</clampindirect> </path> </integrator>
+  <integrator> <path> <clampindirect>0.6</clampindirect> </path> </integrator>
   <textures>
     <noises>
       <noise>
@@ -43,8 +43,8 @@ TEXT = """<!-- A bentwood chair in a plaster room: the light of one window, and 
       <openpbr> <name>lacquer</name> {lacquer} <specular_roughness>0.34</specular_roughness> </openpbr>
 {woods}    </openpbrs>
     <emissives>
-      <emissive> <name>day</name> <ce red="0.9" green="0.95" blue="1"/> <scaleradiance>3</scaleradiance> </emissive>
-      <emissive> <name>next window</name> <ce red="0.9" green="0.95" blue="1"/> <scaleradiance>4.5</scaleradiance> </emissive>
+      <emissive> <name>day</name> <ce red="0.9" green="0.95" blue="1"/> <scaleradiance>2.5</scaleradiance> </emissive>
+      <emissive> <name>next window</name> <ce red="0.9" green="0.95" blue="1"/> <scaleradiance>5</scaleradiance> </emissive>
     </emissives>
   </materials>
   <groups>
