@@ -1081,6 +1081,57 @@ write(
 """,
     objects=LAMPS,
 )
+SPOKES = "".join(
+    f'          <cylinder> <bottom x="0" y="0" z="0"/> '
+    f'<top x="{math.cos(math.pi / 4 * i):.6g}" y="{math.sin(math.pi / 4 * i):.6g}" z="0"/> <radius>0.05</radius> '
+    "<material>clay</material> </cylinder>\n"
+    for i in range(8)
+)
+write(
+    "motion-blur",
+    "A wheel that rolls, and a ball that falls behind it, while the shutter is open. The wheel's lowest point rests.",
+    room=ROOM.replace(
+        PINHOLE,
+        f"<camera>\n    {VIEW} <viewdistance>520</viewdistance> <shutteropen>0</shutteropen> <shutterclose>0.5</shutterclose>\n"
+        "  </camera>",
+    ).replace("<samples>16</samples>", "<samples>256</samples>"),
+    mattes=CLAY,
+    phongs=GLOSSY,
+    objects="""\
+    <instances>
+      <instance>
+        <group>wheel</group>
+        <transform>
+          <rotate> <key frame="1" x="0" y="0" z="-1" angle="0"/> <key frame="2" x="0" y="0" z="-1" angle="50"/> </rotate>
+          <translate> <key frame="1" x="-0.6" y="1.1" z="0"/> <key frame="2" x="0.36" y="1.1" z="0"/> </translate>
+        </transform>
+      </instance>
+    </instances>
+    <spheres>
+      <sphere>
+        <center> <key frame="1" x="1.7" y="2.1" z="-1"/> <key frame="2" x="1.9" y="0.9" z="-1"/> </center>
+        <radius>0.4</radius> <material>glossy</material>
+      </sphere>
+    </spheres>
+""",
+    groups=f"""\
+  <groups>
+    <group>
+      <name>wheel</name>
+      <objects>
+        <toruses>
+          <torus>
+            <center x="0" y="0" z="0"/> <axis x="0" y="0" z="1"/> <sweptradius>1</sweptradius> <tuberadius>0.1</tuberadius>
+            <material>clay</material>
+          </torus>
+        </toruses>
+        <cylinders>
+{SPOKES}        </cylinders>
+      </objects>
+    </group>
+  </groups>
+""",
+)
 camera(
     "camera-fisheye",
     "A fisheye camera: half of all directions in a circle.",

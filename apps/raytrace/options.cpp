@@ -266,6 +266,7 @@ Options parse_options(int argc, const char* const* argv) {
   refuse_two_views(options.view);
   if (options.quiet && options.progress == ProgressStyle::automatic) options.progress = ProgressStyle::none;
   if (!options.help && !options.version && options.list.empty()) refuse_incomplete(options);
+  options.still = options.print_scene;
   options.shows_statistics = options.statistics == statistics_as_text;
   if (options.shows_statistics || !options.renders()) options.statistics.clear();
   if (!options.renders()) {

@@ -54,6 +54,8 @@ TEST_CASE("a scene is printed with every value spelled out") {
     <eye x="0" y="0" z="9"/>
     <lookat x="0" y="0" z="0"/>
     <up x="0" y="1" z="0"/>
+    <shutteropen>0</shutteropen>
+    <shutterclose>0</shutterclose>
     <viewdistance>4</viewdistance>
   </camera>
   <lights>

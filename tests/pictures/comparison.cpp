@@ -44,6 +44,12 @@ void save(const std::string& path, const Picture& picture) {
   OIIO::ImageBufAlgo::colorconvert(image, "linear", "sRGB").write(path + ".png", OIIO::TypeDesc::UINT8);
 }
 
+std::array<reference::Real, 2> first_sample(int x, int y, Dimension dimension) {
+  const auto pixel = pixel_hash(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 0);
+  const ScrambledPoint<std::uint32_t> point = scrambled_point(pixel, std::uint32_t{0}, dimension);
+  return {(point.x >> 8) * 0x1p-24L, (point.y >> 8) * 0x1p-24L};
+}
+
 }  // namespace
 
 Picture library_picture(const SceneDescription& description, const std::string& isa) {
@@ -66,9 +72,13 @@ void change_camera(reference::Scene& scene, unsigned seed) {
   scene.blade_rotation = 17 * (static_cast<int>(seed) - 20);
   scene.angle = std::array{180, 360, 60, 270}[seed / 3 % 4];
   scene.lens_sample = [height = scene.vres](int column, int row) -> std::array<reference::Real, 2> {
-    const auto pixel = pixel_hash(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(height - 1 - row), 0);
-    const ScrambledPoint<std::uint32_t> point = scrambled_point(pixel, std::uint32_t{0}, Dimension::lens);
-    return {(point.x >> 8) * 0x1p-24L, (point.y >> 8) * 0x1p-24L};
+    return first_sample(column, height - 1 - row, Dimension::lens);
+  };
+}
+
+void set_time(reference::Scene& scene) {
+  scene.time = [height = scene.vres](int column, int row) {
+    return first_sample(column, height - 1 - row, time_dimension)[0];
   };
 }
 

@@ -24,6 +24,9 @@ Picture library_picture(const SceneDescription& description, const std::string& 
 /// a fisheye or a spherical one.
 void change_camera(reference::Scene& scene, unsigned seed);
 
+/// Gives a scene in motion the moments that the library sends its rays at.
+void set_time(reference::Scene& scene);
+
 /// At one sample a pixel.
 Picture reference_picture(const reference::Scene& scene);
 

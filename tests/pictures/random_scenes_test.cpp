@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "pictures/comparison.h"
+#include "reference/moving.h"
 #include "reference/renderer.h"
 #include "reference/scene.h"
 #include "reference/transformed.h"
@@ -94,6 +95,20 @@ TEST_CASE("random scenes from a camera far away equal the reference's pictures")
 
 TEST_CASE("random scenes of transformed objects, meshes and instances equal the reference's pictures") {
   check_scenes(0, 24, reference::transform_objects, [](SceneDescription&) {});
+}
+
+TEST_CASE("random scenes in motion equal the reference's pictures") {
+  const auto move = [](reference::Scene& scene, unsigned seed) {
+    set_in_motion(scene, seed);
+    set_time(scene);
+  };
+  check_scenes(0, 8, move, [](SceneDescription&) {});
+  const auto move_other_cameras = [](reference::Scene& scene, unsigned seed) {
+    change_camera(scene, seed);
+    set_in_motion(scene, seed);
+    set_time(scene);
+  };
+  check_scenes(0, 6, move_other_cameras, [](SceneDescription&) {});
 }
 
 TEST_CASE("random scenes through other cameras equal the reference's pictures") {

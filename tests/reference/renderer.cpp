@@ -84,8 +84,10 @@ bool has_ray(const Scene& scene, int column, int row, Real px, Real py) {
          std::min(scene.hres, scene.vres) / Real(2);
 }
 
-Ray camera_ray(const Scene& scene, int column, int row, Real px, Real py) {
-  const Vector w = unit(scene.eye - scene.look_at);
+namespace {
+
+Ray camera_ray_from(const Scene& scene, Vector eye, int column, int row, Real px, Real py) {
+  const Vector w = unit(eye - scene.look_at);
   const Vector u = unit(cross(scene.up, w));
   const Vector v = cross(w, u);
   const Real x = column - scene.hres / Real(2) + px, y = row - scene.vres / Real(2) + py;
@@ -94,23 +96,36 @@ Ray camera_ray(const Scene& scene, int column, int row, Real px, Real py) {
     case Scene::Projection::thin_lens: {
       const auto [u1, u2] = scene.lens_sample(column, row);
       const auto [right, up] = lens_point(scene.blades, scene.blade_rotation, u1, u2);
-      const Vector start = scene.eye + scene.lens_radius * (right * u + up * v);
-      return {start, scene.eye + scene.focal_distance / scene.view_distance * through - start};
+      const Vector start = eye + scene.lens_radius * (right * u + up * v);
+      return {start, eye + scene.focal_distance / scene.view_distance * through - start};
     }
     case Scene::Projection::fisheye: {
       const Real from_axis = scene.angle / 180 * pi * std::hypot(x, y) / std::min(scene.hres, scene.vres);
       const Real around = std::atan2(y, x);
-      return {scene.eye, std::sin(from_axis) * (std::cos(around) * u + std::sin(around) * v) - std::cos(from_axis) * w};
+      return {eye, std::sin(from_axis) * (std::cos(around) * u + std::sin(around) * v) - std::cos(from_axis) * w};
     }
     case Scene::Projection::spherical: {
       const Real longitude = 2 * pi * x / scene.hres, latitude = pi * y / scene.vres;
       const Vector level = std::sin(longitude) * u - std::cos(longitude) * w;
-      return {scene.eye, std::cos(latitude) * level + std::sin(latitude) * v};
+      return {eye, std::cos(latitude) * level + std::sin(latitude) * v};
     }
     case Scene::Projection::pinhole:
       break;
   }
-  return {scene.eye, through};
+  return {eye, through};
+}
+
+}  // namespace
+
+Ray camera_ray(const Scene& scene, int column, int row, Real px, Real py) {
+  if (!scene.now) return camera_ray_from(scene, scene.eye, column, row, px, py);
+  const int before = *scene.now < 1 ? static_cast<int>(*scene.now * 16) : 15;
+  const Real part = *scene.now * 16 - before;
+  const auto at = [&](int moment) {
+    return camera_ray_from(scene, scene.eye + Real(moment) / 16 * scene.eye_way, column, row, px, py);
+  };
+  const Ray a = at(before), b = at(before + 1);
+  return {(1 - part) * a.origin + part * b.origin, (1 - part) * unit(a.direction) + part * unit(b.direction)};
 }
 
 Vector radiance(const Scene& scene, const Ray& ray) {
@@ -146,6 +161,7 @@ std::vector<Vector> render(const Scene& scene) {
   std::vector<Vector> picture;
   for (int row = scene.vres - 1; row >= 0; --row) {
     for (int column = 0; column < scene.hres; ++column) {
+      if (scene.time) *scene.now = scene.time(column, row);
       const bool black = !has_ray(scene, column, row, 0.5L, 0.5L);
       picture.push_back(black ? Vector{} : radiance(scene, camera_ray(scene, column, row, 0.5L, 0.5L)));
     }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,12 @@ struct Scene {
   Real angle = 180;         ///< of a fisheye, in degrees
   /// The point of the unit square that a pixel (column from the left, row from the bottom) has for its lens.
   std::function<std::array<Real, 2>(int column, int row)> lens_sample;
+
+  // What moves while the shutter is open (moving.h), from 0 to 1.
+  std::string shutter, eye_keys;                  ///< elements of the scene format
+  Vector eye_way;                                 ///< of the eye, in that time
+  std::function<Real(int column, int row)> time;  ///< of a pixel's rays; empty: nothing moves
+  std::shared_ptr<Real> now;                      ///< where it is known
 
   bool has_ambient = false;
   Real ambient_scale = 1;

@@ -41,8 +41,8 @@ std::string object_text(const Shape& shape, const std::string& material) {
 
 std::string camera_text(const Scene& scene) {
   using Projection = Scene::Projection;
-  std::string text =
-      vector_element("eye", scene.eye) + vector_element("lookat", scene.look_at) + vector_element("up", scene.up);
+  std::string text = scene.shutter + (scene.eye_keys.empty() ? vector_element("eye", scene.eye) : scene.eye_keys) +
+                     vector_element("lookat", scene.look_at) + vector_element("up", scene.up);
   if (scene.projection == Projection::pinhole || scene.projection == Projection::thin_lens)
     text += number_element("viewdistance", scene.view_distance);
   const char* name = "camera";

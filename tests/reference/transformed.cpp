@@ -23,20 +23,6 @@ std::string numbers(Vector v) {
 
 constexpr int faces[8][3] = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
 
-Transform random_transform(Random& random, Vector center, Real size) {
-  const auto exact = [](Real x) { return Real(static_cast<float>(x)); };
-  Transform transform;
-  transform.center = center;
-  const auto factor = [&] { return exact(random.between(0.6L, 1.6L) * (random.chance(0.2L) ? -1 : 1)); };
-  const Real uniform = factor();
-  transform.scale = random.chance(0.4L) ? Vector{uniform, uniform, uniform} : Vector{factor(), factor(), factor()};
-  transform.axis = {exact(random.between(-1, 1)), exact(random.between(-1, 1)), exact(random.between(0.1L, 1))};
-  transform.degrees = exact(random.between(-180, 180));
-  transform.move = {exact(size * random.between(-1, 1)), exact(size * random.between(-1, 1)),
-                    exact(size * random.between(-1, 1))};
-  return transform;
-}
-
 }  // namespace
 
 Vector Transform::vector(Vector v) const {
@@ -114,6 +100,20 @@ std::string Octahedron::parameters() const {
     text += (text.back() == '>' ? "" : ", ") + std::to_string(face[0]) + " " + std::to_string(face[1]) + " " +
             std::to_string(face[2]);
   return text + "</faces>";
+}
+
+Transform random_transform(Random& random, Vector center, Real size) {
+  const auto exact = [](Real x) { return Real(static_cast<float>(x)); };
+  Transform transform;
+  transform.center = center;
+  const auto factor = [&] { return exact(random.between(0.6L, 1.6L) * (random.chance(0.2L) ? -1 : 1)); };
+  const Real uniform = factor();
+  transform.scale = random.chance(0.4L) ? Vector{uniform, uniform, uniform} : Vector{factor(), factor(), factor()};
+  transform.axis = {exact(random.between(-1, 1)), exact(random.between(-1, 1)), exact(random.between(0.1L, 1))};
+  transform.degrees = exact(random.between(-180, 180));
+  transform.move = {exact(size * random.between(-1, 1)), exact(size * random.between(-1, 1)),
+                    exact(size * random.between(-1, 1))};
+  return transform;
 }
 
 void transform_objects(Scene& scene, unsigned seed) {

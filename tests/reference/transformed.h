@@ -69,6 +69,8 @@ class Octahedron : public Shape {
   Real radius_;
 };
 
+Transform random_transform(Random& random, Vector center, Real size);
+
 /// Puts most of the scene's objects under transforms, mirrored and stretched ones among them, some of them as instances
 /// of groups, after making some of them meshes.
 void transform_objects(Scene& scene, unsigned seed);

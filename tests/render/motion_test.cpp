@@ -1,8 +1,9 @@
 // Pictures of what moves while the shutter is open: the mean of those of its moments.
+#include "raytrace/description/motion.h"
+
 #include <cmath>
 #include <string>
 
-#include "raytrace/description/motion.h"
 #include "render/scenes.h"
 #include "support/catch.h"
 #include "support/contains.h"
@@ -85,10 +86,10 @@ const std::string mesh_group =
     "<faces>0 2 4 2 1 4 1 3 4 3 0 4 2 0 5 1 2 5 3 1 5 0 3 5</faces><normals>smooth</normals><material>red</material>"
     "</mesh></meshes><spheres><sphere><center x='1' y='1' z='0'/><radius>0.5</radius><material>grey</material>"
     "<transform><scale x='1' y='2' z='1'/></transform></sphere></spheres></objects></group>";
-const std::string moving_instance =
-    "<instances><instance><group>thing</group><transform><scale x='2' y='2' z='2'/>" +
-    keys("rotate", "x='0' y='0' z='1' angle='-40'", "x='0' y='0' z='1' angle='80'") +
-    keys("translate", "x='-2' y='0' z='0'", "x='2' y='1' z='0'") + "</transform></instance></instances>";
+const std::string moving_instance = "<instances><instance><group>thing</group><transform><scale x='2' y='2' z='2'/>" +
+                                    keys("rotate", "x='0' y='0' z='1' angle='-40'", "x='0' y='0' z='1' angle='80'") +
+                                    keys("translate", "x='-2' y='0' z='0'", "x='2' y='1' z='0'") +
+                                    "</transform></instance></instances>";
 const std::string moving_eye = keys("eye", "x='-2' y='2' z='12'", "x='2' y='2' z='12'") +
                                keys("lookat", "x='0' y='-1' z='0'", "x='0' y='1' z='0'");
 
@@ -99,9 +100,9 @@ TEST_CASE("what moves by its own numbers, a transform, as an instance or as the 
     const char* what;
     std::string objects, camera, groups;
   };
-  for (const Case& one : {Case{"a ball", moving_ball, still_eye, ""}, Case{"a box that turns", turning_box, still_eye, ""},
-                          Case{"an instance", moving_instance, still_eye, mesh_group},
-                          Case{"the camera", turning_box, moving_eye, ""}}) {
+  for (const Case& one :
+       {Case{"a ball", moving_ball, still_eye, ""}, Case{"a box that turns", turning_box, still_eye, ""},
+        Case{"an instance", moving_instance, still_eye, mesh_group}, Case{"the camera", turning_box, moving_eye, ""}}) {
     INFO(one.what);
     const Differences found = compare_with_moments(one.objects, one.camera, one.groups);
     CHECK(std::abs(found.mean) < 2e-4);
@@ -110,8 +111,8 @@ TEST_CASE("what moves by its own numbers, a transform, as an instance or as the 
 }
 
 TEST_CASE("the bits of what moves do not depend on how the work is cut") {
-  check_same_bits(parsed_scene(motion_scene(moving_ball + turning_box + moving_instance, moving_eye + shutter_open, 16,
-                                            mesh_group)));
+  check_same_bits(parsed_scene(
+      motion_scene(moving_ball + turning_box + moving_instance, moving_eye + shutter_open, 16, mesh_group)));
 }
 
 TEST_CASE("a scene in which nothing moves is the same with an open shutter") {
@@ -125,18 +126,78 @@ TEST_CASE("a scene in which nothing moves is the same with an open shutter") {
         scene_hash(parsed_scene(motion_scene(moving_ball, still_eye, 4))));
 }
 
-TEST_CASE("what cannot be blurred is said") {
+TEST_CASE("a lamp that moves lights what it passes") {
+  const std::string lamp = "<spheres><sphere>" + keys("center", "x='-4' y='1' z='0'", "x='4' y='1' z='0'") +
+                           "<radius>1.5</radius><material>lamp</material></sphere></spheres>";
+  const auto scene = [&](const std::string& camera, int samples) {
+    return scene_text(
+        48, 32, samples,
+        "<integrator><path><maxdepth>2</maxdepth></path></integrator><lights/>"
+        "<materials><mattes><matte><name>grey</name><ka>0</ka><kd>0.8</kd><cd red='1' green='1' blue='1'/></matte>"
+        "</mattes><emissives><emissive><name>lamp</name><ce red='3' green='2' blue='1'/></emissive>"
+        "</emissives></materials><objects><planes><plane><point x='0' y='-2' z='0'/>"
+        "<normal x='0' y='1' z='0'/><material>grey</material></plane></planes>" +
+            lamp + "</objects>",
+        camera);
+  };
+  const auto mean_of = [](const FloatPicture& picture) {
+    double sum = 0;
+    for (const auto& pixel : picture.pixels()) sum += double{pixel.red} + double{pixel.green} + double{pixel.blue};
+    return sum / (3 * static_cast<double>(picture.pixels().size()));
+  };
+  const double moving = mean_of(rendered(parsed_scene(scene(still_eye + shutter_open, 256))));
+  double still = 0;
+  constexpr int moments = 16;
+  for (int i = 0; i < moments; ++i)
+    still += mean_of(rendered(at_moment(scene(still_eye, 16), -0.25 + (i + 0.5) / moments))) / moments;
+  CHECK(still > 0.1);
+  CHECK(std::abs(moving / still - 1) < 0.01);
+}
+
+TEST_CASE("a scene may be read as it stands at its frame") {
+  Diagnostics diagnostics("scene.xml");
+  SceneSettings settings;
+  settings.still = true;
+  const auto scene = parse_scene(motion_scene(moving_ball, moving_eye + shutter_open, 4), diagnostics, 1, settings);
+  REQUIRE(scene.has_value());
+  CHECK(diagnostics.warning_count() == 1);
+  CHECK(scene->moving_camera.empty());
+  CHECK(scene->groups.empty());
+  CHECK(contains(print_scene(*scene), "<shutteropen>-0.25</shutteropen>"));
+}
+
+TEST_CASE("what cannot be blurred is an error") {
   const auto message = [](const std::string& text) {
     Diagnostics diagnostics("scene.xml");
     (void)parse_scene(text, diagnostics);
     return diagnostics.kept().empty() ? std::string() : diagnostics.kept().front().message;
   };
-  CHECK(contains(message(motion_scene("<spheres><sphere><center x='0' y='0' z='0'/><radius><key frame='0' value='1'/>"
-                                      "<key frame='2' value='2'/></radius><material>red</material></sphere></spheres>",
-                                      still_eye + shutter_open, 4)),
+  const auto with_objects = [&](const std::string& objects) {
+    return message(motion_scene(objects, still_eye + shutter_open, 4));
+  };
+  const auto with_camera = [&](const std::string& camera) { return message(motion_scene(moving_ball, camera, 4)); };
+  CHECK(contains(with_objects("<spheres><sphere><center x='0' y='0' z='0'/><radius><key frame='0' value='1'/>"
+                              "<key frame='2' value='2'/></radius><material>red</material></sphere></spheres>"),
                  "this <sphere> changes its form while the shutter is open"));
-  CHECK(contains(message(motion_scene(moving_ball, still_eye + "<shutteropen>1</shutteropen>", 4)),
-                 "closes before it opens"));
+  CHECK(contains(with_objects("<planes><plane>" + keys("point", "x='0' y='0' z='0'", "x='0' y='1' z='0'") +
+                              "<normal x='0' y='1' z='0'/><material>red</material></plane></planes>"),
+                 "a plane has no end"));
+  CHECK(contains(
+      with_objects(
+          "<boxes><box><min x='-1' y='-1' z='-1'/><max x='1' y='1' z='1'/><material>red</material><transform>" +
+          keys("rotate", "x='0' y='1' z='0' angle='0'", "x='0' y='1' z='0' angle='5000'") +
+          "</transform></box></boxes>"),
+      "this <box> turns, or is turned inside out, too fast"));
+  CHECK(contains(with_camera(still_eye + "<shutteropen>1</shutteropen>"), "closes before it opens"));
+  CHECK(contains(with_camera(keys("eye", "x='0' y='0' z='-9'", "x='0' y='0.1' z='9'") + "<lookat x='0' y='0' z='1'/>" +
+                             shutter_open),
+                 "the camera turns too fast"));
+  CHECK(contains(with_camera(keys("eye", "x='0' y='0' z='9'", "x='0' y='0' z='-5.4'") + "<lookat x='0' y='0' z='0'/>" +
+                             shutter_open),
+                 "while the shutter is open: the camera's <eye> and <lookat> are the same point"));
+  const std::string path = "</objects><integrator><path><caustics>light</caustics></path></integrator><objects>";
+  CHECK(
+      contains(message(motion_scene(path, moving_eye + shutter_open, 4)), "light paths (<caustics>) cannot reach it"));
 }
 
 }  // namespace raytrace::test

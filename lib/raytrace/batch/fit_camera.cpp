@@ -171,6 +171,8 @@ Reaches measured(const SceneDescription& scene, const SightLines& directions) {
 }  // namespace
 
 void fit_camera(const SceneDescription& shown, SceneDescription& scene) {
+  if (!scene.moving_camera.empty())
+    throw SettingsError("--fit: the scene's camera moves while its shutter is open; it cannot be moved as well");
   ViewPlane& picture = scene.viewplane;
   std::visit(
       [&]<class Parameters>(Parameters& camera) {

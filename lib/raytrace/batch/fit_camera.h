@@ -28,7 +28,7 @@ struct Reach {
 /// view, or, where it is orthographic, gets larger or smaller pixels; a thin lens is focused on the middle of what is
 /// in view. Planes, which have no end, do not count; nor do objects of an emissive material, which are lamps, if there
 /// are others. shown: loaded (load_meshes()); a scene, perhaps the same one. Throws SettingsError if there is nothing
-/// to be in view, or if the camera sees all around.
+/// to be in view, or if the camera sees all around, or moves while its shutter is open.
 void fit_camera(const SceneDescription& shown, SceneDescription& scene);
 
 }  // namespace raytrace

@@ -153,7 +153,9 @@ std::optional<SceneDescription> load_picture(const RenderJob& job, RenderObserve
             "for "
             "models: " +
             job.scene_name() + " has a camera and lights");
-      description = load_scene(job.scene, diagnostics, job.threads, {job.frame, job.variables, job.missing_texture});
+      const SceneSettings settings{
+          .frame = job.frame, .variables = job.variables, .missing_texture = job.missing_texture, .still = job.still};
+      description = load_scene(job.scene, diagnostics, job.threads, settings);
     }
     if (description && !is_model(job.scene)) {
       refuse_to_overwrite(*description, job);

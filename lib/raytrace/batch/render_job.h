@@ -32,6 +32,7 @@ struct RenderJob {
   bool is_one_of_frames = false;  ///< the picture says which frame it is
   std::map<std::string, std::string> variables;
   MissingTexture missing_texture = MissingTexture::error;
+  bool still = false;  ///< nothing moves while the shutter is open
 
   std::optional<Resolution> resolution;        ///< none: the scene's
   bool fit = false;                            ///< moves the camera so that all is just in view (fit_camera.h)

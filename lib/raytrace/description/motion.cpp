@@ -1,7 +1,13 @@
 #include "raytrace/description/motion.h"
 
 #include <algorithm>
+#include <cmath>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -55,129 +61,156 @@ std::optional<Vec3d> shift_between(const Fields& fields, const void* from, const
   return shift.value_or(Vec3d{0, 0, 0});
 }
 
-/// The same list of any scene.
-using ListsOf = const ObjectLists& (*)(const SceneDescription& scene, std::size_t group);
+/// Whether what moves straight from one map to the next is flat or mirrored on its way, or nearly so.
+bool collapses_between(const Affine& from, const Affine& to) {
+  const double least = 0.1 * std::min(std::abs(from.determinant()), std::abs(to.determinant()));
+  constexpr int steps = 64;
+  for (int i = 0; i <= steps; ++i) {
+    const double part = static_cast<double>(i) / steps;
+    const auto between = [&](Vec3d Affine::* column) { return from.*column * (1 - part) + to.*column * part; };
+    const Affine map{between(&Affine::x), between(&Affine::y), between(&Affine::z), between(&Affine::origin)};
+    const double determinant = from.determinant() < 0 ? -map.determinant() : map.determinant();
+    if (!(determinant >= least)) return true;
+  }
+  return false;
+}
+
+constexpr const char* slower = "; let the shutter be open for less time";
 
 class MotionFinder {
  public:
-  MotionFinder(SceneDescription& scene, const std::vector<SceneDescription>& moments, Diagnostics& diagnostics)
-      : scene_(scene), moments_(moments), diagnostics_(diagnostics) {}
+  MotionFinder(SceneDescription& scene, Diagnostics& diagnostics) : scene_(scene), diagnostics_(diagnostics) {}
 
-  void find() {
-    set_camera();
+  /// then: the scene as it is at moment number `moment`, which come one after the other.
+  void add(std::size_t moment, const SceneDescription& then) {
+    moment_ = moment;
+    add_camera(then.camera);
+    compare_objects(0, scene_.objects, then.objects);
+    for (std::size_t group = 0; group < scene_.groups.size(); ++group)
+      compare_objects(group + 1, scene_.groups[group].objects, then.groups[group].objects);
+    warn_of_others(then);
+  }
+
+  /// After the last moment.
+  void finish() {
+    if (!camera_moves_) scene_.moving_camera.clear();
+    const auto* const path = scene_.integrator ? std::get_if<Path::Parameters>(&*scene_.integrator) : nullptr;
+    if (camera_moves_ && path != nullptr && path->caustics == Caustics::light)
+      diagnostics_.error({},
+                         "the camera moves while its shutter is open, and light paths (<caustics>) cannot reach it; "
+                         "let it stand still, or remove <caustics>");
+    for (const Group& group : scene_.groups) group_names_.insert(group.name);
+    move_objects(0, scene_.objects);
     const std::size_t groups = scene_.groups.size();
-    add_objects(scene_.objects, 0,
-                [](const SceneDescription& scene, std::size_t) -> const ObjectLists& { return scene.objects; });
     for (std::size_t group = 0; group < groups; ++group) {
-      // Where groups are added, those before move.
+      // Where groups are added, those before them move in memory.
       ObjectLists lists = std::move(scene_.groups[group].objects);
-      add_objects(lists, group, [](const SceneDescription& scene, std::size_t i) -> const ObjectLists& {
-        return scene.groups[i].objects;
-      });
+      move_objects(group + 1, lists);
       scene_.groups[group].objects = std::move(lists);
     }
-    warn_of_others();
   }
 
  private:
-  void set_camera() {
-    std::visit(
-        [&]<class Parameters>(const Parameters& camera) {
-          bool moves = false;
-          for (const SceneDescription& moment : moments_) {
-            const auto* then = std::get_if<Parameters>(&moment.camera);
-            moves = moves || (then != nullptr && !have_same_values(fields_of(camera), &camera, then));
-          }
-          if (!moves) return;
-          for (const SceneDescription& moment : moments_) scene_.moving_camera.push_back(moment.camera);
-        },
-        scene_.camera);
-  }
-  template <class Parameters>
-  static const Fields& fields_of(const Parameters& /*of the type*/) {
-    static const Fields fields = [] {
-      Fields found;
-      for_each_type(Cameras{}, [&]<class Camera>(std::type_identity<Camera>) {
-        if constexpr (std::is_same_v<typename Camera::Parameters, Parameters>) found = Camera::fields();
-      });
-      return found;
-    }();
-    return fields;
+  /// An object: of the scene (0) or a group (its number + 1), the type's and its own number there.
+  struct Place {
+    std::size_t list, type, item;
+    friend auto operator<=>(const Place&, const Place&) = default;
+  };
+
+  void add_camera(const CameraParameters& then) {
+    for_each_type(Cameras{}, [&]<class Camera>(std::type_identity<Camera>) {
+      const auto* const now = std::get_if<typename Camera::Parameters>(&scene_.camera);
+      if (now == nullptr) return;
+      const auto& at_moment = std::get<typename Camera::Parameters>(then);
+      camera_moves_ = camera_moves_ || !have_same_values(Camera::fields(), now, &at_moment);
+      if (!scene_.moving_camera.empty())
+        check_turn(std::get<typename Camera::Parameters>(scene_.moving_camera.back()), at_moment);
+    });
+    scene_.moving_camera.push_back(then);
   }
 
-  void add_objects(ObjectLists& lists, std::size_t group, ListsOf lists_of) {
+  template <class Parameters>
+  void check_turn(const Parameters& from, const Parameters& to) {
+    const ViewFrame a(from.eye, from.lookat, from.up), b(to.eye, to.lookat, to.up);
+    // One and twice the cosine of the angle.
+    if (dot(a.u, b.u) + dot(a.v, b.v) + dot(a.w, b.w) > 1) return;
+    diagnostics_.error({}, std::string("the camera turns too fast to be followed while the shutter is open") + slower);
+  }
+
+  void compare_objects(std::size_t list, const ObjectLists& lists, const ObjectLists& then) {
+    for_each_type(Objects{}, [&]<class T>(std::type_identity<T>) {
+      const auto& items = std::get<ObjectItems<T>>(lists);
+      const auto& items_then = std::get<ObjectItems<T>>(then);
+      if (items.size() != items_then.size())
+        return diagnostics_.error(
+            SourceLocation{(items.empty() ? items_then : items).front().line, 0},
+            "not every <" + std::string(T::element) + "> is there all the time while the shutter is open");
+      const Fields fields = T::fields();
+      for (std::size_t i = 0; i < items.size(); ++i)
+        if (items[i].transform != items_then[i].transform ||
+            !have_same_values(fields, &items[i].parameters, &items_then[i].parameters))
+          add_place({list, index_of<T>(Objects{}), i}, fields, items[i], items_then[i]);
+    });
+  }
+
+  /// Where the object that the item would be without its transform is at this moment.
+  template <class T>
+  void add_place(const Place& object, const Fields& fields, const ObjectItem<T>& item, const ObjectItem<T>& then) {
+    const std::optional<Vec3d> shift = shift_between(fields, &item.parameters, &then.parameters);
+    if (!shift)
+      return diagnostics_.error(
+          SourceLocation{item.line, 0},
+          "this <" + std::string(T::element) +
+              "> changes its form while the shutter is open; let the keys of a <transform> move, turn and scale it");
+    std::vector<Affine>& motion = motions_[object];
+    if (motion.empty()) motion.assign(shutter_moments, item.transform.affine());
+    motion[moment_] = then.transform.affine() * Affine{.origin = *shift};
+  }
+
+  template <class T>
+  void check_speed(const ObjectItem<T>& item, const std::vector<Affine>& motion) {
+    for (std::size_t i = 1; i < motion.size(); ++i)
+      if (collapses_between(motion[i - 1], motion[i]))
+        return diagnostics_.error(SourceLocation{item.line, 0},
+                                  "this <" + std::string(T::element) +
+                                      "> turns, or is turned inside out, too fast to be followed while the shutter "
+                                      "is open" +
+                                      slower);
+  }
+
+  /// What moves becomes an instance with that motion.
+  void move_objects(std::size_t list, ObjectLists& lists) {
     std::vector<ObjectItem<Instance>> added;
     for_each_type(Objects{}, [&]<class T>(std::type_identity<T>) {
       auto& items = std::get<ObjectItems<T>>(lists);
-      const bool all_there = std::all_of(moments_.begin(), moments_.end(), [&](const SceneDescription& moment) {
-        return std::get<ObjectItems<T>>(lists_of(moment, group)).size() == items.size();
-      });
-      if (!all_there) {
-        diagnostics_.error(
-            SourceLocation{items.empty() ? 0 : items.front().line, 0},
-            "not every <" + std::string(T::element) + "> is there all the time while the shutter is open");
-        return;
-      }
-      std::vector<bool> gone(items.size());
-      for (std::size_t i = 0; i < items.size(); ++i) {
-        std::vector<const ObjectItem<T>*> then;
-        for (const SceneDescription& moment : moments_)
-          then.push_back(&std::get<ObjectItems<T>>(lists_of(moment, group))[i]);
-        if (!moves(items[i], then)) continue;
-        auto motion = motion_of(items[i], then);
-        if (motion.empty()) continue;
-        if constexpr (std::is_same_v<T, Instance>) {
-          items[i].motion = std::move(motion);
-        } else {
-          added.push_back(in_group(std::move(items[i]), std::move(motion)));
-          gone[i] = true;
-        }
-      }
       std::size_t kept = 0;
-      for (std::size_t i = 0; i < items.size(); ++i)
-        if (!gone[i]) {
-          if (kept != i) items[kept] = std::move(items[i]);
-          ++kept;
+      for (std::size_t i = 0; i < items.size(); ++i) {
+        const auto motion = motions_.find({list, index_of<T>(Objects{}), i});
+        if (motion != motions_.end()) check_speed(items[i], motion->second);
+        if constexpr (std::is_same_v<T, Plane>) {
+          if (motion != motions_.end())
+            diagnostics_.error(SourceLocation{items[i].line, 0},
+                               std::string("a plane has no end, so it cannot move while the shutter is open"));
+        } else if constexpr (std::is_same_v<T, Instance>) {
+          if (motion != motions_.end()) items[i].motion = std::move(motion->second);
+        } else if (motion != motions_.end()) {
+          added.push_back(in_group(std::move(items[i]), std::move(motion->second)));
+          continue;
         }
+        if (kept != i) items[kept] = std::move(items[i]);
+        ++kept;
+      }
       items.erase(items.begin() + static_cast<std::ptrdiff_t>(kept), items.end());
     });
     auto& instances = std::get<ObjectItems<Instance>>(lists);
     for (ObjectItem<Instance>& instance : added) instances.push_back(std::move(instance));
   }
 
-  template <class T>
-  static bool moves(const ObjectItem<T>& item, const std::vector<const ObjectItem<T>*>& then) {
-    static const Fields fields = T::fields();
-    return std::any_of(then.begin(), then.end(), [&](const ObjectItem<T>* at_moment) {
-      return at_moment->transform != item.transform ||
-             !have_same_values(fields, &item.parameters, &at_moment->parameters);
-    });
-  }
-
-  /// Where the object that the item would be without its transform is at each moment; empty: there is an error.
-  template <class T>
-  std::vector<Affine> motion_of(const ObjectItem<T>& item, const std::vector<const ObjectItem<T>*>& then) {
-    static const Fields fields = T::fields();
-    std::vector<Affine> motion;
-    for (const ObjectItem<T>* const at_moment : then) {
-      const std::optional<Vec3d> shift = shift_between(fields, &item.parameters, &at_moment->parameters);
-      if (!shift) {
-        diagnostics_.error(
-            SourceLocation{item.line, 0},
-            "this <" + std::string(T::element) +
-                "> changes its form while the shutter is open; let the keys of a <transform> move, turn and scale it");
-        return {};
-      }
-      motion.push_back(at_moment->transform.affine() * Affine{.origin = *shift});
-    }
-    return motion;
-  }
-
   /// The item as a group of its own, and what moves: an instance of that.
   template <class T>
   ObjectItem<Instance> in_group(ObjectItem<T> item, std::vector<Affine> motion) {
     ObjectItem<Instance> instance;
-    instance.parameters.group.name = free_name();
+    instance.parameters.group.name = free_group_name();
     instance.name = std::exchange(item.name, {});
     instance.line = item.line;
     instance.transform = std::exchange(item.transform, {});
@@ -190,66 +223,85 @@ class MotionFinder {
     return instance;
   }
 
-  std::string free_name() {
-    while (true) {
-      std::string name = "moving#" + std::to_string(++groups_made_);
-      if (std::none_of(scene_.groups.begin(), scene_.groups.end(),
-                       [&](const Group& group) { return group.name == name; }))
-        return name;
-    }
+  std::string free_group_name() {
+    while (true)
+      if (std::string name = "moving#" + std::to_string(++groups_made_); group_names_.insert(name).second) return name;
   }
 
-  void warn_of_others() {
-    const auto warn = [&](const char* what, std::uint32_t line) {
-      diagnostics_.warning(SourceLocation{line, 0},
-                           std::string(what) + " stands still while the shutter is open: its keys count at the frame");
-    };
-    const auto compare = [&]<class Item>(std::type_identity<Item>, const Fields& fields, const char* what, auto list) {
-      const std::vector<Item>& items = list(scene_);
-      for (std::size_t i = 0; i < items.size(); ++i)
-        for (const SceneDescription& moment : moments_) {
-          const std::vector<Item>& then = list(moment);
-          if (then.size() == items.size() && have_same_values(fields, &items[i].parameters, &then[i].parameters))
-            continue;
-          return warn(what, items[i].line);
-        }
+  void warn_of_others(const SceneDescription& then) {
+    const auto compare = [&](const auto& items, const auto& items_then, const Fields& fields, const std::string& what) {
+      for (std::size_t i = 0; i < items.size(); ++i) {
+        if (items.size() == items_then.size() &&
+            have_same_values(fields, &items[i].parameters, &items_then[i].parameters))
+          continue;
+        if (warned_.insert(items[i].line).second)
+          diagnostics_.warning(SourceLocation{items[i].line, 0},
+                               what + " stands still while the shutter is open: its keys count at the frame");
+      }
     };
     for_each_type(Lights{}, [&]<class T>(std::type_identity<T>) {
-      compare(std::type_identity<LightItem<T>>{}, T::fields(), "the light",
-              [](const SceneDescription& scene) -> const auto& { return std::get<LightItems<T>>(scene.lights); });
+      compare(std::get<LightItems<T>>(scene_.lights), std::get<LightItems<T>>(then.lights), T::fields(), "this light");
     });
     for_each_type(Materials{}, [&]<class T>(std::type_identity<T>) {
-      compare(std::type_identity<MaterialItem<T>>{}, T::fields(), "the material",
-              [](const SceneDescription& scene) -> const auto& { return std::get<MaterialItems<T>>(scene.materials); });
+      compare(std::get<MaterialItems<T>>(scene_.materials), std::get<MaterialItems<T>>(then.materials), T::fields(),
+              "this material");
     });
     for_each_type(Textures{}, [&]<class T>(std::type_identity<T>) {
-      compare(std::type_identity<TextureItem<T>>{}, T::fields(), "the texture",
-              [](const SceneDescription& scene) -> const auto& { return std::get<TextureItems<T>>(scene.textures); });
+      compare(std::get<TextureItems<T>>(scene_.textures), std::get<TextureItems<T>>(then.textures), T::fields(),
+              "this texture");
     });
   }
 
   SceneDescription& scene_;
-  const std::vector<SceneDescription>& moments_;
   Diagnostics& diagnostics_;
+  std::size_t moment_ = 0;
+  bool camera_moves_ = false;
+  std::map<Place, std::vector<Affine>> motions_;
+  std::set<std::uint32_t> warned_;  ///< lines
+  std::set<std::string> group_names_;
   int groups_made_ = 0;
 };
+
+struct Shutter {
+  double opens, closes;
+};
+
+Shutter shutter_of(const SceneDescription& scene) {
+  return std::visit([](const auto& camera) { return Shutter{camera.shutteropen, camera.shutterclose}; }, scene.camera);
+}
 
 }  // namespace
 
 void add_motion(SceneDescription& scene, const std::function<SceneDescription(double, Diagnostics&)>& read,
                 Diagnostics& diagnostics) {
-  const auto [open, close] =
-      std::visit([](const auto& camera) { return std::pair(camera.shutteropen, camera.shutterclose); }, scene.camera);
-  if (!(close > open)) return;
-  std::vector<SceneDescription> moments;
-  for (int i = 0; i < shutter_moments; ++i) {
+  const auto [opens, closes] = shutter_of(scene);
+  if (!(closes > opens)) return;
+  MotionFinder finder(scene, diagnostics);
+  for (std::size_t i = 0; i < shutter_moments; ++i) {
     Diagnostics of_moment(diagnostics.file());
-    moments.push_back(read(open + (close - open) * i / (shutter_moments - 1), of_moment));
-    if (!of_moment.has_errors()) continue;
-    const Diagnostic& first = of_moment.kept().front();
-    return diagnostics.error(first.location, "while the shutter is open: " + first.message);
+    const SceneDescription then =
+        read(opens + (closes - opens) * static_cast<double>(i) / (shutter_moments - 1), of_moment);
+    if (of_moment.has_errors()) {
+      const auto first = std::find_if(of_moment.kept().begin(), of_moment.kept().end(),
+                                      [](const Diagnostic& one) { return one.severity == Severity::error; });
+      if (first->file.empty())
+        diagnostics.error(first->location, "while the shutter is open: " + first->message);
+      else
+        diagnostics.error({}, "while the shutter is open, in line " + std::to_string(first->location.line) + " of " +
+                                  first->file + ": " + first->message);
+    } else {
+      finder.add(i, then);
+    }
+    if (diagnostics.has_errors()) return;
   }
-  MotionFinder(scene, moments, diagnostics).find();
+  finder.finish();
+}
+
+void warn_of_motion(const SceneDescription& scene, Diagnostics& diagnostics) {
+  const auto [opens, closes] = shutter_of(scene);
+  if (closes > opens)
+    diagnostics.warning({},
+                        "the scene is as it stands at the frame: what moves while the shutter is open is not in it");
 }
 
 }  // namespace raytrace

@@ -24,4 +24,7 @@ void add_motion(SceneDescription& scene,
                 const std::function<SceneDescription(double after_frame, Diagnostics& diagnostics)>& read,
                 Diagnostics& diagnostics);
 
+/// For a scene that is to stand still: warns if its shutter is open for some time.
+void warn_of_motion(const SceneDescription& scene, Diagnostics& diagnostics);
+
 }  // namespace raytrace

@@ -209,8 +209,9 @@ bool load_meshes(SceneDescription& description, Diagnostics& diagnostics, int th
                  MissingTexture missing_texture = MissingTexture::error);
 
 /// Writes the description as a scene file in canonical form: every value spelled out, defaults included; reading it
-/// back gives an equal description (all doubles round-trip). It has neither variables nor keys, nor what load_meshes()
-/// adds, but for the meshes and lights that it makes of models.
+/// back gives an equal description (all doubles round-trip). It has neither variables nor keys, nor what moves while the
+/// shutter is open (SceneSettings::still), nor what load_meshes() adds, but for the meshes and lights that it makes of
+/// models.
 std::string print_scene(const SceneDescription& description);
 
 /// An XML Schema 1.0 document, made from the registries' tables of fields, so that it knows every type there is. A file

@@ -30,6 +30,7 @@ struct SceneSettings {
   std::map<std::string, std::string> variables;  ///< name -> value; none is called "frame" (see is_variable_name)
   MissingTexture missing_texture = MissingTexture::error;
   double after_frame = 0;  ///< so many frames after it keys are evaluated
+  bool still = false;      ///< nothing moves while the shutter is open: all is as it is at that moment
 };
 
 /// The variable that need not be set.
@@ -47,7 +48,11 @@ class Variables {
 
   int frame() const { return frame_; }
   /// The moment at which keys are evaluated.
-  double moment() const { return frame_ + after_frame_; }
+  double moment() const {
+    moment_was_asked_ = true;
+    return frame_ + after_frame_;
+  }
+  bool moment_was_asked() const { return moment_was_asked_; }
 
   /// In bytes, with the values put in: of a text, and of all texts together as of a scene's file (scene_text.h). A
   /// short text may have a long value many times.
@@ -79,6 +84,7 @@ class Variables {
   int frame_;
   double after_frame_;
   mutable std::atomic<std::size_t> scene_length_ = 0;
+  mutable std::atomic<bool> moment_was_asked_ = false;
   std::map<std::string, Variable, std::less<>> variables_;
 };
 

@@ -189,6 +189,8 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   const SceneTables& tables = scene_.tables();
   Ray<FloatN>& rays = path.rays;
   Hits hits = path.hits(arrived);
+  if (tables.has_motion()) [[unlikely]]
+    hits.time = RayIds{path.pixel, path.sample, 0}.times();
   SurfaceInteraction<FloatN> surface = scene_.accelerator().surface(rays, hits);
   const bool has_media = !tables.media().empty();
   MediumStack media;
