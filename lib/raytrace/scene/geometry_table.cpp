@@ -44,6 +44,7 @@ GeometryTable::GeometryTable(const SceneDescription& description, const Vec3d& o
   for (const Group& group : description.groups)
     groups_.push_back(std::make_unique<const GeometryTable>(group.objects, Vec3d(0, 0, 0), first_materials, threads));
   add_instances(description, origin, first_materials);
+  for (const auto& group : groups_) has_catchers_ = has_catchers_ || group->has_catchers_;
 }
 
 void GeometryTable::add_objects(const ObjectLists& objects, const Vec3d& origin,
@@ -137,6 +138,7 @@ void GeometryTable::add_instances(const SceneDescription& description, const Vec
   const auto add = [&](const InstanceTarget& target, const Maps& maps, const Bounds& box, std::int32_t object,
                        std::int32_t material, bool catches) {
     instances_catch_.push_back(catches);
+    has_catchers_ = has_catchers_ || catches;
     if (maps.size() == 1)
       instances_.add(target, maps.front(), box, object, material);
     else

@@ -98,7 +98,7 @@ class GeometryTable {
   std::optional<std::int32_t> only_material(const Hits& hits) const;
 
   /// Whether any object is a shadow catcher, and the lanes that hit one.
-  bool has_shadow_catchers() const;
+  bool has_shadow_catchers() const { return has_catchers_; }
   MaskN shadow_catchers(const Hits& hits) const;
 
   /// For lanes that hit the same geometry of the same table: f(table, geometry, those lanes).
@@ -148,6 +148,7 @@ class GeometryTable {
   std::vector<std::int32_t> object_materials_;  ///< of each object; of a mesh, its first
   std::vector<std::int32_t> catchers_;          ///< the objects that are shadow catchers, by number
   std::vector<bool> instances_catch_;           ///< whether all of an instance is one
+  bool has_catchers_ = false;
   std::vector<TransformedShape> transformed_;
   Bounds bounds_ = empty_bounds;  ///< of all that is not an instance
   std::vector<std::unique_ptr<const GeometryTable>> groups_;

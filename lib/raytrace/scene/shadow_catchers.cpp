@@ -26,12 +26,7 @@ void GeometryTable::set_shadow_catchers(const ObjectLists& objects, int threads)
   const auto behind = static_cast<std::int32_t>(object_materials_.size() - clouds.size());
   add(meshes, behind - static_cast<std::int32_t>(meshes.size()));
   add(clouds, behind);
-}
-
-bool GeometryTable::has_shadow_catchers() const {
-  return !catchers_.empty() ||
-         std::find(instances_catch_.begin(), instances_catch_.end(), true) != instances_catch_.end() ||
-         std::any_of(groups_.begin(), groups_.end(), [](const auto& group) { return group->has_shadow_catchers(); });
+  has_catchers_ = !catchers_.empty();
 }
 
 bool GeometryTable::is_shadow_catcher(std::uint32_t instance, std::uint32_t geometry, std::uint32_t primitive) const {
