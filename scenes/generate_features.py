@@ -1183,6 +1183,25 @@ for transform in ("srgb", "agx", "khronos-neutral"):
         + "    </spheres>\n",
     )
 
+# Shadow catchers
+write(
+    "shadow-catcher",
+    "A floor of which a transparent picture shows the shadow alone, to put the sphere onto a photograph.",
+    room=ROOM.replace("<samples>16</samples> ", "<samples>256</samples> ").replace("0.04", "0").replace("0.06", "0")
+    .replace("0.09", "0"),
+    lights="""\
+  <lights>
+    <environmentlights> <environmentlight> <scaleradiance>0.35</scaleradiance> </environmentlight> </environmentlights>
+    <directionallights>
+      <directionallight>
+        <direction x="-1" y="1.4" z="1"/> <scaleradiance>2.5</scaleradiance> <angle>5</angle>
+      </directionallight>
+    </directionallights>
+  </lights>
+""",
+    floor=FLOOR.replace("</material> </plane>", "</material> <shadowcatcher>true</shadowcatcher> </plane>"),
+)
+
 # Integrator
 BOUNCES = dict(
     mattes="""\

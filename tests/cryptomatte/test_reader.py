@@ -7,7 +7,7 @@ import sys
 import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-SCENE = os.path.join(HERE, "..", "..", "scenes", "gallery", "still-life.xml")
+GALLERY = os.path.join(HERE, "..", "..", "scenes", "gallery")
 SKIPPED = 77
 
 
@@ -19,7 +19,8 @@ def check(program, folder):
 
     # With one sample a pixel, a matte is where the id is.
     file = os.path.join(folder, "a.exr")
-    subprocess.run([program, SCENE, "-q", "-o", file, "-r", "240x180", "-s", "1", "--aov", "all"], check=True)
+    scene = os.path.join(GALLERY, "still-life.xml")
+    subprocess.run([program, scene, "-q", "-o", file, "-r", "240x180", "-s", "1", "--aov", "all"], check=True)
     with open(file, "rb") as opened:
         picture = Exr(opened.read())
     layers = {layer.metadata().name(): layer for layer in cryptomatte_api.Cryptomatte.load(file)}
@@ -32,8 +33,9 @@ def check(program, folder):
             assert (mask == (ids == place + 1)).all(), f"{kind} {name}"
         print(f"{kind}: {len(names)} mattes, {numpy.count_nonzero(numpy.unique(ids))} of them seen")
 
-    # With more, mattes add up to the coverage.
-    subprocess.run([program, SCENE, "-q", "-o", file, "-r", "240x180", "-s", "16", "--aov", "all", "--float",
+    # With more, mattes add up to the coverage, here of a scene before nothing.
+    scene = os.path.join(GALLERY, "helix.xml")
+    subprocess.run([program, scene, "-q", "-o", file, "-r", "240x180", "-s", "16", "--aov", "all", "--float",
                     "--transparent"], check=True)
     with open(file, "rb") as opened:
         picture = Exr(opened.read())

@@ -203,6 +203,7 @@ ObjectLists random_objects(Random& random, const SceneDescription& scene,
       const std::string name = below(random, 2) == 0 ? "" : random_name(random) + std::to_string(++named);
       ObjectItem<T> item{random_parameters<T>(random), name, materials[below(random, materials.size())]};
       item.transform = random_transform(random);
+      item.shadowcatcher = below(random, 4) == 0;
       if constexpr (std::is_same_v<T, Instance>) {
         if (scene.groups.empty()) continue;
         item.parameters.group.name = scene.groups[below(random, scene.groups.size())].name;
@@ -219,7 +220,8 @@ ObjectLists random_objects(Random& random, const SceneDescription& scene,
 
 bool same_objects(const ObjectLists& a, const ObjectLists& b) {
   return same_items(Objects{}, a, b, [](const auto& x, const auto& y) {
-    return x.name == y.name && same(x.material, y.material) && x.transform == y.transform;
+    return x.name == y.name && same(x.material, y.material) && x.transform == y.transform &&
+           x.shadowcatcher == y.shadowcatcher;
   });
 }
 

@@ -54,20 +54,27 @@ bool identical(const FloatPicture& a, const FloatPicture& b) {
                                                 [](const Pixel& p, const Pixel& q) { return identical(p, q); });
 }
 
-void check_same_bits(const SceneDescription& description) {
+void check_same_bits(const SceneDescription& description, bool transparent) {
   const auto all_samples = static_cast<std::uint32_t>(description.viewplane.samples);
   const Region all = whole(description);
   for (const std::string& isa : usable_isas()) {
     INFO(isa);
     const auto scene = build_scene(description, {1, isa});
-    const FloatPicture picture = rendered(description, 1, isa);
-    CHECK(identical(rendered(description, 3, isa), picture));
-    Film film(film_settings(*scene, description, {1, 0, all}), FilmContent::sums);
+    RayCounts rays;
+    const auto rendered_part = [&](int threads, const Region& region) {
+      RenderSettings settings{threads, 0, region};
+      settings.transparent = transparent;
+      return render(*scene, description, settings, rays);
+    };
+    const FloatPicture picture = rendered_part(1, all);
+    CHECK(identical(rendered_part(3, all), picture));
+    RenderSettings settings{1, 0, all};
+    settings.transparent = transparent;
+    Film film(film_settings(*scene, description, settings), FilmContent::sums);
     for (const std::uint32_t samples : {1U, 3U, all_samples / 2 - 1, all_samples}) render(*scene, film, samples, 1);
     CHECK(identical(film, picture));
-    RayCounts rays;
     const Region part{all.x1 / 3, all.y1 / 4, all.x1 * 4 / 5, all.y1 * 5 / 6};
-    const FloatPicture cut = render(*scene, description, {1, 0, part}, rays);
+    const FloatPicture cut = rendered_part(1, part);
     int wrong = 0;
     for (int y = part.y0; y < part.y1; ++y)
       for (int x = part.x0; x < part.x1; ++x) wrong += !identical(cut.at(x, y), picture.at(x, y));

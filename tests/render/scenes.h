@@ -46,7 +46,7 @@ bool identical(const FloatPicture& a, const FloatPicture& b);
 
 /// Fails where the picture depends on threads, on the passes in which its samples are traced, whose packets have
 /// several shapes, or on which part of it is rendered; with each instruction set.
-void check_same_bits(const SceneDescription& description);
+void check_same_bits(const SceneDescription& description, bool transparent = false);
 
 /// The largest difference of their channels.
 double difference(const Pixel& a, const Pixel& b);

@@ -198,7 +198,7 @@ void add_unseen_lamps(SceneDescription& description, const Directions& to) {
   }
 }
 
-/// Of matte grey, at the lowest vertex of what is shown.
+/// Of matte grey, at the lowest vertex of what is shown. A transparent picture shows only the shadows on it.
 void add_floor(SceneDescription& description, const SceneDescription& shown) {
   Extent extent;
   for_each_vertex(shown, [&](const Vec3d& p) { extent.add(p); });
@@ -211,7 +211,7 @@ void add_floor(SceneDescription& description, const SceneDescription& shown) {
   materials.push_back({paint, "floor"});
   const Vec3d middle = extent.middle();
   std::get<ObjectItems<Plane>>(description.objects)
-      .push_back({{{middle.x, extent.lower.y, middle.z}, {0, 1, 0}}, "floor", material});
+      .push_back({{{middle.x, extent.lower.y, middle.z}, {0, 1, 0}}, "floor", material, 0, true});
 }
 
 void add_even_sky(SceneDescription& description) {

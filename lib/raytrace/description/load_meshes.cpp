@@ -49,6 +49,7 @@ class MeshLoader {
     mesh.name = std::move(model.name);
     mesh.material = model.material;
     mesh.line = model.line;
+    mesh.shadowcatcher = model.shadowcatcher;
     mesh.transform = std::move(model.transform);
     load(mesh);
     if (mesh.data == nullptr || mesh.data->lights.empty()) return;

@@ -148,13 +148,17 @@ class SchemaPrinter : private XmlWriter {
     element(named("complexType", name), [&] { element(any_number_of, print_children); });
   }
 
+  static std::string_view type_of_label(std::string_view label) {
+    if (label == transform_element) return label;
+    return label == shadowcatcher_element ? "boolean" : "text";
+  }
+
   void print_item(const ElementType& type, std::span<const FieldInfo> labels, bool may_have_textures = false) {
     // Without fields it would have to be empty, white space included, were it not mixed.
     const bool empty = labels.empty() && type.fields.empty();
     element(named("complexType", type.element) + (empty ? " mixed=\"true\"" : ""), [&] {
       element("xs:all", [&] {
-        for (const FieldInfo& label : labels)
-          child(label.name, label.name == transform_element ? label.name : "text", label.required);
+        for (const FieldInfo& label : labels) child(label.name, type_of_label(label.name), label.required);
         const auto has_shorthand = [&](std::string_view name) {
           return std::any_of(type.fields_in_files.begin(), type.fields_in_files.end(),
                              [&](const Field& field) { return field.in_place_of == name; });

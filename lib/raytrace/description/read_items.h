@@ -147,13 +147,15 @@ class TypedItemList final : public ItemList {
   /// The texts of a name and of a material.
   using Labels = std::array<std::string_view, labels_.size()>;
 
-  /// Where they go; a transform goes to the item at once.
+  /// Where they go; what is no text goes to the item at once.
   static auto targets_of(Labels& labels, Item& item) {
     std::array<FieldTarget, labels_.size()> targets;
     for (std::size_t i = 0; i < labels_.size(); ++i) {
       targets[i] = &labels[i];
       if constexpr (requires { item.transform; })
         if (labels_[i].name == transform_element) targets[i] = &item.transform;
+      if constexpr (requires { item.shadowcatcher; })
+        if (labels_[i].name == shadowcatcher_element) targets[i] = &item.shadowcatcher;
     }
     return targets;
   }

@@ -111,7 +111,8 @@ struct ObjectItem {
   std::string name;  ///< empty: unnamed
   MaterialReference material;
   std::uint32_t line = 0;
-  Transform transform = {};  ///< of what the parameters say
+  bool shadowcatcher = false;  ///< a transparent picture shows the shadows on it alone
+  Transform transform = {};    ///< of what the parameters say
 };
 
 /// No material: that of its file, or none.
@@ -125,6 +126,7 @@ struct ObjectItem<Shape> {
   std::string name;
   MaterialReference material = no_material;  ///< where there is one, of all faces or spheres
   std::uint32_t line = 0;
+  bool shadowcatcher = false;
   Transform transform = {};
 
   // From load_meshes().
@@ -140,6 +142,7 @@ struct ObjectItem<Object> {
   std::string name;
   MaterialReference material = no_material;  ///< where there is one, of all its objects
   std::uint32_t line = 0;
+  bool shadowcatcher = false;  ///< all its objects
   Transform transform = {};
   /// Of an instance that moves while the shutter is open: its transform at each moment (motion.h).
   std::vector<Affine> motion{};

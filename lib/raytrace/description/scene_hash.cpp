@@ -87,6 +87,9 @@ class SceneHash {
         if constexpr (requires { item.motion; })
           for (const Affine& map : item.motion)
             for (const Vec3d& column : {map.x, map.y, map.z, map.origin}) hash.add(column);
+        // Scenes without any keep the hashes that they had before there were shadow catchers.
+        if constexpr (requires { item.shadowcatcher; })
+          if (item.shadowcatcher) hash.add(shadowcatcher_element);
         if constexpr (requires { item.name; }) hash.add(item.name);
         if constexpr (requires { item.material; }) hash.add_reference(item.material);
         if constexpr (requires { item.textures; }) {

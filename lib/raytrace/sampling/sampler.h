@@ -49,6 +49,13 @@ constexpr Dimension light_path_dimension(int depth, LightPathPointDraw draw) {
       0x40000000U);
 }
 
+/// What is drawn where a shadow catcher is met (tracing/shadow_catcher.h): none of those above. One of those last for
+/// each light.
+enum class CatcherDraw : std::uint32_t { choice, emitter, emitter_point, environment, direction, first_light };
+constexpr Dimension catcher_dimension(CatcherDraw draw, std::uint32_t light = 0) {
+  return static_cast<Dimension>((static_cast<std::uint32_t>(draw) + light) | 0x60000000U);
+}
+
 /// A point of the unit square for each lane: from 0 up to 1.
 struct Sample2D {
   FloatN x, y;

@@ -9,11 +9,15 @@
 namespace raytrace {
 
 /// Rays of a camera, and how much of the way from where they begin they leave out.
+struct CaughtShadows;
+
 struct CameraRays {
   Ray<FloatN> rays;
   FloatN skipped;  ///< rays.near may be as far before their origins
   // Of integrators that take samples, and in scenes with opacities: the pixel's hash, and the sample's index.
   UintN pixel{0u}, sample{0u};
+  /// Receives the shadows on shadow catchers (tracing/shadow_catcher.h); null: these are surfaces like any other.
+  CaughtShadows* caught = nullptr;
 };
 
 /// The rays of a camera that is far away from what it shows: in double up to where they come to the sphere, or closest

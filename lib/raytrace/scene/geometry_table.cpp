@@ -44,6 +44,7 @@ GeometryTable::GeometryTable(const SceneDescription& description, const Vec3d& o
   for (const Group& group : description.groups)
     groups_.push_back(std::make_unique<const GeometryTable>(group.objects, Vec3d(0, 0, 0), first_materials, threads));
   add_instances(description, origin, first_materials);
+  for (const auto& group : groups_) has_catchers_ = has_catchers_ || group->has_catchers_;
 }
 
 void GeometryTable::add_objects(const ObjectLists& objects, const Vec3d& origin,
@@ -62,6 +63,7 @@ void GeometryTable::add_objects(const ObjectLists& objects, const Vec3d& origin,
   set_bounds(threads);
   object_materials_.resize(static_cast<std::size_t>(count));
   set_object_materials(objects, first_materials, threads);
+  set_shadow_catchers(objects, threads);
 }
 
 void GeometryTable::add_shapes(const ObjectLists& objects, const Vec3d& origin) {
@@ -134,37 +136,40 @@ void GeometryTable::add_instances(const SceneDescription& description, const Vec
   };
   // An instance of a group is one of its own objects, and one of each instance in it.
   const auto add = [&](const InstanceTarget& target, const Maps& maps, const Bounds& box, std::int32_t object,
-                       std::int32_t material) {
+                       std::int32_t material, bool catches) {
+    instances_catch_.push_back(catches);
+    has_catchers_ = has_catchers_ || catches;
     if (maps.size() == 1)
       instances_.add(target, maps.front(), box, object, material);
     else
       instances_.add_moving(target, maps, box, object, material);
   };
   const auto add_group = [&](const auto& self, const ObjectItem<Instance>& item, const Maps& outer, std::int32_t object,
-                             std::int32_t outer_material) -> void {
+                             std::int32_t outer_material, bool outer_catches) -> void {
     const std::size_t number = numbers.at(item.parameters.group.name);
     const GeometryTable& group = *groups_[number];
     const Maps maps = composed(outer, item.motion.empty() ? Maps{item.transform.affine()} : item.motion);
     const std::int32_t material = material_number(item, outer_material);
+    const bool catches = outer_catches || item.shadowcatcher;
     if (group.bounds_.lower.x <= group.bounds_.upper.x)
-      add({static_cast<std::int32_t>(number)}, maps, group.bounds_, object, material);
+      add({static_cast<std::int32_t>(number)}, maps, group.bounds_, object, material, catches);
     for (const TransformedShape& shape : group.transformed_) {
       InstanceTarget target = shape.target;
       target.group = static_cast<std::int32_t>(number);
-      add(target, composed(maps, {shape.affine}), shape.bounds, object, material);
+      add(target, composed(maps, {shape.affine}), shape.bounds, object, material, catches);
     }
     for (const auto& inner : std::get<ObjectItems<Instance>>(description.groups[number].objects))
-      self(self, inner, maps, object, material);
+      self(self, inner, maps, object, material, catches);
   };
   const Maps to_origin{moved({}, origin)};
   for (const auto& item : std::get<ObjectItems<Instance>>(description.objects)) {
-    add_group(add_group, item, to_origin, static_cast<std::int32_t>(object_materials_.size()), -1);
+    add_group(add_group, item, to_origin, static_cast<std::int32_t>(object_materials_.size()), -1, false);
     object_materials_.push_back(std::max(0, material_number(item, -1)));
   }
   for (const TransformedShape& shape : transformed_) {
     const std::int32_t object =
         geometries_[shape.target.shape_type].first_object + static_cast<std::int32_t>(shape.target.primitive);
-    add(shape.target, composed(to_origin, {shape.affine}), shape.bounds, object, -1);
+    add(shape.target, composed(to_origin, {shape.affine}), shape.bounds, object, -1, false);
   }
 }
 
@@ -252,8 +257,7 @@ std::vector<GeometryTable::BoundedObject> GeometryTable::bounded_objects(
   for (std::size_t i = 0; i < instances_.size(); ++i) {
     const InstanceTarget& target = instances_.target(i);
     const std::int32_t instead = instances_.materials()[i];
-    const GeometryTable& table =
-        target.group == InstanceTarget::no_group ? *this : *groups_[static_cast<std::size_t>(target.group)];
+    const GeometryTable& table = table_of(target);
     const auto count = static_cast<std::int32_t>(wanted_materials.size());
     const bool has = instead >= 0      ? is_wanted(instead)
                      : target.is_shape ? is_wanted(table.own_material(target.shape_type, target.primitive))
@@ -315,8 +319,11 @@ std::optional<std::int32_t> GeometryTable::only_material(const Hits& hits) const
 std::int32_t GeometryTable::own_material(std::uint32_t geometry, std::uint32_t primitive) const {
   if (const MeshTable* const mesh = geometries_[geometry].mesh; mesh != nullptr)
     return mesh->material(std::size_t{primitive});
-  const IntN object = this->object(geometry, IntN(static_cast<std::int32_t>(primitive)));
-  return object_materials_[static_cast<std::size_t>(object.get(0))];
+  return object_materials_[static_cast<std::size_t>(own_object(geometry, primitive))];
+}
+
+std::int32_t GeometryTable::own_object(std::uint32_t geometry, std::uint32_t primitive) const {
+  return object(geometry, IntN(static_cast<std::int32_t>(primitive))).get(0);
 }
 
 std::int32_t GeometryTable::material_of(std::uint32_t instance, std::uint32_t geometry, std::uint32_t primitive) const {
@@ -324,8 +331,7 @@ std::int32_t GeometryTable::material_of(std::uint32_t instance, std::uint32_t ge
   if (instance != 0) {
     const std::size_t i = InstanceTable::index_of(instance);
     if (instances_.materials()[i] >= 0) return instances_.materials()[i];
-    if (const std::int32_t group = instances_.target(i).group; group >= 0)
-      table = groups_[static_cast<std::size_t>(group)].get();
+    table = &table_of(instances_.target(i));
   }
   return table->own_material(geometry, primitive);
 }

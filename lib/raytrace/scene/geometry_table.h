@@ -97,6 +97,10 @@ class GeometryTable {
   /// Of all lanes with a hit, if they hit the same primitive, or a mesh that has one material.
   std::optional<std::int32_t> only_material(const Hits& hits) const;
 
+  /// Whether any object is a shadow catcher, and the lanes that hit one.
+  bool has_shadow_catchers() const { return has_catchers_; }
+  MaskN shadow_catchers(const Hits& hits) const;
+
   /// For lanes that hit the same geometry of the same table: f(table, geometry, those lanes).
   template <class Function>
   void for_each_geometry(const Hits& hits, const Function& f) const;
@@ -121,11 +125,18 @@ class GeometryTable {
   void add_clouds(const std::vector<ObjectItem<SphereCloud>>& clouds, const Vec3d& origin);
   /// Of a geometry's primitives, for every lane one that exists.
   IntN object(std::uint32_t geometry, const IntN& primitive) const;
-  /// The material of a primitive of this table.
+  /// The object and the material of a primitive of this table.
+  std::int32_t own_object(std::uint32_t geometry, std::uint32_t primitive) const;
   std::int32_t own_material(std::uint32_t geometry, std::uint32_t primitive) const;
+  /// The table of an instance's objects.
+  const GeometryTable& table_of(const InstanceTarget& target) const {
+    return target.group == InstanceTarget::no_group ? *this : *groups_[static_cast<std::size_t>(target.group)];
+  }
+  bool is_shadow_catcher(std::uint32_t instance, std::uint32_t geometry, std::uint32_t primitive) const;
   /// The same number, but that of the cloud where lanes that hit a sphere hit one of a cloud.
   IntN or_cloud(const IntN& object, const IntN& sphere, const MaskN& lanes) const;
   void set_object_materials(const ObjectLists& objects, std::span<const std::int32_t> first_materials, int threads);
+  void set_shadow_catchers(const ObjectLists& objects, int threads);
   void set_bounds(int threads);
 
   TupleOf<Shapes, ShapeTable>::type tables_;
@@ -135,6 +146,9 @@ class GeometryTable {
   // Of each geometry, side by side: its first object, and 0 if it is one object, else all bits.
   std::vector<std::int32_t> first_objects_, primitive_masks_;
   std::vector<std::int32_t> object_materials_;  ///< of each object; of a mesh, its first
+  std::vector<std::int32_t> catchers_;          ///< the objects that are shadow catchers, by number
+  std::vector<bool> instances_catch_;           ///< whether all of an instance is one
+  bool has_catchers_ = false;
   std::vector<TransformedShape> transformed_;
   Bounds bounds_ = empty_bounds;  ///< of all that is not an instance
   std::vector<std::unique_ptr<const GeometryTable>> groups_;

@@ -2,12 +2,13 @@
 #pragma once
 
 #include "raytrace/accel/traced_scene.h"
+#include "raytrace/tracing/shadow_catcher.h"
 
 namespace raytrace {
 
 /// Ends the rays at their nearest hits. Those of a camera that is far away start anew from the eye where they hit
 /// something that is closer to it than to where they started: floats are more precise there.
-inline Hits intersect_camera_rays(const TracedScene& scene, CameraRays& camera, const MaskN& active) {
+inline Hits nearest_camera_hits(const TracedScene& scene, CameraRays& camera, const MaskN& active) {
   Ray<FloatN>& rays = camera.rays;
   const auto intersect = [&](Ray<FloatN>& some, const MaskN& lanes, const DirectionBuffer* buffer) {
     if (!scene.tables().identifies_rays()) [[likely]]
@@ -27,6 +28,14 @@ inline Hits intersect_camera_rays(const TracedScene& scene, CameraRays& camera, 
   camera.skipped = select(near_eye, FloatN(0), camera.skipped);
   hits = select(near_eye, near_hits, hits);
   return hits;
+}
+
+/// The same. Where shadow catchers act, a ray that meets one first has hit nothing.
+inline Hits intersect_camera_rays(const TracedScene& scene, CameraRays& camera, const MaskN& active) {
+  const Hits hits = nearest_camera_hits(scene, camera, active);
+  if (camera.caught == nullptr) [[likely]]
+    return hits;
+  return catch_shadows(scene, camera, hits);
 }
 
 }  // namespace raytrace

@@ -31,6 +31,7 @@ LightPaths::LightPaths(const TracedScene& scene, Film& film)
       tables_(scene.tables()),
       caustics_(*tables_.caustics()),
       film_(film),
+      catches_shadows_(film.settings().transparent && tables_.geometry().has_shadow_catchers()),
       most_points_(std::get<Path::Parameters>(tables_.integrator()).maxdepth),
       roulette_depth_(std::get<Path::Parameters>(tables_.integrator()).roulettedepth),
       inverse_unit_(std::ldexp(1.0, -film.settings().unit_exponent)) {
@@ -134,7 +135,10 @@ void LightPaths::follow(LightPathPacket& path, MaskN alive) {
     }
     const TexturePoint<FloatN>* const point = textures ? &*textures : nullptr;
     const MaskN focuses = float_mask<FloatN>(target >= IntN(0));
-    if (const MaskN shown = alive & !focuses; any(shown)) connect(path, hits, surface, boundary, shown);
+    MaskN shown = alive & !focuses;
+    if (catches_shadows_) [[unlikely]]
+      shown = shown & !tables_.geometry().shadow_catchers(hits);
+    if (any(shown)) connect(path, hits, surface, boundary, shown);
     alive = alive & focuses;
     if (path.depth + 2 > most_points_ || none(alive)) return;
     alive = scatter(path, hits, surface, boundary, point, alive);

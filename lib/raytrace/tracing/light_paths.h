@@ -45,6 +45,7 @@ class LightPaths {
   const SceneTables& tables_;
   const CausticTable& caustics_;
   Film& film_;
+  bool catches_shadows_;  ///< shadow catchers are not in the picture
   int most_points_, roulette_depth_;
   double inverse_unit_;
   std::vector<RadianceLayer*> layers_;  ///< of each light group; null where the film has none

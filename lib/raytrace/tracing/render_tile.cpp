@@ -18,6 +18,7 @@
 #include "raytrace/tracing/light_paths.h"
 #include "raytrace/tracing/packet_block.h"
 #include "raytrace/tracing/samples_left.h"
+#include "raytrace/tracing/shadow_catcher.h"
 #include "raytrace/tracing/stage_times.h"
 
 namespace raytrace {
@@ -63,6 +64,8 @@ class BlockRenderer {
         group_light_(layers_.size()),
         by_group_(layers_.size() > 1 || layers_.front() != nullptr) {
     if (!raycast && integrator_.radiance == nullptr) batch_.emplace(scene);
+    catches_shadows_ = film.settings().transparent && integrator_catches_shadows(scene.tables()) &&
+                       scene.tables().geometry().has_shadow_catchers();
     if (film.splats() != nullptr) light_paths_.emplace(scene, film);
   }
 
@@ -123,9 +126,13 @@ class BlockRenderer {
       const Sample2D point = sampler.next();
       CameraRays camera;
       if ((!raycast && integrator_.takes_samples) || scene_.tables().identifies_rays() ||
-          scene_.tables().has_sampled_lights()) [[unlikely]] {
+          scene_.tables().has_sampled_lights() || catches_shadows_) [[unlikely]] {
         camera.pixel = pixel_hash(UintN(column), UintN(row), film_.settings().seed);
         camera.sample = sample;
+      }
+      if (catches_shadows_) [[unlikely]] {
+        caught_.counted = wanted;
+        camera.caught = &caught_;
       }
       MaskN traced = active;
       if (usual_camera_ != nullptr) [[likely]] {
@@ -145,6 +152,8 @@ class BlockRenderer {
         result = raycast
                      ? Kernel<Raycast>::radiance(scene_, background_, camera, traced, wanted, report_.rays, first_hits)
                      : integrator_.radiance(scene_, background_, camera, traced, wanted, report_.rays, first_hits);
+      if (catches_shadows_) [[unlikely]]
+        caught_.add_to(result, group_light_, report_.rays);
       if (environment_ != nullptr) [[unlikely]]
         result.radiance = in_environment(*environment_, RayResult(result), Vec3<FloatN>(camera.rays.direction));
       if (usual_camera_ == nullptr) result.radiance = select(traced, result.radiance, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
@@ -311,6 +320,8 @@ class BlockRenderer {
   PixelScrambles scrambles_;
   decltype(std::declval<SceneTables>().usual_camera()) usual_camera_;  ///< if samples stay in their pixels
   RenderReport report_;
+  bool catches_shadows_ = false;
+  CaughtShadows caught_;  ///< of the packet at hand
 
   // Of light groups.
   std::vector<LightLayer*> layers_;
