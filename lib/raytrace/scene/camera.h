@@ -8,9 +8,9 @@
 
 namespace raytrace {
 
-/// Rays of a camera, and how much of the way from where they begin they leave out.
 struct CaughtShadows;
 
+/// Rays of a camera, and how much of the way from where they begin they leave out.
 struct CameraRays {
   Ray<FloatN> rays;
   FloatN skipped;  ///< rays.near may be as far before their origins
