@@ -95,7 +95,9 @@ class FaceWriter {
   void add(std::span<const std::uint32_t> polygon, const OnCorner& on_corner) {
     if (polygon.size() < 3) return;
     const std::size_t first = next_;
-    for (const std::uint32_t corner : cutter_.cut(polygon)) {
+    static constexpr std::uint32_t triangle[] = {0, 1, 2};
+    const bool is_face = polygon.size() == 3 && corners_ == 3;
+    for (const std::uint32_t corner : is_face ? std::span<const std::uint32_t>(triangle) : cutter_.cut(polygon)) {
       on_corner(next_, corner);
       indices_[next_++] = polygon[corner];
     }

@@ -148,9 +148,10 @@ class LineWords {
 
   /// Moves to the next word; false if there is none.
   bool skip_space() {
-    while (at_ != end_ && (is_space(*at_) || (*at_ == '\\' && is_joint()))) ++at_;
-    if (at_ != end_ && *at_ == comment_) at_ = end_;
-    return at_ != end_;
+    while (at_ != end_ && *at_ == ' ') ++at_;
+    if (at_ != end_ && *at_ > ' ' && *at_ != '\\' && *at_ != comment_) [[likely]]
+      return true;
+    return skip_other_space();
   }
 
   /// The next word, empty if there is none.
@@ -159,6 +160,18 @@ class LineWords {
     const char* const start = at_;
     while (!at_word_end()) ++at_;
     return {start, static_cast<std::size_t>(at_ - start)};
+  }
+
+  /// How many words are left.
+  std::size_t count() const {
+    if (at_ == end_) return 0;
+    // Without branches, and each character beside the one before it, so that it can be done for many at once.
+    unsigned words = is_space(*at_) ? 0 : 1, special = *at_ == '\\' ? 1 : 0;
+    for (const char* p = at_ + 1; p != end_; ++p) {
+      words += static_cast<unsigned>(is_space(p[-1])) & static_cast<unsigned>(!is_space(*p));
+      special |= static_cast<unsigned>(*p == '\\') | static_cast<unsigned>(*p == comment_);
+    }
+    return special == 0 ? words : count_joined();
   }
 
   /// The next word as a number. It does not move where that is none.
@@ -172,10 +185,15 @@ class LineWords {
 
   /// The next word as an integer, or the part of it before a '/'.
   bool integer(std::int64_t& value) {
-    const char* const start = *at_ == '+' ? at_ + 1 : at_;
-    const auto [stop, error] = std::from_chars(start, end_, value);
-    if (error != std::errc()) return false;
-    at_ = stop;
+    constexpr std::ptrdiff_t most_digits = 18;
+    const bool minus = *at_ == '-';
+    const char* p = at_ + (minus || *at_ == '+' ? 1 : 0);
+    const char* const digits = p;
+    std::int64_t size = 0;
+    for (; p != end_ && detail::is_digit(*p) && p - digits < most_digits; ++p) size = 10 * size + (*p - '0');
+    if (p == digits) return false;
+    value = minus ? -size : size;
+    at_ = p;
     return at_word_end() || *at_ == '/';
   }
 
@@ -193,7 +211,18 @@ class LineWords {
   bool at_word_end() const { return at_ == end_ || is_space(*at_) || (*at_ == '\\' && is_joint()); }
 
  private:
-  static bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+  [[gnu::noinline]] bool skip_other_space() {
+    while (at_ != end_ && (is_space(*at_) || (*at_ == '\\' && is_joint()))) ++at_;
+    if (at_ != end_ && *at_ == comment_) at_ = end_;
+    return at_ != end_;
+  }
+  [[gnu::noinline]] std::size_t count_joined() const {
+    std::size_t words = 0;
+    for (LineWords left = *this; !left.word().empty(); ++words) {
+    }
+    return words;
+  }
+  static bool is_space(char c) { return (c == ' ') | (static_cast<unsigned char>(c - '\t') < 5); }
   bool is_joint() const {
     const std::string_view rest(at_ + 1, static_cast<std::size_t>(end_ - at_ - 1));
     return rest.starts_with('\n') || rest.starts_with("\r\n");
@@ -218,8 +247,8 @@ void for_each_line(std::string_view text, const Function& f) {
     const char* end = line_end(at);
     if constexpr (joined) {
       const auto goes_on = [&] {
-        const std::string_view line(at, static_cast<std::size_t>(end - at));
-        return line.ends_with('\\') || line.ends_with("\\\r");
+        const char* const behind = end != at && end[-1] == '\r' ? end - 1 : end;
+        return behind != at && behind[-1] == '\\';
       };
       if (*at != '#')
         while (end != last && goes_on()) end = line_end(end + 1);

@@ -64,7 +64,7 @@ MeshMaterial named_material(std::string_view name) {
 struct Chunk {
   Counts counts;
   std::vector<Name> libraries, materials;  ///< mtllib and usemtl statements
-  bool has_colors = false;
+  bool has_colors = false, has_faces = false;
   std::size_t skipped = 0;
   std::string_view first_skipped;
 };
@@ -82,15 +82,24 @@ class Reader {
   std::optional<MeshData> read();
 
  private:
-  /// Calls f(index of the chunk, statement, words behind its keyword) for each line.
-  template <class Function>
-  void for_statements(const Function& f) {
+  /// Calls f(index of the chunk, statement, words behind its keyword) for each line of the chunks that are
+  /// wanted(chunk).
+  template <class Wanted, class Function>
+  void for_statements(const Wanted& wanted, const Function& f) {
     for_each_index(static_cast<int>(chunks_.size()), settings_.threads, [&](int index) {
       const auto i = static_cast<std::size_t>(index);
+      if (!wanted(chunks_[i])) return;
       for_each_line<true>(text_.substr(starts_[i], starts_[i + 1] - starts_[i]),
                           [&](const char* start, const char* end) {
                             LineWords words(start, end);
-                            const Statement statement = read_keyword(words);
+                            const bool is_short = end - start > 2 && start[1] == ' ';
+                            Statement statement = Statement::empty;
+                            if (is_short && (*start == 'v' || *start == 'f')) {
+                              statement = *start == 'v' ? Statement::position : Statement::face;
+                              words.advance();
+                            } else {
+                              statement = read_keyword(words);
+                            }
                             if (statement != Statement::empty) f(i, statement, words);
                             return true;
                           });
@@ -136,16 +145,12 @@ void Reader::count_other(Chunk& chunk, LineWords words) {
 }
 
 void Reader::count() {
-  for_statements([&](std::size_t i, Statement statement, LineWords& words) {
+  const auto all = [](const Chunk&) { return true; };
+  for_statements(all, [&](std::size_t i, Statement statement, const LineWords& words) {
     Chunk& chunk = chunks_[i];
-    const auto count_words = [&] {
-      std::size_t count = 0;
-      while (!words.word().empty()) ++count;
-      return count;
-    };
     switch (statement) {
       case Statement::position:
-        if (chunk.counts.values[0]++ == 0) chunk.has_colors = count_words() >= 6;
+        if (chunk.counts.values[0]++ == 0) chunk.has_colors = words.count() >= 6;
         break;
       case Statement::uv:
         ++chunk.counts.values[1];
@@ -154,7 +159,8 @@ void Reader::count() {
         ++chunk.counts.values[2];
         break;
       case Statement::face:
-        chunk.counts.faces.add(count_words());
+        chunk.counts.faces.add(words.count());
+        chunk.has_faces = true;
         break;
       default:
         count_other(chunk, words);
@@ -178,7 +184,10 @@ bool Reader::read_values() {
   if (has_colors) mesh_.colors = MeshBuffer<float>(3 * all[0]);
   std::vector<ChunkErrors> errors(chunks_.size());
   std::vector<Counts> next = before_;
-  for_statements([&](std::size_t i, Statement statement, LineWords& words) {
+  const auto has_values = [](const Chunk& chunk) {
+    return std::any_of(chunk.counts.values.begin(), chunk.counts.values.end(), [](std::size_t n) { return n > 0; });
+  };
+  for_statements(has_values, [&](std::size_t i, Statement statement, LineWords& words) {
     if (statement > Statement::normal) return;
     const std::size_t which = statement == Statement::position ? 0 : statement == Statement::uv ? 1 : 2;
     const std::size_t number = next[i].values[which]++;
@@ -244,7 +253,10 @@ bool Reader::read_faces() {
     states.push_back({FaceWriter(mesh_, before_[i].faces.faces(mesh_.corners)), before_[i], material});
     if (!chunks_[i].materials.empty()) material = chunks_[i].materials.back().material;
   }
-  for_statements([&](std::size_t i, Statement statement, LineWords& words) {
+  // A texture coordinate or normal that is not in the file is an error where a corner has it.
+  const std::array<bool, 3> exists{true, before_.back().values[1] > 0, before_.back().values[2] > 0};
+  const auto has_faces = [](const Chunk& chunk) { return chunk.has_faces; };
+  for_statements(has_faces, [&](std::size_t i, Statement statement, LineWords& words) {
     State& state = states[i];
     if (statement <= Statement::normal) {
       ++state.seen.values[statement == Statement::position ? 0 : statement == Statement::uv ? 1 : 2];
@@ -280,6 +292,7 @@ bool Reader::read_faces() {
       if (!words.at_word_end()) return refuse(" is no corner of a face, which is v, v/vt, v//vn or v/vt/vn");
       state.polygon.push_back(corner[0]);
       for (const std::size_t which : {1U, 2U}) {
+        if (!exists[which]) continue;
         state.others[which].push_back(corner[which]);
         state.used[which] = state.used[which] || corner[which] != none;
         state.same[which] = state.same[which] && corner[which] == corner[0];
