@@ -85,6 +85,12 @@ void log_to(const std::string& file) {
   log_name = file;
 }
 
+void end_log() {
+  const std::lock_guard lock(mutex);
+  if (log_file >= 0) close(log_file);
+  log_file = -1;
+}
+
 void log_program_in(ProgressStyle style) {
   if (is_for_programs(style)) program_style = style;
 }

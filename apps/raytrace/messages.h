@@ -21,6 +21,9 @@ void set_verbosity(Verbosity verbosity);
 /// later (a full disk), that is reported once and the run goes on.
 void log_to(const std::string& file);
 
+/// Messages go there no more.
+void end_log();
+
 /// From here on, steps and errors are reported to the program that reads standard output, too, whatever the verbosity,
 /// if the style is for one. Should that program go away, the run goes on.
 void log_program_in(ProgressStyle style);

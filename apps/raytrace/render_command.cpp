@@ -197,9 +197,9 @@ int run(const Options& options, const RenderJob& job, Progress& progress) {
 
 int render_command(Options options) {
   const int wanted_threads = std::exchange(options.threads, threads_with_room(options.threads));
-  std::vector<UsedFile> log_file;
-  if (!options.log_file.empty()) log_file.push_back({"--log-file", options.log_file, true});
-  const RenderBatch batch(options.scenes, options.frames, static_cast<const RenderJob&>(options), log_file);
+  static const std::string log_option = "--log-file";
+  if (!options.log_file.empty()) options.other_files.push_back({log_option, options.log_file, true});
+  const RenderBatch batch(options.scenes, options.frames, static_cast<const RenderJob&>(options));
   // Now the log file may be opened: it is not the scene.
   if (!options.log_file.empty()) log_to(options.log_file);
   log_missing_threads(wanted_threads, options.threads);
@@ -208,7 +208,13 @@ int render_command(Options options) {
   return run_all(batch, [&](const RenderJob& job, std::size_t index) {
     progress.begin(index, batch.size());
     if (checks.forbid(job)) return exit_code::failed;
-    return options.renders() ? run(options, job, progress) : print_instead(options, job);
+    try {
+      return options.renders() ? run(options, job, progress) : print_instead(options, job);
+    } catch (const ClashError& error) {
+      // Of a file that the scene names, which is not to have as much as this message.
+      if (error.is_about(log_option)) end_log();
+      throw;
+    }
   });
 }
 

@@ -1,6 +1,8 @@
 """Two files of a run that are one: refused before anything is touched."""
 
+import json
 import os
+import struct
 import unittest
 
 from support import CommandTest
@@ -69,6 +71,29 @@ class Clashes(CommandTest):
                      "--stats=s.#.json", "--checkpoint", "sub/c.#")
         self.succeed("scene.xml", *SMALL, "-o", "p.exr", "--log-file", "/dev/null")
         self.assertEqual(sorted(os.listdir(self.path("sub"))), ["p.1.exr", "p.2.exr"])
+
+    def test_what_a_model_reads_is_never_written(self):
+        self.write("a.obj", "mtllib a.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        self.write("a.mtl", "newmtl red\nKd 1 0 0\n")
+        positions = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
+        with open(self.path("b.bin"), "wb") as file:
+            file.write(positions)
+        self.write("b.gltf", json.dumps({
+            "asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+            "buffers": [{"uri": "b.bin", "byteLength": 36}], "bufferViews": [{"buffer": 0, "byteLength": 36}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                           "min": [0, 0, 0], "max": [1, 1, 0]}]}))
+        self.write("c.xml", self.scene.decode().replace(
+            "<objects>", "<objects><meshes><mesh><file>a.obj</file></mesh></meshes>", 1))
+        for scene, read in (("a.obj", "a.mtl"), ("b.gltf", "b.bin"), ("c.xml", "a.obj"), ("c.xml", "a.mtl")):
+            before = self.read(read)
+            for option in ("--log-file", "--stats", "--checkpoint"):
+                self.refuse(scene, "-r", "16x12", "-s", "1", "-o", "pic.exr", f"{option}=./{read}", both=("./" + read,))
+                self.assertEqual(self.read(read), before)
+            self.succeed(scene, *SMALL, "-o", "pic.exr", "--log-file", "log")
+            os.remove(self.path("pic.exr"))
+            os.remove(self.path("log"))
 
     def test_of_a_merge(self):
         for tile in (0, 1):

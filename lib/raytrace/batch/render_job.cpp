@@ -103,8 +103,11 @@ namespace {
 void refuse_to_overwrite(const SceneDescription& description, const RenderJob& job) {
   UsedFiles files;
   const auto add_meshes = [&](const ObjectLists& objects) {
-    for (const auto& mesh : std::get<ObjectItems<Mesh>>(objects))
+    for (const auto& mesh : std::get<ObjectItems<Mesh>>(objects)) {
       if (!mesh.parameters.file.path.empty()) files.add({"a mesh", mesh.parameters.file.path, false});
+      if (mesh.data != nullptr)
+        for (const std::string& file : mesh.data->files) files.add({"a file of a mesh", file, false});
+    }
     for (const auto& cloud : std::get<ObjectItems<SphereCloud>>(objects))
       files.add({"a cloud of spheres", cloud.parameters.file.path, false});
     for (const auto& model : std::get<ObjectItems<Model>>(objects))
@@ -127,6 +130,7 @@ void refuse_to_overwrite(const SceneDescription& description, const RenderJob& j
   add_meshes(description.objects);
   for (const Group& group : description.groups) add_meshes(group.objects);
   for (const std::string& file : job.files()) files.add_or_refuse({"an output", file, true});
+  for (const UsedFile& file : job.other_files) files.add_or_refuse(file);
 }
 
 }  // namespace
@@ -179,8 +183,7 @@ std::string contents_text(const SceneDescription& description) {
   return counted(count(description.objects), "object") + ", " + counted(count(description.lights), "light");
 }
 
-RenderBatch::RenderBatch(std::vector<std::string> scenes, std::vector<int> frames, RenderJob each,
-                         const std::vector<UsedFile>& other_files)
+RenderBatch::RenderBatch(std::vector<std::string> scenes, std::vector<int> frames, RenderJob each)
     : scenes_(std::move(scenes)), frames_(std::move(frames)), each_(std::move(each)) {
   if (!frames_.empty()) {
     for (auto* const names : {&scenes_, &each_.outputs})
@@ -192,17 +195,17 @@ RenderBatch::RenderBatch(std::vector<std::string> scenes, std::vector<int> frame
     throw SettingsError("standard input can be read once; give a file for " +
                         std::string(frame_count() > 1 ? "several frames" : "the second scene"));
   }
-  refuse_clashes(other_files);
+  refuse_clashes();
 }
 
-void RenderBatch::refuse_clashes(const std::vector<UsedFile>& other_files) const {
+void RenderBatch::refuse_clashes() const {
   UsedFiles files;
-  for (const UsedFile& file : other_files) files.add_or_refuse(file);
+  for (const UsedFile& file : each_.other_files) files.add_or_refuse(file);
   const auto add_written = [&](const std::string& option, const std::string& pattern, const std::string& name) {
     const UsedFile file{option, name, true};
     const UsedFile* const other = name.empty() ? nullptr : files.add(file);
     if (other == nullptr) return;
-    if (other->role != option || other->file != name) refuse_clash(file, *other);
+    if (other->role != option || other->file != name) throw ClashError(file, *other);
     const std::string tokens = with_tokens(pattern, frame_count() > 1, scenes_.size() > 1);
     throw SettingsError(
         option + ": more than one render would write " + name + "; " +

@@ -59,6 +59,8 @@ struct RenderJob {
   std::optional<double> time_limit;  ///< seconds from the beginning, the scene's loading included
   std::optional<DisplayAddress> display_server;
 
+  std::vector<UsedFile> other_files;  ///< that the run uses, too, such as its log
+
   int threads = 0;  ///< 0: all processors
   std::string isa;  ///< empty: the best
 
@@ -96,11 +98,9 @@ std::string contents_text(const SceneDescription& description);
 class RenderBatch {
  public:
   /// frames: in increasing order; none: each scene is rendered once, and its name is no pattern. each: what all renders
-  /// have in common; the names of its files, and of the scenes, may be patterns (frames.h). other_files: that the
-  /// run uses, too. Throws SettingsError if a file that is written would be another file of the run, or if standard
-  /// input would be read twice. Opens no file.
-  RenderBatch(std::vector<std::string> scenes, std::vector<int> frames, RenderJob each,
-              const std::vector<UsedFile>& other_files = {});
+  /// have in common; the names of its files, and of the scenes, may be patterns (frames.h). Throws SettingsError if a
+  /// file that is written would be another file of the run, or if standard input would be read twice. Opens no file.
+  RenderBatch(std::vector<std::string> scenes, std::vector<int> frames, RenderJob each);
 
   /// All frames of the first scene, then those of the next.
   std::size_t size() const { return scenes_.size() * frame_count(); }
@@ -116,7 +116,7 @@ class RenderBatch {
   std::size_t frame_count() const { return frames_.empty() ? 1 : frames_.size(); }
   std::optional<int> frame(std::size_t i) const;
   std::string scene(std::size_t i) const;
-  void refuse_clashes(const std::vector<UsedFile>& other_files) const;
+  void refuse_clashes() const;
 
   std::vector<std::string> scenes_;
   std::vector<int> frames_;

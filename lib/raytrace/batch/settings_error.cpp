@@ -11,12 +11,12 @@ const UsedFile* UsedFiles::add(const UsedFile& file) {
 }
 
 void UsedFiles::add_or_refuse(const UsedFile& file) {
-  if (const UsedFile* const other = add(file)) refuse_clash(file, *other);
+  if (const UsedFile* const other = add(file)) throw ClashError(file, *other);
 }
 
-void refuse_clash(const UsedFile& file, const UsedFile& other) {
-  throw SettingsError(file.role + " " + file.file + " is the same file as " + other.role + " " + other.file +
-                      ", and would be overwritten; give another name");
-}
+ClashError::ClashError(const UsedFile& file, const UsedFile& other)
+    : SettingsError(file.role + " " + file.file + " is the same file as " + other.role + " " + other.file +
+                    ", and would be overwritten; give another name"),
+      roles_{file.role, other.role} {}
 
 }  // namespace raytrace

@@ -1,6 +1,7 @@
 // Settings of a render or a merge that cannot be meant, such as one file for two uses.
 #pragma once
 
+#include <array>
 #include <stdexcept>
 #include <string>
 #include <unordered_map>
@@ -23,6 +24,17 @@ struct UsedFile {
   bool writes = false;
 };
 
+/// That a file would have two uses, of which one writes it.
+class ClashError : public SettingsError {
+ public:
+  ClashError(const UsedFile& file, const UsedFile& other);
+  /// Whether it is about a file of that role.
+  bool is_about(const std::string& role) const { return role == roles_[0] || role == roles_[1]; }
+
+ private:
+  std::array<std::string, 2> roles_;
+};
+
 /// All files that a run reads and writes, so that none of them destroys another.
 class UsedFiles {
  public:
@@ -30,14 +42,11 @@ class UsedFiles {
   /// use or the other writes. Changes nothing on the disk.
   const UsedFile* add(const UsedFile& file);
 
-  /// The same, but throws SettingsError if there is a clash.
+  /// The same, but throws ClashError.
   void add_or_refuse(const UsedFile& file);
 
  private:
   std::unordered_map<FileIdentity, UsedFile> files_;
 };
-
-/// Throws the SettingsError of a clash, which names both files.
-[[noreturn]] void refuse_clash(const UsedFile& file, const UsedFile& other);
 
 }  // namespace raytrace

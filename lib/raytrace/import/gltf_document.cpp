@@ -150,7 +150,7 @@ std::string_view Document::buffer(const Item& number) {
     const std::string name = file_name(*uri);
     auto file = files_.find(name);
     if (file == files_.end()) {
-      const std::string path = (std::filesystem::path(name_).parent_path() / name).string();
+      const std::string path = beside(name);
       Diagnostics found(path);
       std::optional<MeshFile> opened = MeshFile::open(path, found);
       if (!opened || !opened->load(threads_, found)) item.fail(in_quotes(name) + ": " + found.kept().front().message);
@@ -163,6 +163,16 @@ std::string_view Document::buffer(const Item& number) {
   if (length > bytes.size())
     item.fail("claims " + std::to_string(length) + " bytes, and there are " + std::to_string(bytes.size()));
   return bytes.substr(0, length);
+}
+
+std::string Document::beside(const std::string& file) const {
+  return (std::filesystem::path(name_).parent_path() / file).string();
+}
+
+std::vector<std::string> Document::files() const {
+  std::vector<std::string> paths;
+  for (const auto& [name, file] : files_) paths.push_back(beside(name));
+  return paths;
 }
 
 void Document::spend(std::size_t values, const Item& place) {

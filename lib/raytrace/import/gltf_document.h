@@ -29,6 +29,8 @@ class Document {
   const Item& root() const { return root_; }
   const std::string& name() const { return name_; }
   int threads() const { return threads_; }
+  /// Those beside its own that are read so far.
+  std::vector<std::string> files() const;
   /// Bytes of all files that are read so far, and of what was decoded.
   std::size_t size() const { return size_ + decoded_bytes_; }
 
@@ -67,6 +69,8 @@ class Document {
   void report(Diagnostics& diagnostics) const;
 
  private:
+  /// The path of a file of that name.
+  std::string beside(const std::string& file) const;
   void read_values(const Item& item, const Item& view, Elements& elements);
   std::string_view buffer(const Item& number);
   /// The bytes that a buffer view names, or what is in its place where it is compressed.

@@ -207,7 +207,9 @@ std::optional<MeshData> read_gltf(MeshFile& file, const std::string& name, const
       diagnostics.warning({}, counted(model.other_primitives, "primitive") +
                                   " of points or lines, or without "
                                   "positions, are left out");
-    return gltf::MeshWriter(model, settings, diagnostics).write(model.document->size());
+    std::optional<MeshData> mesh = gltf::MeshWriter(model, settings, diagnostics).write(model.document->size());
+    if (mesh) mesh->files = model.document->files();
+    return mesh;
   } catch (const gltf::Error& error) {
     diagnostics.error({}, error.what());
     return std::nullopt;

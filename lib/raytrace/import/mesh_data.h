@@ -128,6 +128,8 @@ struct MeshData {
   std::vector<FileLight> lights;
   /// The time of the last key of the animation that was asked for, or 0. None: the file has no animations.
   std::optional<double> animation_end{};
+  /// Others that were read with it: material libraries, buffers.
+  std::vector<std::string> files{};
 
   std::size_t vertex_count() const { return positions.size() / 3; }
   std::size_t face_count() const { return indices.size() / static_cast<std::size_t>(corners); }

@@ -133,7 +133,8 @@ void read_text(std::string_view text, std::vector<MeshMaterial>& materials,
 }  // namespace mtl
 
 void read_material_libraries(std::string_view names, const std::string& folder, std::uint32_t line,
-                             std::vector<MeshMaterial>& materials, Diagnostics& diagnostics) {
+                             std::vector<MeshMaterial>& materials, std::vector<std::string>& files,
+                             Diagnostics& diagnostics) {
   const auto read = [&](std::string name) {
     std::replace(name.begin(), name.end(), '\\', '/');
     const std::string path = (std::filesystem::path(folder) / name).string();
@@ -143,6 +144,7 @@ void read_material_libraries(std::string_view names, const std::string& folder, 
       diagnostics.warning({line, 0}, in_quotes(name) + ": " + of_library.kept().front().message);
       return;
     }
+    files.push_back(path);
     mtl::read_text(file->text(true), materials, [&](std::uint32_t in_line, const std::string& message) {
       diagnostics.warning({line, 0}, name + ":" + std::to_string(in_line) + ": " + message);
     });

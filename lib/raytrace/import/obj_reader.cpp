@@ -353,7 +353,7 @@ void Reader::read_materials() {
   }
   std::vector<MeshMaterial> defined;
   for (const std::string_view library : libraries)
-    read_material_libraries(library, folder_, line_of(library), defined, diagnostics_);
+    read_material_libraries(library, folder_, line_of(library), defined, mesh_.files, diagnostics_);
   std::map<std::string_view, const MeshMaterial*> by_name;
   for (const MeshMaterial& material : defined) by_name.try_emplace(material.name, &material);
   for (const std::string_view name : names) {
