@@ -189,7 +189,7 @@ class CeilingOfVariant final : public Ceiling {
                                       {FloatN(0), FloatN(0)}, made);
       Ray<FloatN>& rays = made.rays;
       CameraPacket& packet = camera.emplace_back();
-      embree::store_rays(rays, packet.ray());
+      embree::store_rays(rays, FloatN(0), packet.ray());
       embree::store(UintN(RTC_INVALID_GEOMETRY_ID), [&](int i) { return packet.rays[i].hit.geomID; });
       packet.valid = all;
       counts.camera += packet_lanes;
@@ -206,7 +206,7 @@ class CeilingOfVariant final : public Ceiling {
         const MaskN lit = hits.hit & (dot(surface.ng, shadow_rays.direction) > FloatN(0));
         if (none(lit)) continue;
         ShadowPacket& shadow_packet = shadow.emplace_back();
-        embree::store_rays(shadow_rays, shadow_packet.ray());
+        embree::store_rays(shadow_rays, FloatN(0), shadow_packet.ray());
         shadow_packet.valid = lit;
         counts.shadow += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(lit)));
       }
