@@ -132,7 +132,7 @@ class MotionFinder {
   template <class Parameters>
   void check_turn(const Parameters& from, const Parameters& to) {
     const ViewFrame a(from.eye, from.lookat, from.up), b(to.eye, to.lookat, to.up);
-    // One and twice the cosine of the angle.
+    // A rotation has the trace 1 + 2 cos(angle): more than 1 is less than 90 degrees.
     if (dot(a.u, b.u) + dot(a.v, b.v) + dot(a.w, b.w) > 1) return;
     diagnostics_.error({}, std::string("the camera turns too fast to be followed while the shutter is open") + slower);
   }

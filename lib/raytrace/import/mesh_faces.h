@@ -31,6 +31,7 @@ struct FaceCounts {
       ++too_small;
     }
   }
+  bool any() const { return triangles + quads + cut + too_small > 0; }
   FaceCounts& operator+=(const FaceCounts& more) {
     triangles += more.triangles, quads += more.quads, cut += more.cut, too_small += more.too_small;
     return *this;

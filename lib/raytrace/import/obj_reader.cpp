@@ -64,7 +64,7 @@ MeshMaterial named_material(std::string_view name) {
 struct Chunk {
   Counts counts;
   std::vector<Name> libraries, materials;  ///< mtllib and usemtl statements
-  bool has_colors = false, has_faces = false;
+  bool has_colors = false;
   std::size_t skipped = 0;
   std::string_view first_skipped;
 };
@@ -160,7 +160,6 @@ void Reader::count() {
         break;
       case Statement::face:
         chunk.counts.faces.add(words.count());
-        chunk.has_faces = true;
         break;
       default:
         count_other(chunk, words);
@@ -255,7 +254,7 @@ bool Reader::read_faces() {
   }
   // A texture coordinate or normal that is not in the file is an error where a corner has it.
   const std::array<bool, 3> exists{true, before_.back().values[1] > 0, before_.back().values[2] > 0};
-  const auto has_faces = [](const Chunk& chunk) { return chunk.has_faces; };
+  const auto has_faces = [](const Chunk& chunk) { return chunk.counts.faces.any(); };
   for_statements(has_faces, [&](std::size_t i, Statement statement, LineWords& words) {
     State& state = states[i];
     if (statement <= Statement::normal) {
