@@ -64,7 +64,13 @@ std::vector<std::pair<std::string, OpenPbr::Parameters>> white_materials(double 
   return result;
 }
 
-/// The mean of f |cos| / pdf eta^2: the share of light that is sent on.
+/// f |cos| / pdf eta^2.
+double weight_of(const BsdfSample<FloatN>& sample, std::size_t lane) {
+  return double{sample.f.green.get(lane)} * std::abs(double{sample.wi.z.get(lane)}) / double{sample.pdf.get(lane)} *
+         double{sample.eta2.get(lane)};
+}
+
+/// Its mean: the share of light that is sent on.
 double sent_on(const PbrBsdf& bsdf, const Vec3d& wo) {
   constexpr int count = 160;
   double sum = 0;
@@ -78,9 +84,7 @@ double sent_on(const PbrBsdf& bsdf, const Vec3d& wo) {
       const FloatN u2 = batch_of<FloatN>([&](std::size_t lane) { return (j + static_cast<int>(lane) + 0.5) / count; });
       const BsdfSample<FloatN> sample = bsdf.sample(spread(wo), u, u1, u2);
       for (std::size_t lane = 0; lane < lanes; ++lane)
-        if (sample.pdf.get(lane) > 0)
-          sum += double{sample.f.green.get(lane)} * std::abs(double{sample.wi.z.get(lane)}) /
-                 double{sample.pdf.get(lane)} * double{sample.eta2.get(lane)};
+        if (sample.pdf.get(lane) > 0) sum += weight_of(sample, lane);
     }
   return sum / (double{count} * count);
 }
@@ -113,6 +117,27 @@ TEST_CASE("OpenPBR: what is reflected follows its pdf") {
           if (outcome.integral > 0) CHECK(outcome.deviation < 4.5);  // else all is smooth
           CHECK(outcome.worst_length < 1e-5);
         }
+}
+
+TEST_CASE("OpenPBR: rough glass chooses between its sides by the facet, so that no sample weighs much") {
+  Random random(71);
+  for (const double roughness : {0.1, 0.3, 0.6, 1.0})
+    for (const bool front : {true, false})
+      for (const double angle : {0.0, 30.0, 60.0, 80.0}) {
+        OpenPbr::Parameters parameters = white(roughness);
+        parameters.transmission_weight = 1;
+        const PbrBsdf bsdf = bsdf_of(parameters, front);
+        double largest = 0;
+        for (int i = 0; i < 4000; i += packet_lanes) {
+          const auto numbers = [&] { return batch_of<FloatN>([&](std::size_t) { return random.unit(); }); };
+          const FloatN u = numbers(), u1 = numbers(), u2 = numbers();
+          const BsdfSample<FloatN> sample = bsdf.sample(spread(at_angle({0, 0, 1}, angle, 1)), u, u1, u2);
+          for (std::size_t lane = 0; lane < lanes; ++lane)
+            if (sample.pdf.get(lane) > 0) largest = std::max(largest, weight_of(sample, lane));
+        }
+        INFO("roughness " << roughness << (front ? "" : ", from its back") << ", wo at " << angle);
+        CHECK(largest < (roughness < 1 ? 1.6 : 2.6));
+      }
 }
 
 TEST_CASE("OpenPBR: what absorbs nothing sends all light on, from both sides") {

@@ -102,7 +102,7 @@ void set_surface(const MeshTable& mesh, const IntN& faces, const Ray<FloatN>& ra
 }  // namespace
 
 SurfaceInteraction<FloatN> Accelerator::surface(const Ray<FloatN>& rays, const Hits& hits) const {
-  SurfaceInteraction<FloatN> result{};
+  SurfaceInteraction<FloatN> result;  // set in all lanes, but for those without a hit
   const auto set = [&](const GeometryTable& table, std::uint32_t geometry, const LaneIndices& primitive,
                        const Ray<FloatN>& local_rays, SurfaceInteraction<FloatN>& surface) {
     if (const MeshTable* const mesh = table.geometry(geometry).mesh; mesh != nullptr) {
@@ -117,7 +117,10 @@ SurfaceInteraction<FloatN> Accelerator::surface(const Ray<FloatN>& rays, const H
   if (hits.one_primitive) {
     set(table_, hits.first_geometry, LaneIndices(hits.first_primitive), rays, result);
   } else {
-    SurfaceInteraction<FloatN> other{};
+    SurfaceInteraction<FloatN> other;
+    result.p = result.ng = Vec3<FloatN>(Vec3f(0, 0, 0));
+    result.error = FloatN(0);
+    result.front = MaskN(false);
     Ray<FloatN> local_rays = rays;
     if (hits.in_instances) local_rays = in_instances(rays, hits);
     table_.for_each_geometry(hits, [&](const GeometryTable& table, std::uint32_t geometry, const MaskN& here) {

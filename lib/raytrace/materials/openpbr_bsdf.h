@@ -69,8 +69,7 @@ struct OpenPbrBsdf {
     T base_reflection;                               ///< what the boundary of the dielectric reflects
     T dielectric_share, white_share;                 ///< what the base's facets send on
     Rgb<T> film_share, film_reflection, under_film;  ///< of a dielectric with a film; what comes through
-    T fuzz_choice, coat_choice, specular_choice,
-        through_choice;  ///< how often sample() takes them; the rest is diffuse
+    T fuzz_choice, coat_choice, facet_choice;        ///< how often sample() takes them; the rest is diffuse
   };
   [[gnu::noinline]] Lobes lobes(const Vec3<T>& wo) const {
     Lobes layers{};
@@ -125,17 +124,14 @@ struct OpenPbrBsdf {
       specular =
           select(filmed, mean(under * at_film_of(layers, layers.film_reflection, metal_with_film(cosine))), specular);
     const T coated = layers.coat_albedo * layers.under_fuzz, fibers = (one - layers.under_fuzz) * mean(fuzz_color);
-    // The table is coarse where total reflection sets in: something may come through where it says nothing does.
-    const T least_through = select(rough, mean(under) * (one - metalness) * T(0.2F), T(0));
-    const T through = max(of_base, least_through) * transmission * mean(tint);
+    const T through = of_base * transmission * mean(tint);
     const T diffuse = of_base * (one - transmission) * base_weight * mean(base);
     const T all = fibers + coated + specular + through + diffuse;
     const Mask<T> some = all > T(0);
     const T scale = one / select(some, all, one);
     layers.fuzz_choice = fibers * scale;
     layers.coat_choice = coated * scale;
-    layers.specular_choice = specular * scale;
-    layers.through_choice = through * scale;
+    layers.facet_choice = (specular + through) * scale;
     return layers;
   }
 
@@ -146,7 +142,7 @@ struct OpenPbrBsdf {
   /// Of what is not smooth; wi: above the surface, else it is 0.
   [[gnu::noinline]] Value value(const Lobes& layers, const Vec3<T>& wi) const {
     const Mask<T> is_above = wi.z > T(1e-6F);
-    const T even = T(1) - layers.fuzz_choice - layers.coat_choice - layers.specular_choice - layers.through_choice;
+    const T even = T(1) - layers.fuzz_choice - layers.coat_choice - layers.facet_choice;
     const T diffuse = (T(1) - metalness) * (T(1) - transmission) * (T(1) - layers.base_reflection) * base_weight;
     Value result{OrenNayar<T>{base, diffuse_roughness}.f(layers.from, wi) * diffuse,
                  max(even, T(0)) * wi.z * T(std::numbers::inv_pi_v<float>)};
@@ -157,8 +153,10 @@ struct OpenPbrBsdf {
     }
     if (const Mask<T> rough = ggx().is_rough(); any(rough)) {
       const auto reflection = ggx().reflection(layers.from, wi);
-      result.f += select(rough, at_facet(layers, reflection.cosine) * reflection.f, black());
-      result.pdf = result.pdf + select(rough, layers.specular_choice * reflection.pdf, T(0));
+      const Rgb<T> reflectance = at_facet(layers, reflection.cosine);
+      result.f += select(rough, reflectance * reflection.f, black());
+      const T choice = layers.facet_choice * reflection_choice(layers, reflection.cosine, reflectance);
+      result.pdf = result.pdf + select(rough, choice * reflection.pdf, T(0));
     }
     result.f = result.f * under_coat(layers, wi.z);
     if (const Mask<T> rough = coat_ggx().is_rough() & (coat > T(0)); any(rough)) {
@@ -190,14 +188,22 @@ struct OpenPbrBsdf {
       return taken;
     };
     const Mask<T> on_fuzz = u < before, coated = next(layers.coat_choice);
-    before = before + layers.specular_choice;
-    const Mask<T> through = next(layers.through_choice), is_diffuse = u >= before;
+    // What a facet of the base reflects, and what it lets through, is known when the facet is.
+    const T u_of_facet = u - before;
+    before = before + layers.facet_choice;
+    const Mask<T> is_diffuse = u >= before, on_base = !(on_fuzz | coated | is_diffuse);
 
     const auto facets =
         StretchedGgx<T>::of(select(coated, coat_roughness, roughness), select(coated, coat_anisotropy, anisotropy));
     const Mask<T> rough = facets.is_rough();
     const Vec3<T> facet = select(rough, facets.sample_facet(from, u1, u2), local_normal<T>());
     const T cosine = min(max(dot(from, facet), T(1e-6F)), T(1));
+    T choice(1);
+    Mask<T> through(false);
+    if (any(on_base & lets_through())) {
+      choice = reflection_choice(layers, cosine, at_facet(layers, cosine));
+      through = on_base & (u_of_facet >= layers.facet_choice * choice);
+    }
     const Vec3<T> mirrored = facet * (T(2) * cosine) - from;
     const Vec3<T> diffuse = Lambertian<T>{base}.sample(from, local_normal<T>(), u1, u2);
     Vec3<T> wi = normalize(select(is_diffuse, diffuse, mirrored));
@@ -208,9 +214,12 @@ struct OpenPbrBsdf {
     const Rgb<T> mirrored_part = select(coated, white() * (layers.coat_albedo * layers.under_fuzz),
                                         under_coat(layers, wi.z) * at_facet(layers, from.z));
     BsdfSample<T> result{wi, select(specular, mirrored_part * (T(1) / from.z), above.f),
-                         select(specular, select(coated, layers.coat_choice, layers.specular_choice), above.pdf), T(1),
-                         specular};
-    if (any(through)) result = select(through, refracted(layers, facets, facet, cosine), result);
+                         select(specular, select(coated, layers.coat_choice, layers.facet_choice * choice), above.pdf),
+                         T(1), specular};
+    if (any(through)) {
+      const T density = layers.facet_choice * (T(1) - choice);
+      result = select(through, refracted(layers, facets, facet, cosine, density), result);
+    }
     return result;
   }
 
@@ -263,6 +272,20 @@ struct OpenPbrBsdf {
             channel(metal.blue, specular_color.blue)};
   }
 
+  auto lets_through() const { return transmission * (T(1) - metalness) > T(0); }
+  /// How often sample() reflects light of a facet at an angle of that cosine, which reflects so much, and lets the rest
+  /// through otherwise.
+  T reflection_choice(const Lobes& layers, const T& cosine, const Rgb<T>& reflectance) const {
+    const Mask<T> clear = lets_through();
+    if (none(clear)) return T(1);
+    const T bare = fresnel_reflection(cosine, eta).reflectance;
+    const T let_through = T(1) - select(is_thin(), pane_reflectance(bare), bare);
+    const T share = select(is_thin(), layers.white_share, layers.dielectric_share);
+    const T through = (T(1) - metalness) * transmission * let_through * mean(tint) / share;
+    const T reflected = mean(reflectance), all = reflected + through;
+    return select(clear & (all > T(0)), reflected / all, T(1));
+  }
+
   Rgb<T> metal_with_film(const T& cosine) const {
     if (none(metalness > T(0))) return black();
     return film.on_metal(cosine, metal, specular_color);
@@ -297,9 +320,9 @@ struct OpenPbrBsdf {
     return {channel(&Rgb<T>::red), channel(&Rgb<T>::green), channel(&Rgb<T>::blue)};
   }
 
-  /// A sample that comes through a facet, as through a dielectric's.
+  /// A sample that comes through a facet, as through a dielectric's. choice: how often it does, the facet given.
   [[gnu::noinline]] BsdfSample<T> refracted(const Lobes& layers, const StretchedGgx<T>& ggx, const Vec3<T>& facet,
-                                            const T& cosine) const {
+                                            const T& cosine, const T& choice) const {
     const Vec3<T>& from = layers.from;
     const auto [reflectance, below_cosine] = fresnel_reflection(cosine, eta);
     const T reflected = select(is_thin(), pane_reflectance(reflectance), reflectance);
@@ -326,7 +349,7 @@ struct OpenPbrBsdf {
       parts = select(filmed, quotient({kept(r.red), kept(r.green), kept(r.blue)}, all), parts);
     }
     return {wi, select(comes, under_coat(layers, cosine_i) * tint * parts, black()),
-            select(comes, layers.through_choice * density, T(0)), eta2, !rough};
+            select(comes, choice * density, T(0)), eta2, !rough};
   }
 };
 

@@ -13,7 +13,7 @@ struct CaughtShadows;
 /// Rays of a camera, and how much of the way from where they begin they leave out.
 struct CameraRays {
   Ray<FloatN> rays;
-  FloatN skipped;  ///< rays.near may be as far before their origins
+  FloatN skipped{0};  ///< rays.near may be as far before their origins
   // Of integrators that take samples, and in scenes with opacities: the pixel's hash, and the sample's index.
   UintN pixel{0u}, sample{0u};
   /// Receives the shadows on shadow catchers (tracing/shadow_catcher.h); null: these are surfaces like any other.

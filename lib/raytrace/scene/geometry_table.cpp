@@ -323,7 +323,11 @@ std::int32_t GeometryTable::own_material(std::uint32_t geometry, std::uint32_t p
 }
 
 std::int32_t GeometryTable::own_object(std::uint32_t geometry, std::uint32_t primitive) const {
-  return object(geometry, IntN(static_cast<std::int32_t>(primitive))).get(0);
+  const auto& [primitives, first_object, mesh] = geometries_[geometry];
+  if (mesh != nullptr) return first_object;
+  const auto number = static_cast<std::int32_t>(primitive);
+  const bool in_cloud = geometry == sphere_geometry && !clouds_.empty();
+  return in_cloud ? object(geometry, IntN(number)).get(0) : first_object + number;
 }
 
 std::int32_t GeometryTable::material_of(std::uint32_t instance, std::uint32_t geometry, std::uint32_t primitive) const {

@@ -17,7 +17,8 @@ inline Hits nearest_camera_hits(const TracedScene& scene, CameraRays& camera, co
     return scene.accelerator().intersect(some, lanes, Coherence::coherent, nullptr, &identity);
   };
   Hits hits = intersect(rays, active, scene.camera_buffer());
-  if (!scene.tables().camera_is_far()) return hits;
+  if (!scene.tables().camera_is_far()) [[likely]]
+    return hits;
   const MaskN near_eye = hits.hit & (rays.far < camera.skipped * FloatN(-0.5F));
   if (none(near_eye)) return hits;
   Ray<FloatN> from_eye{rays.origin - rays.direction * camera.skipped, rays.direction, FloatN(0), infinity<FloatN>()};
@@ -32,10 +33,10 @@ inline Hits nearest_camera_hits(const TracedScene& scene, CameraRays& camera, co
 
 /// The same. Where shadow catchers act, a ray that meets one first has hit nothing.
 inline Hits intersect_camera_rays(const TracedScene& scene, CameraRays& camera, const MaskN& active) {
-  const Hits hits = nearest_camera_hits(scene, camera, active);
-  if (camera.caught == nullptr) [[likely]]
-    return hits;
-  return catch_shadows(scene, camera, hits);
+  Hits hits = nearest_camera_hits(scene, camera, active);
+  if (camera.caught != nullptr) [[unlikely]]
+    hits = catch_shadows(scene, camera, hits);
+  return hits;
 }
 
 }  // namespace raytrace

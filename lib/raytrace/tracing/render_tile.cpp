@@ -66,6 +66,8 @@ class BlockRenderer {
     if (!raycast && integrator_.radiance == nullptr) batch_.emplace(scene);
     catches_shadows_ = film.settings().transparent && integrator_catches_shadows(scene.tables()) &&
                        scene.tables().geometry().has_shadow_catchers();
+    needs_sample_ids_ = (!raycast && integrator_.takes_samples) || scene.tables().identifies_rays() ||
+                        scene.tables().has_sampled_lights() || catches_shadows_;
     if (film.splats() != nullptr) light_paths_.emplace(scene, film);
   }
 
@@ -110,7 +112,7 @@ class BlockRenderer {
     const MaskN active = in_view(to_float(column), to_float(row));
 
     // From the group that the first sample is in, with all that belong to it.
-    constexpr auto group = static_cast<std::uint32_t>(shape.samples);
+    constexpr std::uint32_t group{shape.samples};
     std::uint32_t base = left.first / group * group;
     PixelSampler sampler(scramble_of(block), group_, base, settings.samples.centered);
     BlockSums<Block> sums(scale_);
@@ -118,15 +120,14 @@ class BlockRenderer {
     if (by_group_) group_sums.emplace(scale_, layers_.size());
     BlockError<Block> error(left.first, left.last);
     FirstHits first;
+    CameraRays camera;
     for (int packets = 1; base < left.last; base += group, ++packets) {
       if (!raycast && batch_) batch_->clock().begin_packet();
       const UintN sample = UintN(base) + slot;
       const bool all_wanted = base >= left.all_from && left.last - base >= group;
       const MaskN wanted = all_wanted ? active : active & in_range(sample, left.lane_first, UintN(left.last));
       const Sample2D point = sampler.next();
-      CameraRays camera;
-      if ((!raycast && integrator_.takes_samples) || scene_.tables().identifies_rays() ||
-          scene_.tables().has_sampled_lights() || catches_shadows_) [[unlikely]] {
+      if (needs_sample_ids_) [[unlikely]] {
         camera.pixel = pixel_hash(UintN(column), UintN(row), film_.settings().seed);
         camera.sample = sample;
       }
@@ -137,7 +138,6 @@ class BlockRenderer {
       MaskN traced = active;
       if (usual_camera_ != nullptr) [[likely]] {
         camera.rays = usual_camera_->template generate<FloatN>(x + point.x, y + point.y);
-        camera.skipped = FloatN(0);
       } else {
         traced = active & set_camera_rays(block, FloatN(x), FloatN(y), Sample2D(point), UintN(sample), camera);
       }
@@ -156,8 +156,9 @@ class BlockRenderer {
         caught_.add_to(result, group_light_, report_.rays);
       if (environment_ != nullptr) [[unlikely]]
         result.radiance = in_environment(*environment_, RayResult(result), Vec3<FloatN>(camera.rays.direction));
-      if (usual_camera_ == nullptr) result.radiance = select(traced, result.radiance, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
-      if (aovs != nullptr) {
+      if (usual_camera_ == nullptr) [[unlikely]]
+        result.radiance = select(traced, result.radiance, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
+      if (aovs != nullptr) [[unlikely]] {
         const auto* const textures = first.textures ? &*first.textures : nullptr;
         aovs->add(AovInputs(scene_.tables(), camera, first.hits, first.surface, textures), wanted, sample);
       }
@@ -170,7 +171,7 @@ class BlockRenderer {
       if (!raycast && batch_) {
         waiting_.push_back({block, base, left.first, left.last, wanted, result});
         if (batch_->is_full()) trace_batch();
-      } else if (by_group_) {
+      } else if (by_group_) [[unlikely]] {
         if (!raycast) group_light_.front() = result.radiance;
         add_by_group(*group_sums, result, wanted, block, base);
         if (!raycast) error.add(light_of_all(group_light_), sample, wanted);
@@ -320,8 +321,8 @@ class BlockRenderer {
   PixelScrambles scrambles_;
   decltype(std::declval<SceneTables>().usual_camera()) usual_camera_;  ///< if samples stay in their pixels
   RenderReport report_;
-  bool catches_shadows_ = false;
-  CaughtShadows caught_;  ///< of the packet at hand
+  bool catches_shadows_ = false, needs_sample_ids_ = false;  ///< the latter: of CameraRays, pixel and sample
+  CaughtShadows caught_;                                     ///< of the packet at hand
 
   // Of light groups.
   std::vector<LightLayer*> layers_;
