@@ -1471,20 +1471,20 @@ def prism_scene():
         "A prism of flint glass splits light that comes through a slit.",
         room="""\
   <integrator> <path> <caustics>light</caustics> </path> </integrator>
-  <viewplane> <hres>320</hres> <vres>240</vres> <samples>256</samples> </viewplane>
-  <camera> <eye x="0.7" y="4.6" z="4.6"/> <lookat x="0.45" y="0" z="0.35"/> <viewdistance>430</viewdistance> </camera>
+  <viewplane> <hres>320</hres> <vres>240</vres> <samples>128</samples> </viewplane>
+  <camera> <eye x="0.1" y="3.6" z="5.2"/> <lookat x="-0.05" y="0.25" z="-0.1"/> <viewdistance>390</viewdistance> </camera>
 """,
         lights=f"""\
   <lights>
     <spotlights>
       <spotlight>
         <location x="{lamp_x:.4f}" y="2.3" z="{lamp_z:.4f}"/> <lookat x="{hole_x:.4f}" y="0.75" z="{hole_z:.4f}"/>
-        <coneangle>11</coneangle> <penumbraangle>1</penumbraangle> <scaleradiance>900</scaleradiance>
+        <coneangle>11</coneangle> <penumbraangle>1</penumbraangle> <scaleradiance>2200</scaleradiance>
         <falloff>inversesquare</falloff>
       </spotlight>
     </spotlights>
     <environmentlights>
-      <environmentlight> <scaleradiance>0.1</scaleradiance> <color red="0.6" green="0.75" blue="1"/> </environmentlight>
+      <environmentlight> <scaleradiance>0.14</scaleradiance> <color red="0.6" green="0.75" blue="1"/> </environmentlight>
     </environmentlights>
   </lights>
 """,
@@ -1493,6 +1493,7 @@ def prism_scene():
 """,
         materials_more="""\
     <dielectrics> <dielectric> <name>flint</name> <ior>1.7</ior> <abbe>15</abbe> </dielectric> </dielectrics>
+    <emissives> <emissive> <name>window</name> <ce red="0.75" green="0.85" blue="1"/> </emissive> </emissives>
 """,
         objects=f"""\
     <meshes>
@@ -1502,7 +1503,10 @@ def prism_scene():
       </mesh>
     </meshes>
     <rectangles>
-{cards}    </rectangles>
+{cards}      <rectangle>
+        <corner x="-5" y="2" z="-7"/> <edge1 x="7" y="0" z="0"/> <edge2 x="0" y="3.5" z="0"/> <material>window</material>
+      </rectangle>
+    </rectangles>
 """,
     )
 
