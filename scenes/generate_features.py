@@ -1441,6 +1441,79 @@ studio(
 )
 
 
+def prism_scene():
+    """A spotlight through a slit, onto a prism at the angle of the least deviation."""
+    size, height, turn, x0, z0 = 0.62, 1.1, math.radians(-14), -0.7, -0.5
+    way_in = math.asin(1.7 / 2) - math.pi / 6 + turn  # in plan, from the right counter-clockwise; the base looks front
+
+    def plan(x, y):
+        return x0 + size * (x * math.cos(turn) - y * math.sin(turn)), z0 - size * (x * math.sin(turn) + y * math.cos(turn))
+
+    corners = [plan(-1, 0), plan(1, 0), plan(0, math.sqrt(3))]
+    positions = ", ".join(f"{x:.4f} {y} {z:.4f}" for y in (-0.01, height) for x, z in corners)
+    mx, mz = plan(-0.5, math.sqrt(3) / 2)
+    right, front = math.cos(way_in), -math.sin(way_in)
+
+    def before(distance, aside=0.0):
+        return mx - right * distance - front * aside, mz - front * distance + right * aside
+
+    lamp_x, lamp_z = before(8)
+    hole_x, hole_z = before(1.8)
+    cards = ""
+    for side in (1, -1):
+        cx, cz = before(1.8, side * 0.045)
+        cards += (
+            f'      <rectangle> <corner x="{cx:.4f}" y="0" z="{cz:.4f}"/> <edge1 x="0" y="1.5" z="0"/> '
+            f'<edge2 x="{-side * front * 0.8:.4f}" y="0" z="{side * right * 0.8:.4f}"/> <material>card</material> </rectangle>\n'
+        )
+    write(
+        "dispersion",
+        "A prism of flint glass splits light that comes through a slit.",
+        room="""\
+  <integrator> <path> <caustics>light</caustics> </path> </integrator>
+  <viewplane> <hres>320</hres> <vres>240</vres> <samples>128</samples> </viewplane>
+  <camera> <eye x="0.1" y="3.6" z="5.2"/> <lookat x="-0.05" y="0.25" z="-0.1"/> <viewdistance>390</viewdistance> </camera>
+""",
+        lights=f"""\
+  <lights>
+    <spotlights>
+      <spotlight>
+        <location x="{lamp_x:.4f}" y="2.3" z="{lamp_z:.4f}"/> <lookat x="{hole_x:.4f}" y="0.75" z="{hole_z:.4f}"/>
+        <coneangle>11</coneangle> <penumbraangle>1</penumbraangle> <scaleradiance>2200</scaleradiance>
+        <falloff>inversesquare</falloff>
+      </spotlight>
+    </spotlights>
+    <environmentlights>
+      <environmentlight> <scaleradiance>0.14</scaleradiance> <color red="0.6" green="0.75" blue="1"/> </environmentlight>
+    </environmentlights>
+  </lights>
+""",
+        mattes="""\
+      <matte> <name>card</name> <ka>0</ka> <kd>0.5</kd> <cd red="0.1" green="0.1" blue="0.11"/> </matte>
+""",
+        materials_more="""\
+    <dielectrics> <dielectric> <name>flint</name> <ior>1.7</ior> <abbe>15</abbe> </dielectric> </dielectrics>
+    <emissives> <emissive> <name>window</name> <ce red="0.75" green="0.85" blue="1"/> </emissive> </emissives>
+""",
+        objects=f"""\
+    <meshes>
+      <mesh>
+        <positions>{positions}</positions>
+        <faces>2 1 0, 3 4 5, 0 1 4 3, 1 2 5 4, 2 0 3 5</faces> <material>flint</material>
+      </mesh>
+    </meshes>
+    <rectangles>
+{cards}      <rectangle>
+        <corner x="-5" y="2" z="-7"/> <edge1 x="7" y="0" z="0"/> <edge2 x="0" y="3.5" z="0"/> <material>window</material>
+      </rectangle>
+    </rectangles>
+""",
+    )
+
+
+prism_scene()
+
+
 def openpbr_row(name, comment, materials, more=""):
     """A sphere of each, from its parameters: numbers, and colours of three."""
 

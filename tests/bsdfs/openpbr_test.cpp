@@ -259,6 +259,24 @@ TEST_CASE("OpenPBR: a metal and a glass are those of <conductor> and <dielectric
   CHECK(worst < 1e-4);
 }
 
+TEST_CASE("OpenPBR: at a wavelength, clear bases have the index that they have there, after their weight") {
+  OpenPbr::Parameters parameters;
+  parameters.transmission_weight = 1;
+  parameters.specular_roughness = 0;
+  for (const double weight : {1.0, 0.5, 0.0})
+    for (const bool front : {true, false}) {
+      parameters.specular_weight = weight;
+      const auto kept = spread_bsdf<Kernel<OpenPbr>::Bsdf>(Kernel<OpenPbr>::bsdf(parameters));
+      auto bsdf = kept;
+      Refraction<FloatN> media;
+      media.disperses = true;
+      media.factor = FloatN(1.1F);
+      bsdf.set_side(MaskN(front), media);
+      const float index = 1 + (kept.eta.get(0) - 1) * 1.1F;
+      CHECK(std::abs(bsdf.eta.get(0) - (front ? index : 1 / index)) < 1e-6F);
+    }
+}
+
 TEST_CASE("OpenPBR: a coat takes its color from what is below it, and darkens it") {
   OpenPbr::Parameters parameters;
   parameters.base_color = {0.5, 0.5, 0.5};

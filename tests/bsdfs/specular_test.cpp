@@ -356,4 +356,28 @@ TEST_CASE("dielectric: in another one, the ratio of the two indices counts") {
   }
 }
 
+TEST_CASE("dielectric: at a wavelength, it is glass of the index that it has there") {
+  for (const bool front : {true, false})
+    for (const double roughness : {0.0, 0.3}) {
+      Dielectric::Parameters parameters;
+      parameters.ior = 1.5;
+      parameters.roughness = roughness;
+      GlassBsdf bsdf = spread_bsdf<Kernel<Dielectric>::Bsdf>(Kernel<Dielectric>::bsdf(parameters));
+      Refraction<FloatN> media(FloatN(1.25F));
+      media.disperses = true;
+      media.factor = batch_of<FloatN>([](std::size_t lane) { return 1 + 0.01 * static_cast<double>(lane); });
+      bsdf.set_side(MaskN(front), media);
+      Random random(9);
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        const GlassBsdf there = glass((1 + 0.5 * (1 + 0.01 * static_cast<double>(lane))) / 1.25, roughness, front);
+        const Vec3<FloatN> wo = spread(at_angle({0, 0, 1}, 80 * random.unit(), 6 * random.unit()));
+        const FloatN u(static_cast<float>(random.unit())), u1(static_cast<float>(random.unit())),
+            u2(static_cast<float>(random.unit()));
+        const auto got = bsdf.sample(wo, u, u1, u2), wanted = there.sample(wo, u, u1, u2);
+        CHECK(std::abs(got.pdf.get(lane) / wanted.pdf.get(lane) - 1) < 1e-3F);
+        CHECK(std::abs(got.wi.z.get(lane) - wanted.wi.z.get(lane)) < 1e-4F);
+      }
+    }
+}
+
 }  // namespace raytrace::test

@@ -185,9 +185,10 @@ TEST_CASE("the schema refuses most of the bad scenes, the program all", "[schema
   // Nor what a material's numbers and colours are together.
   expected.insert({"conductor_of_two_colors", "conductor_of_two_edges", "conductor_too_rough",
                    "conductor_too_stretched", "conductor_without_color", "dielectric_that_shines",
-                   "dielectric_thin_and_thick", "dielectric_too_dense", "dielectric_too_rough",
+                   "dielectric_beyond_dispersion", "dielectric_thin_and_dispersive", "dielectric_thin_and_thick",
+                   "dielectric_too_dense", "dielectric_too_dispersive", "dielectric_too_rough",
                    "dielectric_without_distance", "openpbr_film_of_nothing", "openpbr_that_shines", "openpbr_too_dense",
-                   "openpbr_too_rough"});
+                   "openpbr_too_dispersive", "openpbr_too_rough"});
   // Nor what may be in a file that is included.
   expected.insert({"missing_camera", "missing_viewplane"});
   // What it cannot say since numbers and vectors may have keys, and values variables.

@@ -3,6 +3,7 @@
 #include <map>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "import/support.h"
 #include "raytrace/materials/openpbr.h"
@@ -122,6 +123,21 @@ TEST_CASE("glTF: clear, thin and filled") {
   CHECK_FALSE(filled.material.thin_walled);
   CHECK(filled.number("transmission_depth") == 0.2);
   CHECK(filled.at("transmission_color").value.green == 0.2);
+  CHECK(filled.find("transmission_dispersion_scale") == nullptr);
+  // 20 over Abbe's number, of volumes alone.
+  const auto dispersing = [&](const std::string& dispersion, const std::string& volume) {
+    return ReadMaterial(R"("extensions":{)" + pane + R"(,"KHR_materials_dispersion":{"dispersion":)" + dispersion +
+                        R"(},"KHR_materials_volume":{"thicknessFactor":)" + volume + "}}");
+  };
+  for (const auto& [dispersion, abbe] :
+       {std::pair<std::string, double>{"0.5", 40}, {"2", 10}, {"1000", 1}, {"1e-300", 1e15}}) {
+    const ReadMaterial glass = dispersing(dispersion, "1");
+    CHECK(glass.messages.empty());
+    CHECK(glass.number("transmission_dispersion_scale") == 1);
+    CHECK(glass.number("transmission_dispersion_abbe_number") == abbe);
+  }
+  CHECK(dispersing("0", "1").find("transmission_dispersion_scale") == nullptr);
+  CHECK(dispersing("0.5", "0").find("transmission_dispersion_scale") == nullptr);
 }
 
 TEST_CASE("glTF: a coat, sheen, a film and specular colours") {

@@ -358,9 +358,9 @@ TEST_CASE("glTF's positions that are not finite are left out with their faces") 
 TEST_CASE("extensions that a glTF file uses are one warning") {
   const ReadResult read = read_bytes(
       "a.gltf", square().text(of_square + R"(,"extensionsUsed":["KHR_lights_punctual","KHR_mesh_quantization",
-      "KHR_materials_sheen","KHR_texture_transform","KHR_materials_dispersion","B"])"));
+      "KHR_materials_sheen","KHR_texture_transform","KHR_materials_subsurface","B"])"));
   CHECK(read.mesh);
-  CHECK(read.messages == "a.gltf: warning: uses extensions that are not read: 'KHR_materials_dispersion', 'B'\n");
+  CHECK(read.messages == "a.gltf: warning: uses extensions that are not read: 'KHR_materials_subsurface', 'B'\n");
 }
 
 TEST_CASE("damaged glTF files are read or refused") {

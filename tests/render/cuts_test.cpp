@@ -313,8 +313,9 @@ TEST_CASE("packets of every shape give the same bits however a picture is cut") 
   // Numbers of samples that lead to packets of a single pixel, of two pixels and so on, up to as many pixels as lanes:
   // which leads to which depends on the instruction set's lanes (render_tile() in tracing/).
   const int samples = GENERATE(32, 16, 8, 4, 3);
-  // The second has a lens and a pixel filter, the third pixels without rays, in the last things move.
-  const std::string scene = GENERATE("seed", "camera-thin-lens", "camera-fisheye", "motion-blur");
+  // The second has a lens and a pixel filter, the third pixels without rays; in the fourth things move, and in the last
+  // light is split by its wavelength.
+  const std::string scene = GENERATE("seed", "camera-thin-lens", "camera-fisheye", "motion-blur", "dispersion");
   const std::string file = RAYTRACE_SOURCE_DIR "/scenes/" + scene + ".xml";
   for (const std::string& isa : usable_isas()) {
     CutRender cut(file, samples, samples == 16, isa, static_cast<unsigned>(samples));

@@ -45,7 +45,8 @@ bool read_fields(Element element, std::span<const FieldInfo> infos, std::span<co
         });
       } else {
         FieldTexture texture{i, {}, child};
-        if (read_value(child, infos[i], targets[i], context, textures != nullptr ? &texture.attributes : nullptr) &&
+        const bool takes_texture = textures != nullptr && !infos[i].is_constant;
+        if (read_value(child, infos[i], targets[i], context, takes_texture ? &texture.attributes : nullptr) &&
             !texture.attributes.texture.empty())
           textures->push_back(texture);
       }

@@ -140,6 +140,11 @@ class MaterialReader {
     if (weight == 0) return;
     add("transmission_weight", weight, texture(transmission, "transmissionTexture"), red);
     material_.thin_walled = number(volume, "thicknessFactor", 0) <= 0;
+    const double dispersion = number(find("KHR_materials_dispersion"), "dispersion", 0);
+    if (dispersion > 0 && !material_.thin_walled) {
+      add("transmission_dispersion_scale", 1);
+      add("transmission_dispersion_abbe_number", std::clamp(20 / dispersion, 1.0, 1e15));
+    }
     const double distance = number(volume, "attenuationDistance", 0);
     if (material_.thin_walled || !(distance > 0)) return add_base_color("transmission_color");
     add("transmission_depth", distance);
@@ -214,9 +219,9 @@ class MaterialReader {
 
 bool is_material_extension(std::string_view name) {
   constexpr std::string_view start = "KHR_materials_";
-  constexpr std::array<std::string_view, 10> read{"anisotropy",  "clearcoat", "emissive_strength", "ior",
-                                                  "iridescence", "sheen",     "specular",          "transmission",
-                                                  "unlit",       "volume"};
+  constexpr std::array<std::string_view, 11> read{"anisotropy",   "clearcoat",   "dispersion", "emissive_strength",
+                                                  "ior",          "iridescence", "sheen",      "specular",
+                                                  "transmission", "unlit",       "volume"};
   return name.starts_with(start) && std::find(read.begin(), read.end(), name.substr(start.size())) != read.end();
 }
 

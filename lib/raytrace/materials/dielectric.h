@@ -3,7 +3,8 @@
 //   <dielectric>
 //     <name>green glass</name> <ior>1.52</ior> <roughness>0.1</roughness> <cr red="1" green="1" blue="1"/>
 //     <ct red="1" green="1" blue="1"/> <attenuationcolor red="0.4" green="0.9" blue="0.5"/>
-//     <attenuationdistance>2</attenuationdistance> <thinwalled>false</thinwalled> <priority>0</priority>
+//     <attenuationdistance>2</attenuationdistance> <abbe>60</abbe> <thinwalled>false</thinwalled>
+//     <priority>0</priority>
 //   </dielectric>
 //
 // What is behind its front is inside: the front of a closed shape is its outside, that of a triangle the side from
@@ -11,10 +12,12 @@
 // the one of the highest priority counts (scene/medium_table.h). A thin wall has nothing inside: it is a pane of two
 // parallel faces with no distance between them, between which light goes to and fro, and what comes through is not
 // bent. A rough one scatters what comes through as it does what it reflects, but to the other side (Burley, "Extending
-// the Disney BRDF to a BSDF", SIGGRAPH course 2015). Shadow rays do not come through: lights are seen through it only
-// by paths that meet them.
+// the Disney BRDF to a BSDF", SIGGRAPH course 2015). With an Abbe number, light of each wavelength is bent by an index
+// of its own (materials/dispersion.h). Shadow rays do not come through: lights are seen through it only by paths that
+// meet them.
 #pragma once
 
+#include "raytrace/materials/dispersion.h"
 #include "raytrace/materials/surface_detail.h"
 
 namespace raytrace {
@@ -35,6 +38,7 @@ class Dielectric {
   };
   struct Parameters : Values<double> {
     bool thinwalled = false;
+    double abbe = 0;   ///< Abbe's number; 0: one index for all wavelengths
     int priority = 0;  ///< where it is in others: the highest counts, of equal ones what light came into last
   };
   static constexpr std::string_view group = "dielectrics";
@@ -46,7 +50,7 @@ class Dielectric {
          optional("ct", &Parameters::ct),
          optional("attenuationcolor", &Parameters::attenuationcolor, Range::not_negative),
          optional("attenuationdistance", &Parameters::attenuationdistance, Range::not_negative),
-         optional("thinwalled", &Parameters::thinwalled),
+         constant("abbe", &Parameters::abbe, Range::not_negative), optional("thinwalled", &Parameters::thinwalled),
          optional("priority", &Parameters::priority, Range::not_negative)});
   }
   static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {
@@ -63,6 +67,12 @@ class Dielectric {
       return error("the dielectric's <attenuationcolor> needs an <attenuationdistance> after which light has it");
     if (parameters.thinwalled && parameters.attenuationdistance > 0)
       return error("the dielectric is thin-walled: nothing inside has an <attenuationdistance>");
+    if (parameters.abbe == 0) return std::nullopt;
+    if (parameters.thinwalled) return error("the dielectric is thin-walled: it bends no light, so <abbe> says nothing");
+    if (parameters.abbe < least_abbe)
+      return error("the dielectric's <abbe> is below 1; without one, or with 0, its <ior> is that of all wavelengths");
+    if (!has_all_indices(parameters.ior, parameters.abbe))
+      return error("the dielectric's <abbe> is so low that nothing is left of its <ior> for blue light");
     return std::nullopt;
   }
   /// As materials/kernels.h has it.

@@ -21,8 +21,9 @@ class Kernel<Dielectric> {
     Rgb<T> extinction;              ///< inside, for a unit of length
 
     template <class Front>
-    void set_side(const Front& front, const T& outside) {
-      eta = select(front | is_thin(), eta / outside, outside / eta);
+    void set_side(const Front& front, const Refraction<T>& media) {
+      const T inside = media.inside(eta);
+      eta = select(front | is_thin(), inside / media.outside, media.outside / inside);
     }
 
     Rgb<T> ambient_radiance(const Rgb<T>&) const { return black(); }
@@ -126,7 +127,7 @@ class Kernel<Dielectric> {
   }
   static std::optional<Medium> medium(const Dielectric::Parameters& parameters, const Bsdf<float>& bsdf) {
     if (parameters.thinwalled) return std::nullopt;
-    return Medium{bsdf.eta, parameters.priority, bsdf.extinction};
+    return Medium{bsdf.eta, parameters.priority, bsdf.extinction, static_cast<float>(dispersion_of(parameters.abbe))};
   }
 };
 

@@ -22,9 +22,9 @@
 //   shines by itself:
 //     Rgb<T> emitted() const;                    radiance, the same in all directions
 //   has two sides:
-//     void set_side(const Mask<T>& front, const T& outside);
-//                                                whether wo is on the surface's front, and the index of refraction of
-//                                                what is outside: called before all others
+//     void set_side(const Mask<T>& front, const Refraction<T>& media);
+//                                                whether wo is on the surface's front, and the indices of refraction
+//                                                on both sides (materials/medium.h): called before all others
 //   has highlights far brighter than most of what it reflects:
 //     Rgb<T> usual_f() const;                    in place of evaluate() straight back, for the film's unit
 //   has evaluate() in the local frame, as all others are:

@@ -8,12 +8,13 @@
 //
 // From below: a base that is a metal, or a dielectric, which is clear or has a diffuse inside; a thin film on it, whose
 // colours are those of waves that interfere; a coat; fuzz. Each layer lets through what it does not reflect.
-// geometry_opacity is every material's `opacity`. Not there: subsurface_..., transmission_scatter...,
-// transmission_dispersion..., and the coat's own normal and tangent.
+// geometry_opacity is every material's `opacity`. Not there: subsurface_..., transmission_scatter..., and the coat's
+// own normal and tangent.
 #pragma once
 
 #include <string>
 
+#include "raytrace/materials/dispersion.h"
 #include "raytrace/materials/surface_detail.h"
 #include "raytrace/parameters/light_group.h"
 
@@ -46,6 +47,7 @@ class OpenPbr {
     T thin = T(0);                                    ///< 1: thin-walled; set by values()
   };
   struct Parameters : Values<double> {
+    double transmission_dispersion_scale = 0, transmission_dispersion_abbe_number = 20;
     bool geometry_thin_walled = false;
     int priority = 0;   ///< a dielectric's
     Reference group{};  ///< of its emission (light_group.h)
@@ -81,6 +83,8 @@ class OpenPbr {
         number("transmission_weight", &P::transmission_weight),
         color("transmission_color", &P::transmission_color),
         number("transmission_depth", &P::transmission_depth),
+        constant("transmission_dispersion_scale", &P::transmission_dispersion_scale, Range::not_negative),
+        constant("transmission_dispersion_abbe_number", &P::transmission_dispersion_abbe_number, Range::not_negative),
         number("coat_weight", &P::coat_weight),
         color("coat_color", &P::coat_color),
         number("coat_roughness", &P::coat_roughness),
@@ -116,11 +120,24 @@ class OpenPbr {
         const auto& color = field.get<Rgb<double>>(const_cast<Parameters*>(&parameters));
         if (color.red > 1 || color.green > 1 || color.blue > 1) return error(name, "above 1: light would grow inside");
       } else if (field.is<double>() && name != "specular_weight" && name != "transmission_depth" &&
-                 name != "thin_film_thickness" && name != "emission_luminance") {
+                 name != "transmission_dispersion_abbe_number" && name != "thin_film_thickness" &&
+                 name != "emission_luminance") {
         if (field.get<double>(const_cast<Parameters*>(&parameters)) > 1) return error(name, "above 1");
       }
     }
+    if (parameters.transmission_dispersion_scale > 0) {
+      constexpr std::string_view name = "transmission_dispersion_abbe_number";
+      const double abbe = parameters.transmission_dispersion_abbe_number;
+      if (abbe < least_abbe) return error(name, "below 1");
+      if (!has_all_indices(parameters.specular_ior, abbe / parameters.transmission_dispersion_scale))
+        return error(name, "so low that nothing is left of its <specular_ior> for blue light");
+    }
     return std::nullopt;
+  }
+  /// Abbe's number; 0: all wavelengths have the same index.
+  static double abbe(const Parameters& parameters) {
+    const double scale = parameters.transmission_dispersion_scale;
+    return scale > 0 ? parameters.transmission_dispersion_abbe_number / scale : 0;
   }
   /// As materials/kernels.h has it.
   static bool focuses(const Parameters& parameters, const auto& is_textured) {

@@ -14,6 +14,7 @@
 #include "raytrace/bsdfs/oren_nayar.h"
 #include "raytrace/bsdfs/stretched_ggx.h"
 #include "raytrace/bsdfs/thin_film.h"
+#include "raytrace/materials/medium.h"
 #include "raytrace/math/kernel.h"
 #include "raytrace/math/rgba.h"
 
@@ -39,7 +40,9 @@ struct OpenPbrBsdf {
   static constexpr bool in_local_frame = true;
 
   template <class Front>
-  void set_side(const Front& front, const T& outside) {
+  void set_side(const Front& front, const Refraction<T>& media) {
+    const T& outside = media.outside;
+    eta = media.inside(eta);
     // Below a coat, eta is over the coat's; what light does not come into is as in air.
     const auto clear = transmission > T(0), inside = clear & !(front | is_thin());
     film.eta = select(clear & !inside, film.eta / outside, film.eta);

@@ -102,7 +102,8 @@ class Kernel<OpenPbr> {
   }
   static std::optional<Medium> medium(const OpenPbr::Parameters& parameters, const Bsdf<float>& bsdf) {
     if (!(parameters.transmission_weight > 0) || parameters.geometry_thin_walled) return std::nullopt;
-    return Medium{static_cast<float>(parameters.specular_ior), parameters.priority, bsdf.extinction};
+    return Medium{static_cast<float>(parameters.specular_ior), parameters.priority, bsdf.extinction,
+                  static_cast<float>(dispersion_of(OpenPbr::abbe(parameters)))};
   }
 };
 

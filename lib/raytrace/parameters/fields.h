@@ -55,6 +55,7 @@ struct FieldInfo {
   /// Of a number that means nothing without a texture: the attribute beside the texture's that it stands in.
   std::string_view number_attribute{};
   bool whole_color = false;  ///< it takes the texture's colour, and no channel of it
+  bool is_constant = false;  ///< of a material's number: no texture may multiply it
 };
 
 /// An enumeration that fields may have: the words that scene files spell its values with, in their order from 0.
@@ -183,7 +184,7 @@ class Field : public FieldInfo {
   }
 
   /// Whether a texture may multiply the field of a material: one number, or a colour.
-  bool may_be_textured() const { return is<double>() || is<Rgb<double>>(); }
+  bool may_be_textured() const { return !is_constant && (is<double>() || is<Rgb<double>>()); }
   std::size_t offset() const { return offset_; }
   /// Of an enumeration; none of others.
   std::span<const std::string_view> words() const { return words_; }
@@ -252,6 +253,14 @@ Field required(std::string_view name, Value Parameters::* member, Range range = 
 template <class Parameters, class Value>
 Field optional(std::string_view name, Value Parameters::* member, Range range = Range::any) {
   return {FieldInfo{name, false, range}, member};
+}
+
+/// The same of a number that textures do not multiply.
+template <class Parameters>
+Field constant(std::string_view name, double Parameters::* member, Range range = Range::any) {
+  FieldInfo info{name, false, range};
+  info.is_constant = true;
+  return {info, member};
 }
 
 // The same of a point: required("center", &Parameters::center, a_point).

@@ -20,6 +20,9 @@ enum class Dimension : std::uint32_t { lens, first_of_path };
 /// When the rays of a sample are sent: none of those above.
 inline constexpr Dimension time_dimension{0x20000000U};
 
+/// The wavelength of a path from the camera, and of one from a light, where it comes to what disperses light.
+inline constexpr Dimension wavelength_dimension{0x20000001U}, light_path_wavelength_dimension{0x20000002U};
+
 /// What a path draws at each of its points.
 enum class PathDraw : std::uint32_t { direction, lobe_and_roulette, light, light_point, count };
 

@@ -13,6 +13,7 @@
 
 #include "raytrace/bsdfs/bsdf_sample.h"
 #include "raytrace/film/film.h"
+#include "raytrace/materials/medium.h"
 #include "raytrace/math/color.h"
 #include "raytrace/math/frame.h"
 #include "raytrace/math/gather.h"
@@ -71,9 +72,8 @@ class MaterialTable {
   virtual Rgb<FloatN> emitted(const LaneIndices& materials, const TexturePoint<FloatN>* point) const = 0;
 
   /// A direction that light comes from, drawn by each lane's material out of u, u1 and u2 in [0, 1), and what leaves
-  /// of light from wi, which is on the surface's side, in the lanes of `lit`. wo, wi: in the local frame. outside: the
-  /// index of refraction of what the surface is in.
-  virtual Scattering scatter(const LaneIndices& materials, const MaskN& front, const FloatN& outside,
+  /// of light from wi, which is on the surface's side, in the lanes of `lit`. wo, wi: in the local frame.
+  virtual Scattering scatter(const LaneIndices& materials, const MaskN& front, const Refraction<FloatN>& media,
                              const Vec3<FloatN>& wo, const MaskN& lit, const Vec3<FloatN>& wi, const FloatN& u,
                              const FloatN& u1, const FloatN& u2, const TexturePoint<FloatN>* point) const = 0;
 
@@ -139,10 +139,10 @@ class MaterialTableOf final : public MaterialTable {
     }
   }
 
-  Scattering scatter(const LaneIndices& materials, const MaskN& front, const FloatN& outside, const Vec3<FloatN>& wo,
-                     const MaskN& lit, const Vec3<FloatN>& wi, const FloatN& u, const FloatN& u1, const FloatN& u2,
-                     const TexturePoint<FloatN>* point) const override {
-    const auto bsdfs = gathered(materials, front, point, outside);
+  Scattering scatter(const LaneIndices& materials, const MaskN& front, const Refraction<FloatN>& media,
+                     const Vec3<FloatN>& wo, const MaskN& lit, const Vec3<FloatN>& wi, const FloatN& u,
+                     const FloatN& u1, const FloatN& u2, const TexturePoint<FloatN>* point) const override {
+    const auto bsdfs = gathered(materials, front, point, media);
     const Rgb<FloatN> black(Rgb<float>(0, 0, 0));
     if constexpr (requires { bsdfs.lobes(wo); }) {
       const auto lobes = bsdfs.lobes(wo);
@@ -210,10 +210,10 @@ class MaterialTableOf final : public MaterialTable {
 
   /// The lanes' own, with their textures, for light that leaves on the side that `front` says.
   BsdfN gathered(const LaneIndices& materials, const MaskN& front, const TexturePoint<FloatN>* point,
-                 const FloatN& outside = FloatN(1)) const {
+                 const Refraction<FloatN>& media = {}) const {
     BsdfN bsdfs = gather_records<MaterialKernel::template Bsdf, FloatN>(bsdfs_.data(), materials);
     if (point != nullptr) set_textured(bsdfs, materials, *point);
-    if constexpr (requires { bsdfs.set_side(front, outside); }) bsdfs.set_side(front, outside);
+    if constexpr (requires { bsdfs.set_side(front, media); }) bsdfs.set_side(front, media);
     return bsdfs;
   }
 

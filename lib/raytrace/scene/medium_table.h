@@ -36,9 +36,13 @@ class MediumTable {
   }
 
   bool empty() const { return ior_.size() == 1; }
+  /// Whether any of them disperses light.
+  bool disperses() const { return disperses_; }
 
   IntN of_material(const IntN& material) const { return gather(numbers_.data(), material); }
   FloatN ior(const IntN& medium) const { return gather(ior_.data(), medium); }
+  /// dispersion_of() its Abbe number; of none 0.
+  FloatN dispersion(const IntN& medium) const { return gather(dispersion_.data(), medium); }
   /// Of none the least there is.
   IntN priority(const IntN& medium) const { return gather(priority_.data(), medium); }
   /// The share that is left of light that went so far in it. distance: may be infinite, of rays that meet nothing.
@@ -51,6 +55,8 @@ class MediumTable {
  private:
   void add(const Medium& medium) {
     ior_.push_back(medium.ior);
+    dispersion_.push_back(medium.dispersion);
+    disperses_ |= medium.dispersion > 0;
     priority_.push_back(medium.priority);
     red_.push_back(-medium.extinction.red);
     green_.push_back(-medium.extinction.green);
@@ -58,7 +64,9 @@ class MediumTable {
   }
 
   std::vector<std::int32_t> numbers_, priority_{std::numeric_limits<std::int32_t>::min()};
-  std::vector<float> ior_{1}, red_{0}, green_{0}, blue_{0};  ///< colours: what is left of them, as exponents
+  std::vector<float> ior_{1}, dispersion_{0};
+  std::vector<float> red_{0}, green_{0}, blue_{0};  ///< what is left of these colours, as exponents
+  bool disperses_ = false;
 };
 
 /// The media that each lane's path is in, in the order in which it came into them: four at most. Of more, the last
@@ -134,10 +142,11 @@ class MediumStack {
 
 /// What is on the two sides of the surfaces that paths come to.
 struct MediumBoundary {
-  IntN inside{0};        ///< the surface's own medium; 0 where it has none
-  IntN current{0};       ///< that the path came through
-  FloatN outside{1.0F};  ///< the index of refraction of what is outside of the surface
-  MaskN is_there{true};  ///< false: it lies inside of a medium that counts more
+  IntN inside{0};            ///< the surface's own medium; 0 where it has none
+  IntN current{0};           ///< that the path came through
+  IntN outside{0};           ///< what is outside of the surface
+  Refraction<FloatN> media;  ///< their indices of refraction
+  MaskN is_there{true};      ///< false: it lies inside of a medium that counts more
 
   /// stack: of paths that came to surfaces of materials with that inside, from the front or not. Paths that come from
   /// the inside of what they are not known to be in have been there since they began.
@@ -149,13 +158,25 @@ struct MediumBoundary {
     current = stack.current(table);
     MediumStack around = stack;
     around.remove(leaves, inside);
-    const IntN other = around.current(table);
-    outside = table.ior(other);
+    outside = around.current(table);
+    media.outside = table.ior(outside);
     const MaskN hidden_ahead = float_mask<FloatN>(table.priority(current) > table.priority(inside)) & front;
     const MaskN hidden_behind = float_mask<FloatN>(current != inside) & !front;
     is_there = !(has_inside & (hidden_ahead | hidden_behind));
   }
   MediumBoundary() = default;
+
+  /// Those of the lanes at whose surfaces the indices depend on the wavelength.
+  MaskN disperses(const MediumTable& table, const MaskN& lanes) const {
+    const MaskN has_inside = float_mask<FloatN>(inside != IntN(0));
+    return lanes & has_inside & (table.dispersion(inside) + table.dispersion(outside) > FloatN(0));
+  }
+  /// Sets the indices to those of light of that deviation (materials/dispersion.h).
+  void set_deviation(const MediumTable& table, const FloatN& deviation) {
+    media.disperses = true;
+    media.factor = FloatN(1) + table.dispersion(inside) * deviation;
+    media.outside = FloatN(1) + (table.ior(outside) - FloatN(1)) * (FloatN(1) + table.dispersion(outside) * deviation);
+  }
 
   /// The paths go through the surfaces, in those lanes.
   void cross(MediumStack& stack, const MaskN& lanes, const MaskN& front) const {

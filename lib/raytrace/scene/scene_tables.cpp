@@ -339,11 +339,11 @@ Rgb<FloatN> SceneTables::emitted(const Hits& hits, const SurfaceInteraction<Floa
   return select(shining, radiance, black);
 }
 
-Scattering SceneTables::scatter(const Hits& hits, const MaskN& front, const FloatN& outside, const Vec3<FloatN>& wo,
-                                const MaskN& lit, const Vec3<FloatN>& wi, const FloatN& u, const FloatN& u1,
-                                const FloatN& u2, const TexturePoint<FloatN>* point) const {
+Scattering SceneTables::scatter(const Hits& hits, const MaskN& front, const Refraction<FloatN>& media,
+                                const Vec3<FloatN>& wo, const MaskN& lit, const Vec3<FloatN>& wi, const FloatN& u,
+                                const FloatN& u1, const FloatN& u2, const TexturePoint<FloatN>* point) const {
   return by_material(hits, [&](const MaterialTable& table, const LaneIndices& materials) {
-    return table.scatter(materials, front, outside, wo, lit, wi, u, u1, u2, point);
+    return table.scatter(materials, front, media, wo, lit, wi, u, u1, u2, point);
   });
 }
 

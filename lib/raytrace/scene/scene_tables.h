@@ -161,7 +161,7 @@ class SceneTables {
 
   /// As MaterialTable has it, each lane's of its own material, in its shading_frame(); lanes that hit nothing
   /// get anything.
-  Scattering scatter(const Hits& hits, const MaskN& front, const FloatN& outside, const Vec3<FloatN>& wo,
+  Scattering scatter(const Hits& hits, const MaskN& front, const Refraction<FloatN>& media, const Vec3<FloatN>& wo,
                      const MaskN& lit, const Vec3<FloatN>& wi, const FloatN& u, const FloatN& u1, const FloatN& u2,
                      const TexturePoint<FloatN>* point) const;
   /// The share that is left of light that went so far behind the surfaces.

@@ -24,6 +24,7 @@ struct LightPathPacket {
   /// of what left the light is not lost yet.
   Rgb<FloatN> flux, share;
   MediumStack media;  ///< that the path is in
+  FloatN deviation;   ///< of its wavelength; 0: it has none
   int depth = 0;      ///< points that it has come to
   MaskN from_point;   ///< whose light is known by the irradiance where the path comes to first
 

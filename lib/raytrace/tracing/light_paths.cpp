@@ -81,6 +81,7 @@ Hits LightPaths::intersect(const LightPathPacket& path, Ray<FloatN>& rays, const
 void LightPaths::follow(LightPathPacket& path, MaskN alive) {
   path.share = Rgb<FloatN>(Rgb<float>(1, 1, 1));
   path.media = scene_.light_media(path.rays.origin, alive);
+  path.deviation = FloatN(0);
   const auto lights = static_cast<std::int32_t>(tables_.lights().size());
   const IntN source = IntN::load_aligned(path.sources.data()), aimed_at = IntN::load_aligned(path.targets.data());
   // So many points scatter on a path at most, the last of them to the camera.
@@ -98,6 +99,12 @@ void LightPaths::follow(LightPathPacket& path, MaskN alive) {
           scene_, path.media, path.rays, hits, surface, went, [] { return FloatN(0); },
           [&](Ray<FloatN>& rays, const MaskN& lanes) { return intersect(path, rays, lanes); });
       if (none(hits.hit)) return;
+      if (tables_.media().disperses()) [[unlikely]] {
+        const Rgb<FloatN> weights = disperse(tables_.media(), boundary, alive & hits.hit, path.pixel, path.sample,
+                                             light_path_wavelength_dimension, path.deviation);
+        path.flux = path.flux * weights;
+        path.share = path.share * weights;
+      }
     }
     const auto textures = add_textures(tables_, hits, surface, [] { return FloatN(0); });
     const IntN target = caustics_.target_of(tables_.geometry(), hits, tables_.material(hits));
@@ -156,7 +163,7 @@ MaskN LightPaths::scatter(LightPathPacket& path, const Hits& hits, const Surface
   };
   const Sample2D u = draw(LightPathPointDraw::direction), choice = draw(LightPathPointDraw::lobe_and_roulette);
   const BsdfSample<FloatN> sample =
-      tables_.scatter(hits, surface.front, boundary.outside, wi, MaskN(false), wi, choice.x, u.x, u.y, point).sample;
+      tables_.scatter(hits, surface.front, boundary.media, wi, MaskN(false), wi, choice.x, u.x, u.y, point).sample;
   const Vec3<FloatN> wo = frame.to_world(sample.wi);
   const MaskN through = sample.wi.z < FloatN(0);
   const FloatN true_wi = dot(surface.wo, surface.ng), true_wo = dot(wo, surface.ng);
@@ -166,7 +173,7 @@ MaskN LightPaths::scatter(LightPathPacket& path, const Hits& hits, const Surface
   Rgb<FloatN> f = sample.f * sample.eta2;
   if (const MaskN rough = alive & !sample.specular & !through; any(rough)) {
     const auto back =
-        tables_.scatter(hits, surface.front, boundary.outside, sample.wi, rough, wi, choice.x, u.x, u.y, point).towards;
+        tables_.scatter(hits, surface.front, boundary.media, sample.wi, rough, wi, choice.x, u.x, u.y, point).towards;
     f = select(rough, back.f, f);
   }
   // Of shading normals: Veach 1997, section 5.3.
@@ -226,8 +233,7 @@ void LightPaths::connect(LightPathPacket& path, const Hits& hits, const SurfaceI
   if (none(lit)) return;
   const FloatN any_number(0.5F);
   const BsdfValue bsdf =
-      tables_.scatter(hits, seen.front, boundary.outside, wo, lit, wi, any_number, any_number, any_number, point)
-          .towards;
+      tables_.scatter(hits, seen.front, boundary.media, wo, lit, wi, any_number, any_number, any_number, point).towards;
   FloatN weight = FloatN::load_aligned(areas.data()) * cosine * (wi.z / max(true_wi, FloatN(1e-6F)));
   if (seen.has_relief) weight = weight * relief_shadow(seen, surface.wo);
   Rgb<FloatN> radiance = path.flux * bsdf.f * weight;

@@ -3,6 +3,8 @@
 
 #include "raytrace/accel/surface_uv.h"
 #include "raytrace/accel/traced_scene.h"
+#include "raytrace/sampling/sampler.h"
+#include "raytrace/sampling/wavelength.h"
 #include "raytrace/scene/medium_table.h"
 
 namespace raytrace {
@@ -47,6 +49,23 @@ MediumBoundary next_boundary(const TracedScene& scene, MediumStack& stack, Ray<F
     if (none(hits.hit)) return boundary;
     surface = scene.accelerator().surface(rays, hits);
   }
+}
+
+/// In scenes with media that disperse light: draws a wavelength for each of these lanes that has none and is at a
+/// surface whose indices depend on it, and sets the boundary's indices to those at the paths' wavelengths. deviation: 0
+/// for paths without one. The result: what their light is multiplied by.
+[[gnu::noinline]] inline Rgb<FloatN> disperse(const MediumTable& media, MediumBoundary& boundary, const MaskN& lanes,
+                                              const UintN& pixel, const UintN& sample, Dimension dimension,
+                                              FloatN& deviation) {
+  Rgb<FloatN> weights(Rgb<float>(1, 1, 1));
+  const MaskN begins = boundary.disperses(media, lanes) & (deviation == FloatN(0));
+  if (any(begins)) {
+    const WavelengthSample drawn = sample_wavelength(get_2d(pixel, sample, dimension).x);
+    deviation = select(begins, drawn.deviation, deviation);
+    weights = select(begins, drawn.weights, weights);
+  }
+  boundary.set_deviation(media, deviation);
+  return weights;
 }
 
 }  // namespace raytrace

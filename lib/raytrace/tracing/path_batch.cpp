@@ -25,8 +25,8 @@ std::uint64_t count(const MaskN& lanes) { return static_cast<std::uint64_t>(std:
 PathBatch::PathBatch(const TracedScene& scene)
     : scene_(scene),
       settings_(std::get<Path::Parameters>(scene.tables().integrator())),
-      paths_(most_packets * packet_lanes, !scene.tables().media().empty()),
-      next_(most_packets * packet_lanes, !scene.tables().media().empty()),
+      paths_(most_packets * packet_lanes, scene.tables().media()),
+      next_(most_packets * packet_lanes, scene.tables().media()),
       groups_(scene.tables().light_groups().size()) {
   order_.reserve(most_packets * packet_lanes);
   direct_.reserve(most_packets * groups_);
@@ -69,6 +69,7 @@ MaskN PathBatch::add(CameraRays& camera, const MaskN& active, const MaskN& wante
   const MediumStack::Packed media = scene_.camera_media().packed();
   path.first_media = media.first;
   path.last_media = media.last;
+  path.deviation = FloatN(0);
   append(paths_, path, hits, hits.hit & wanted);
   clock_.end(Stage::surface);
   return hits.hit;
@@ -233,6 +234,9 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   }
   clock_.end(Stage::lights);
   if (depth == settings_.maxdepth) return;
+  if (tables.media().disperses()) [[unlikely]]
+    path.throughput = path.throughput * disperse(tables.media(), boundary, lanes, path.pixel, path.sample,
+                                                 wavelength_dimension, path.deviation);
 
   // The numbers of keys: one for each ray of a point, the next point's own first.
   const auto lights = static_cast<std::uint32_t>(tables.lights().size());
@@ -264,7 +268,7 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   const bool is_last = depth + 1 == settings_.maxdepth;
   const bool goes_on = !is_last || tables.has_emission() || tables.environment() != nullptr;
   const Sample2D direction = draw(PathDraw::direction), choices = draw(PathDraw::lobe_and_roulette);
-  const Scattering scattering = tables.scatter(hits, surface.front, boundary.outside, wo, drawn.lit, drawn.local_wi,
+  const Scattering scattering = tables.scatter(hits, surface.front, boundary.media, wo, drawn.lit, drawn.local_wi,
                                                choices.x, direction.x, direction.y, point);
   clock_.end(Stage::shade);
   if (any(drawn.lit)) {

@@ -12,6 +12,7 @@
 #include "raytrace/math/gather.h"
 #include "raytrace/math/ray.h"
 #include "raytrace/scene/hits.h"
+#include "raytrace/scene/medium_table.h"
 
 namespace raytrace {
 
@@ -39,6 +40,7 @@ struct PathPacket {
   IntN slot;                     ///< where the path's radiance goes
   IntN way;                      ///< PathWay, where light paths bring some of the light
   IntN first_media, last_media;  ///< MediumStack::Packed, in scenes with media
+  FloatN deviation;              ///< of the path's wavelength, or 0 if it has none; where media disperse light
 
   void set_hits(const Hits& hits) {
     instance = hits.instance;
@@ -63,9 +65,11 @@ struct PathPacket {
 class PathChunk {
  public:
   /// Takes so many paths. Throws std::bad_alloc.
-  explicit PathChunk(std::size_t capacity, bool has_media)
+  PathChunk(std::size_t capacity, const MediumTable& media)
       : stride_((capacity / packet_lanes + 2) * packet_lanes),
-        fields_(has_media ? fields : fields - media_fields),
+        fields_(media.disperses() ? fields
+                : media.empty()   ? fields - 3
+                                  : fields - 1),
         numbers_(stride_ * fields_) {
     buckets_.reserve(capacity + packet_lanes);
   }
@@ -114,7 +118,7 @@ class PathChunk {
   }
 
  private:
-  static constexpr std::size_t fields = sizeof(PathPacket) / sizeof(FloatN), media_fields = 2;
+  static constexpr std::size_t fields = sizeof(PathPacket) / sizeof(FloatN);
   static_assert(sizeof(PathPacket) == fields * packet_lanes * sizeof(float));
 
   std::size_t stride_, fields_;
