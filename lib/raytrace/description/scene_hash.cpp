@@ -69,13 +69,13 @@ class SceneHash {
         if constexpr (requires { item.data; }) {
           hash.add_loaded(fields, item);
         } else if constexpr (requires { item.image; }) {
-          hash.add_parameters(fields, &item.parameters, {item.image.hash.empty() ? "" : "file"});
+          hash.add_parameters(fields, &item.parameters, {item.image.hash.empty() ? "" : "file", unused_field(item)});
           hash.add(item.image.hash);
         } else if constexpr (requires { item.photometry; }) {
           hash.add_parameters(fields, &item.parameters, {item.photometry.hash.empty() ? "" : "iesfile"});
           hash.add(item.photometry.hash);
         } else {
-          hash.add_parameters(fields, &item.parameters);
+          hash.add_parameters(fields, &item.parameters, {unused_field(item)});
         }
         if constexpr (requires { item.transform; }) {
           hash.add(static_cast<std::uint64_t>(item.transform.steps.size()));
@@ -119,11 +119,21 @@ class SceneHash {
         field.visit(parameters, [&](const auto& value) { add(value); });
   }
 
+  /// What is newer than other fields, if it is not used: scenes without it keep the hashes that they had before.
+  template <class Item>
+  static std::string_view unused_field(const Item& item) {
+    if constexpr (requires { item.parameters.uvset; })
+      if (item.parameters.uvset == UvSet::first) return "uvset";
+    if constexpr (requires { item.parameters.uvs2; })
+      if (item.parameters.uvs2.empty()) return "uvs2";
+    return "";
+  }
+
   /// By what it was read from a file, if it was.
   template <class Item>
   void add_loaded(const Fields& fields, const Item& item) {
     const bool from_file = item.data != nullptr && !item.parameters.file.path.empty();
-    add_parameters(fields, &item.parameters, {from_file ? "file" : ""});
+    add_parameters(fields, &item.parameters, {from_file ? "file" : "", unused_field(item)});
     if (!from_file) return;
     add(item.data->origin);
     add(*item.data);
@@ -135,6 +145,7 @@ class SceneHash {
     add_values(data.indices);
     add_values(data.normals);
     add_values(data.uvs);
+    if (!data.uvs2.empty()) add_values(data.uvs2);
     add_values(data.colors);
     add_values(data.face_materials);
   }

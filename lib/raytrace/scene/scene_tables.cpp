@@ -53,6 +53,7 @@ SceneTables::SceneTables(const SceneDescription& description, int threads)
       integrator_(description.integrator.value_or(default_integrator(description))) {
   for (std::string& name : light_group_names(description)) light_groups_.push_back({std::move(name)});
   textures_ = std::make_unique<const TextureTable>(description);
+  has_second_uvset_ = textures_->has_second_uvset();
   add_materials(description);
   geometry_ = std::make_unique<const GeometryTable>(description, origin_, first_material_, threads);
   if (camera_is_far_from(geometry_->bounding_sphere(), description)) {

@@ -181,6 +181,8 @@ class SceneTables {
 
   /// Whether any of the lanes has a material with textures, or one that wants to know where u grows.
   bool has_textures(const Hits& hits) const;
+  /// Whether any texture looks up by the second set of texture coordinates.
+  bool has_second_uvset() const { return has_second_uvset_; }
   /// How wide a pixel is where the camera's rays start, and by how much it widens with their lengths.
   const RayCone& ray_cone() const { return ray_cone_; }
 
@@ -261,7 +263,7 @@ class SceneTables {
   std::vector<float> emitted_;          ///< of each material, red, green and blue; of those with textures, the most
   std::vector<SurfaceDetail> details_;  ///< of all materials
   MediumTable media_;
-  bool has_cutouts_ = false, has_relief_ = false, has_emission_ = false;
+  bool has_cutouts_ = false, has_relief_ = false, has_emission_ = false, has_second_uvset_ = false;
   std::vector<std::int32_t> shining_sides_;  ///< of all materials: 0, 1 for the front, 2 for both
   std::vector<std::int32_t> textured_;       ///< 1 for materials with textures, else 0; empty if there are none
   std::vector<std::int32_t> anisotropic_;    ///< likewise: those whose reflection differs along the surface
