@@ -168,9 +168,15 @@ TEST_CASE("glTF: an anisotropic surface has the alphas of OpenPBR's") {
                along = r * r * std::sqrt(2 / (1 + rest * rest));
   CHECK(along == Approx(0.16 + 0.84 * 0.36));
   CHECK(along * rest == Approx(0.16));
-  CHECK(brushed.messages ==
-        "a.gltf: warning: materials[0].extensions.KHR_materials_anisotropy: its rotation is left "
-        "out: it is along the direction in which u grows\n");
+  CHECK(brushed.messages.empty());
+  CHECK(brushed.number("tangentrotation") == Approx(180 / std::numbers::pi));
+  CHECK(brushed.find("tangentmap") == nullptr);
+
+  const ReadMaterial mapped(extended("anisotropy", R"("anisotropyStrength":1,"anisotropyTexture":{"index":3})"));
+  CHECK(mapped.at("specular_roughness_anisotropy").channel == 2);
+  CHECK(mapped.at("tangentmap").texture.file == "3.png");
+  CHECK(mapped.number("tangentmap") == 1);
+  CHECK(mapped.find("tangentrotation") == nullptr);
 }
 
 TEST_CASE("glTF: what is unlit shines with its base colour and reflects nothing") {

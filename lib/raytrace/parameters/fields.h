@@ -55,6 +55,9 @@ struct FieldInfo {
   /// Of a number that means nothing without a texture: the attribute beside the texture's that it stands in.
   std::string_view number_attribute{};
   bool whole_color = false;  ///< it takes the texture's colour, and no channel of it
+
+  /// Whether there is nothing to say of it without a texture.
+  bool is_of_texture() const { return whole_color || !number_attribute.empty(); }
 };
 
 /// An enumeration that fields may have: the words that scene files spell its values with, in their order from 0.
