@@ -30,8 +30,8 @@ Vec3<FloatN> bumped_normal(const Height& height, UvSet set, const TexturePoint<F
                            const Vec3<FloatN>& normal) {
   const FloatN here = height(point);
   const UvPoint<FloatN>& on = point.by(set);
+  TexturePoint<FloatN> there = point;
   const auto slope = [&](const Vec3<FloatN>& way, const Vec2<FloatN>& uv_way) {
-    TexturePoint<FloatN> there = point;
     there.p = point.p + way;
     there.by(set).uv = {on.uv.x + uv_way.x, on.uv.y + uv_way.y};
     const FloatN size = length(way);
