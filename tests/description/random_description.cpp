@@ -174,7 +174,8 @@ void reset_unused(MaterialItem<Material>& item) {
   for (std::uint32_t i = 0; i < fields.size(); ++i) {
     const bool used =
         std::any_of(item.textures.begin(), item.textures.end(), [&](const TextureUse& use) { return use.field == i; });
-    if (!fields[i].number_attribute.empty() && !used) fields[i].template get<double>(&item.parameters) = 1;
+    if (fields[i].is_of_texture() && (!used || fields[i].number_attribute.empty()))
+      fields[i].template get<double>(&item.parameters) = 1;
   }
 }
 

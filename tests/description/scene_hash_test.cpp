@@ -50,10 +50,10 @@ void change_each(Value& value, const Changed& changed) {
   }
 }
 
-/// Of the fields of the view plane and of cameras.
+/// Of the fields of the view plane, of cameras and of materials. A map of tangents has no number.
 bool does_not_count(std::string_view field) {
   return field == "samples" || field == "viewtransform" || field == "exposure" || field == "autoexposure" ||
-         field == "shutteropen" || field == "shutterclose";
+         field == "shutteropen" || field == "shutterclose" || field == "tangentmap";
 }
 
 void change_fields(const ElementType& type, void* parameters, const std::function<void()>& changed) {

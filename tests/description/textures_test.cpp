@@ -80,6 +80,26 @@ TEST_CASE("normal maps and bumps are textures with a number beside them") {
   CHECK(contains(error(R"(<normalmap texture="wood" strenght="1"/>)"), "did you mean 'strength'?"));
 }
 
+TEST_CASE("a map of tangents is a texture alone") {
+  const auto with_conductor = [](const std::string& fields) {
+    std::string scene = textured("<ka>0</ka> <kd>1</kd> <cd texture=\"wood\"/>");
+    scene.insert(scene.find("</materials>"), "<conductors> <conductor> <name>m</name> <metal>gold</metal> " + fields +
+                                                 " </conductor> </conductors>");
+    return scene;
+  };
+  const SceneDescription scene = accepted(with_conductor(R"(<tangentmap texture="wood"/>)"));
+  const auto& conductor = std::get<MaterialItems<Conductor>>(scene.materials).at(0);
+  REQUIRE(conductor.textures.size() == 1);
+  CHECK(element_type<Conductor>().fields[conductor.textures[0].field].name == "tangentmap");
+  const std::string printed = print_scene(scene);
+  CHECK(contains(printed, R"(<tangentmap texture="wood"/>)"));
+  CHECK(print_scene(accepted(printed)) == printed);
+  const auto error = [&](const std::string& fields) { return reported(with_conductor(fields)); };
+  CHECK(contains(error("<tangentmap>1</tangentmap>"), R"(write it as <tangentmap texture="..."/>)"));
+  CHECK(
+      contains(error(R"(<tangentmap texture="wood" channel="red"/>)"), "unknown attribute 'channel' in <tangentmap>"));
+}
+
 TEST_CASE("a colour may have its own value beside a texture, and keys") {
   const SceneDescription colour =
       accepted(textured(R"(<ka>0</ka> <kd>1</kd> <cd red="1" green="0.5" blue="0" texture="wood"/>)"));

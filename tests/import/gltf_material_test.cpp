@@ -184,9 +184,15 @@ TEST_CASE("glTF: an anisotropic surface has the alphas of OpenPBR's") {
                along = r * r * std::sqrt(2 / (1 + rest * rest));
   CHECK(along == Approx(0.16 + 0.84 * 0.36));
   CHECK(along * rest == Approx(0.16));
-  CHECK(brushed.messages ==
-        "a.gltf: warning: materials[0].extensions.KHR_materials_anisotropy: its rotation is left "
-        "out: it is along the direction in which u grows\n");
+  CHECK(brushed.messages.empty());
+  CHECK(brushed.number("tangentrotation") == Approx(180 / std::numbers::pi));
+  CHECK(brushed.find("tangentmap") == nullptr);
+
+  const ReadMaterial mapped(extended("anisotropy", R"("anisotropyStrength":1,"anisotropyTexture":{"index":3})"));
+  CHECK(mapped.at("specular_roughness_anisotropy").channel == 2);
+  CHECK(mapped.at("tangentmap").texture.file == "3.png");
+  CHECK(mapped.number("tangentmap") == 1);
+  CHECK(mapped.find("tangentrotation") == nullptr);
 }
 
 TEST_CASE("glTF: what is unlit shines with its base colour and reflects nothing") {
@@ -219,39 +225,55 @@ TEST_CASE("glTF: KHR_texture_transform, whose v grows downwards") {
     }
 }
 
-TEST_CASE("glTF: a material's textures have the texture coordinates of its first") {
+TEST_CASE("glTF: a material's textures have at most two sets of texture coordinates, those of its first ones") {
   GltfFile file;
   file.add(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3", 5126, 3);
   file.add(std::vector<float>{0, 0, 1, 0, 0, 1}, "VEC2", 5126, 3);
   file.add(std::vector<float>{0.5F, 0, 0.5F, 0.25F, 0, 0.5F}, "VEC2", 5126, 3);
-  const std::string attributes = R"({"attributes":{"POSITION":0,"TEXCOORD_0":1,"TEXCOORD_1":2},"material":)";
-  const ReadResult read =
-      read_bytes("a.gltf", file.text(R"("scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[)" +
-                                     attributes + "0}," + attributes + "1}," + attributes + R"(2}]}],
+  const std::string attributes =
+      R"({"attributes":{"POSITION":0,"TEXCOORD_0":1,"TEXCOORD_1":2,"TEXCOORD_2":1},"material":)";
+  const auto read_file = [&](const std::string& primitives) {
+    return read_bytes("a.gltf", file.text(R"("scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[)" +
+                                          primitives + R"(]}],
       "images":[{"uri":"0.png"},{"uri":"1.png"}],"textures":[{"source":0},{"source":1}],"materials":[{},
       {"pbrMetallicRoughness":{"baseColorTexture":{"index":0,"texCoord":1}},"emissiveTexture":{"index":1,"texCoord":1},
        "emissiveFactor":[1,1,1]},
       {"pbrMetallicRoughness":{"baseColorTexture":{"index":0}},"normalTexture":{"index":1,"extensions":{
-       "KHR_texture_transform":{"texCoord":1}}}}])"));
-  REQUIRE(read.mesh);
-  const std::vector<float> first{0, 1, 1, 1, 0, 0}, second{0.5F, 1, 0.5F, 0.75F, 0, 0.5F};
-  std::vector<float> expected = first;
-  expected.insert(expected.end(), second.begin(), second.end());
-  CHECK(values(read.mesh->uvs) == expected);  // the third primitive has the first one's vertices
-  REQUIRE(read.mesh->materials.size() == 3);
-  const auto file_of = [&](std::size_t material, std::string_view name) {
-    for (const MeshParameter& parameter : read.mesh->materials[material].openpbr)
-      if (parameter.name == name) return parameter.texture.file;
-    return std::string();
+       "KHR_texture_transform":{"texCoord":1}}},"emissiveTexture":{"index":1,"texCoord":2},
+       "emissiveFactor":[1,1,1]}])"));
   };
-  CHECK(file_of(1, "base_color") == "0.png");
-  CHECK(file_of(1, "emission_color") == "1.png");
-  CHECK(file_of(2, "base_color") == "0.png");
-  CHECK(read.mesh->materials[2].norm.file.empty());
-  CHECK(
-      read.messages ==
-      "a.gltf: warning: materials[2].normalTexture: has other coordinates than the material's TEXCOORD_0, and is left "
-      "out\n");
+  const std::vector<float> first{0, 1, 1, 1, 0, 0}, second{0.5F, 1, 0.5F, 0.75F, 0, 0.5F};
+  const auto joined = [](std::vector<float> a, const std::vector<float>& b) {
+    a.insert(a.end(), b.begin(), b.end());
+    return a;
+  };
+  const ReadResult one = read_file(attributes + "0}," + attributes + "1}," + attributes + "0}");
+  REQUIRE(one.mesh);
+  CHECK(one.messages.empty());
+  CHECK(values(one.mesh->uvs) == joined(first, second));  // the third primitive has the first one's vertices
+  CHECK(one.mesh->uvs2.empty());
+
+  const ReadResult read = read_file(attributes + "1}," + attributes + "2}");
+  REQUIRE(read.mesh);
+  CHECK(values(read.mesh->uvs) == joined(second, first));
+  CHECK(values(read.mesh->uvs2) == joined(second, second));  // of a material with one set: that one
+  REQUIRE(read.mesh->materials.size() == 2);
+  const auto texture_of = [&](std::size_t material, std::string_view name) {
+    for (const MeshParameter& parameter : read.mesh->materials[material].openpbr)
+      if (parameter.name == name) return parameter.texture;
+    return MeshTexture();
+  };
+  CHECK(texture_of(0, "base_color").file == "0.png");
+  CHECK(texture_of(0, "emission_color").file == "1.png");
+  CHECK_FALSE(texture_of(0, "emission_color").by_uvs2);
+  CHECK(texture_of(1, "base_color").file == "0.png");
+  CHECK_FALSE(texture_of(1, "base_color").by_uvs2);
+  CHECK(read.mesh->materials[1].norm.file == "1.png");
+  CHECK(read.mesh->materials[1].norm.by_uvs2);
+  CHECK(texture_of(1, "emission_color").file.empty());
+  CHECK(read.messages ==
+        "a.gltf: warning: materials[2].emissiveTexture: has other coordinates than the material's TEXCOORD_0 and "
+        "TEXCOORD_1, and is left out\n");
 }
 
 }  // namespace raytrace::test

@@ -67,6 +67,13 @@ TEST_CASE("a normal map's x is along u, its y along v") {
   check_normal(rendered(relief_scene(to_u, map, mirrored_panel)), {-s, 0, c});
   check_normal(rendered(relief_scene(to_v, map, mirrored_panel)), {0, s, c});
 
+  // The frame is that of the set of texture coordinates by which the map is looked up.
+  std::string two_sets = mirrored_panel, by_second = to_u;
+  two_sets.insert(two_sets.find("<uvs>"), "<uvs2>0 0, 1 0, 1 1, 0 1</uvs2>");
+  by_second.insert(by_second.find("</checker>"), "<uvset>2</uvset>");
+  check_normal(rendered(relief_scene(to_u, map, two_sets)), {-s, 0, c});
+  check_normal(rendered(relief_scene(by_second, map, two_sets)), {s, 0, c});
+
   const Vec3d half(s / 2, 0, c);
   check_normal(rendered(relief_scene(to_u, "<normalmap texture='t' strength='0.5'/>", panel)),
                half * (1 / length(half)));

@@ -41,7 +41,8 @@ void set_uv(const ShapeTable<Shape>& table, const MaskN& here, const Hits& hits,
   }
 }
 
-SurfaceUv<FloatN> surface_uv(const GeometryTable& world, const Hits& hits, const SurfaceInteraction<FloatN>& surface) {
+SurfaceUv<FloatN> surface_uv(const GeometryTable& world, const Hits& hits, const SurfaceInteraction<FloatN>& surface,
+                             UvSet set) {
   const FloatN zero(0);
   SurfaceUv<FloatN> result{zero, zero, {zero, zero, zero}, {zero, zero, zero}};
   const MaskN in_instance = hits.hit & float_mask<FloatN>(hits.instance != UintN(0u));
@@ -59,7 +60,7 @@ SurfaceUv<FloatN> surface_uv(const GeometryTable& world, const Hits& hits, const
     if (const MeshTable* const mesh = table.geometry(geometry).mesh; mesh != nullptr) {
       const IntN other(hits.primitive.get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(here)))));
       const LaneTriangles triangles = mesh->triangles(select_lanes(here, hits.primitive, other), hits);
-      result = select<FloatN>(here, mesh->uv(triangles), result);
+      result = select<FloatN>(here, mesh->uv(triangles, set), result);
       return;
     }
     with_type(Shapes{}, geometry, [&]<class Shape>(std::type_identity<Shape>) {
@@ -130,12 +131,13 @@ TexturePoint<FloatN> texture_point(const SceneTables& scene, const FloatN& radiu
   }
   point.p_across = cross(surface.ng, along) * radius;
   point.p_along = along * (radius / max(cosine, FloatN(1e-3F)));
-  const SurfaceUv<FloatN> uv = surface_uv(scene.geometry(), hits, surface);
-  point.uv = {uv.u, uv.v};
-  point.uv_across = uv_along(uv, point.p_across);
-  point.uv_along = uv_along(uv, point.p_along);
-  point.dpdu = uv.dpdu;
-  point.dpdv = uv.dpdv;
+  const auto on_surface = [&](UvSet set) -> UvPoint<FloatN> {
+    const SurfaceUv<FloatN> uv = surface_uv(scene.geometry(), hits, surface, set);
+    return {{uv.u, uv.v}, uv_along(uv, point.p_across), uv_along(uv, point.p_along), uv.dpdu, uv.dpdv};
+  };
+  point.by(UvSet::first) = on_surface(UvSet::first);
+  if (scene.has_second_uvset()) [[unlikely]]
+    point.second = on_surface(UvSet::second);
   point.vertex_color = vertex_color(scene.geometry(), hits);
   return point;
 }

@@ -104,7 +104,7 @@ class MeshLoader {
     Diagnostics found(diagnostics_.file());
     std::optional<MeshData> data =
         make_mesh(values.positions.numbers, values.faces.numbers, Mesh::face_ends(values.faces),
-                  values.normals.groups.numbers, values.uvs.numbers, found);
+                  values.normals.groups.numbers, values.uvs.numbers, values.uvs2.numbers, found);
     for (const Diagnostic& diagnostic : found.kept())
       diagnostics_.add(diagnostic.severity, {mesh.line, 0}, "the mesh: " + diagnostic.message);
     return data ? std::make_shared<const MeshData>(std::move(*data)) : nullptr;
@@ -221,8 +221,9 @@ class MeshLoader {
   TextureReference image(const MeshTexture& texture, const std::filesystem::path& folder) {
     auto& images = std::get<TextureItems<Image>>(scene_.textures);
     const std::string path = (folder / texture.file).string();
-    const std::tuple key{
-        path, texture.scale, texture.offset, texture.rotation, texture.value_scale, texture.value_offset, texture.edge};
+    const ImageUse key{
+        path,         texture.scale,  texture.offset, texture.rotation, texture.value_scale, texture.value_offset,
+        texture.edge, texture.by_uvs2};
     const auto [known, is_new] = known_images_.try_emplace(key, images.size());
     const auto index = static_cast<std::uint32_t>(known->second);
     if (!is_new) return {index_of<Image>(Textures{}), index};
@@ -235,6 +236,7 @@ class MeshLoader {
     image.parameters.valueoffset = texture.value_offset;
     if (texture.edge != MeshTexture::Edge::repeat)
       image.parameters.wrap = texture.edge == MeshTexture::Edge::clamp ? Wrap::clamp : Wrap::mirror;
+    if (texture.by_uvs2) image.parameters.uvset = UvSet::second;
     image.image.bytes = texture.bytes;
     image.name = image.parameters.file.path + '#' + std::to_string(images.size());
     image.imported = true;
@@ -287,10 +289,9 @@ class MeshLoader {
   std::map<std::string, std::shared_ptr<const PointCloud>> clouds_;
   std::set<std::string> taken_names_;
   std::set<std::string> unlit_;  // files of models whose lights have been left out
-  std::map<
-      std::tuple<std::string, std::array<double, 2>, std::array<double, 2>, double, double, double, MeshTexture::Edge>,
-      std::size_t>
-      known_images_;
+  using ImageUse = std::tuple<std::string, std::array<double, 2>, std::array<double, 2>, double, double, double,
+                              MeshTexture::Edge, bool>;
+  std::map<ImageUse, std::size_t> known_images_;
   MaterialReference grey_ = no_material, painted_ = no_material;
 };
 

@@ -158,7 +158,7 @@ class ScenePrinter : private XmlWriter {
     for (std::size_t i = 0; i < fields.size(); ++i) {
       const auto more = attributes.find(i);
       fields[i].visit(parameters, [&](const auto& value) {
-        if (!fields[i].number_attribute.empty())
+        if (fields[i].is_of_texture())
           print_number_of_texture(fields[i], value, more != attributes.end() ? more->second : std::string());
         else if (!is_absent(value))
           print_value(fields[i].name, value, more != attributes.end() ? more->second : std::string());
@@ -168,8 +168,8 @@ class ScenePrinter : private XmlWriter {
 
   void print_number_of_texture(const FieldInfo& info, double value, const std::string& texture) {
     if (texture.empty()) return;
-    line("<" + std::string(info.name) + texture + " " + std::string(info.number_attribute) + "=\"" +
-         number_text(value) + "\"/>");
+    const std::string number = std::string(info.number_attribute) + "=\"" + number_text(value) + "\"";
+    line("<" + std::string(info.name) + texture + (info.number_attribute.empty() ? "" : " " + number) + "/>");
   }
   template <class Value>
   void print_number_of_texture(const FieldInfo&, const Value&, const std::string&) {}

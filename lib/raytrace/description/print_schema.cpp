@@ -167,7 +167,7 @@ class SchemaPrinter : private XmlWriter {
           const bool required = field.required && !has_shorthand(field.name);
           if (!field.words().empty())
             print_choice_of_words(field, field.words());
-          else if (!field.number_attribute.empty())
+          else if (field.is_of_texture())
             print_number_of_texture(field);
           else
             child(field.name, (may_have_textures && field.may_be_textured() ? "textured" : "") + type_name(field),
@@ -182,7 +182,7 @@ class SchemaPrinter : private XmlWriter {
       element("xs:complexType", [&] {
         attribute(texture_attribute, "text", true);
         if (!info.whole_color) attribute(channel_attribute, "channel", false);
-        attribute(info.number_attribute, number_name(info.range), false);
+        if (!info.number_attribute.empty()) attribute(info.number_attribute, number_name(info.range), false);
       });
     });
   }

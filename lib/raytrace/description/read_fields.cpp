@@ -65,8 +65,9 @@ bool read_fields(Element element, std::span<const FieldInfo> infos, std::span<co
   for (std::size_t i = 0; i < infos.size(); ++i) {
     if (infos[i].in_place_of.empty() || !(read >> i & 1)) continue;
     const std::uint64_t other = std::uint64_t(1) << find_field(infos, infos[i].in_place_of);
-    if (read & other) {
-      diagnostics.error(element.child(infos[i].name), [&] {
+    // It is not there where an element that was misspelt has been taken for it.
+    if (const Element shorthand = element.child(infos[i].name); (read & other) && shorthand) {
+      diagnostics.error(shorthand, [&] {
         return tag(infos[i].name) + " stands in place of " + tag(infos[i].in_place_of) + "; remove one of them";
       });
     }

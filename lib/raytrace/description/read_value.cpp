@@ -32,7 +32,7 @@ class ValueReader {
   }
 
   bool operator()(double* value) const {
-    if (!info_.number_attribute.empty()) return read_number_of_texture(*value);
+    if (info_.is_of_texture()) return read_number_of_texture(*value);
     const Node text_node = single_text();
     if (!text_node && has_keys(element_))
       return read_keys(element_, {&number_component, 1}, {&value, 1}, info_.range, context_, texture_);
@@ -114,18 +114,19 @@ class ValueReader {
   }
 
  private:
-  /// <bump texture="bark" height="0.02"/>
+  /// <bump texture="bark" height="0.02"/> or, without a number, <tangentmap texture="brushed"/>
   bool read_number_of_texture(double& value) const {
     TextureAttributes none;
     auto fields = texture_fields(texture_ != nullptr ? *texture_ : none, !info_.whole_color);
-    fields.push_back({info_.number_attribute, &value, info_.range, false});
+    const std::string_view number = info_.number_attribute;
+    if (!number.empty()) fields.push_back({number, &value, info_.range, false});
     bool fine = true;
     for (Node node = element_.first_child(); node; node = node.next()) {
       if (!node.element() && node.text().empty()) continue;
       fine = false;
       context_.diagnostics.error(node, [&] {
         return "unexpected content of " + tag(info_.name) + "; write it as <" + std::string(info_.name) +
-               " texture=\"...\" " + std::string(info_.number_attribute) + "=\"1\"/>";
+               " texture=\"...\"" + (number.empty() ? "" : " " + std::string(number) + "=\"1\"") + "/>";
       });
     }
     return read_attributes(element_, fields, !fine, context_) && fine;

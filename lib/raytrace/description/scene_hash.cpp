@@ -8,8 +8,10 @@
 
 #include "raytrace/description/scene_description.h"
 #include "raytrace/description/scene_layout.h"
+#include "raytrace/materials/surface_detail.h"
 #include "raytrace/math/content_hash.h"
 #include "raytrace/parallel/for_each_index.h"
+#include "raytrace/textures/uv_set.h"
 
 namespace raytrace {
 
@@ -69,13 +71,15 @@ class SceneHash {
         if constexpr (requires { item.data; }) {
           hash.add_loaded(fields, item);
         } else if constexpr (requires { item.image; }) {
-          hash.add_parameters(fields, &item.parameters, {item.image.hash.empty() ? "" : "file"});
+          hash.add_parameters(fields, &item.parameters,
+                              {item.image.hash.empty() ? "" : "file", unused_field(item.parameters)});
           hash.add(item.image.hash);
         } else if constexpr (requires { item.photometry; }) {
           hash.add_parameters(fields, &item.parameters, {item.photometry.hash.empty() ? "" : "iesfile"});
           hash.add(item.photometry.hash);
         } else {
-          hash.add_parameters(fields, &item.parameters);
+          // A map of tangents is a texture alone, and has no number.
+          hash.add_parameters(fields, &item.parameters, {unused_field(item.parameters), tangentmap_field});
         }
         if constexpr (requires { item.transform; }) {
           hash.add(static_cast<std::uint64_t>(item.transform.steps.size()));
@@ -119,11 +123,23 @@ class SceneHash {
         field.visit(parameters, [&](const auto& value) { add(value); });
   }
 
+  /// The field that is newer than others, if it is not used: scenes without it keep the hashes that they had before.
+  template <class Parameters>
+  static std::string_view unused_field(const Parameters& parameters) {
+    if constexpr (requires { parameters.uvset; })
+      if (parameters.uvset == UvSet::first) return "uvset";
+    if constexpr (requires { parameters.uvs2; })
+      if (parameters.uvs2.empty()) return "uvs2";
+    if constexpr (requires { parameters.tangentrotation; })
+      if (parameters.tangentrotation == 0) return tangentrotation_field;
+    return "";
+  }
+
   /// By what it was read from a file, if it was.
   template <class Item>
   void add_loaded(const Fields& fields, const Item& item) {
     const bool from_file = item.data != nullptr && !item.parameters.file.path.empty();
-    add_parameters(fields, &item.parameters, {from_file ? "file" : ""});
+    add_parameters(fields, &item.parameters, {from_file ? "file" : "", unused_field(item.parameters)});
     if (!from_file) return;
     add(item.data->origin);
     add(*item.data);
@@ -135,6 +151,7 @@ class SceneHash {
     add_values(data.indices);
     add_values(data.normals);
     add_values(data.uvs);
+    if (!data.uvs2.empty()) add_values(data.uvs2);
     add_values(data.colors);
     add_values(data.face_materials);
   }

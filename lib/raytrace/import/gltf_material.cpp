@@ -178,13 +178,14 @@ class MaterialReader {
     const auto anisotropy = find("KHR_materials_anisotropy");
     const double strength = share(anisotropy, "anisotropyStrength", 0);
     if (strength == 0) return;
-    if (number(anisotropy, "anisotropyRotation", 0) != 0)
-      warn_once_(anisotropy->place(), "its rotation is left out: it is along the direction in which u grows");
     // glTF's alphas are those of the roughness across, and along of what grows to 1 with the strength.
     const double across = std::max(roughness_ * roughness_, 1e-6), along = across + (1 - across) * strength * strength;
     const MeshTexture map = texture(anisotropy, "anisotropyTexture");
     add("specular_roughness_anisotropy", 1 - across / along, map, blue);
-    if (!map.file.empty()) warn_once_(anisotropy->place(), "of its texture the strength alone counts");
+    if (!map.file.empty()) add("tangentmap", 1, map);
+    // Both count it from the tangent towards where the picture is up.
+    if (const double rotation = number(anisotropy, "anisotropyRotation", 0); rotation != 0)
+      add("tangentrotation", rotation * 180 / std::numbers::pi);
     for (MeshParameter& parameter : material_.openpbr)
       if (parameter.name == "specular_roughness")
         parameter.value.red = std::min(1.0, std::pow((along * along + across * across) / 2, 0.25));

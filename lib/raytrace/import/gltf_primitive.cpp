@@ -135,7 +135,7 @@ std::vector<Primitive> read_primitives(Document& document, DracoReader& draco, c
     VertexReader vertices(document, attributes, compressed);
     // What is decoded is triangles, of strips as well.
     Primitive primitive{
-        vertices.positions(), {}, {}, {}, {}, {}, {}, of_draco ? Mode::triangles : static_cast<Mode>(mode)};
+        vertices.positions(), {}, {}, {}, {}, {}, {}, {}, of_draco ? Mode::triangles : static_cast<Mode>(mode)};
     primitive.normals = vertices.attribute("NORMAL", 3, 3);
     primitive.colors = vertices.attribute("COLOR_0", 3, 4);
     if (primitive.colors) be_normalized(*primitive.colors);
@@ -152,7 +152,11 @@ std::vector<Primitive> read_primitives(Document& document, DracoReader& draco, c
     const std::optional<Item> number = material_of(item, variant);
     const PrimitiveMaterial of_model = number ? material(*number) : PrimitiveMaterial();
     primitive.material = of_model.number;
-    primitive.uvs = vertices.attribute("TEXCOORD_" + std::to_string(of_model.coordinates), 2, 2);
+    const auto coordinates = [&](std::uint64_t set) {
+      return vertices.attribute("TEXCOORD_" + std::to_string(set), 2, 2);
+    };
+    primitive.uvs = coordinates(of_model.coordinates.empty() ? 0 : of_model.coordinates[0]);
+    if (of_model.coordinates.size() > 1) primitive.uvs2 = coordinates(of_model.coordinates[1]);
     std::vector<std::uint64_t> numbers = vertices.numbers();
     numbers.push_back(of_draco ? (*of_draco)["bufferView"].whole() + 1 : 0);
     primitive.vertices_of = with_vertices.try_emplace(std::move(numbers), primitives.size()).first->second;

@@ -27,7 +27,7 @@ struct JointSet {
 
 struct Primitive {
   Accessor positions;
-  std::optional<Accessor> normals, uvs, colors, indices;
+  std::optional<Accessor> normals, uvs, uvs2, colors, indices;
   std::vector<MorphTarget> targets;
   std::vector<JointSet> joint_sets;
   Mode mode = Mode::triangles;
@@ -43,7 +43,8 @@ struct Primitive {
 
 struct PrimitiveMaterial {
   std::uint32_t number = MeshData::no_material;  ///< in the model
-  std::uint64_t coordinates = 0;                 ///< its textures are placed by TEXCOORD_n of this number
+  /// Its textures are placed by TEXCOORD_n of these numbers, of which there are at most two.
+  std::vector<std::uint64_t> coordinates{};
 };
 
 /// Those of a mesh that have faces. material: what the model has for that of the file. other_primitives

@@ -80,7 +80,7 @@ class MeshWriter {
 };
 
 bool MeshWriter::allocate(std::size_t file_size) {
-  bool normals = false, uvs = false, colors = false, materials = false;
+  bool normals = false, uvs = false, uvs2 = false, colors = false, materials = false;
   std::size_t vertices = 0;
   FaceCounts faces;
   std::size_t deformed_at_once = 0;
@@ -93,11 +93,13 @@ bool MeshWriter::allocate(std::size_t file_size) {
       faces.triangles += primitive.faces();
       normals = normals || primitive.normals;
       uvs = uvs || primitive.uvs;
+      uvs2 = uvs2 || primitive.uvs2;
       colors = colors || primitive.colors;
       materials = materials || primitive.material != 0;
     }
   // What each node has for itself is some times as large as in the file.
-  constexpr std::size_t bytes_of_vertex = 11 * sizeof(float), bytes_of_face = 4 * sizeof(std::uint32_t);
+  constexpr std::size_t bytes_of_face = 4 * sizeof(std::uint32_t);
+  const std::size_t bytes_of_vertex = (uvs2 ? 13 : 11) * sizeof(float);
   const std::size_t bytes =
       vertices * bytes_of_vertex + faces.triangles * bytes_of_face + deformed_at_once * bytes_of_deformed_vertex;
   if (bytes / 64 > file_size && bytes > available_memory() / 4) {
@@ -113,6 +115,7 @@ bool MeshWriter::allocate(std::size_t file_size) {
   mesh_.positions = MeshBuffer<float>(3 * vertices);
   if (normals) mesh_.normals = MeshBuffer<float>(3 * vertices);
   if (uvs) mesh_.uvs = MeshBuffer<float>(2 * vertices);
+  if (uvs2) mesh_.uvs2 = MeshBuffer<float>(2 * vertices);
   if (colors) mesh_.colors = MeshBuffer<float>(3 * vertices);
   if (materials && !model_.materials.empty()) mesh_.face_materials = MeshBuffer<std::uint32_t>(faces.triangles);
   return true;
@@ -161,7 +164,9 @@ void MeshWriter::write_vertices(const Primitive& primitive, const Instance& inst
                      [&](std::size_t i, const Values& values) { put_position(i, {values[0], values[1], values[2]}); });
     write(mesh_.normals, 3, primitive.normals, 0, placed_normal);
   }
-  write(mesh_.uvs, 2, primitive.uvs, 0, [](const Vec3d& uv) { return Vec3d{uv.x, 1 - uv.y, 0}; });
+  const auto from_lower_left = [](const Vec3d& uv) { return Vec3d{uv.x, 1 - uv.y, 0}; };
+  write(mesh_.uvs, 2, primitive.uvs, 0, from_lower_left);
+  write(mesh_.uvs2, 2, primitive.uvs2 ? primitive.uvs2 : primitive.uvs, 0, from_lower_left);
   write(mesh_.colors, 3, primitive.colors, 1, [](const Vec3d& color) { return color; });
 }
 

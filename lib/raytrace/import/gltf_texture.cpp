@@ -1,6 +1,8 @@
 #include "raytrace/import/gltf_texture.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "raytrace/import/gltf_material.h"
 
@@ -16,12 +18,17 @@ MeshTexture TextureReader::read(const Item& info) {
     coordinates = transform->whole("texCoord", coordinates);
     place_texture(*transform, texture);
   }
-  if (coordinates != coordinates_.value_or(coordinates)) {
-    document_.warn(info.place(), "has other coordinates than the material's TEXCOORD_" + std::to_string(*coordinates_) +
-                                     ", and is left out");
-    return texture;
+  const auto known = std::find(coordinates_.begin(), coordinates_.end(), coordinates);
+  texture.by_uvs2 = known - coordinates_.begin() == 1;
+  if (known == coordinates_.end()) {
+    if (coordinates_.size() == 2) {
+      document_.warn(info.place(), "has other coordinates than the material's TEXCOORD_" +
+                                       std::to_string(coordinates_[0]) + " and TEXCOORD_" +
+                                       std::to_string(coordinates_[1]) + ", and is left out");
+      return texture;
+    }
+    coordinates_.push_back(coordinates);
   }
-  coordinates_ = coordinates;
   if (const auto number = item.find("sampler")) {
     constexpr std::uint64_t repeat = 10497, mirrored_repeat = 33648, clamp_to_edge = 33071;
     const Item sampler = document_.listed("samplers", *number);

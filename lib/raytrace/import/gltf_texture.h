@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
+#include <vector>
 
 #include "raytrace/import/gltf_document.h"
 #include "raytrace/import/mesh_data.h"
@@ -16,17 +16,17 @@ class TextureReader {
  public:
   explicit TextureReader(Document& document) : document_(document) {}
 
-  /// A material's textures have one set of coordinates, which the first that is read says.
-  void begin_material() { coordinates_.reset(); }
-  /// TEXCOORD_n of this number.
-  std::uint64_t coordinates() const { return coordinates_.value_or(0); }
+  /// A material's textures have at most two sets of coordinates, which the first of them that are read say.
+  void begin_material() { coordinates_.clear(); }
+  /// TEXCOORD_n of these numbers.
+  const std::vector<std::uint64_t>& coordinates() const { return coordinates_; }
 
   /// info: a JSON object with the texture's index. What it says of an image that it cannot use, it warns of.
   MeshTexture read(const Item& info);
 
  private:
   Document& document_;
-  std::optional<std::uint64_t> coordinates_;
+  std::vector<std::uint64_t> coordinates_;
   std::map<std::uint64_t, std::shared_ptr<const std::string>> images_;  ///< those in buffers and URIs
 };
 

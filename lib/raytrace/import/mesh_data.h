@@ -59,6 +59,7 @@ struct MeshTexture {
   double strength = 1;                       ///< of a bump or normal map
   bool alpha = false;                        ///< of an opacity: that it is its alpha, which is 1 where it has none
   Edge edge = Edge::repeat;                  ///< what is beyond
+  bool by_uvs2 = false;                      ///< it is placed by the mesh's second texture coordinates
   /// The picture's file, where it is within the model's; `file` is then a name for messages.
   std::shared_ptr<const std::string> bytes{};
 };
@@ -117,6 +118,7 @@ struct MeshData {
   // Of each vertex; empty where the file has none.
   MeshBuffer<float> normals;  ///< three numbers, not normalized; 0 0 0 where that vertex has none
   MeshBuffer<float> uvs;      ///< two numbers; (0, 0) is the lower left of an image
+  MeshBuffer<float> uvs2;     ///< a second set of such
   MeshBuffer<float> colors;   ///< linear red, green and blue
 
   /// Of each face its material, or no_material. Empty: all have the first material, or none if there is none.

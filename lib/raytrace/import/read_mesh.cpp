@@ -64,7 +64,7 @@ std::optional<MeshData> read_mesh(const std::string& name, const MeshReadSetting
 
 std::optional<MeshData> make_mesh(std::span<const double> positions, std::span<const double> corners,
                                   std::span<const std::uint32_t> face_ends, std::span<const double> normals,
-                                  std::span<const double> uvs, Diagnostics& diagnostics) {
+                                  std::span<const double> uvs, std::span<const double> uvs2, Diagnostics& diagnostics) {
   MeshData mesh;
   const auto floats = [](std::span<const double> values, const Vec3d& origin) {
     MeshBuffer<float> buffer(values.size());
@@ -76,6 +76,7 @@ std::optional<MeshData> make_mesh(std::span<const double> positions, std::span<c
   mesh.positions = floats(positions, mesh.origin);
   mesh.normals = floats(normals, {0, 0, 0});
   mesh.uvs = floats(uvs, {0, 0, 0});
+  mesh.uvs2 = floats(uvs2, {0, 0, 0});
 
   FaceCounts counts;
   std::uint32_t first = 0;

@@ -64,10 +64,10 @@ std::optional<MeshData> read_mesh(const std::string& file, const MeshReadSetting
 Vec3d near_origin(const Vec3d& point);
 
 /// A mesh of values that are at hand. corners: of the faces, which end there, each of at least three; they are vertices
-/// that exist. normals, uvs: of each vertex; empty: none.
+/// that exist. normals, uvs, uvs2: of each vertex; empty: none.
 std::optional<MeshData> make_mesh(std::span<const double> positions, std::span<const double> corners,
                                   std::span<const std::uint32_t> face_ends, std::span<const double> normals,
-                                  std::span<const double> uvs, Diagnostics& diagnostics);
+                                  std::span<const double> uvs, std::span<const double> uvs2, Diagnostics& diagnostics);
 
 /// The elements `vertex` of a PLY file, with x, y, z, radius and red, green, blue.
 std::optional<PointCloud> read_point_cloud(const std::string& file, const MeshReadSettings& settings,

@@ -27,14 +27,15 @@ class Conductor {
   };
   struct Parameters : Values<double> {
     Metal metal = Metal::none;
+    double tangentrotation = 0, tangentmap = 1;  ///< of surface_detail.h
   };
   static constexpr std::string_view group = "conductors";
   static constexpr std::string_view element = "conductor";
   static Fields fields() {
-    return with_surface_detail<Parameters>(
+    return with_tangent<Parameters>(with_surface_detail<Parameters>(
         {optional("cr", &Parameters::cr), optional("edgecolor", &Parameters::edgecolor, Range::not_negative),
          optional("metal", &Parameters::metal), optional("roughness", &Parameters::roughness, Range::not_negative),
-         optional("anisotropy", &Parameters::anisotropy, Range::not_negative)});
+         optional("anisotropy", &Parameters::anisotropy, Range::not_negative)}));
   }
   static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {
     const auto error = [](const char* message) {

@@ -1,7 +1,9 @@
-// What materials of all types have: opacity, normal maps and bumps.
+// What materials of all types have: opacity, normal maps and bumps. Those whose reflection differs along the surface
+// have tangents, too.
 //
 //   <matte> ... <opacity texture="leaf"/> <normalmap texture="tiles" strength="0.8"/> </matte>
 //   <phong> ... <opacity>0.5</opacity> <bump texture="bark" height="0.02"/> </phong>
+//   <conductor> ... <tangentmap texture="brushed"/> <tangentrotation>90</tangentrotation> </conductor>
 #pragma once
 
 #include <utility>
@@ -11,7 +13,8 @@
 namespace raytrace {
 
 // The names of their fields, and of the members for them in a material's parameters.
-inline constexpr std::string_view opacity_field = "opacity", normalmap_field = "normalmap", bump_field = "bump";
+inline constexpr std::string_view opacity_field = "opacity", normalmap_field = "normalmap", bump_field = "bump",
+                                  tangentrotation_field = "tangentrotation", tangentmap_field = "tangentmap";
 
 /// A material's own fields, and
 ///   opacity: the share of the rays, camera and shadow rays alike, that meet the surface. The others pass as if there
@@ -34,9 +37,22 @@ Fields with_surface_detail(Fields fields) {
   return fields;
 }
 
-/// Whether a field of this name is one of those, and none of the material's own.
+/// The fields of a material whose reflection differs along the surface, and
+///   tangentrotation: degrees by which the tangent turns from where u grows towards where v grows;
+///   tangentmap: a texture of tangents before that turn, x along u and y along v, each from -1 at 0 to 1 at 1.
+template <class Parameters>
+Fields with_tangent(Fields fields) {
+  fields.emplace_back(FieldInfo{tangentrotation_field, false}, &Parameters::tangentrotation);
+  FieldInfo tangentmap{tangentmap_field, false};
+  tangentmap.whole_color = true;
+  fields.emplace_back(tangentmap, &Parameters::tangentmap);
+  return fields;
+}
+
+/// Whether a field of this name is one of all these, and none of the material's own.
 inline bool is_surface_detail(std::string_view field) {
-  return field == opacity_field || field == normalmap_field || field == bump_field;
+  return field == opacity_field || field == normalmap_field || field == bump_field || field == tangentrotation_field ||
+         field == tangentmap_field;
 }
 
 }  // namespace raytrace

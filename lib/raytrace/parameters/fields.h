@@ -56,6 +56,9 @@ struct FieldInfo {
   std::string_view number_attribute{};
   bool whole_color = false;  ///< it takes the texture's colour, and no channel of it
   bool is_constant = false;  ///< of a material's number: no texture may multiply it
+
+  /// Whether there is nothing to say of it without a texture.
+  bool is_of_texture() const { return whole_color || !number_attribute.empty(); }
 };
 
 /// An enumeration that fields may have: the words that scene files spell its values with, in their order from 0.

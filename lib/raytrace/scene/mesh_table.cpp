@@ -107,13 +107,14 @@ Vec3<FloatN> MeshTable::normal(const IntN& vertex) const {
   return select(squared_length > FloatN(0), scaled * (FloatN(1) / sqrt(squared_length)), Vec3<FloatN>(Vec3f(0, 0, 0)));
 }
 
-SurfaceUv<FloatN> MeshTable::uv(const LaneTriangles& triangles) const {
+SurfaceUv<FloatN> MeshTable::uv(const LaneTriangles& triangles, UvSet set) const {
   const auto corners = records(triangles);
   const SurfaceUv<FloatN> barycentric = Kernel<Triangle>::uv(corners, triangles.u, triangles.v);
-  if (data_->uvs.empty()) return barycentric;
+  const MeshBuffer<float>& uvs = set == UvSet::second && !data_->uvs2.empty() ? data_->uvs2 : data_->uvs;
+  if (uvs.empty()) return barycentric;
   const auto uv_at = [&](const IntN& vertex) {
     const IntN first = vertex * IntN(2);
-    return std::pair(gather(data_->uvs.data(), first), gather(data_->uvs.data() + 1, first));
+    return std::pair(gather(uvs.data(), first), gather(uvs.data() + 1, first));
   };
   const auto [u1, v1] = uv_at(triangles.vertex1);
   const auto [u2, v2] = uv_at(triangles.vertex2);

@@ -13,6 +13,7 @@
 #include "raytrace/math/surface_uv.h"
 #include "raytrace/scene/hits.h"
 #include "raytrace/shapes/kernels.h"
+#include "raytrace/textures/uv_set.h"
 
 namespace raytrace {
 
@@ -54,8 +55,8 @@ class MeshTable {
   /// At those of the lanes: unit length, or 0 0 0 where a vertex has none.
   Vec3<FloatN> normal(const IntN& vertex) const;
 
-  /// By the file's coordinates at vertices; where it has none, barycentric ones.
-  SurfaceUv<FloatN> uv(const LaneTriangles& triangles) const;
+  /// By the coordinates at vertices of that set; without a second one by the first, and without any barycentric.
+  SurfaceUv<FloatN> uv(const LaneTriangles& triangles, UvSet set) const;
 
   /// Whether it has colours at vertices, and what they are between those of the lanes' triangles.
   bool has_colors() const { return !data_->colors.empty(); }

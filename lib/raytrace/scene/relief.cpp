@@ -8,7 +8,7 @@ namespace raytrace {
 namespace {
 
 /// A map's normal, in the frame of the texture coordinates about `normal`. Where they have none, at a pole, it stays.
-Vec3<FloatN> mapped_normal(const Rgb<FloatN>& map, float strength, const TexturePoint<FloatN>& point,
+Vec3<FloatN> mapped_normal(const Rgb<FloatN>& map, float strength, const UvPoint<FloatN>& point,
                            const Vec3<FloatN>& normal) {
   const auto component = [](const FloatN& number) { return number * FloatN(2) - FloatN(1); };
   const Vec3<FloatN> u = point.dpdu - normal * dot(normal, point.dpdu);
@@ -23,14 +23,17 @@ Vec3<FloatN> mapped_normal(const Rgb<FloatN>& map, float strength, const Texture
   return select(has_tangent, normalize(tangent * x + bitangent * y + normal * z), normal);
 }
 
-/// The normal of the surface that is higher by height(point): by its slopes towards what half a pixel covers.
+/// The normal of the surface that is higher by height(point), which looks up by that set of texture coordinates: by
+/// its slopes towards what half a pixel covers.
 template <class Height>
-Vec3<FloatN> bumped_normal(const Height& height, const TexturePoint<FloatN>& point, const Vec3<FloatN>& normal) {
+Vec3<FloatN> bumped_normal(const Height& height, UvSet set, const TexturePoint<FloatN>& point,
+                           const Vec3<FloatN>& normal) {
   const FloatN here = height(point);
+  const UvPoint<FloatN>& on = point.by(set);
+  TexturePoint<FloatN> there = point;
   const auto slope = [&](const Vec3<FloatN>& way, const Vec2<FloatN>& uv_way) {
-    TexturePoint<FloatN> there = point;
     there.p = point.p + way;
-    there.uv = {point.uv.x + uv_way.x, point.uv.y + uv_way.y};
+    there.by(set).uv = {on.uv.x + uv_way.x, on.uv.y + uv_way.y};
     const FloatN size = length(way);
     const MaskN is_wide = size > FloatN(0);
     const FloatN inverse = FloatN(1) / select(is_wide, size, FloatN(1));
@@ -38,7 +41,7 @@ Vec3<FloatN> bumped_normal(const Height& height, const TexturePoint<FloatN>& poi
     const FloatN rise = min(max((height(there) - here) * inverse, FloatN(-1e6F)), FloatN(1e6F));
     return way * (select(is_wide, rise, FloatN(0)) * inverse);
   };
-  return normalize(normal - slope(point.p_across, point.uv_across) - slope(point.p_along, point.uv_along));
+  return normalize(normal - slope(point.p_across, on.uv_across) - slope(point.p_along, on.uv_along));
 }
 
 }  // namespace
@@ -54,11 +57,12 @@ void SceneTables::add_relief(const Hits& hits, const TexturePoint<FloatN>& point
     if (!detail.has_relief()) continue;
     Vec3<FloatN> normal = surface.ns;
     if (const auto& map = detail.normalmap; map.texture)
-      normal = mapped_normal(textures_->vector_at(*map.texture, point), map.value, point, normal);
+      normal = mapped_normal(textures_->vector_at(*map.texture, point), map.value,
+                             point.by(textures_->uvset(*map.texture)), normal);
     if (const auto& bump = detail.bump; bump.texture)
       normal = bumped_normal(
           [&](const TexturePoint<FloatN>& at) { return textures_->number_at(*bump.texture, at) * FloatN(bump.value); },
-          point, normal);
+          textures_->uvset(*bump.texture), point, normal);
     // wo stays above the surface, as BSDFs expect it.
     constexpr float least_cosine = 1e-3F;
     const FloatN behind = max(FloatN(least_cosine) - dot(normal, surface.wo), FloatN(0));

@@ -53,6 +53,7 @@ SceneTables::SceneTables(const SceneDescription& description, int threads)
       integrator_(description.integrator.value_or(default_integrator(description))) {
   for (std::string& name : light_group_names(description)) light_groups_.push_back({std::move(name)});
   textures_ = std::make_unique<const TextureTable>(description);
+  has_second_uvset_ = textures_->has_second_uvset();
   add_materials(description);
   geometry_ = std::make_unique<const GeometryTable>(description, origin_, first_material_, threads);
   if (camera_is_far_from(geometry_->bounding_sphere(), description)) {
@@ -71,6 +72,7 @@ SceneTables::SceneTables(const SceneDescription& description, int threads)
   for (std::size_t i = 0; i < details_.size(); ++i) {
     has_cutouts_ |= used_materials_[i] != 0 && details_[i].is_cutout();
     has_relief_ |= used_materials_[i] != 0 && details_[i].has_relief();
+    has_turned_tangents_ |= used_materials_[i] != 0 && details_[i].has_turned_tangent();
     has_emission_ |= used_materials_[i] != 0 && details_[i].emission.radiance > 0;
     media.push_back(used_materials_[i] != 0 ? details_[i].medium : std::nullopt);
     const MaterialEmission& emission = details_[i].emission;
@@ -198,8 +200,10 @@ SceneTables::SurfaceDetail SceneTables::surface_detail(const MaterialItem<Materi
   SurfaceDetail detail{{static_cast<float>(item.parameters.opacity)},
                        {static_cast<float>(item.parameters.normalmap)},
                        {static_cast<float>(item.parameters.bump)}};
-  if constexpr (requires { Material::is_anisotropic(item.parameters); })
+  if constexpr (requires { Material::is_anisotropic(item.parameters); }) {
     detail.is_anisotropic = Material::is_anisotropic(item.parameters);
+    detail.tangentrotation.value = static_cast<float>(item.parameters.tangentrotation / 360);
+  }
   const auto is_textured = [&](std::string_view name) {
     return std::any_of(item.textures.begin(), item.textures.end(),
                        [&](const TextureUse& use) { return element_type<Material>().fields[use.field].name == name; });
@@ -211,6 +215,8 @@ SceneTables::SurfaceDetail SceneTables::surface_detail(const MaterialItem<Materi
     if (field == opacity_field) detail.opacity.texture = use;
     if (field == normalmap_field) detail.normalmap.texture = use;
     if (field == bump_field) detail.bump.texture = use;
+    if (field == tangentrotation_field) detail.tangentrotation.texture = use;
+    if (field == tangentmap_field) detail.tangentmap = use;
   }
   return detail;
 }
@@ -224,6 +230,9 @@ void SceneTables::add_materials(const SceneDescription& description) {
     for (const auto& item : std::get<MaterialItems<Material>>(description.materials)) {
       auto parameters = item.parameters;
       details_.push_back(surface_detail<Material>(item));
+      SurfaceDetail& detail = details_.back();
+      if (const auto& map = detail.tangentmap ? detail.tangentmap : detail.normalmap.texture)
+        detail.tangent_set = textures_->uvset(*map);
       auto textured_item = textured_material<Material>(item, static_cast<std::int32_t>(bsdfs.size()));
       textures_->multiply_by_largest(reinterpret_cast<double*>(&parameters), textured_item.factors);
       if (!textured_item.factors.empty() || details_.back().has_relief()) textured.push_back(std::move(textured_item));
@@ -376,6 +385,8 @@ Frame<FloatN> SceneTables::shading_frame(const Hits& hits, const SurfaceInteract
                        (size > length(point->dpdu) * FloatN(1e-3F));
   frame.x = select(turned, tangent * (FloatN(1) / size), frame.x);
   frame.y = select(turned, cross(frame.z, frame.x), frame.y);
+  if (has_turned_tangents_) [[unlikely]]
+    turn_tangents(hits, *point, frame);
   return frame;
 }
 

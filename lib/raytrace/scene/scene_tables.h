@@ -174,13 +174,15 @@ class SceneTables {
   /// Turns the shading normals as they say.
   void add_relief(const Hits& hits, const TexturePoint<FloatN>& point, SurfaceInteraction<FloatN>& surface) const;
 
-  /// The frame about surface.ns that materials sample and evaluate in: x is where u grows on surfaces whose reflection
-  /// differs along the surface, if u says anything there.
+  /// The frame about surface.ns that materials sample and evaluate in: x is the material's tangent on surfaces whose
+  /// reflection differs along the surface, if u says anything there. It is where u grows, or turned from there.
   Frame<FloatN> shading_frame(const Hits& hits, const SurfaceInteraction<FloatN>& surface,
                               const TexturePoint<FloatN>* point) const;
 
   /// Whether any of the lanes has a material with textures, or one that wants to know where u grows.
   bool has_textures(const Hits& hits) const;
+  /// Whether any texture looks up by the second set of texture coordinates.
+  bool has_second_uvset() const { return has_second_uvset_; }
   /// How wide a pixel is where the camera's rays start, and by how much it widens with their lengths.
   const RayCone& ray_cone() const { return ray_cone_; }
 
@@ -195,13 +197,18 @@ class SceneTables {
     std::optional<TextureUse> texture = std::nullopt;  ///< it multiplies the value
   };
   struct SurfaceDetail {
-    TexturedNumber opacity, normalmap, bump;
+    TexturedNumber opacity, normalmap, bump, tangentrotation{0};
+    std::optional<TextureUse> tangentmap{};
+    UvSet tangent_set = UvSet::first;  ///< whose u the tangent is along: the map's, or that of the normals
     MaterialEmission emission{};
     std::optional<Medium> medium{};
     bool is_anisotropic = false, focuses = false;
 
     bool is_cutout() const { return opacity.value < 1 || opacity.texture; }
     bool has_relief() const { return normalmap.texture || bump.texture; }
+    bool has_turned_tangent() const {
+      return is_anisotropic && (tangentrotation.value != 0 || tangentmap || tangent_set == UvSet::second);
+    }
   };
 
   /// The parameters with all points less the origin.
@@ -227,6 +234,8 @@ class SceneTables {
   Ray<F> rays_of(const CameraKernel& camera, const FloatN& x, const FloatN& y, const Sample2D& lens,
                  const CameraRays& ids) const;
   void add_materials(const SceneDescription& description);
+  /// Of the materials that have a turned one.
+  void turn_tangents(const Hits& hits, const TexturePoint<FloatN>& point, Frame<FloatN>& frame) const;
   void add_caustics();
 
   /// answer(table, materials) of each material type among the lanes, each lane's of its own.
@@ -261,7 +270,8 @@ class SceneTables {
   std::vector<float> emitted_;          ///< of each material, red, green and blue; of those with textures, the most
   std::vector<SurfaceDetail> details_;  ///< of all materials
   MediumTable media_;
-  bool has_cutouts_ = false, has_relief_ = false, has_emission_ = false;
+  bool has_cutouts_ = false, has_relief_ = false, has_emission_ = false, has_second_uvset_ = false,
+       has_turned_tangents_ = false;
   std::vector<std::int32_t> shining_sides_;  ///< of all materials: 0, 1 for the front, 2 for both
   std::vector<std::int32_t> textured_;       ///< 1 for materials with textures, else 0; empty if there are none
   std::vector<std::int32_t> anisotropic_;    ///< likewise: those whose reflection differs along the surface

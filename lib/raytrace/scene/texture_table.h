@@ -1,6 +1,7 @@
 // All textures of a scene, and what materials make of them.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -30,6 +31,14 @@ class TextureTable {
       first_.push_back(textures_.size());
       for (const auto& item : std::get<TextureItems<T>>(description.textures)) add<T>(item);
     });
+  }
+
+  /// By which set of texture coordinates a texture looks up that a field which is a number names.
+  UvSet uvset(const TextureUse& use) const { return uvset_of(textures_[number(use.texture, false)]); }
+  /// Whether any does by the second.
+  bool has_second_uvset() const {
+    return std::any_of(textures_.begin(), textures_.end(),
+                       [](const AnyTexture& texture) { return uvset_of(texture) == UvSet::second; });
   }
 
   /// uses: those of a material of this type.
@@ -95,6 +104,17 @@ class TextureTable {
 
  private:
   using AnyTexture = KernelVariant<Textures>::type;
+
+  static UvSet uvset_of(const AnyTexture& any) {
+    return std::visit(
+        [](const auto& texture) {
+          if constexpr (requires { texture.uvset(); })
+            return texture.uvset();
+          else
+            return UvSet::first;
+        },
+        any);
+  }
 
   static FloatN channel_of(const Rgba<FloatN>& value, TextureChannel channel) {
     if (channel == TextureChannel::red) return value.color.red;

@@ -14,8 +14,9 @@ ParameterDiagnostic refused(std::string message) { return {ParameterDiagnostic::
 }  // namespace
 
 std::optional<ParameterDiagnostic> Mesh::check(const Parameters& parameters) {
-  const auto& [file, positions, faces, normals, uvs, animation, _, variant] = parameters;
-  const bool has_values = !positions.empty() || !faces.empty() || !normals.groups.empty() || !uvs.empty();
+  const auto& [file, positions, faces, normals, uvs, uvs2, animation, _, variant] = parameters;
+  const bool has_values =
+      !positions.empty() || !faces.empty() || !normals.groups.empty() || !uvs.empty() || !uvs2.empty();
   if (!file.path.empty() && has_values)
     return refused("a mesh with <file> has its positions, faces, normals and uvs there; remove them here");
   if (!file.path.empty()) return std::nullopt;
@@ -30,7 +31,8 @@ std::optional<ParameterDiagnostic> Mesh::check(const Parameters& parameters) {
   const auto count_of = [&](const NumberGroups& values) { return std::to_string(values.numbers.size()) + " numbers"; };
   if (has_others(positions, 3)) return refused("<positions> has " + count_of(positions) + "; each vertex takes 3");
   for (const auto& [name, values, each] :
-       {std::tuple("<normals>", &normals.groups, std::size_t{3}), std::tuple("<uvs>", &uvs, std::size_t{2})}) {
+       {std::tuple("<normals>", &normals.groups, std::size_t{3}), std::tuple("<uvs>", &uvs, std::size_t{2}),
+        std::tuple("<uvs2>", &uvs2, std::size_t{2})}) {
     if (has_others(*values, each))
       return refused(std::string(name) + " has " + count_of(*values) + "; " + std::to_string(vertices) +
                      " vertices take " + std::to_string(each * vertices));

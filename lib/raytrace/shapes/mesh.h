@@ -35,6 +35,7 @@ class Mesh {
     NumberGroups faces;      ///< the vertices of each, from 0, counter-clockwise as its front shows them (face_ends())
     WordOrGroups normals{normals_words, of_file, {}};  ///< one of the words, or x y z of each vertex
     NumberGroups uvs;                                  ///< u v of each vertex; (0, 0) is the lower left of an image
+    NumberGroups uvs2;                                 ///< the same in a second set, for textures that ask for it
     // Of a glTF file (import/read_mesh.h).
     Reference animation;  ///< its name, or its number from 0; none: the model is at rest
     double time = 0;      ///< of the animation, in seconds
@@ -48,7 +49,8 @@ class Mesh {
     return {optional("file", &Parameters::file),   optional("positions", &Parameters::positions),
             optional("faces", &Parameters::faces), optional("normals", &Parameters::normals),
             optional("uvs", &Parameters::uvs),     optional("animation", &Parameters::animation),
-            optional("time", &Parameters::time),   optional("variant", &Parameters::variant)};
+            optional("time", &Parameters::time),   optional("variant", &Parameters::variant),
+            optional("uvs2", &Parameters::uvs2)};
   }
 
   static std::optional<ParameterDiagnostic> check(const Parameters& parameters);

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "raytrace/parameters/fields.h"
+#include "raytrace/textures/uv_set.h"
 
 namespace raytrace {
 
@@ -19,12 +20,14 @@ class Checker {
     Rgb<double> color1{1, 1, 1}, color2{0, 0, 0};
     Vec2d uvscale{1, 1};  ///< how many squares fit into one unit of u and v
     double scale = 0;     ///< edge of the cubes in space that are there in place of squares; 0: none are
+    UvSet uvset = UvSet::first;
   };
   static constexpr std::string_view group = "checkers";
   static constexpr std::string_view element = "checker";
   static Fields fields() {
     return {optional("color1", &Parameters::color1), optional("color2", &Parameters::color2),
-            optional("uvscale", &Parameters::uvscale), optional("scale", &Parameters::scale, Range::not_negative)};
+            optional("uvscale", &Parameters::uvscale), optional("scale", &Parameters::scale, Range::not_negative),
+            optional("uvset", &Parameters::uvset)};
   }
   static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {
     const bool on_surface = parameters.uvscale.x != 1 || parameters.uvscale.y != 1;

@@ -33,9 +33,11 @@ class Kernel<Checker> {
       : color1_(checker.color1),
         color2_(checker.color2),
         uvscale_{static_cast<float>(checker.uvscale.x), static_cast<float>(checker.uvscale.y)},
+        uvset_(checker.uvset),
         in_space_(checker.scale > 0),
         frequency_(in_space_ ? static_cast<float>(1 / std::max(checker.scale, smallest_size)) : 0) {}
 
+  UvSet uvset() const { return uvset_; }
   float largest() const {
     const Rgb<float> both = max(abs(color1_), abs(color2_));
     return std::max({both.red, both.green, both.blue});
@@ -51,8 +53,9 @@ class Kernel<Checker> {
       const Vec3<FloatN>&p = point.p, &a = point.p_across, &b = point.p_along;
       product = wave(p.x, a.x, b.x, frequency_) * wave(p.y, a.y, b.y, frequency_) * wave(p.z, a.z, b.z, frequency_);
     } else {
-      product = wave(point.uv.x, point.uv_across.x, point.uv_along.x, uvscale_.x) *
-                wave(point.uv.y, point.uv_across.y, point.uv_along.y, uvscale_.y);
+      const UvPoint<FloatN>& on = point.by(uvset_);
+      product = wave(on.uv.x, on.uv_across.x, on.uv_along.x, uvscale_.x) *
+                wave(on.uv.y, on.uv_across.y, on.uv_along.y, uvscale_.y);
     }
     const FloatN second = FloatN(0.5F) - FloatN(0.5F) * product;
     return {mix(Rgb<FloatN>(color1_), Rgb<FloatN>(color2_), second), FloatN(1)};
@@ -61,6 +64,7 @@ class Kernel<Checker> {
  private:
   Rgb<float> color1_, color2_;
   Vec2<float> uvscale_;
+  UvSet uvset_;
   bool in_space_;
   float frequency_;
 };

@@ -16,6 +16,7 @@
 
 #include "raytrace/parameters/fields.h"
 #include "raytrace/textures/udim.h"
+#include "raytrace/textures/uv_set.h"
 
 namespace raytrace {
 
@@ -57,6 +58,7 @@ class Image {
     Vec2d uvoffset{0, 0};   ///< added to the place in the picture
     double uvrotation = 0;  ///< degrees by which the place turns about (0, 0), from u to v
     double valuescale = 1, valueoffset = 0;
+    UvSet uvset = UvSet::first;
   };
   static constexpr std::string_view group = "images";
   static constexpr std::string_view element = "image";
@@ -69,7 +71,8 @@ class Image {
             optional("uvoffset", &Parameters::uvoffset),
             optional("uvrotation", &Parameters::uvrotation),
             optional("valuescale", &Parameters::valuescale),
-            optional("valueoffset", &Parameters::valueoffset)};
+            optional("valueoffset", &Parameters::valueoffset),
+            optional("uvset", &Parameters::uvset)};
   }
   static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {
     using enum ParameterDiagnostic::Effect;

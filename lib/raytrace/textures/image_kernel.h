@@ -28,6 +28,7 @@ class Kernel<Image> {
       : texels_(texels ? std::move(texels) : TexelImage::of_color(255, 0, 255)),
         wrap_(image.wrap),
         filter_(image.filter),
+        uvset_(image.uvset),
         offset_{static_cast<float>(image.uvoffset.x), static_cast<float>(image.uvoffset.y)},
         value_scale_(static_cast<float>(image.valuescale)),
         value_offset_(static_cast<float>(image.valueoffset)) {
@@ -37,6 +38,7 @@ class Kernel<Image> {
     if (!texels_->tiles().empty()) wrap_ = Wrap::clamp;
   }
 
+  UvSet uvset() const { return uvset_; }
   float largest() const { return std::abs(value_scale_) * texels_->largest() + std::abs(value_offset_); }
   bool has_alpha() const { return texels_->has_alpha(); }
   std::int32_t width() const { return texels_->levels()[0].width; }
@@ -48,21 +50,21 @@ class Kernel<Image> {
   }
 
   Rgba<FloatN> at(const TexturePoint<FloatN>& point) const {
-    const Rgba<FloatN> value = in_file(point);
+    const Rgba<FloatN> value = in_file(point.by(uvset_));
     if (value_scale_ == 1 && value_offset_ == 0) return value;
     const auto changed = [&](const FloatN& x) { return x * FloatN(value_scale_) + FloatN(value_offset_); };
     return {{changed(value.color.red), changed(value.color.green), changed(value.color.blue)}, changed(value.alpha)};
   }
 
  private:
-  Rgba<FloatN> in_file(const TexturePoint<FloatN>& point) const {
+  Rgba<FloatN> in_file(const UvPoint<FloatN>& point) const {
     const Vec2<FloatN> turned = in_picture(point.uv);
     const Vec2<FloatN> uv{turned.x + FloatN(offset_.x), turned.y + FloatN(offset_.y)};
     return texels_->tiles().empty() ? in_picture_at(point, uv, LaneIndices(0)) : in_tiles(point, uv);
   }
 
   /// Each lane in the tile that its place is in. Where there is no tile, all is 0, alpha too.
-  Rgba<FloatN> in_tiles(const TexturePoint<FloatN>& point, const Vec2<FloatN>& uv) const {
+  Rgba<FloatN> in_tiles(const UvPoint<FloatN>& point, const Vec2<FloatN>& uv) const {
     const Vec2<FloatN> corner{floor(uv.x), floor(uv.y)};
     const std::vector<std::int32_t>& tiles = texels_->tiles();
     const auto columns = static_cast<float>(TexelImage::tile_columns);
@@ -79,8 +81,7 @@ class Kernel<Image> {
   }
 
   /// first: the picture's first level.
-  Rgba<FloatN> in_picture_at(const TexturePoint<FloatN>& point, const Vec2<FloatN>& uv,
-                             const LaneIndices& first) const {
+  Rgba<FloatN> in_picture_at(const UvPoint<FloatN>& point, const Vec2<FloatN>& uv, const LaneIndices& first) const {
     if (filter_ == TextureFilter::nearest) return nearest(uv, first);
     const std::int32_t last = texels_->levels_of_picture() - 1;
     // What the view stretches most is left to the samples of the pixel, up to a factor of two.
@@ -294,6 +295,7 @@ class Kernel<Image> {
   std::shared_ptr<const TexelImage> texels_;
   Wrap wrap_;
   TextureFilter filter_;
+  UvSet uvset_;
   Vec2<float> across_{}, up_{};  ///< of the place in the picture: what u and v give to its coordinates
   Vec2<float> offset_;
   float value_scale_, value_offset_;

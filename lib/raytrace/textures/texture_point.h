@@ -4,20 +4,30 @@
 #include "raytrace/math/color.h"
 #include "raytrace/math/vec2.h"
 #include "raytrace/math/vec3.h"
+#include "raytrace/textures/uv_set.h"
 
 namespace raytrace {
+
+/// On the surface, as one set of texture coordinates has it.
+template <class F>
+struct UvPoint {
+  Vec2<F> uv;
+  Vec2<F> uv_across, uv_along;
+  Vec3<F> dpdu, dpdv;  ///< how the point moves with u and v
+};
 
 /// In space and on the surface, with half of what a pixel covers there: samples share a pixel. It is about the shape
 /// with the two axes `across` and `along`, at right angles: `along` is the one that the view stretches. Lanes that hit
 /// nothing hold anything.
 template <class F>
-struct TexturePoint {
+struct TexturePoint : UvPoint<F> {
   Vec3<F> p;
   Vec3<F> p_across, p_along;
-  Vec2<F> uv;
-  Vec2<F> uv_across, uv_along;
-  Vec3<F> dpdu, dpdv;   ///< how the point moves with u and v
   Rgb<F> vertex_color;  ///< between those of the mesh's vertices; white where there are none
+  UvPoint<F> second;    ///< of the second set; anything in scenes that have no texture which asks for it
+
+  UvPoint<F>& by(UvSet set) { return set == UvSet::first ? *this : second; }
+  const UvPoint<F>& by(UvSet set) const { return set == UvSet::first ? *this : second; }
 };
 
 /// How much of a coordinate is covered, of which the axes cover so much.

@@ -1,0 +1,48 @@
+// Tangents of materials whose reflection differs along the surface, where they are not just where u grows.
+#include <bit>
+
+#include "raytrace/math/turns.h"
+#include "raytrace/scene/scene_tables.h"
+
+namespace raytrace {
+
+namespace {
+
+/// A map's tangent, x along u and y along v, of unit length. Where it has none it is along u.
+Vec2<FloatN> mapped_tangent(const Rgb<FloatN>& map) {
+  const FloatN x = map.red * FloatN(2) - FloatN(1), y = map.green * FloatN(2) - FloatN(1);
+  const FloatN size = sqrt(x * x + y * y);
+  const MaskN has_direction = size > FloatN(0.01F);  // bytes have no 1/2
+  const FloatN scale = FloatN(1) / select(has_direction, size, FloatN(1));
+  return {select(has_direction, x * scale, FloatN(1)), select(has_direction, y * scale, FloatN(0))};
+}
+
+}  // namespace
+
+void SceneTables::turn_tangents(const Hits& hits, const TexturePoint<FloatN>& point, Frame<FloatN>& frame) const {
+  const IntN materials = material(hits);
+  for (MaskN left = hits.hit; any(left);) {
+    const std::int32_t number = materials.get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(left))));
+    const MaskN here = left & float_mask<FloatN>(materials == IntN(number));
+    left = left & !here;
+    const SurfaceDetail& detail = details_[static_cast<std::size_t>(number)];
+    if (!detail.has_turned_tangent()) continue;
+    const UvPoint<FloatN>& on = point.by(detail.tangent_set);
+    const Vec3<FloatN> along = on.dpdu - frame.z * dot(frame.z, on.dpdu);
+    const FloatN size = length(along);
+    const MaskN turned = here & (size > length(on.dpdu) * FloatN(1e-3F));
+    const Vec3<FloatN> u = along * (FloatN(1) / size), across = cross(frame.z, u);
+    const Vec3<FloatN> v = select(dot(across, on.dpdv) < FloatN(0), -across, across);
+    Vec2<FloatN> tangent{FloatN(1), FloatN(0)};
+    if (detail.tangentmap) tangent = mapped_tangent(textures_->vector_at(*detail.tangentmap, point));
+    FloatN turns(detail.tangentrotation.value);
+    if (const auto& texture = detail.tangentrotation.texture) turns = turns * textures_->number_at(*texture, point);
+    constexpr float most_turns = 1e6F;
+    const auto [sine, cosine] = sin_cos_of_turns(min(max(turns, FloatN(-most_turns)), FloatN(most_turns)));
+    frame.x = select(turned, u * (tangent.x * cosine - tangent.y * sine) + v * (tangent.x * sine + tangent.y * cosine),
+                     frame.x);
+    frame.y = select(turned, cross(frame.z, frame.x), frame.y);
+  }
+}
+
+}  // namespace raytrace
