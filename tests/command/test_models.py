@@ -1,6 +1,7 @@
 """A model's file in a scene's place: its camera and lights, and the scene that it stands for."""
 
 import base64
+import gzip
 import json
 import math
 import struct
@@ -306,6 +307,13 @@ class Models(CommandTest):
         self.assertIn("is no rate of frames", self.fail_with(2, *options, "--fps", "0", "-o", "b.exr"))
         self.assertIn("--fps", self.fail_with(2, "printed.xml", "--fps", "25", "-o", "b.exr"))
         self.assertIn("it is no glTF", self.fail_with(1, "slab.ply", "--animation", "go", "-o", "b.exr"))
+
+    def test_a_compressed_model(self):
+        with gzip.open(self.path("slab.ply.gz"), "wb") as file:
+            file.write(PLY.encode())
+        for name in ("slab.ply", "slab.ply.gz"):
+            self.succeed(name, *OPTIONS, "-o", "{scene}.exr")
+        self.assertEqual(Exr(self.read("slab.exr")).row_bytes, Exr(self.read("slab.ply.exr")).row_bytes)
 
     def test_several_models_are_several_pictures(self):
         self.write("other.ply", PLY.replace("10.1 8", "10.1 12"))

@@ -5,14 +5,12 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
-#include <string_view>
 #include <utility>
 
 #include "raytrace/batch/fit_camera.h"
 #include "raytrace/description/file_lights.h"
 #include "raytrace/description/load_images.h"
 #include "raytrace/import/read_mesh.h"
-#include "raytrace/output/image_encoder.h"
 #include "raytrace/text/message.h"
 
 namespace raytrace {
@@ -266,10 +264,7 @@ void for_each_turned_vertex(const SceneDescription& description, const Function&
 
 }  // namespace
 
-bool is_model(const std::string& file) {
-  constexpr std::array<std::string_view, 5> extensions = {".glb", ".gltf", ".obj", ".ply", ".stl"};
-  return std::find(extensions.begin(), extensions.end(), lower_extension(file)) != extensions.end();
-}
+bool is_model(const std::string& file) { return is_mesh_file(file); }
 
 std::optional<SceneDescription> load_model(const std::string& file, const ModelStage& stage, std::optional<int> frame,
                                            int width, int height, Diagnostics& diagnostics, int threads,
