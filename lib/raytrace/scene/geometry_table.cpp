@@ -298,15 +298,15 @@ IntN GeometryTable::object(std::uint32_t geometry, const IntN& primitive) const 
 IntN GeometryTable::object(const Hits& hits) const {
   const IntN primitive = select_lanes(hits.hit, hits.primitive, IntN(hits.first_primitive));
   if (hits.one_geometry) return object(hits.first_geometry, primitive);
-  // Instances' lanes follow geometry 0, and others the first.
-  const MaskN instanced = float_mask<FloatN>(hits.instance != UintN(0u));
+  // Lanes without hits follow the first with one; instances', geometry 0.
+  MaskN in_world = hits.hit;
+  if (hits.in_instances) in_world = in_world & float_mask<FloatN>(hits.instance == UintN(0u));
   const IntN other(hits.in_instances ? 0 : static_cast<std::int32_t>(hits.first_geometry));
-  const IntN geometry = select_lanes(hits.hit & !instanced, same_bits<IntN>(hits.geometry), other);
-  const IntN single = (primitive & gather(primitive_masks_.data(), geometry)) + gather(first_objects_.data(), geometry);
-  const MaskN sphere = float_mask<FloatN>(geometry == IntN(static_cast<std::int32_t>(sphere_geometry)));
-  const IntN own = or_cloud(single, primitive, sphere);
-  if (!hits.in_instances) return own;
-  return select_lanes(hits.hit & instanced, instances_.object(hits.instance), own);
+  const IntN geometry = select_lanes(in_world, same_bits<IntN>(hits.geometry), other);
+  IntN own = (primitive & gather(primitive_masks_.data(), geometry)) + gather(first_objects_.data(), geometry);
+  if (!clouds_.empty())
+    own = or_cloud(own, primitive, float_mask<FloatN>(geometry == IntN(static_cast<std::int32_t>(sphere_geometry))));
+  return hits.in_instances ? select_lanes(hits.hit & !in_world, instances_.object(hits.instance), own) : own;
 }
 
 std::optional<std::int32_t> GeometryTable::only_material(const Hits& hits) const {

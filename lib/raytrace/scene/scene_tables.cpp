@@ -366,13 +366,15 @@ Rgb<FloatN> SceneTables::transmittance(const Hits& hits, const FloatN& distance,
 Rgb<FloatN> SceneTables::shade(const Hits& hits, const SurfaceInteraction<FloatN>& surface,
                                const Rgb<float>& ambient_radiance, std::span<const IncidentLight> lights,
                                const TexturePoint<FloatN>* point) const {
-  std::optional<Frame<FloatN>> frame;
-  if (!anisotropic_.empty()) [[unlikely]]
-    frame = shading_frame(hits, surface, point);
-  return by_material(hits, [&](const MaterialTable& table, const LaneIndices& materials) {
-    return table.shade(materials, surface.front, surface.wo, surface.ns, frame ? &*frame : nullptr, ambient_radiance,
-                       lights, point);
-  });
+  const auto in_frame = [&](const Frame<FloatN>* frame) {
+    return by_material(hits, [&](const MaterialTable& table, const LaneIndices& materials) {
+      return table.shade(materials, surface.front, surface.wo, surface.ns, frame, ambient_radiance, lights, point);
+    });
+  };
+  if (anisotropic_.empty()) [[likely]]
+    return in_frame(nullptr);
+  const Frame<FloatN> frame = shading_frame(hits, surface, point);
+  return in_frame(&frame);
 }
 
 Frame<FloatN> SceneTables::shading_frame(const Hits& hits, const SurfaceInteraction<FloatN>& surface,

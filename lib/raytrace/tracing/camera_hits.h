@@ -6,15 +6,20 @@
 
 namespace raytrace {
 
+/// In scenes that identify their rays.
+[[gnu::noinline]] inline Hits intersect_identified(const TracedScene& scene, const CameraRays& camera,
+                                                   Ray<FloatN>& rays, const MaskN& active) {
+  const RayIdentity identity(scene.tables(), scene.accelerator(), rays, {camera.pixel, camera.sample, 0}, &camera);
+  return scene.accelerator().intersect(rays, active, Coherence::coherent, nullptr, &identity);
+}
+
 /// Ends the rays at their nearest hits. Those of a camera that is far away start anew from the eye where they hit
 /// something that is closer to it than to where they started: floats are more precise there.
-inline Hits nearest_camera_hits(const TracedScene& scene, CameraRays& camera, const MaskN& active) {
+RAYTRACE_INLINE Hits nearest_camera_hits(const TracedScene& scene, CameraRays& camera, const MaskN& active) {
   Ray<FloatN>& rays = camera.rays;
   const auto intersect = [&](Ray<FloatN>& some, const MaskN& lanes, const DirectionBuffer* buffer) {
-    if (!scene.tables().identifies_rays()) [[likely]]
-      return scene.accelerator().intersect(some, lanes, Coherence::coherent, buffer);
-    const RayIdentity identity(scene.tables(), scene.accelerator(), some, {camera.pixel, camera.sample, 0}, &camera);
-    return scene.accelerator().intersect(some, lanes, Coherence::coherent, nullptr, &identity);
+    return scene.tables().identifies_rays() ? intersect_identified(scene, camera, some, lanes)
+                                            : scene.accelerator().intersect(some, lanes, Coherence::coherent, buffer);
   };
   Hits hits = intersect(rays, active, scene.camera_buffer());
   if (!scene.tables().camera_is_far()) [[likely]]
@@ -32,7 +37,7 @@ inline Hits nearest_camera_hits(const TracedScene& scene, CameraRays& camera, co
 }
 
 /// The same. Where shadow catchers act, a ray that meets one first has hit nothing.
-inline Hits intersect_camera_rays(const TracedScene& scene, CameraRays& camera, const MaskN& active) {
+RAYTRACE_INLINE Hits intersect_camera_rays(const TracedScene& scene, CameraRays& camera, const MaskN& active) {
   Hits hits = nearest_camera_hits(scene, camera, active);
   if (camera.caught != nullptr) [[unlikely]]
     hits = catch_shadows(scene, camera, hits);

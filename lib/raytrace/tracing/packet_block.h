@@ -66,6 +66,7 @@ struct PacketBlock {
   /// Calls f(x, y, pixel, count) for each row of those pixels: `count` beside each other, from (x, y) on.
   template <class Function>
   void for_each_row(const Region& region, const Function& f) const {
+    if constexpr (pixels == 1) return f(left, top, 0, 1);  // every such block lies in its region
     const int first = std::max(left, region.x0), count = std::min(left + shape.width, region.x1) - first;
     if (count <= 0) return;
     for (int y = std::max(top, region.y0); y < std::min(top + shape.height, region.y1); ++y)
