@@ -1,6 +1,4 @@
 // Normal maps and bumps: what they make of shading normals.
-#include <bit>
-
 #include "raytrace/scene/scene_tables.h"
 
 namespace raytrace {
@@ -48,13 +46,8 @@ Vec3<FloatN> bumped_normal(const Height& height, UvSet set, const TexturePoint<F
 
 void SceneTables::add_relief(const Hits& hits, const TexturePoint<FloatN>& point,
                              SurfaceInteraction<FloatN>& surface) const {
-  const IntN materials = material(hits);
-  for (MaskN left = hits.hit; any(left);) {
-    const std::int32_t number = materials.get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(left))));
-    const MaskN here = left & float_mask<FloatN>(materials == IntN(number));
-    left = left & !here;
-    const SurfaceDetail& detail = details_[static_cast<std::size_t>(number)];
-    if (!detail.has_relief()) continue;
+  for_each_detail(hits, [&](const SurfaceDetail& detail, const MaskN& here) {
+    if (!detail.has_relief()) return;
     Vec3<FloatN> normal = surface.ns;
     if (const auto& map = detail.normalmap; map.texture)
       normal = mapped_normal(textures_->vector_at(*map.texture, point), map.value,
@@ -70,7 +63,7 @@ void SceneTables::add_relief(const Hits& hits, const TexturePoint<FloatN>& point
     surface.ns = select(here, normal, surface.ns);
     surface.relief = surface.has_relief ? surface.relief | here : here;
     surface.has_relief = true;
-  }
+  });
 }
 
 }  // namespace raytrace

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <memory>
 #include <optional>
 #include <span>
@@ -234,6 +235,9 @@ class SceneTables {
   Ray<F> rays_of(const CameraKernel& camera, const FloatN& x, const FloatN& y, const Sample2D& lens,
                  const CameraRays& ids) const;
   void add_materials(const SceneDescription& description);
+  /// For lanes that hit the same material: f(its detail, those lanes).
+  template <class Function>
+  void for_each_detail(const Hits& hits, const Function& f) const;
   /// Of the materials that have a turned one.
   void turn_tangents(const Hits& hits, const TexturePoint<FloatN>& point, Frame<FloatN>& frame) const;
   void add_caustics();
@@ -292,6 +296,17 @@ Rgb<FloatN> SceneTables::emitted(const EmitterTable::Sample& samples, const Mask
   return select(lanes & shines(samples.material, surface.front),
                 {gather(channels, first), gather(channels + 1, first), gather(channels + 2, first)},
                 Rgb<FloatN>(Rgb<float>(0, 0, 0)));
+}
+
+template <class Function>
+void SceneTables::for_each_detail(const Hits& hits, const Function& f) const {
+  const IntN materials = material(hits);
+  for (MaskN left = hits.hit; any(left);) {
+    const std::int32_t number = materials.get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(left))));
+    const MaskN here = left & float_mask<FloatN>(materials == IntN(number));
+    left = left & !here;
+    f(details_[static_cast<std::size_t>(number)], here);
+  }
 }
 
 }  // namespace raytrace

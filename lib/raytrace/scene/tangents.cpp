@@ -1,6 +1,4 @@
 // Tangents of materials whose reflection differs along the surface, where they are not just where u grows.
-#include <bit>
-
 #include "raytrace/math/turns.h"
 #include "raytrace/scene/scene_tables.h"
 
@@ -20,13 +18,8 @@ Vec2<FloatN> mapped_tangent(const Rgb<FloatN>& map) {
 }  // namespace
 
 void SceneTables::turn_tangents(const Hits& hits, const TexturePoint<FloatN>& point, Frame<FloatN>& frame) const {
-  const IntN materials = material(hits);
-  for (MaskN left = hits.hit; any(left);) {
-    const std::int32_t number = materials.get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(left))));
-    const MaskN here = left & float_mask<FloatN>(materials == IntN(number));
-    left = left & !here;
-    const SurfaceDetail& detail = details_[static_cast<std::size_t>(number)];
-    if (!detail.has_turned_tangent()) continue;
+  for_each_detail(hits, [&](const SurfaceDetail& detail, const MaskN& here) {
+    if (!detail.has_turned_tangent()) return;
     const UvPoint<FloatN>& on = point.by(detail.tangent_set);
     const Vec3<FloatN> along = on.dpdu - frame.z * dot(frame.z, on.dpdu);
     const FloatN size = length(along);
@@ -42,7 +35,7 @@ void SceneTables::turn_tangents(const Hits& hits, const TexturePoint<FloatN>& po
     frame.x = select(turned, u * (tangent.x * cosine - tangent.y * sine) + v * (tangent.x * sine + tangent.y * cosine),
                      frame.x);
     frame.y = select(turned, cross(frame.z, frame.x), frame.y);
-  }
+  });
 }
 
 }  // namespace raytrace
