@@ -25,6 +25,7 @@ raytrace_require(OpenImageIO 2.4)
 raytrace_require(OpenEXR 3.1)
 unset(CMAKE_MESSAGE_LOG_LEVEL)
 find_package(PNG 1.6 REQUIRED)
+find_package(JPEG 62 REQUIRED) # libjpeg-turbo 2.1: jpeg_reader.cpp checks that it is that library
 find_package(ZLIB 1.2.11 REQUIRED)
 raytrace_require(TBB 2021)
 raytrace_require(xsimd 8.1)

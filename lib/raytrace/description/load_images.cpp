@@ -18,11 +18,13 @@
 #include <utility>
 #include <vector>
 
+#include "raytrace/description/read_pictures.h"
 #include "raytrace/math/content_hash.h"
 #include "raytrace/memory/file_mapping.h"
 #include "raytrace/memory/process_status.h"
 #include "raytrace/output/image_file.h"
 #include "raytrace/output/picture.h"
+#include "raytrace/parallel/for_each_index.h"
 #include "raytrace/text/message.h"
 #include "raytrace/textures/udim.h"
 
@@ -75,40 +77,100 @@ std::array<bool, 2> is_srgb(ColorSpace space, TexelFormat format) {
   return {space == ColorSpace::srgb, space == ColorSpace::srgb};
 }
 
+/// An image that is to be loaded.
+struct ImageTask {
+  std::string_view what;  ///< what it is for
+  Image::Parameters image;
+  std::array<bool, 2> used;  ///< as a colour, as a number
+  std::string name;
+  std::uint32_t line;
+  LoadedImage* loaded;
+
+  std::string hash{};
+  std::exception_ptr error{};
+
+  /// Textures may have tiles.
+  bool has_tiles() const { return what == "texture" && !loaded->bytes && is_udim(image.file.path); }
+};
+
 class ImageLoader {
  public:
   /// taken: bytes of texels that are in memory already.
   ImageLoader(int threads, std::optional<std::uint64_t> memory, std::uint64_t taken)
       : threads_(threads), memory_(memory.value_or(available_memory() / 2)), taken_(taken) {}
 
-  /// bytes: of the file; null: they are read. used: as a colour, as a number. Throws PictureError.
-  LoadedImage load(const Image::Parameters& image, const std::string* bytes, const std::array<bool, 2>& used) {
-    const std::string& file = image.file.path;
-    LoadedImage loaded{bytes != nullptr ? hash_of(*bytes) : file_hash(file), nullptr, nullptr};
-    std::optional<Picture> picture;
-    const auto need_picture = [&] {
-      if (!picture) picture = bytes != nullptr ? decode_picture(*bytes) : read_picture(file);
-      return picture->format;
+  /// Calls fail(task) in the handler of what was thrown for a task that cannot be loaded.
+  template <class Fail>
+  void load(std::vector<ImageTask>& tasks, const Fail& fail) {
+    for_each_index(static_cast<int>(tasks.size()), threads_, [&](int i) {
+      ImageTask& task = tasks[static_cast<std::size_t>(i)];
+      try {
+        if (!task.has_tiles())
+          task.hash = task.loaded->bytes ? hash_of(*task.loaded->bytes) : file_hash(task.image.file.path);
+      } catch (...) {
+        task.error = std::current_exception();
+      }
+    });
+    std::set<std::string> being_read;  // hashes
+    const auto open = [&](std::size_t i) -> std::unique_ptr<PictureReader> {
+      const ImageTask& task = tasks[i];
+      if (task.error) std::rethrow_exception(task.error);
+      if (task.has_tiles() || has_texels(task) || !being_read.insert(task.hash).second) return nullptr;
+      return open_picture_of(task);
     };
-    const auto known = formats_.find(loaded.hash);
-    const TexelFormat format =
-        known != formats_.end() ? known->second : formats_.emplace(loaded.hash, need_picture()).first->second;
-    const std::array<bool, 2> srgb = is_srgb(image.colorspace, format);
+    read_pictures(tasks.size(), threads_, memory_ahead(), open, [&](std::size_t i, const PictureResult& result) {
+      const ImageTask& task = tasks[i];
+      being_read.erase(task.hash);
+      try {
+        const Picture* const picture = result.get();
+        *task.loaded = task.has_tiles() ? load_tiles(task) : load_picture(task, picture);
+      } catch (const std::runtime_error& error) {
+        fail(task, error);
+      }
+    });
+  }
+
+  /// Why texels that have no room in memory are in memory nonetheless; empty if none are.
+  const std::string& failure() const { return failure_; }
+
+ private:
+  /// For pictures beside the texels.
+  std::uint64_t memory_ahead() const { return memory_ / 4; }
+
+  static std::unique_ptr<PictureReader> open_picture_of(const ImageTask& task) {
+    return task.loaded->bytes ? open_encoded_picture(*task.loaded->bytes) : open_picture(task.image.file.path);
+  }
+
+  /// Whether all that the task wants has been made for an earlier one.
+  bool has_texels(const ImageTask& task) const {
+    const auto format = formats_.find(task.hash);
+    if (format == formats_.end()) return false;
+    const std::array<bool, 2> srgb = is_srgb(task.image.colorspace, format->second);
+    for (std::size_t use = 0; use < 2; ++use)
+      if (task.used[use] && !texels_.contains({task.hash, srgb[use]})) return false;
+    return true;
+  }
+
+  /// read: the picture, if it has been. Throws PictureError.
+  LoadedImage load_picture(const ImageTask& task, const Picture* read) {
+    LoadedImage loaded{task.hash, nullptr, nullptr};
+    std::optional<Picture> read_again;
+    if (read == nullptr && !has_texels(task)) read = &read_again.emplace(open_picture_of(task)->read());
+    if (read != nullptr) formats_.emplace(task.hash, read->format);
+    const std::array<bool, 2> srgb = is_srgb(task.image.colorspace, formats_.at(task.hash));
     const std::array<std::shared_ptr<const TexelImage>*, 2> wanted{&loaded.color, &loaded.number};
     for (std::size_t use = 0; use < 2; ++use) {
-      if (!used[use]) continue;
-      auto& texels = texels_[{loaded.hash, srgb[use]}];
-      if (!texels) {
-        need_picture();
-        texels = kept(TexelImage(*picture, srgb[use], threads_));
-      }
+      if (!task.used[use]) continue;
+      auto& texels = texels_[{task.hash, srgb[use]}];
+      if (!texels) texels = kept(TexelImage(*read, srgb[use], threads_));
       *wanted[use] = texels;
     }
     return loaded;
   }
 
   /// The same of the files of tiles.
-  LoadedImage load_tiles(const Image::Parameters& image, const std::array<bool, 2>& used) {
+  LoadedImage load_tiles(const ImageTask& task) {
+    const Image::Parameters& image = task.image;
     const std::vector<UdimTile> files = find_udim_tiles(image.file.path);
     if (files.empty()) throw PictureError("there is no file of a tile, whose number would be from 1001 to 9999");
     const auto of_tile = [](const UdimTile& tile, const auto& f) {
@@ -127,15 +189,17 @@ class ImageLoader {
     LoadedImage loaded{hash.digits(), nullptr, nullptr};
     const std::array<std::shared_ptr<const TexelImage>*, 2> wanted{&loaded.color, &loaded.number};
     for (std::size_t use = 0; use < 2; ++use) {
-      if (!used[use]) continue;
+      if (!task.used[use]) continue;
       auto& texels = tiles_[{loaded.hash, image.colorspace, image.colorspace == ColorSpace::automatic ? use : 0}];
       if (!texels) {
         std::vector<TexelImage::Tile> tiles;
-        for (const UdimTile& tile : files) {
-          const Picture picture = of_tile(tile, [&] { return read_picture(tile.file); });
-          const bool srgb = is_srgb(image.colorspace, picture.format)[use];
-          tiles.push_back({tile.column, tile.row, TexelImage(picture, srgb, threads_)});
-        }
+        read_pictures(
+            files.size(), threads_, memory_ahead(), [&](std::size_t i) { return open_picture(files[i].file); },
+            [&](std::size_t i, const PictureResult& result) {
+              const Picture& picture = *of_tile(files[i], [&] { return result.get(); });
+              const bool srgb = is_srgb(image.colorspace, picture.format)[use];
+              tiles.push_back({files[i].column, files[i].row, TexelImage(picture, srgb, threads_)});
+            });
         texels = kept(TexelImage::of_tiles(std::move(tiles)));
         if (texels->format() != TexelFormat::bytes) tiles_[{loaded.hash, image.colorspace, 1 - use}] = texels;
       }
@@ -144,10 +208,6 @@ class ImageLoader {
     return loaded;
   }
 
-  /// Why texels that have no room in memory are in memory nonetheless; empty if none are.
-  const std::string& failure() const { return failure_; }
-
- private:
   std::shared_ptr<const TexelImage> kept(TexelImage image) {
     taken_ += image.bytes();
     if (taken_ > memory_ && failure_.empty()) {
@@ -200,37 +260,32 @@ bool load_images(SceneDescription& scene, Diagnostics& diagnostics, int threads,
   diagnostics.add_files(scene.included);
   ImageLoader loader(threads, settings.memory, loaded_bytes(scene));
   bool fine = true;
-  /// what: the image is for. Textures may have tiles.
-  const auto load = [&](std::string_view what, const Image::Parameters& parameters, const std::array<bool, 2>& used,
-                        const std::string& name, std::uint32_t line, LoadedImage& image) {
-    const FileName& file = parameters.file;
-    if (!image.hash.empty()) return;
-    try {
-      const bool has_tiles = what == "texture" && !image.bytes && is_udim(file.path);
-      image = has_tiles ? loader.load_tiles(parameters, used) : loader.load(parameters, image.bytes.get(), used);
-    } catch (const std::runtime_error& error) {
-      const bool warns = settings.missing == MissingTexture::warn;
-      fine = fine && warns;
-      const SourceLocation location = file.line > 0 ? SourceLocation{file.line, file.column} : SourceLocation{line, 0};
-      diagnostics.add(warns ? Severity::warning : Severity::error, location,
-                      "the " + std::string(what) + " " + in_quotes(name) + " cannot be used: " + error.what() +
-                          (warns ? "; it is magenta" : ""));
-      if (warns) image = {"missing", TexelImage::of_color(255, 0, 255), TexelImage::of_color(255, 0, 255)};
-    }
-  };
   // Where there are errors, materials may name textures that were refused.
   const auto uses = diagnostics.has_errors()
                         ? std::vector<std::array<bool, 2>>(std::get<TextureItems<Image>>(scene.textures).size())
                         : image_uses(scene);
+  std::vector<ImageTask> tasks;
   std::size_t i = 0;
   for (TextureItem<Image>& item : std::get<TextureItems<Image>>(scene.textures)) {
     const std::string& file = item.parameters.file.path;
     const std::string name = item.imported ? std::filesystem::path(file).filename().string() : file;
-    load("texture", item.parameters, uses[i++], name, item.line, item.image);
+    tasks.push_back({"texture", item.parameters, uses[i++], name, item.line, &item.image});
   }
   for (LightItem<EnvironmentLight>& item : std::get<LightItems<EnvironmentLight>>(scene.lights))
-    if (!item.parameters.file.path.empty())
-      load("environment", {item.parameters.file}, {true, false}, item.parameters.file.path, item.line, item.image);
+    if (const FileName& file = item.parameters.file; !file.path.empty())
+      tasks.push_back({"environment", {file}, {true, false}, file.path, item.line, &item.image});
+  std::erase_if(tasks, [](const ImageTask& task) { return !task.loaded->hash.empty(); });
+  loader.load(tasks, [&](const ImageTask& task, const std::runtime_error& error) {
+    const FileName& file = task.image.file;
+    const bool warns = settings.missing == MissingTexture::warn;
+    fine = fine && warns;
+    const SourceLocation location =
+        file.line > 0 ? SourceLocation{file.line, file.column} : SourceLocation{task.line, 0};
+    diagnostics.add(warns ? Severity::warning : Severity::error, location,
+                    "the " + std::string(task.what) + " " + in_quotes(task.name) + " cannot be used: " + error.what() +
+                        (warns ? "; it is magenta" : ""));
+    if (warns) *task.loaded = {"missing", TexelImage::of_color(255, 0, 255), TexelImage::of_color(255, 0, 255)};
+  });
   for_each_type(Lights{}, [&]<class Light>(std::type_identity<Light>) {
     for (auto& item : std::get<LightItems<Light>>(scene.lights))
       if constexpr (requires { item.photometry; }) {

@@ -64,24 +64,11 @@ std::shared_ptr<const ColorTransform> ocio_transform(const OcioSettings& setting
   return result;
 }
 
-namespace {
-
-/// bytes: of the file, which has no more than a name then; empty: it is read.
-Picture read_picture(const std::string& file, std::string_view bytes) {
-  static auto* const read = symbol<OpenImageIOReadPicture>("raytrace_openimageio_read_picture");
-  Picture picture;
-  read(file, bytes, picture);
-  return picture;
-}
-
-}  // namespace
-
-Picture read_picture(const std::string& file) { return read_picture(file, {}); }
-
-Picture decode_picture(std::string_view bytes) {
-  if (bytes.starts_with("\x89PNG")) return read_picture("picture.png", bytes);
-  if (bytes.starts_with("\xff\xd8")) return read_picture("picture.jpg", bytes);
-  throw PictureError("it is neither PNG nor JPEG");
+std::unique_ptr<PictureReader> make_openimageio_reader(const std::string& file, std::string_view bytes) {
+  static auto* const make = symbol<MakeOpenImageIOReader>("raytrace_make_openimageio_reader");
+  std::unique_ptr<PictureReader> reader;
+  make(file, bytes, reader);
+  return reader;
 }
 
 bool openimageio_reads_all_of(const std::string& file, int width, int height) {

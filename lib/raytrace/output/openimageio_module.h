@@ -1,6 +1,6 @@
-// All formats but EXR and PNG come through OpenImageIO, which brings some 250 shared libraries: loading them takes
-// longer than a small render. So what uses it is a module of its own (output/openimageio/), loaded when a picture asks
-// for it.
+// All formats but EXR and PNG, and JPEG to read, come through OpenImageIO, which brings some 250 shared libraries:
+// loading them takes longer than a small render. So what uses it is a module of its own (output/openimageio/), loaded
+// when a picture asks for it.
 #pragma once
 
 #include <memory>
@@ -20,6 +20,10 @@ std::unique_ptr<ImageEncoder> make_openimageio_encoder(const std::string& file, 
 /// there are no such things, or if the module is missing.
 std::shared_ptr<const ColorTransform> ocio_transform(const OcioSettings& settings);
 
+/// As open_picture() has it. bytes: of the file, which has no more than a name then; empty: it is read. Throws
+/// OutputError if the module is missing.
+std::unique_ptr<PictureReader> make_openimageio_reader(const std::string& file, std::string_view bytes);
+
 /// Whether the file is a picture that OpenImageIO can read from its first row to its last, of this size; 0 x 0: of any.
 /// Throws OutputError if the module is missing.
 bool openimageio_reads_all_of(const std::string& file, int width, int height);
@@ -32,7 +36,8 @@ using OpenImageIOColorTransform = void(const OcioSettings& settings, std::shared
 extern "C" OpenImageIOColorTransform raytrace_openimageio_color_transform;
 using OpenImageIOReadsAllOf = bool(const std::string& file, int width, int height);
 extern "C" OpenImageIOReadsAllOf raytrace_openimageio_reads_all_of;
-using OpenImageIOReadPicture = void(const std::string& file, std::string_view bytes, Picture& picture);
-extern "C" OpenImageIOReadPicture raytrace_openimageio_read_picture;
+using MakeOpenImageIOReader = void(const std::string& file, std::string_view bytes,
+                                   std::unique_ptr<PictureReader>& reader);
+extern "C" MakeOpenImageIOReader raytrace_make_openimageio_reader;
 
 }  // namespace raytrace

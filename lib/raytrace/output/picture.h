@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -24,11 +25,20 @@ inline std::size_t bytes_of(TexelFormat format) {
   return format == TexelFormat::bytes ? 1 : format == TexelFormat::floats ? 4 : 2;
 }
 
-/// Rows from the top, without gaps.
-struct Picture {
+/// What its pixels are.
+struct PictureLayout {
   int width = 0, height = 0;
   int channels = 0;  ///< 1: grey; 4: red, green, blue and alpha, which does not multiply the others
   TexelFormat format = TexelFormat::bytes;
+
+  std::size_t row_bytes() const {
+    return static_cast<std::size_t>(width) * static_cast<std::size_t>(channels) * bytes_of(format);
+  }
+  std::size_t bytes() const { return row_bytes() * static_cast<std::size_t>(height); }
+};
+
+/// Rows from the top, without gaps.
+struct Picture : PictureLayout {
   LargeArray<std::byte> pixels;
   bool has_alpha = false;  ///< whether the file has it; else it is 1
 };
@@ -37,10 +47,32 @@ struct Picture {
 inline constexpr std::int64_t most_picture_pixels = std::int64_t{1} << 28;
 inline constexpr int largest_picture_edge = 65536;
 
-/// Any format that OpenImageIO reads. Throws PictureError, std::bad_alloc, or OutputError if OpenImageIO is missing.
-Picture read_picture(const std::string& file);
+/// A picture of which nothing but the header has been read, so that its size is known before any memory follows from
+/// it. Readers are independent of each other: several threads may each read one.
+class PictureReader {
+ public:
+  PictureReader() = default;
+  PictureReader(const PictureReader&) = delete;
+  PictureReader& operator=(const PictureReader&) = delete;
+  virtual ~PictureReader() = default;
 
-/// The same of the bytes of a PNG or JPEG file.
-Picture decode_picture(std::string_view bytes);
+  const PictureLayout& layout() const { return layout_; }
+  /// All of it; to be called once. Throws PictureError or std::bad_alloc.
+  virtual Picture read() = 0;
+
+ protected:
+  /// Throws PictureError if the size is none that can be read.
+  void set_layout(const PictureLayout& layout);
+
+ private:
+  PictureLayout layout_;
+};
+
+/// Any format that OpenImageIO reads; PNG and most JPEG files without it. Throws PictureError, std::bad_alloc, or
+/// OutputError if OpenImageIO is missing.
+std::unique_ptr<PictureReader> open_picture(const std::string& file);
+
+/// The same of the bytes of a PNG or JPEG file, which stay for as long as the reader does.
+std::unique_ptr<PictureReader> open_encoded_picture(std::string_view bytes);
 
 }  // namespace raytrace

@@ -3,7 +3,6 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <csetjmp>
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
@@ -15,6 +14,7 @@
 #include "raytrace/output/openimageio_module.h"
 #include "raytrace/output/picture_date.h"
 #include "raytrace/output/pixel_format.h"
+#include "raytrace/output/png_errors.h"
 #include "raytrace/parallel/for_each_index.h"
 #include "raytrace/text/utf8.h"
 
@@ -86,12 +86,12 @@ int text_format(const std::string& text) {
                                                                        : PNG_ITXT_COMPRESSION_NONE;
 }
 
-/// What libpng writes, and its callbacks.
+/// What libpng writes.
 struct OpenPng {
   explicit OpenPng(std::FILE* file)
       : destination(file),
-        png(png_create_write_struct_2(PNG_LIBPNG_VER_STRING, this, note_error, ignore_warning, this, allocate,
-                                      release)),
+        png(png_create_write_struct_2(PNG_LIBPNG_VER_STRING, &errors, PngErrors::note_error, PngErrors::ignore_warning,
+                                      &errors, PngErrors::allocate, PngErrors::release)),
         info(png != nullptr ? png_create_info_struct(png) : nullptr) {
     if (info == nullptr) {
       png_destroy_write_struct(&png, nullptr);
@@ -109,25 +109,10 @@ struct OpenPng {
   }
   static void flush_nothing(png_structp) {}
 
-  static void note_error(png_structp png, const char* message) {
-    auto* const file = static_cast<OpenPng*>(png_get_error_ptr(png));
-    std::snprintf(file->message, sizeof file->message, "%s", message);
-    png_longjmp(png, 1);
-  }
-  static void ignore_warning(png_structp, const char*) {}
-
-  static void* allocate(png_structp png, png_alloc_size_t size) {
-    void* const memory = std::malloc(size);
-    if (memory == nullptr) static_cast<OpenPng*>(png_get_mem_ptr(png))->out_of_memory = true;
-    return memory;
-  }
-  static void release(png_structp, void* memory) { std::free(memory); }
-
   CheckedFile destination;
+  PngErrors errors;
   png_structp png;
   png_infop info;
-  bool out_of_memory = false;
-  char message[128] = {};  ///< libpng's
 };
 
 class PngEncoder final : public ImageEncoder {
@@ -200,17 +185,13 @@ class PngEncoder final : public ImageEncoder {
   }
 
  private:
-  /// Runs calls of libpng, whose errors are jumps: `calls` must make no object that has a destructor. Throws an
-  /// OutputError with the true reason of a failure, or std::bad_alloc.
+  /// run_png_calls(). Throws an OutputError with the true reason of a failure, or std::bad_alloc.
   template <class Calls>
   void guard(const Calls& calls) {
-    if (setjmp(png_jmpbuf(open_->png)) == 0) {
-      calls();
-      return;
-    }
+    if (run_png_calls(open_->png, calls)) return;
     if (open_->destination.error() != 0) fail(open_->destination.error());
-    if (open_->out_of_memory) throw std::bad_alloc();
-    fail(open_->message);
+    if (open_->errors.out_of_memory) throw std::bad_alloc();
+    fail(open_->errors.message);
   }
 
   PixelFormat pixels_;

@@ -53,47 +53,55 @@ std::uint32_t opaque(TexelFormat format) {
 /// What OpenImageIO says, and no more than once.
 std::string latest_error(OIIO::ImageInput* input) { return input != nullptr ? input->geterror() : OIIO::geterror(); }
 
+class OpenImageIOReader final : public PictureReader {
+ public:
+  OpenImageIOReader(const std::string& file, std::string_view encoded)
+      : memory_(encoded.data(), encoded.size()), proxy_(&memory_) {
+    OIIO::ImageSpec wishes;
+    wishes["oiio:UnassociatedAlpha"] = 1;
+    if (!encoded.empty()) wishes.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy_);
+    input_ = OIIO::ImageInput::open(file, &wishes);
+    if (!input_) fail_to_read(latest_error(nullptr));
+    const OIIO::ImageSpec& spec = input_->spec();
+    if (spec.depth > 1 || spec.nchannels < 1 || spec.deep) throw PictureError("it is no picture with rows and columns");
+    set_layout({spec.width, spec.height, spec.nchannels == 1 ? 1 : 4, format_of(spec)});
+  }
+
+  Picture read() override {
+    const int of_file = input_->spec().nchannels, channels = std::min(of_file, 4);
+    Picture picture{layout(), {}, of_file == 2 || of_file >= 4};
+    const std::size_t bytes = bytes_of(picture.format), stride = bytes * static_cast<std::size_t>(picture.channels);
+    picture.pixels = LargeArray<std::byte>::unset(picture.bytes());
+    if (!input_->read_image(0, 0, 0, channels, type_of(picture.format), picture.pixels.data(),
+                            static_cast<OIIO::stride_t>(stride)) ||
+        input_->has_error())
+      fail_to_read(latest_error(input_.get()));
+    if (channels == 1 || channels == 4) return picture;
+    const std::uint32_t alpha = opaque(picture.format);
+    const std::size_t pixels = picture.bytes() / stride;
+    for (std::size_t i = 0; i < pixels; ++i) {
+      std::byte* const pixel = picture.pixels.data() + i * stride;
+      if (channels == 2) {  // grey and alpha
+        std::memcpy(pixel + 3 * bytes, pixel + bytes, bytes);
+        for (std::size_t c = 1; c < 3; ++c) std::memcpy(pixel + c * bytes, pixel, bytes);
+      } else {
+        std::memcpy(pixel + 3 * bytes, &alpha, bytes);
+      }
+    }
+    return picture;
+  }
+
+ private:
+  OIIO::Filesystem::IOMemReader memory_;  // which `input_` needs for as long as it lives
+  OIIO::Filesystem::IOProxy* proxy_;
+  std::unique_ptr<OIIO::ImageInput> input_;
+};
+
 }  // namespace
 
-void raytrace_openimageio_read_picture(const std::string& file, std::string_view encoded, Picture& picture) {
-  OIIO::ImageSpec wishes;
-  wishes["oiio:UnassociatedAlpha"] = 1;
-  OIIO::Filesystem::IOMemReader memory(encoded.data(), encoded.size());  // which `input` needs for as long as it lives
-  OIIO::Filesystem::IOProxy* const proxy = &memory;
-  if (!encoded.empty()) wishes.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
-  const auto input = OIIO::ImageInput::open(file, &wishes);
-  if (!input) fail_to_read(latest_error(nullptr));
-  const OIIO::ImageSpec& spec = input->spec();
-  if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 || spec.deep)
-    throw PictureError("it is no picture with rows and columns");
-  if (std::max(spec.width, spec.height) > largest_picture_edge ||
-      std::int64_t{spec.width} * spec.height > most_picture_pixels)
-    throw PictureError("it has " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
-                       " pixels; a texture has 16384 x 16384 at most, or as many");
-  picture.width = spec.width;
-  picture.height = spec.height;
-  picture.channels = spec.nchannels == 1 ? 1 : 4;
-  picture.has_alpha = spec.nchannels == 2 || spec.nchannels >= 4;
-  picture.format = format_of(spec);
-  const std::size_t bytes = bytes_of(picture.format), stride = bytes * static_cast<std::size_t>(picture.channels);
-  const std::size_t pixels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
-  picture.pixels = LargeArray<std::byte>::unset(pixels * stride);
-  const int channels = std::min(spec.nchannels, 4);
-  const auto pixel_stride = static_cast<OIIO::stride_t>(stride);
-  if (!input->read_image(0, 0, 0, channels, type_of(picture.format), picture.pixels.data(), pixel_stride) ||
-      input->has_error())
-    fail_to_read(latest_error(input.get()));
-  if (channels == 1 || channels == 4) return;
-  const std::uint32_t alpha = opaque(picture.format);
-  for (std::size_t i = 0; i < pixels; ++i) {
-    std::byte* const pixel = picture.pixels.data() + i * stride;
-    if (channels == 2) {  // grey and alpha
-      std::memcpy(pixel + 3 * bytes, pixel + bytes, bytes);
-      for (std::size_t c = 1; c < 3; ++c) std::memcpy(pixel + c * bytes, pixel, bytes);
-    } else {
-      std::memcpy(pixel + 3 * bytes, &alpha, bytes);
-    }
-  }
+void raytrace_make_openimageio_reader(const std::string& file, std::string_view bytes,
+                                      std::unique_ptr<PictureReader>& reader) {
+  reader = std::make_unique<OpenImageIOReader>(file, bytes);
 }
 
 }  // namespace raytrace
