@@ -33,6 +33,7 @@ raytrace_require(CLI11 2.1)
 raytrace_require(nlohmann_json 3.11)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash>=0.8.1)
+pkg_check_modules(webp REQUIRED IMPORTED_TARGET libwebp>=1.2)
 include(cmake/package_faults.cmake)
 
 # What decodes compressed glTF files, where it is installed. Without one, such files are refused by an error that names it.

@@ -17,6 +17,7 @@
 #include <jpeglib.h>
 // clang-format on
 
+#include "raytrace/import/gltf_bytes.h"
 #include "raytrace/output/file_handle.h"
 #include "raytrace/output/openimageio_module.h"
 #include "support/temporary_folder.h"
@@ -162,6 +163,29 @@ TEST_CASE("JPEG pictures of all kinds are as OpenImageIO reads them") {
     }
 }
 
+TEST_CASE("WebP pictures are read, whose alpha does not multiply their colours") {
+  // Of 4 x 3 pixels, without loss.
+  const std::string bytes = *gltf::data_of_uri(
+      "data:image/webp;base64,"
+      "UklGRnoAAABXRUJQVlA4TG4AAAAvA4AAEF+gNACQJrITmc4JPADq/"
+      "8lo9yA1AYA0zIuLpGQxjDlMsuerKJLUiOtJIQuNeEANAiARcFkwyDZS0e7M3uwPLczk7rp7fsROEPpHzS+bp27VSmdf/"
+      "oD8QUEAMkwLGfRRRRt2Ykf0P0B9DA==");
+  const std::vector<std::uint8_t> expected = {
+      68, 32, 130, 255, 253, 230, 241, 64, 194, 107, 48,  128, 14,  199, 221, 64, 1,   228, 136, 64,  117, 52, 162, 255,
+      11, 13, 4,   128, 110, 216, 14,  64, 113, 224, 253, 64,  119, 176, 118, 64, 112, 235, 148, 255, 213, 51, 95,  64};
+  const TemporaryFolder folder;
+  std::ofstream(folder.file("a.webp"), std::ios::binary) << bytes;
+  const Picture picture = open_encoded_picture(bytes)->read();
+  check_same(open_picture(folder.file("a.webp"))->read(), picture);
+  CHECK(picture.width == 4);
+  CHECK(picture.has_alpha);
+  REQUIRE(picture.bytes() == expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    CAPTURE(i);
+    CHECK(std::to_integer<int>(picture.pixels.data()[i]) == expected[i]);
+  }
+}
+
 TEST_CASE("a picture's name may lie about its format") {
   const TemporaryFolder folder;
   Random random(9);
@@ -174,6 +198,8 @@ TEST_CASE("pictures that end too early are errors, wherever they end") {
   Random random(10);
   write_png(folder.file("a.png"), random, 64, 64, {PNG_COLOR_TYPE_RGB, 8, false, false});
   write_jpeg(folder.file("a.jpg"), random, 64, 64, JCS_RGB, false);
+  std::ofstream(folder.file("cut"), std::ios::binary) << std::string("RIFF\x7a\0\0\0WEBPVP8L", 16);
+  CHECK(reading_error(folder.file("cut")).find("truncated") != std::string::npos);
   for (const char* const name : {"a.png", "a.jpg"}) {
     const std::string whole = file_bytes(folder.file(name));
     // A PNG file's pixels end 16 bytes before the file does.

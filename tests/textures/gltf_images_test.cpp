@@ -148,6 +148,25 @@ TEST_CASE("glTF's roughness and metalness are channels of one image, and a mask 
   CHECK(mask.valuescale * 0.48 + mask.valueoffset < 0);
 }
 
+TEST_CASE("a glTF texture's WebP image is read in place of its other one") {
+  const TemporaryFolder folder;
+  std::string members = made_gltf_members;
+  const std::string source = R"("source":0,)";
+  members.replace(members.find(source), source.size(), R"("source":0,"extensions":{"EXT_texture_webp":{"source":1}},)");
+  // Red and green above blue and white, without loss.
+  const std::string webp = "UklGRiwAAABXRUJQVlA4TB8AAAAvAUAAAB8gEEjeHzqN+RcQFPwf3fxHZA/gBgwR/Q8BAA==";
+  write_text(folder.file("a.gltf"),
+             made_triangle().text(R"("extensionsRequired":["EXT_texture_webp"],)" + members +
+                                  R"([{"uri":"missing.png"},{"uri":"data:image/webp;base64,)" + webp + R"("}])"));
+  const LoadedGltf loaded = loaded_gltf(folder, "a.gltf");
+  CHECK(loaded.messages.empty());
+  REQUIRE(loaded.fine);
+  const auto& images = std::get<TextureItems<Image>>(loaded.scene->textures);
+  REQUIRE(images.size() == 1);
+  CHECK(texel_of(*images[0].image.color, 0, 0, 1, true) == Color4{1, 0, 0, 1});
+  CHECK(texel_of(*images[0].image.color, 0, 1, 0, true) == Color4{1, 1, 1, 1});
+}
+
 TEST_CASE("an image within a glTF file that is none is an error that names it") {
   const TemporaryFolder folder;
   const auto message = [&](const std::string& bytes) {
@@ -157,7 +176,7 @@ TEST_CASE("an image within a glTF file that is none is an error that names it") 
     CHECK_FALSE(loaded.fine);
     return loaded.messages;
   };
-  CHECK(contains(message("GIF89a"), "a.gltf#images[0]' cannot be used: it is neither PNG nor JPEG"));
+  CHECK(contains(message("GIF89a"), "a.gltf#images[0]' cannot be used: it is neither PNG, nor JPEG, nor WebP"));
   CHECK(contains(message("\x89PNG\r\n\x1a\n"), "a.gltf#images[0]' cannot be used: "));
   CHECK(contains(message("\xff\xd8\xff\xe0"), "a.gltf#images[0]' cannot be used: "));
 }

@@ -78,9 +78,10 @@ void ModelReader::check_version() const {
 
 void ModelReader::check_extensions(Diagnostics& diagnostics) const {
   const auto is_read = [](std::string_view name) {
-    return name == "KHR_mesh_quantization" || name == "KHR_texture_transform" || name == lights_extension ||
-           name == instancing_extension || name == variants_extension || is_material_extension(name) ||
-           (name == draco_extension && can_read_draco()) || (is_meshopt_extension(name) && can_read_meshopt());
+    return name == "KHR_mesh_quantization" || name == "KHR_texture_transform" || name == webp_extension ||
+           name == lights_extension || name == instancing_extension || name == variants_extension ||
+           is_material_extension(name) || (name == draco_extension && can_read_draco()) ||
+           (is_meshopt_extension(name) && can_read_meshopt());
   };
   const auto without = [](std::string_view name) -> std::string {
     if (name == draco_extension) return " (this program was built without the library Draco)";

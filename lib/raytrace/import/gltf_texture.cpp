@@ -11,8 +11,10 @@ namespace raytrace::gltf {
 MeshTexture TextureReader::read(const Item& info) {
   MeshTexture texture;
   const Item item = document_.listed("textures", info["index"]);
-  const std::optional<Item> source = item.find("source");
-  if (!source) return texture;  // that of an extension
+  std::optional<Item> source = item.find("source");
+  // Which a file may have in place of the other, or as well, for those that do not read it.
+  if (const auto webp = extension(item, webp_extension)) source = webp->find("source");
+  if (!source) return texture;  // that of another extension
   std::uint64_t coordinates = info.whole("texCoord", 0);
   if (const auto transform = extension(info, "KHR_texture_transform")) {
     coordinates = transform->whole("texCoord", coordinates);

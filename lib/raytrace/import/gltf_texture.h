@@ -12,6 +12,8 @@
 
 namespace raytrace::gltf {
 
+inline constexpr const char* webp_extension = "EXT_texture_webp";
+
 class TextureReader {
  public:
   explicit TextureReader(Document& document) : document_(document) {}
