@@ -63,6 +63,8 @@ void refuse_incomplete(const Options& options) {
   if (options.scenes.empty()) throw UsageError(no_scene);
   for (const std::string& scene : options.scenes) {
     if (scene.empty()) throw UsageError("the scene's file name is empty");
+    if (options.statistics == statistics_as_text && scene.ends_with(".json"))
+      throw UsageError("--stats takes a file after \"=\": --stats=" + scene);
   }
   if (options.outputs.empty() && options.renders()) {
     throw UsageError("no output given; for example: raytrace " + options.scenes.front() + " -o picture.exr");

@@ -132,6 +132,7 @@ TEST_CASE("the option --stats takes a file only after an equals sign") {
   CHECK(with({"--stats"}).statistics.empty());
   CHECK_FALSE(with({"--stats=file.json"}).shows_statistics);
   CHECK(with({"--stats=file.json"}).statistics == "file.json");
+  CHECK_REFUSED(parse({"-o", "a.exr", "scene.xml", "--stats", "a.json"}), "--stats=a.json");
   const Options options = parse({"-o", "a.exr", "--stats", "scene.xml"});
   CHECK(options.shows_statistics);
   CHECK(options.scenes == std::vector<std::string>{"scene.xml"});
