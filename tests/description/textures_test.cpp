@@ -100,6 +100,24 @@ TEST_CASE("a map of tangents is a texture alone") {
       contains(error(R"(<tangentmap texture="wood" channel="red"/>)"), "unknown attribute 'channel' in <tangentmap>"));
 }
 
+TEST_CASE("a coat's normal map is a texture with a strength") {
+  const auto with_openpbr = [](const std::string& fields) {
+    std::string scene = textured("<ka>0</ka> <kd>1</kd> <cd texture=\"wood\"/>");
+    scene.insert(scene.find("</materials>"), "<openpbrs> <openpbr> <name>m</name> <coat_weight>1</coat_weight> " +
+                                                 fields + " </openpbr> </openpbrs>");
+    return scene;
+  };
+  const SceneDescription scene = accepted(with_openpbr(R"(<coatnormalmap texture="wood" strength="0.5"/>)"));
+  const auto& item = std::get<MaterialItems<OpenPbr>>(scene.materials).at(0);
+  CHECK(item.parameters.coatnormalmap == 0.5);
+  REQUIRE(item.textures.size() == 1);
+  const std::string printed = print_scene(scene);
+  CHECK(contains(printed, R"(<coatnormalmap texture="wood" strength="0.5"/>)"));
+  CHECK(print_scene(accepted(printed)) == printed);
+  CHECK(contains(reported(with_openpbr("<coatnormalmap>1</coatnormalmap>")),
+                 R"(write it as <coatnormalmap texture="..." strength="1"/>)"));
+}
+
 TEST_CASE("a colour may have its own value beside a texture, and keys") {
   const SceneDescription colour =
       accepted(textured(R"(<ka>0</ka> <kd>1</kd> <cd red="1" green="0.5" blue="0" texture="wood"/>)"));

@@ -78,8 +78,12 @@ class SceneHash {
           hash.add_parameters(fields, &item.parameters, {item.photometry.hash.empty() ? "" : "iesfile"});
           hash.add(item.photometry.hash);
         } else {
-          // A map of tangents is a texture alone, and has no number.
-          hash.add_parameters(fields, &item.parameters, {unused_field(item.parameters), tangentmap_field});
+          // A map of tangents is a texture alone, and has no number. Scenes without coats' normals keep the hashes that
+          // they had before there were any.
+          std::string_view unused_map = "";
+          if constexpr (requires { item.parameters.coatnormalmap; })
+            if (item.parameters.coatnormalmap == 1) unused_map = coatnormalmap_field;
+          hash.add_parameters(fields, &item.parameters, {unused_field(item.parameters), tangentmap_field, unused_map});
         }
         if constexpr (requires { item.transform; }) {
           hash.add(static_cast<std::uint64_t>(item.transform.steps.size()));

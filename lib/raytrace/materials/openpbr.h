@@ -8,8 +8,8 @@
 //
 // From below: a base that is a metal, or a dielectric, which is clear or has a diffuse inside; a thin film on it, whose
 // colours are those of waves that interfere; a coat; fuzz. Each layer lets through what it does not reflect.
-// geometry_opacity is every material's `opacity`, and geometry_tangent that of surface_detail.h. Not there:
-// subsurface_..., transmission_scatter..., and the coat's own normal and tangent.
+// geometry_opacity is every material's `opacity`; geometry_normal, geometry_coat_normal and geometry_tangent are those
+// of surface_detail.h. Not there: subsurface_..., transmission_scatter..., and the coat's own tangent.
 #pragma once
 
 #include <string>
@@ -49,9 +49,9 @@ class OpenPbr {
   struct Parameters : Values<double> {
     double transmission_dispersion_scale = 0, transmission_dispersion_abbe_number = 20;
     bool geometry_thin_walled = false;
-    int priority = 0;                            ///< a dielectric's
-    Reference group{};                           ///< of its emission (light_group.h)
-    double tangentrotation = 0, tangentmap = 1;  ///< of surface_detail.h
+    int priority = 0;                                               ///< a dielectric's
+    Reference group{};                                              ///< of its emission (light_group.h)
+    double tangentrotation = 0, tangentmap = 1, coatnormalmap = 1;  ///< of surface_detail.h
 
     /// Defaults that no float is.
     Parameters() {
@@ -71,7 +71,7 @@ class OpenPbr {
     const auto color = [](std::string_view name, Rgb<double> P::* member) {
       return optional(name, member, Range::not_negative);
     };
-    return with_tangent<P>(with_surface_detail<P>({
+    return with_coat_normals<P>(with_tangent<P>(with_surface_detail<P>({
         number("base_weight", &P::base_weight),
         color("base_color", &P::base_color),
         number("base_diffuse_roughness", &P::base_diffuse_roughness),
@@ -103,7 +103,7 @@ class OpenPbr {
         optional("geometry_thin_walled", &P::geometry_thin_walled),
         optional("priority", &P::priority, Range::not_negative),
         light_group<P>(),
-    }));
+    })));
   }
   static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {
     const auto error = [](std::string_view name, const char* what) {
@@ -153,6 +153,8 @@ class OpenPbr {
   static bool is_anisotropic(const Parameters& parameters) {
     return parameters.specular_roughness_anisotropy > 0 || parameters.coat_roughness_anisotropy > 0;
   }
+  /// Whether it has one anywhere: then the coat and the base have normals of their own where there is relief.
+  static bool has_coat(const Parameters& parameters) { return parameters.coat_weight > 0; }
   static bool is_two_sided(const Parameters& parameters) { return parameters.geometry_thin_walled; }
   /// All that a kernel needs.
   static Values<double> values(const Parameters& parameters) {

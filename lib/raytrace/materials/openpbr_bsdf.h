@@ -1,6 +1,10 @@
 // How OpenPBR's surfaces scatter light: lobes over each other, of which each lets through what it does not reflect of
 // light from wo's side (OpenPBR 1.1.1, "Reduction to a mixture of lobes"). Their f is not reciprocal.
 //
+// Where the coat and the base have normals of their own, each is in a frame of its own (bsdfs/layer_normals.h), and
+// fuzz in that of the base. The coat lets through what its Fresnel reflection leaves of light that leaves towards wo
+// about the coat's normal, wherever light comes from.
+//
 // On the inside of what light comes through, the dielectric's boundary alone counts. Emission is the same in all
 // directions: the coat takes from it what it takes of light that leaves straight away.
 #pragma once
@@ -11,6 +15,7 @@
 #include "raytrace/bsdfs/fuzz.h"
 #include "raytrace/bsdfs/ggx_shares.h"
 #include "raytrace/bsdfs/lambertian.h"
+#include "raytrace/bsdfs/layer_normals.h"
 #include "raytrace/bsdfs/oren_nayar.h"
 #include "raytrace/bsdfs/stretched_ggx.h"
 #include "raytrace/bsdfs/thin_film.h"
@@ -64,7 +69,8 @@ struct OpenPbrBsdf {
 
   /// What evaluate(), pdf() and sample() have in common for one wo.
   struct Lobes {
-    Vec3<T> from;
+    const LayerFrames<T>* frames;  ///< null where no layer has normals of its own
+    Vec3<T> from;                  ///< wo to the base
     Fuzz<T> fibers;
     T under_fuzz;                                    ///< what fuzz leaves of all below it
     T coat_albedo, coat_share;                       ///< what the coat reflects; what its facets send on
@@ -74,9 +80,11 @@ struct OpenPbrBsdf {
     Rgb<T> film_share, film_reflection, under_film;  ///< of a dielectric with a film; what comes through
     T fuzz_choice, coat_choice, facet_choice;        ///< how often sample() takes them; the rest is diffuse
   };
-  [[gnu::noinline]] Lobes lobes(const Vec3<T>& wo) const {
+  /// frames: of wo.
+  [[gnu::noinline]] Lobes lobes(const Vec3<T>& wo, const LayerFrames<T>* frames = nullptr) const {
     Lobes layers{};
-    layers.from = above_surface(wo, local_normal<T>());
+    layers.frames = frames;
+    layers.from = frames != nullptr ? frames->base.own_wo() : above_surface(wo, local_normal<T>());
     const T cosine = min(layers.from.z, T(1)), one(1);
     const Mask<T> rough = ggx().is_rough();
     layers.base_reflection = fresnel_reflection(cosine, eta).reflectance;
@@ -99,12 +107,13 @@ struct OpenPbrBsdf {
     layers.darkening = white();
     if (any(coat > T(0))) {
       const Mask<T> rough_coat = coat_ggx().is_rough();
-      const T smooth = fresnel_reflection(cosine, coat_eta).reflectance;
+      const T coat_cosine = min(coat_from(layers).z, T(1));
+      const T smooth = fresnel_reflection(coat_cosine, coat_eta).reflectance;
       layers.coat_albedo = smooth;
       if (any(rough_coat)) {
         const T even = coat_ggx().even_roughness();
-        layers.coat_share = select(rough_coat, ggx_dielectric_share(cosine, even, coat_eta), one);
-        const T reflected = ggx_dielectric_share<true>(cosine, even, coat_eta) / layers.coat_share;
+        layers.coat_share = select(rough_coat, ggx_dielectric_share(coat_cosine, even, coat_eta), one);
+        const T reflected = ggx_dielectric_share<true>(coat_cosine, even, coat_eta) / layers.coat_share;
         layers.coat_albedo = select(rough_coat, reflected, smooth);
       }
       layers.coat_albedo = layers.coat_albedo * coat;
@@ -120,7 +129,7 @@ struct OpenPbrBsdf {
       layers.darkening = {darkened(below.red), darkened(below.green), darkened(below.blue)};
     }
     // As much as comes of each.
-    const Rgb<T> under = under_coat(layers, layers.from.z);
+    const Rgb<T> under = under_coat(layers, coat_from(layers).z);
     const T of_base = mean(under) * (one - layers.base_reflection) * (one - metalness);
     T specular = mean(under * at_facet_of(layers, cosine, layers.base_reflection));
     if (const Mask<T> filmed = film.weight > T(0); any(filmed))
@@ -143,35 +152,45 @@ struct OpenPbrBsdf {
     T pdf;  ///< at which sample() draws wi
   };
   /// Of what is not smooth; wi: above the surface, else it is 0.
-  [[gnu::noinline]] Value value(const Lobes& layers, const Vec3<T>& wi) const {
+  Value value(const Lobes& layers, const Vec3<T>& wi) const {
+    if (layers.frames == nullptr) return value(layers, wi, wi, wi);
+    return value(layers, wi, layers.frames->base.to_own(wi), layers.frames->coat.to_own(wi));
+  }
+  /// base_wi, coat_wi: wi to them.
+  [[gnu::noinline]] Value value(const Lobes& layers, const Vec3<T>& wi, const Vec3<T>& base_wi,
+                                const Vec3<T>& coat_wi) const {
+    const LayerFrames<T>* const frames = layers.frames;
     const Mask<T> is_above = wi.z > T(1e-6F);
     const T even = T(1) - layers.fuzz_choice - layers.coat_choice - layers.facet_choice;
     const T diffuse = (T(1) - metalness) * (T(1) - transmission) * (T(1) - layers.base_reflection) * base_weight;
-    Value result{OrenNayar<T>{base, diffuse_roughness}.f(layers.from, wi) * diffuse,
-                 max(even, T(0)) * wi.z * T(std::numbers::inv_pi_v<float>)};
+    Value result{OrenNayar<T>{base, diffuse_roughness}.f(layers.from, base_wi) * diffuse,
+                 max(even, T(0)) * base_wi.z * T(std::numbers::inv_pi_v<float>)};
     if (const Mask<T> filmed = film.weight > T(0); any(filmed)) {
       const T share = (T(1) - metalness) * (T(1) - transmission) * base_weight;
-      const Rgb<T> under_film = OrenNayar<T>{base, diffuse_roughness}.f(layers.from, wi) * share;
+      const Rgb<T> under_film = OrenNayar<T>{base, diffuse_roughness}.f(layers.from, base_wi) * share;
       result.f = select(filmed, under_film * layers.under_film, result.f);
     }
     if (const Mask<T> rough = ggx().is_rough(); any(rough)) {
-      const auto reflection = ggx().reflection(layers.from, wi);
+      const auto reflection = ggx().reflection(layers.from, base_wi);
       const Rgb<T> reflectance = at_facet(layers, reflection.cosine);
       result.f += select(rough, reflectance * reflection.f, black());
       const T choice = layers.facet_choice * reflection_choice(layers, reflection.cosine, reflectance);
       result.pdf = result.pdf + select(rough, choice * reflection.pdf, T(0));
     }
-    result.f = result.f * under_coat(layers, wi.z);
+    result.f = result.f * under_coat(layers, coat_wi.z);
+    if (frames != nullptr) frames->base.count_about_surface(wi, base_wi, result.f, result.pdf);
     if (const Mask<T> rough = coat_ggx().is_rough() & (coat > T(0)); any(rough)) {
-      const auto reflection = coat_ggx().reflection(layers.from, wi);
+      auto reflection = coat_ggx().reflection(coat_from(layers), coat_wi);
+      if (frames != nullptr) frames->coat.count_about_surface(wi, coat_wi, reflection.f, reflection.pdf);
       const T reflectance = fresnel_reflection(reflection.cosine, coat_eta).reflectance / layers.coat_share;
       result.f += select(rough, white() * (coat * reflectance * reflection.f * layers.under_fuzz), black());
       result.pdf = result.pdf + select(rough, layers.coat_choice * reflection.pdf, T(0));
     }
     if (const Mask<T> fuzzy = fuzz > T(0); any(fuzzy)) {
-      const T density = layers.fibers.density(wi);
-      result.f += select(fuzzy, fuzz_color * (fuzz * layers.fibers.albedo * density), black());
-      result.pdf = result.pdf + select(fuzzy, layers.fuzz_choice * density * wi.z, T(0));
+      T f = layers.fibers.density(base_wi), pdf = f;
+      if (frames != nullptr) frames->base.count_about_surface(wi, base_wi, f, pdf);
+      result.f += select(fuzzy, fuzz_color * (fuzz * layers.fibers.albedo * f), black());
+      result.pdf = result.pdf + select(fuzzy, layers.fuzz_choice * pdf * base_wi.z, T(0));
     }
     return {select(is_above, result.f, black()), select(is_above, result.pdf, T(0))};
   }
@@ -183,7 +202,6 @@ struct OpenPbrBsdf {
   }
 
   BsdfSample<T> sample(const Lobes& layers, const T& u, const T& u1, const T& u2) const {
-    const Vec3<T>& from = layers.from;
     T before = layers.fuzz_choice;
     const auto next = [&](const T& choice) {
       const Mask<T> taken = (u >= before) & (u < before + choice);
@@ -198,6 +216,9 @@ struct OpenPbrBsdf {
 
     const auto facets =
         StretchedGgx<T>::of(select(coated, coat_roughness, roughness), select(coated, coat_anisotropy, anisotropy));
+    const LayerFrames<T>* const frames = layers.frames;
+    Vec3<T> from = layers.from;
+    if (frames != nullptr) from = select(coated, coat_from(layers), from);
     const Mask<T> rough = facets.is_rough();
     const Vec3<T> facet = select(rough, facets.sample_facet(from, u1, u2), local_normal<T>());
     const T cosine = min(max(dot(from, facet), T(1e-6F)), T(1));
@@ -211,12 +232,21 @@ struct OpenPbrBsdf {
     const Vec3<T> diffuse = Lambertian<T>{base}.sample(from, local_normal<T>(), u1, u2);
     Vec3<T> wi = normalize(select(is_diffuse, diffuse, mirrored));
     if (any(on_fuzz)) wi = select(on_fuzz, layers.fibers.sample(u1, u2), wi);
-    const Value above = value(layers, wi);
+    T share(1), coat_cosine = wi.z;
+    if (frames != nullptr) [[unlikely]] {
+      const Vec3<T> own = wi;
+      wi = select(coated, frames->coat.from_own(own), frames->base.from_own(own));
+      coat_cosine = frames->coat.to_own(wi).z;
+      share = select(coated, frames->coat.share(wi, own), frames->base.share(wi, own));
+    }
+    Value above = value(layers, wi);
+    // What the layer that drew it does not reflect is nothing to the others either.
+    if (frames != nullptr) above = {select(share > T(0), above.f, black()), select(share > T(0), above.pdf, T(0))};
     // Of finitely many directions: as if of their own.
     const Mask<T> specular = !(rough | is_diffuse | on_fuzz);
     const Rgb<T> mirrored_part = select(coated, white() * (layers.coat_albedo * layers.under_fuzz),
-                                        under_coat(layers, wi.z) * at_facet(layers, from.z));
-    BsdfSample<T> result{wi, select(specular, mirrored_part * (T(1) / from.z), above.f),
+                                        under_coat(layers, coat_cosine) * at_facet(layers, from.z));
+    BsdfSample<T> result{wi, select(specular, mirrored_part * (share / from.z), above.f),
                          select(specular, select(coated, layers.coat_choice, layers.facet_choice * choice), above.pdf),
                          T(1), specular};
     if (any(through)) {
@@ -229,9 +259,6 @@ struct OpenPbrBsdf {
  private:
   static Rgb<T> white() { return Rgb<T>(T(1), T(1), T(1)); }
   static Rgb<T> black() { return Rgb<T>(T(0), T(0), T(0)); }
-  static Rgb<T> quotient(const Rgb<T>& a, const Rgb<T>& b) {
-    return {a.red / b.red, a.green / b.green, a.blue / b.blue};
-  }
   static T square(const T& x) { return x * x; }
   static T mean(const Rgb<T>& c) { return (c.red + c.green + c.blue) * T(1.0F / 3); }
   static Rgb<T> exp_of(const Rgb<T>& a, const T& factor) {
@@ -242,12 +269,16 @@ struct OpenPbrBsdf {
   auto coat_ggx() const { return StretchedGgx<T>::of(coat_roughness, coat_anisotropy); }
   auto is_thin() const { return thin > T(0); }
 
+  const Vec3<T>& coat_from(const Lobes& layers) const {
+    return layers.frames != nullptr ? layers.frames->coat.own_wo() : layers.from;
+  }
+
   /// What is left of light between what is below coat and fuzz, and a direction of that cosine.
   Rgb<T> under_coat(const Lobes& layers, const T& cosine) const {
     const auto depth = [&](const T& c) {
       return T(1) / sqrt(max(T(1) - (T(1) - min(c * c, T(1))) / square(coat_eta), T(1e-3F)));
     };
-    const Rgb<T> left = exp_of(coat_extinction, -(depth(layers.from.z) + depth(cosine)));
+    const Rgb<T> left = exp_of(coat_extinction, -(depth(coat_from(layers).z) + depth(cosine)));
     const auto channel = [&](const T& absorbed, const T& darkening) {
       return (T(1) - coat + (coat - layers.coat_albedo) * absorbed) * darkening * layers.under_fuzz;
     };
@@ -303,14 +334,14 @@ struct OpenPbrBsdf {
       const Rgb<T> all = white() * layers.dielectric_share + changes.all;
       const Rgb<T> reflected = white() * (layers.dielectric_share * layers.base_reflection) + changes.reflected;
       layers.film_share = select(rough, all, white());
-      layers.film_reflection = select(rough, quotient(reflected, all), layers.film_reflection);
+      layers.film_reflection = select(rough, reflected / all, layers.film_reflection);
     }
     layers.under_film = white() + layers.film_reflection * T(-1);
     layers.base_reflection = select(film.weight > T(0), mean(layers.film_reflection), layers.base_reflection);
   }
   /// As at_facet() and at_facet_of().
   [[gnu::noinline]] Rgb<T> at_film(const Lobes& layers, const T& cosine) const {
-    const Rgb<T> reflected = quotient(film.on_dielectric(cosine, eta), layers.film_share);
+    const Rgb<T> reflected = film.on_dielectric(cosine, eta) / layers.film_share;
     return at_film_of(layers, reflected, metal_with_film(cosine));
   }
   Rgb<T> at_film_of(const Lobes& layers, const Rgb<T>& reflected, const Rgb<T>& of_metal) const {
@@ -332,13 +363,14 @@ struct OpenPbrBsdf {
     Vec3<T> flipped = facet * (T(2) * cosine) - from;
     flipped.z = -flipped.z;
     const Vec3<T> bent = facet * (cosine / eta - below_cosine) - from * (T(1) / eta);
-    const Vec3<T> wi = select(is_thin(), flipped, bent);
+    Vec3<T> wi = select(is_thin(), flipped, bent);
     const T eta2 = select(is_thin(), T(1), square(eta)), cosine_i = max(-wi.z, T(1e-6F));
     const T lambda_o = ggx.lambda(from), lambda_i = ggx.lambda({wi.x, wi.y, cosine_i});
     const T across = max(abs(cosine - eta * below_cosine), T(1e-6F));
     const T spread = select(is_thin(), T(0.25F) / cosine, square(eta) * below_cosine / square(across));
     const T facets = ggx.density(facet) * cosine / (from.z * (T(1) + lambda_o));
-    const Mask<T> rough = ggx.is_rough(), comes = (reflected < T(1)) & (-wi.z > T(1e-6F));
+    const Mask<T> rough = ggx.is_rough();
+    Mask<T> comes = (reflected < T(1)) & (-wi.z > T(1e-6F));
     const T share = select(is_thin(), layers.white_share, layers.dielectric_share);
     const T density = select(rough, facets * spread, T(1));
     const T shape = select(rough, (T(1) + lambda_o) / ((T(1) + lambda_o + lambda_i) * share), T(1));
@@ -349,7 +381,13 @@ struct OpenPbrBsdf {
       const T unit = part * share / max(T(1) - reflected, T(1e-6F));
       const auto kept = [&](const T& r) { return (T(1) - select(is_thin(), pane_reflectance(r), r)) * unit; };
       const Rgb<T> r = film.on_dielectric(cosine, eta);
-      parts = select(filmed, quotient({kept(r.red), kept(r.green), kept(r.blue)}, all), parts);
+      parts = select(filmed, Rgb<T>{kept(r.red), kept(r.green), kept(r.blue)} / all, parts);
+    }
+    if (layers.frames != nullptr) [[unlikely]] {
+      const Vec3<T> own = wi;
+      wi = layers.frames->base.from_own(own);
+      parts = parts * layers.frames->base.share_from_below(wi, own);
+      comes = comes & (wi.z < T(-1e-6F));
     }
     return {wi, select(comes, under_coat(layers, cosine_i) * tint * parts, black()),
             select(comes, choice * density, T(0)), eta2, !rough};

@@ -14,7 +14,8 @@ namespace raytrace {
 
 // The names of their fields, and of the members for them in a material's parameters.
 inline constexpr std::string_view opacity_field = "opacity", normalmap_field = "normalmap", bump_field = "bump",
-                                  tangentrotation_field = "tangentrotation", tangentmap_field = "tangentmap";
+                                  tangentrotation_field = "tangentrotation", tangentmap_field = "tangentmap",
+                                  coatnormalmap_field = "coatnormalmap";
 
 /// A material's own fields, and
 ///   opacity: the share of the rays, camera and shadow rays alike, that meet the surface. The others pass as if there
@@ -49,10 +50,21 @@ Fields with_tangent(Fields fields) {
   return fields;
 }
 
+/// The fields of a material with a coat, and
+///   coatnormalmap: as normalmap, of the coat alone. Without it a coat is smooth, whatever relief is below it.
+template <class Parameters>
+Fields with_coat_normals(Fields fields) {
+  FieldInfo coatnormalmap{coatnormalmap_field, false};
+  coatnormalmap.number_attribute = "strength";
+  coatnormalmap.whole_color = true;
+  fields.emplace_back(coatnormalmap, &Parameters::coatnormalmap);
+  return fields;
+}
+
 /// Whether a field of this name is one of all these, and none of the material's own.
 inline bool is_surface_detail(std::string_view field) {
   return field == opacity_field || field == normalmap_field || field == bump_field || field == tangentrotation_field ||
-         field == tangentmap_field;
+         field == tangentmap_field || field == coatnormalmap_field;
 }
 
 }  // namespace raytrace

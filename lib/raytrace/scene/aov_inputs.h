@@ -31,7 +31,8 @@ class AovInputs {
     using D = Doubles<FloatN>;
     return to_float(Vec3<D>(surface_.p) + Vec3<D>(origin));
   }
-  const Vec3<FloatN>& normal() const { return surface_.ns; }
+  /// For shading; of the base under a coat.
+  Vec3<FloatN> normal() const { return surface_.base_normal(); }
   /// What the material reflects diffusely of light from all sides.
   Rgb<FloatN> albedo() const { return scene_.albedo(hits_, textures_); }
   /// The numbers of the object and its material, counted from 0, in the orders of object_names() and material_names().

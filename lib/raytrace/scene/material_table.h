@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "raytrace/bsdfs/bsdf_sample.h"
+#include "raytrace/bsdfs/layer_normals.h"
 #include "raytrace/film/film.h"
 #include "raytrace/materials/medium.h"
 #include "raytrace/math/color.h"
@@ -62,7 +63,8 @@ class MaterialTable {
   /// back along its normal.
   virtual void add_to(RadianceRange& range, const LightBounds& lights, const std::uint8_t* used) const = 0;
 
-  // point: null where none of the lanes' materials has a texture.
+  // point: null where none of the lanes' materials has a texture. layers: null where none has layers with normals of
+  // their own.
 
   /// The albedo of each lane's material, and the most that any of those in use has, by magnitude.
   virtual Rgb<FloatN> albedo(const LaneIndices& materials, const TexturePoint<FloatN>* point) const = 0;
@@ -72,10 +74,11 @@ class MaterialTable {
   virtual Rgb<FloatN> emitted(const LaneIndices& materials, const TexturePoint<FloatN>* point) const = 0;
 
   /// A direction that light comes from, drawn by each lane's material out of u, u1 and u2 in [0, 1), and what leaves
-  /// of light from wi, which is on the surface's side, in the lanes of `lit`. wo, wi: in the local frame.
+  /// of light from wi, which is on the surface's side, in the lanes of `lit`. wo, wi, layers: in the local frame.
   virtual Scattering scatter(const LaneIndices& materials, const MaskN& front, const Refraction<FloatN>& media,
                              const Vec3<FloatN>& wo, const MaskN& lit, const Vec3<FloatN>& wi, const FloatN& u,
-                             const FloatN& u1, const FloatN& u2, const TexturePoint<FloatN>* point) const = 0;
+                             const FloatN& u1, const FloatN& u2, const LayerNormals<FloatN>* layers,
+                             const TexturePoint<FloatN>* point) const = 0;
 
   /// The share that is left of light that went so far behind surfaces.
   virtual Rgb<FloatN> transmittance(const LaneIndices& materials, const FloatN& distance,
@@ -85,7 +88,8 @@ class MaterialTable {
   /// about the normal; null where no material's reflection differs along the surface.
   virtual Rgb<FloatN> shade(const LaneIndices& materials, const MaskN& front, const Vec3<FloatN>& wo,
                             const Vec3<FloatN>& normal, const Frame<FloatN>* frame, const Rgb<float>& ambient_radiance,
-                            std::span<const IncidentLight> lights, const TexturePoint<FloatN>* point) const = 0;
+                            std::span<const IncidentLight> lights, const LayerNormals<FloatN>* layers,
+                            const TexturePoint<FloatN>* point) const = 0;
 };
 
 /// A material with textures.
@@ -110,13 +114,22 @@ class MaterialTableOf final : public MaterialTable {
 
   Rgb<FloatN> shade(const LaneIndices& materials, const MaskN& front, const Vec3<FloatN>& wo,
                     const Vec3<FloatN>& normal, const Frame<FloatN>* frame, const Rgb<float>& ambient_radiance,
-                    std::span<const IncidentLight> lights, const TexturePoint<FloatN>* point) const override {
+                    std::span<const IncidentLight> lights, const LayerNormals<FloatN>* layers,
+                    const TexturePoint<FloatN>* point) const override {
     const auto bsdfs = gathered(materials, front, point);
     Rgb<FloatN> result = bsdfs.ambient_radiance(Rgb<FloatN>(ambient_radiance));
     if constexpr (requires { BsdfN::in_local_frame; }) {
       if (BsdfN::in_local_frame || frame != nullptr) {
         const Frame<FloatN> local = frame != nullptr ? *frame : Frame<FloatN>(normal);
         const Vec3<FloatN> local_wo = local.to_local(wo);
+        if constexpr (has_layers)
+          if (layers != nullptr) [[unlikely]] {
+            const LayerFrames<FloatN> frames(layers->to_local(local), local_wo);
+            const auto lobes = bsdfs.lobes(local_wo, &frames);
+            for (const IncidentLight& light : lights)
+              result += bsdfs.value(lobes, local.to_local(light.wi)).f * (light.radiance * light.cosine);
+            return result;
+          }
         for (const IncidentLight& light : lights)
           result += bsdfs.evaluate(local_wo, local.to_local(light.wi), local_normal<FloatN>()) *
                     (light.radiance * light.cosine);
@@ -141,16 +154,22 @@ class MaterialTableOf final : public MaterialTable {
 
   Scattering scatter(const LaneIndices& materials, const MaskN& front, const Refraction<FloatN>& media,
                      const Vec3<FloatN>& wo, const MaskN& lit, const Vec3<FloatN>& wi, const FloatN& u,
-                     const FloatN& u1, const FloatN& u2, const TexturePoint<FloatN>* point) const override {
+                     const FloatN& u1, const FloatN& u2, const LayerNormals<FloatN>* layers,
+                     const TexturePoint<FloatN>* point) const override {
     const auto bsdfs = gathered(materials, front, point, media);
     const Rgb<FloatN> black(Rgb<float>(0, 0, 0));
-    if constexpr (requires { bsdfs.lobes(wo); }) {
-      const auto lobes = bsdfs.lobes(wo);
-      Scattering result{bsdfs.sample(lobes, u, u1, u2), {black, FloatN(0)}};
-      if (none(lit)) return result;
-      const auto value = bsdfs.value(lobes, wi);
-      result.towards = {value.f, value.pdf};
-      return result;
+    if constexpr (has_layers) {
+      const auto result_of = [&](const auto& lobes) {
+        Scattering result{bsdfs.sample(lobes, u, u1, u2), {black, FloatN(0)}};
+        if (none(lit)) return result;
+        const auto value = bsdfs.value(lobes, wi);
+        result.towards = {value.f, value.pdf};
+        return result;
+      };
+      if (layers == nullptr) [[likely]]
+        return result_of(bsdfs.lobes(wo));
+      const LayerFrames<FloatN> frames(*layers, wo);
+      return result_of(bsdfs.lobes(wo, &frames));
     } else {
       Scattering result{bsdfs.sample(wo, u, u1, u2), {black, FloatN(0)}};
       if (any(lit)) result.towards = {bsdfs.evaluate(wo, wi, local_normal<FloatN>()), bsdfs.pdf(wo, wi)};
@@ -206,6 +225,9 @@ class MaterialTableOf final : public MaterialTable {
  private:
   using Bsdf = typename MaterialKernel::template Bsdf<float>;
   using BsdfN = typename MaterialKernel::template Bsdf<FloatN>;
+  /// Whether its BSDFs have them.
+  static constexpr bool has_layers =
+      requires(BsdfN bsdf, Vec3<FloatN> wo, const LayerFrames<FloatN>* frames) { bsdf.lobes(wo, frames); };
   static constexpr bool shines = requires(BsdfN bsdf) { bsdf.emitted(); };
 
   /// The lanes' own, with their textures, for light that leaves on the side that `front` says.

@@ -1,4 +1,4 @@
-// Normal maps and bumps: what they make of shading normals.
+// Normal maps and bumps: what they make of shading normals, and of those of coats.
 #include "raytrace/scene/scene_tables.h"
 
 namespace raytrace {
@@ -46,20 +46,34 @@ Vec3<FloatN> bumped_normal(const Height& height, UvSet set, const TexturePoint<F
 
 void SceneTables::add_relief(const Hits& hits, const TexturePoint<FloatN>& point,
                              SurfaceInteraction<FloatN>& surface) const {
+  const auto mapped = [&](const TexturedNumber& map, const Vec3<FloatN>& normal) {
+    return mapped_normal(textures_->vector_at(*map.texture, point), map.value, point.by(textures_->uvset(*map.texture)),
+                         normal);
+  };
+  // wo stays above the surface, as BSDFs expect it.
+  const auto below_wo = [&](const Vec3<FloatN>& normal) {
+    constexpr float least_cosine = 1e-3F;
+    const FloatN behind = max(FloatN(least_cosine) - dot(normal, surface.wo), FloatN(0));
+    return normalize(normal + surface.wo * behind);
+  };
   for_each_detail(hits, [&](const SurfaceDetail& detail, const MaskN& here) {
-    if (!detail.has_relief()) return;
+    if (!detail.has_relief() && !detail.has_layers()) return;
     Vec3<FloatN> normal = surface.ns;
-    if (const auto& map = detail.normalmap; map.texture)
-      normal = mapped_normal(textures_->vector_at(*map.texture, point), map.value,
-                             point.by(textures_->uvset(*map.texture)), normal);
+    if (detail.normalmap.texture) normal = mapped(detail.normalmap, normal);
     if (const auto& bump = detail.bump; bump.texture)
       normal = bumped_normal(
           [&](const TexturePoint<FloatN>& at) { return textures_->number_at(*bump.texture, at) * FloatN(bump.value); },
           textures_->uvset(*bump.texture), point, normal);
-    // wo stays above the surface, as BSDFs expect it.
-    constexpr float least_cosine = 1e-3F;
-    const FloatN behind = max(FloatN(least_cosine) - dot(normal, surface.wo), FloatN(0));
-    normal = normalize(normal + surface.wo * behind);
+    if (detail.has_relief()) normal = below_wo(normal);
+    if (detail.has_layers()) [[unlikely]] {
+      const Vec3<FloatN> coat =
+          detail.coatnormalmap.texture ? below_wo(mapped(detail.coatnormalmap, surface.ns)) : surface.ns;
+      if (!surface.has_layers) surface.layers = {MaskN(false), normal, coat};
+      surface.layers = {surface.layers.lanes | here, select(here, normal, surface.layers.base),
+                        select(here, coat, surface.layers.coat)};
+      surface.has_layers = true;
+      return;
+    }
     surface.ns = select(here, normal, surface.ns);
     surface.relief = surface.has_relief ? surface.relief | here : here;
     surface.has_relief = true;

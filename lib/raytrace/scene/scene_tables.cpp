@@ -71,7 +71,7 @@ SceneTables::SceneTables(const SceneDescription& description, int threads)
   std::vector<std::optional<Medium>> media;
   for (std::size_t i = 0; i < details_.size(); ++i) {
     has_cutouts_ |= used_materials_[i] != 0 && details_[i].is_cutout();
-    has_relief_ |= used_materials_[i] != 0 && details_[i].has_relief();
+    has_relief_ |= used_materials_[i] != 0 && (details_[i].has_relief() || details_[i].has_layers());
     has_turned_tangents_ |= used_materials_[i] != 0 && details_[i].has_turned_tangent();
     has_emission_ |= used_materials_[i] != 0 && details_[i].emission.radiance > 0;
     media.push_back(used_materials_[i] != 0 ? details_[i].medium : std::nullopt);
@@ -200,6 +200,10 @@ SceneTables::SurfaceDetail SceneTables::surface_detail(const MaterialItem<Materi
   SurfaceDetail detail{{static_cast<float>(item.parameters.opacity)},
                        {static_cast<float>(item.parameters.normalmap)},
                        {static_cast<float>(item.parameters.bump)}};
+  if constexpr (requires { Material::has_coat(item.parameters); }) {
+    detail.has_coat = Material::has_coat(item.parameters);
+    detail.coatnormalmap.value = static_cast<float>(item.parameters.coatnormalmap);
+  }
   if constexpr (requires { Material::is_anisotropic(item.parameters); }) {
     detail.is_anisotropic = Material::is_anisotropic(item.parameters);
     detail.tangentrotation.value = static_cast<float>(item.parameters.tangentrotation / 360);
@@ -215,6 +219,7 @@ SceneTables::SurfaceDetail SceneTables::surface_detail(const MaterialItem<Materi
     if (field == opacity_field) detail.opacity.texture = use;
     if (field == normalmap_field) detail.normalmap.texture = use;
     if (field == bump_field) detail.bump.texture = use;
+    if (field == coatnormalmap_field) detail.coatnormalmap.texture = use;
     if (field == tangentrotation_field) detail.tangentrotation.texture = use;
     if (field == tangentmap_field) detail.tangentmap = use;
   }
@@ -235,7 +240,8 @@ void SceneTables::add_materials(const SceneDescription& description) {
         detail.tangent_set = textures_->uvset(*map);
       auto textured_item = textured_material<Material>(item, static_cast<std::int32_t>(bsdfs.size()));
       textures_->multiply_by_largest(reinterpret_cast<double*>(&parameters), textured_item.factors);
-      if (!textured_item.factors.empty() || details_.back().has_relief()) textured.push_back(std::move(textured_item));
+      if (!textured_item.factors.empty() || detail.has_relief() || detail.has_layers())
+        textured.push_back(std::move(textured_item));
       bsdfs.push_back(Kernel<Material>::bsdf(parameters));
       if constexpr (requires { Kernel<Material>::medium(parameters, bsdfs.back()); })
         details_.back().medium = Kernel<Material>::medium(parameters, bsdfs.back());
@@ -348,12 +354,19 @@ Rgb<FloatN> SceneTables::emitted(const Hits& hits, const SurfaceInteraction<Floa
   return select(shining, radiance, black);
 }
 
-Scattering SceneTables::scatter(const Hits& hits, const MaskN& front, const Refraction<FloatN>& media,
-                                const Vec3<FloatN>& wo, const MaskN& lit, const Vec3<FloatN>& wi, const FloatN& u,
-                                const FloatN& u1, const FloatN& u2, const TexturePoint<FloatN>* point) const {
-  return by_material(hits, [&](const MaterialTable& table, const LaneIndices& materials) {
-    return table.scatter(materials, front, media, wo, lit, wi, u, u1, u2, point);
-  });
+Scattering SceneTables::scatter(const Hits& hits, const SurfaceInteraction<FloatN>& surface, const Frame<FloatN>& frame,
+                                const Refraction<FloatN>& media, const Vec3<FloatN>& wo, const MaskN& lit,
+                                const Vec3<FloatN>& wi, const FloatN& u, const FloatN& u1, const FloatN& u2,
+                                const TexturePoint<FloatN>* point) const {
+  const auto with_layers = [&](const LayerNormals<FloatN>* layers) {
+    return by_material(hits, [&](const MaterialTable& table, const LaneIndices& materials) {
+      return table.scatter(materials, surface.front, media, wo, lit, wi, u, u1, u2, layers, point);
+    });
+  };
+  if (!surface.has_layers) [[likely]]
+    return with_layers(nullptr);
+  const LayerNormals<FloatN> layers = surface.layers.to_local(frame);
+  return with_layers(&layers);
 }
 
 Rgb<FloatN> SceneTables::transmittance(const Hits& hits, const FloatN& distance,
@@ -368,28 +381,14 @@ Rgb<FloatN> SceneTables::shade(const Hits& hits, const SurfaceInteraction<FloatN
                                const TexturePoint<FloatN>* point) const {
   const auto in_frame = [&](const Frame<FloatN>* frame) {
     return by_material(hits, [&](const MaterialTable& table, const LaneIndices& materials) {
-      return table.shade(materials, surface.front, surface.wo, surface.ns, frame, ambient_radiance, lights, point);
+      return table.shade(materials, surface.front, surface.wo, surface.ns, frame, ambient_radiance, lights,
+                         surface.has_layers ? &surface.layers : nullptr, point);
     });
   };
   if (anisotropic_.empty()) [[likely]]
     return in_frame(nullptr);
   const Frame<FloatN> frame = shading_frame(hits, surface, point);
   return in_frame(&frame);
-}
-
-Frame<FloatN> SceneTables::shading_frame(const Hits& hits, const SurfaceInteraction<FloatN>& surface,
-                                         const TexturePoint<FloatN>* point) const {
-  Frame<FloatN> frame(surface.ns);
-  if (anisotropic_.empty() || point == nullptr) return frame;
-  const Vec3<FloatN> tangent = point->dpdu - surface.ns * dot(surface.ns, point->dpdu);
-  const FloatN size = length(tangent);
-  const MaskN turned = float_mask<FloatN>(gather(anisotropic_.data(), material(hits)) != IntN(0)) &
-                       (size > length(point->dpdu) * FloatN(1e-3F));
-  frame.x = select(turned, tangent * (FloatN(1) / size), frame.x);
-  frame.y = select(turned, cross(frame.z, frame.x), frame.y);
-  if (has_turned_tangents_) [[unlikely]]
-    turn_tangents(hits, *point, frame);
-  return frame;
 }
 
 }  // namespace raytrace

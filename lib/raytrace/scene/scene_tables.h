@@ -160,11 +160,11 @@ class SceneTables {
   Rgb<FloatN> emitted(const Hits& hits, const SurfaceInteraction<FloatN>& surface,
                       const TexturePoint<FloatN>* point) const;
 
-  /// As MaterialTable has it, each lane's of its own material, in its shading_frame(); lanes that hit nothing
-  /// get anything.
-  Scattering scatter(const Hits& hits, const MaskN& front, const Refraction<FloatN>& media, const Vec3<FloatN>& wo,
-                     const MaskN& lit, const Vec3<FloatN>& wi, const FloatN& u, const FloatN& u1, const FloatN& u2,
-                     const TexturePoint<FloatN>* point) const;
+  /// As MaterialTable has it, each lane's of its own material; frame: its shading_frame(). Lanes that hit nothing get
+  /// anything.
+  Scattering scatter(const Hits& hits, const SurfaceInteraction<FloatN>& surface, const Frame<FloatN>& frame,
+                     const Refraction<FloatN>& media, const Vec3<FloatN>& wo, const MaskN& lit, const Vec3<FloatN>& wi,
+                     const FloatN& u, const FloatN& u1, const FloatN& u2, const TexturePoint<FloatN>* point) const;
   /// The share that is left of light that went so far behind the surfaces.
   Rgb<FloatN> transmittance(const Hits& hits, const FloatN& distance, const TexturePoint<FloatN>* point) const;
   /// What is inside of clear materials that objects have; empty if there is none.
@@ -172,7 +172,7 @@ class SceneTables {
 
   /// Whether materials have normal maps or bumps.
   bool has_relief() const { return has_relief_; }
-  /// Turns the shading normals as they say.
+  /// Turns the shading normals as they say; those of a coat and of the base below it apart.
   void add_relief(const Hits& hits, const TexturePoint<FloatN>& point, SurfaceInteraction<FloatN>& surface) const;
 
   /// The frame about surface.ns that materials sample and evaluate in: x is the material's tangent on surfaces whose
@@ -198,15 +198,17 @@ class SceneTables {
     std::optional<TextureUse> texture = std::nullopt;  ///< it multiplies the value
   };
   struct SurfaceDetail {
-    TexturedNumber opacity, normalmap, bump, tangentrotation{0};
+    TexturedNumber opacity, normalmap, bump, coatnormalmap{1}, tangentrotation{0};
     std::optional<TextureUse> tangentmap{};
     UvSet tangent_set = UvSet::first;  ///< whose u the tangent is along: the map's, or that of the normals
     MaterialEmission emission{};
     std::optional<Medium> medium{};
-    bool is_anisotropic = false, focuses = false;
+    bool is_anisotropic = false, focuses = false, has_coat = false;
 
     bool is_cutout() const { return opacity.value < 1 || opacity.texture; }
     bool has_relief() const { return normalmap.texture || bump.texture; }
+    /// Whether a coat's normals differ from those of the base below it.
+    bool has_layers() const { return has_coat && (has_relief() || coatnormalmap.texture); }
     bool has_turned_tangent() const {
       return is_anisotropic && (tangentrotation.value != 0 || tangentmap || tangent_set == UvSet::second);
     }

@@ -1,6 +1,7 @@
 // What a ray met, as shading wants it.
 #pragma once
 
+#include "raytrace/bsdfs/layer_normals.h"
 #include "raytrace/math/ray.h"
 
 namespace raytrace {
@@ -24,16 +25,21 @@ struct SurfaceInteraction {
   /// Whether a normal map or a bump has turned any lane's ns, and which lanes'.
   bool has_relief = false;
   Mask<F> relief;
+
+  /// Whether coats have normals of their own in any lane; there they and the base below turn from ns, which is the
+  /// surface's without relief.
+  bool has_layers = false;
+  LayerNormals<F> layers;
+
+  /// ns, or what it is of the base.
+  Vec3<F> base_normal() const { return has_layers ? select(layers.lanes, layers.base, ns) : ns; }
 };
 
-/// The share of the light from wi, of unit length, that reaches a surface whose relief is not there for rays: it ends
-/// softly where the true surface turns away, in place of at a hard edge. Chiang, Li and Burley, "Taming the Shadow
-/// Terminator", SIGGRAPH Talks 2019. Of surfaces of which some lane has relief.
+/// The share of the light from wi, of unit length, that reaches the surface. Of those of which some lane has relief.
 template <class F>
 RAYTRACE_INLINE F relief_shadow(const SurfaceInteraction<F>& surface, const Vec3<F>& wi) {
-  const F product = dot(surface.ns, wi) * dot(surface.ng, surface.ns);
-  const F g = min(max(dot(surface.ng, wi), F(0)) / max(product, F(1e-6F)), F(1));
-  return select(surface.relief, ((F(1) - g) * g + F(1)) * g, F(1));
+  const F share = relief_shadow(dot(surface.ng, wi), dot(surface.ns, wi), dot(surface.ng, surface.ns));
+  return select(surface.relief, share, F(1));
 }
 
 /// Where rays that leave the surface on ng's side start: p moved along ng just so far that neither its own rounding nor

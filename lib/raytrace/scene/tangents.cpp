@@ -1,4 +1,4 @@
-// Tangents of materials whose reflection differs along the surface, where they are not just where u grows.
+// Tangents of materials whose reflection differs along the surface.
 #include "raytrace/math/turns.h"
 #include "raytrace/scene/scene_tables.h"
 
@@ -16,6 +16,21 @@ Vec2<FloatN> mapped_tangent(const Rgb<FloatN>& map) {
 }
 
 }  // namespace
+
+Frame<FloatN> SceneTables::shading_frame(const Hits& hits, const SurfaceInteraction<FloatN>& surface,
+                                         const TexturePoint<FloatN>* point) const {
+  Frame<FloatN> frame(surface.ns);
+  if (anisotropic_.empty() || point == nullptr) return frame;
+  const Vec3<FloatN> tangent = point->dpdu - surface.ns * dot(surface.ns, point->dpdu);
+  const FloatN size = length(tangent);
+  const MaskN turned = float_mask<FloatN>(gather(anisotropic_.data(), material(hits)) != IntN(0)) &
+                       (size > length(point->dpdu) * FloatN(1e-3F));
+  frame.x = select(turned, tangent * (FloatN(1) / size), frame.x);
+  frame.y = select(turned, cross(frame.z, frame.x), frame.y);
+  if (has_turned_tangents_) [[unlikely]]
+    turn_tangents(hits, *point, frame);
+  return frame;
+}
 
 void SceneTables::turn_tangents(const Hits& hits, const TexturePoint<FloatN>& point, Frame<FloatN>& frame) const {
   for_each_detail(hits, [&](const SurfaceDetail& detail, const MaskN& here) {

@@ -28,8 +28,8 @@ class Kernel<AmbientOcclusion> {
       const FloatN sine = sqrt(u.x);  // the density is the cosine / pi
       Ray<FloatN> rays;
       rays.origin = offset_ray_origin(surface);
-      rays.direction =
-          Frame<FloatN>(surface.ns).to_world({sine * around.cosine, sine * around.sine, sqrt(FloatN(1) - u.x)});
+      rays.direction = Frame<FloatN>(surface.base_normal())
+                           .to_world({sine * around.cosine, sine * around.sine, sqrt(FloatN(1) - u.x)});
       rays.near = FloatN(0);
       rays.far = settings.distance > 0 ? FloatN(static_cast<float>(settings.distance)) : infinity<FloatN>();
       // Below the true surface there is the thing itself.

@@ -163,7 +163,7 @@ MaskN LightPaths::scatter(LightPathPacket& path, const Hits& hits, const Surface
   };
   const Sample2D u = draw(LightPathPointDraw::direction), choice = draw(LightPathPointDraw::lobe_and_roulette);
   const BsdfSample<FloatN> sample =
-      tables_.scatter(hits, surface.front, boundary.media, wi, MaskN(false), wi, choice.x, u.x, u.y, point).sample;
+      tables_.scatter(hits, surface, frame, boundary.media, wi, MaskN(false), wi, choice.x, u.x, u.y, point).sample;
   const Vec3<FloatN> wo = frame.to_world(sample.wi);
   const MaskN through = sample.wi.z < FloatN(0);
   const FloatN true_wi = dot(surface.wo, surface.ng), true_wo = dot(wo, surface.ng);
@@ -171,9 +171,12 @@ MaskN LightPaths::scatter(LightPathPacket& path, const Hits& hits, const Surface
   // f of the two directions is that of the way back, but for the squeezing of radiance where it is refracted. Where
   // many facets share the light, f is not quite the same both ways: there, that of this way.
   Rgb<FloatN> f = sample.f * sample.eta2;
+  // A smooth base under a coat has a normal of its own, about which both cosines are one.
+  if (surface.has_layers)
+    f = select(surface.layers.lanes & sample.specular & !through, f * (sample.wi.z / max(wi.z, FloatN(1e-6F))), f);
   if (const MaskN rough = alive & !sample.specular & !through; any(rough)) {
     const auto back =
-        tables_.scatter(hits, surface.front, boundary.media, sample.wi, rough, wi, choice.x, u.x, u.y, point).towards;
+        tables_.scatter(hits, surface, frame, boundary.media, sample.wi, rough, wi, choice.x, u.x, u.y, point).towards;
     f = select(rough, back.f, f);
   }
   // Of shading normals: Veach 1997, section 5.3.
@@ -233,7 +236,8 @@ void LightPaths::connect(LightPathPacket& path, const Hits& hits, const SurfaceI
   if (none(lit)) return;
   const FloatN any_number(0.5F);
   const BsdfValue bsdf =
-      tables_.scatter(hits, seen.front, boundary.media, wo, lit, wi, any_number, any_number, any_number, point).towards;
+      tables_.scatter(hits, seen, frame, boundary.media, wo, lit, wi, any_number, any_number, any_number, point)
+          .towards;
   FloatN weight = FloatN::load_aligned(areas.data()) * cosine * (wi.z / max(true_wi, FloatN(1e-6F)));
   if (seen.has_relief) weight = weight * relief_shadow(seen, surface.wo);
   Rgb<FloatN> radiance = path.flux * bsdf.f * weight;

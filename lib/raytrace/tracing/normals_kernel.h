@@ -19,7 +19,7 @@ class Kernel<Normals> {
       const auto color = [](const FloatN& component) {
         return min(max(component * FloatN(0.5F) + FloatN(0.5F), FloatN(0)), FloatN(1));
       };
-      const Vec3<FloatN>& normal = met.surface.ns;
+      const Vec3<FloatN> normal = met.surface.base_normal();
       return Rgb<FloatN>{color(normal.x), color(normal.y), color(normal.z)};
     });
   }

@@ -268,8 +268,8 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   const bool is_last = depth + 1 == settings_.maxdepth;
   const bool goes_on = !is_last || tables.has_emission() || tables.environment() != nullptr;
   const Sample2D direction = draw(PathDraw::direction), choices = draw(PathDraw::lobe_and_roulette);
-  const Scattering scattering = tables.scatter(hits, surface.front, boundary.media, wo, drawn.lit, drawn.local_wi,
-                                               choices.x, direction.x, direction.y, point);
+  const Scattering scattering = tables.scatter(hits, surface, vertex.frame, boundary.media, wo, drawn.lit,
+                                               drawn.local_wi, choices.x, direction.x, direction.y, point);
   clock_.end(Stage::shade);
   if (any(drawn.lit)) {
     Rgb<FloatN> arriving =
