@@ -288,8 +288,13 @@ def anisotropy(file):
 
 
 def clearcoat(file):
-    show_row(file, [file.material((0.45, 0.02, 0.03), 0.7, 0.6, extensions={
-        "clearcoat": {"clearcoatFactor": f, "clearcoatRoughnessFactor": 0.02}}) for f in (0.0, 0.5, 1.0)])
+    """Of three strengths; smooth over studs; with studs of its own, over a smooth base."""
+    coat = {"clearcoatFactor": 1, "clearcoatRoughnessFactor": 0.02}
+    bumps = {"index": file.texture(png(studs))}
+    paints = [({"clearcoat": {**coat, "clearcoatFactor": f}}, {}) for f in (0.0, 0.5, 1.0)]
+    paints += [({"clearcoat": coat}, {"normalTexture": bumps}),
+               ({"clearcoat": {**coat, "clearcoatNormalTexture": {**bumps, "scale": 0.3}}}, {})]
+    show_row(file, [file.material((0.45, 0.02, 0.03), 0.7, 0.6, extensions=extensions, **more) for extensions, more in paints])
 
 
 def emissive_strength(file):

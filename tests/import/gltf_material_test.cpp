@@ -143,15 +143,18 @@ TEST_CASE("glTF: clear, thin and filled") {
 TEST_CASE("glTF: a coat, sheen, a film and specular colours") {
   const ReadMaterial coat(
       extended("clearcoat", R"("clearcoatFactor":0.5,"clearcoatTexture":{"index":0},"clearcoatRoughnessFactor":0.2,
-      "clearcoatRoughnessTexture":{"index":1},"clearcoatNormalTexture":{"index":2})"));
+      "clearcoatRoughnessTexture":{"index":1},"clearcoatNormalTexture":{"index":2,"scale":0.7})"));
   CHECK(coat.number("coat_weight") == 0.5);
   CHECK(coat.at("coat_weight").channel == 0);
   CHECK(coat.number("coat_roughness") == 0.2);
   CHECK(coat.at("coat_roughness").channel == 1);
   CHECK(coat.number("coat_ior") == 1.5);
-  CHECK(coat.messages ==
-        "a.gltf: warning: materials[0].extensions.KHR_materials_clearcoat.clearcoatNormalTexture: "
-        "a coat's own normals are left out\n");
+  CHECK(coat.number("coatnormalmap") == 0.7);
+  CHECK(coat.at("coatnormalmap").texture.file == "2.png");
+  CHECK(coat.material.norm.file.empty());
+  CHECK(coat.messages.empty());
+  const ReadMaterial smooth(R"("normalTexture":{"index":2},)" + extended("clearcoat", R"("clearcoatFactor":1)"));
+  CHECK(smooth.find("coatnormalmap") == nullptr);
 
   const ReadMaterial sheen(extended("sheen", R"("sheenColorFactor":[0.1,0.4,0.2],"sheenRoughnessFactor":0.3,
       "sheenRoughnessTexture":{"index":3})"));

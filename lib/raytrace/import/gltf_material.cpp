@@ -27,9 +27,8 @@ double largest(const Rgb<double>& c) { return std::max({c.red, c.green, c.blue})
 
 class MaterialReader {
  public:
-  MaterialReader(const Item& item, const std::function<MeshTexture(const Item&)>& texture,
-                 const std::function<void(const std::string&, const std::string&)>& warn_once)
-      : item_(item), texture_of_(texture), warn_once_(warn_once) {}
+  MaterialReader(const Item& item, const std::function<MeshTexture(const Item&)>& texture)
+      : item_(item), texture_of_(texture) {}
 
   MeshMaterial read() {
     const std::optional<Item> name = item_.find("name");
@@ -161,7 +160,7 @@ class MaterialReader {
     add("coat_ior", 1.5);
     add("coat_darkening", 0);  // glTF's base keeps its colour
     if (const auto normals = coat->find("clearcoatNormalTexture"))
-      warn_once_(normals->place(), "a coat's own normals are left out");
+      add("coatnormalmap", number(normals, "scale", 1), texture_of_(*normals));
   }
 
   void read_sheen() {
@@ -208,7 +207,6 @@ class MaterialReader {
 
   const Item& item_;
   const std::function<MeshTexture(const Item&)>& texture_of_;
-  const std::function<void(const std::string&, const std::string&)>& warn_once_;
   MeshMaterial material_;
   std::optional<Item> surface_;
   Rgb<double> base_color_{1, 1, 1};
@@ -226,9 +224,8 @@ bool is_material_extension(std::string_view name) {
   return name.starts_with(start) && std::find(read.begin(), read.end(), name.substr(start.size())) != read.end();
 }
 
-MeshMaterial read_material(const Item& material, const std::function<MeshTexture(const Item&)>& texture,
-                           const std::function<void(const std::string&, const std::string&)>& warn_once) {
-  return MaterialReader(material, texture, warn_once).read();
+MeshMaterial read_material(const Item& material, const std::function<MeshTexture(const Item&)>& texture) {
+  return MaterialReader(material, texture).read();
 }
 
 std::optional<Item> extension(const Item& object, const char* name) {

@@ -17,9 +17,8 @@ inline constexpr const char* variants_extension = "KHR_materials_variants";
 /// Whether read_material() reads it.
 bool is_material_extension(std::string_view name);
 
-/// texture: that of a JSON object with its index. warn_once(place, message): for what is left out.
-MeshMaterial read_material(const Item& material, const std::function<MeshTexture(const Item&)>& texture,
-                           const std::function<void(const std::string&, const std::string&)>& warn_once);
+/// texture: that of a JSON object with its index.
+MeshMaterial read_material(const Item& material, const std::function<MeshTexture(const Item&)>& texture);
 
 /// What an object has of an extension.
 std::optional<Item> extension(const Item& object, const char* name);

@@ -229,9 +229,7 @@ PrimitiveMaterial ModelReader::material(const Item& number) {
   if (!is_new) return known->second;
   known->second.number = static_cast<std::uint32_t>(model_.materials.size());
   textures_.begin_material();
-  model_.materials.push_back(read_material(
-      item, [&](const Item& info) { return textures_.read(info); },
-      [&](const std::string& place, const std::string& message) { document_.warn_once(place, message); }));
+  model_.materials.push_back(read_material(item, [&](const Item& info) { return textures_.read(info); }));
   known->second.coordinates = textures_.coordinates();
   return known->second;
 }
