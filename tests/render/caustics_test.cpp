@@ -49,7 +49,9 @@ std::string scene_of(const Stage& stage, const std::string& caustics, int sample
   return sized(
       samples, caustics, 6,
       stage.camera + "<lights>" + stage.lights + "</lights><materials><mattes><matte><name>floor</name><ka>0</ka>" +
-          "<kd>0.7</kd><cd red='0.9' green='0.8' blue='0.7'/></matte></mattes><phongs><phong><name>varnish</name>" +
+          "<kd>0.7</kd><cd red='0.9' green='0.8' blue='0.7'/></matte><matte><name>tilted</name><ka>0</ka><kd>0.7</kd>" +
+          "<cd red='0.9' green='0.8' blue='0.7'/><normalmap "
+          "texture='tilt'/></matte></mattes><phongs><phong><name>varnish</name>" +
           "<ka>0</ka><kd>0.5</kd><ks>0.3</ks><exp>8</exp><cd red='0.7' green='0.7' blue='0.7'/>" +
           "<cs red='1' green='1' blue='1'/></phong></phongs><emissives><emissive><name>lamp</name>" +
           "<ce red='1' green='1' blue='1'/><scaleradiance>10</scaleradiance></emissive><emissive><name>panel</name>" +
@@ -62,7 +64,9 @@ std::string scene_of(const Stage& stage, const std::string& caustics, int sample
           "<openpbrs><openpbr><name>copper</name><base_metalness>1</base_metalness><specular_roughness>0.4" +
           "</specular_roughness><coat_weight>0.5</coat_weight></openpbr></openpbrs></materials><textures><checkers>" +
           "<checker><name>stripes</name><color1 red='1' green='1' blue='1'/><color2 red='0.1' green='0' blue='0'/>" +
-          "<uvscale x='4' y='4'/></checker></checkers></textures><groups><group><name>lens</name><objects>" +
+          "<uvscale x='4' y='4'/></checker><checker><name>tilt</name><color1 red='0.9' green='0.5' blue='0.8'/>" +
+          "<color2 red='0.9' green='0.5' "
+          "blue='0.8'/></checker></checkers></textures><groups><group><name>lens</name><objects>" +
           Stage::ball("glass") + "</objects></group></groups><objects>" + stage.focusing + stage.lamp +
           "<rectangles><rectangle><corner x='-5' y='0' z='5'/><edge1 x='10' y='0' z='0'/><edge2 x='0' y='0' z='-10'/>" +
           "<material>" + stage.floor + "</material></rectangle></rectangles></objects>",
@@ -106,6 +110,7 @@ std::vector<Stage> stages() {
       {.name = "a rough metal", .focusing = Stage::ball("brushed")},
       {.name = "an OpenPBR metal under a coat", .focusing = Stage::ball("copper")},
       {.name = "a mirror onto a glossy floor", .focusing = Stage::ball("mirror"), .floor = "varnish"},
+      {.name = "a floor with relief", .floor = "tilted"},
       {.name = "an instance",
        .focusing = "<instances><instance><group>lens</group><transform><scale x='1.3' y='0.8' "
                    "z='1'/></transform></instance></instances>"},

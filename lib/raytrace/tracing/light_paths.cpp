@@ -106,6 +106,7 @@ void LightPaths::follow(LightPathPacket& path, MaskN alive) {
         path.share = path.share * weights;
       }
     }
+    const SurfaceInteraction<FloatN> plain = surface;  // without relief, which the camera sees at its own footprint
     const auto textures = add_textures(tables_, hits, surface, [] { return FloatN(0); });
     const IntN target = caustics_.target_of(tables_.geometry(), hits, tables_.material(hits));
     alive = alive & hits.hit;
@@ -145,7 +146,7 @@ void LightPaths::follow(LightPathPacket& path, MaskN alive) {
     MaskN shown = alive & !focuses;
     if (catches_shadows_) [[unlikely]]
       shown = shown & !tables_.geometry().shadow_catchers(hits);
-    if (any(shown)) connect(path, hits, surface, boundary, shown);
+    if (any(shown)) connect(path, hits, plain, boundary, shown);
     alive = alive & focuses;
     if (path.depth + 2 > most_points_ || none(alive)) return;
     alive = scatter(path, hits, surface, boundary, point, alive);
