@@ -35,7 +35,7 @@ endforeach()
 # As they lie in the repository, so that their links and pictures are found.
 install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR}
-  FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.svg" PATTERN "*.json")
+  FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.jpg" PATTERN "*.svg" PATTERN "*.json")
 
 install(EXPORT raytraceTargets NAMESPACE raytrace:: DESTINATION ${package_folder})
 string(REGEX MATCH "^[0-9]+" embree_major "${embree_VERSION}")
