@@ -272,8 +272,11 @@ bool load_images(SceneDescription& scene, Diagnostics& diagnostics, int threads,
     tasks.push_back({"texture", item.parameters, uses[i++], name, item.line, &item.image});
   }
   for (LightItem<EnvironmentLight>& item : std::get<LightItems<EnvironmentLight>>(scene.lights))
-    if (const FileName& file = item.parameters.file; !file.path.empty())
-      tasks.push_back({"environment", {file}, {true, false}, file.path, item.line, &item.image});
+    if (const FileName& file = item.parameters.file; !file.path.empty()) {
+      Image::Parameters picture;
+      picture.file = file;
+      tasks.push_back({"environment", picture, {true, false}, file.path, item.line, &item.image});
+    }
   std::erase_if(tasks, [](const ImageTask& task) { return !task.loaded->hash.empty(); });
   loader.load(tasks, [&](const ImageTask& task, const std::runtime_error& error) {
     const FileName& file = task.image.file;
