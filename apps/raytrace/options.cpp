@@ -67,7 +67,11 @@ void refuse_incomplete(const Options& options) {
       throw UsageError("--stats takes a file after \"=\": --stats=" + scene);
   }
   if (options.outputs.empty() && options.renders()) {
-    throw UsageError("no output given; for example: raytrace " + options.scenes.front() + " -o picture.exr");
+    const std::string& last = options.scenes.back();
+    const bool is_picture = options.scenes.size() > 1 && (last.ends_with(".exr") || last.ends_with(".png") ||
+                                                          last.ends_with(".jpg") || last.ends_with(".tif"));
+    throw UsageError("no output given; for example: raytrace " + options.scenes.front() + " -o " +
+                     (is_picture ? last : "picture.exr"));
   }
   if (options.resume && options.checkpoint.empty()) {
     throw UsageError("--resume goes on from a checkpoint: say which with --checkpoint FILE");

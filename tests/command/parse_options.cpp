@@ -177,6 +177,7 @@ TEST_CASE("incomplete command lines are refused with what to type") {
   CHECK_REFUSED(parse({"--list"}), "--list needs a value: one of shapes, textures, materials, ");
   CHECK_REFUSED(parse({"--progress"}), "--progress needs a value: one of auto, bar, ");
   CHECK_REFUSED(parse({"my.xml"}), "raytrace my.xml -o picture.exr");
+  CHECK_REFUSED(parse({"my.xml", "my.png"}), "raytrace my.xml -o my.png");
   CHECK_REFUSED(parse({"my.xml", "-o"}), "--output needs a value: FILE");
   CHECK_REFUSED(parse({"my.xml", "-o", "a.exr", "-t"}), "--threads needs a value: N");
   CHECK_REFUSED(parse({"", "-o", "a.exr"}), "the scene's file name is empty");

@@ -41,8 +41,12 @@ void refuse_root_attributes(Element root, Diagnostics& diagnostics) {
 /// False if nothing that is in it would be understood.
 bool check_root(Element root, Diagnostics& diagnostics) {
   if (root.name() != root_element) {
-    diagnostics.error(
-        root, [&] { return "the scene starts with " + tag(root.name()) + "; it must be " + tag(root_element); });
+    diagnostics.error(root, [&] {
+      const bool is_mitsuba =
+          root.name() == "scene" && root.first_attribute() && root.first_attribute().name() == "version";
+      return "the scene starts with " + tag(root.name()) + "; it must be " + tag(root_element) +
+             (is_mitsuba ? ". This seems to be a Mitsuba scene: docs/from-mitsuba.md tells how to come over" : "");
+    });
     if (nearest_name(root.name(), {&root_element, 1}).empty()) return false;
   }
   refuse_root_attributes(root, diagnostics);

@@ -51,6 +51,8 @@ using namespace std::string_view_literals;
 constexpr const char* picture = "; if it is the picture to write, put -o before it";
 constexpr const char* piece = "; if it is a piece of a picture, use raytrace merge";
 constexpr const char* packed = "; unpack it first";
+constexpr const char* model = ", and models by their names' ends: .glb, .gltf, .obj, .ply and .stl";
+constexpr const char* other_model = ", and models in .glb, .gltf, .obj, .ply and .stl: export it as one of them";
 
 struct FileType {
   std::string_view start;
@@ -59,17 +61,17 @@ struct FileType {
 };
 
 constexpr FileType file_types[] = {
-    {"ply\n"sv, "a PLY model"},
-    {"ply\r"sv, "a PLY model"},
-    {"glTF"sv, "a glTF model (.glb)"},
-    {"BLENDER"sv, "a Blender file"},
-    {"Kaydara FBX Binary"sv, "an FBX model"},
-    {"; FBX"sv, "an FBX model"},
-    {"solid "sv, "an STL model"},
-    {"Ogawa"sv, "an Alembic model"},
-    {"OFF\n"sv, "an OFF model"},
-    {"PXR-USDC"sv, "a USD scene"},
-    {"#usda"sv, "a USD scene"},
+    {"ply\n"sv, "a PLY model", model},
+    {"ply\r"sv, "a PLY model", model},
+    {"glTF"sv, "a glTF model (.glb)", model},
+    {"BLENDER"sv, "a Blender file", other_model},
+    {"Kaydara FBX Binary"sv, "an FBX model", other_model},
+    {"; FBX"sv, "an FBX model", other_model},
+    {"solid "sv, "an STL model", model},
+    {"Ogawa"sv, "an Alembic model", other_model},
+    {"OFF\n"sv, "an OFF model", other_model},
+    {"PXR-USDC"sv, "a USD scene", other_model},
+    {"#usda"sv, "a USD scene", other_model},
     {"##RenderMan"sv, "a RenderMan scene (RIB)"},
     {"\x76\x2f\x31\x01"sv, "an OpenEXR picture", piece},
     {"\x89PNG"sv, "a PNG picture", picture},
@@ -115,9 +117,10 @@ std::optional<FileType> type_by_words(std::string_view text) {
   for (int lines = 0; lines < 100 && !(text = without_space(text)).empty(); ++lines) {
     const std::string_view line = text.substr(0, text.find('\n'));
     const std::string_view word = first_word(line);
-    if (is_one_of(word, povray)) return FileType{{}, "a POV-Ray scene"};
+    if (is_one_of(word, povray))
+      return FileType{{}, "a POV-Ray scene", "; docs/from-pov-ray.md tells how to come over"};
     if (is_one_of(word, pbrt)) return FileType{{}, "a pbrt scene"};
-    if (is_one_of(word, obj)) return FileType{{}, "a Wavefront OBJ model"};
+    if (is_one_of(word, obj)) return FileType{{}, "a Wavefront OBJ model", model};
     if (!line.starts_with('#') && !line.starts_with("//")) return std::nullopt;
     text.remove_prefix(line.size());
   }
@@ -132,10 +135,10 @@ std::optional<FileType> type_of(std::string_view text) {
   if (text.size() >= stl_start) {
     std::size_t triangles = 0;
     for (std::size_t i = 4; i-- > 0;) triangles = triangles << 8U | static_cast<unsigned char>(text[stl_header + i]);
-    if (text.size() - stl_start == triangles * stl_triangle) return FileType{{}, "an STL model"};
+    if (text.size() - stl_start == triangles * stl_triangle) return FileType{{}, "an STL model", model};
   }
   if (without_space(text).starts_with('{') && text.find("\"asset\"") != std::string_view::npos)
-    return FileType{{}, "a glTF model"};
+    return FileType{{}, "a glTF model", model};
   return type_by_words(text);
 }
 
