@@ -2,7 +2,7 @@
 #include <png.h>
 #include <zlib.h>
 
-#include <catch2/catch.hpp>
+#include <algorithm>
 #include <csetjmp>
 #include <cstdio>
 #include <filesystem>
@@ -20,6 +20,7 @@
 #include "raytrace/import/gltf_bytes.h"
 #include "raytrace/output/file_handle.h"
 #include "raytrace/output/openimageio_module.h"
+#include "support/catch.h"
 #include "support/temporary_folder.h"
 
 namespace raytrace::test {

@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <atomic>
-#include <catch2/catch.hpp>
 #include <random>
 #include <vector>
+
+#include "support/catch.h"
 
 namespace raytrace::test {
 namespace {
