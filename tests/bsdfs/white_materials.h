@@ -51,6 +51,14 @@ inline std::vector<std::pair<std::string, OpenPbr::Parameters>> white_materials(
   add("glass with a film", [](auto& p) { p.transmission_weight = p.thin_film_weight = 1, p.thin_film_ior = 1.9; });
   add("coated half glass with a film",
       [](auto& p) { p.transmission_weight = 0.5, p.thin_film_weight = 0.7, p.coat_weight = 1, p.thin_film_ior = 2.2; });
+  add("wax", [](auto& p) { p.subsurface_weight = 1, p.subsurface_color = {1, 1, 1}; });
+  add("coated wax", [](auto& p) {
+    p.subsurface_weight = 0.6, p.subsurface_color = {1, 1, 1}, p.coat_weight = 1, p.thin_film_weight = 0.5;
+  });
+  add("paper", [](auto& p) {
+    p.subsurface_weight = 0.7, p.subsurface_color = {1, 1, 1}, p.subsurface_scatter_anisotropy = 0.4;
+    p.geometry_thin_walled = true;
+  });
   add("bubble", [](auto& p) {
     p.transmission_weight = p.thin_film_weight = 1, p.specular_ior = p.thin_film_ior = 1.33;
     p.thin_film_thickness = 0.3, p.geometry_thin_walled = true;

@@ -108,6 +108,29 @@ TEST_CASE("glTF: alpha is opacity, of a mask all or nothing") {
         "a.gltf: error: materials[0].alphaMode: is none of OPAQUE, MASK and BLEND\n");
 }
 
+TEST_CASE("glTF: what light comes through and spreads") {
+  const std::string leaf =
+      R"("KHR_materials_diffuse_transmission":{"diffuseTransmissionFactor":0.6,"diffuseTransmissionTexture":{"index":0},
+      "diffuseTransmissionColorFactor":[0.5,0.9,0.2],"diffuseTransmissionColorTexture":{"index":1}})";
+  const ReadMaterial thin(R"("extensions":{)" + leaf + "}");
+  CHECK(thin.messages.empty());
+  CHECK(thin.number("subsurface_weight") == 0.6);
+  CHECK(thin.at("subsurface_weight").texture.file == "0.png");
+  CHECK(thin.at("subsurface_weight").channel == 3);
+  CHECK(thin.at("subsurface_color").value.green == 0.9);
+  CHECK(thin.at("subsurface_color").texture.file == "1.png");
+  CHECK(thin.number("subsurface_scatter_anisotropy") == 1);
+  CHECK(thin.material.thin_walled);
+  const ReadMaterial filled(R"("extensions":{)" + leaf + R"(,"KHR_materials_volume":{"thicknessFactor":1,
+      "attenuationDistance":0.2,"attenuationColor":[0.36787944,0.2,0.3]}})");
+  CHECK_FALSE(filled.material.thin_walled);
+  CHECK(filled.number("subsurface_radius") == 0.2);
+  CHECK(filled.at("subsurface_radius_scale").value.red == Approx(1));
+  CHECK(filled.find("subsurface_scatter_anisotropy") == nullptr);
+  const ReadMaterial solid(R"("extensions":{)" + leaf + R"(,"KHR_materials_volume":{"thicknessFactor":2}})");
+  CHECK(solid.number("subsurface_radius") == Approx(0.2));
+}
+
 TEST_CASE("glTF: clear, thin and filled") {
   const std::string pane =
       R"("KHR_materials_transmission":{"transmissionFactor":0.9,"transmissionTexture":{"index":1}})";

@@ -18,13 +18,21 @@ struct BsdfSample {
   /// Whether wi is one of finitely many directions, as a smooth mirror's is: then pdf is the probability of its choice,
   /// f stands for the integral over the directions about it, and evaluate() and pdf() do not know of it.
   Mask<T> specular{false};
+
+  /// Whether the light goes in below the surface there, is scattered inside, and comes out at another place
+  /// (tracing/subsurface_walk.h).
+  Mask<T> enters{false};
 };
 
 /// Lane by lane: a where the mask is true, else b.
 template <class T>
 BsdfSample<T> select(const Mask<T>& mask, const BsdfSample<T>& a, const BsdfSample<T>& b) {
-  return {select(mask, a.wi, b.wi), select(mask, a.f, b.f), select(mask, a.pdf, b.pdf), select(mask, a.eta2, b.eta2),
-          (a.specular & mask) | (b.specular & !mask)};
+  return {select(mask, a.wi, b.wi),
+          select(mask, a.f, b.f),
+          select(mask, a.pdf, b.pdf),
+          select(mask, a.eta2, b.eta2),
+          (a.specular & mask) | (b.specular & !mask),
+          (a.enters & mask) | (b.enters & !mask)};
 }
 
 /// The normal in the local frame.

@@ -52,6 +52,7 @@ class MaterialReader {
     read_surface();
     read_emission();
     read_transmission();
+    read_diffuse_transmission();
     read_coat();
     read_sheen();
     read_anisotropy();
@@ -150,6 +151,29 @@ class MaterialReader {
     add("transmission_color", color(volume, "attenuationColor", 1, 1));
   }
 
+  /// Of a thin wall, what it says comes through; of a body, what goes in there, and it says nothing of how far.
+  void read_diffuse_transmission() {
+    const auto diffuse = find("KHR_materials_diffuse_transmission"), volume = find("KHR_materials_volume");
+    const double weight = share(diffuse, "diffuseTransmissionFactor", 0);
+    if (weight == 0) return;
+    add("subsurface_weight", weight, texture(diffuse, "diffuseTransmissionTexture"), alpha);
+    add("subsurface_color", color(diffuse, "diffuseTransmissionColorFactor", 1, 1),
+        texture(diffuse, "diffuseTransmissionColorTexture"));
+    const double thickness = number(volume, "thicknessFactor", 0);
+    material_.thin_walled = thickness <= 0;
+    if (material_.thin_walled) return add("subsurface_scatter_anisotropy", 1);
+    // Attenuation is by absorption, in the distance; without it, a tenth of the body scatters most.
+    const double distance = number(volume, "attenuationDistance", 0);
+    const Rgb<double> left = color(volume, "attenuationColor", 1, 1);
+    const auto path = [&](double c) { return 1 / -std::log(std::clamp(c, 1e-6, 0.99)); };
+    if (!(distance > 0) || largest(left) == 0) {
+      add("subsurface_radius", std::min(thickness * 0.1, 1e15));
+      return add("subsurface_radius_scale", Rgb<double>(1, 1, 1));
+    }
+    add("subsurface_radius", std::min(distance, 1e15));
+    add("subsurface_radius_scale", {path(left.red), path(left.green), path(left.blue)});
+  }
+
   void read_coat() {
     const auto coat = find("KHR_materials_clearcoat");
     const double weight = share(coat, "clearcoatFactor", 0);
@@ -218,9 +242,18 @@ class MaterialReader {
 
 bool is_material_extension(std::string_view name) {
   constexpr std::string_view start = "KHR_materials_";
-  constexpr std::array<std::string_view, 11> read{"anisotropy",   "clearcoat",   "dispersion", "emissive_strength",
-                                                  "ior",          "iridescence", "sheen",      "specular",
-                                                  "transmission", "unlit",       "volume"};
+  constexpr std::array<std::string_view, 12> read{"anisotropy",
+                                                  "clearcoat",
+                                                  "diffuse_transmission",
+                                                  "dispersion",
+                                                  "emissive_strength",
+                                                  "ior",
+                                                  "iridescence",
+                                                  "sheen",
+                                                  "specular",
+                                                  "transmission",
+                                                  "unlit",
+                                                  "volume"};
   return name.starts_with(start) && std::find(read.begin(), read.end(), name.substr(start.size())) != read.end();
 }
 

@@ -33,6 +33,8 @@
 //     lobes(wo);                                 the result of it, from which follow, in the local frame,
 //     sample(lobes, u, u1, u2); value(lobes, wi);   the same as sample(wo, ...); evaluate() and pdf(), as f and pdf
 //     lobes(wo, const LayerFrames<T>*);          likewise, of layers with normals of their own (bsdfs/layer_normals.h)
+//   lets light in that comes out elsewhere, as sample() says by `enters`:
+//     Subsurface<T> subsurface_inside() const;   what it is scattered by (materials/subsurface.h)
 //   sends light through:
 //     Rgb<T> transmittance(const T& distance) const;   the share that is left of light that went so far behind it
 //   and Kernel's

@@ -9,9 +9,10 @@
 // From below: a base that is a metal, or a dielectric, which is clear or has a diffuse inside; a thin film on it, whose
 // colours are those of waves that interfere; a coat; fuzz. Each layer lets through what it does not reflect.
 // geometry_opacity is every material's `opacity`; geometry_normal, geometry_coat_normal and geometry_tangent are those
-// of surface_detail.h. Not there: subsurface_..., transmission_scatter..., and the coat's own tangent.
+// of surface_detail.h. Not there: transmission_scatter..., and the coat's own tangent.
 #pragma once
 
+#include <cmath>
 #include <string>
 
 #include "raytrace/materials/dispersion.h"
@@ -34,6 +35,11 @@ class OpenPbr {
     T transmission_weight = T(0);
     Rgb<T> transmission_color{T(1), T(1), T(1)};
     T transmission_depth = T(0);
+    T subsurface_weight = T(0);
+    Rgb<T> subsurface_color{T(1), T(1), T(1)};
+    T subsurface_radius = T(1);
+    Rgb<T> subsurface_radius_scale{T(1), T(0.5), T(0.25)};
+    T subsurface_scatter_anisotropy = T(0);
     T coat_weight = T(0);
     Rgb<T> coat_color{T(1), T(1), T(1)};
     T coat_roughness = T(0), coat_roughness_anisotropy = T(0), coat_ior = T(1.5), coat_darkening = T(1);
@@ -45,6 +51,7 @@ class OpenPbr {
     Rgb<T> emission_color{T(1), T(1), T(1)};
     T opacity = T(1), normalmap = T(1), bump = T(1);  ///< of surface_detail.h
     T thin = T(0);                                    ///< 1: thin-walled; set by values()
+    T walks = T(1);                                   ///< 1: light goes in below the surface; 0: as if that was diffuse
   };
   struct Parameters : Values<double> {
     double transmission_dispersion_scale = 0, transmission_dispersion_abbe_number = 20;
@@ -57,6 +64,7 @@ class OpenPbr {
     Parameters() {
       base_color = {0.8, 0.8, 0.8};
       specular_roughness = 0.3;
+      subsurface_color = {0.8, 0.8, 0.8};
       coat_ior = 1.6;
       thin_film_ior = 1.4;
     }
@@ -86,6 +94,11 @@ class OpenPbr {
         number("transmission_depth", &P::transmission_depth),
         constant("transmission_dispersion_scale", &P::transmission_dispersion_scale, Range::not_negative),
         constant("transmission_dispersion_abbe_number", &P::transmission_dispersion_abbe_number, Range::not_negative),
+        number("subsurface_weight", &P::subsurface_weight),
+        color("subsurface_color", &P::subsurface_color),
+        number("subsurface_radius", &P::subsurface_radius),
+        color("subsurface_radius_scale", &P::subsurface_radius_scale),
+        constant("subsurface_scatter_anisotropy", &P::subsurface_scatter_anisotropy),
         number("coat_weight", &P::coat_weight),
         color("coat_color", &P::coat_color),
         number("coat_roughness", &P::coat_roughness),
@@ -117,12 +130,14 @@ class OpenPbr {
         const double ior = field.get<double>(const_cast<Parameters*>(&parameters));
         if (ior < 0.1 || ior > 10) return error(name, "not between 0.1 and 10");
         if (name == "thin_film_ior" && ior < 1) return error(name, "below 1, which lets no light in at grazing angles");
-      } else if (name == "transmission_color" || name == "coat_color") {
+      } else if (name == "transmission_color" || name == "subsurface_color" || name == "coat_color") {
         const auto& color = field.get<Rgb<double>>(const_cast<Parameters*>(&parameters));
         if (color.red > 1 || color.green > 1 || color.blue > 1) return error(name, "above 1: light would grow inside");
+      } else if (name == "subsurface_scatter_anisotropy") {
+        if (std::abs(parameters.subsurface_scatter_anisotropy) > 1) return error(name, "not between -1 and 1");
       } else if (field.is<double>() && name != "specular_weight" && name != "transmission_depth" &&
-                 name != "transmission_dispersion_abbe_number" && name != "thin_film_thickness" &&
-                 name != "emission_luminance") {
+                 name != "subsurface_radius" && name != "transmission_dispersion_abbe_number" &&
+                 name != "thin_film_thickness" && name != "emission_luminance") {
         if (field.get<double>(const_cast<Parameters*>(&parameters)) > 1) return error(name, "above 1");
       }
     }

@@ -20,6 +20,7 @@
 #include "raytrace/bsdfs/stretched_ggx.h"
 #include "raytrace/bsdfs/thin_film.h"
 #include "raytrace/materials/medium.h"
+#include "raytrace/materials/subsurface.h"
 #include "raytrace/math/kernel.h"
 #include "raytrace/math/rgba.h"
 
@@ -32,6 +33,10 @@ struct OpenPbrBsdf {
   T base_weight, diffuse_roughness, metalness, specular_weight, roughness, anisotropy;
   T eta;  ///< of the base, over what is on wo's side
   T transmission, thin;
+  T subsurface;      ///< the share of the diffuse light that goes in below the surface
+  Rgb<T> inside;     ///< what of light that spreads evenly comes out again elsewhere, with that share
+  Rgb<T> free_path;  ///< the mean free path inside
+  T subsurface_anisotropy;
   Rgb<T> extinction;  ///< inside, for a unit of length
   T coat, coat_roughness, coat_anisotropy, coat_eta, coat_darkening;
   T coat_inside;           ///< the share of evenly spread light from below that the coat reflects
@@ -58,94 +63,41 @@ struct OpenPbrBsdf {
     fuzz = select(inside, T(0), fuzz);
     specular_color = select(inside, white(), specular_color);
     film.eta = select(inside, film.eta * eta, film.eta);
+    // What is inside is below the front.
+    if (const auto walks = subsurface > T(0); any(walks)) {
+      const auto behind = walks & !(front | is_thin());
+      base = select(behind, base + this->inside, base);
+      this->inside = select(behind, black(), this->inside);
+    }
   }
 
   Rgb<T> emitted() const { return radiance; }
   Rgb<T> ambient_radiance(const Rgb<T>&) const { return black(); }
-  Rgb<T> albedo() const { return mix(mix(base * base_weight, tint, transmission), metal * specular_weight, metalness); }
+  Rgb<T> albedo() const {
+    return mix(mix(base * base_weight + inside, tint, transmission), metal * specular_weight, metalness);
+  }
   /// As of a conductor.
   Rgb<T> usual_f() const { return albedo(); }
   Rgb<T> transmittance(const T& distance) const { return exp_of(extinction, -distance); }
+  Subsurface<T> subsurface_inside() const {
+    return Subsurface<T>::of(inside * (T(1) / max(subsurface, T(1e-6F))), free_path, subsurface_anisotropy, is_thin());
+  }
 
   /// What evaluate(), pdf() and sample() have in common for one wo.
   struct Lobes {
     const LayerFrames<T>* frames;  ///< null where no layer has normals of its own
     Vec3<T> from;                  ///< wo to the base
     Fuzz<T> fibers;
-    T under_fuzz;                                    ///< what fuzz leaves of all below it
-    T coat_albedo, coat_share;                       ///< what the coat reflects; what its facets send on
-    Rgb<T> darkening;                                ///< of what is below the coat
-    T base_reflection;                               ///< what the boundary of the dielectric reflects
-    T dielectric_share, white_share;                 ///< what the base's facets send on
-    Rgb<T> film_share, film_reflection, under_film;  ///< of a dielectric with a film; what comes through
-    T fuzz_choice, coat_choice, facet_choice;        ///< how often sample() takes them; the rest is diffuse
+    T under_fuzz;                                             ///< what fuzz leaves of all below it
+    T coat_albedo, coat_share;                                ///< what the coat reflects; what its facets send on
+    Rgb<T> darkening;                                         ///< of what is below the coat
+    T base_reflection;                                        ///< what the boundary of the dielectric reflects
+    T dielectric_share, white_share;                          ///< what the base's facets send on
+    Rgb<T> film_share, film_reflection, under_film;           ///< of a dielectric with a film; what comes through
+    T fuzz_choice, coat_choice, facet_choice, inside_choice;  ///< how often sample() takes them; the rest is diffuse
   };
   /// frames: of wo.
-  [[gnu::noinline]] Lobes lobes(const Vec3<T>& wo, const LayerFrames<T>* frames = nullptr) const {
-    Lobes layers{};
-    layers.frames = frames;
-    layers.from = frames != nullptr ? frames->base.own_wo() : above_surface(wo, local_normal<T>());
-    const T cosine = min(layers.from.z, T(1)), one(1);
-    const Mask<T> rough = ggx().is_rough();
-    layers.base_reflection = fresnel_reflection(cosine, eta).reflectance;
-    layers.dielectric_share = layers.white_share = one;
-    if (any(rough)) {
-      const T even = ggx().even_roughness();
-      layers.white_share = select(rough, ggx_reflected_share(cosine, even), one);
-      layers.dielectric_share = select(rough, ggx_dielectric_share(cosine, even, eta), one);
-      layers.base_reflection = select(rough, ggx_dielectric_share<true>(cosine, even, eta) / layers.dielectric_share,
-                                      layers.base_reflection);
-    }
-    if (any(film.weight > T(0))) set_film(layers, cosine);
-    layers.under_fuzz = one;
-    if (any(fuzz > T(0))) {
-      layers.fibers = Fuzz<T>(layers.from, fuzz_roughness);
-      layers.under_fuzz = one - fuzz * layers.fibers.albedo;
-    }
-    layers.coat_albedo = T(0);
-    layers.coat_share = one;
-    layers.darkening = white();
-    if (any(coat > T(0))) {
-      const Mask<T> rough_coat = coat_ggx().is_rough();
-      const T coat_cosine = min(coat_from(layers).z, T(1));
-      const T smooth = fresnel_reflection(coat_cosine, coat_eta).reflectance;
-      layers.coat_albedo = smooth;
-      if (any(rough_coat)) {
-        const T even = coat_ggx().even_roughness();
-        layers.coat_share = select(rough_coat, ggx_dielectric_share(coat_cosine, even, coat_eta), one);
-        const T reflected = ggx_dielectric_share<true>(coat_cosine, even, coat_eta) / layers.coat_share;
-        layers.coat_albedo = select(rough_coat, reflected, smooth);
-      }
-      layers.coat_albedo = layers.coat_albedo * coat;
-      // What comes from below is reflected by the coat's inside again and again.
-      const T straight = normal_reflectance(eta);
-      const Rgb<T> below =
-          mix(mix(mix(base * base_weight, tint, transmission), white(), straight), metal * specular_weight, metalness);
-      const T spread = mix(mix(one, roughness, straight), roughness, metalness);
-      const T again = mix(smooth, coat_inside, spread);
-      const auto darkened = [&](const T& b) {
-        return one - coat * coat_darkening * (one - (one - again) / max(one - b * again, T(1e-3F)));
-      };
-      layers.darkening = {darkened(below.red), darkened(below.green), darkened(below.blue)};
-    }
-    // As much as comes of each.
-    const Rgb<T> under = under_coat(layers, coat_from(layers).z);
-    const T of_base = mean(under) * (one - layers.base_reflection) * (one - metalness);
-    T specular = mean(under * at_facet_of(layers, cosine, layers.base_reflection));
-    if (const Mask<T> filmed = film.weight > T(0); any(filmed))
-      specular =
-          select(filmed, mean(under * at_film_of(layers, layers.film_reflection, metal_with_film(cosine))), specular);
-    const T coated = layers.coat_albedo * layers.under_fuzz, fibers = (one - layers.under_fuzz) * mean(fuzz_color);
-    const T through = of_base * transmission * mean(tint);
-    const T diffuse = of_base * (one - transmission) * base_weight * mean(base);
-    const T all = fibers + coated + specular + through + diffuse;
-    const Mask<T> some = all > T(0);
-    const T scale = one / select(some, all, one);
-    layers.fuzz_choice = fibers * scale;
-    layers.coat_choice = coated * scale;
-    layers.facet_choice = (specular + through) * scale;
-    return layers;
-  }
+  Lobes lobes(const Vec3<T>& wo, const LayerFrames<T>* frames = nullptr) const;
 
   struct Value {
     Rgb<T> f;
@@ -161,7 +113,7 @@ struct OpenPbrBsdf {
                                 const Vec3<T>& coat_wi) const {
     const LayerFrames<T>* const frames = layers.frames;
     const Mask<T> is_above = wi.z > T(1e-6F);
-    const T even = T(1) - layers.fuzz_choice - layers.coat_choice - layers.facet_choice;
+    const T even = T(1) - layers.fuzz_choice - layers.coat_choice - layers.facet_choice - layers.inside_choice;
     const T diffuse = (T(1) - metalness) * (T(1) - transmission) * (T(1) - layers.base_reflection) * base_weight;
     Value result{OrenNayar<T>{base, diffuse_roughness}.f(layers.from, base_wi) * diffuse,
                  max(even, T(0)) * base_wi.z * T(std::numbers::inv_pi_v<float>)};
@@ -213,6 +165,7 @@ struct OpenPbrBsdf {
     const T u_of_facet = u - before;
     before = before + layers.facet_choice;
     const Mask<T> is_diffuse = u >= before, on_base = !(on_fuzz | coated | is_diffuse);
+    const Mask<T> enters = is_diffuse & (u >= T(1) - layers.inside_choice);
 
     const auto facets =
         StretchedGgx<T>::of(select(coated, coat_roughness, roughness), select(coated, coat_anisotropy, anisotropy));
@@ -253,6 +206,8 @@ struct OpenPbrBsdf {
       const T density = layers.facet_choice * (T(1) - choice);
       result = select(through, refracted(layers, facets, facet, cosine, density), result);
     }
+    if (any(enters)) [[unlikely]]
+      result = select(enters, entered(layers, diffuse), result);
     return result;
   }
 
@@ -354,6 +309,26 @@ struct OpenPbrBsdf {
     return {channel(&Rgb<T>::red), channel(&Rgb<T>::green), channel(&Rgb<T>::blue)};
   }
 
+  /// A sample that goes in below the surface, where it spreads evenly. above: a diffuse one. What coat and film take of
+  /// light that comes out is as if it came straight.
+  [[gnu::noinline]] BsdfSample<T> entered(const Lobes& layers, const Vec3<T>& above) const {
+    const Vec3<T> own{above.x, above.y, -above.z};
+    const T share = (T(1) - metalness) * (T(1) - transmission), even = T(std::numbers::inv_pi_v<float>);
+    const Rgb<T> bare = white() * (T(1) - layers.base_reflection);
+    const Rgb<T> let_in = select(film.weight > T(0), layers.under_film, bare) * (share * even);
+    BsdfSample<T> result{own, under_coat(layers, T(1)) * let_in * select(is_thin(), inside, white() * subsurface),
+                         layers.inside_choice * above.z * even};
+    result.enters = Mask<T>(true);
+    if (layers.frames != nullptr) [[unlikely]] {
+      result.wi = layers.frames->base.from_own(own);
+      result.f = result.f * layers.frames->base.share_from_below(result.wi, own);
+    }
+    const Mask<T> comes = result.wi.z < T(-1e-6F);
+    result.f = select(comes, result.f, black());
+    result.pdf = select(comes, result.pdf, T(0));
+    return result;
+  }
+
   /// A sample that comes through a facet, as through a dielectric's. choice: how often it does, the facet given.
   [[gnu::noinline]] BsdfSample<T> refracted(const Lobes& layers, const StretchedGgx<T>& ggx, const Vec3<T>& facet,
                                             const T& cosine, const T& choice) const {
@@ -395,3 +370,5 @@ struct OpenPbrBsdf {
 };
 
 }  // namespace raytrace
+
+#include "raytrace/materials/openpbr_lobes.h"

@@ -35,12 +35,26 @@ class Kernel<OpenPbr> {
         return select(mask, a, b);
     };
     const auto least = [](const Value& value) { return max(value, Value(1e-30F)); };
-    const Value one(1), none(0);
+    const Value one(1), none(0), half(0.5F);
     Bsdf<T> bsdf;
-    bsdf.base = Rgb<T>(values.base_color);
+    // Of what is scattered inside, a sheet's own side gets a part straight away, and without walks, all.
+    const Value &below = values.subsurface_weight, &walks = values.walks, &g = values.subsurface_scatter_anisotropy;
+    const auto has_subsurface = below > none;
+    const Value comes_back = pick(values.thin > none, half * (one - g), one - walks),
+                goes_on = walks * pick(values.thin > none, half * (one + g), one);
+    const auto base = [&](const Value& color, const Value& inside) {
+      return pick(has_subsurface, values.base_weight * color * (one - below) + inside * below * comes_back, color);
+    };
+    bsdf.base = Rgb<T>(Rgb<Value>(base(values.base_color.red, values.subsurface_color.red),
+                                  base(values.base_color.green, values.subsurface_color.green),
+                                  base(values.base_color.blue, values.subsurface_color.blue)));
+    bsdf.base_weight = number(pick(has_subsurface, one, values.base_weight));
+    bsdf.subsurface = number(below * walks);
+    bsdf.inside = each(values.subsurface_color, [&](const Value& c) { return c * below * goes_on; });
+    bsdf.free_path = each(values.subsurface_radius_scale, [&](const Value& c) { return c * values.subsurface_radius; });
+    bsdf.subsurface_anisotropy = number(g);
     bsdf.metal = Rgb<T>(values.base_color * values.base_weight);
     bsdf.specular_color = Rgb<T>(values.specular_color);
-    bsdf.base_weight = number(values.base_weight);
     bsdf.diffuse_roughness = number(values.base_diffuse_roughness);
     bsdf.metalness = number(values.base_metalness);
     bsdf.specular_weight = number(values.specular_weight);

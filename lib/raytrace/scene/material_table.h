@@ -15,6 +15,7 @@
 #include "raytrace/bsdfs/layer_normals.h"
 #include "raytrace/film/film.h"
 #include "raytrace/materials/medium.h"
+#include "raytrace/materials/subsurface.h"
 #include "raytrace/math/color.h"
 #include "raytrace/math/frame.h"
 #include "raytrace/math/gather.h"
@@ -83,6 +84,9 @@ class MaterialTable {
   /// The share that is left of light that went so far behind surfaces.
   virtual Rgb<FloatN> transmittance(const LaneIndices& materials, const FloatN& distance,
                                     const TexturePoint<FloatN>* point) const = 0;
+
+  /// What is below surfaces whose samples `enters`.
+  virtual Subsurface<FloatN> subsurface(const LaneIndices& materials, const TexturePoint<FloatN>* point) const = 0;
 
   /// The radiance that leaves along wo, of unit length. materials: of each lane, for every lane one that exists. frame:
   /// about the normal; null where no material's reflection differs along the surface.
@@ -183,6 +187,13 @@ class MaterialTableOf final : public MaterialTable {
       return gathered(materials, MaskN(false), point).transmittance(distance);
     else
       return Rgb<FloatN>(Rgb<float>(1, 1, 1));
+  }
+
+  Subsurface<FloatN> subsurface(const LaneIndices& materials, const TexturePoint<FloatN>* point) const override {
+    if constexpr (requires(BsdfN bsdf) { bsdf.subsurface_inside(); })
+      return gathered(materials, MaskN(true), point).subsurface_inside();
+    else
+      return {};
   }
 
   void add_to(RadianceRange& range, const LightBounds& lights, const std::uint8_t* used) const override {

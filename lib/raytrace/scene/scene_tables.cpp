@@ -73,6 +73,7 @@ SceneTables::SceneTables(const SceneDescription& description, int threads)
     has_cutouts_ |= used_materials_[i] != 0 && details_[i].is_cutout();
     has_relief_ |= used_materials_[i] != 0 && (details_[i].has_relief() || details_[i].has_layers());
     has_turned_tangents_ |= used_materials_[i] != 0 && details_[i].has_turned_tangent();
+    has_subsurface_ |= used_materials_[i] != 0 && details_[i].has_subsurface;
     has_emission_ |= used_materials_[i] != 0 && details_[i].emission.radiance > 0;
     media.push_back(used_materials_[i] != 0 ? details_[i].medium : std::nullopt);
     const MaterialEmission& emission = details_[i].emission;
@@ -232,7 +233,10 @@ void SceneTables::add_materials(const SceneDescription& description) {
     constexpr std::size_t type = index_of<Material>(Materials{});
     std::vector<typename Kernel<Material>::template Bsdf<float>> bsdfs;
     typename MaterialTableOf<Material>::TexturedMaterials textured;
-    for (const auto& item : std::get<MaterialItems<Material>>(description.materials)) {
+    for (auto item : std::get<MaterialItems<Material>>(description.materials)) {
+      // Other integrators than paths have no light that comes out elsewhere.
+      if constexpr (requires { item.parameters.walks; })
+        item.parameters.walks = std::holds_alternative<Path::Parameters>(integrator_) ? 1 : 0;
       auto parameters = item.parameters;
       details_.push_back(surface_detail<Material>(item));
       SurfaceDetail& detail = details_.back();
@@ -243,6 +247,7 @@ void SceneTables::add_materials(const SceneDescription& description) {
       if (!textured_item.factors.empty() || detail.has_relief() || detail.has_layers())
         textured.push_back(std::move(textured_item));
       bsdfs.push_back(Kernel<Material>::bsdf(parameters));
+      if constexpr (requires { bsdfs.back().subsurface; }) details_.back().has_subsurface = bsdfs.back().subsurface > 0;
       if constexpr (requires { Kernel<Material>::medium(parameters, bsdfs.back()); })
         details_.back().medium = Kernel<Material>::medium(parameters, bsdfs.back());
       Rgb<float> radiance(0, 0, 0);
@@ -299,96 +304,6 @@ float SceneTables::largest_albedo() const {
   for (std::size_t type = 0; type < materials_.size(); ++type)
     largest = max(largest, materials_[type]->largest_albedo(used_materials_.data() + first_material_[type]));
   return std::max({largest.red, largest.green, largest.blue});
-}
-
-namespace {
-
-Scattering select(const MaskN& mask, const Scattering& a, const Scattering& b) {
-  return {select(mask, a.sample, b.sample),
-          {select(mask, a.towards.f, b.towards.f), select(mask, a.towards.pdf, b.towards.pdf)}};
-}
-
-}  // namespace
-
-template <class Answer>
-auto SceneTables::by_material(const Hits& hits, const Answer& answer) const {
-  if (const std::optional<std::int32_t> only = geometry_->only_material(hits)) {
-    const std::int32_t number = *only;
-    const auto type = std::upper_bound(first_material_.begin(), first_material_.end() - 1, number) - 1;
-    return answer(*materials_[static_cast<std::size_t>(type - first_material_.begin())], LaneIndices(number - *type));
-  }
-  const IntN number = material(hits);
-  decltype(answer(*materials_[0], LaneIndices(0))) result{};
-  for (std::size_t type = 0; type < materials_.size(); ++type) {
-    const IntN first(first_material_[type]), end(first_material_[type + 1]);
-    const MaskN here = float_mask<FloatN>(number >= first) & float_mask<FloatN>(number < end);
-    const std::uint32_t lanes = bits_of<FloatN>(here);
-    if (lanes == 0) continue;
-    const IntN index = number - first;
-    // The other lanes follow the first of these, so that they read a material that exists.
-    const LaneIndices indices =
-        select_lanes(here, index, IntN(index.get(static_cast<std::size_t>(std::countr_zero(lanes)))));
-    result = select(here, answer(*materials_[type], indices), result);
-  }
-  return result;
-}
-
-Rgb<FloatN> SceneTables::albedo(const Hits& hits, const TexturePoint<FloatN>* point) const {
-  return by_material(
-      hits, [&](const MaterialTable& table, const LaneIndices& materials) { return table.albedo(materials, point); });
-}
-
-bool SceneTables::has_textures(const Hits& hits) const {
-  if (textured_.empty()) return false;
-  if (const auto only = geometry_->only_material(hits)) return textured_[static_cast<std::size_t>(*only)] != 0;
-  return any(hits.hit & float_mask<FloatN>(gather(textured_.data(), material(hits)) != IntN(0)));
-}
-
-Rgb<FloatN> SceneTables::emitted(const Hits& hits, const SurfaceInteraction<FloatN>& surface,
-                                 const TexturePoint<FloatN>* point) const {
-  const Rgb<FloatN> black(Rgb<float>(0, 0, 0));
-  const MaskN shining = hits.hit & shines(material(hits), surface.front);
-  if (none(shining)) return black;
-  const Rgb<FloatN> radiance = by_material(
-      hits, [&](const MaterialTable& table, const LaneIndices& materials) { return table.emitted(materials, point); });
-  return select(shining, radiance, black);
-}
-
-Scattering SceneTables::scatter(const Hits& hits, const SurfaceInteraction<FloatN>& surface, const Frame<FloatN>& frame,
-                                const Refraction<FloatN>& media, const Vec3<FloatN>& wo, const MaskN& lit,
-                                const Vec3<FloatN>& wi, const FloatN& u, const FloatN& u1, const FloatN& u2,
-                                const TexturePoint<FloatN>* point) const {
-  const auto with_layers = [&](const LayerNormals<FloatN>* layers) {
-    return by_material(hits, [&](const MaterialTable& table, const LaneIndices& materials) {
-      return table.scatter(materials, surface.front, media, wo, lit, wi, u, u1, u2, layers, point);
-    });
-  };
-  if (!surface.has_layers) [[likely]]
-    return with_layers(nullptr);
-  const LayerNormals<FloatN> layers = surface.layers.to_local(frame);
-  return with_layers(&layers);
-}
-
-Rgb<FloatN> SceneTables::transmittance(const Hits& hits, const FloatN& distance,
-                                       const TexturePoint<FloatN>* point) const {
-  return by_material(hits, [&](const MaterialTable& table, const LaneIndices& materials) {
-    return table.transmittance(materials, distance, point);
-  });
-}
-
-Rgb<FloatN> SceneTables::shade(const Hits& hits, const SurfaceInteraction<FloatN>& surface,
-                               const Rgb<float>& ambient_radiance, std::span<const IncidentLight> lights,
-                               const TexturePoint<FloatN>* point) const {
-  const auto in_frame = [&](const Frame<FloatN>* frame) {
-    return by_material(hits, [&](const MaterialTable& table, const LaneIndices& materials) {
-      return table.shade(materials, surface.front, surface.wo, surface.ns, frame, ambient_radiance, lights,
-                         surface.has_layers ? &surface.layers : nullptr, point);
-    });
-  };
-  if (anisotropic_.empty()) [[likely]]
-    return in_frame(nullptr);
-  const Frame<FloatN> frame = shading_frame(hits, surface, point);
-  return in_frame(&frame);
 }
 
 }  // namespace raytrace

@@ -167,6 +167,9 @@ class SceneTables {
                      const FloatN& u, const FloatN& u1, const FloatN& u2, const TexturePoint<FloatN>* point) const;
   /// The share that is left of light that went so far behind the surfaces.
   Rgb<FloatN> transmittance(const Hits& hits, const FloatN& distance, const TexturePoint<FloatN>* point) const;
+  /// What is below surfaces whose samples `enters`, and whether any object has such a material.
+  Subsurface<FloatN> subsurface(const Hits& hits, const TexturePoint<FloatN>* point) const;
+  bool has_subsurface() const { return has_subsurface_; }
   /// What is inside of clear materials that objects have; empty if there is none.
   const MediumTable& media() const { return media_; }
 
@@ -203,7 +206,7 @@ class SceneTables {
     UvSet tangent_set = UvSet::first;  ///< whose u the tangent is along: the map's, or that of the normals
     MaterialEmission emission{};
     std::optional<Medium> medium{};
-    bool is_anisotropic = false, focuses = false, has_coat = false;
+    bool is_anisotropic = false, focuses = false, has_coat = false, has_subsurface = false;
 
     bool is_cutout() const { return opacity.value < 1 || opacity.texture; }
     bool has_relief() const { return normalmap.texture || bump.texture; }
@@ -277,7 +280,7 @@ class SceneTables {
   std::vector<SurfaceDetail> details_;  ///< of all materials
   MediumTable media_;
   bool has_cutouts_ = false, has_relief_ = false, has_emission_ = false, has_second_uvset_ = false,
-       has_turned_tangents_ = false;
+       has_turned_tangents_ = false, has_subsurface_ = false;
   std::vector<std::int32_t> shining_sides_;  ///< of all materials: 0, 1 for the front, 2 for both
   std::vector<std::int32_t> textured_;       ///< 1 for materials with textures, else 0; empty if there are none
   std::vector<std::int32_t> anisotropic_;    ///< likewise: those whose reflection differs along the surface

@@ -26,6 +26,11 @@ struct SurfaceInteraction {
   bool has_relief = false;
   Mask<F> relief;
 
+  /// Whether light comes out in any lane that went in below the surface elsewhere, and which lanes': it leaves evenly
+  /// to all sides.
+  bool has_emerging = false;
+  Mask<F> emerges;
+
   /// Whether coats have normals of their own in any lane; there they and the base below turn from ns, which is the
   /// surface's without relief.
   bool has_layers = false;

@@ -11,6 +11,7 @@
 #include "raytrace/tracing/direct_light.h"
 #include "raytrace/tracing/media.h"
 #include "raytrace/tracing/sampled_light.h"
+#include "raytrace/tracing/subsurface_walk.h"
 
 namespace raytrace {
 
@@ -80,7 +81,8 @@ void PathBatch::append(PathChunk& chunk, const PathPacket& path, const Hits& hit
   if (bits == 0) return;
   // By geometry, which says the shape, and by material. Those that share a bucket are shaded in turn.
   const IntN geometry = same_bits<IntN>(hits.geometry), material = scene_.tables().material(hits);
-  chunk.append(path, bits, ((geometry & IntN(15)) << 4) | (material & IntN(15)));
+  const IntN bucket = ((geometry & IntN(15)) << 4) | (material & IntN(15));
+  chunk.append(path, bits, select_lanes(float_mask<FloatN>(path.way == IntN(from_below)), bucket ^ IntN(0x88), bucket));
 }
 
 void PathBatch::trace(RayCounts& counts) {
@@ -205,6 +207,11 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
     lanes = hits.hit;
     if (none(lanes)) return;
   }
+  if (tables.has_subsurface()) {
+    surface.emerges = lanes & float_mask<FloatN>(path.way == IntN(from_below));
+    surface.has_emerging = any(surface.emerges);
+    path.way = select_lanes(float_mask<FloatN>(path.way == IntN(from_below)), IntN(any_way), path.way);
+  }
   clock_.end(Stage::surface);
   const auto textures =
       add_textures(tables, hits, surface, [&] { return tables.ray_cone().half_width(path.distance); });
@@ -221,6 +228,7 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   if (tables.has_emission()) {
     Rgb<FloatN> emitted = tables.emitted(hits, surface, point);
     if (any(focused)) emitted = select(tables.emitters().has_patch(hits, focused, surface.p), black(), emitted);
+    if (surface.has_emerging) emitted = select(surface.emerges, black(), emitted);
     if (const MaskN shines = lanes & (largest(emitted) > FloatN(0)); any(shines)) {
       const MaskN drawn = shines & (path.pdf < infinity<FloatN>());
       if (!tables.emitters().empty() && any(drawn)) {
@@ -309,15 +317,20 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
     const MaskN reflects = MaskN(depth == 0) & (!(focuses | through | sample.specular));
     path.way = select_lanes(on_way, IntN(by_focus), select_lanes(reflects, IntN(by_reflection), IntN(any_way)));
   }
+  path.from = surface.p;
+  path.from_normal = surface.ns;
+  rays.origin = offset_ray_origin(surface, through & alive);
+  if (const MaskN enters = alive & sample.enters; any(enters)) [[unlikely]] {
+    if (!is_last) go_below(path, hits, surface, point, enters, depth, counts);
+    alive = alive & !enters;
+    if (none(alive)) return clock_.end(Stage::trace);
+  }
   if (has_media) {
     boundary.cross(media, through & alive, surface.front);
     const MediumStack::Packed packed = media.packed();
     path.first_media = packed.first;
     path.last_media = packed.last;
   }
-  path.from = surface.p;
-  path.from_normal = surface.ns;
-  rays.origin = offset_ray_origin(surface, through & alive);
   rays.near = FloatN(0);
   rays.far = infinity<FloatN>();
   counts.indirect += count(alive);
@@ -335,6 +348,18 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   path.set_hits(hits);
   append(next_, path, hits, hits.hit);
   clock_.end(Stage::surface);
+}
+
+void PathBatch::go_below(const PathPacket& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface,
+                         const TexturePoint<FloatN>* point, const MaskN& lanes, int depth, RayCounts& counts) {
+  const Subsurface<FloatN> inside = scene_.tables().subsurface(hits, point);
+  PathPacket below = path;
+  below.way = IntN(from_below);
+  const Hits end = walk_below(scene_, {hits, surface, inside, path.pixel, path.sample, depth}, lanes, below.rays,
+                              below.throughput, counts);
+  if (none(end.hit)) return;
+  below.set_hits(end);
+  append(next_, below, end, end.hit);
 }
 
 }  // namespace raytrace

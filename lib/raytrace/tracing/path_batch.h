@@ -55,6 +55,9 @@ class PathBatch {
            const IntN& group) const;
   /// From the points that these paths have met, in those lanes, to the next ones.
   void extend(PathPacket& path, const MaskN& arrived, int depth, RayCounts& counts);
+  /// Those paths' ways below the surfaces that they have met, to where they come out: rays start and go there.
+  void go_below(const PathPacket& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface,
+                const TexturePoint<FloatN>* point, const MaskN& lanes, int depth, RayCounts& counts);
   /// next_boundary() of paths whose ray to there was their ray number `depth`.
   MediumBoundary find_boundary(PathPacket& path, MediumStack& media, Hits& hits, SurfaceInteraction<FloatN>& surface,
                                int depth, RayCounts& counts);

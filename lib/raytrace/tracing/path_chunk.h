@@ -21,6 +21,7 @@ enum PathWay : std::int32_t {
   any_way,        ///< or nothing yet
   by_reflection,  ///< a point of what does not focus light, which reflected it
   by_focus,       ///< that, and from there on one or more points of what does: light from here is a light path's
+  from_below,     ///< anything, and it now comes out from below the surface that it has hit
 };
 
 /// A path for each lane, whose last ray has hit something.
@@ -38,7 +39,7 @@ struct PathPacket {
   Vec3<FloatN> from, from_normal;
   UintN pixel, sample;           ///< as CameraRays have them
   IntN slot;                     ///< where the path's radiance goes
-  IntN way;                      ///< PathWay, where light paths bring some of the light
+  IntN way;                      ///< PathWay
   IntN first_media, last_media;  ///< MediumStack::Packed, in scenes with media
   FloatN deviation;              ///< of the path's wavelength, or 0 if it has none; where media disperse light
 

@@ -1,0 +1,78 @@
+// What the lobes of OpenPBR have in common for one wo; a part of openpbr_bsdf.h.
+#pragma once
+
+#include "raytrace/materials/openpbr_bsdf.h"
+
+namespace raytrace {
+
+template <class T>
+[[gnu::noinline]] typename OpenPbrBsdf<T>::Lobes OpenPbrBsdf<T>::lobes(const Vec3<T>& wo,
+                                                                       const LayerFrames<T>* frames) const {
+  Lobes layers{};
+  layers.frames = frames;
+  layers.from = frames != nullptr ? frames->base.own_wo() : above_surface(wo, local_normal<T>());
+  const T cosine = min(layers.from.z, T(1)), one(1);
+  const Mask<T> rough = ggx().is_rough();
+  layers.base_reflection = fresnel_reflection(cosine, eta).reflectance;
+  layers.dielectric_share = layers.white_share = one;
+  if (any(rough)) {
+    const T even = ggx().even_roughness();
+    layers.white_share = select(rough, ggx_reflected_share(cosine, even), one);
+    layers.dielectric_share = select(rough, ggx_dielectric_share(cosine, even, eta), one);
+    layers.base_reflection =
+        select(rough, ggx_dielectric_share<true>(cosine, even, eta) / layers.dielectric_share, layers.base_reflection);
+  }
+  if (any(film.weight > T(0))) set_film(layers, cosine);
+  layers.under_fuzz = one;
+  if (any(fuzz > T(0))) {
+    layers.fibers = Fuzz<T>(layers.from, fuzz_roughness);
+    layers.under_fuzz = one - fuzz * layers.fibers.albedo;
+  }
+  layers.coat_albedo = T(0);
+  layers.coat_share = one;
+  layers.darkening = white();
+  if (any(coat > T(0))) {
+    const Mask<T> rough_coat = coat_ggx().is_rough();
+    const T coat_cosine = min(coat_from(layers).z, T(1));
+    const T smooth = fresnel_reflection(coat_cosine, coat_eta).reflectance;
+    layers.coat_albedo = smooth;
+    if (any(rough_coat)) {
+      const T even = coat_ggx().even_roughness();
+      layers.coat_share = select(rough_coat, ggx_dielectric_share(coat_cosine, even, coat_eta), one);
+      const T reflected = ggx_dielectric_share<true>(coat_cosine, even, coat_eta) / layers.coat_share;
+      layers.coat_albedo = select(rough_coat, reflected, smooth);
+    }
+    layers.coat_albedo = layers.coat_albedo * coat;
+    // What comes from below is reflected by the coat's inside again and again.
+    const T straight = normal_reflectance(eta);
+    const Rgb<T> below = mix(mix(mix(base * base_weight + inside, tint, transmission), white(), straight),
+                             metal * specular_weight, metalness);
+    const T spread = mix(mix(one, roughness, straight), roughness, metalness);
+    const T again = mix(smooth, coat_inside, spread);
+    const auto darkened = [&](const T& b) {
+      return one - coat * coat_darkening * (one - (one - again) / max(one - b * again, T(1e-3F)));
+    };
+    layers.darkening = {darkened(below.red), darkened(below.green), darkened(below.blue)};
+  }
+  // As much as comes of each.
+  const Rgb<T> under = under_coat(layers, coat_from(layers).z);
+  const T of_base = mean(under) * (one - layers.base_reflection) * (one - metalness);
+  T specular = mean(under * at_facet_of(layers, cosine, layers.base_reflection));
+  if (const Mask<T> filmed = film.weight > T(0); any(filmed))
+    specular =
+        select(filmed, mean(under * at_film_of(layers, layers.film_reflection, metal_with_film(cosine))), specular);
+  const T coated = layers.coat_albedo * layers.under_fuzz, fibers = (one - layers.under_fuzz) * mean(fuzz_color);
+  const T through = of_base * transmission * mean(tint);
+  const T diffuse = of_base * (one - transmission) * base_weight * mean(base);
+  const T enters = of_base * (one - transmission) * mean(inside);
+  const T all = fibers + coated + specular + through + diffuse + enters;
+  const Mask<T> some = all > T(0);
+  const T scale = one / select(some, all, one);
+  layers.fuzz_choice = fibers * scale;
+  layers.coat_choice = coated * scale;
+  layers.facet_choice = (specular + through) * scale;
+  layers.inside_choice = enters * scale;
+  return layers;
+}
+
+}  // namespace raytrace
