@@ -1565,6 +1565,71 @@ openpbr_row(
     ],
     WALLS,
 )
+
+
+def subsurface_scene():
+    """Pawns with a lamp behind them, and a lantern."""
+    wax = "<subsurface_color red=\"0.85\" green=\"0.5\" blue=\"0.3\"/>"
+    radii = (None, 0.02, 0.06, 0.2)
+    materials = "".join(
+        f"      <openpbr> <name>{i + 1}</name> <base_color red=\"0.85\" green=\"0.5\" blue=\"0.3\"/> <specular_roughness>0.3</specular_roughness> "
+        + (f"<subsurface_weight>1</subsurface_weight> {wax} <subsurface_radius>{radius}</subsurface_radius> " if radius else "")
+        + "</openpbr>\n"
+        for i, radius in enumerate(radii)
+    )
+    x = [(i - 2) * 0.92 for i in range(5)]
+
+    def each(shape, text):
+        return "".join(f"      <{shape}> {text.format(x=x[i])} <material>{i + 1}</material> </{shape}>\n" for i in range(4))
+
+    write(
+        "openpbr-subsurface",
+        "OpenPBR's subsurface_weight 0, and 1 with a subsurface_radius of 0.02, 0.06 and 0.2; a lamp in a thin wall.",
+        room="""\
+  <viewplane>
+    <hres>320</hres> <vres>240</vres> <samples>400</samples> <background red="0.012" green="0.014" blue="0.02"/>
+  </viewplane>
+  <camera> <eye x="0" y="1.7" z="6"/> <lookat x="0" y="0.62" z="0"/> <viewdistance>400</viewdistance> </camera>
+  <integrator> <path> <clampindirect>4</clampindirect> </path> </integrator>
+""",
+        lights="",
+        mattes="""\
+      <matte> <name>table</name> <ka>0</ka> <kd>1</kd> <cd red="0.12" green="0.11" blue="0.1"/> </matte>
+""",
+        phongs="",
+        materials_more=f"""\
+    <openpbrs>
+{materials}      <openpbr>
+        <name>paper</name> <specular_weight>0</specular_weight> <geometry_thin_walled>true</geometry_thin_walled> <subsurface_weight>1</subsurface_weight>
+        <subsurface_color red="0.95" green="0.86" blue="0.7"/> <subsurface_scatter_anisotropy>0.2</subsurface_scatter_anisotropy>
+      </openpbr>
+    </openpbrs>
+    <emissives>
+      <emissive> <name>lamp</name> <ce red="1" green="0.9" blue="0.75"/> <scaleradiance>26</scaleradiance> </emissive>
+      <emissive> <name>bulb</name> <ce red="1" green="0.7" blue="0.4"/> <scaleradiance>12</scaleradiance> </emissive>
+    </emissives>
+""",
+        floor="",
+        objects=f"""\
+    <planes>
+      <plane> <point x="0" y="0" z="0"/> <normal x="0" y="1" z="0"/> <material>table</material> </plane>
+    </planes>
+    <cones>
+{each("cone", '<bottom x="{x:.2f}" y="0" z="0"/> <top x="{x:.2f}" y="0.8" z="0"/> <radius>0.3</radius> <topradius>0.1</topradius> <caps>true</caps>')}    </cones>
+    <spheres>
+{each("sphere", '<center x="{x:.2f}" y="0.86" z="0"/> <radius>0.24</radius>')}      <sphere> <center x="{x[4]:.2f}" y="0.45" z="0"/> <radius>0.45</radius> <material>paper</material> </sphere>
+      <sphere> <center x="{x[4]:.2f}" y="0.4" z="0"/> <radius>0.08</radius> <material>bulb</material> </sphere>
+    </spheres>
+    <rectangles>
+      <rectangle>
+        <corner x="-3" y="2.75" z="-2.2"/> <edge1 x="4.4" y="0" z="0"/> <edge2 x="0" y="0.9" z="0.9"/> <material>lamp</material>
+      </rectangle>
+    </rectangles>
+""",
+    )
+
+
+subsurface_scene()
 openpbr_row(
     "openpbr-coat",
     "OpenPBR's coat on a rough base: none, clear, clear and without darkening, red, and red and rough.",

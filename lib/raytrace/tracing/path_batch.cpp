@@ -321,9 +321,11 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   path.from_normal = surface.ns;
   rays.origin = offset_ray_origin(surface, through & alive);
   if (const MaskN enters = alive & sample.enters; any(enters)) [[unlikely]] {
+    clock_.end(Stage::shade);
     if (!is_last) go_below(path, hits, surface, point, enters, depth, counts);
+    clock_.end(Stage::trace);
     alive = alive & !enters;
-    if (none(alive)) return clock_.end(Stage::trace);
+    if (none(alive)) return;
   }
   if (has_media) {
     boundary.cross(media, through & alive, surface.front);
