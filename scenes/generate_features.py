@@ -1565,6 +1565,24 @@ openpbr_row(
     ],
     WALLS,
 )
+openpbr_row(
+    "openpbr-scatter",
+    "OpenPBR's transmission_scatter 0, 0.1, 0.4 and 1 in a depth of 0.4, and in amber by steps of 0.8 forwards.",
+    [
+        {
+            "transmission_weight": 1, "specular_roughness": 0, "transmission_depth": 0.4, "transmission_color": color,
+            "transmission_scatter": (scatter, scatter, scatter), "transmission_scatter_anisotropy": g,
+        }
+        for color, scatter, g in (
+            ((0.75, 0.88, 0.95), 0, 0),
+            ((0.75, 0.88, 0.95), 0.1, 0),
+            ((0.75, 0.88, 0.95), 0.4, 0),
+            ((0.75, 0.88, 0.95), 1, 0),
+            ((0.9, 0.5, 0.08), 1, 0.8),
+        )
+    ],
+    WALLS,
+)
 
 
 def subsurface_scene():

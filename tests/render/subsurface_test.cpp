@@ -1,4 +1,4 @@
-// Light that goes in below surfaces and comes out elsewhere, against closed forms and walks of the test's own.
+// Light that is scattered below surfaces, and inside of clear things, against closed forms and walks of the test's own.
 //
 // Not with the thread sanitizer: statistics of code that cuts_test runs in threads.
 #include <cmath>
@@ -76,14 +76,14 @@ double single_albedo(double color, double g) {
 /// What a half-space that scatters evenly sends back of evenly spread light: 1 - 2 sqrt(1 - albedo) times the first
 /// moment of Chandrasekhar's H function ("Radiative Transfer", 1960, chapter V), which is found by iteration.
 double half_space_albedo(double albedo) {
-  constexpr int steps = 2000;
+  constexpr int steps = 500;
   std::vector<double> h(steps, 1.0);
   const auto at = [](int i) { return (i + 0.5) / steps; };
   for (int round = 0; round < 200; ++round) {
     std::vector<double> next(steps);
-    for (int i = 0; i < steps; i += 1) {
+    for (int i = 0; i < steps; ++i) {
       double integral = 0;
-      for (int j = 0; j < steps; j += 1) integral += h[static_cast<std::size_t>(j)] * at(j) / (at(i) + at(j)) / steps;
+      for (int j = 0; j < steps; ++j) integral += h[static_cast<std::size_t>(j)] * at(j) / (at(i) + at(j)) / steps;
       next[static_cast<std::size_t>(i)] = 1 / (std::sqrt(1 - albedo) + albedo / 2 * integral);
     }
     double change = 0;
@@ -96,44 +96,43 @@ double half_space_albedo(double albedo) {
   return 1 - 2 * std::sqrt(1 - albedo) * moment;
 }
 
-/// The same of a ball of radius 1, by walks from its surface.
-double ball_albedo(double albedo, double free_path, double g) {
-  std::mt19937_64 bits(11);
-  const auto unit = [&] { return std::uniform_real_distribution<double>()(bits); };
-  constexpr int walks = 200000;
-  double sum = 0;
-  for (int i = 0; i < walks; ++i) {
-    double p[3] = {0, 0, 1}, d[3];
-    const double first = std::sqrt(unit()), turn = 2 * std::numbers::pi * unit();
-    d[2] = -first;
-    d[0] = std::sqrt(1 - first * first) * std::cos(turn);
-    d[1] = std::sqrt(1 - first * first) * std::sin(turn);
-    for (double weight = 1; weight > 1e-6; weight *= albedo) {
-      const double along = p[0] * d[0] + p[1] * d[1] + p[2] * d[2], out = p[0] * p[0] + p[1] * p[1] + p[2] * p[2] - 1,
-                   exit = -along + std::sqrt(std::max(along * along - out, 0.0)),
-                   step = -free_path * std::log(1 - unit());
-      if (step >= exit) {
-        sum += weight;
-        break;
+/// Walks in a ball of radius 1, in double.
+struct Walked {
+  double free_path, g;
+  double start = 1;       ///< on the z axis; they go downwards,
+  bool is_spread = true;  ///< or spread evenly below its surface
+
+  /// What comes out of light of one.
+  double share_out(double albedo) const {
+    std::mt19937_64 bits(11);
+    const auto unit = [&] { return std::uniform_real_distribution<double>()(bits); };
+    constexpr int walks = 200000;
+    double sum = 0;
+    for (int i = 0; i < walks; ++i) {
+      Vec3d p{0, 0, start}, d{0, 0, -1};
+      if (is_spread) d = turned(d, std::sqrt(unit()), unit());
+      for (double weight = 1; weight > 1e-6; weight *= albedo) {
+        const double along = dot(p, d), step = -free_path * std::log(1 - unit());
+        if (step >= -along + std::sqrt(std::max(along * along - dot(p, p) + 1, 0.0))) {
+          sum += weight;
+          break;
+        }
+        p = p + d * step;
+        const double part = (1 - g * g) / (1 - g + 2 * g * unit());
+        d = turned(d, g == 0 ? 2 * unit() - 1 : (1 + g * g - part * part) / (2 * g), unit());
       }
-      for (int k = 0; k < 3; ++k) p[k] += d[k] * step;
-      // A direction about d by the phase function, in any frame.
-      const double part = (1 - g * g) / (1 - g + 2 * g * unit());
-      const double cosine = g == 0 ? 2 * unit() - 1 : (1 + g * g - part * part) / (2 * g);
-      const double sine = std::sqrt(std::max(1 - cosine * cosine, 0.0)), angle = 2 * std::numbers::pi * unit();
-      const double other[3] = {std::abs(d[0]) < 0.5 ? 1.0 : 0.0, std::abs(d[0]) < 0.5 ? 0.0 : 1.0, 0};
-      double x[3] = {d[1] * other[2] - d[2] * other[1], d[2] * other[0] - d[0] * other[2],
-                     d[0] * other[1] - d[1] * other[0]};
-      const double size = std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
-      for (double& value : x) value /= size;
-      const double y[3] = {d[1] * x[2] - d[2] * x[1], d[2] * x[0] - d[0] * x[2], d[0] * x[1] - d[1] * x[0]};
-      double turned[3];
-      for (int k = 0; k < 3; ++k) turned[k] = d[k] * cosine + (x[k] * std::cos(angle) + y[k] * std::sin(angle)) * sine;
-      for (int k = 0; k < 3; ++k) d[k] = turned[k];
     }
+    return sum / walks;
   }
-  return sum / walks;
-}
+
+ private:
+  /// By an angle of that cosine, about d by so much of a turn.
+  static Vec3d turned(const Vec3d& d, double cosine, double turn) {
+    const Vec3d x = normalize(cross(d, std::abs(d.x) < 0.5 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0})), y = cross(d, x);
+    const double sine = std::sqrt(std::max(1 - cosine * cosine, 0.0)), angle = 2 * std::numbers::pi * turn;
+    return normalize(d * cosine + x * (sine * std::cos(angle)) + y * (sine * std::sin(angle)));
+  }
+};
 
 }  // namespace
 
@@ -157,7 +156,9 @@ TEST_CASE("a ball that scatters light inside, whatever the phase function, is as
             std::to_string(g) + "</subsurface_scatter_anisotropy>"),
         wax_ball);
     const double bright = single_albedo(0.8, g), dark = single_albedo(0.3, g);
-    check_mean(ball, {ball_albedo(bright, 0.5, g), ball_albedo(bright, 0.1, g), ball_albedo(dark, 0.3, g)}, 0.003);
+    check_mean(ball,
+               {Walked{0.5, g}.share_out(bright), Walked{0.1, g}.share_out(bright), Walked{0.3, g}.share_out(dark)},
+               0.003);
   }
 }
 
@@ -234,6 +235,45 @@ TEST_CASE("a thin wall sends what it scatters back and on, by its anisotropy") {
     }
 }
 
+TEST_CASE("what scatters light inside of clear things is as independent walks find it, from outside and from within") {
+  // Without a boundary: of index 1.
+  const auto through = [](double eye, double g, const std::string& color, const std::string& ior) {
+    return estimate_of(rendered(
+        "<raytracer><integrator><path><maxdepth>100</maxdepth></path></integrator><viewplane><hres>16</hres><vres>16"
+        "</vres><samples>" +
+        std::to_string(sss_samples) +
+        "</samples><background red='1' green='1' blue='1'/>"
+        "</viewplane><camera><eye x='0' y='0' z='" +
+        std::to_string(eye) +
+        "'/><lookat x='0' y='0' z='-9'/><fov>0.2"
+        "</fov></camera><materials><openpbrs><openpbr><name>wax</name><specular_roughness>0</specular_roughness>"
+        "<specular_ior>" +
+        ior +
+        "</specular_ior><transmission_weight>1</transmission_weight><transmission_depth>0.5"
+        "</transmission_depth>" +
+        color +
+        "<transmission_scatter red='1' green='0.5' blue='0.25'/>"
+        "<transmission_scatter_anisotropy>" +
+        std::to_string(g) +
+        "</transmission_scatter_anisotropy></openpbr>"
+        "</openpbrs></materials><objects>" +
+        wax_ball + "</objects></raytracer>"));
+  };
+  const std::string dark = "<transmission_color red='0.2' green='0.2' blue='0.2'/>";
+  const double extinction = -std::log(0.2) / 0.5;
+  for (const double g : {0.0, 0.7})
+    for (const double eye : {5.0, 0.1}) {
+      INFO("anisotropy " << g << ", from " << eye);
+      const Walked ball{1 / extinction, g, std::min(eye, 1.0), false};
+      const auto expected = [&](double scatter) { return ball.share_out(scatter / 0.5 / extinction); };
+      check_mean(through(eye, g, dark, "1"), {expected(1), expected(0.5), expected(0.25)}, 0.001);
+    }
+  // Where all of red is scattered and none absorbed, a ball of glass is not there for red; from within, radiance is
+  // that of glass.
+  CHECK(through(5, 0, "", "1.5").mean.red == Approx(1).epsilon(1e-4));
+  CHECK(through(0.1, 0, "", "1.5").mean.red == Approx(1.5 * 1.5).epsilon(1e-4));
+}
+
 TEST_CASE("without paths, what would go below the surface is diffuse") {
   const auto ball_of = [&](const std::string& material) {
     return rendered(
@@ -259,7 +299,11 @@ TEST_CASE("walks below surfaces do not depend on threads, samples at once, or cu
   std::string balls;
   for (int i = 0; i < 12; ++i)
     balls += "<sphere>" + vector_text("center", i % 4 * 1.5 - 2.2, i / 4 * 1.4 - 1, 0) +
-             "<radius>0.8</radius><material>" + std::string(i % 3 == 0 ? "sheet" : "wax") + "</material></sphere>";
+             "<radius>0.8</radius><material>" +
+             std::string(i % 3 == 0   ? "sheet"
+                         : i % 3 == 1 ? "milk"
+                                      : "wax") +
+             "</material></sphere>";
   check_same_bits(parsed_scene(scene_text(
       53, 41, 8,
       "<lights><pointlights><pointlight><location x='5' y='7' z='9'/></pointlight></pointlights></lights><textures>"
@@ -268,6 +312,9 @@ TEST_CASE("walks below surfaces do not depend on threads, samples at once, or cu
       "<openpbr><name>wax</name><subsurface_weight texture='checks'/><subsurface_color texture='checks'/>"
       "<subsurface_radius>0.2</subsurface_radius><opacity>0.9</opacity></openpbr><openpbr><name>sheet</name>"
       "<subsurface_weight>0.8</subsurface_weight><geometry_thin_walled>true</geometry_thin_walled></openpbr>"
+      "<openpbr><name>milk</name><transmission_weight>1</transmission_weight><transmission_depth>0.3</"
+      "transmission_depth>"
+      "<transmission_scatter red='1' green='0.8' blue='0.5'/></openpbr>"
       "</openpbrs></materials><objects><spheres>" +
           balls + "</spheres></objects>",
       "<eye x='0' y='2' z='9'/><lookat x='0' y='0' z='0'/>")));

@@ -20,7 +20,7 @@ struct BsdfSample {
   Mask<T> specular{false};
 
   /// Whether the light goes in below the surface there, is scattered inside, and comes out at another place
-  /// (tracing/subsurface_walk.h).
+  /// (tracing/random_walk.h).
   Mask<T> enters{false};
 };
 

@@ -10,6 +10,8 @@ struct Medium {
   int priority = 0;
   Rgb<float> extinction{0, 0, 0};  ///< for a unit of length
   float dispersion = 0;            ///< dispersion_of()
+  Rgb<float> scattering{0, 0, 0};  ///< for a unit of length; a part of the extinction
+  float anisotropy = 0;            ///< of the scattering, as Subsurface has it
 };
 
 /// The indices of refraction on both sides of a surface, for each lane's light. T: a batch.

@@ -9,7 +9,7 @@
 // From below: a base that is a metal, or a dielectric, which is clear or has a diffuse inside; a thin film on it, whose
 // colours are those of waves that interfere; a coat; fuzz. Each layer lets through what it does not reflect.
 // geometry_opacity is every material's `opacity`; geometry_normal, geometry_coat_normal and geometry_tangent are those
-// of surface_detail.h. Not there: transmission_scatter..., and the coat's own tangent.
+// of surface_detail.h. Not there: the coat's own tangent.
 #pragma once
 
 #include <cmath>
@@ -54,6 +54,8 @@ class OpenPbr {
     T walks = T(1);                                   ///< 1: light goes in below the surface; 0: as if that was diffuse
   };
   struct Parameters : Values<double> {
+    Rgb<double> transmission_scatter{0, 0, 0};
+    double transmission_scatter_anisotropy = 0;
     double transmission_dispersion_scale = 0, transmission_dispersion_abbe_number = 20;
     bool geometry_thin_walled = false;
     int priority = 0;                                               ///< a dielectric's
@@ -92,6 +94,8 @@ class OpenPbr {
         number("transmission_weight", &P::transmission_weight),
         color("transmission_color", &P::transmission_color),
         number("transmission_depth", &P::transmission_depth),
+        constant("transmission_scatter", &P::transmission_scatter, Range::not_negative),
+        constant("transmission_scatter_anisotropy", &P::transmission_scatter_anisotropy),
         constant("transmission_dispersion_scale", &P::transmission_dispersion_scale, Range::not_negative),
         constant("transmission_dispersion_abbe_number", &P::transmission_dispersion_abbe_number, Range::not_negative),
         number("subsurface_weight", &P::subsurface_weight),
@@ -133,8 +137,9 @@ class OpenPbr {
       } else if (name == "transmission_color" || name == "subsurface_color" || name == "coat_color") {
         const auto& color = field.get<Rgb<double>>(const_cast<Parameters*>(&parameters));
         if (color.red > 1 || color.green > 1 || color.blue > 1) return error(name, "above 1: light would grow inside");
-      } else if (name == "subsurface_scatter_anisotropy") {
-        if (std::abs(parameters.subsurface_scatter_anisotropy) > 1) return error(name, "not between -1 and 1");
+      } else if (name.ends_with("scatter_anisotropy")) {
+        if (std::abs(field.get<double>(const_cast<Parameters*>(&parameters))) > 1)
+          return error(name, "not between -1 and 1");
       } else if (field.is<double>() && name != "specular_weight" && name != "transmission_depth" &&
                  name != "subsurface_radius" && name != "transmission_dispersion_abbe_number" &&
                  name != "thin_film_thickness" && name != "emission_luminance") {

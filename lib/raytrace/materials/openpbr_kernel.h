@@ -1,6 +1,7 @@
 // What OpenPBR's parameters say of the lobes of openpbr_bsdf.h.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <type_traits>
@@ -116,8 +117,17 @@ class Kernel<OpenPbr> {
   }
   static std::optional<Medium> medium(const OpenPbr::Parameters& parameters, const Bsdf<float>& bsdf) {
     if (!(parameters.transmission_weight > 0) || parameters.geometry_thin_walled) return std::nullopt;
-    return Medium{static_cast<float>(parameters.specular_ior), parameters.priority, bsdf.extinction,
+    Medium medium{static_cast<float>(parameters.specular_ior), parameters.priority, bsdf.extinction,
                   static_cast<float>(dispersion_of(OpenPbr::abbe(parameters)))};
+    const double depth = parameters.transmission_depth;
+    if (!(depth > 0)) return medium;
+    medium.scattering = Rgb<float>(parameters.transmission_scatter * (1 / depth));
+    medium.anisotropy = static_cast<float>(std::clamp(parameters.transmission_scatter_anisotropy, -0.98, 0.98));
+    // What is absorbed is the rest of the extinction; where more of a colour is scattered than that, grey is added.
+    const auto rest = [&](float Rgb<float>::* c) { return medium.extinction.*c - medium.scattering.*c; };
+    const float grey = std::max({0.0F, -rest(&Rgb<float>::red), -rest(&Rgb<float>::green), -rest(&Rgb<float>::blue)});
+    medium.extinction += Rgb<float>(grey, grey, grey);
+    return medium;
   }
 };
 

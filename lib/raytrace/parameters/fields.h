@@ -258,9 +258,9 @@ Field optional(std::string_view name, Value Parameters::* member, Range range = 
   return {FieldInfo{name, false, range}, member};
 }
 
-/// The same of a number that textures do not multiply.
-template <class Parameters>
-Field constant(std::string_view name, double Parameters::* member, Range range = Range::any) {
+/// The same of a number or colour that textures do not multiply.
+template <class Parameters, class Value>
+Field constant(std::string_view name, Value Parameters::* member, Range range = Range::any) {
   FieldInfo info{name, false, range};
   info.is_constant = true;
   return {info, member};

@@ -38,6 +38,9 @@ class MediumTable {
   bool empty() const { return ior_.size() == 1; }
   /// Whether any of them disperses light.
   bool disperses() const { return disperses_; }
+  /// Whether any of them scatters light, and which lanes' do.
+  bool scatters() const { return scatters_; }
+  MaskN scatters(const IntN& medium) const { return sum(scattering_, medium) > FloatN(0); }
 
   IntN of_material(const IntN& material) const { return gather(numbers_.data(), material); }
   FloatN ior(const IntN& medium) const { return gather(ior_.data(), medium); }
@@ -51,6 +54,18 @@ class MediumTable {
     return {exp(gather(red_.data(), medium) * way), exp(gather(green_.data(), medium) * way),
             exp(gather(blue_.data(), medium) * way)};
   }
+  /// For a unit of length; the share of it that is scattered; and the mean cosine of a scattering.
+  Rgb<FloatN> extinction(const IntN& medium) const {
+    return {-gather(red_.data(), medium), -gather(green_.data(), medium), -gather(blue_.data(), medium)};
+  }
+  Rgb<FloatN> albedo(const IntN& medium) const {
+    const FloatN least(1e-30F);
+    const Rgb<FloatN> all = extinction(medium);
+    return {gather(scattering_.red.data(), medium) / max(all.red, least),
+            gather(scattering_.green.data(), medium) / max(all.green, least),
+            gather(scattering_.blue.data(), medium) / max(all.blue, least)};
+  }
+  FloatN anisotropy(const IntN& medium) const { return gather(anisotropy_.data(), medium); }
 
  private:
   void add(const Medium& medium) {
@@ -61,12 +76,27 @@ class MediumTable {
     red_.push_back(-medium.extinction.red);
     green_.push_back(-medium.extinction.green);
     blue_.push_back(-medium.extinction.blue);
+    scattering_.red.push_back(medium.scattering.red);
+    scattering_.green.push_back(medium.scattering.green);
+    scattering_.blue.push_back(medium.scattering.blue);
+    anisotropy_.push_back(medium.anisotropy);
+    scatters_ |= medium.scattering.red + medium.scattering.green + medium.scattering.blue > 0;
+  }
+
+  struct Channels {
+    std::vector<float> red{0}, green{0}, blue{0};
+  };
+  static FloatN sum(const Channels& channels, const IntN& medium) {
+    return gather(channels.red.data(), medium) + gather(channels.green.data(), medium) +
+           gather(channels.blue.data(), medium);
   }
 
   std::vector<std::int32_t> numbers_, priority_{std::numeric_limits<std::int32_t>::min()};
   std::vector<float> ior_{1}, dispersion_{0};
   std::vector<float> red_{0}, green_{0}, blue_{0};  ///< what is left of these colours, as exponents
-  bool disperses_ = false;
+  Channels scattering_;
+  std::vector<float> anisotropy_{0};
+  bool disperses_ = false, scatters_ = false;
 };
 
 /// The media that each lane's path is in, in the order in which it came into them: four at most. Of more, the last

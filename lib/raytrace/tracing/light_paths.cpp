@@ -97,7 +97,7 @@ void LightPaths::follow(LightPathPacket& path, MaskN alive) {
       };
       boundary = next_boundary(
           scene_, path.media, path.rays, hits, surface, went, [] { return FloatN(0); },
-          [&](Ray<FloatN>& rays, const MaskN& lanes) { return intersect(path, rays, lanes); });
+          [&](Ray<FloatN>& rays, const MaskN& lanes) { return intersect(path, rays, lanes); }, false);
       if (none(hits.hit)) return;
       if (tables_.media().disperses()) [[unlikely]] {
         const Rgb<FloatN> weights = disperse(tables_.media(), boundary, alive & hits.hit, path.pixel, path.sample,

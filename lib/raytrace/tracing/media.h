@@ -15,11 +15,12 @@ namespace raytrace {
 ///
 /// went(lanes, share): called for each part of the way, before rays.far is set anew; what media have left of the light
 /// on it. radius(): as texture_point()'s, for media with textures. intersect(rays, lanes): the next hits of rays that
-/// go on; it ends them there.
+/// go on; it ends them there, and may have them start elsewhere. walked: paths go through what scatters light by
+/// random_walk.h, which has counted what is left.
 template <class Went, class Radius, class Intersect>
 MediumBoundary next_boundary(const TracedScene& scene, MediumStack& stack, Ray<FloatN>& rays, Hits& hits,
                              SurfaceInteraction<FloatN>& surface, const Went& went, const Radius& radius,
-                             const Intersect& intersect) {
+                             const Intersect& intersect, bool walked) {
   const SceneTables& tables = scene.tables();
   const MediumTable& media = tables.media();
   for (MaskN arrives = hits.hit;;) {
@@ -30,7 +31,12 @@ MediumBoundary next_boundary(const TracedScene& scene, MediumStack& stack, Ray<F
     }
     const MediumBoundary boundary(media, stack, hits.hit, inside, surface.front);
     Rgb<FloatN> left = media.transmittance(boundary.current, rays.far);
-    const MaskN in_own = arrives & !surface.front & float_mask<FloatN>(boundary.current == inside);
+    MaskN in_own = arrives & !surface.front & float_mask<FloatN>(boundary.current == inside);
+    if (media.scatters()) [[unlikely]] {
+      const MaskN scattered = media.scatters(boundary.current);
+      if (walked) left = select(scattered, Rgb<FloatN>(Rgb<float>(1, 1, 1)), left);
+      in_own = in_own & !scattered;
+    }
     if (any(in_own) && tables.has_textures(hits)) {
       const TexturePoint<FloatN> point = texture_point(tables, radius(), hits, surface);
       left = select(in_own, tables.transmittance(hits, rays.far, &point), left);
@@ -43,6 +49,7 @@ MediumBoundary next_boundary(const TracedScene& scene, MediumStack& stack, Ray<F
                        infinity<FloatN>()};
     const Hits next = intersect(onward, passes);
     rays.origin = onward.origin;
+    rays.direction = onward.direction;
     rays.far = select(passes, onward.far, rays.far);
     hits = select(passes, next, hits);
     arrives = passes & hits.hit;

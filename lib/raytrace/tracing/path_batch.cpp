@@ -10,8 +10,8 @@
 #include "raytrace/tracing/camera_hits.h"
 #include "raytrace/tracing/direct_light.h"
 #include "raytrace/tracing/media.h"
+#include "raytrace/tracing/random_walk.h"
 #include "raytrace/tracing/sampled_light.h"
-#include "raytrace/tracing/subsurface_walk.h"
 
 namespace raytrace {
 
@@ -71,7 +71,14 @@ MaskN PathBatch::add(CameraRays& camera, const MaskN& active, const MaskN& wante
   path.first_media = media.first;
   path.last_media = media.last;
   path.deviation = FloatN(0);
-  append(paths_, path, hits, hits.hit & wanted);
+  if (const IntN medium = scene_.camera_media().current(scene_.tables().media());
+      any(scene_.tables().media().scatters(medium))) [[unlikely]] {
+    const Hits walked = walk(path, medium, hits.hit & wanted, 0, camera_walks_);
+    path.set_hits(walked);
+    append(paths_, path, walked, walked.hit);
+  } else {
+    append(paths_, path, hits, hits.hit & wanted);
+  }
   clock_.end(Stage::surface);
   return hits.hit;
 }
@@ -86,6 +93,7 @@ void PathBatch::append(PathChunk& chunk, const PathPacket& path, const Hits& hit
 }
 
 void PathBatch::trace(RayCounts& counts) {
+  counts += std::exchange(camera_walks_, {});
   for (int depth = 0; paths_.size() > 0; ++depth) {
     paths_.sort(order_);
     next_.clear();
@@ -156,36 +164,6 @@ void PathBatch::add_escaped(const PathPacket& path, const MaskN& lanes, int dept
   } else if (environment == nullptr ? depth < settings_.maxdepth : depth == 0) {
     add(sums, path.slot, lanes, path.throughput * Rgb<FloatN>(Rgb<float>(tables.viewplane().background)), IntN(0));
   }
-}
-
-MediumBoundary PathBatch::find_boundary(PathPacket& path, MediumStack& media, Hits& hits,
-                                        SurfaceInteraction<FloatN>& surface, int depth, RayCounts& counts) {
-  const SceneTables& tables = scene_.tables();
-  const auto went = [&](const MaskN& lanes, const Rgb<FloatN>& left) {
-    path.distance = select(lanes, path.distance + path.rays.far, path.distance);
-    path.throughput = select(lanes, path.throughput * left, path.throughput);
-  };
-  std::uint32_t passes = 0;
-  const auto intersect = [&](Ray<FloatN>& rays, const MaskN& lanes) {
-    counts.indirect += count(lanes);
-    // Surfaces that are not there hide lights from shadow rays: from here on, paths alone bring theirs.
-    path.pdf = select(lanes, infinity<FloatN>(), path.pdf);
-    const RayIdentity identity(
-        tables, scene_.accelerator(), rays,
-        {path.pixel, path.sample, 0x20000000U | static_cast<std::uint32_t>(depth) << 8U | (passes++ & 0xFFU)});
-    const Hits next = scene_.accelerator().intersect(rays, lanes, Coherence::incoherent, nullptr,
-                                                     tables.identifies_rays() ? &identity : nullptr);
-    if (const MaskN escaped = lanes & !next.hit; any(escaped)) {
-      const Ray<FloatN> last = path.rays;
-      path.rays = rays;
-      add_escaped(path, escaped, depth);
-      path.rays = last;
-    }
-    return next;
-  };
-  return next_boundary(
-      scene_, media, path.rays, hits, surface, went, [&] { return tables.ray_cone().half_width(path.distance); },
-      intersect);
 }
 
 void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCounts& counts) {
@@ -327,14 +305,29 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
     alive = alive & !enters;
     if (none(alive)) return;
   }
+  MaskN walks(false);
+  IntN medium(0);
   if (has_media) {
     boundary.cross(media, through & alive, surface.front);
     const MediumStack::Packed packed = media.packed();
     path.first_media = packed.first;
     path.last_media = packed.last;
+    if (tables.media().scatters()) [[unlikely]] {
+      medium = media.current(tables.media());
+      walks = alive & tables.media().scatters(medium);
+    }
   }
   rays.near = FloatN(0);
   rays.far = infinity<FloatN>();
+  if (any(walks)) [[unlikely]] {
+    clock_.end(Stage::shade);
+    const Hits walked = walk(path, medium, walks, static_cast<std::uint32_t>(depth) + 1, counts);
+    path.set_hits(walked);
+    append(next_, path, walked, walked.hit);
+    alive = alive & !walks;
+    clock_.end(Stage::trace);
+    if (none(alive)) return;
+  }
   counts.indirect += count(alive);
   clock_.end(Stage::shade);
   if (tables.identifies_rays()) {
@@ -350,18 +343,6 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   path.set_hits(hits);
   append(next_, path, hits, hits.hit);
   clock_.end(Stage::surface);
-}
-
-void PathBatch::go_below(const PathPacket& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface,
-                         const TexturePoint<FloatN>* point, const MaskN& lanes, int depth, RayCounts& counts) {
-  const Subsurface<FloatN> inside = scene_.tables().subsurface(hits, point);
-  PathPacket below = path;
-  below.way = IntN(from_below);
-  const Hits end = walk_below(scene_, {hits, surface, inside, path.pixel, path.sample, depth}, lanes, below.rays,
-                              below.throughput, counts);
-  if (none(end.hit)) return;
-  below.set_hits(end);
-  append(next_, below, end, end.hit);
 }
 
 }  // namespace raytrace

@@ -55,6 +55,8 @@ class PathBatch {
            const IntN& group) const;
   /// From the points that these paths have met, in those lanes, to the next ones.
   void extend(PathPacket& path, const MaskN& arrived, int depth, RayCounts& counts);
+  /// Those paths' ways through media that scatter light, from where their rays start, to the next surfaces.
+  Hits walk(PathPacket& path, const IntN& medium, const MaskN& lanes, std::uint32_t number, RayCounts& counts);
   /// Those paths' ways below the surfaces that they have met, to where they come out: rays start and go there.
   void go_below(const PathPacket& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface,
                 const TexturePoint<FloatN>* point, const MaskN& lanes, int depth, RayCounts& counts);
@@ -69,6 +71,7 @@ class PathBatch {
   const Path::Parameters& settings_;
   StageClock clock_;
   PathChunk paths_, next_;
+  RayCounts camera_walks_;           ///< of what was added since trace() ran
   std::vector<std::int32_t> order_;  ///< the numbers of paths, in the lowest 16 bits of their keys
   std::size_t groups_;               ///< of the scene's lights
   /// Of each packet, group by group: what was scattered once or never, and all else.
