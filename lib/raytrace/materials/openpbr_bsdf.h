@@ -54,20 +54,20 @@ struct OpenPbrBsdf {
     const T& outside = media.outside;
     eta = media.inside(eta);
     // Below a coat, eta is over the coat's; what light does not come into is as in air.
-    const auto clear = transmission > T(0), inside = clear & !(front | is_thin());
-    film.eta = select(clear & !inside, film.eta / outside, film.eta);
-    eta = select(inside, outside / eta, select(clear & !(coat > T(0)), eta / outside, eta));
-    transmission = select(inside, T(1), transmission);
-    metalness = select(inside, T(0), metalness);
-    coat = select(inside, T(0), coat);
-    fuzz = select(inside, T(0), fuzz);
-    specular_color = select(inside, white(), specular_color);
-    film.eta = select(inside, film.eta * eta, film.eta);
+    const auto clear = transmission > T(0), within = clear & !(front | is_thin());
+    film.eta = select(clear & !within, film.eta / outside, film.eta);
+    eta = select(within, outside / eta, select(clear & !(coat > T(0)), eta / outside, eta));
+    transmission = select(within, T(1), transmission);
+    metalness = select(within, T(0), metalness);
+    coat = select(within, T(0), coat);
+    fuzz = select(within, T(0), fuzz);
+    specular_color = select(within, white(), specular_color);
+    film.eta = select(within, film.eta * eta, film.eta);
     // What is inside is below the front.
     if (const auto walks = subsurface > T(0); any(walks)) {
       const auto behind = walks & !(front | is_thin());
-      base = select(behind, base + this->inside, base);
-      this->inside = select(behind, black(), this->inside);
+      base = select(behind, base + inside, base);
+      inside = select(behind, black(), inside);
     }
   }
 

@@ -71,8 +71,9 @@ MaskN PathBatch::add(CameraRays& camera, const MaskN& active, const MaskN& wante
   path.first_media = media.first;
   path.last_media = media.last;
   path.deviation = FloatN(0);
-  if (const IntN medium = scene_.camera_media().current(scene_.tables().media());
-      any(scene_.tables().media().scatters(medium))) [[unlikely]] {
+  const MediumTable& table = scene_.tables().media();
+  if (const IntN medium = table.scatters() ? scene_.camera_media().current(table) : IntN(0);
+      table.scatters() && any(table.scatters(medium))) [[unlikely]] {
     const Hits walked = walk(path, medium, hits.hit & wanted, 0, camera_walks_);
     path.set_hits(walked);
     append(paths_, path, walked, walked.hit);

@@ -13,6 +13,7 @@ constexpr int most_scatterings = 1 << 14;
 
 Rgb<FloatN> exp_of(const Rgb<FloatN>& a) { return {exp(a.red), exp(a.green), exp(a.blue)}; }
 FloatN sum(const Rgb<FloatN>& c) { return c.red + c.green + c.blue; }
+Rgb<FloatN> magnitudes(const Rgb<FloatN>& c) { return {abs(c.red), abs(c.green), abs(c.blue)}; }
 FloatN largest_of(const Rgb<FloatN>& c) { return max(max(c.red, c.green), c.blue); }
 Rgb<FloatN> inverse(const Rgb<FloatN>& c) { return {FloatN(1) / c.red, FloatN(1) / c.green, FloatN(1) / c.blue}; }
 
@@ -46,17 +47,17 @@ template <class Met, class ScatteredAt>
 void walk(const TracedScene& scene, const Scatterers& scatterers, MaskN walks, const WalkIds& ids, Ray<FloatN>& rays,
           Rgb<FloatN>& throughput, RayCounts& counts, const Met& met, const ScatteredAt& scattered_at) {
   const SceneTables& tables = scene.tables();
-  const Rgb<FloatN> at_start = throughput;
+  const FloatN at_start = largest_of(magnitudes(throughput));
   const UintN key = mix_bits(RayIds{ids.pixel, ids.sample, 0x40000000U | ids.walk}.keys());
   const auto number = [&](int step, std::uint32_t what) {
     return to_unit(mix_bits(key + UintN((static_cast<std::uint32_t>(step) * 5 + what) * 0x9e3779b9U)));
   };
   for (int step = 0; step < most_scatterings; ++step) {
-    walks = walks & (sum(throughput) > FloatN(0));
+    const Rgb<FloatN> light = magnitudes(throughput);
+    walks = walks & (sum(light) > FloatN(0));
     if (none(walks)) return;
     rays.near = FloatN(0);
-    const FloatN length =
-        -log(FloatN(1) - number(step, 1)) / chosen(number(step, 0), throughput, scatterers.extinction);
+    const FloatN length = -log(FloatN(1) - number(step, 1)) / chosen(number(step, 0), light, scatterers.extinction);
     rays.far = select(walks, min(length, FloatN(1e17F)), rays.far);
     counts.indirect += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(walks)));
     Hits hits;
@@ -69,7 +70,7 @@ void walk(const TracedScene& scene, const Scatterers& scatterers, MaskN walks, c
     }
     const Rgb<FloatN> left = exp_of(scatterers.extinction * -rays.far);
     const Rgb<FloatN> density = select(hits.hit, left, scatterers.extinction * left);
-    const FloatN mean_density = sum(throughput * density) / sum(throughput);
+    const FloatN mean_density = sum(light * density) / sum(light);
     const Rgb<FloatN> kept = select(hits.hit, left, scatterers.albedo * density) * (FloatN(1) / mean_density);
     throughput = select(walks, throughput * kept, throughput);
 
@@ -84,7 +85,7 @@ void walk(const TracedScene& scene, const Scatterers& scatterers, MaskN walks, c
     rays.origin = select(scatters, rays.at(rays.far), rays.origin);
     const Vec3<FloatN> turned = scattered(rays.direction, scatterers.anisotropy, number(step, 2), number(step, 3));
     rays.direction = select(scatters, turned, rays.direction);
-    const FloatN survival = min(largest_of(throughput) / largest_of(at_start) * FloatN(4), FloatN(1));
+    const FloatN survival = min(largest_of(magnitudes(throughput)) / at_start * FloatN(4), FloatN(1));
     const MaskN at_stake = scatters & (survival < FloatN(1));
     throughput = select(at_stake, throughput * (FloatN(1) / max(survival, FloatN(1e-12F))), throughput);
     walks = walks & !(at_stake & (number(step, 4) >= survival));
