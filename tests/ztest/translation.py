@@ -109,7 +109,8 @@ class Translation:
     def integrator(self):
         # A depth here is a scattering: one less than the segments of a path, which Mitsuba counts.
         depth = integer("max_depth", int(self.root.findtext("integrator/path/maxdepth")) + 1) + integer("rr_depth", 50)
-        kind = "path" if self.root.find(".//attenuationdistance") is None else "volpath"
+        media = [self.root.find(f".//{name}") for name in ("attenuationdistance", "transmission_depth")]
+        kind = "path" if media == [None, None] else "volpath"
         return f'<integrator type="moment"><integrator type="{kind}" name="of">{depth}</integrator></integrator>\n'
 
     def sensor(self):
@@ -275,13 +276,23 @@ class Translation:
         bsdf = f'<bsdf type="dielectric">{inner}</bsdf>'
         if (distance := value(material, "attenuationdistance")) > 0:
             extinction = -numpy.log(color(material, "attenuationcolor")) / distance
-            bsdf += (
-                f'<medium type="homogeneous" name="interior">{_rgb("sigma_t", extinction / extinction.max())}'
-                f'{_float("scale", extinction.max())}{_rgb("albedo", (0, 0, 0))}</medium>'
-            )
+            bsdf += self.medium(extinction, numpy.zeros(3))
         return bsdf
 
+    @staticmethod
+    def medium(extinction, scattering, anisotropy=0.0):
+        return (
+            f'<medium type="homogeneous" name="interior">{_rgb("sigma_t", extinction / extinction.max())}'
+            f'{_float("scale", extinction.max())}{_rgb("albedo", scattering / extinction)}'
+            f'<phase type="hg">{_float("g", anisotropy)}</phase></medium>'
+        )
+
     def openpbr(self, material):
+        if (depth := value(material, "transmission_depth")) > 0:
+            extinction = -numpy.log(color(material, "transmission_color")) / depth
+            scattering = color(material, "transmission_scatter", (0, 0, 0)) / depth
+            boundary = f'<bsdf type="dielectric">{_float("int_ior", value(material, "specular_ior", 1.5))}{_float("ext_ior", 1)}</bsdf>'
+            return boundary + self.medium(extinction, scattering, value(material, "transmission_scatter_anisotropy"))
         if value(material, "transmission_weight") == 1 and value(material, "specular_roughness", 0.3) == 0:
             return _material(self.new_name("clear"), Glass(value(material, "specular_ior", 1.5)))
         if value(material, "specular_weight", 1) == 0:

@@ -55,6 +55,7 @@ TEST_CASE("scenes that are a little different have another expectation") {
       {"glass", {"<ior>1.5</ior>", "<ior>1.55</ior>"}},
       {"glass-thin", {"<thinwalled>true</thinwalled>", ""}},
       {"glass-rough", {"<roughness>0.17</roughness>", "<roughness>0.25</roughness>"}},
+      {"glass-milky", {"_anisotropy>0.6<", "_anisotropy>0.5<"}},
       {"metal-brushed", {"<anisotropy>0.7</anisotropy>", "<anisotropy>0.65</anisotropy>"}},
       {"metal-edges", {"<edgecolor red=\"1\" green=\"1\" blue=\"1\"/>", ""}},
       {"lens", {"<lensradius>0.25</lensradius>", "<lensradius>0.4</lensradius>"}},
