@@ -297,6 +297,14 @@ def clearcoat(file):
     show_row(file, [file.material((0.45, 0.02, 0.03), 0.7, 0.6, extensions=extensions, **more) for extensions, more in paints])
 
 
+def diffuse_transmission(file):
+    bulb = file.material(INK, emissiveFactor=[1, 0.75, 0.5], extensions={"emissive_strength": {"emissiveStrength": 5}})
+    for factor, place in zip((0.0, 0.5, 1.0), row(3)):
+        paper = {"diffuseTransmissionFactor": factor, "diffuseTransmissionColorFactor": [0.95, 0.85, 0.7]}
+        file.show(sphere(), file.material(CREAM, 0, 0.9, extensions={"diffuse_transmission": paper}), place)
+        file.show(sphere(0.3), bulb, place)
+
+
 def emissive_strength(file):
     show_row(file, [file.material(INK, emissiveFactor=[1, 0.6, 0.3], extensions={
         "emissive_strength": {"emissiveStrength": s}}) for s in (1.0, 4.0, 16.0)], sphere(0.6), 2.4)
@@ -351,8 +359,8 @@ def volume(file):
 
 FEATURES = [nodes, primitives, vertex_colors, sparse_accessors, samplers, metallic_roughness, normal_texture, alpha_modes,
             cameras, animations, skins, morph_targets, mesh_gpu_instancing, mesh_quantization, lights_punctual,
-            materials_variants, texture_transform, anisotropy, clearcoat, emissive_strength, ior, iridescence, sheen, specular,
-            transmission, unlit, volume]
+            materials_variants, texture_transform, anisotropy, clearcoat, diffuse_transmission, emissive_strength, ior, iridescence,
+            sheen, specular, transmission, unlit, volume]
 
 
 def main(folder=os.path.join(os.path.dirname(HERE), "build", "models", "features")):
