@@ -1288,8 +1288,9 @@ LAMP = """\
 """
 
 
-def studio(name, comment, materials, objects):
-    write(name, comment, materials_more=materials + LAMP_MATERIAL, objects=objects + LAMP, **STUDIO)
+def studio(name, comment, materials, objects, samples=256):
+    style = {**STUDIO, "room": STUDIO["room"].replace("<samples>256", f"<samples>{samples}")}
+    write(name, comment, materials_more=materials + LAMP_MATERIAL, objects=objects + LAMP, **style)
 
 
 def row(materials):
@@ -1514,7 +1515,7 @@ def prism_scene():
 prism_scene()
 
 
-def openpbr_row(name, comment, materials, more=""):
+def openpbr_row(name, comment, materials, more="", samples=256):
     """A sphere of each, from its parameters: numbers, and colours of three."""
 
     def parameter(element, value):
@@ -1532,6 +1533,7 @@ def openpbr_row(name, comment, materials, more=""):
         )
         + "    </openpbrs>\n",
         row([str(i + 1) for i in range(len(materials))]) + more,
+        samples,
     )
 
 
@@ -1582,6 +1584,7 @@ openpbr_row(
         )
     ],
     WALLS,
+    1024,
 )
 
 
@@ -1605,7 +1608,7 @@ def subsurface_scene():
         "OpenPBR's subsurface_weight 0, and 1 with a subsurface_radius of 0.02, 0.06 and 0.2; a lamp in a thin wall.",
         room="""\
   <viewplane>
-    <hres>320</hres> <vres>240</vres> <samples>400</samples> <background red="0.012" green="0.014" blue="0.02"/>
+    <hres>320</hres> <vres>240</vres> <samples>1600</samples> <background red="0.012" green="0.014" blue="0.02"/>
   </viewplane>
   <camera> <eye x="0" y="1.7" z="6"/> <lookat x="0" y="0.62" z="0"/> <viewdistance>400</viewdistance> </camera>
   <integrator> <path> <clampindirect>4</clampindirect> </path> </integrator>
