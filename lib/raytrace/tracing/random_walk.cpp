@@ -137,7 +137,12 @@ MediumWalk walk_through(const TracedScene& scene, const IntN& medium, const Mask
     result.hits = any(result.hits.hit) ? select(hits.hit, hits, result.hits) : hits;
     return hits.hit;
   };
-  const Rgb<FloatN> extinction = media.extinction(medium), albedo = media.albedo(medium);
+  // A flight must be able to leave the rounding of where it starts, however dense the medium.
+  const Vec3<FloatN>& start = rays.origin;
+  const FloatN most =
+      FloatN(1) / max(max(max(abs(start.x), abs(start.y)), abs(start.z)) * FloatN(0x1p-20F), FloatN(1e-30F));
+  const Rgb<FloatN> given = media.extinction(medium), albedo = media.albedo(medium);
+  const Rgb<FloatN> extinction{min(given.red, most), min(given.green, most), min(given.blue, most)};
   const FloatN anisotropy = media.anisotropy(medium);
   Ray<FloatN> walked = rays;
   walk(scene, {extinction, albedo, anisotropy}, lanes, ids, walked, throughput, counts, met,
