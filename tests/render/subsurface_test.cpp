@@ -145,6 +145,10 @@ TEST_CASE("below a plane, light is scattered as Chandrasekhar has it, and looks 
   check_mean(plane, {half_space_albedo(single_albedo(color.red, 0)), half_space_albedo(single_albedo(color.green, 0)),
                      half_space_albedo(single_albedo(color.blue, 0))});
   check_mean(plane, color, 0.005);
+  // Without a radius it is diffuse, within what rounding leaves of a flight.
+  const Estimate dense = under_white_sky(
+      wax("<subsurface_color red='0.9' green='0.5' blue='0.2'/><subsurface_radius>0</subsurface_radius>"), wax_ball);
+  check_mean(dense, color, 0.01);
 }
 
 TEST_CASE("a ball that scatters light inside, whatever the phase function, is as independent walks find it") {

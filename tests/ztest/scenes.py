@@ -251,28 +251,26 @@ def materials():
             value("specular_ior", 1.4),
         ),
     )
-    milky = [value("transmission_weight", 1), value("specular_roughness", 0), value("transmission_depth", 1)]
+
+    def milky(name, ior, left, scatter, *more):
+        return element(
+            "openpbr",
+            value("name", name),
+            value("transmission_weight", 1),
+            value("specular_roughness", 0),
+            value("transmission_depth", 1),
+            value("specular_ior", ior),
+            color("transmission_color", left),
+            color("transmission_scatter", scatter),
+            *more,
+        )
+
     balls(
         "glass-milky",
         "Glass that scatters light inside, and fog without a surface, forwards.",
         60,
-        element(
-            "openpbr",
-            value("name", "left"),
-            *milky,
-            value("specular_ior", 1.4),
-            color("transmission_color", (0.3, 0.3, 0.3)),
-            color("transmission_scatter", (0.9, 0.6, 0.3)),
-        ),
-        element(
-            "openpbr",
-            value("name", "right"),
-            *milky,
-            value("specular_ior", 1),
-            color("transmission_color", (0.2, 0.2, 0.2)),
-            color("transmission_scatter", (0.8, 1.1, 1.4)),
-            value("transmission_scatter_anisotropy", 0.6),
-        ),
+        milky("left", 1.4, (0.3, 0.3, 0.3), (0.9, 0.6, 0.3)),
+        milky("right", 1, (0.2, 0.2, 0.2), (0.8, 1.1, 1.4), value("transmission_scatter_anisotropy", 0.6)),
     )
     veil = rectangle((-2.2, 0.2, 1.2), (4.4, 0, 0), (0, 1.2, 0), "veil")
     write(

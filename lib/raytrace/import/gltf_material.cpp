@@ -151,7 +151,8 @@ class MaterialReader {
     add("transmission_color", color(volume, "attenuationColor", 1, 1));
   }
 
-  /// Of a thin wall, what it says comes through; of a body, what goes in there, and it says nothing of how far.
+  /// Thin walls pass on all that they scatter. Of volumes, glTF says how light is absorbed inside, and not how often it
+  /// is scattered: the distance of the one stands for that of the other.
   void read_diffuse_transmission() {
     const auto diffuse = find("KHR_materials_diffuse_transmission"), volume = find("KHR_materials_volume");
     const double weight = share(diffuse, "diffuseTransmissionFactor", 0);
@@ -162,7 +163,6 @@ class MaterialReader {
     const double thickness = number(volume, "thicknessFactor", 0);
     material_.thin_walled = thickness <= 0;
     if (material_.thin_walled) return add("subsurface_scatter_anisotropy", 1);
-    // Attenuation is by absorption, in the distance; without it, a tenth of the body scatters most.
     const double distance = number(volume, "attenuationDistance", 0);
     const Rgb<double> left = color(volume, "attenuationColor", 1, 1);
     const auto path = [&](double c) { return 1 / -std::log(std::clamp(c, 1e-6, 0.99)); };

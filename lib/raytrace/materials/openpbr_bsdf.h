@@ -63,7 +63,7 @@ struct OpenPbrBsdf {
     fuzz = select(within, T(0), fuzz);
     specular_color = select(within, white(), specular_color);
     film.eta = select(within, film.eta * eta, film.eta);
-    // What is inside is below the front.
+    // Walks go in below the front alone: from behind there is no inside to walk in.
     if (const auto walks = subsurface > T(0); any(walks)) {
       const auto behind = walks & !(front | is_thin());
       base = select(behind, base + inside, base);

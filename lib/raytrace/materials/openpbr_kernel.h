@@ -38,7 +38,7 @@ class Kernel<OpenPbr> {
     const auto least = [](const Value& value) { return max(value, Value(1e-30F)); };
     const Value one(1), none(0), half(0.5F);
     Bsdf<T> bsdf;
-    // Of what is scattered inside, a sheet's own side gets a part straight away, and without walks, all.
+    // A thin wall sends a part of what it scatters back at once; without walks, all of it is diffuse.
     const Value &below = values.subsurface_weight, &walks = values.walks, &g = values.subsurface_scatter_anisotropy;
     const auto has_subsurface = below > none;
     const Value comes_back = pick(values.thin > none, half * (one - g), one - walks),
@@ -121,7 +121,10 @@ class Kernel<OpenPbr> {
                   static_cast<float>(dispersion_of(OpenPbr::abbe(parameters)))};
     const double depth = parameters.transmission_depth;
     if (!(depth > 0)) return medium;
-    medium.scattering = Rgb<float>(parameters.transmission_scatter * (1 / depth));
+    const auto scattering = [&](double c) { return std::min(c / depth, 1e30); };
+    medium.scattering = Rgb<float>(Rgb<double>(scattering(parameters.transmission_scatter.red),
+                                               scattering(parameters.transmission_scatter.green),
+                                               scattering(parameters.transmission_scatter.blue)));
     medium.anisotropy = static_cast<float>(std::clamp(parameters.transmission_scatter_anisotropy, -0.98, 0.98));
     // What is absorbed is the rest of the extinction; where more of a colour is scattered than that, grey is added.
     const auto rest = [&](float Rgb<float>::* c) { return medium.extinction.*c - medium.scattering.*c; };

@@ -72,9 +72,8 @@ MaskN PathBatch::add(CameraRays& camera, const MaskN& active, const MaskN& wante
   path.last_media = media.last;
   path.deviation = FloatN(0);
   const MediumTable& table = scene_.tables().media();
-  if (const IntN medium = table.scatters() ? scene_.camera_media().current(table) : IntN(0);
-      table.scatters() && any(table.scatters(medium))) [[unlikely]] {
-    const Hits walked = walk(path, medium, hits.hit & wanted, 0, camera_walks_);
+  if (table.scatters() && any(table.scatters(scene_.camera_media().current(table)))) [[unlikely]] {
+    const Hits walked = walk(path, scene_.camera_media().current(table), hits.hit & wanted, 0, camera_walks_);
     path.set_hits(walked);
     append(paths_, path, walked, walked.hit);
   } else {

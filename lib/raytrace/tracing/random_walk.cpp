@@ -71,7 +71,9 @@ void walk(const TracedScene& scene, const Scatterers& scatterers, MaskN walks, c
     const Rgb<FloatN> left = exp_of(scatterers.extinction * -rays.far);
     const Rgb<FloatN> density = select(hits.hit, left, scatterers.extinction * left);
     const FloatN mean_density = sum(light * density) / sum(light);
-    const Rgb<FloatN> kept = select(hits.hit, left, scatterers.albedo * density) * (FloatN(1) / mean_density);
+    // It is 0 where rounding chose a colour that has no light.
+    const FloatN scale = select(mean_density > FloatN(0), FloatN(1) / mean_density, FloatN(0));
+    const Rgb<FloatN> kept = select(hits.hit, left, scatterers.albedo * density) * scale;
     throughput = select(walks, throughput * kept, throughput);
 
     const MaskN scatters = walks & !hits.hit;
@@ -103,8 +105,8 @@ Hits walk_below(const TracedScene& scene, const SubsurfaceEntry& entry, const Ma
   result.hit = lanes & inside.is_sheet;
   Ray<FloatN> inner = rays;
   rays = {entry.surface.p, entry.surface.ng, FloatN(0), FloatN(0)};
-  // A flight must be able to leave the rounding of where the walk starts.
-  const FloatN shortest = entry.surface.error * FloatN(16);
+  // A walk starts below the surface by a few times its error, which must be little beside a flight.
+  const FloatN shortest = max(entry.surface.error * FloatN(256), FloatN(1e-30F));
   const Rgb<FloatN> extinction = inverse({max(inside.free_path.red, shortest), max(inside.free_path.green, shortest),
                                           max(inside.free_path.blue, shortest)});
   const IntN object = tables.object(entry.hits);
