@@ -121,7 +121,8 @@ TEST_CASE("light groups add up to the picture exactly, with every integrator, an
     check_sums(film_by_group(parsed_scene(lit_scene("")), isa, true));
     check_sums(film_by_group(parsed_scene(lit_scene("<integrator><path/></integrator>")), isa));
     check_sums(film_by_group(parsed_scene(lit_scene("<integrator><normals/></integrator>")), isa), true);
-    for (const std::string path : {"", "<caustics>light</caustics>", "<clampindirect>0.5</clampindirect>"})
+    for (const std::string path :
+         {"", "<caustics>light</caustics>", "<caustics>photons</caustics>", "<clampindirect>0.5</clampindirect>"})
       for (const std::string& camera :
            {pinhole, std::string("<thinlenscamera><eye x='0' y='4' z='6'/><lookat x='0' y='0.5' z='0'/><fov>45</fov>"
                                  "<lensradius>0.2</lensradius><focaldistance>7</focaldistance></thinlenscamera>")}) {

@@ -166,14 +166,17 @@ double mean_of(const FloatPicture& picture) {
 TEST_CASE("light paths through media in each other bring what paths from the camera would") {
   for (const bool lamp_in_water : {false, true}) {
     const double by_chance = mean_of(rendered(basin("none", is_sanitized ? 256 : 2048, lamp_in_water), 2));
-    const double by_light = mean_of(rendered(basin("light", is_sanitized ? 64 : 512, lamp_in_water), 2));
-    INFO("lamp in water: " << lamp_in_water << ", " << by_light << " for " << by_chance);
-    CHECK(std::abs(by_light / by_chance - 1) < (is_sanitized ? 0.06 : 0.015));
+    for (const std::string caustics : {"light", "photons"}) {
+      const double by_light = mean_of(rendered(basin(caustics, is_sanitized ? 64 : 512, lamp_in_water), 2));
+      INFO(caustics << ", lamp in water: " << lamp_in_water << ", " << by_light << " for " << by_chance);
+      CHECK(std::abs(by_light / by_chance - 1) < (is_sanitized ? 0.06 : 0.015));
+    }
   }
 }
 
 TEST_CASE("paths through media in each other have the same bits however they are cut") {
   check_same_bits(basin("light", 16, true));
+  check_same_bits(basin("photons", 20, false));
 }
 
 }  // namespace raytrace::test

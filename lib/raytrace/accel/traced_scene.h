@@ -21,6 +21,7 @@ class TracedScene final : public Scene {
   RadianceRange radiance_range() const override { return radiance_range_; }
   void set_radiance_range(const RadianceRange& range) { radiance_range_ = range; }
   bool traces_light_paths() const override { return tables_.caustics() != nullptr; }
+  bool has_photons() const override { return tables_.has_photons(); }
   float largest_albedo() const override { return tables_.largest_albedo(); }
   const char* isa() const override { return isa_name_; }
   SceneStatistics statistics() const override;

@@ -95,7 +95,7 @@ class MotionFinder {
   void finish() {
     if (!camera_moves_) scene_.moving_camera.clear();
     const auto* const path = scene_.integrator ? std::get_if<Path::Parameters>(&*scene_.integrator) : nullptr;
-    if (camera_moves_ && path != nullptr && path->caustics == Caustics::light)
+    if (camera_moves_ && path != nullptr && path->caustics != Caustics::none)
       diagnostics_.error({},
                          "the camera moves while its shutter is open, and light paths (<caustics>) cannot reach it; "
                          "let it stand still, or remove <caustics>");

@@ -9,6 +9,7 @@
 
 #include "raytrace/film/aov_film.h"
 #include "raytrace/film/mean.h"
+#include "raytrace/film/photons.h"
 #include "raytrace/film/splat_layer.h"
 #include "raytrace/math/content_hash.h"
 #include "raytrace/math/limbs.h"
@@ -71,6 +72,8 @@ bool is_unit_exponent(int exponent) {
   return exponent >= unit_exponent(std::numeric_limits<float>::denorm_min(), 1) &&
          exponent <= unit_exponent(std::numeric_limits<float>::max(), most_samples);
 }
+
+void Film::set_photons(std::unique_ptr<const Photons> photons) { photons_ = std::move(photons); }
 
 Film::~Film() = default;
 Film::Film(Film&&) noexcept = default;

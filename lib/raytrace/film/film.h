@@ -116,6 +116,7 @@ bool is_unit_exponent(int exponent);
 
 class AovFilm;
 class ContentHash;
+class Photons;
 class SplatLayer;
 
 /// A Pixel's four numbers as IEEE 754 binary16.
@@ -188,6 +189,10 @@ class Film {
   SplatLayer* splats() { return splats_.get(); }
   const SplatLayer* splats() const { return splats_.get(); }
 
+  /// Of the pass that is rendered, or was last; null if there are none. They are no part of the picture.
+  const Photons* photons() const { return photons_.get(); }
+  void set_photons(std::unique_ptr<const Photons> photons);
+
   /// What the light groups bring that settings().aovs names, in their order. With that of all other groups, it adds up
   /// to the film's own sums and splats.
   std::span<LightLayer> lights() { return lights_; }
@@ -226,6 +231,7 @@ class Film {
   LateArray<PixelSumHigh> highs_;  ///< of the sums
   std::unique_ptr<AovFilm> aovs_;
   std::unique_ptr<SplatLayer> splats_;
+  std::unique_ptr<const Photons> photons_;
   std::vector<LightLayer> lights_;
 };
 

@@ -21,12 +21,13 @@ struct Choices<LightSampling> {
 
 /// How light comes to surfaces that scatter it by way of mirrors, metals and clear glass.
 enum class Caustics {
-  none,   ///< on paths from the camera that chance to meet a light
-  light,  ///< where the camera sees the surface: on paths that start at the lights
+  none,     ///< on paths from the camera that chance to meet a light
+  light,    ///< where the camera sees the surface: on paths that start at the lights
+  photons,  ///< on such paths there, and everywhere else by photons; a bias that falls with the samples
 };
 template <>
 struct Choices<Caustics> {
-  static constexpr std::array<std::string_view, 2> words = {"none", "light"};
+  static constexpr std::array<std::string_view, 3> words = {"none", "light", "photons"};
 };
 
 class Path {
@@ -36,6 +37,7 @@ class Path {
     int roulettedepth = 3;  ///< from this scattering on, paths that carry little may end
     LightSampling lightsampling = LightSampling::tree;
     Caustics caustics = Caustics::none;
+    double photonradius = 0;  ///< within which the first pass looks up photons; 0: found from the photons
     double clampindirect =
         0;  ///< the most radiance, in each channel, that a path brings from beyond its first point; a bias. 0: any
   };
@@ -43,7 +45,9 @@ class Path {
   static Fields fields() {
     return {optional("maxdepth", &Parameters::maxdepth, Range::positive),
             optional("roulettedepth", &Parameters::roulettedepth, Range::positive),
-            optional("lightsampling", &Parameters::lightsampling), optional("caustics", &Parameters::caustics),
+            optional("lightsampling", &Parameters::lightsampling),
+            optional("caustics", &Parameters::caustics),
+            optional("photonradius", &Parameters::photonradius, Range::not_negative),
             optional("clampindirect", &Parameters::clampindirect, Range::not_negative)};
   }
 };

@@ -10,6 +10,7 @@
 
 #include "raytrace/aovs/aov_selection.h"
 #include "raytrace/description/check_scene.h"
+#include "raytrace/film/photons.h"
 #include "raytrace/parallel/for_each_index.h"
 #include "raytrace/parallel/worker_count.h"
 
@@ -21,6 +22,13 @@ namespace {
 double thread_seconds() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) * 1e-9;
+}
+
+/// What all threads have taken.
+double process_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) * 1e-9;
 }
 
@@ -112,6 +120,27 @@ class ProgressReporter {
   ErrorEstimate error_;
 };
 
+/// Samples that are rendered together: until each pixel has `last`.
+struct Pass {
+  std::uint32_t last = 0;
+  std::optional<std::uint32_t> photons;  ///< of which they are looked up; none: there are none
+  double share = 1;                      ///< of the samples that are to be rendered
+};
+
+/// In scenes with photons, those that share some; else all.
+std::vector<Pass> passes_of(const Scene& scene, const Film& film, std::uint32_t samples) {
+  if (!scene.has_photons()) return {{samples, std::nullopt, 1}};
+  std::vector<Pass> passes;
+  const std::uint32_t begin = film.fewest_samples(), before = film.settings().samples.first;
+  for (std::uint32_t done = begin; done < samples;) {
+    const std::uint32_t number = PhotonPasses::pass_of(before + done), end = PhotonPasses::end_of(number) - before;
+    const std::uint32_t last = std::min(samples, end);
+    passes.push_back({last, number, static_cast<double>(last - done) / (samples - begin)});
+    done = last;
+  }
+  return passes;
+}
+
 }  // namespace
 
 FilmSettings film_settings(const Scene& scene, const SceneDescription& description, const RenderSettings& settings) {
@@ -151,22 +180,33 @@ RenderReport render(const Scene& scene, Film& film, std::uint32_t samples, int t
   const int workers = worker_count(thread_count(threads));
   const TileGrid grid = tiles_for(film.settings().rendered(), workers);
   const Variant variant = choose_variant(scene.isa());
-  ProgressReporter reporter(progress, grid.count());
-  std::vector<RenderReport> reports(static_cast<std::size_t>(grid.count()));  // of each tile
-  for_each_index(grid.count(), workers, [&](int index) {
-    if (stop != nullptr && stop->load(std::memory_order_relaxed)) return;
-    const Region tile = grid.tile(index);
-    RenderReport& of_tile = reports[static_cast<std::size_t>(index)];
-    if (film.content() != FilmContent::sums || !is_rendered(film, tile, samples)) {
-      const double start = thread_seconds();
-      of_tile = variant.render(scene, tile, samples, film, stop);
-      of_tile.processor_seconds = thread_seconds() - start;
-    }
-    reporter.add(of_tile.error);
-  });
-  reporter.report();  // the last may have found another thread reporting
+  const auto is_stopped = [&] { return stop != nullptr && stop->load(std::memory_order_relaxed); };
+  const std::vector<Pass> passes = passes_of(scene, film, samples);
+  ProgressReporter reporter(progress, grid.count() * static_cast<int>(passes.size()));
   RenderReport report;
-  for (const RenderReport& of_tile : reports) report += of_tile;
+  for (const Pass& pass : passes) {
+    if (pass.photons) {
+      const double start = process_seconds();
+      report += variant.trace_photons(scene, *pass.photons, workers, stop, film);
+      report.processor_seconds += process_seconds() - start;
+      if (is_stopped()) break;
+    }
+    std::vector<RenderReport> reports(static_cast<std::size_t>(grid.count()));  // of each tile
+    for_each_index(grid.count(), workers, [&](int index) {
+      if (is_stopped()) return;
+      const Region tile = grid.tile(index);
+      RenderReport& of_tile = reports[static_cast<std::size_t>(index)];
+      if (film.content() != FilmContent::sums || !is_rendered(film, tile, pass.last)) {
+        const double start = thread_seconds();
+        of_tile = variant.render(scene, tile, pass.last, film, stop);
+        of_tile.processor_seconds = thread_seconds() - start;
+        of_tile.error = of_tile.error.of_pass(pass.share);
+      }
+      reporter.add(of_tile.error);
+    });
+    reporter.report();  // the last may have found another thread reporting
+    for (const RenderReport& of_tile : reports) report += of_tile;
+  }
   return report;
 }
 

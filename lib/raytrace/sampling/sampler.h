@@ -40,6 +40,11 @@ constexpr Dimension shadow_dimension(std::uint32_t n) { return static_cast<Dimen
 enum class LightPathDraw : std::uint32_t { source, place, direction, lens, first_of_points };
 enum class LightPathPointDraw : std::uint32_t { direction, lobe_and_roulette, count };
 
+/// Which photon is looked up at a point of a path: none of those above.
+constexpr Dimension photon_dimension(int depth) {
+  return static_cast<Dimension>(static_cast<std::uint32_t>(depth) | 0x30000000U);
+}
+
 /// None of those above.
 constexpr Dimension light_path_dimension(LightPathDraw draw) {
   return static_cast<Dimension>(static_cast<std::uint32_t>(draw) | 0x40000000U);

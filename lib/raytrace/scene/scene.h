@@ -34,6 +34,9 @@ class Scene {
   /// Whether paths start at its lights, too, whose films have splats (film/splat_layer.h).
   virtual bool traces_light_paths() const = 0;
 
+  /// Whether these paths leave photons, which samples look up (film/photons.h).
+  virtual bool has_photons() const = 0;
+
   /// The albedo of no material in use has a larger magnitude, in any channel.
   virtual float largest_albedo() const = 0;
 

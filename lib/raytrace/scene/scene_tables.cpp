@@ -84,7 +84,11 @@ SceneTables::SceneTables(const SceneDescription& description, int threads)
   const auto* const path = std::get_if<Path::Parameters>(&integrator_);
   if (path == nullptr) emissions.clear();
   emitters_.emplace(*geometry_, emissions, path == nullptr ? LightSampling::tree : path->lightsampling);
-  if (path != nullptr && path->caustics == Caustics::light) add_caustics();
+  if (path != nullptr && path->caustics != Caustics::none) {
+    add_caustics();
+    // With two points, there is none to look them up at.
+    has_photons_ = caustics_ && path->caustics == Caustics::photons && path->maxdepth > 2;
+  }
 }
 
 void SceneTables::add_caustics() {

@@ -109,6 +109,8 @@ class SceneTables {
 
   /// Where light paths start, and what they aim at; null if there are none.
   const CausticTable* caustics() const { return caustics_ ? &*caustics_ : nullptr; }
+  /// Whether light paths leave photons; then they start somewhere.
+  bool has_photons() const { return has_photons_; }
 
   const GeometryTable& geometry() const { return *geometry_; }
 
@@ -280,7 +282,7 @@ class SceneTables {
   std::vector<SurfaceDetail> details_;  ///< of all materials
   MediumTable media_;
   bool has_cutouts_ = false, has_relief_ = false, has_emission_ = false, has_second_uvset_ = false,
-       has_turned_tangents_ = false, has_subsurface_ = false;
+       has_turned_tangents_ = false, has_subsurface_ = false, has_photons_ = false;
   std::vector<std::int32_t> shining_sides_;  ///< of all materials: 0, 1 for the front, 2 for both
   std::vector<std::int32_t> textured_;       ///< 1 for materials with textures, else 0; empty if there are none
   std::vector<std::int32_t> anisotropic_;    ///< likewise: those whose reflection differs along the surface

@@ -33,6 +33,15 @@ class ErrorEstimate {
     return *this;
   }
 
+  /// Of a picture of which this is a part: one of its passes, with that share of its samples.
+  ErrorEstimate of_pass(double share) const {
+    ErrorEstimate part;
+    part.halves_ = static_cast<std::uint64_t>(static_cast<double>(halves_) * share * share);
+    part.quarters_ = static_cast<std::uint64_t>(static_cast<double>(quarters_) * share * share);
+    part.pixels_ = static_cast<std::uint64_t>(std::ceil(static_cast<double>(pixels_) * share));
+    return part;
+  }
+
   bool empty() const { return pixels_ == 0; }
 
   /// The mean; 0 of no pixels.

@@ -13,14 +13,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "raytrace/accel/traced_scene.h"
 #include "raytrace/film/splat_layer.h"
-#include "raytrace/tracing/light_path_start.h"
+#include "raytrace/tracing/light_path_tracer.h"
 #include "raytrace/tracing/render_report.h"
 
 namespace raytrace {
 
-class LightPaths {
+class LightPaths final : private LightPathTracer {
  public:
   /// The scene must have caustics, the film splats.
   LightPaths(const TracedScene& scene, Film& film);
@@ -33,20 +32,13 @@ class LightPaths {
   void trace(const Pixels& pixels, const UintN& samples, const MaskN& wanted, RenderReport& report);
 
  private:
-  void follow(LightPathPacket& path, MaskN alive);
-  Hits intersect(const LightPathPacket& path, Ray<FloatN>& rays, const MaskN& lanes);
-  void connect(LightPathPacket& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface,
-               const MediumBoundary& boundary, const MaskN& lanes);
-  MaskN scatter(LightPathPacket& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface,
-                const MediumBoundary& boundary, const TexturePoint<FloatN>* point, const MaskN& lanes) const;
+  /// Sends what reaches those points to the camera, where it shows them.
+  void arrive(const LightPathPacket& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface,
+              const MediumBoundary& boundary, const MaskN& scattered) override;
   void splat(const LightPathPacket& path, std::size_t lane, const FilmPoint& point, const Rgb<FloatN>& radiance);
 
-  const TracedScene& scene_;
-  const SceneTables& tables_;
-  const CausticTable& caustics_;
   Film& film_;
   bool catches_shadows_;  ///< shadow catchers are not in the picture
-  int most_points_, roulette_depth_;
   double inverse_unit_;
   std::vector<RadianceLayer*> layers_;  ///< of each light group; null where the film has none
   RenderReport* report_ = nullptr;      ///< while trace() runs

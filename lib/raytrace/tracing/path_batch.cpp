@@ -23,8 +23,9 @@ std::uint64_t count(const MaskN& lanes) { return static_cast<std::uint64_t>(std:
 
 }  // namespace
 
-PathBatch::PathBatch(const TracedScene& scene)
+PathBatch::PathBatch(const TracedScene& scene, const PhotonMap* photons)
     : scene_(scene),
+      photons_(photons),
       settings_(std::get<Path::Parameters>(scene.tables().integrator())),
       paths_(most_packets * packet_lanes, scene.tables().media()),
       next_(most_packets * packet_lanes, scene.tables().media()),
@@ -166,6 +167,21 @@ void PathBatch::add_escaped(const PathPacket& path, const MaskN& lanes, int dept
   }
 }
 
+void PathBatch::add_photons(const PathPacket& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface,
+                            const TexturePoint<FloatN>* point, const MaskN& lanes, int depth) {
+  const FloatN u = get_2d(path.pixel, path.sample, photon_dimension(depth)).x;
+  const PhotonMap::Light found = photons_->choose(surface.p, surface.ng, lanes, u, settings_.maxdepth - depth - 1);
+  if (none(found.lanes)) return;
+  IncidentLight light{select(found.lanes, found.wi, surface.ns), FloatN(0), found.flux_density};
+  // Over the shaded surface the same light is more or less than over the true one.
+  const FloatN cosine = max(dot(surface.ns, light.wi), FloatN(0)) / max(found.cosine, FloatN(1e-6F));
+  light.cosine = select(found.lanes & (dot(surface.ng, light.wi) > FloatN(0)), cosine, FloatN(0));
+  if (surface.has_relief) light.cosine = light.cosine * relief_shadow(surface, light.wi);
+  const Rgb<FloatN> radiance =
+      scene_.tables().shade(hits, surface, Rgb<float>(0, 0, 0), {&light, 1}, point) * path.throughput;
+  add(indirect_, path.slot, found.lanes, radiance, groups_ > 1 ? found.group : IntN(0));
+}
+
 void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCounts& counts) {
   const SceneTables& tables = scene_.tables();
   Ray<FloatN>& rays = path.rays;
@@ -196,7 +212,7 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   const TexturePoint<FloatN>* const point = textures ? &*textures : nullptr;
   clock_.end(Stage::texture);
   const float environment_share = environment_share_of(tables);
-  // Light paths bring what comes by what focuses light to the first point.
+  // Light paths bring what comes by what focuses light to the first point, photons what comes to any other.
   const CausticTable* const caustics = tables.caustics();
   MaskN focused(false), focuses(false);
   if (caustics != nullptr) {
@@ -270,6 +286,8 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
       group = select_lanes(drawn.is_sky, group, tables.light_group_of_material(drawn.sample.material));
   }
   add(sums, path.slot, lanes, path.throughput * light, group);
+  if (photons_ != nullptr && depth > 0)
+    if (const MaskN shown = lanes & !focuses; any(shown)) add_photons(path, hits, surface, point, shown, depth);
   clock_.end(Stage::lights);
   if (!goes_on) return;
 
@@ -292,7 +310,7 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   if (none(alive)) return clock_.end(Stage::shade);
   path.pdf = select(sample.specular | through, infinity<FloatN>(), sample.pdf);
   if (caustics != nullptr) {
-    const MaskN reflects = MaskN(depth == 0) & (!(focuses | through | sample.specular));
+    const MaskN reflects = MaskN(depth == 0 || photons_ != nullptr) & (!(focuses | through | sample.specular));
     path.way = select_lanes(on_way, IntN(by_focus), select_lanes(reflects, IntN(by_reflection), IntN(any_way)));
   }
   path.from = surface.p;

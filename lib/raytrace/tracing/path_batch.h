@@ -15,6 +15,7 @@
 #include "raytrace/integrators/path.h"
 #include "raytrace/scene/medium_table.h"
 #include "raytrace/tracing/path_chunk.h"
+#include "raytrace/tracing/photon_map.h"
 #include "raytrace/tracing/ray_result.h"
 #include "raytrace/tracing/render_report.h"
 #include "raytrace/tracing/stage_times.h"
@@ -23,8 +24,8 @@ namespace raytrace {
 
 class PathBatch {
  public:
-  /// Throws std::bad_alloc.
-  explicit PathBatch(const TracedScene& scene);
+  /// photons: of the samples that are added; null if the scene has none. Throws std::bad_alloc.
+  PathBatch(const TracedScene& scene, const PhotonMap* photons);
 
   std::size_t packets() const { return direct_.size() / groups_; }
   bool is_full() const { return packets() == most_packets; }
@@ -63,11 +64,15 @@ class PathBatch {
   /// next_boundary() of paths whose ray to there was their ray number `depth`.
   MediumBoundary find_boundary(PathPacket& path, MediumStack& media, Hits& hits, SurfaceInteraction<FloatN>& surface,
                                int depth, RayCounts& counts);
+  /// The light that photons have brought to those points of paths.
+  void add_photons(const PathPacket& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface,
+                   const TexturePoint<FloatN>* point, const MaskN& lanes, int depth);
   /// What comes to paths from where nothing is, along their ray number `depth`: 0 is the camera's.
   void add_escaped(const PathPacket& path, const MaskN& lanes, int depth);
   void append(PathChunk& chunk, const PathPacket& path, const Hits& hits, const MaskN& lanes) const;
 
   const TracedScene& scene_;
+  const PhotonMap* photons_;
   const Path::Parameters& settings_;
   StageClock clock_;
   PathChunk paths_, next_;

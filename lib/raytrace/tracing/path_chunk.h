@@ -19,7 +19,7 @@ namespace raytrace {
 /// What a path from the camera has met, as far as light paths are concerned (tracing/light_paths.h).
 enum PathWay : std::int32_t {
   any_way,        ///< or nothing yet
-  by_reflection,  ///< a point of what does not focus light, which reflected it
+  by_reflection,  ///< last a point that light paths bring light to, or photons, which reflected it
   by_focus,       ///< that, and from there on one or more points of what does: light from here is a light path's
   from_below,     ///< anything, and it now comes out from below the surface that it has hit
 };

@@ -1,5 +1,6 @@
 #include "raytrace/variants/variant.h"
 
+#include "raytrace/tracing/photon_paths.h"
 #include "raytrace/tracing/render_tile.h"
 
 #define RAYTRACE_JOIN_NAMES(a, b) a##b
@@ -22,12 +23,16 @@ RenderReport render(const Scene& scene, const Region& tile, std::uint32_t sample
   return render_tile(static_cast<const TracedScene&>(scene), tile, samples, film, stop);
 }
 
+RenderReport photons(const Scene& scene, std::uint32_t pass, int threads, const std::atomic<bool>* stop, Film& film) {
+  return trace_photons(static_cast<const TracedScene&>(scene), pass, threads, stop, film);
+}
+
 }  // namespace
 
 }  // namespace raytrace
 
 extern "C" const raytrace::Variant& RAYTRACE_JOIN(raytrace_variant_, RAYTRACE_VARIANT)() {
   static constexpr raytrace::Variant variant{RAYTRACE_ISA, raytrace::widest_embree_isa, &raytrace::build,
-                                             &raytrace::render};
+                                             &raytrace::render, &raytrace::photons};
   return variant;
 }

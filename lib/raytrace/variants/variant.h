@@ -27,9 +27,15 @@ struct Variant {
   /// sample range. The scene must be of this variant. The sums do not depend on how a picture is cut into tiles, or the
   /// samples into calls. Safe to call from many threads for disjoint tiles that are aligned to the packets' blocks.
   /// Once `stop` is set (null: never), it returns within a few samples of a packet; the film keeps what was done.
-  /// Pixels of a film of means get theirs at once, of all samples.
+  /// Pixels of a film of means get theirs at once, of all samples. In scenes with photons, all samples must be of the
+  /// pass whose photons the film has.
   RenderReport (*render)(const Scene& scene, const Region& tile, std::uint32_t samples, Film& film,
                          const std::atomic<bool>* stop);
+
+  /// In scenes with photons: gives the film those of a pass, unless it has them (tracing/photon_paths.h). Once `stop`
+  /// is set, it may return without.
+  RenderReport (*trace_photons)(const Scene& scene, std::uint32_t pass, int threads, const std::atomic<bool>* stop,
+                                Film& film);
 };
 
 /// The variant of the named instruction set, or of the processor's best if the name is empty. Throws RenderError

@@ -1,0 +1,148 @@
+#include "raytrace/tracing/photon_paths.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <memory>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "raytrace/film/photons.h"
+#include "raytrace/parallel/for_each_index.h"
+#include "raytrace/sampling/pixel_sampler.h"
+#include "raytrace/tracing/light_path_tracer.h"
+#include "raytrace/tracing/photon_map.h"
+
+namespace raytrace {
+
+namespace {
+
+/// The radius that is found by itself has about so many photons of a pass.
+constexpr std::size_t photons_in_radius = 24;
+
+/// Light paths that a thread takes at a time, and after which it looks whether to stop.
+constexpr std::uint32_t paths_at_once = 1024;
+
+class PhotonTracer final : private LightPathTracer {
+ public:
+  /// paths: of the pass; the camera's have one point at least before they look up photons.
+  PhotonTracer(const TracedScene& scene, std::uint32_t paths)
+      : LightPathTracer(scene, std::get<Path::Parameters>(scene.tables().integrator()).maxdepth - 1),
+        share_(1 / static_cast<float>(paths)) {}
+
+  /// Light paths [first, first + count) of the pass, whose numbers they draw as samples of one pixel.
+  void trace(std::uint32_t pixel, std::uint32_t before, std::uint32_t first, std::uint32_t count,
+             RenderReport& report) {
+    for (std::uint32_t i = 0; i < count; i += packet_lanes) {
+      LightPathPacket path;
+      path.picture_pixel = {};
+      path.pixel = UintN(pixel);
+      path.sample = UintN(before + first + i) + lane_numbers<UintN>();
+      clock_.begin_packet();
+      follow(path, start_light_paths(tables_, path), report.rays);
+      clock_.end(Stage::light_paths);
+    }
+    report.stages += clock_.times();
+  }
+
+  std::vector<Photon>& photons() { return photons_; }
+
+ private:
+  void arrive(const LightPathPacket& path, const Hits&, const SurfaceInteraction<FloatN>& surface,
+              const MediumBoundary&, const MaskN& lanes) override {
+    const auto lane_of = [](const Vec3<FloatN>& v, std::size_t lane) {
+      return Vec3f{v.x.get(lane), v.y.get(lane), v.z.get(lane)};
+    };
+    const MaskN lit = lanes & (dot(surface.ng, surface.wo) > FloatN(0)) & (largest(path.flux) < infinity<FloatN>());
+    for (std::uint32_t left = bits_of<FloatN>(lit); left != 0; left &= left - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+      photons_.push_back(
+          {lane_of(surface.p, lane), lane_of(surface.ng, lane), lane_of(surface.wo, lane),
+           Rgb<float>(path.flux.red.get(lane), path.flux.green.get(lane), path.flux.blue.get(lane)) * share_,
+           path.groups[lane], path.depth});
+    }
+  }
+
+  float share_;
+  StageClock clock_;
+  std::vector<Photon> photons_;  ///< in the order of the paths, and of their points
+};
+
+struct Traced {
+  std::vector<Photon> photons;
+  RenderReport report;
+  bool stopped = false;
+};
+
+/// Of all light paths of a pass, in their order.
+Traced trace_pass(const TracedScene& scene, const FilmSettings& film, std::uint32_t pass, int threads,
+                  const std::atomic<bool>* stop) {
+  const PhotonPasses passes(film.extent.full_width, film.extent.full_height);
+  const int pieces = static_cast<int>(passes.paths / paths_at_once);
+  std::vector<std::vector<Photon>> photons(static_cast<std::size_t>(pieces));
+  std::vector<RenderReport> reports(photons.size());
+  // Their numbers are those of samples of a pixel that no picture has; of another one where 32 bits would run out.
+  const std::uint64_t before = std::uint64_t{pass} * passes.paths;
+  const std::uint32_t pixel = pixel_hash(~0U, static_cast<std::uint32_t>(before >> 32U), film.seed);
+  const auto is_stopped = [&] { return stop != nullptr && stop->load(std::memory_order_relaxed); };
+  for_each_index(pieces, threads, [&](int piece) {
+    if (is_stopped()) return;
+    const auto i = static_cast<std::size_t>(piece);
+    PhotonTracer tracer(scene, passes.paths);
+    tracer.trace(pixel, static_cast<std::uint32_t>(before), static_cast<std::uint32_t>(piece) * paths_at_once,
+                 paths_at_once, reports[i]);
+    photons[i] = std::move(tracer.photons());
+  });
+  Traced traced;
+  traced.stopped = is_stopped();
+  std::size_t count = 0;
+  for (const auto& some : photons) count += some.size();
+  traced.photons.reserve(count);
+  for (const auto& some : photons) traced.photons.insert(traced.photons.end(), some.begin(), some.end());
+  for (const RenderReport& report : reports) traced.report += report;
+  return traced;
+}
+
+}  // namespace
+
+double radius_share(std::uint32_t pass) {
+  // Of the product of (i + 2/3) / (i + 1) for i from 1 to pass: the square of the radius.
+  double share = 1;
+  for (std::uint32_t i = 1; i <= pass && i < 1U << 16U; ++i) share *= (i + 2.0 / 3) / (i + 1.0);
+  return std::sqrt(share);
+}
+
+RenderReport trace_photons(const TracedScene& scene, std::uint32_t pass, int threads, const std::atomic<bool>* stop,
+                           Film& film) {
+  const Photons* const last = film.photons();
+  if (last != nullptr && last->pass == pass) return {};
+  const FilmSettings& settings = film.settings();
+  float first_radius = static_cast<float>(std::get<Path::Parameters>(scene.tables().integrator()).photonradius);
+  RenderReport report;
+  Traced traced;
+  if (first_radius == 0 && last != nullptr) first_radius = last->first_radius;
+  film.set_photons(nullptr);  // so that there is one map at a time
+  if (first_radius == 0) {
+    traced = trace_pass(scene, settings, 0, threads, stop);
+    if (traced.stopped) return traced.report;
+    const auto size = static_cast<float>(scene.tables().caustics()->scene_sphere().radius);
+    const float found = radius_for(traced.photons, photons_in_radius, threads);
+    first_radius = found > 0 ? std::clamp(found, size * 1e-5F, size * 0.1F) : size * 0.01F;
+  }
+  if (pass != 0 || traced.photons.empty()) {
+    report = traced.report;
+    traced = trace_pass(scene, settings, pass, threads, stop);
+  }
+  report += traced.report;
+  if (traced.stopped) return report;
+  auto map =
+      std::make_unique<PhotonMap>(traced.photons, first_radius * static_cast<float>(radius_share(pass)), threads);
+  map->pass = pass;
+  map->first_radius = first_radius;
+  film.set_photons(std::move(map));
+  return report;
+}
+
+}  // namespace raytrace
