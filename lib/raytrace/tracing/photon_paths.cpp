@@ -14,6 +14,7 @@
 #include "raytrace/sampling/pixel_sampler.h"
 #include "raytrace/tracing/light_path_tracer.h"
 #include "raytrace/tracing/photon_map.h"
+#include "raytrace/tracing/sampled_light.h"
 
 namespace raytrace {
 
