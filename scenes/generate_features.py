@@ -851,6 +851,50 @@ write(
 """,
 )
 write(
+    "photons",
+    "A ball in a block of glass, and a mirror that shows the light behind it: no path from the camera meets the lamp, which has no size.",
+    room="""\
+  <integrator> <path> <caustics>photons</caustics> </path> </integrator>
+  <viewplane> <hres>320</hres> <vres>240</vres> <samples>256</samples> </viewplane>
+  <camera> <eye x="0.2" y="3.4" z="5.6"/> <lookat x="0" y="0.35" z="-0.1"/> <viewdistance>430</viewdistance> </camera>
+""",
+    lights="""\
+  <lights>
+    <spotlights>
+      <spotlight>
+        <location x="3.4" y="3.6" z="-0.6"/> <lookat x="0.2" y="0.4" z="0"/> <coneangle>44</coneangle> <penumbraangle>8</penumbraangle>
+        <scaleradiance>130</scaleradiance> <color red="1" green="0.93" blue="0.82"/> <falloff>inversesquare</falloff>
+      </spotlight>
+    </spotlights>
+    <environmentlights>
+      <environmentlight> <scaleradiance>0.12</scaleradiance> <color red="0.6" green="0.75" blue="1"/> </environmentlight>
+    </environmentlights>
+  </lights>
+""",
+    mattes="""\
+      <matte> <name>red</name> <ka>0</ka> <kd>0.8</kd> <cd red="0.9" green="0.12" blue="0.06"/> </matte>
+""",
+    materials_more="""\
+    <dielectrics> <dielectric> <name>glass</name> </dielectric> </dielectrics>
+    <mirrors> <mirror> <name>mirror</name> <cr red="0.9" green="0.92" blue="0.9"/> </mirror> </mirrors>
+""",
+    objects="""\
+    <boxes>
+      <box>
+        <name>block</name> <min x="-0.55" y="0.002" z="-0.55"/> <max x="0.55" y="1" z="0.55"/> <material>glass</material>
+        <transform> <rotate x="0" y="1" z="0" angle="24"/> <translate x="0.55" y="0" z="0.2"/> </transform>
+      </box>
+    </boxes>
+    <spheres>
+      <sphere> <name>ball</name> <center x="0.55" y="0.36" z="0.2"/> <radius>0.35</radius> <material>red</material> </sphere>
+      <sphere> <name>lens</name> <center x="-1" y="0.45" z="0.1"/> <radius>0.45</radius> <material>glass</material> </sphere>
+    </spheres>
+    <rectangles>
+      <rectangle> <corner x="-2.6" y="0" z="-0.5"/> <edge1 x="2.4" y="0" z="-1.1"/> <edge2 x="0" y="1.3" z="0"/> <material>mirror</material> </rectangle>
+    </rectangles>
+""",
+)
+write(
     "skylight",
     "A clear sky in the late afternoon; the sun is behind, on the left.",
     room="""\
