@@ -195,9 +195,12 @@ TEST_CASE("what cannot be blurred is an error") {
   CHECK(contains(with_camera(keys("eye", "x='0' y='0' z='9'", "x='0' y='0' z='-5.4'") + "<lookat x='0' y='0' z='0'/>" +
                              shutter_open),
                  "while the shutter is open: the camera's <eye> and <lookat> are the same point"));
-  const std::string path = "</objects><integrator><path><caustics>light</caustics></path></integrator><objects>";
-  CHECK(
-      contains(message(motion_scene(path, moving_eye + shutter_open, 4)), "light paths (<caustics>) cannot reach it"));
+  for (const std::string caustics : {"light", "photons"}) {
+    const std::string path =
+        "</objects><integrator><path><caustics>" + caustics + "</caustics></path></integrator><objects>";
+    CHECK(contains(message(motion_scene(path, moving_eye + shutter_open, 4)),
+                   "light paths (<caustics>) cannot reach it"));
+  }
 }
 
 }  // namespace raytrace::test
