@@ -25,7 +25,7 @@ float power_of(const Rgb<float>& flux) {
   return std::max({std::abs(flux.red), std::abs(flux.green), std::abs(flux.blue)});
 }
 
-/// Of a bucket's photons, that a point looks at.
+/// Of the photons of a row of buckets, that a point looks at.
 constexpr std::uint32_t most_packets = 1024 / packet_lanes;
 
 float square_of(float x) { return x * x; }
@@ -91,13 +91,13 @@ PhotonMap::PhotonMap(const std::vector<Photon>& photons, float radius, int threa
 }
 
 std::uint32_t PhotonMap::bucket_of(std::int32_t x, std::int32_t y, std::int32_t z) const {
-  return hash(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), static_cast<std::uint32_t>(z), 0U) &
+  // Cells in a row along x are in buckets in a row.
+  return (hash(static_cast<std::uint32_t>(y), static_cast<std::uint32_t>(z), 0U, 0U) + static_cast<std::uint32_t>(x)) &
          bucket_mask_;
 }
 
-void PhotonMap::choose_from(std::uint32_t bucket, const Vec3f& p, const Vec3f& normal, int most_points,
-                            Choice& choice) const {
-  const std::uint32_t first = starts_[bucket], last = starts_[bucket + 1];
+void PhotonMap::choose_from(std::uint32_t first, std::uint32_t last, const Vec3f& p, const Vec3f& normal,
+                            int most_points, Choice& choice) const {
   if (first == last) return;
   const FloatN radius2(square_of(radius_));
   // Where light comes together in a point, one packet of so many stands for all.
@@ -132,6 +132,30 @@ void PhotonMap::choose_from(std::uint32_t bucket, const Vec3f& p, const Vec3f& n
   }
 }
 
+void PhotonMap::choose_around(const Vec3f& p, const Vec3f& normal, int most_points, Choice& choice) const {
+  const auto low = [&](float x) { return cell_at(x - radius_, cells_per_unit_); };
+  const std::int32_t x = low(p.x), y = low(p.y), z = low(p.z);
+  // Of the eight cells around, two each are in buckets in a row, unless some share one.
+  std::array<std::uint32_t, 4> rows;
+  bool apart = true;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i] = bucket_of(x, y + static_cast<std::int32_t>(i & 1), z + static_cast<std::int32_t>(i >> 1));
+    apart = apart && rows[i] != bucket_mask_;
+    for (std::size_t j = 0; j < i; ++j) apart = apart && rows[i] - rows[j] + 1 > 2;
+  }
+  if (apart) [[likely]] {
+    for (const std::uint32_t row : rows) choose_from(starts_[row], starts_[row + 2], p, normal, most_points, choice);
+    return;
+  }
+  std::array<std::uint32_t, 8> buckets;
+  for (std::size_t i = 0; i < buckets.size(); ++i)
+    buckets[i] = (rows[i / 2] + static_cast<std::uint32_t>(i & 1)) & bucket_mask_;
+  std::sort(buckets.begin(), buckets.end());
+  const auto end = std::unique(buckets.begin(), buckets.end());
+  for (auto bucket = buckets.begin(); bucket != end; ++bucket)
+    choose_from(starts_[*bucket], starts_[*bucket + 1], p, normal, most_points, choice);
+}
+
 PhotonMap::Light PhotonMap::choose(const Vec3<FloatN>& p, const Vec3<FloatN>& normal, const MaskN& lanes,
                                    const FloatN& u, int most_points) const {
   alignas(64) std::array<std::array<float, packet_lanes>, 7> numbers{};
@@ -143,18 +167,8 @@ PhotonMap::Light PhotonMap::choose(const Vec3<FloatN>& p, const Vec3<FloatN>& no
     const auto lane = static_cast<std::size_t>(std::countr_zero(left));
     const Vec3f at{p.x.get(lane), p.y.get(lane), p.z.get(lane)};
     const Vec3f its_normal{normal.x.get(lane), normal.y.get(lane), normal.z.get(lane)};
-    const auto low = [&](float x) { return cell_at(x - radius_, cells_per_unit_); };
-    const std::array<std::int32_t, 3> first{low(at.x), low(at.y), low(at.z)};
     Choice choice{u.get(lane)};
-    std::array<std::uint32_t, 8> buckets;
-    for (std::size_t i = 0; i < buckets.size(); ++i) {
-      const auto next = static_cast<std::int32_t>(i);
-      buckets[i] = bucket_of(first[0] + (next & 1), first[1] + (next >> 1 & 1), first[2] + (next >> 2));
-      // Of two cells in one bucket, the first has had the photons of both.
-      if (std::find(buckets.begin(), buckets.begin() + static_cast<std::ptrdiff_t>(i), buckets[i]) ==
-          buckets.begin() + static_cast<std::ptrdiff_t>(i))
-        choose_from(buckets[i], at, its_normal, most_points, choice);
-    }
+    choose_around(at, its_normal, most_points, choice);
     if (!(choice.sum > 0)) continue;
     const Photon& photon = photons_[choice.photon];
     const float share = choice.sum / places_.power[choice.photon] * per_area;

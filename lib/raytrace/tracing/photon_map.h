@@ -50,7 +50,11 @@ class PhotonMap final : public Photons {
     std::vector<std::int32_t> points;
   };
   struct Choice;
-  void choose_from(std::uint32_t bucket, const Vec3f& p, const Vec3f& normal, int most_points, Choice& choice) const;
+  /// Of those around a point.
+  void choose_around(const Vec3f& p, const Vec3f& normal, int most_points, Choice& choice) const;
+  /// Of photons [first, last).
+  void choose_from(std::uint32_t first, std::uint32_t last, const Vec3f& p, const Vec3f& normal, int most_points,
+                   Choice& choice) const;
   std::uint32_t bucket_of(std::int32_t x, std::int32_t y, std::int32_t z) const;
 
   float radius_, cells_per_unit_;
