@@ -322,6 +322,19 @@ class ProgressForPrograms(CommandTest):
         self.succeed("scene.xml", "-o", "a.exr", "-q", "--stats=stats.json")
         self.assertIsNone(json.loads(self.read("stats.json"))["estimated_error"])
 
+    def test_radius_of_photons(self):
+        with open(os.path.join(support.REPOSITORY, "scenes", "photons.xml"), encoding="utf-8") as file:
+            text = file.read()
+        self.write("photons.xml", text)
+        self.write("given.xml", text.replace("<caustics>", "<photonradius>0.125</photonradius> <caustics>"))
+        options = ["-o", "a.exr", "-q", "-s", "2", "-r", "32x24", "--stats=stats.json"]
+        self.succeed("photons.xml", *options)
+        self.assertTrue(0 < json.loads(self.read("stats.json"))["photon_radius"] < 0.5)
+        self.succeed("given.xml", *options)
+        self.assertEqual(json.loads(self.read("stats.json"))["photon_radius"], 0.125)
+        self.succeed("scene.xml", *options)
+        self.assertIsNone(json.loads(self.read("stats.json"))["photon_radius"])
+
     def test_quiet_and_verbose_change_nothing_on_standard_output(self):
         for verbosity in ("-q", "-vv"):
             done = self.succeed("scene.xml", "-o", "a.exr", "--progress=openjd", "--stats", verbosity)

@@ -19,6 +19,7 @@
 #include "raytrace/description/light_groups.h"
 #include "raytrace/display/display_client.h"
 #include "raytrace/film/aov_film.h"
+#include "raytrace/film/photons.h"
 #include "raytrace/film/samples_done.h"
 #include "raytrace/output/atomic_file.h"
 #include "raytrace/output/auto_exposure.h"
@@ -164,6 +165,7 @@ class PictureRender {
       done = target;
     }
     timer.stop();
+    if (film.photons() != nullptr) result_.statistics.photon_radius = film.photons()->first_radius;
     if (control_.is_stopped() && done < all) return write_partial(film);
     if (display_) display_->show(film, film.region());
     finish_render();

@@ -88,6 +88,7 @@ std::string statistics_text(const RenderStatistics& s) {
          aligned_line("total", seconds_text(s.phases.seconds())) +
          (stages.empty() ? stages : aligned_line("stages", stages)) +
          (s.estimated_error ? aligned_line("estimated error", formatted("%10.2f %%", 100 * *s.estimated_error)) : "") +
+         (s.photon_radius ? aligned_line("photon radius", formatted("%10.4g", double{*s.photon_radius})) : "") +
          aligned_line("camera rays", amount_text(s.rays.camera, "")) +
          aligned_line("shadow rays", amount_text(s.rays.shadow, "")) +
          (s.rays.indirect > 0 ? aligned_line("indirect rays", amount_text(s.rays.indirect, "")) : std::string()) +
@@ -111,6 +112,8 @@ std::string statistics_json(const RenderStatistics& s) {
   for (const auto& [name, processor_seconds] : s.stage_seconds()) stages[name] = processor_seconds;
   nlohmann::ordered_json error = nullptr;
   if (s.estimated_error) error = *s.estimated_error;
+  nlohmann::ordered_json photon_radius = nullptr;
+  if (s.photon_radius) photon_radius = *s.photon_radius;
   const nlohmann::ordered_json report = {
       {"schema_version", 1},
       {"software", s.software},
@@ -128,6 +131,7 @@ std::string statistics_json(const RenderStatistics& s) {
       {"processor_seconds", s.processor_seconds},
       {"stage_seconds", stages},
       {"estimated_error", error},
+      {"photon_radius", photon_radius},
       {"rays",
        {{"camera", s.rays.camera},
         {"shadow", s.rays.shadow},

@@ -50,6 +50,7 @@ struct RenderStatistics {
   /// The root of the relative mean squared error of the picture's pixels, as ErrorEstimate has it: 0.02 is 2 %. None of
   /// ray casting, which knows no noise, nor of one sample a pixel.
   std::optional<double> estimated_error = std::nullopt;
+  std::optional<float> photon_radius = std::nullopt;  ///< Photons::first_radius; none without photons
   SceneStatistics scene;
   std::uint64_t peak_memory_bytes = 0;
 

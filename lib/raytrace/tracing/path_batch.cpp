@@ -173,9 +173,11 @@ void PathBatch::add_photons(const PathPacket& path, const Hits& hits, const Surf
   const PhotonMap::Light found = photons_->choose(surface.p, surface.ng, lanes, u, settings_.maxdepth - depth - 1);
   if (none(found.lanes)) return;
   IncidentLight light{select(found.lanes, found.wi, surface.ns), FloatN(0), found.flux_density};
-  // Over the shaded surface the same light is more or less than over the true one.
-  const FloatN cosine = max(dot(surface.ns, light.wi), FloatN(0)) / max(found.cosine, FloatN(1e-6F));
-  light.cosine = select(found.lanes & (dot(surface.ng, light.wi) > FloatN(0)), cosine, FloatN(0));
+  // Over the shaded surface the same light is more or less than over the true one; not much more, since photons that
+  // graze the true one are few and would be bright dots.
+  const FloatN shaded = dot(surface.ns, light.wi), true_cosine = dot(surface.ng, light.wi);
+  light.cosine = select(found.lanes & (true_cosine > FloatN(0)) & (shaded > FloatN(0)),
+                        shaded / max(true_cosine, shaded * FloatN(0.25F)), FloatN(0));
   if (surface.has_relief) light.cosine = light.cosine * relief_shadow(surface, light.wi);
   const Rgb<FloatN> radiance =
       scene_.tables().shade(hits, surface, Rgb<float>(0, 0, 0), {&light, 1}, point) * path.throughput;

@@ -158,7 +158,7 @@ void PhotonMap::choose_around(const Vec3f& p, const Vec3f& normal, int most_poin
 
 PhotonMap::Light PhotonMap::choose(const Vec3<FloatN>& p, const Vec3<FloatN>& normal, const MaskN& lanes,
                                    const FloatN& u, int most_points) const {
-  alignas(64) std::array<std::array<float, packet_lanes>, 7> numbers{};
+  alignas(64) std::array<std::array<float, packet_lanes>, 6> numbers{};
   alignas(64) std::array<std::int32_t, packet_lanes> groups{};
   alignas(64) std::array<std::uint32_t, packet_lanes> found{};
   // Of Epanechnikov's kernel, 1 - (distance / radius)^2.
@@ -178,7 +178,6 @@ PhotonMap::Light PhotonMap::choose(const Vec3<FloatN>& p, const Vec3<FloatN>& no
     numbers[3][lane] = photon.flux.red * share;
     numbers[4][lane] = photon.flux.green * share;
     numbers[5][lane] = photon.flux.blue * share;
-    numbers[6][lane] = dot(photon.normal, photon.wi);
     groups[lane] = photon.group;
     found[lane] = 1;
   }
@@ -186,7 +185,6 @@ PhotonMap::Light PhotonMap::choose(const Vec3<FloatN>& p, const Vec3<FloatN>& no
   return {float_mask<FloatN>(UintN::load_aligned(found.data()) != UintN(0u)),
           {load(0), load(1), load(2)},
           {load(3), load(4), load(5)},
-          load(6),
           IntN::load_aligned(groups.data())};
 }
 

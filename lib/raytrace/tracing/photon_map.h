@@ -33,7 +33,6 @@ class PhotonMap final : public Photons {
     MaskN lanes;  ///< where there are any
     Vec3<FloatN> wi;
     Rgb<FloatN> flux_density;  ///< over the surface, whatever the light's direction
-    FloatN cosine;             ///< of wi and the normal where the photon is
     IntN group;
   };
   /// Estimates the light at points p of surfaces of those normals, from photons that came by `most_points` or fewer:

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -122,24 +123,25 @@ RenderReport trace_photons(const TracedScene& scene, std::uint32_t pass, int thr
   const FilmSettings& settings = film.settings();
   float first_radius = static_cast<float>(std::get<Path::Parameters>(scene.tables().integrator()).photonradius);
   RenderReport report;
-  Traced traced;
+  std::optional<Traced> traced;
   if (first_radius == 0 && last != nullptr) first_radius = last->first_radius;
   film.set_photons(nullptr);  // so that there is one map at a time
   if (first_radius == 0) {
     traced = trace_pass(scene, settings, 0, threads, stop);
-    if (traced.stopped) return traced.report;
+    report += traced->report;
+    if (traced->stopped) return report;
     const auto size = static_cast<float>(scene.tables().caustics()->scene_sphere().radius);
-    const float found = radius_for(traced.photons, photons_in_radius, threads);
+    const float found = radius_for(traced->photons, photons_in_radius, threads);
     first_radius = found > 0 ? std::clamp(found, size * 1e-5F, size * 0.1F) : size * 0.01F;
+    if (pass != 0) traced.reset();
   }
-  if (pass != 0 || traced.photons.empty()) {
-    report = traced.report;
+  if (!traced) {
     traced = trace_pass(scene, settings, pass, threads, stop);
+    report += traced->report;
+    if (traced->stopped) return report;
   }
-  report += traced.report;
-  if (traced.stopped) return report;
   auto map =
-      std::make_unique<PhotonMap>(traced.photons, first_radius * static_cast<float>(radius_share(pass)), threads);
+      std::make_unique<PhotonMap>(traced->photons, first_radius * static_cast<float>(radius_share(pass)), threads);
   map->pass = pass;
   map->first_radius = first_radius;
   film.set_photons(std::move(map));
