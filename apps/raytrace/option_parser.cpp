@@ -53,6 +53,10 @@ constexpr Synonyms synonyms[] = {
     {"--isa", " simd arch instructionset vector avx avx2 avx512 sse "},
     {"--aov", " aovs channels channel passes pass layers layer renderelements "},
     {"--time-limit", " timeout maxtime time rendertime maxrendertime stoptime limit "},
+    {"--error-limit",
+     " noise noiselimit noisethreshold noiselevel maxerror maxnoise targeterror errorthreshold error threshold "
+     "adaptive "
+     "adaptivethreshold "},
     {"--resume", " continue restart recover "},
     {"--checkpoint", " snapshot autosave savestate checkpointfile "},
     {"--skip-existing", " skip nooverwrite keepexisting skiprendered "},

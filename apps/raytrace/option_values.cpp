@@ -207,6 +207,17 @@ PixelIndex pixel_index(const std::string& text) {
   return {parts[0], parts[1]};
 }
 
+double error_limit(const std::string& text) {
+  double error = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, result] = std::from_chars(text.data(), end, error);
+  const bool is_percent = stop != end && *stop == '%';
+  if (is_percent) error /= 100;
+  if (result != std::errc() || stop + (is_percent ? 1 : 0) != end || !(error > 0) || error > 1)
+    throw UsageError(in_quotes(text) + " is not an error; use a percentage such as 2%, or 0.02 for the same");
+  return error;
+}
+
 double duration(const std::string& text) {
   double seconds = 0;
   const char* next = text.data();

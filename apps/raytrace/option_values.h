@@ -100,6 +100,8 @@ PixelIndex pixel_index(const std::string& text);
 
 /// "90", "90s", "10m", "1h30m": in seconds.
 double duration(const std::string& text);
+/// "2%" or "0.02", above 0, at most 1.
+double error_limit(const std::string& text);
 
 /// A finite number above 0.
 double scale(const std::string& text);

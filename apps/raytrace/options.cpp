@@ -76,6 +76,10 @@ void refuse_incomplete(const Options& options) {
   if (options.resume && options.checkpoint.empty()) {
     throw UsageError("--resume goes on from a checkpoint: say which with --checkpoint FILE");
   }
+  if (options.error_limit && (options.tile || options.sample_offset)) {
+    throw UsageError(std::string("--error-limit is for whole pictures and crops: with ") +
+                     (options.tile ? "--tile" : "--sample-offset") + " each piece would end at a number of its own");
+  }
   if (options.print_scene && (options.scenes.size() > 1 || options.frames.size() > 1)) {
     throw UsageError(
         "--print-scene prints one scene; give one" +
@@ -219,6 +223,10 @@ void define_options(OptionParser& parser, Options& options) {
       "Stop adding samples when TIME (90s, 10m, 1h30m) has passed since the start; the picture has as many as fit, at "
       "least 4",
       options.time_limit, duration);
+
+  parser.add("--error-limit", "E",
+             "Stop adding samples when the picture's estimated error is E (2%) or less; --spp is the most",
+             options.error_limit, error_limit);
 
   parser.group("Safety");
   parser.add("--checkpoint", "FILE", "Keep what is rendered in FILE, once a minute and when stopped by a signal",

@@ -41,7 +41,7 @@ class Manual(CommandTest):
             "-o", "--output", "--float", "--bit-depth", "-r", "--resolution", "--fit", "--scale", "--crop", "-s", "--spp",
             "--seed", "-t", "--threads", "--isa", "-q", "--quiet", "-v", "--verbose", "--progress", "--stats",
             "--validate", "--print-scene", "--list", "--version", "-h", "--help", "--tile", "--sample-offset", "--pixel",
-            "--time-limit", "--checkpoint", "--checkpoint-interval", "--resume", "--log-file", "--display-server",
+            "--time-limit", "--error-limit", "--checkpoint", "--checkpoint-interval", "--resume", "--log-file", "--display-server",
             "--frames", "-D", "--define", "--skip-existing", "--aov", "--transparent", "--exposure",
             "--integrator", "--missing-texture", "--texture-memory", "--view", "--camera", "--animation", "--fps",
             "--variant", "--up", "--turntable", "--floor", "--environment", "--sun", "--view-transform", "--auto-exposure",

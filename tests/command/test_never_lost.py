@@ -351,6 +351,75 @@ class TimeLimit(SafetyTest):
         self.assert_same("a.exr", self.read("b.exr"))
 
 
+class ErrorLimit(SafetyTest):
+    PATHS = ["scene.xml", "-q", "--integrator", "path", "-r", "40x30"]
+
+    def statistics(self, *arguments):
+        self.succeed(*self.PATHS, *arguments, "--stats=stats.json")
+        statistics = json.loads(self.read("stats.json"))
+        return statistics["picture"]["samples"], statistics["estimated_error"]
+
+    def setUp(self):
+        super().setUp()
+        # In passes, as with a limit that has no effect.
+        self.error = self.statistics("-o", "first.exr", "-s", "16", "--time-limit", "10h")[1]
+        self.assertGreater(self.error, 0)
+
+    def test_samples_until_the_error_is_small(self):
+        limit = self.error * 0.6
+        samples, error = self.statistics("-o", "a.exr", "-s", "100000", "--error-limit", str(limit), "-t", "2")
+        self.assertLessEqual(error, limit)
+        self.assertTrue(16 < samples < 4000, samples)
+        self.succeed(*self.PATHS, "-o", "b.exr", "-s", str(samples), "--sample-offset", "0")
+        whole, picture = self.exr("b.exr"), self.exr("a.exr")
+        for y, row in picture.rows.items():
+            self.assertEqual(row, {name: whole.rows[y][name] for name in row})
+        # The same as a percentage, on one thread.
+        self.assertEqual(self.statistics("-o", "c.exr", "-s", "100000", "--error-limit", f"{100 * limit}%", "-t", "1"),
+                         (samples, error))
+        # The last pass was needed.
+        passes = [4, 8, 16, *range(32, 4000, 32)]
+        before = passes[passes.index(samples) - 1]
+        self.assertGreater(self.statistics("-o", "d.exr", "-s", str(before), "--time-limit", "10h")[1], limit)
+
+    def test_sixteen_samples_at_least(self):
+        self.assertEqual(self.statistics("-o", "a.exr", "-s", "1000", "--error-limit", "100%")[0], 16)
+        self.assertEqual(self.statistics("-o", "a.exr", "-s", "7", "--error-limit", "100%")[0], 7)
+
+    def test_what_is_said(self):
+        arguments = self.PATHS[:1] + self.PATHS[2:]
+        said = self.succeed(*arguments, "-o", "a.exr", "-s", "1000", "--error-limit", "1").stderr
+        self.assertIn("the error limit was reached after 16 samples per pixel", said)
+        said = self.succeed(*arguments, "-o", "a.exr", "-s", "16", "--error-limit", str(self.error / 2)).stderr
+        self.assertRegex(said, r"the error is [\d.]+ % after all samples, above the limit of [\d.]+ %")
+        said = self.succeed("scene.xml", "-o", "a.exr", "-s", "16", "--error-limit", "1%").stderr
+        self.assertIn("the error limit has no effect", said)
+
+    def test_a_checkpoint_knows_the_error_so_far(self):
+        limit = self.error * 0.6
+        samples, error = self.statistics("-o", "a.exr", "-s", "100000", "--error-limit", str(limit))
+        checkpoint = ["--checkpoint", "checkpoint.exr", "--checkpoint-interval", "0.001s"]
+        process = self.start(*self.PATHS, "-o", "b.exr", "-s", "500000", *checkpoint)
+        self.wait_for_file("checkpoint.exr", process)
+        process.send_signal(signal.SIGTERM)
+        self.assertEqual(process.wait(timeout=LIMIT), 75)
+        done = max(max(row["sums.samples"]) for row in self.exr("checkpoint.exr").rows.values())
+        resumed = self.statistics("-o", "b.exr", "-s", "500000", *checkpoint, "--resume", "--error-limit", str(limit))
+        if done <= samples:
+            self.assertLessEqual(abs(resumed[0] - samples), 32)
+        self.assertLess(resumed[1], 2 * error)
+
+    def test_invalid(self):
+        for value in ("0", "-1", "2", "200%", "abc", "2%%", "nan", "inf"):
+            with self.subTest(value):
+                self.assertIn("is not an error; use a percentage such as 2%",
+                              self.fail_with(2, "scene.xml", "-o", "a.exr", f"--error-limit={value}"))
+        for piece in (["--tile", "0/2"], ["--sample-offset", "4"]):
+            self.assertIn("--error-limit is for whole pictures and crops",
+                          self.fail_with(2, "scene.xml", "-o", "a.exr", "--error-limit", "2%", *piece))
+        self.assertIn("--error-limit", self.fail_with(2, "scene.xml", "-o", "a.exr", "--noise-threshold", "0.01"))
+
+
 class NotFinite(SafetyTest):
     def test_they_are_counted_and_shown(self):
         scene = support.SCENE.replace("<scaleradiance>2</scaleradiance>", "<scaleradiance>1e17</scaleradiance>"

@@ -1,6 +1,8 @@
 #include "raytrace/batch/checkpoint.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <utility>
 
 #include "raytrace/film/samples_done.h"
@@ -13,6 +15,7 @@ namespace raytrace {
 namespace {
 
 constexpr const char* hash_name = "raytrace:sumsHash";
+constexpr const char* error_name = "raytrace:errorOfPasses";
 
 std::string hash_of(const Film& film) {
   ContentHash hash;
@@ -20,13 +23,29 @@ std::string hash_of(const Film& film) {
   return hash.digits();
 }
 
+/// With all their bits.
+std::string text_of(const ErrorOfPasses::Sums& error) {
+  char text[80];
+  std::snprintf(text, sizeof text, "%a %a", error.variance, error.samples);
+  return text;
+}
+
+/// Nothing where the text is none of text_of().
+ErrorOfPasses::Sums error_sums(const std::string& text) {
+  ErrorOfPasses::Sums error;
+  if (std::sscanf(text.c_str(), "%la %la", &error.variance, &error.samples) != 2) return {};
+  const auto is_good = [](double sum) { return std::isfinite(sum) && sum >= 0; };
+  return is_good(error.variance) && is_good(error.samples) ? error : ErrorOfPasses::Sums();
+}
+
 }  // namespace
 
 FileIdentity write_checkpoint(const std::string& file, const Film& film, const PieceIdentity& identity,
-                              ImageMetadata metadata) {
+                              ImageMetadata metadata, const ErrorOfPasses::Sums& error) {
   metadata.samples = static_cast<int>(film.settings().samples.count);
   metadata.attributes = partial_attributes(identity, film);
   metadata.attributes.push_back({hash_name, hash_of(film)});
+  metadata.attributes.push_back({error_name, text_of(error)});
 
   metadata.data_attributes.clear();  // of AOVs, which come when the picture is done
 
@@ -49,7 +68,7 @@ FileIdentity write_checkpoint(const std::string& file, const Film& film, const P
   return image.identity();
 }
 
-void read_checkpoint(const std::string& file, const PieceIdentity& identity, Film& film) {
+ErrorOfPasses::Sums read_checkpoint(const std::string& file, const PieceIdentity& identity, Film& film) {
   ExrReader reader(file);
   const PieceIdentity got = identity_of(reader);
   if (const auto other = difference(identity, got))
@@ -83,23 +102,24 @@ void read_checkpoint(const std::string& file, const PieceIdentity& identity, Fil
     throw InputError("cannot resume from " + file + ": it is damaged");
   if (samples_done(film).most > film.settings().samples.count)
     throw InputError("cannot resume from " + file + ": it has more samples per pixel than are asked for");
+  return error_sums(reader.attribute<std::string>(error_name).value_or(""));
 }
 
 CheckpointFile::CheckpointFile(std::string file, double interval)
     : file_(std::move(file)),
       interval_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(interval))) {}
 
-void CheckpointFile::read(const PieceIdentity& identity, Film& film) {
+ErrorOfPasses::Sums CheckpointFile::read(const PieceIdentity& identity, Film& film) {
   last_ = file_identity(file_);  // first: a file that replaces it meanwhile is not ours to remove
-  read_checkpoint(file_, identity, film);
+  return read_checkpoint(file_, identity, film);
 }
 
 bool CheckpointFile::write(const Film& film, const PieceIdentity& identity, const ImageMetadata& metadata,
-                           RenderObserver& observer) {
+                           const ErrorOfPasses::Sums& error, RenderObserver& observer) {
   const Clock::time_point begin = Clock::now();
   bool written = true;
   try {
-    last_ = write_checkpoint(file_, film, identity, metadata);
+    last_ = write_checkpoint(file_, film, identity, metadata, error);
     observer.on_message(MessageLevel::step, "wrote checkpoint " + file_ + ": " + samples_done_text(film));
   } catch (const OutputError& error) {
     observer.on_message(MessageLevel::error, error.what());

@@ -108,7 +108,7 @@ bool outputs_are_complete(const RenderJob& job, const SceneDescription& descript
   for (const ImageAttribute& attribute : view_attributes(settings))
     wanted.view[attribute.name] = std::get<std::string>(attribute.value);
   if (view.auto_exposure) wanted.view.erase(exposure_keyword);  // which only the picture knows
-  wanted.attributes = picture_attributes(identity, job.time_limit.has_value());
+  wanted.attributes = picture_attributes(identity, job.time_limit || job.error_limit);
   return std::all_of(job.outputs.begin(), job.outputs.end(),
                      [&](const std::string& file) { return is_complete_picture(file, wanted); });
 }

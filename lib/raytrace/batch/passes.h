@@ -44,6 +44,16 @@ class ErrorOfPasses {
     pass_ = {};
   }
 
+  /// What is known of the passes that have ended, for another process to go on with.
+  struct Sums {
+    double variance = 0, samples = 0;
+  };
+  Sums sums() const { return {variance_, samples_}; }
+  void set_sums(const Sums& sums) {
+    variance_ = sums.variance;
+    samples_ = sums.samples;
+  }
+
   /// The root of the relative mean squared error: of all passes that have ended; or, of the first one, of what it has
   /// rendered, with this more. None where nothing is known.
   std::optional<double> estimate(const ErrorEstimate& more = {}) const {

@@ -57,6 +57,8 @@ struct RenderJob {
   double checkpoint_interval = 60;   ///< seconds
   bool resume = false;               ///< from the checkpoint, if there is one
   std::optional<double> time_limit;  ///< seconds from the beginning, the scene's loading included
+  /// Samples are added until RenderStatistics::estimated_error is at most this, or there are all of them.
+  std::optional<double> error_limit;
   std::optional<DisplayAddress> display_server;
 
   std::vector<UsedFile> other_files;  ///< that the run uses, too, such as its log

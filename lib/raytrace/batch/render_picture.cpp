@@ -11,6 +11,7 @@
 #include "raytrace/aovs/aov_selection.h"
 #include "raytrace/batch/bands.h"
 #include "raytrace/batch/checkpoint.h"
+#include "raytrace/batch/error_limit.h"
 #include "raytrace/batch/output_files.h"
 #include "raytrace/batch/passes.h"
 #include "raytrace/batch/provenance.h"
@@ -71,7 +72,8 @@ class PictureRender {
     const int rows = rows_at_once(settings_.region, sizeof(PixelSum) + AovFilm::pixel_bytes(aovs));
     // What goes on later, or may end at any sample, needs the whole film; so does the number of channels that a piece's
     // AOVs need.
-    const bool whole_film = !job_.checkpoint.empty() || job_.time_limit || (job_.sample_offset && aovs.gather()) ||
+    const bool whole_film = !job_.checkpoint.empty() || job_.time_limit || job_.error_limit ||
+                            (job_.sample_offset && aovs.gather()) ||
                             scene_->traces_light_paths() ||  // which reach any row
                             !job_.aovs.light_groups().empty() || is_exposed_by_itself();
     in_bands_ = !whole_film && rows < settings_.region.height();
@@ -134,7 +136,7 @@ class PictureRender {
   /// they stopped or not.
   FilmContent film_content() const {
     const Region picture{0, 0, description_->viewplane.hres, description_->viewplane.vres};
-    if (!job_.checkpoint.empty() || job_.time_limit || job_.sample_offset || job_.display_server ||
+    if (!job_.checkpoint.empty() || job_.time_limit || job_.error_limit || job_.sample_offset || job_.display_server ||
         !job_.aovs.empty() || settings_.region != picture || scene_->traces_light_paths() ||
         light_group_names(*description_).size() > 1)
       return FilmContent::sums;
@@ -149,13 +151,13 @@ class PictureRender {
     Film film(identity_.film, film_content_);
     std::uint32_t done = 0;
     if (job_.resume && std::filesystem::exists(job_.checkpoint)) {
-      checkpoint_.read(identity_, film);
+      error_.set_sums(checkpoint_.read(identity_, film));
       done = film.fewest_samples();
       report(MessageLevel::step, "resumed from " + job_.checkpoint);
     }
     const std::uint32_t all = film.settings().samples.count;
     double seconds_a_sample = 0;
-    while (done < all) {
+    while (done < all && !error_limit_.is_reached(error_, done)) {
       const std::uint32_t target = next_target(done, seconds_a_sample);
       if (target == done) break;  // the time is up
       const Clock::time_point pass_start = Clock::now();
@@ -170,7 +172,11 @@ class PictureRender {
     if (display_) display_->show(film, film.region());
     finish_render();
     result_.statistics.samples = static_cast<int>(done);
-    if (done < all)
+    if (error_limit_.is_reached(error_, done))
+      report(MessageLevel::note, "the error limit was reached after " + counted(done, "sample") + " per pixel");
+    else if (const auto warning = error_limit_.warning(error_); warning && done == all)
+      report(MessageLevel::warning, *warning);
+    else if (done < all)
       report(MessageLevel::warning, "the time limit was reached after " + counted(done, "sample") + " per pixel");
     if (!write_picture(film, job_.outputs, done, false)) return RenderOutcome::failed;
     checkpoint_.remove(observer_);
@@ -215,8 +221,9 @@ class PictureRender {
       const auto update = [&](const RenderProgress& pass) {
         const double of_time = job_.time_limit ? seconds_since(start_) / *job_.time_limit : 0;
         const double of_samples = work_before + pass.fraction * work;
+        const double of_error = error_limit_.share(error_, pass.error);
         const std::uint32_t all = identity_.film.samples.count;
-        observer_.on_progress({std::min(std::max(of_samples, of_time), std::nextafter(1.0, 0.0)),
+        observer_.on_progress({std::min(std::max({of_samples, of_time, of_error}), std::nextafter(1.0, 0.0)),
                                static_cast<std::uint32_t>(of_samples * all), all, error_.estimate(pass.error)});
         if (is_due()) control_.pause() = true;
       };
@@ -241,7 +248,7 @@ class PictureRender {
         report(MessageLevel::note, "picture so far, " + samples_done_text(film) + ", in " + joined(job_.outputs, ", "));
       }
     }
-    if (checkpoint_.is_due()) checkpoint_.write(film, identity_, metadata(), observer_);
+    if (checkpoint_.is_due()) checkpoint_.write(film, identity_, metadata(), error_.sums(), observer_);
     if (display_ && display_->is_due()) display_->show(film, film.region());
   }
 
@@ -251,7 +258,7 @@ class PictureRender {
   /// The samples per pixel after the next pass. With a time limit, none is begun that would not end in time.
   std::uint32_t next_target(std::uint32_t done, double seconds_a_sample) const {
     const std::uint32_t all = identity_.film.samples.count;
-    if (!job_.time_limit && job_.checkpoint.empty() && !display_) return all;
+    if (!job_.time_limit && !job_.error_limit && job_.checkpoint.empty() && !display_) return all;
     const std::uint32_t samples = samples_of_pass(done, all);
     if (!job_.time_limit || done == 0) return done + samples;
     return done + samples_in_time(samples, *job_.time_limit - seconds_since(start_), seconds_a_sample);
@@ -272,7 +279,7 @@ class PictureRender {
     std::vector<std::string> files = job_.outputs, kept, reasons;
     bool saved = true;
     if (!job_.checkpoint.empty()) {
-      saved = checkpoint_.write(film, identity_, metadata(), observer_);
+      saved = checkpoint_.write(film, identity_, metadata(), error_.sums(), observer_);
       if (saved) kept.push_back("checkpoint " + job_.checkpoint + " written, --resume goes on from it");
     } else {
       // Nothing goes on from here: an earlier picture that is complete is worth more. And where no mark says that this
@@ -372,6 +379,7 @@ class PictureRender {
   CheckpointFile checkpoint_;
   InvalidSamples invalid_samples_;
   ErrorOfPasses error_;
+  const ErrorLimit error_limit_{job_.error_limit};
   std::unique_ptr<DisplayClient> display_;  ///< none if it was not asked for
   RenderResult result_;
 };

@@ -200,12 +200,14 @@ RenderReport render(const Scene& scene, Film& film, std::uint32_t samples, int t
         const double start = thread_seconds();
         of_tile = variant.render(scene, tile, pass.last, film, stop);
         of_tile.processor_seconds = thread_seconds() - start;
-        of_tile.error = of_tile.error.of_pass(pass.share);
       }
-      reporter.add(of_tile.error);
+      reporter.add(of_tile.error.of_pass(pass.share));
     });
     reporter.report();  // the last may have found another thread reporting
-    for (const RenderReport& of_tile : reports) report += of_tile;
+    RenderReport of_pass;
+    for (const RenderReport& of_tile : reports) of_pass += of_tile;
+    of_pass.error = of_pass.error.of_pass(pass.share);
+    report += of_pass;
   }
   return report;
 }
