@@ -70,8 +70,7 @@ class PictureRender {
     refuse_useless_tile(job_, description_->viewplane, others_reach_it);
     const AovSettings aovs = aov_settings(job_.aovs);
     const int rows = rows_at_once(settings_.region, sizeof(PixelSum) + AovFilm::pixel_bytes(aovs));
-    // What goes on later, or may end at any sample, needs the whole film; so does the number of channels that a piece's
-    // AOVs need.
+    // What goes on later, or may end at any sample, needs the whole film; so do the channels of a piece's AOVs.
     const bool whole_film = !job_.checkpoint.empty() || job_.time_limit || job_.error_limit ||
                             (job_.sample_offset && aovs.gather()) ||
                             scene_->traces_light_paths() ||  // which reach any row
@@ -149,16 +148,17 @@ class PictureRender {
   RenderOutcome render_at_once() {
     PhaseTimer timer(result_.statistics.phases.render);
     Film film(identity_.film, film_content_);
-    std::uint32_t done = 0;
+    std::uint32_t done = 0, begun = 0;  // samples that all pixels have, and some, of a pass that was stopped
     if (job_.resume && std::filesystem::exists(job_.checkpoint)) {
       error_.set_sums(checkpoint_.read(identity_, film));
       done = film.fewest_samples();
+      begun = samples_done(film).most;
       report(MessageLevel::step, "resumed from " + job_.checkpoint);
     }
     const std::uint32_t all = film.settings().samples.count;
     double seconds_a_sample = 0;
-    while (done < all && !error_limit_.is_reached(error_, done)) {
-      const std::uint32_t target = next_target(done, seconds_a_sample);
+    while (done < all && (done < begun || !error_limit_.is_reached(error_, done))) {
+      const std::uint32_t target = std::max(next_target(done, seconds_a_sample), begun);
       if (target == done) break;  // the time is up
       const Clock::time_point pass_start = Clock::now();
       if (!render_pass(film, target, 1.0 * done / all, 1.0 * (target - done) / all)) break;

@@ -1,6 +1,7 @@
 // The photons of a pass, which its samples look up: what a film keeps of them from one call of render() to the next.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 namespace raytrace {
@@ -20,6 +21,14 @@ struct PhotonPasses {
   static std::uint32_t pass_of(std::uint32_t sample) { return sample / samples_per_pass; }
   /// The sample after its last.
   static std::uint32_t end_of(std::uint32_t pass) { return (pass + 1) * samples_per_pass; }
+
+  /// The radius of a pass, of that of the first, 0: its square is a product of (i + 2/3) / (i + 1) (Knaus and Zwicker
+  /// 2011).
+  static double radius_share(std::uint32_t pass) {
+    double share = 1;
+    for (std::uint32_t i = 1; i <= pass && i < 1U << 16U; ++i) share *= (i + 2.0 / 3) / (i + 1.0);
+    return std::sqrt(share);
+  }
 };
 
 /// Of one pass. The wide code knows what is in it (tracing/photon_map.h).

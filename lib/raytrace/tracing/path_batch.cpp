@@ -23,9 +23,9 @@ std::uint64_t count(const MaskN& lanes) { return static_cast<std::uint64_t>(std:
 
 }  // namespace
 
-PathBatch::PathBatch(const TracedScene& scene, const PhotonMap* photons)
+PathBatch::PathBatch(const TracedScene& scene, const Photons* photons)
     : scene_(scene),
-      photons_(photons),
+      photons_(static_cast<const PhotonMap*>(photons)),
       settings_(std::get<Path::Parameters>(scene.tables().integrator())),
       paths_(most_packets * packet_lanes, scene.tables().media()),
       next_(most_packets * packet_lanes, scene.tables().media()),

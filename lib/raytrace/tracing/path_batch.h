@@ -24,8 +24,8 @@ namespace raytrace {
 
 class PathBatch {
  public:
-  /// photons: of the samples that are added; null if the scene has none. Throws std::bad_alloc.
-  PathBatch(const TracedScene& scene, const PhotonMap* photons);
+  /// photons: a PhotonMap, of the samples that are added; null if the scene has none. Throws std::bad_alloc.
+  PathBatch(const TracedScene& scene, const Photons* photons);
 
   std::size_t packets() const { return direct_.size() / groups_; }
   bool is_full() const { return packets() == most_packets; }

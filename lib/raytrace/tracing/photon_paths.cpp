@@ -1,7 +1,6 @@
 #include "raytrace/tracing/photon_paths.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <memory>
@@ -109,13 +108,6 @@ Traced trace_pass(const TracedScene& scene, const FilmSettings& film, std::uint3
 
 }  // namespace
 
-double radius_share(std::uint32_t pass) {
-  // Of the product of (i + 2/3) / (i + 1) for i from 1 to pass: the square of the radius.
-  double share = 1;
-  for (std::uint32_t i = 1; i <= pass && i < 1U << 16U; ++i) share *= (i + 2.0 / 3) / (i + 1.0);
-  return std::sqrt(share);
-}
-
 RenderReport trace_photons(const TracedScene& scene, std::uint32_t pass, int threads, const std::atomic<bool>* stop,
                            Film& film) {
   const Photons* const last = film.photons();
@@ -140,8 +132,8 @@ RenderReport trace_photons(const TracedScene& scene, std::uint32_t pass, int thr
     report += traced->report;
     if (traced->stopped) return report;
   }
-  auto map =
-      std::make_unique<PhotonMap>(traced->photons, first_radius * static_cast<float>(radius_share(pass)), threads);
+  auto map = std::make_unique<PhotonMap>(traced->photons,
+                                         first_radius * static_cast<float>(PhotonPasses::radius_share(pass)), threads);
   map->pass = pass;
   map->first_radius = first_radius;
   film.set_photons(std::move(map));

@@ -22,7 +22,4 @@ namespace raytrace {
 RenderReport trace_photons(const TracedScene& scene, std::uint32_t pass, int threads, const std::atomic<bool>* stop,
                            Film& film);
 
-/// By how much the radius of a pass is smaller than that of the first.
-double radius_share(std::uint32_t pass);
-
 }  // namespace raytrace

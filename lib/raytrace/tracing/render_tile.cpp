@@ -63,8 +63,7 @@ class BlockRenderer {
         layers_(light_layers(scene.tables(), film)),
         group_light_(layers_.size()),
         by_group_(layers_.size() > 1 || layers_.front() != nullptr) {
-    if (!raycast && integrator_.radiance == nullptr)
-      batch_.emplace(scene, static_cast<const PhotonMap*>(film.photons()));
+    if (!raycast && integrator_.radiance == nullptr) batch_.emplace(scene, film.photons());
     catches_shadows_ = film.settings().transparent && integrator_catches_shadows(scene.tables()) &&
                        scene.tables().geometry().has_shadow_catchers();
     needs_sample_ids_ = (!raycast && integrator_.takes_samples) || scene.tables().identifies_rays() ||
