@@ -21,12 +21,14 @@ RayIdentity::RayIdentity(const SceneTables& of_scene, const Accelerator& its_acc
 std::optional<std::int32_t> cutout_material(const RayIdentity& query, const CutoutSurface& surface) {
   const std::int32_t material =
       query.scene.geometry().material_of(surface.instance, surface.geometry, surface.primitive);
-  return query.scene.is_cutout(material) ? std::optional(material) : std::nullopt;
+  const bool passes = query.meets == Meets::surfaces ? query.scene.is_cutout(material) : !query.scene.is_fog(material);
+  return passes ? std::optional(material) : std::nullopt;
 }
 
 std::uint32_t passing_rays(const RayIdentity& query, unsigned first, std::uint32_t hit, const CutoutSurface& surface,
                            std::int32_t material, std::span<const float> t, std::span<const float> u,
                            std::span<const float> v) {
+  if (query.meets != Meets::surfaces || query.scene.is_fog(material)) return hit;
   alignas(64) std::array<float, packet_lanes> far{}, hit_u{}, hit_v{};
   alignas(64) std::array<std::int32_t, packet_lanes> is_hit{};
   for (std::size_t i = 0; i < t.size(); ++i) {

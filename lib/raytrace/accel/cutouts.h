@@ -19,7 +19,11 @@ namespace raytrace {
 class Accelerator;
 class SceneTables;
 
-/// What a query knows of its rays besides, in scenes in which rays pass surfaces or things move.
+/// What rays meet. Fogs have boundaries, but no surfaces.
+enum class Meets { surfaces, boundaries_of_fogs };
+
+/// What a query knows of its rays besides, in scenes in which rays pass surfaces or things move. Queries without it
+/// meet all there is, surfaces and boundaries.
 struct RayIdentity {
   const SceneTables& scene;
   const Accelerator& accelerator;
@@ -27,6 +31,7 @@ struct RayIdentity {
   UintN keys;
   FloatN times;
   const CameraRays* camera;  ///< what camera rays cover, textures are filtered by; null: other rays
+  Meets meets = Meets::surfaces;
 
   RayIdentity(const SceneTables& of_scene, const Accelerator& its_accelerator, const Ray<FloatN>& its_rays,
               const RayIds& ids, const CameraRays* its_camera = nullptr);

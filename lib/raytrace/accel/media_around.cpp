@@ -2,15 +2,19 @@
 
 namespace raytrace {
 
-MediumStack media_around(const SceneTables& tables, const Accelerator& accelerator, const Vec3<FloatN>& points,
-                         const MaskN& lanes) {
+namespace {
+
+/// Adds those of the media around points whose boundaries a query finds. intersect(rays, lanes): it.
+template <class Intersect>
+void add_media(const SceneTables& tables, const Accelerator& accelerator, const Vec3<FloatN>& points,
+               const MaskN& lanes, MediumStack& around, const Intersect& intersect) {
   constexpr int most_surfaces = 1000;  // where rounding keeps a ray at one
-  MediumStack around, entered;
+  MediumStack entered;
   // A little aslant, so that it does not run along walls.
   Ray<FloatN> rays{points, Vec3<FloatN>(Vec3f(0.013F, 1, 0.007F)), FloatN(0), infinity<FloatN>()};
   MaskN goes_on = lanes;
   for (int surfaces = 0; surfaces < most_surfaces && any(goes_on); ++surfaces) {
-    const Hits hits = accelerator.intersect(rays, goes_on, Coherence::incoherent);
+    const Hits hits = intersect(rays, goes_on);
     goes_on = goes_on & hits.hit;
     if (none(goes_on)) break;
     const SurfaceInteraction<FloatN> surface = accelerator.surface(rays, hits);
@@ -23,6 +27,26 @@ MediumStack media_around(const SceneTables& tables, const Accelerator& accelerat
     rays.origin = offset_ray_origin(surface, goes_on);
     rays.far = infinity<FloatN>();
   }
+}
+
+}  // namespace
+
+MediumStack media_around(const SceneTables& tables, const Accelerator& accelerator, const Vec3<FloatN>& points,
+                         const MaskN& lanes) {
+  MediumStack around;
+  const auto add = [&](const auto& intersect) { add_media(tables, accelerator, points, lanes, around, intersect); };
+  if (!tables.media().has_fog()) {
+    add([&](Ray<FloatN>& rays, const MaskN& left) { return accelerator.intersect(rays, left, Coherence::incoherent); });
+    return around;
+  }
+  // Fogs apart: they may end at surfaces.
+  for (const Meets meets : {Meets::surfaces, Meets::boundaries_of_fogs})
+    add([&](Ray<FloatN>& rays, const MaskN& left) {
+      const UintN any_number(0u);
+      RayIdentity identity(tables, accelerator, rays, {any_number, any_number, 0});
+      identity.meets = meets;
+      return accelerator.intersect(rays, left, Coherence::incoherent, nullptr, &identity);
+    });
   return around;
 }
 

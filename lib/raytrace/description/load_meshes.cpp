@@ -188,8 +188,10 @@ class MeshLoader {
     if (!material.norm.file.empty()) set_texture(added, normalmap_field, image(material.norm, folder));
     with_type(Materials{}, added.type, [&]<class Material>(std::type_identity<Material>) {
       auto& parameters = std::get<MaterialItems<Material>>(scene_.materials)[added.index].parameters;
-      parameters.opacity = std::max(0.0, material.d.value_or(1));
-      parameters.normalmap = material.norm.strength;
+      if constexpr (requires { parameters.opacity; }) {
+        parameters.opacity = std::max(0.0, material.d.value_or(1));
+        parameters.normalmap = material.norm.strength;
+      }
     });
     return added;
   }

@@ -9,6 +9,7 @@
 #include "raytrace/lights/point_radiance.h"
 #include "raytrace/lights/spot_light.h"
 #include "raytrace/math/kernel.h"
+#include "raytrace/math/ray.h"
 #include "raytrace/math/simd.h"
 
 namespace raytrace {
@@ -46,6 +47,28 @@ class Kernel<SpotLight> {
     }
     share = select(above_edge >= F(0), share, F(0)) * photometric_.towards(to_light);
     return {to_light, F(1), radiance_.at(to_light) * share};  // nothing for NaN
+  }
+
+  /// Where rays, of unit length, are in its cone: cuts begin and end to it, of rays that are not, to one distance.
+  template <class F>
+  void cut_to_cone(const Ray<F>& rays, F& begin, F& end) const {
+    if (edge_cosine_ <= 0) return;  // more than one piece
+    const Vec3<F> from = rays.origin - Vec3<F>(location_), axis(-towards_);
+    const F cosine2 = F(edge_cosine_ * edge_cosine_), along = dot(from, axis), forwards = dot(rays.direction, axis);
+    // a t^2 + 2 b t + c is not negative in the cone, and in its mirror image behind the light.
+    const F a = forwards * forwards - cosine2, b = along * forwards - cosine2 * dot(from, rays.direction);
+    const F c = along * along - cosine2 * dot(from, from), root = b * b - a * c;
+    const F q = -b - select(b < F(0), -sqrt(max(root, F(0))), sqrt(max(root, F(0))));
+    const F one = q / a, other = c / q, near = min(one, other), far = max(one, other);
+    const F room = max(abs(near), abs(far)) * F(1e-4F);  // for rounding
+    const Mask<F> crosses = (a < F(0)) & (root > F(0)), is_ahead = along + forwards * (near + far) * F(0.5F) > F(0);
+    const Mask<F> enters = (a > F(0)) & (forwards > F(0)), leaves = (a > F(0)) & (forwards < F(0));
+    const F first = select((crosses & is_ahead), near - room, select(enters, far - room, begin));
+    const F last = select((crosses & is_ahead), far + room, select(leaves, near + room, end));
+    const Mask<F> misses = (a < F(0)) & !(crosses & is_ahead);
+    const F cut_begin = min(max(first, begin), end);
+    end = select(misses, begin, max(min(last, end), cut_begin));
+    begin = select(misses, begin, cut_begin);
   }
 
  private:

@@ -50,6 +50,7 @@
 #include "raytrace/materials/conductor_kernel.h"
 #include "raytrace/materials/dielectric_kernel.h"
 #include "raytrace/materials/emissive_kernel.h"
+#include "raytrace/materials/fog_kernel.h"
 #include "raytrace/materials/matte_kernel.h"
 #include "raytrace/materials/mirror_kernel.h"
 #include "raytrace/materials/openpbr_kernel.h"

@@ -1,4 +1,4 @@
-// What clear materials have inside.
+// What clear materials and fogs have inside.
 #pragma once
 
 #include "raytrace/math/color.h"
@@ -12,6 +12,10 @@ struct Medium {
   float dispersion = 0;            ///< dispersion_of()
   Rgb<float> scattering{0, 0, 0};  ///< for a unit of length; a part of the extinction
   float anisotropy = 0;            ///< of the scattering, as Subsurface has it
+
+  /// Fog counts less than all that has a surface.
+  static constexpr int fog_priority = -1;
+  bool is_fog() const { return priority == fog_priority; }
 };
 
 /// The indices of refraction on both sides of a surface, for each lane's light. T: a batch.

@@ -5,6 +5,7 @@
 #include "raytrace/materials/conductor.h"
 #include "raytrace/materials/dielectric.h"
 #include "raytrace/materials/emissive.h"
+#include "raytrace/materials/fog.h"
 #include "raytrace/materials/matte.h"
 #include "raytrace/materials/mirror.h"
 #include "raytrace/materials/openpbr.h"
@@ -13,6 +14,6 @@
 
 namespace raytrace {
 
-using Materials = TypeList<Matte, Phong, Emissive, Mirror, Conductor, Dielectric, OpenPbr>;
+using Materials = TypeList<Matte, Phong, Emissive, Mirror, Conductor, Dielectric, OpenPbr, Fog>;
 
 }  // namespace raytrace

@@ -111,6 +111,11 @@ RAYTRACE_INLINE std::uint32_t bits_of(const Mask<F>& mask) {
   }
 }
 
+/// How many of the lanes there are.
+inline std::uint64_t count_lanes(const MaskN& lanes) {
+  return static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(lanes)));
+}
+
 /// std::bit_cast between batches, or masks, of one size: register by register, so that they need not go through memory.
 template <class To, class From>
 RAYTRACE_INLINE To same_bits(const From& from) {

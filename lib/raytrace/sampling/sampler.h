@@ -17,6 +17,12 @@ namespace raytrace {
 /// What a sample's numbers are for. A new one comes last: the others' numbers stay what they are.
 enum class Dimension : std::uint32_t { lens, first_of_path };
 
+/// What a path draws on part number `part` of its way number `walk`, below 2^17, through fogs: none of those above.
+enum class FogDraw : std::uint32_t { flights, direction, choices, light, light_place, emitter, emitter_point };
+constexpr Dimension fog_dimension(std::uint32_t walk, std::uint32_t part, FogDraw draw) {
+  return static_cast<Dimension>(((part & 0xFFU) << 20U | walk << 3U | static_cast<std::uint32_t>(draw)) | 0x50000000U);
+}
+
 /// When the rays of a sample are sent: none of those above.
 inline constexpr Dimension time_dimension{0x20000000U};
 

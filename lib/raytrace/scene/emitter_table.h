@@ -34,7 +34,8 @@ class EmitterTable {
     IntN material;
     IntN patch;
   };
-  /// Drawn for a point p with a normal of unit length out of numbers in [0, 1): u chooses the surface.
+  /// Drawn for a point p with a normal of unit length, or 0 on no surface, out of numbers in [0, 1): u chooses the
+  /// surface.
   Sample sample(const Vec3<FloatN>& p, const Vec3<FloatN>& normal, const FloatN& u, const FloatN& u1,
                 const FloatN& u2) const;
 

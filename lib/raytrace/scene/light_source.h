@@ -19,6 +19,9 @@ class LightSource {
   virtual void sample(Ray<FloatN>& shadow_rays, const Sample2D& u, Rgb<FloatN>& radiance) const = 0;
   virtual bool takes_samples() const = 0;
   virtual bool shadows() const = 0;
+  /// Cuts the parts of rays, of unit length, between two distances to what it may light; to one distance where that is
+  /// nothing.
+  virtual void cut_to_lit(const Ray<FloatN>& rays, FloatN& begin, FloatN& end) const = 0;
   /// Where it is; none: infinitely far away.
   virtual std::optional<Vec3f> location() const = 0;
   /// What no point gets more of; of a light that falls off, at distance 1.
@@ -45,6 +48,10 @@ class LightSourceOf final : public LightSource {
     return false;
   }
   bool shadows() const override { return light_.shadows(); }
+  void cut_to_lit([[maybe_unused]] const Ray<FloatN>& rays, [[maybe_unused]] FloatN& begin,
+                  [[maybe_unused]] FloatN& end) const override {
+    if constexpr (requires { light_.cut_to_cone(rays, begin, end); }) light_.cut_to_cone(rays, begin, end);
+  }
   std::optional<Vec3f> location() const override {
     if constexpr (requires { light_.location(); }) return light_.location();
     return std::nullopt;

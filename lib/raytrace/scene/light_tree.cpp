@@ -221,8 +221,8 @@ FloatN LightTree::importance(const Node<FloatN>& node, const Vec3<FloatN>& p, co
   const FloatN leaving = -dot(cone.axis, w), arriving = dot(normal, w);
   const Angle emission = less(less({leaving, sine_of(leaving)}, {cone.cosine, sine_of(cone.cosine)}), box);
   const Angle incidence = less({arriving, sine_of(arriving)}, box);
-  return node.power * max(emission.cosine, FloatN(0)) * max(incidence.cosine, FloatN(0)) /
-         max(max(squared, radius2), least);
+  const FloatN facing = select(dot(normal, normal) > FloatN(0), max(incidence.cosine, FloatN(0)), FloatN(1));
+  return node.power * max(emission.cosine, FloatN(0)) * facing / max(max(squared, radius2), least);
 }
 
 FloatN LightTree::first_share(const IntN& children, const Vec3<FloatN>& p, const Vec3<FloatN>& normal,

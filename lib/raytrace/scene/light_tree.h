@@ -34,7 +34,7 @@ class LightTree {
     IntN light;
     FloatN probability;  ///< 0 where no light reaches the point
   };
-  /// Drawn out of u in [0, 1), for a point with a normal of unit length.
+  /// Drawn out of u in [0, 1), for a point with a normal of unit length; of length 0: one that is on no surface.
   Choice sample(const Vec3<FloatN>& p, const Vec3<FloatN>& normal, FloatN u) const;
   /// The probability of that choice.
   FloatN probability(const Vec3<FloatN>& p, const Vec3<FloatN>& normal, const IntN& light) const;

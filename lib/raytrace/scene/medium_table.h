@@ -38,9 +38,17 @@ class MediumTable {
   bool empty() const { return ior_.size() == 1; }
   /// Whether any of them disperses light.
   bool disperses() const { return disperses_; }
-  /// Whether any of them scatters light, and which lanes' do.
+  /// Whether any of them but fogs scatters light, and which lanes' do.
   bool scatters() const { return scatters_; }
-  MaskN scatters(const IntN& medium) const { return sum(scattering_, medium) > FloatN(0); }
+  MaskN scatters(const IntN& medium) const {
+    const MaskN does = sum(scattering_, medium) > FloatN(0);
+    return has_fog_ ? does & !is_fog(medium) : does;
+  }
+  /// Whether any of them is a fog, and which lanes' are.
+  bool has_fog() const { return has_fog_; }
+  MaskN is_fog(const IntN& medium) const {
+    return float_mask<FloatN>(medium != IntN(0)) & float_mask<FloatN>(priority(medium) == IntN(Medium::fog_priority));
+  }
 
   IntN of_material(const IntN& material) const { return gather(numbers_.data(), material); }
   FloatN ior(const IntN& medium) const { return gather(ior_.data(), medium); }
@@ -65,6 +73,10 @@ class MediumTable {
             gather(scattering_.green.data(), medium) / max(all.green, least),
             gather(scattering_.blue.data(), medium) / max(all.blue, least)};
   }
+  Rgb<FloatN> scattering(const IntN& medium) const {
+    return {gather(scattering_.red.data(), medium), gather(scattering_.green.data(), medium),
+            gather(scattering_.blue.data(), medium)};
+  }
   FloatN anisotropy(const IntN& medium) const { return gather(anisotropy_.data(), medium); }
 
  private:
@@ -80,7 +92,8 @@ class MediumTable {
     scattering_.green.push_back(medium.scattering.green);
     scattering_.blue.push_back(medium.scattering.blue);
     anisotropy_.push_back(medium.anisotropy);
-    scatters_ |= medium.scattering.red + medium.scattering.green + medium.scattering.blue > 0;
+    has_fog_ |= medium.is_fog();
+    scatters_ |= !medium.is_fog() && medium.scattering.red + medium.scattering.green + medium.scattering.blue > 0;
   }
 
   struct Channels {
@@ -96,7 +109,7 @@ class MediumTable {
   std::vector<float> red_{0}, green_{0}, blue_{0};  ///< what is left of these colours, as exponents
   Channels scattering_;
   std::vector<float> anisotropy_{0};
-  bool disperses_ = false, scatters_ = false;
+  bool disperses_ = false, scatters_ = false, has_fog_ = false;
 };
 
 /// The media that each lane's path is in, in the order in which it came into them: four at most. Of more, the last

@@ -27,7 +27,7 @@ IntegratorParameters default_integrator(const SceneDescription& description) {
     return (!std::get<MaterialItems<Types>>(description.materials).empty() || ...);
   };
   const bool needs_path =
-      has(TypeList<Emissive, Mirror, Conductor, Dielectric, OpenPbr>{}) ||
+      has(TypeList<Emissive, Mirror, Conductor, Dielectric, OpenPbr, Fog>{}) ||
       !std::get<LightItems<EnvironmentLight>>(description.lights).empty() ||
       !std::get<LightItems<SkyLight>>(description.lights).empty() ||
       std::any_of(suns.begin(), suns.end(), [](const auto& sun) { return sun.parameters.angle > 0; });
@@ -202,9 +202,11 @@ TexturedMaterial<Material> SceneTables::textured_material(const MaterialItem<Mat
 
 template <class Material>
 SceneTables::SurfaceDetail SceneTables::surface_detail(const MaterialItem<Material>& item) {
-  SurfaceDetail detail{{static_cast<float>(item.parameters.opacity)},
-                       {static_cast<float>(item.parameters.normalmap)},
-                       {static_cast<float>(item.parameters.bump)}};
+  SurfaceDetail detail{{0}, {1}, {1}};  // of what has no surface
+  if constexpr (requires { item.parameters.opacity; })
+    detail = {{static_cast<float>(item.parameters.opacity)},
+              {static_cast<float>(item.parameters.normalmap)},
+              {static_cast<float>(item.parameters.bump)}};
   if constexpr (requires { Material::has_coat(item.parameters); }) {
     detail.has_coat = Material::has_coat(item.parameters);
     detail.coatnormalmap.value = static_cast<float>(item.parameters.coatnormalmap);

@@ -142,6 +142,11 @@ class SceneTables {
   bool identifies_rays() const { return has_cutouts_ || has_motion(); }
   /// Whether that may be of a material.
   bool is_cutout(std::int32_t material) const { return details_[static_cast<std::size_t>(material)].is_cutout(); }
+  /// Whether it has no surface: rays pass it, but paths know its boundary.
+  bool is_fog(std::int32_t material) const {
+    const auto& medium = details_[static_cast<std::size_t>(material)].medium;
+    return medium && medium->is_fog();
+  }
   /// A material's opacity, at least 1 where all rays meet the surface. point(): where the surface is hit.
   template <class Point>
   FloatN opacity(std::int32_t material, const Point& point) const {

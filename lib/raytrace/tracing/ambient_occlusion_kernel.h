@@ -34,7 +34,7 @@ class Kernel<AmbientOcclusion> {
       rays.far = settings.distance > 0 ? FloatN(static_cast<float>(settings.distance)) : infinity<FloatN>();
       // Below the true surface there is the thing itself.
       const MaskN upwards = met.hits.hit & (dot(rays.direction, surface.ng) > FloatN(0));
-      counts.shadow += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(upwards & counted)));
+      counts.shadow += count_lanes(upwards & counted);
       const MaskN occluded =
           scene.tables().identifies_rays()
               ? occluded_identified(scene, rays, upwards, {camera.pixel, camera.sample, 1}, Coherence::incoherent)

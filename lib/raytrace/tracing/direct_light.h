@@ -7,6 +7,7 @@
 
 #include "raytrace/accel/surface_uv.h"
 #include "raytrace/accel/traced_scene.h"
+#include "raytrace/tracing/fog.h"
 #include "raytrace/tracing/render_report.h"
 #include "raytrace/tracing/stage_times.h"
 
@@ -51,12 +52,12 @@ struct ShadowNumbers {
 };
 
 /// What of the group's lights' radiance leaves the surface along wo, in the lanes that were hit; of its ambient light,
-/// too. clock: if not null, its stages of this end here. medium: if not null, each lane's that the light comes through.
+/// too. clock: if not null, its stages of this end here. media: if not null, what the light comes through.
 RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const SceneTables::LightGroup& group,
                                          const Hits& hits, const SurfaceInteraction<FloatN>& surface,
                                          const TexturePoint<FloatN>* textures, Coherence coherence,
                                          const MaskN& counted, RayCounts& counts, const ShadowNumbers& numbers,
-                                         StageClock* clock = nullptr, const IntN* medium = nullptr) {
+                                         StageClock* clock = nullptr, const PointMedia* media = nullptr) {
   const SceneTables& tables = scene.tables();
   std::array<IncidentLight, lights_per_run> incident;
   std::size_t count = 0;
@@ -91,7 +92,7 @@ RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const SceneTa
     MaskN lit = hits.hit & (dot(surface.ns, shadow_rays.direction) > FloatN(0));
     if (shadows && any(lit)) {
       end(Stage::lights);
-      counts.shadow += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(lit & counted)));
+      counts.shadow += count_lanes(lit & counted);
       const MaskN occluded =
           tables.identifies_rays()
               ? occluded_identified(scene, shadow_rays, lit, numbers.ids(number), coherence)
@@ -100,9 +101,8 @@ RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const SceneTa
       end(Stage::trace);
     }
     if (none(lit)) continue;
-    if (medium != nullptr) [[unlikely]]
-      here.radiance =
-          here.radiance * tables.media().transmittance(*medium, length(shadow_rays.direction) * shadow_rays.far);
+    if (media != nullptr) [[unlikely]]
+      here.radiance = here.radiance * light_through(scene, shadow_rays, lit, numbers.ids(number), *media);
     here.wi = normalize(shadow_rays.direction);
     here.cosine = select(lit, max(dot(surface.ns, here.wi), FloatN(0)), FloatN(0));
     if (surface.has_relief) [[unlikely]]

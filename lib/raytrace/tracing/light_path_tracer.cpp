@@ -7,6 +7,7 @@
 #include "raytrace/math/frame.h"
 #include "raytrace/sampling/sampler.h"
 #include "raytrace/tracing/direct_light.h"
+#include "raytrace/tracing/fog.h"
 #include "raytrace/tracing/media.h"
 #include "raytrace/tracing/sampled_light.h"
 
@@ -19,13 +20,18 @@ LightPathTracer::LightPathTracer(const TracedScene& scene, int most_points)
       most_points_(most_points),
       roulette_depth_(std::get<Path::Parameters>(tables_.integrator()).roulettedepth) {}
 
-Hits LightPathTracer::intersect(const LightPathPacket& path, Ray<FloatN>& rays, const MaskN& lanes) {
-  rays_->indirect += count_of(lanes);
+Hits LightPathTracer::intersect(LightPathPacket& path, Ray<FloatN>& rays, const MaskN& lanes) {
+  rays_->indirect += count_lanes(lanes);
   rays.far = infinity<FloatN>();
   if (!tables_.identifies_rays()) return scene_.accelerator().intersect(rays, lanes, Coherence::incoherent);
-  const RayIdentity identity(tables_, scene_.accelerator(), rays,
-                             ray_ids(path, static_cast<std::uint32_t>(path.depth) * 2));
-  return scene_.accelerator().intersect(rays, lanes, Coherence::incoherent, nullptr, &identity);
+  const RayIds ids = ray_ids(path, static_cast<std::uint32_t>(path.depth) * 2);
+  const RayIdentity identity(tables_, scene_.accelerator(), rays, ids);
+  const Hits hits = scene_.accelerator().intersect(rays, lanes, Coherence::incoherent, nullptr, &identity);
+  if (tables_.media().has_fog() && any(hits.hit)) [[unlikely]] {
+    const Rgb<FloatN> left = fog_transmittance(scene_, rays, hits.hit, ids, path.media);
+    path.flux = select(hits.hit, path.flux * left, path.flux);
+  }
+  return hits;
 }
 
 void LightPathTracer::follow(LightPathPacket& path, MaskN alive, RayCounts& rays) {

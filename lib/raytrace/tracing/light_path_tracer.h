@@ -28,9 +28,6 @@ class LightPathTracer {
   virtual void arrive(const LightPathPacket& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface,
                       const MediumBoundary& boundary, const MaskN& lanes) = 0;
 
-  static std::uint64_t count_of(const MaskN& lanes) {
-    return static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(lanes)));
-  }
   /// A path's rays, by what they are among them.
   static RayIds ray_ids(const LightPathPacket& path, std::uint32_t purpose) {
     return {path.pixel, path.sample, purpose | 0x40000000U};
@@ -41,7 +38,7 @@ class LightPathTracer {
   const CausticTable& caustics_;
 
  private:
-  Hits intersect(const LightPathPacket& path, Ray<FloatN>& rays, const MaskN& lanes);
+  Hits intersect(LightPathPacket& path, Ray<FloatN>& rays, const MaskN& lanes);
   MaskN scatter(LightPathPacket& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface,
                 const MediumBoundary& boundary, const TexturePoint<FloatN>* point, const MaskN& lanes) const;
 

@@ -9,6 +9,7 @@
 #include "raytrace/sampling/pixel_sampler.h"
 #include "raytrace/sampling/sampler.h"
 #include "raytrace/tracing/direct_light.h"
+#include "raytrace/tracing/fog.h"
 #include "raytrace/tracing/light_layers.h"
 #include "raytrace/tracing/sampled_light.h"
 
@@ -49,7 +50,7 @@ void LightPaths::trace(const Pixels& pixels, const UintN& samples, const MaskN& 
         pixel_hash(UintN::load_aligned(columns.data()), UintN::load_aligned(rows.data()), film_.settings().seed);
     const MaskN here = float_mask<FloatN>(UintN::load_aligned(lanes.data()) != UintN(0u));
     follow(path, start_light_paths(tables_, path) & here, report.rays);
-    splats.add_paths(count_of(here));
+    splats.add_paths(count_lanes(here));
   }
 }
 
@@ -99,7 +100,9 @@ void LightPaths::arrive(const LightPathPacket& path, const Hits& hits, const Sur
   FloatN weight = FloatN::load_aligned(areas.data()) * cosine * (wi.z / max(true_wi, FloatN(1e-6F)));
   if (seen.has_relief) weight = weight * relief_shadow(seen, surface.wo);
   Rgb<FloatN> radiance = path.flux * bsdf.f * weight;
-  if (!tables_.media().empty()) radiance = radiance * tables_.media().transmittance(boundary.current, distance);
+  const bool has_fog = tables_.media().has_fog();
+  if (!tables_.media().empty() && !has_fog)
+    radiance = radiance * tables_.media().transmittance(boundary.current, distance);
   MaskN arrives = lit & (largest(radiance) > FloatN(0));
   if (none(arrives)) return;
   Ray<FloatN> ray;
@@ -107,13 +110,18 @@ void LightPaths::arrive(const LightPathPacket& path, const Hits& hits, const Sur
   ray.direction = way + (surface.p - ray.origin);
   ray.near = FloatN(0);
   ray.far = FloatN(1);
-  report_->rays.shadow += count_of(arrives);
+  report_->rays.shadow += count_lanes(arrives);
   const MaskN hidden =
       tables_.identifies_rays()
           ? occluded_identified(scene_, ray, arrives, ray_ids(path, static_cast<std::uint32_t>(path.depth) * 2 + 1),
                                 Coherence::incoherent)
           : scene_.accelerator().occluded(ray, arrives, Coherence::incoherent);
-  for (std::uint32_t left = bits_of<FloatN>(arrives & !hidden); left != 0; left &= left - 1) {
+  arrives = arrives & !hidden;
+  if (has_fog && any(arrives)) [[unlikely]] {
+    const RayIds ids = ray_ids(path, static_cast<std::uint32_t>(path.depth) * 2 + 1);
+    radiance = radiance * light_through(scene_, ray, arrives, ids, {path.media, boundary.current});
+  }
+  for (std::uint32_t left = bits_of<FloatN>(arrives); left != 0; left &= left - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(left));
     splat(path, lane, points[lane], radiance);
   }

@@ -11,7 +11,7 @@ namespace raytrace {
 
 /// The boundary of media that paths are at which hit something, or, where it lies inside of a medium that counts more,
 /// the next one along the ray that does not: rays, hits and surface are set anew there; lanes that meet nothing more
-/// are none of hits.hit any longer.
+/// are none of hits.hit any longer. Fogs have no such boundaries; what they leave counts already (tracing/fog.h).
 ///
 /// went(lanes, share): called for each part of the way, before rays.far is set anew; what media have left of the light
 /// on it. radius(): as texture_point()'s, for media with textures. intersect(rays, lanes): the next hits of rays that
@@ -31,6 +31,8 @@ MediumBoundary next_boundary(const TracedScene& scene, MediumStack& stack, Ray<F
     }
     const MediumBoundary boundary(media, stack, hits.hit, inside, surface.front);
     Rgb<FloatN> left = media.transmittance(boundary.current, rays.far);
+    if (media.has_fog()) [[unlikely]]
+      left = select(media.is_fog(boundary.current), Rgb<FloatN>(Rgb<float>(1, 1, 1)), left);
     MaskN in_own = arrives & !surface.front & float_mask<FloatN>(boundary.current == inside);
     if (media.scatters()) [[unlikely]] {
       const MaskN scattered = media.scatters(boundary.current);

@@ -19,13 +19,12 @@ namespace {
 
 Rgb<FloatN> black() { return Rgb<FloatN>(Rgb<float>(0, 0, 0)); }
 
-std::uint64_t count(const MaskN& lanes) { return static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(lanes))); }
-
 }  // namespace
 
-PathBatch::PathBatch(const TracedScene& scene, const Photons* photons)
+PathBatch::PathBatch(const TracedScene& scene, const Film& film)
     : scene_(scene),
-      photons_(static_cast<const PhotonMap*>(photons)),
+      photons_(static_cast<const PhotonMap*>(film.photons())),
+      is_transparent_(film.settings().transparent),
       settings_(std::get<Path::Parameters>(scene.tables().integrator())),
       paths_(most_packets * packet_lanes, scene.tables().media()),
       next_(most_packets * packet_lanes, scene.tables().media()),
@@ -72,16 +71,25 @@ MaskN PathBatch::add(CameraRays& camera, const MaskN& active, const MaskN& wante
   path.first_media = media.first;
   path.last_media = media.last;
   path.deviation = FloatN(0);
+  path.fog_scatterings = IntN(0);
   const MediumTable& table = scene_.tables().media();
-  if (table.scatters() && any(table.scatters(scene_.camera_media().current(table)))) [[unlikely]] {
-    const Hits walked = walk(path, scene_.camera_media().current(table), hits.hit & wanted, 0, camera_walks_);
+  MaskN met = hits.hit;
+  if (table.has_fog()) [[unlikely]] {
+    MediumStack stack = scene_.camera_media();
+    MaskN fogged(false);
+    const Hits next = go_through_fog(path, stack, wanted, {0, 0, &hits, &fogged}, camera_walks_);
+    met = met | fogged;
+    path.set_hits(next);
+    append(paths_, path, next, next.hit);
+  } else if (table.scatters() && any(table.scatters(scene_.camera_media().current(table)))) [[unlikely]] {
+    const Hits walked = walk(path, scene_.camera_media().current(table), hits.hit & wanted, 0, 0, camera_walks_);
     path.set_hits(walked);
     append(paths_, path, walked, walked.hit);
   } else {
     append(paths_, path, hits, hits.hit & wanted);
   }
   clock_.end(Stage::surface);
-  return hits.hit;
+  return met;
 }
 
 void PathBatch::append(PathChunk& chunk, const PathPacket& path, const Hits& hits, const MaskN& lanes) const {
@@ -156,15 +164,23 @@ void PathBatch::add_escaped(const PathPacket& path, const MaskN& lanes, int dept
   const SceneTables& tables = scene_.tables();
   std::vector<Sums>& sums = depth <= 1 ? direct_ : indirect_;
   const Environment* const environment = tables.environment();
-  if (environment != nullptr && (depth > 0 || environment->visible())) {
-    const EnvironmentSample sky = environment->at(path.rays.direction);
-    const FloatN other = sky.pdf * FloatN(environment_share_of(tables));
-    const MaskN left_out = float_mask<FloatN>(path.way == IntN(by_focus));
-    add(sums, path.slot, lanes & !left_out, path.throughput * (sky.radiance * power_heuristic(path.pdf, other)),
-        IntN(tables.environment_group()));
-  } else if (environment == nullptr ? depth < settings_.maxdepth : depth == 0) {
-    add(sums, path.slot, lanes, path.throughput * Rgb<FloatN>(Rgb<float>(tables.viewplane().background)), IntN(0));
+  IntN scatterings(depth);
+  if (tables.media().has_fog()) [[unlikely]]
+    scatterings = scatterings + path.fog_scatterings;
+  MaskN in_sky(false);
+  if (environment != nullptr) {
+    in_sky = environment->visible() ? lanes : lanes & float_mask<FloatN>(scatterings > IntN(0));
+    if (any(in_sky)) {
+      const EnvironmentSample sky = environment->at(path.rays.direction);
+      const FloatN other = sky.pdf * FloatN(environment_share_of(tables));
+      const MaskN left_out = float_mask<FloatN>(path.way == IntN(by_focus));
+      add(sums, path.slot, in_sky & !left_out, path.throughput * (sky.radiance * power_heuristic(path.pdf, other)),
+          IntN(tables.environment_group()));
+    }
   }
+  const MaskN in_background = lanes & !in_sky & float_mask<FloatN>(scatterings < IntN(settings_.maxdepth));
+  add(sums, path.slot, in_background, path.throughput * Rgb<FloatN>(Rgb<float>(tables.viewplane().background)),
+      IntN(0));
 }
 
 void PathBatch::add_photons(const PathPacket& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface,
@@ -238,6 +254,10 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   }
   clock_.end(Stage::lights);
   if (depth == settings_.maxdepth) return;
+  if (tables.media().has_fog()) [[unlikely]] {
+    lanes = lanes & float_mask<FloatN>(path.fog_scatterings < IntN(settings_.maxdepth - depth));
+    if (none(lanes)) return;
+  }
   if (tables.media().disperses()) [[unlikely]]
     path.throughput = path.throughput * disperse(tables.media(), boundary, lanes, path.pixel, path.sample,
                                                  wavelength_dimension, path.deviation);
@@ -249,13 +269,16 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   const auto draw = [&](PathDraw what) { return get_2d(path.pixel, path.sample, path_dimension(depth, what)); };
   const Coherence coherence = depth == 0 ? Coherence::coherent : Coherence::incoherent;
   std::vector<Sums>& sums = depth == 0 ? direct_ : indirect_;
-  const MaskN on_way = focuses & float_mask<FloatN>(path.way != IntN(any_way));
+  const MaskN is_first = depth == 0 ? !float_mask<FloatN>(path.way == IntN(by_scattering)) : MaskN(false);
+  const MaskN on_way =
+      focuses & (float_mask<FloatN>(path.way == IntN(by_reflection)) | float_mask<FloatN>(path.way == IntN(by_focus)));
+  const PointMedia point_media{media, boundary.current};
   Rgb<FloatN> light = black();
   for (std::size_t group = 0; group < groups_; ++group) {
     if (tables.light_groups()[group].is_dark()) continue;
     light = direct_light(scene_, tables.light_groups()[group], hits, surface, point, coherence, lanes, counts,
                          ShadowNumbers{path.pixel, path.sample, first_key + 1}, &clock_,
-                         has_media ? &boundary.current : nullptr);
+                         has_media ? &point_media : nullptr);
     if (any(on_way)) light = select(on_way, black(), light);
     if (groups_ == 1) break;  // which is added with the light that is drawn
     add(sums, path.slot, lanes, path.throughput * light, IntN(static_cast<std::int32_t>(group)));
@@ -276,10 +299,8 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
                                                drawn.local_wi, choices.x, direction.x, direction.y, point);
   clock_.end(Stage::shade);
   if (any(drawn.lit)) {
-    Rgb<FloatN> arriving =
-        arriving_light(scene_, vertex, drawn, scattering.towards, coherence, ids(lights + 1), counts, clock_);
-    if (has_media) arriving = arriving * tables.media().transmittance(boundary.current, drawn.distance());
-    light += arriving;
+    light += arriving_light(scene_, vertex, drawn, scattering.towards, coherence, ids(lights + 1), counts, clock_,
+                            has_media ? &point_media : nullptr);
   }
   IntN group(0);
   if (groups_ > 1) {
@@ -288,8 +309,9 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
       group = select_lanes(drawn.is_sky, group, tables.light_group_of_material(drawn.sample.material));
   }
   add(sums, path.slot, lanes, path.throughput * light, group);
-  if (photons_ != nullptr && depth > 0)
-    if (const MaskN shown = lanes & !focuses; any(shown)) add_photons(path, hits, surface, point, shown, depth);
+  if (photons_ != nullptr)
+    if (const MaskN shown = lanes & !(focuses | is_first); any(shown))
+      add_photons(path, hits, surface, point, shown, depth);
   clock_.end(Stage::lights);
   if (!goes_on) return;
 
@@ -312,7 +334,7 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   if (none(alive)) return clock_.end(Stage::shade);
   path.pdf = select(sample.specular | through, infinity<FloatN>(), sample.pdf);
   if (caustics != nullptr) {
-    const MaskN reflects = MaskN(depth == 0 || photons_ != nullptr) & (!(focuses | through | sample.specular));
+    const MaskN reflects = (is_first | MaskN(photons_ != nullptr)) & !(focuses | through | sample.specular);
     path.way = select_lanes(on_way, IntN(by_focus), select_lanes(reflects, IntN(by_reflection), IntN(any_way)));
   }
   path.from = surface.p;
@@ -341,15 +363,21 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   rays.far = infinity<FloatN>();
   if (any(walks)) [[unlikely]] {
     clock_.end(Stage::shade);
-    const Hits walked = walk(path, medium, walks, static_cast<std::uint32_t>(depth) + 1, counts);
+    const Hits walked = walk(path, medium, walks, static_cast<std::uint32_t>(depth) + 1, depth + 1, counts);
     path.set_hits(walked);
     append(next_, path, walked, walked.hit);
     alive = alive & !walks;
     clock_.end(Stage::trace);
     if (none(alive)) return;
   }
-  counts.indirect += count(alive);
   clock_.end(Stage::shade);
+  if (tables.media().has_fog()) [[unlikely]] {
+    const Hits next = go_through_fog(path, media, alive, {static_cast<std::uint32_t>(depth) + 1, depth + 1}, counts);
+    path.set_hits(next);
+    append(next_, path, next, next.hit);
+    return clock_.end(Stage::trace);
+  }
+  counts.indirect += count_lanes(alive);
   if (tables.identifies_rays()) {
     const RayIdentity identity(tables, scene_.accelerator(), rays, ids(lights + 2));
     hits = scene_.accelerator().intersect(rays, alive, Coherence::incoherent, nullptr, &identity);

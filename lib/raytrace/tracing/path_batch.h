@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "raytrace/accel/traced_scene.h"
+#include "raytrace/film/film.h"
 #include "raytrace/integrators/path.h"
 #include "raytrace/scene/medium_table.h"
 #include "raytrace/tracing/path_chunk.h"
@@ -24,8 +25,8 @@ namespace raytrace {
 
 class PathBatch {
  public:
-  /// photons: a PhotonMap, of the samples that are added; null if the scene has none. Throws std::bad_alloc.
-  PathBatch(const TracedScene& scene, const Photons* photons);
+  /// film: that the samples are for, with their photons if the scene has any. Throws std::bad_alloc.
+  PathBatch(const TracedScene& scene, const Film& film);
 
   std::size_t packets() const { return direct_.size() / groups_; }
   bool is_full() const { return packets() == most_packets; }
@@ -34,7 +35,8 @@ class PathBatch {
   StageClock& clock() { return clock_; }
 
   /// Begins a path in each lane of `wanted`, where its camera ray hits something. Ends the rays there, and sets `first`
-  /// to what all rays of `active` hit if it is not null. The result: the lanes of `active` that hit something.
+  /// to what all rays of `active` hit if it is not null. The result: the lanes of `active` that hit something, or were
+  /// in fog; in transparent films, were scattered by it.
   MaskN add(CameraRays& camera, const MaskN& active, const MaskN& wanted, FirstHits* first);
 
   /// Follows all paths to their ends.
@@ -56,8 +58,30 @@ class PathBatch {
            const IntN& group) const;
   /// From the points that these paths have met, in those lanes, to the next ones.
   void extend(PathPacket& path, const MaskN& arrived, int depth, RayCounts& counts);
-  /// Those paths' ways through media that scatter light, from where their rays start, to the next surfaces.
-  Hits walk(PathPacket& path, const IntN& medium, const MaskN& lanes, std::uint32_t number, RayCounts& counts);
+  /// Those paths' ways through media that scatter light, from where their rays start, to the next surfaces. depth: the
+  /// number of their rays, 0 the camera's.
+  Hits walk(PathPacket& path, const IntN& medium, const MaskN& lanes, std::uint32_t number, int depth,
+            RayCounts& counts);
+
+  // In scenes with fog.
+
+  struct FogWay {
+    std::uint32_t number;              ///< as WalkIds have it
+    int depth;                         ///< the number of the paths' rays, 0 the camera's
+    const Hits* first_hits = nullptr;  ///< what the rays hit, if that is known; their ends are, too
+    MaskN* fogged = nullptr;           ///< receives, of those lanes, which to count as hits, if it is not null
+  };
+  struct FogPart;
+  struct FogNumbers;
+  /// Those paths' ways, from where their rays start, to the next surfaces, by way of scatterings in fogs. What comes to
+  /// them there, and from where nothing is, is added. media: where they start, and then are; those of the paths follow.
+  Hits go_through_fog(PathPacket& path, MediumStack& media, const MaskN& lanes, const FogWay& way, RayCounts& counts);
+  /// The light of all lights that a part of their ways sends along paths.
+  void light_fog(const PathPacket& path, const FogPart& part, const FogNumbers& numbers, std::vector<Sums>& sums,
+                 RayCounts& counts);
+  /// The lanes that end within the part, which are scattered there, unless it absorbs them.
+  static MaskN scatter_in_fog(PathPacket& path, const FogPart& part, const FogNumbers& numbers, int depth);
+
   /// Those paths' ways below the surfaces that they have met, to where they come out: rays start and go there.
   void go_below(const PathPacket& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface,
                 const TexturePoint<FloatN>* point, const MaskN& lanes, int depth, RayCounts& counts);
@@ -73,6 +97,7 @@ class PathBatch {
 
   const TracedScene& scene_;
   const PhotonMap* photons_;
+  bool is_transparent_;
   const Path::Parameters& settings_;
   StageClock clock_;
   PathChunk paths_, next_;

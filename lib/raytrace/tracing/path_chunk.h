@@ -19,6 +19,7 @@ namespace raytrace {
 /// What a path from the camera has met, as far as light paths are concerned (tracing/light_paths.h).
 enum PathWay : std::int32_t {
   any_way,        ///< or nothing yet
+  by_scattering,  ///< no surface yet, but what is in a medium
   by_reflection,  ///< last a point that light paths bring light to, or photons, which reflected it
   by_focus,       ///< that, and from there on one or more points of what does: light from here is a light path's
   from_below,     ///< anything, and it now comes out from below the surface that it has hit
@@ -41,6 +42,7 @@ struct PathPacket {
   IntN slot;                     ///< where the path's radiance goes
   IntN way;                      ///< PathWay
   IntN first_media, last_media;  ///< MediumStack::Packed, in scenes with media
+  IntN fog_scatterings;          ///< how often fog has scattered it; in scenes with fog
   FloatN deviation;              ///< of the path's wavelength, or 0 if it has none; where media disperse light
 
   void set_hits(const Hits& hits) {
@@ -69,8 +71,9 @@ class PathChunk {
   PathChunk(std::size_t capacity, const MediumTable& media)
       : stride_((capacity / packet_lanes + 2) * packet_lanes),
         fields_(media.disperses() ? fields
-                : media.empty()   ? fields - 3
-                                  : fields - 1),
+                : media.has_fog() ? fields - 1
+                : media.empty()   ? fields - 4
+                                  : fields - 2),
         numbers_(stride_ * fields_) {
     buckets_.reserve(capacity + packet_lanes);
   }

@@ -16,6 +16,7 @@ MediumBoundary PathBatch::find_boundary(PathPacket& path, MediumStack& media, Hi
     path.throughput = select(lanes, path.throughput * left, path.throughput);
   };
   std::uint32_t passes = 0;
+  const auto number = [&] { return 0x8000U | static_cast<std::uint32_t>(depth) << 4U | (passes++ & 0xFU); };
   const auto intersect = [&](Ray<FloatN>& rays, MaskN lanes) {
     // Surfaces that are not there hide lights from shadow rays: from here on, paths alone bring theirs.
     path.pdf = select(lanes, infinity<FloatN>(), path.pdf);
@@ -26,14 +27,19 @@ MediumBoundary PathBatch::find_boundary(PathPacket& path, MediumStack& media, Hi
       walks = lanes & tables.media().scatters(medium);
       if (any(walks)) {
         std::swap(rays, path.rays);
-        walked =
-            walk(path, medium, walks, 0x8000U | static_cast<std::uint32_t>(depth) << 4U | (passes++ & 0xFU), counts);
+        walked = walk(path, medium, walks, number(), depth, counts);
         std::swap(rays, path.rays);
         lanes = lanes & !walks;
         if (none(lanes)) return walked;
       }
     }
-    counts.indirect += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(lanes)));
+    if (tables.media().has_fog()) [[unlikely]] {
+      std::swap(rays, path.rays);
+      const Hits next = go_through_fog(path, media, lanes, {number(), depth}, counts);
+      std::swap(rays, path.rays);
+      return any(walks) ? select(walks, walked, next) : next;
+    }
+    counts.indirect += count_lanes(lanes);
     const RayIdentity identity(
         tables, scene_.accelerator(), rays,
         {path.pixel, path.sample, 0x20000000U | static_cast<std::uint32_t>(depth) << 8U | (passes++ & 0xFFU)});
@@ -52,13 +58,13 @@ MediumBoundary PathBatch::find_boundary(PathPacket& path, MediumStack& media, Hi
       intersect, true);
 }
 
-Hits PathBatch::walk(PathPacket& path, const IntN& medium, const MaskN& lanes, std::uint32_t number,
+Hits PathBatch::walk(PathPacket& path, const IntN& medium, const MaskN& lanes, std::uint32_t number, int depth,
                      RayCounts& counts) {
   const MediumWalk end =
       walk_through(scene_, medium, lanes, {path.pixel, path.sample, number}, path.rays, path.throughput, counts);
   // Lights are not drawn to where it scattered, and light paths do not bring what is scattered.
   path.pdf = select(end.scatters, infinity<FloatN>(), path.pdf);
-  path.way = select_lanes(end.scatters, IntN(any_way), path.way);
+  path.way = select_lanes(end.scatters, IntN(depth == 0 ? by_scattering : any_way), path.way);
   return end.hits;
 }
 

@@ -2,7 +2,7 @@
 
 #include <bit>
 
-#include "raytrace/bsdfs/direction_about.h"
+#include "raytrace/bsdfs/henyey_greenstein.h"
 #include "raytrace/sampling/ray_ids.h"
 
 namespace raytrace {
@@ -21,17 +21,6 @@ Rgb<FloatN> inverse(const Rgb<FloatN>& c) { return {FloatN(1) / c.red, FloatN(1)
 FloatN chosen(const FloatN& number, const Rgb<FloatN>& light, const Rgb<FloatN>& values) {
   const FloatN place = number * sum(light);
   return select(place < light.red, values.red, select(place < light.red + light.green, values.green, values.blue));
-}
-
-/// A direction after a scattering, by Henyey and Greenstein's phase function (pbrt-v4, section 11.3).
-Vec3<FloatN> scattered(const Vec3<FloatN>& direction, const FloatN& anisotropy, const FloatN& u1, const FloatN& u2) {
-  const MaskN is_even = abs(anisotropy) < FloatN(1e-3F);
-  const FloatN g = select(is_even, FloatN(1), anisotropy);
-  const FloatN part = (FloatN(1) - g * g) / (FloatN(1) - g + FloatN(2) * g * u1);
-  const FloatN of_lobe = (FloatN(1) + g * g - part * part) / (FloatN(2) * g);
-  const FloatN cosine = select(is_even, FloatN(1) - FloatN(2) * u1, min(max(of_lobe, FloatN(-1)), FloatN(1)));
-  const FloatN sine = sqrt(max(FloatN(1) - cosine * cosine, FloatN(0)));
-  return normalize(direction_about(direction, cosine, sine, u2));
 }
 
 /// What light is scattered by.
@@ -59,7 +48,7 @@ void walk(const TracedScene& scene, const Scatterers& scatterers, MaskN walks, c
     rays.near = FloatN(0);
     const FloatN length = -log(FloatN(1) - number(step, 1)) / chosen(number(step, 0), light, scatterers.extinction);
     rays.far = select(walks, min(length, FloatN(1e17F)), rays.far);
-    counts.indirect += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(walks)));
+    counts.indirect += count_lanes(walks);
     Hits hits;
     if (tables.identifies_rays()) [[unlikely]] {
       const std::uint32_t id = 0x80000000U | ids.walk << 14U | static_cast<std::uint32_t>(step);
@@ -85,7 +74,8 @@ void walk(const TracedScene& scene, const Scatterers& scatterers, MaskN walks, c
     if (none(scatters)) continue;
     scattered_at(scatters);
     rays.origin = select(scatters, rays.at(rays.far), rays.origin);
-    const Vec3<FloatN> turned = scattered(rays.direction, scatterers.anisotropy, number(step, 2), number(step, 3));
+    const Vec3<FloatN> turned =
+        sample_henyey_greenstein(rays.direction, scatterers.anisotropy, number(step, 2), number(step, 3));
     rays.direction = select(scatters, turned, rays.direction);
     const FloatN survival = min(largest_of(magnitudes(throughput)) / at_start * FloatN(4), FloatN(1));
     const MaskN at_stake = scatters & (survival < FloatN(1));

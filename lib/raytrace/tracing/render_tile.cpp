@@ -63,7 +63,7 @@ class BlockRenderer {
         layers_(light_layers(scene.tables(), film)),
         group_light_(layers_.size()),
         by_group_(layers_.size() > 1 || layers_.front() != nullptr) {
-    if (!raycast && integrator_.radiance == nullptr) batch_.emplace(scene, film.photons());
+    if (!raycast && integrator_.radiance == nullptr) batch_.emplace(scene, film);
     catches_shadows_ = film.settings().transparent && integrator_catches_shadows(scene.tables()) &&
                        scene.tables().geometry().has_shadow_catchers();
     needs_sample_ids_ = (!raycast && integrator_.takes_samples) || scene.tables().identifies_rays() ||
@@ -162,7 +162,7 @@ class BlockRenderer {
         const auto* const textures = first.textures ? &*first.textures : nullptr;
         aovs->add(AovInputs(scene_.tables(), camera, first.hits, first.surface, textures), wanted, sample);
       }
-      report_.rays.camera += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(wanted & traced)));
+      report_.rays.camera += count_lanes(wanted & traced);
       if (!raycast && batch_) batch_->clock().end(Stage::film);
       if (!raycast && light_paths_) {
         trace_light_paths(block, sample, wanted);

@@ -7,6 +7,7 @@
 #include "raytrace/math/frame.h"
 #include "raytrace/sampling/sampler.h"
 #include "raytrace/tracing/direct_light.h"
+#include "raytrace/tracing/fog.h"
 #include "raytrace/tracing/stage_times.h"
 
 namespace raytrace {
@@ -46,8 +47,6 @@ struct DrawnLight {
   EmitterTable::Sample sample;         ///< of a surface
   SurfaceInteraction<FloatN> surface;  ///< where it leaves from
   Rgb<FloatN> radiance;                ///< the environment's
-
-  FloatN distance() const { return select(is_sky, infinity<FloatN>(), length(ray.direction)); }
 };
 
 inline void draw_from_surfaces(const SceneTables& tables, const SurfaceInteraction<FloatN>& surface,
@@ -67,10 +66,10 @@ inline void draw_from_surfaces(const SceneTables& tables, const SurfaceInteracti
   result.pdf = select(drawn.pdf < infinity<FloatN>(), drawn.pdf, FloatN(0));
 }
 
-/// Drawn from a surface or the environment.
-inline DrawnLight draw_light(const SceneTables& tables, const PathVertex& vertex, const Sample2D& choice,
-                             const Sample2D& point) {
-  const SurfaceInteraction<FloatN>& surface = vertex.surface;
+/// Drawn from a surface or the environment, for points on surfaces, or in media, where ns and ng have the length 0.
+/// local_wi is not set, and `lit` says of all lanes whether there is light.
+inline DrawnLight draw_light(const SceneTables& tables, const SurfaceInteraction<FloatN>& surface,
+                             const Sample2D& choice, const Sample2D& point) {
   const float environment_share = environment_share_of(tables);
   DrawnLight light;
   light.is_sky = choice.y < FloatN(environment_share);
@@ -89,39 +88,55 @@ inline DrawnLight draw_light(const SceneTables& tables, const PathVertex& vertex
     light.pdf = environment_share < 1 ? select(light.is_sky, pdf, light.pdf) : pdf;
   }
   light.wi = normalize(light.ray.direction);
-  light.local_wi = vertex.frame.to_local(light.wi);
   light.surface.wo = -light.wi;
-  light.lit = vertex.hits.hit & (light.pdf > FloatN(0)) & (light.local_wi.z > FloatN(0)) &
-              (dot(light.wi, surface.ng) > FloatN(0));
+  light.lit = light.pdf > FloatN(0);
   return light;
 }
 
+/// For a vertex.
+inline DrawnLight draw_light(const SceneTables& tables, const PathVertex& vertex, const Sample2D& choice,
+                             const Sample2D& point) {
+  DrawnLight light = draw_light(tables, vertex.surface, choice, point);
+  light.local_wi = vertex.frame.to_local(light.wi);
+  light.lit =
+      vertex.hits.hit & light.lit & (light.local_wi.z > FloatN(0)) & (dot(light.wi, vertex.surface.ng) > FloatN(0));
+  return light;
+}
+
+/// The radiance that it sends, in the lanes of `lit`. distance: that paths came to where it arrives.
+inline Rgb<FloatN> radiance_of(const SceneTables& tables, const DrawnLight& light, const FloatN& distance) {
+  const float environment_share = environment_share_of(tables);
+  Rgb<FloatN> radiance(Rgb<float>(0, 0, 0));
+  if (environment_share < 1)
+    radiance = tables.emitted(light.sample, light.lit & !light.is_sky, light.surface, [&](const Hits& hits) {
+      const FloatN width = tables.ray_cone().half_width(distance + length(light.ray.direction));
+      return texture_point(tables, width, hits, light.surface);
+    });
+  if (environment_share > 0) radiance = select(light.is_sky, light.radiance, radiance);
+  return radiance;
+}
+
 /// What of it leaves the vertex along wo: over the density of the draw, times its share beside directions that the BSDF
-/// draws. bsdf: for wo and the light's direction.
+/// draws. bsdf: for wo and the light's direction. media: where the light arrives; null if the scene has none.
 inline Rgb<FloatN> arriving_light(const TracedScene& scene, const PathVertex& vertex, const DrawnLight& light,
                                   const BsdfValue& bsdf, Coherence coherence, const RayIds& ids, RayCounts& counts,
-                                  StageClock& clock) {
+                                  StageClock& clock, const PointMedia* media) {
   const SceneTables& tables = scene.tables();
-  const float environment_share = environment_share_of(tables);
   FloatN weight = light.local_wi.z / light.pdf * power_heuristic(light.pdf, bsdf.pdf);
   if (vertex.surface.has_relief) weight = weight * relief_shadow(vertex.surface, light.wi);
   const Rgb<FloatN> black(Rgb<float>(0, 0, 0));
-  Rgb<FloatN> arriving = black;
-  if (environment_share < 1)
-    arriving = tables.emitted(light.sample, light.lit & !light.is_sky, light.surface, [&](const Hits& hits) {
-      const FloatN distance = vertex.distance + length(light.ray.direction);
-      return texture_point(tables, tables.ray_cone().half_width(distance), hits, light.surface);
-    });
-  if (environment_share > 0) arriving = select(light.is_sky, light.radiance, arriving);
-  const Rgb<FloatN> radiance = bsdf.f * arriving * weight;
+  const Rgb<FloatN> radiance = bsdf.f * radiance_of(tables, light, vertex.distance) * weight;
   const MaskN lit = light.lit & (largest(radiance) > FloatN(0));
   if (none(lit)) return black;
-  counts.shadow += static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(lit)));
+  counts.shadow += count_lanes(lit);
   clock.end(Stage::lights);
   const MaskN occluded = tables.identifies_rays() ? occluded_identified(scene, light.ray, lit, ids, coherence)
                                                   : scene.accelerator().occluded(light.ray, lit, coherence);
   clock.end(Stage::trace);
-  return select(lit & !occluded, radiance, black);
+  const MaskN arrives = lit & !occluded;
+  if (media == nullptr) [[likely]]
+    return select(arrives, radiance, black);
+  return select(arrives, radiance * light_through(scene, light.ray, arrives, ids, *media), black);
 }
 
 }  // namespace raytrace

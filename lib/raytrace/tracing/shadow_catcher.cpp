@@ -8,6 +8,7 @@
 #include "raytrace/bsdfs/direction_about.h"
 #include "raytrace/sampling/sampler.h"
 #include "raytrace/tracing/direct_light.h"
+#include "raytrace/tracing/reservoir.h"
 #include "raytrace/tracing/sampled_light.h"
 
 namespace raytrace {
@@ -18,24 +19,16 @@ namespace {
 /// the mean of A is to the share of the light that is hidden; the weights of points on a near surface differ most.
 constexpr std::uint32_t emitter_candidates = 16, environment_candidates = 8;
 
-std::uint64_t lanes_in(const MaskN& lanes) { return static_cast<std::uint64_t>(std::popcount(bits_of<FloatN>(lanes))); }
-
 FloatN brightness_of(const Rgb<FloatN>& color) { return abs(color.red) + abs(color.green) + abs(color.blue); }
 
 /// One of the candidates for each lane, in proportion to their weights: the irradiance from there.
 struct LightChoice {
-  FloatN u;  ///< from 0 to 1, evenly, whatever has been chosen
-  FloatN total = FloatN(0);
+  Reservoir reservoir;
   Ray<FloatN> ray;        ///< to the one that is chosen
   MaskN may_hide{false};  ///< whether something in between counts
 
   void add(const FloatN& weight, const Ray<FloatN>& candidate, bool has_shadows) {
-    const MaskN counts = (weight > FloatN(0)) & (weight < infinity<FloatN>());
-    const FloatN sum = total + weight, place = u * sum;
-    const MaskN chosen = counts & (place < weight);
-    const FloatN rest = select(chosen, place / weight, (place - weight) / total);
-    u = select(counts, min(max(rest, FloatN(0)), FloatN(0x1.fffffep-1F)), u);
-    total = select(counts, sum, total);
+    const MaskN chosen = reservoir.add(weight);
     ray.direction = select(chosen, candidate.direction, ray.direction);
     ray.far = select(chosen, candidate.far, ray.far);
     may_hide = (may_hide & !chosen) | (chosen & MaskN(has_shadows));
@@ -160,9 +153,8 @@ Hits catch_shadows(const TracedScene& scene, const CameraRays& camera, const Hit
   const SurfaceInteraction<FloatN> surface = scene.accelerator().surface(camera.rays, on_catcher);
   CatcherPoint point{tables, camera, surface, {}};
   point.ray = {offset_ray_origin(surface), surface.ng, FloatN(0), infinity<FloatN>()};
-  LightChoice choice;
-  choice.u = get_2d(camera.pixel, camera.sample, catcher_dimension(CatcherDraw::choice)).x;
-  choice.ray = point.ray;
+  LightChoice choice{Reservoir(get_2d(camera.pixel, camera.sample, catcher_dimension(CatcherDraw::choice)).x),
+                     point.ray};
   add_lights(point, choice);
   if (std::holds_alternative<Path::Parameters>(tables.integrator())) {  // all that rays are cast for is lights
     add_emitters(point, on_catcher, choice);
@@ -170,7 +162,7 @@ Hits catch_shadows(const TracedScene& scene, const CameraRays& camera, const Hit
   }
   const MaskN lit = on_catcher.hit & choice.may_hide;
   if (none(lit)) return others;
-  caught.shadow_rays = lanes_in(lit & caught.counted);
+  caught.shadow_rays = count_lanes(lit & caught.counted);
   const RayIds ids{camera.pixel, camera.sample, 0x10000000U};
   caught.shadowed =
       lit & (tables.identifies_rays() ? occluded_identified(scene, choice.ray, lit, ids, Coherence::coherent)

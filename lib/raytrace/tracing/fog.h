@@ -1,0 +1,75 @@
+// Fogs on the ways of rays.
+#pragma once
+
+#include "raytrace/accel/traced_scene.h"
+
+namespace raytrace {
+
+/// What a point is in, on the side that light comes from.
+struct PointMedia {
+  const MediumStack& stack;
+  const IntN& current;  ///< that of them which counts
+};
+
+/// Goes along rays from boundary to boundary of fogs, as far as they reach, or nearly: what ends at a surface, such as
+/// the fog of a room at its wall, goes on behind it. media: where the rays start; then where they end.
+///
+/// part(lanes, fog, number, begin, end): called for parts of the way in a fog, each lane's in its own, and each number
+/// at most once. begin, end: as distances along rays are. The result: the lanes that go on behind it; the others' media
+/// stay what they are there.
+template <class Part>
+void for_each_part_in_fog(const TracedScene& scene, const Ray<FloatN>& rays, MaskN lanes, const RayIds& ids,
+                          MediumStack& media, const Part& part) {
+  constexpr int most_boundaries = 1000;       // where rounding keeps a ray at one
+  constexpr float before_end = 1 - 0x1p-16F;  // more than what rounding makes of two surfaces in one place
+  const SceneTables& tables = scene.tables();
+  const FloatN reach = rays.far * FloatN(before_end);
+  Ray<FloatN> left = rays;
+  left.near = FloatN(0);
+  FloatN begin(0);
+  for (int boundaries = 0; boundaries < most_boundaries && any(lanes); ++boundaries) {
+    left.far = reach - begin;
+    RayIdentity identity(tables, scene.accelerator(), left, ids);
+    identity.meets = Meets::boundaries_of_fogs;
+    Hits hits =
+        scene.accelerator().intersect(left, lanes & (left.far > FloatN(0)), Coherence::incoherent, nullptr, &identity);
+    const FloatN end = select(hits.hit, min(begin + left.far, rays.far), rays.far);
+    SurfaceInteraction<FloatN> surface;
+    IntN inside(0);
+    if (any(hits.hit)) {
+      if (tables.has_motion()) [[unlikely]]
+        hits.time = ids.times();
+      surface = scene.accelerator().surface(left, hits);
+      inside = select_lanes(hits.hit, tables.media().of_material(tables.material(hits)), IntN(0));
+      // What rays come out of they have been in since they began.
+      media.add_first(hits.hit & !surface.front & !media.contains(inside), inside);
+    }
+    const IntN fog = media.current(tables.media());
+    const MaskN in_fog = lanes & tables.media().is_fog(fog);
+    if (any(in_fog)) lanes = (lanes & !in_fog) | part(in_fog, fog, boundaries, begin, end);
+    lanes = lanes & hits.hit;
+    if (none(lanes)) return;
+    media.add(lanes & surface.front, inside);
+    media.remove(lanes & !surface.front, inside);
+    left.origin = select(lanes, offset_ray_origin(surface, lanes), left.origin);
+    begin = end;
+  }
+}
+
+/// The share that fogs leave of the light on the way along those rays; media: as above.
+Rgb<FloatN> fog_transmittance(const TracedScene& scene, const Ray<FloatN>& rays, const MaskN& lanes, const RayIds& ids,
+                              MediumStack& media);
+
+/// What is left of the light that comes along shadow rays to points in media.
+inline Rgb<FloatN> light_through(const TracedScene& scene, const Ray<FloatN>& rays, const MaskN& lanes,
+                                 const RayIds& ids, const PointMedia& media) {
+  const MediumTable& table = scene.tables().media();
+  if (!table.has_fog()) [[likely]]
+    return table.transmittance(media.current, length(rays.direction) * rays.far);
+  MediumStack stack = media.stack;
+  const Rgb<FloatN> fogs = fog_transmittance(scene, rays, lanes, ids, stack);
+  const Rgb<FloatN> clear = table.transmittance(media.current, length(rays.direction) * rays.far);
+  return select(table.is_fog(media.current), fogs, fogs * clear);
+}
+
+}  // namespace raytrace

@@ -1,0 +1,254 @@
+// The ways of paths through fogs.
+//
+// On each part of its way in a fog, a path gets light at a distance that is drawn for that, and goes on by a free
+// flight of its own. Lights at a point get half of their distances by the angles from which the light sees them, so
+// that the halos of lamps are not noisier than what is far away from them (Kulla and Fajardo, "Importance Sampling
+// Techniques for Path Tracing in Participating Media", EGSR 2012).
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <optional>
+
+#include "raytrace/bsdfs/henyey_greenstein.h"
+#include "raytrace/sampling/ray_ids.h"
+#include "raytrace/sampling/sampler.h"
+#include "raytrace/tracing/fog.h"
+#include "raytrace/tracing/fog_distances.h"
+#include "raytrace/tracing/path_batch.h"
+#include "raytrace/tracing/reservoir.h"
+#include "raytrace/tracing/sampled_light.h"
+
+namespace raytrace {
+
+namespace {
+
+FloatN brightness(const Rgb<FloatN>& color) { return abs(color.red) + abs(color.green) + abs(color.blue); }
+
+}  // namespace
+
+/// A part of paths' ways in a fog.
+struct PathBatch::FogPart {
+  MaskN lanes;
+  const Ray<FloatN>& rays;  ///< of unit length
+  FloatN begin, end;
+  const IntN& fog;
+  const MediumStack& media;
+  FloatN extinction, anisotropy;
+  Rgb<FloatN> scattering;
+  FlightDistances flights;
+
+  FogPart(const MediumTable& table, const MaskN& those, const Ray<FloatN>& their_rays, const FloatN& from,
+          const FloatN& to, const IntN& its_fog, const MediumStack& its_media)
+      : lanes(those),
+        rays(their_rays),
+        begin(from),
+        end(min(to, FloatN(1e17F))),
+        fog(its_fog),
+        media(its_media),
+        extinction(max(table.extinction(fog).green, FloatN(1e-30F))),  // the same of all colours
+        anisotropy(table.anisotropy(fog)),
+        scattering(table.scattering(fog)),
+        flights(extinction, begin, end) {}
+
+  /// What is left of light that went from there to where the part begins.
+  FloatN left(const FloatN& distance) const { return exp(-extinction * (distance - begin)); }
+  FloatN phase(const Vec3<FloatN>& wi) const { return henyey_greenstein(dot(rays.direction, wi), anisotropy); }
+};
+
+/// Random numbers of a part, and which its rays are: where paths go on a straight way, which begins with `step`
+/// scatterings. Up to the first of them, numbers are well spread.
+struct PathBatch::FogNumbers {
+  const UintN& pixel;
+  const UintN& sample;
+  std::uint32_t walk, step, part;
+
+  Sample2D operator()(FogDraw what) const {
+    if (step == 0) return get_2d(pixel, sample, fog_dimension(walk, part, what));
+    const UintN key = mix_bits(RayIds{pixel, sample, 0x70000000U | walk}.keys());
+    const std::uint32_t number = ((step << 8U | (part & 0xFFU)) * 8 + static_cast<std::uint32_t>(what)) * 2;
+    return {to_unit(mix_bits(key + UintN(number * 0x9e3779b9U))),
+            to_unit(mix_bits(key + UintN((number + 1) * 0x9e3779b9U)))};
+  }
+  RayIds ids(std::uint32_t ray) const {
+    return {pixel, sample, 0x60000000U | walk << 10U | (step & 0xFFU) << 2U | ray};
+  }
+};
+
+void PathBatch::light_fog(const PathPacket& path, const FogPart& part, const FogNumbers& numbers,
+                          std::vector<Sums>& sums, RayCounts& counts) {
+  const SceneTables& tables = scene_.tables();
+  const Rgb<FloatN> scattered = path.throughput * part.scattering;
+  const auto arrive = [&](const Ray<FloatN>& ray, const MaskN& lit, const MaskN& hidden, const RayIds& ids,
+                          const Rgb<FloatN>& radiance, const IntN& group) {
+    const MaskN arrives = lit & !hidden;
+    if (none(arrives)) return;
+    add(sums, path.slot, arrives, radiance * light_through(scene_, ray, arrives, ids, {part.media, part.fog}), group);
+  };
+  const auto hidden = [&](const Ray<FloatN>& ray, const MaskN& lanes, const RayIds& ids) {
+    if (none(lanes)) return lanes;
+    counts.shadow += count_lanes(lanes);
+    return occluded_identified(scene_, ray, lanes, ids, Coherence::incoherent);
+  };
+
+  if (!tables.lights().empty()) {
+    const Sample2D along = numbers(FogDraw::light);
+    Reservoir reservoir(numbers(FogDraw::choices).x);
+    Ray<FloatN> ray{part.rays.origin, part.rays.direction, FloatN(0), FloatN(1)};
+    Rgb<FloatN> radiance(Rgb<float>(0, 0, 0));
+    FloatN weight(1);
+    IntN group(0);
+    MaskN has_shadow(false);
+    const Sample2D place = tables.has_sampled_lights() ? numbers(FogDraw::light_place) : Sample2D{};
+    // The fewer lights, the more places.
+    const std::size_t places = tables.lights().size() <= 2 ? 2 : 1;
+    for (std::size_t i = 0; i < tables.lights().size(); ++i) {
+      const LightSource& light = *tables.lights()[i];
+      const auto location = light.location();
+      FloatN begin = part.begin, end = part.end;
+      light.cut_to_lit(part.rays, begin, end);
+      const MaskN lit_lanes = part.lanes & (begin < end);
+      if (none(lit_lanes)) continue;
+      const FlightDistances flights(part.extinction, begin, end);
+      std::optional<EquiangularDistances> angles;
+      if (location) angles.emplace(part.rays, begin, end, Vec3<FloatN>(*location));
+      const auto try_at = [&](const FloatN& distance) {
+        FloatN density = flights.pdf(distance);
+        if (angles) density = density + angles->pdf(distance);
+        Ray<FloatN> candidate{part.rays.at(distance), {}, FloatN(0), FloatN(1)};
+        Rgb<FloatN> arriving;
+        light.sample(candidate, place, arriving);
+        const FloatN phase = part.phase(normalize(candidate.direction));
+        const Rgb<FloatN> value =
+            scattered * arriving * (phase * part.left(distance) / (density * FloatN(static_cast<float>(places))));
+        const FloatN value_weight = select(lit_lanes, brightness(value), FloatN(0));
+        const MaskN chosen = reservoir.add(value_weight);
+        if (none(chosen)) return;
+        ray.origin = select(chosen, candidate.origin, ray.origin);
+        ray.direction = select(chosen, candidate.direction, ray.direction);
+        ray.far = select(chosen, candidate.far, ray.far);
+        radiance = select(chosen, value, radiance);
+        weight = select(chosen, value_weight, weight);
+        group = select_lanes(chosen, IntN(tables.light_group(i)), group);
+        has_shadow = (has_shadow & !chosen) | (chosen & MaskN(light.shadows()));
+      };
+      for (std::size_t j = 0; j < places; ++j) {
+        const FloatN u = (along.x + FloatN(static_cast<float>(j))) * FloatN(1 / static_cast<float>(places));
+        try_at(flights.sample(u));
+        if (angles) try_at(angles->sample(u));
+      }
+    }
+    const MaskN lit = part.lanes & (reservoir.total() > FloatN(0));
+    const RayIds ids = numbers.ids(1);
+    if (any(lit))
+      arrive(ray, lit, hidden(ray, lit & has_shadow, ids), ids, radiance * (reservoir.total() / weight), group);
+  }
+
+  if (tables.environment() == nullptr && tables.emitters().empty()) return;
+  const FloatN distance = part.flights.sample(numbers(FogDraw::flights).y);
+  SurfaceInteraction<FloatN> point{};
+  point.p = part.rays.at(distance);
+  point.ng = point.ns = Vec3<FloatN>(Vec3f(0, 0, 0));
+  point.error = rounding_error(point.p, FloatN(0));
+  DrawnLight light = draw_light(tables, point, numbers(FogDraw::emitter), numbers(FogDraw::emitter_point));
+  light.lit = light.lit & part.lanes;
+  if (none(light.lit)) return;
+  // Paths that are scattered there come to the light as well.
+  const FloatN phase = part.phase(light.wi), density = light.pdf * part.flights.pdf(distance);
+  const FloatN of_paths = phase * part.flights.pdf(distance) * part.flights.share();
+  const FloatN weight = phase * part.left(distance) / density * power_heuristic(density, of_paths);
+  const Rgb<FloatN> radiance = scattered * radiance_of(tables, light, path.distance + distance) * weight;
+  const MaskN lit = light.lit & (largest(radiance) > FloatN(0));
+  IntN group(0);
+  if (groups_ > 1) {
+    group = IntN(tables.environment_group());
+    if (!tables.emitters().empty())
+      group = select_lanes(light.is_sky, group, tables.light_group_of_material(light.sample.material));
+  }
+  const RayIds ids = numbers.ids(2);
+  arrive(light.ray, lit, hidden(light.ray, lit, ids), ids, radiance, group);
+}
+
+MaskN PathBatch::scatter_in_fog(PathPacket& path, const FogPart& part, const FogNumbers& numbers, int depth) {
+  const FloatN distance = part.begin + depth_of_share(numbers(FogDraw::flights).x) / part.extinction;
+  const MaskN ends = part.lanes & (distance < part.end);
+  if (none(ends)) return ends;
+  const Sample2D u = numbers(FogDraw::direction);
+  const Vec3<FloatN> wi = sample_henyey_greenstein(part.rays.direction, part.anisotropy, u.x, u.y);
+  // Over the density of places that lights are drawn for.
+  path.pdf = select(ends, part.phase(wi) * part.flights.share(), path.pdf);
+  path.from = select(ends, part.rays.at(distance), path.from);
+  path.from_normal = select(ends, Vec3<FloatN>(Vec3f(0, 0, 0)), path.from_normal);
+  path.throughput = select(ends, path.throughput * part.scattering * (FloatN(1) / part.extinction), path.throughput);
+  path.distance = select(ends, path.distance + distance, path.distance);
+  path.way = select_lanes(ends, IntN(depth == 0 ? by_scattering : any_way), path.way);
+  path.fog_scatterings = select_lanes(ends, path.fog_scatterings + IntN(1), path.fog_scatterings);
+  path.rays.direction = select(ends, wi, path.rays.direction);
+  return ends;
+}
+
+Hits PathBatch::go_through_fog(PathPacket& path, MediumStack& media, const MaskN& lanes, const FogWay& way,
+                               RayCounts& counts) {
+  const SceneTables& tables = scene_.tables();
+  Ray<FloatN>& rays = path.rays;
+  Hits result;
+  result.hit = MaskN(false);
+  MaskN goes_on = lanes, fogged(false), scattered(false);
+  for (std::uint32_t step = 0; any(goes_on); ++step) {
+    FogNumbers numbers{path.pixel, path.sample, way.number, step, 0};
+    Hits hits;
+    if (step == 0 && way.first_hits != nullptr) {
+      hits = *way.first_hits;
+      hits.hit = hits.hit & goes_on;
+    } else {
+      Ray<FloatN> ray{rays.origin, rays.direction, FloatN(0), infinity<FloatN>()};
+      const RayIds ids = numbers.ids(0);
+      const RayIdentity identity(tables, scene_.accelerator(), ray, ids);
+      counts.indirect += count_lanes(goes_on);
+      hits = scene_.accelerator().intersect(ray, goes_on, Coherence::incoherent, nullptr, &identity);
+      rays.near = FloatN(0);
+      rays.far = select(goes_on, ray.far, rays.far);
+    }
+    MaskN scatters(false), ends(false);
+    const Ray<FloatN> ray = rays;
+    for_each_part_in_fog(
+        scene_, ray, goes_on, numbers.ids(0), media,
+        [&](const MaskN& in_fog, const IntN& fog, int number, const FloatN& begin, const FloatN& end) {
+          const FogPart part(tables.media(), in_fog, ray, begin, end, fog, media);
+          numbers.part = static_cast<std::uint32_t>(number);
+          fogged = fogged | in_fog;
+          FogPart lit = part;
+          lit.lanes = in_fog & float_mask<FloatN>(path.fog_scatterings < IntN(settings_.maxdepth - way.depth));
+          if (any(lit.lanes)) light_fog(path, lit, numbers, way.depth == 0 && step == 0 ? direct_ : indirect_, counts);
+          const MaskN here = scatter_in_fog(path, part, numbers, way.depth);
+          scatters = scatters | (here & lit.lanes);
+          ends = ends | here;
+          // Those that have been scattered often, or carry little.
+          const FloatN survival = min(largest(path.throughput) * path.eta2 * FloatN(2), FloatN(1));
+          const MaskN at_stake =
+              here & float_mask<FloatN>(path.fog_scatterings > IntN(settings_.roulettedepth - way.depth));
+          path.throughput =
+              select(at_stake, path.throughput * (FloatN(1) / max(survival, FloatN(1e-12F))), path.throughput);
+          scatters = scatters & !(at_stake & (numbers(FogDraw::choices).y >= survival));
+          rays.origin = select(here, path.from, rays.origin);
+          return in_fog & !here;
+        });
+    scattered = scattered | ends;
+    const MaskN arrives = hits.hit & !ends;
+    if (any(arrives)) {
+      hits.hit = arrives;
+      result = any(result.hit) ? select(arrives, hits, result) : hits;
+      result.find_first();
+    }
+    MaskN escapes = goes_on & !ends & !arrives;
+    if (way.first_hits != nullptr && step == 0) escapes = escapes & fogged;
+    if (any(escapes)) add_escaped(path, escapes, way.depth);
+    goes_on = scatters & (largest(path.throughput) > FloatN(0));
+  }
+  if (way.fogged != nullptr) *way.fogged = is_transparent_ ? scattered : fogged;
+  const MediumStack::Packed packed = media.packed();
+  path.first_media = select_lanes(lanes, packed.first, path.first_media);
+  path.last_media = select_lanes(lanes, packed.last, path.last_media);
+  return result;
+}
+
+}  // namespace raytrace
