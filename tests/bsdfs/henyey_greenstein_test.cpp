@@ -1,6 +1,7 @@
 // The phase function of fog and of what is below surfaces, and distances along rays in fog: samples against densities.
 #include "raytrace/bsdfs/henyey_greenstein.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>

@@ -2,9 +2,11 @@
 // had in two ways.
 //
 // Not with the thread sanitizer: statistics of code that cuts_test runs in threads.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <tuple>
 
 #include "render/scenes.h"
 #include "support/catch.h"

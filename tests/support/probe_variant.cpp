@@ -99,7 +99,8 @@ class Backend final : public ProbeBackend {
         accelerator_(tables_.geometry(), 1,
                      register_lanes == 16  ? "avx512"
                      : register_lanes == 8 ? "avx2"
-                                           : "sse4.2") {}
+                                           : "sse4.2",
+                     tables_.fogs()) {}
 
   std::vector<ProbeHit> intersect(std::span<const ProbeRay> all, bool coherent) const override {
     return intersect(all, coherence(coherent), nullptr);

@@ -66,6 +66,10 @@ def rectangle(corner, edge1, edge2, material, more=""):
     )
 
 
+def box(low, high, material):
+    return element("box", vector("min", low), vector("max", high), value("material", material))
+
+
 def disk(center, normal, radius, material):
     return element(
         "disk", vector("center", center), vector("normal", normal), value("radius", radius), value("material", material)
@@ -158,6 +162,7 @@ PLURALS = {
     "mirror": "mirrors",
     "conductor": "conductors",
     "dielectric": "dielectrics",
+    "fog": "fogs",
     "openpbr": "openpbrs",
     "image": "images",
     "sphere": "spheres",

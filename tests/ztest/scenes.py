@@ -13,6 +13,7 @@ from elements import (
     PINHOLE,
     WIDTH,
     ball_mesh,
+    box,
     camera,
     color,
     conductor,
@@ -272,6 +273,42 @@ def materials():
         milky("left", 1.4, (0.3, 0.3, 0.3), (0.9, 0.6, 0.3)),
         milky("right", 1, (0.2, 0.2, 0.2), (0.8, 1.1, 1.4), value("transmission_scatter_anisotropy", 0.6)),
     )
+    def fog(name, path, scattered, anisotropy):
+        return element(
+            "fog", value("name", name), value("meanfreepath", path), color("color", scattered), value("anisotropy", anisotropy)
+        )
+
+    balls(
+        "fog-balls",
+        "Balls of fog, dense and thin, backwards and forwards.",
+        8,
+        fog("left", 0.5, (0.9, 0.7, 0.5), -0.3),
+        fog("right", 1.5, (1, 0.9, 0.8), 0.7),
+    )
+    write(
+        "fog-lights",
+        "A room with fog, a point light and a spotlight.",
+        6,
+        [*room(), sphere((0.3, -0.5, 0.1), 0.3, "white"), box((-0.9, -0.9, -0.9), (0.9, 0.5, 0.9), "fog")],
+        [*ROOM_MATTES, fog("fog", 1, (0.95, 0.9, 0.8), 0.3)],
+        [
+            element(
+                "pointlight",
+                vector("location", (-0.4, 0.8, 0.3)),
+                value("scaleradiance", 1),
+                value("falloff", "inversesquare"),
+            ),
+            element(
+                "spotlight",
+                vector("location", (0.7, 0.9, 0.2)),
+                vector("lookat", (-0.2, -0.8, -0.1)),
+                value("scaleradiance", 12),
+                value("coneangle", 40),
+                value("falloff", "inversesquare"),
+            ),
+        ],
+        view=ROOM_CAMERA,
+    )
     veil = rectangle((-2.2, 0.2, 1.2), (4.4, 0, 0), (0, 1.2, 0), "veil")
     write(
         "opacity",
@@ -366,7 +403,7 @@ def shapes():
             FLOOR,
             WALL,
             PANEL,
-            element("box", vector("min", (-2, 0, -0.5)), vector("max", (-1, 1.4, 0.5)), value("material", "clay")),
+            box((-2, 0, -0.5), (-1, 1.4, 0.5), "clay"),
             element(
                 "cylinder",
                 vector("bottom", (0, 0, 0)),

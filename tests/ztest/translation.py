@@ -109,8 +109,8 @@ class Translation:
     def integrator(self):
         # A depth here is a scattering: one less than the segments of a path, which Mitsuba counts.
         depth = integer("max_depth", int(self.root.findtext("integrator/path/maxdepth")) + 1) + integer("rr_depth", 50)
-        media = [self.root.find(f".//{name}") for name in ("attenuationdistance", "transmission_depth")]
-        kind = "path" if media == [None, None] else "volpath"
+        media = [self.root.find(f".//{name}") for name in ("attenuationdistance", "transmission_depth", "fog")]
+        kind = "path" if media == [None, None, None] else "volpath"
         return f'<integrator type="moment"><integrator type="{kind}" name="of">{depth}</integrator></integrator>\n'
 
     def sensor(self):
@@ -285,6 +285,12 @@ class Translation:
             f'<medium type="homogeneous" name="interior">{_rgb("sigma_t", extinction / extinction.max())}'
             f'{_float("scale", extinction.max())}{_rgb("albedo", scattering / extinction)}'
             f'<phase type="hg">{_float("g", anisotropy)}</phase></medium>'
+        )
+
+    def fog(self, material):
+        extinction = numpy.full(3, 1 / value(material, "meanfreepath"))
+        return '<bsdf type="null"/>' + self.medium(
+            extinction, extinction * color(material, "color"), value(material, "anisotropy")
         )
 
     def openpbr(self, material):

@@ -56,6 +56,8 @@ TEST_CASE("scenes that are a little different have another expectation") {
       {"glass-thin", {"<thinwalled>true</thinwalled>", ""}},
       {"glass-rough", {"<roughness>0.17</roughness>", "<roughness>0.25</roughness>"}},
       {"glass-milky", {"_anisotropy>0.6<", "_anisotropy>0.5<"}},
+      {"fog-balls", {"<anisotropy>0.7</anisotropy>", "<anisotropy>0.6</anisotropy>"}},
+      {"fog-lights", {"<meanfreepath>1</meanfreepath>", "<meanfreepath>1.1</meanfreepath>"}},
       {"metal-brushed", {"<anisotropy>0.7</anisotropy>", "<anisotropy>0.65</anisotropy>"}},
       {"metal-edges", {"<edgecolor red=\"1\" green=\"1\" blue=\"1\"/>", ""}},
       {"lens", {"<lensradius>0.25</lensradius>", "<lensradius>0.4</lensradius>"}},

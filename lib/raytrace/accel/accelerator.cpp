@@ -4,6 +4,7 @@
 #include <atomic>
 #include <mutex>
 #include <new>
+#include <set>
 #include <string>
 
 #include "raytrace/memory/large_array.h"
@@ -91,7 +92,7 @@ struct Accelerator::Report {
   }
 };
 
-Accelerator::Accelerator(const GeometryTable& table, int threads, const char* isa)
+Accelerator::Accelerator(const GeometryTable& table, int threads, const char* isa, std::span<const std::uint8_t> fogs)
     : report_(std::make_unique<Report>()), table_(table) {
   const std::string configuration = "threads=" + std::to_string(threads) + ",set_affinity=0,isa=" + isa;
   device_.reset(rtcNewDevice(configuration.c_str()));
@@ -106,13 +107,19 @@ Accelerator::Accelerator(const GeometryTable& table, int threads, const char* is
                                                      sizeof(typename ShapeTable<Shape>::Record)};
   });
   if (!table.instances().empty()) add_instances();
+  add_fogs(fogs);
   report_->throw_error();
 }
 
-embree::Scene Accelerator::make_scene(const GeometryTable& table, InstanceCallbacks::Shapes& shapes) const {
+embree::Scene Accelerator::new_scene() const {
   embree::Scene scene(rtcNewScene(device_.get()));
   rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_MEDIUM);
   rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);  // no misses at box borders far from the origin
+  return scene;
+}
+
+embree::Scene Accelerator::make_scene(const GeometryTable& table, InstanceCallbacks::Shapes& shapes) const {
+  embree::Scene scene = new_scene();
   for_each_type(Shapes{}, [&]<class Shape>(std::type_identity<Shape>) {
     if constexpr (!UnboundedShape<Shape>) {
       constexpr std::size_t index = index_of<Shape>(Shapes{});
@@ -155,11 +162,24 @@ void Accelerator::add_instances() {
   }
 }
 
+void Accelerator::add_fogs(std::span<const std::uint8_t> fogs) {
+  if (fogs.empty()) return;
+  fog_scene_ = new_scene();
+  const auto instances = static_cast<std::uint32_t>(table_.geometries().size());
+  std::set<std::uint32_t> geometries;
+  for (const auto& object : table_.bounded_objects(fogs)) geometries.insert(object.geometry);
+  if (geometries.contains(instances)) geometries.insert(instances + 1);
+  for (const std::uint32_t i : geometries)
+    if (const RTCGeometry geometry = rtcGetGeometry(scene_.get(), i); geometry != nullptr)
+      rtcAttachGeometryByID(fog_scene_.get(), geometry, i);
+}
+
 Accelerator::~Accelerator() = default;
 
 void Accelerator::build() const {
   for (const embree::Scene& group : group_scenes_) rtcCommitScene(group.get());
   rtcCommitScene(scene_.get());
+  if (fog_scene_) rtcCommitScene(fog_scene_.get());
   report_->throw_error();
   is_built_.store(true, std::memory_order_release);
 }

@@ -31,9 +31,9 @@ enum class Coherence {
 /// message, std::bad_alloc where memory runs out.
 class Accelerator {
  public:
-  /// For up to `threads` threads; isa is Embree's name of the best instruction set that it may use. The table must
-  /// outlive it. Throws as building does.
-  Accelerator(const GeometryTable& table, int threads, const char* isa);
+  /// For up to `threads` threads; isa is Embree's name of the best instruction set that it may use. fogs: 1 for each
+  /// material that is one, else 0; may be empty. The table must outlive it. Throws as building does.
+  Accelerator(const GeometryTable& table, int threads, const char* isa, std::span<const std::uint8_t> fogs);
   ~Accelerator();
 
   /// A direction buffer around each of the origins, where there is one and it would pay. With `threads` threads.
@@ -82,9 +82,11 @@ class Accelerator {
     std::size_t record_size = 0;
   };
 
+  embree::Scene new_scene() const;
   /// A scene of a table's own objects, without instances. shapes: receives their callbacks.
   embree::Scene make_scene(const GeometryTable& table, InstanceCallbacks::Shapes& shapes) const;
   void add_instances();
+  void add_fogs(std::span<const std::uint8_t> fogs);
   void build() const;
   /// Asks for the memory of an object's record, without waiting for it.
   RAYTRACE_INLINE void fetch_record(const DirectionBuffer::Object& object) const {
@@ -112,6 +114,8 @@ class Accelerator {
   InstanceCallbacks instance_callbacks_;
   std::array<InstanceGeometry, 2> instance_geometries_;  ///< what stands still, what moves
   embree::Scene scene_;
+  /// Of those geometries that have fogs, for rays that look for their boundaries; null if there is none.
+  embree::Scene fog_scene_;
   mutable std::atomic<bool> is_built_{false};
 };
 

@@ -215,7 +215,9 @@ Hits Accelerator::intersect(Ray<FloatN>& rays, const MaskN& active, Coherence co
 
 void Accelerator::intersect_bvh(const Ray<FloatN>& rays, const MaskN& active, Coherence coherence,
                                 const RayIdentity* identity, FloatN& distance, Hits& hits) const {
-  const RTCScene scene = embree_scene();
+  RTCScene scene = embree_scene();
+  if (fog_scene_ && identity != nullptr && identity->meets == Meets::boundaries_of_fogs) [[unlikely]]
+    scene = fog_scene_.get();
   embree::Query query(coherence == Coherence::coherent);
   alignas(64) embree::RegisterPacket::RayHit packets[embree::packets];
   embree::store_rays(rays, times_of(identity), [&](int i) -> auto& { return packets[i].ray; });

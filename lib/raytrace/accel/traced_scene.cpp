@@ -6,7 +6,9 @@
 namespace raytrace {
 
 TracedScene::TracedScene(const SceneDescription& description, int threads, const char* isa_name, const char* embree_isa)
-    : tables_(description, threads), accelerator_(tables_.geometry(), threads, embree_isa), isa_name_(isa_name) {
+    : tables_(description, threads),
+      accelerator_(tables_.geometry(), threads, embree_isa, tables_.fogs()),
+      isa_name_(isa_name) {
   make_buffers(threads);
   // Embree's BVH of few objects takes no time. That of many waits for a ray that wants it: there may be none.
   constexpr std::uint64_t few_primitives = 1U << 14U;

@@ -244,15 +244,17 @@ std::vector<GeometryTable::BoundedObject> GeometryTable::bounded_objects(
       for (std::size_t i = 0; i < shapes.records.size(); ++i) {
         if (shapes.is_instanced(i) || !is_wanted(own_material(type, static_cast<std::uint32_t>(i)))) continue;
         const IntN object = this->object(type, IntN(static_cast<std::int32_t>(i)));
-        objects.push_back({Kernel<Shape>::bounds(shapes.records[i]), object.get(0)});
+        objects.push_back({Kernel<Shape>::bounds(shapes.records[i]), object.get(0), type});
       }
     }
   });
-  for (const Geometry& geometry : geometries_) {
-    if (geometry.mesh == nullptr) continue;
+  const auto geometries = static_cast<std::uint32_t>(geometries_.size());
+  for (std::uint32_t i = 0; i < geometries; ++i) {
+    const auto& [primitives, first_object, mesh] = geometries_[i];
+    if (mesh == nullptr) continue;
     std::vector<std::uint8_t> used(wanted_materials.size());
-    geometry.mesh->add_used_materials(used);
-    if (has_wanted(used)) objects.push_back({geometry.mesh->bounds(), geometry.first_object});
+    mesh->add_used_materials(used);
+    if (has_wanted(used)) objects.push_back({mesh->bounds(), first_object, i});
   }
   for (std::size_t i = 0; i < instances_.size(); ++i) {
     const InstanceTarget& target = instances_.target(i);
@@ -262,7 +264,7 @@ std::vector<GeometryTable::BoundedObject> GeometryTable::bounded_objects(
     const bool has = instead >= 0      ? is_wanted(instead)
                      : target.is_shape ? is_wanted(table.own_material(target.shape_type, target.primitive))
                                        : has_wanted(table.used_materials(count));
-    if (has) objects.push_back({instances_.bounds(i), -1 - static_cast<std::int32_t>(i)});
+    if (has) objects.push_back({instances_.bounds(i), -1 - static_cast<std::int32_t>(i), geometries});
   }
   return objects;
 }

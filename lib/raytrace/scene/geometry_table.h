@@ -82,7 +82,8 @@ class GeometryTable {
   /// Each object that has bounds, and each instance, if f(material) is true for any material that it has.
   struct BoundedObject {
     Bounds bounds;
-    std::int32_t object;  ///< its number; of an instance, -1 less its number, counted from 0
+    std::int32_t object;     ///< its number; of an instance, -1 less its number, counted from 0
+    std::uint32_t geometry;  ///< that it is of; of instances the number behind the last
   };
   std::vector<BoundedObject> bounded_objects(std::span<const std::uint8_t> wanted_materials) const;
   /// Of so many materials, those that objects have: 1, else 0.

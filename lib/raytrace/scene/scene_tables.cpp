@@ -284,6 +284,13 @@ void SceneTables::add_materials(const SceneDescription& description) {
   if (!textured_.empty()) textured_.resize(static_cast<std::size_t>(first_material_.back()));
 }
 
+std::vector<std::uint8_t> SceneTables::fogs() const {
+  std::vector<std::uint8_t> fogs;
+  if (!media_.has_fog()) return fogs;
+  for (std::int32_t i = 0; i < first_material_.back(); ++i) fogs.push_back(is_fog(i) ? 1 : 0);
+  return fogs;
+}
+
 RadianceRange SceneTables::background_range() const {
   RadianceRange range;
   const Rgb<float> background = abs(Rgb<float>(viewplane_.background));

@@ -142,6 +142,8 @@ class SceneTables {
   bool identifies_rays() const { return has_cutouts_ || has_motion(); }
   /// Whether that may be of a material.
   bool is_cutout(std::int32_t material) const { return details_[static_cast<std::size_t>(material)].is_cutout(); }
+  /// 1 for materials that are fogs, else 0; empty if no object has one.
+  std::vector<std::uint8_t> fogs() const;
   /// Whether it has no surface: rays pass it, but paths know its boundary.
   bool is_fog(std::int32_t material) const {
     const auto& medium = details_[static_cast<std::size_t>(material)].medium;

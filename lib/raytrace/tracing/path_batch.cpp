@@ -183,6 +183,13 @@ void PathBatch::add_escaped(const PathPacket& path, const MaskN& lanes, int dept
       IntN(0));
 }
 
+IntN PathBatch::group_of(const DrawnLight& light) const {
+  const SceneTables& tables = scene_.tables();
+  const IntN sky(tables.environment_group());
+  if (tables.emitters().empty()) return sky;
+  return select_lanes(light.is_sky, sky, tables.light_group_of_material(light.sample.material));
+}
+
 void PathBatch::add_photons(const PathPacket& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface,
                             const TexturePoint<FloatN>* point, const MaskN& lanes, int depth) {
   const FloatN u = get_2d(path.pixel, path.sample, photon_dimension(depth)).x;
@@ -302,13 +309,7 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
     light += arriving_light(scene_, vertex, drawn, scattering.towards, coherence, ids(lights + 1), counts, clock_,
                             has_media ? &point_media : nullptr);
   }
-  IntN group(0);
-  if (groups_ > 1) {
-    group = IntN(tables.environment_group());
-    if (!tables.emitters().empty())
-      group = select_lanes(drawn.is_sky, group, tables.light_group_of_material(drawn.sample.material));
-  }
-  add(sums, path.slot, lanes, path.throughput * light, group);
+  add(sums, path.slot, lanes, path.throughput * light, groups_ > 1 ? group_of(drawn) : IntN(0));
   if (photons_ != nullptr)
     if (const MaskN shown = lanes & !(focuses | is_first); any(shown))
       add_photons(path, hits, surface, point, shown, depth);

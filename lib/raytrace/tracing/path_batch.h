@@ -19,6 +19,7 @@
 #include "raytrace/tracing/photon_map.h"
 #include "raytrace/tracing/ray_result.h"
 #include "raytrace/tracing/render_report.h"
+#include "raytrace/tracing/sampled_light.h"
 #include "raytrace/tracing/stage_times.h"
 
 namespace raytrace {
@@ -72,13 +73,17 @@ class PathBatch {
     MaskN* fogged = nullptr;           ///< receives, of those lanes, which to count as hits, if it is not null
   };
   struct FogPart;
+  struct FogLight;
   struct FogNumbers;
   /// Those paths' ways, from where their rays start, to the next surfaces, by way of scatterings in fogs. What comes to
   /// them there, and from where nothing is, is added. media: where they start, and then are; those of the paths follow.
   Hits go_through_fog(PathPacket& path, MediumStack& media, const MaskN& lanes, const FogWay& way, RayCounts& counts);
   /// The light of all lights that a part of their ways sends along paths.
-  void light_fog(const PathPacket& path, const FogPart& part, const FogNumbers& numbers, std::vector<Sums>& sums,
+  void light_fog(const PathPacket& path, const FogPart& part, FogNumbers numbers, std::vector<Sums>& sums,
                  RayCounts& counts);
+  FogLight choose_light(const PathPacket& path, const FogPart& part, const FogNumbers& numbers, const FloatN& u) const;
+  FogLight draw_light_in_fog(const PathPacket& path, const FogPart& part, const FogNumbers& numbers,
+                             const FloatN& u) const;
   /// The lanes that end within the part, which are scattered there, unless it absorbs them.
   static MaskN scatter_in_fog(PathPacket& path, const FogPart& part, const FogNumbers& numbers, int depth);
 
@@ -88,6 +93,8 @@ class PathBatch {
   /// next_boundary() of paths whose ray to there was their ray number `depth`.
   MediumBoundary find_boundary(PathPacket& path, MediumStack& media, Hits& hits, SurfaceInteraction<FloatN>& surface,
                                int depth, RayCounts& counts);
+  /// Of light groups, that of each lane's light; where there is more than one.
+  IntN group_of(const DrawnLight& light) const;
   /// The light that photons have brought to those points of paths.
   void add_photons(const PathPacket& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface,
                    const TexturePoint<FloatN>* point, const MaskN& lanes, int depth);

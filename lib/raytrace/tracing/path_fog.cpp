@@ -4,10 +4,10 @@
 // flight of its own. Lights at a point get half of their distances by the angles from which the light sees them, so
 // that the halos of lamps are not noisier than what is far away from them (Kulla and Fajardo, "Importance Sampling
 // Techniques for Path Tracing in Participating Media", EGSR 2012).
-#include <array>
-#include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "raytrace/bsdfs/henyey_greenstein.h"
 #include "raytrace/sampling/ray_ids.h"
@@ -36,6 +36,7 @@ struct PathBatch::FogPart {
   FloatN extinction, anisotropy;
   Rgb<FloatN> scattering;
   FlightDistances flights;
+  int rounds = 1;  ///< how often light is looked for
 
   FogPart(const MediumTable& table, const MaskN& those, const Ray<FloatN>& their_rays, const FloatN& from,
           const FloatN& to, const IntN& its_fog, const MediumStack& its_media)
@@ -55,17 +56,28 @@ struct PathBatch::FogPart {
   FloatN phase(const Vec3<FloatN>& wi) const { return henyey_greenstein(dot(rays.direction, wi), anisotropy); }
 };
 
+/// What comes to it from one light, before what is in between.
+struct PathBatch::FogLight {
+  MaskN lit{false}, has_shadow{false};
+  Ray<FloatN> ray;
+  std::uint32_t ray_number = 0;               ///< among the part's
+  Rgb<FloatN> radiance{Rgb<float>(0, 0, 0)};  ///< over the density of the draw, times the phase function's value
+  IntN group{0};
+};
+
 /// Random numbers of a part, and which its rays are: where paths go on a straight way, which begins with `step`
 /// scatterings. Up to the first of them, numbers are well spread.
 struct PathBatch::FogNumbers {
   const UintN& pixel;
   const UintN& sample;
-  std::uint32_t walk, step, part;
+  std::uint32_t walk, step, part = 0;
+  std::uint32_t round = 0;  ///< how often light has been looked for
 
   Sample2D operator()(FogDraw what) const {
-    if (step == 0) return get_2d(pixel, sample, fog_dimension(walk, part, what));
+    const std::uint32_t round_of_part = round << 5U | (part & 0x1FU);
+    if (step == 0) return get_2d(pixel, sample, fog_dimension(walk, round_of_part, what));
     const UintN key = mix_bits(RayIds{pixel, sample, 0x70000000U | walk}.keys());
-    const std::uint32_t number = ((step << 8U | (part & 0xFFU)) * 8 + static_cast<std::uint32_t>(what)) * 2;
+    const std::uint32_t number = ((step << 8U | round_of_part) * 8 + static_cast<std::uint32_t>(what)) * 2;
     return {to_unit(mix_bits(key + UintN(number * 0x9e3779b9U))),
             to_unit(mix_bits(key + UintN((number + 1) * 0x9e3779b9U)))};
   }
@@ -74,98 +86,111 @@ struct PathBatch::FogNumbers {
   }
 };
 
-void PathBatch::light_fog(const PathPacket& path, const FogPart& part, const FogNumbers& numbers,
-                          std::vector<Sums>& sums, RayCounts& counts) {
+void PathBatch::light_fog(const PathPacket& path, const FogPart& part, FogNumbers numbers, std::vector<Sums>& sums,
+                          RayCounts& counts) {
+  const SceneTables& tables = scene_.tables();
+  const FloatN begin = numbers(FogDraw::light).x, begin_of_drawn = numbers(FogDraw::flights).y;
+  const float share = 1 / static_cast<float>(part.rounds);
+  const auto add_light = [&](const FogLight& light) {
+    MaskN lit = light.lit;
+    if (none(lit)) return;
+    const RayIds ids = numbers.ids(light.ray_number);
+    if (const MaskN may_hide = lit & light.has_shadow; any(may_hide)) {
+      counts.shadow += count_lanes(may_hide);
+      lit = lit & !occluded_identified(scene_, light.ray, may_hide, ids, Coherence::incoherent);
+      if (none(lit)) return;
+    }
+    const Rgb<FloatN> left = light_through(scene_, light.ray, lit, ids, {part.media, part.fog});
+    add(sums, path.slot, lit, path.throughput * part.scattering * light.radiance * left * FloatN(share), light.group);
+  };
+  for (int round = 0; round < part.rounds; ++round) {
+    numbers.round = static_cast<std::uint32_t>(round);
+    const auto in_round = [&](const FloatN& u) { return (u + FloatN(static_cast<float>(round))) * FloatN(share); };
+    if (!tables.lights().empty()) add_light(choose_light(path, part, numbers, in_round(begin)));
+    if (tables.environment() != nullptr || !tables.emitters().empty())
+      add_light(draw_light_in_fog(path, part, numbers, in_round(begin_of_drawn)));
+  }
+}
+
+/// One of all lights that are not drawn from surfaces or the sky, at one of several distances.
+PathBatch::FogLight PathBatch::choose_light(const PathPacket& path, const FogPart& part, const FogNumbers& numbers,
+                                            const FloatN& u) const {
   const SceneTables& tables = scene_.tables();
   const Rgb<FloatN> scattered = path.throughput * part.scattering;
-  const auto arrive = [&](const Ray<FloatN>& ray, const MaskN& lit, const MaskN& hidden, const RayIds& ids,
-                          const Rgb<FloatN>& radiance, const IntN& group) {
-    const MaskN arrives = lit & !hidden;
-    if (none(arrives)) return;
-    add(sums, path.slot, arrives, radiance * light_through(scene_, ray, arrives, ids, {part.media, part.fog}), group);
-  };
-  const auto hidden = [&](const Ray<FloatN>& ray, const MaskN& lanes, const RayIds& ids) {
-    if (none(lanes)) return lanes;
-    counts.shadow += count_lanes(lanes);
-    return occluded_identified(scene_, ray, lanes, ids, Coherence::incoherent);
-  };
-
-  if (!tables.lights().empty()) {
-    const Sample2D along = numbers(FogDraw::light);
-    Reservoir reservoir(numbers(FogDraw::choices).x);
-    Ray<FloatN> ray{part.rays.origin, part.rays.direction, FloatN(0), FloatN(1)};
-    Rgb<FloatN> radiance(Rgb<float>(0, 0, 0));
-    FloatN weight(1);
-    IntN group(0);
-    MaskN has_shadow(false);
-    const Sample2D place = tables.has_sampled_lights() ? numbers(FogDraw::light_place) : Sample2D{};
-    // The fewer lights, the more places.
-    const std::size_t places = tables.lights().size() <= 2 ? 2 : 1;
-    for (std::size_t i = 0; i < tables.lights().size(); ++i) {
-      const LightSource& light = *tables.lights()[i];
-      const auto location = light.location();
-      FloatN begin = part.begin, end = part.end;
-      light.cut_to_lit(part.rays, begin, end);
-      const MaskN lit_lanes = part.lanes & (begin < end);
-      if (none(lit_lanes)) continue;
-      const FlightDistances flights(part.extinction, begin, end);
-      std::optional<EquiangularDistances> angles;
-      if (location) angles.emplace(part.rays, begin, end, Vec3<FloatN>(*location));
-      const auto try_at = [&](const FloatN& distance) {
-        FloatN density = flights.pdf(distance);
-        if (angles) density = density + angles->pdf(distance);
-        Ray<FloatN> candidate{part.rays.at(distance), {}, FloatN(0), FloatN(1)};
-        Rgb<FloatN> arriving;
-        light.sample(candidate, place, arriving);
-        const FloatN phase = part.phase(normalize(candidate.direction));
-        const Rgb<FloatN> value =
-            scattered * arriving * (phase * part.left(distance) / (density * FloatN(static_cast<float>(places))));
-        const FloatN value_weight = select(lit_lanes, brightness(value), FloatN(0));
-        const MaskN chosen = reservoir.add(value_weight);
-        if (none(chosen)) return;
-        ray.origin = select(chosen, candidate.origin, ray.origin);
-        ray.direction = select(chosen, candidate.direction, ray.direction);
-        ray.far = select(chosen, candidate.far, ray.far);
-        radiance = select(chosen, value, radiance);
-        weight = select(chosen, value_weight, weight);
-        group = select_lanes(chosen, IntN(tables.light_group(i)), group);
-        has_shadow = (has_shadow & !chosen) | (chosen & MaskN(light.shadows()));
-      };
-      for (std::size_t j = 0; j < places; ++j) {
-        const FloatN u = (along.x + FloatN(static_cast<float>(j))) * FloatN(1 / static_cast<float>(places));
-        try_at(flights.sample(u));
-        if (angles) try_at(angles->sample(u));
-      }
+  Reservoir reservoir(numbers(FogDraw::choices).x);
+  FogLight result;
+  result.ray_number = 1;
+  result.ray = {part.rays.origin, part.rays.direction, FloatN(0), FloatN(1)};
+  FloatN weight(1);
+  const Sample2D place = tables.has_sampled_lights() ? numbers(FogDraw::light_place) : Sample2D{};
+  // The fewer lights, the more places.
+  const std::size_t places = tables.lights().size() <= 2 ? 2 : 1;
+  const FloatN share(1 / static_cast<float>(places));
+  for (std::size_t i = 0; i < tables.lights().size(); ++i) {
+    const LightSource& light = *tables.lights()[i];
+    const auto location = light.location();
+    FloatN begin = part.begin, end = part.end;
+    light.cut_to_lit(part.rays, begin, end);
+    const MaskN lanes = part.lanes & (begin < end);
+    if (none(lanes)) continue;
+    const FlightDistances flights(part.extinction, begin, end);
+    std::optional<EquiangularDistances> angles;
+    if (location) angles.emplace(part.rays, begin, end, Vec3<FloatN>(*location));
+    const auto try_at = [&](const FloatN& distance) {
+      FloatN density = flights.pdf(distance);
+      if (angles) density = density + angles->pdf(distance);
+      Ray<FloatN> ray{part.rays.at(distance), {}, FloatN(0), FloatN(1)};
+      Rgb<FloatN> arriving;
+      light.sample(ray, place, arriving);
+      const FloatN phase = part.phase(normalize(ray.direction));
+      const Rgb<FloatN> radiance = arriving * (phase * part.left(distance) * share / density);
+      const FloatN its_weight = select(lanes, brightness(scattered * radiance), FloatN(0));
+      const MaskN chosen = reservoir.add(its_weight);
+      if (none(chosen)) return;
+      result.ray.origin = select(chosen, ray.origin, result.ray.origin);
+      result.ray.direction = select(chosen, ray.direction, result.ray.direction);
+      result.ray.far = select(chosen, ray.far, result.ray.far);
+      result.radiance = select(chosen, radiance, result.radiance);
+      result.group = select_lanes(chosen, IntN(tables.light_group(i)), result.group);
+      result.has_shadow = (result.has_shadow & !chosen) | (chosen & MaskN(light.shadows()));
+      weight = select(chosen, its_weight, weight);
+    };
+    for (std::size_t j = 0; j < places; ++j) {
+      const FloatN of_place = (u + FloatN(static_cast<float>(j))) * share;
+      try_at(flights.sample(of_place));
+      if (angles) try_at(angles->sample(of_place));
     }
-    const MaskN lit = part.lanes & (reservoir.total() > FloatN(0));
-    const RayIds ids = numbers.ids(1);
-    if (any(lit))
-      arrive(ray, lit, hidden(ray, lit & has_shadow, ids), ids, radiance * (reservoir.total() / weight), group);
   }
+  result.lit = part.lanes & (reservoir.total() > FloatN(0));
+  result.radiance = result.radiance * (reservoir.total() / weight);
+  return result;
+}
 
-  if (tables.environment() == nullptr && tables.emitters().empty()) return;
-  const FloatN distance = part.flights.sample(numbers(FogDraw::flights).y);
+/// Of a surface that shines, or of the sky.
+PathBatch::FogLight PathBatch::draw_light_in_fog(const PathPacket& path, const FogPart& part, const FogNumbers& numbers,
+                                                 const FloatN& u) const {
+  const SceneTables& tables = scene_.tables();
+  const FloatN distance = part.flights.sample(u);
   SurfaceInteraction<FloatN> point{};
   point.p = part.rays.at(distance);
   point.ng = point.ns = Vec3<FloatN>(Vec3f(0, 0, 0));
   point.error = rounding_error(point.p, FloatN(0));
   DrawnLight light = draw_light(tables, point, numbers(FogDraw::emitter), numbers(FogDraw::emitter_point));
   light.lit = light.lit & part.lanes;
-  if (none(light.lit)) return;
+  FogLight result;
+  if (none(light.lit)) return result;
+  result.ray_number = 2;
+  result.ray = light.ray;
+  result.has_shadow = MaskN(true);
   // Paths that are scattered there come to the light as well.
   const FloatN phase = part.phase(light.wi), density = light.pdf * part.flights.pdf(distance);
   const FloatN of_paths = phase * part.flights.pdf(distance) * part.flights.share();
-  const FloatN weight = phase * part.left(distance) / density * power_heuristic(density, of_paths);
-  const Rgb<FloatN> radiance = scattered * radiance_of(tables, light, path.distance + distance) * weight;
-  const MaskN lit = light.lit & (largest(radiance) > FloatN(0));
-  IntN group(0);
-  if (groups_ > 1) {
-    group = IntN(tables.environment_group());
-    if (!tables.emitters().empty())
-      group = select_lanes(light.is_sky, group, tables.light_group_of_material(light.sample.material));
-  }
-  const RayIds ids = numbers.ids(2);
-  arrive(light.ray, lit, hidden(light.ray, lit, ids), ids, radiance, group);
+  const FloatN weight = phase * part.left(distance) / density *
+                        power_heuristic(density * FloatN(static_cast<float>(part.rounds)), of_paths);
+  result.radiance = radiance_of(tables, light, path.distance + distance) * weight;
+  result.lit = light.lit & (largest(result.radiance) > FloatN(0));
+  if (groups_ > 1) result.group = group_of(light);
+  return result;
 }
 
 MaskN PathBatch::scatter_in_fog(PathPacket& path, const FogPart& part, const FogNumbers& numbers, int depth) {
@@ -174,8 +199,9 @@ MaskN PathBatch::scatter_in_fog(PathPacket& path, const FogPart& part, const Fog
   if (none(ends)) return ends;
   const Sample2D u = numbers(FogDraw::direction);
   const Vec3<FloatN> wi = sample_henyey_greenstein(part.rays.direction, part.anisotropy, u.x, u.y);
-  // Over the density of places that lights are drawn for.
-  path.pdf = select(ends, part.phase(wi) * part.flights.share(), path.pdf);
+  // Over the density of the places that lights are drawn for, of all rounds.
+  const FloatN of_rounds(1 / static_cast<float>(part.rounds));
+  path.pdf = select(ends, part.phase(wi) * part.flights.share() * of_rounds, path.pdf);
   path.from = select(ends, part.rays.at(distance), path.from);
   path.from_normal = select(ends, Vec3<FloatN>(Vec3f(0, 0, 0)), path.from_normal);
   path.throughput = select(ends, path.throughput * part.scattering * (FloatN(1) / part.extinction), path.throughput);
@@ -194,7 +220,7 @@ Hits PathBatch::go_through_fog(PathPacket& path, MediumStack& media, const MaskN
   result.hit = MaskN(false);
   MaskN goes_on = lanes, fogged(false), scattered(false);
   for (std::uint32_t step = 0; any(goes_on); ++step) {
-    FogNumbers numbers{path.pixel, path.sample, way.number, step, 0};
+    FogNumbers numbers{path.pixel, path.sample, way.number, step};
     Hits hits;
     if (step == 0 && way.first_hits != nullptr) {
       hits = *way.first_hits;
@@ -213,7 +239,9 @@ Hits PathBatch::go_through_fog(PathPacket& path, MediumStack& media, const MaskN
     for_each_part_in_fog(
         scene_, ray, goes_on, numbers.ids(0), media,
         [&](const MaskN& in_fog, const IntN& fog, int number, const FloatN& begin, const FloatN& end) {
-          const FogPart part(tables.media(), in_fog, ray, begin, end, fog, media);
+          FogPart part(tables.media(), in_fog, ray, begin, end, fog, media);
+          // What the camera sees first has most of the noise, and a shadow ray costs less than a path.
+          if (way.depth == 0 && step == 0) part.rounds = 4;
           numbers.part = static_cast<std::uint32_t>(number);
           fogged = fogged | in_fog;
           FogPart lit = part;
