@@ -895,6 +895,54 @@ write(
 """,
 )
 write(
+    "fog",
+    "A spotlight through boards, and a lamp, in a box of mist; and a ball of smoke.",
+    room="""\
+  <viewplane> <hres>320</hres> <vres>240</vres> <samples>256</samples> </viewplane>
+  <camera> <eye x="0" y="1.5" z="7"/> <lookat x="0" y="1.35" z="0"/> <viewdistance>440</viewdistance> </camera>
+""",
+    lights="""\
+  <lights>
+    <spotlights>
+      <spotlight>
+        <location x="-2.3" y="4.2" z="-1.5"/> <lookat x="-0.3" y="0.3" z="0.2"/> <coneangle>38</coneangle> <penumbraangle>4</penumbraangle>
+        <scaleradiance>190</scaleradiance> <color red="1" green="0.93" blue="0.82"/> <falloff>inversesquare</falloff>
+      </spotlight>
+    </spotlights>
+    <pointlights>
+      <pointlight>
+        <location x="1.9" y="1.9" z="-0.6"/> <scaleradiance>5</scaleradiance> <color red="1" green="0.5" blue="0.2"/>
+        <falloff>inversesquare</falloff>
+      </pointlight>
+    </pointlights>
+    <environmentlights>
+      <environmentlight> <scaleradiance>0.03</scaleradiance> <color red="0.5" green="0.7" blue="1"/> </environmentlight>
+    </environmentlights>
+  </lights>
+""",
+    mattes=CLAY + """\
+      <matte> <name>board</name> <ka>0</ka> <kd>1</kd> <cd red="0.06" green="0.05" blue="0.04"/> </matte>
+""",
+    materials_more="""\
+    <fogs>
+      <fog> <name>mist</name> <meanfreepath>11</meanfreepath> <anisotropy>0.3</anisotropy> </fog>
+      <fog> <name>smoke</name> <meanfreepath>0.22</meanfreepath> <color red="0.85" green="0.85" blue="0.85"/> </fog>
+    </fogs>
+""",
+    objects="""\
+    <spheres>
+      <sphere> <center x="-0.35" y="0.5" z="0.2"/> <radius>0.5</radius> <material>clay</material> </sphere>
+      <sphere> <center x="1.35" y="0.72" z="0.3"/> <radius>0.5</radius> <material>smoke</material> </sphere>
+    </spheres>
+    <boxes>
+      <box> <min x="-1.93" y="2.3" z="-1.6"/> <max x="-1.7" y="2.36" z="0.3"/> <material>board</material> </box>
+      <box> <min x="-1.5" y="2.3" z="-1.6"/> <max x="-1.27" y="2.36" z="0.3"/> <material>board</material> </box>
+      <box> <min x="-1.07" y="2.3" z="-1.6"/> <max x="-0.84" y="2.36" z="0.3"/> <material>board</material> </box>
+      <box> <min x="-5" y="0" z="-4"/> <max x="5" y="5" z="4"/> <material>mist</material> </box>
+    </boxes>
+""",
+)
+write(
     "skylight",
     "A clear sky in the late afternoon; the sun is behind, on the left.",
     room="""\

@@ -90,6 +90,9 @@ RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const SceneTa
       light.sample(shadow_rays, middle, here.radiance);
     // Of any length: the shadow rays need not wait for a square root and a quotient.
     MaskN lit = hits.hit & (dot(surface.ns, shadow_rays.direction) > FloatN(0));
+    // Where rays look for boundaries as well, those to spotlights from outside of their cones are too many.
+    if (media != nullptr) [[unlikely]]
+      lit = lit & (abs(here.radiance.red) + abs(here.radiance.green) + abs(here.radiance.blue) > FloatN(0));
     if (shadows && any(lit)) {
       end(Stage::lights);
       counts.shadow += count_lanes(lit & counted);
