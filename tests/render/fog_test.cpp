@@ -346,6 +346,42 @@ TEST_CASE("caustics in fog are the same by paths from lights, photons and the ca
   CHECK(std::abs(photons / none - 1) < 0.015);
 }
 
+TEST_CASE("instances of fog are as fog in their places, be they shapes or meshes") {
+  Fogged scene;
+  scene.lights = "<pointlights><pointlight><location x='1' y='3' z='1'/></pointlight></pointlights>";
+  scene.eye = "<eye x='0' y='1' z='5'/><lookat x='0' y='0' z='0'/><fov>40</fov>";
+  scene.samples = 64;
+  scene.box =
+      "<box><min x='-1' y='-0.5' z='-1'/><max x='1' y='0.5' z='1'/><material>fog</material>"
+      "<transform><rotate x='0' y='1' z='0' angle='30'/></transform></box>";
+  const FloatPicture wanted = rendered(parsed_scene(text_of(scene)), 2);
+  const auto check = [&](const std::string& group, const std::string& transform) {
+    Fogged instances = scene;
+    instances.box = "";
+    std::string text = text_of(instances);
+    text.replace(
+        text.find("<boxes></boxes>"), 15,
+        "<instances><instance><group>g</group><transform>" + transform + "</transform></instance></instances>");
+    text.replace(text.find("</raytracer>"), 0,
+                 "<groups><group><name>g</name><objects>" + group + "</objects></group></groups>");
+    const FloatPicture found = rendered(parsed_scene(text), 2);
+    double difference = 0;
+    for (std::size_t i = 0; i < found.pixels().size(); ++i)
+      difference += std::abs(double{found.pixels()[i].red} - double{wanted.pixels()[i].red});
+    INFO(group << transform << ": " << difference);
+    CHECK(difference < 0.02 * mean_of(wanted).red * static_cast<double>(found.pixels().size()));
+  };
+  const std::string turn = "<rotate x='0' y='1' z='0' angle='30'/>";
+  check("<boxes><box><min x='-1' y='-0.5' z='-1'/><max x='1' y='0.5' z='1'/><material>fog</material></box></boxes>",
+        turn);
+  const std::string mesh =
+      "<meshes><mesh><material>fog</material><positions>-1 -1 -1  1 -1 -1  -1 1 -1  1 1 -1  -1 -1 1  1 -1 1  -1 1 1  1 "
+      "1 1"
+      "</positions><faces>0 2 3  0 3 1  4 5 7  4 7 6  0 1 5  0 5 4  2 6 7  2 7 3  0 4 6  0 6 2  1 3 7  1 7 5</faces>"
+      "</mesh></meshes>";
+  check(mesh, "<scale x='1' y='0.5' z='1'/>" + turn);
+}
+
 TEST_CASE("fog has the same bits however its picture is cut") {
   // Two fogs, one in the other, with all kinds of lights, a cut-out and glass.
   check_same_bits(parsed_scene(

@@ -151,15 +151,19 @@ void Accelerator::add_instances() {
     group_scenes_.push_back(make_scene(*group, instance_callbacks_.group_shapes.emplace_back()));
     instance_callbacks_.groups.push_back(group_scenes_.back().get());
   }
-  const std::size_t moving = table_.instances().moving().size();
   for (const bool moves : {false, true}) {
     InstanceGeometry& instances = instance_geometries_[moves ? 1 : 0];
     instances = {&instance_callbacks_, moves};
-    if (moves ? moving == 0 : moving == table_.instances().size()) continue;
+    if (!has_instances(moves)) continue;
     const embree::Geometry geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER));
     set_callbacks(geometry.get(), instances);
     attach(scene_, geometry, table_.geometries().size() + (moves ? 1 : 0));
   }
+}
+
+bool Accelerator::has_instances(bool that_move) const {
+  const std::size_t moving = table_.instances().moving().size();
+  return that_move ? moving > 0 : moving < table_.instances().size();
 }
 
 void Accelerator::add_fogs(std::span<const std::uint8_t> fogs) {
@@ -168,10 +172,10 @@ void Accelerator::add_fogs(std::span<const std::uint8_t> fogs) {
   const auto instances = static_cast<std::uint32_t>(table_.geometries().size());
   std::set<std::uint32_t> geometries;
   for (const auto& object : table_.bounded_objects(fogs)) geometries.insert(object.geometry);
-  if (geometries.contains(instances)) geometries.insert(instances + 1);
-  for (const std::uint32_t i : geometries)
-    if (const RTCGeometry geometry = rtcGetGeometry(scene_.get(), i); geometry != nullptr)
-      rtcAttachGeometryByID(fog_scene_.get(), geometry, i);
+  if (geometries.erase(instances) > 0)
+    for (const bool move : {false, true})
+      if (has_instances(move)) geometries.insert(instances + (move ? 1 : 0));
+  for (const std::uint32_t i : geometries) rtcAttachGeometryByID(fog_scene_.get(), rtcGetGeometry(scene_.get(), i), i);
 }
 
 Accelerator::~Accelerator() = default;

@@ -86,6 +86,8 @@ class Accelerator {
   /// A scene of a table's own objects, without instances. shapes: receives their callbacks.
   embree::Scene make_scene(const GeometryTable& table, InstanceCallbacks::Shapes& shapes) const;
   void add_instances();
+  /// Whether there are any that move, or that stand still.
+  bool has_instances(bool that_move) const;
   void add_fogs(std::span<const std::uint8_t> fogs);
   void build() const;
   /// Asks for the memory of an object's record, without waiting for it.
