@@ -143,6 +143,7 @@ TEST_CASE("a tree of lights draws each as often as it says, and all of them toge
         const Vec3d p = i % 3 == 0 ? Vec3d((lights[0].box.lower + lights[0].box.upper) * 0.5F) : random.in_cube(6);
         INFO(count << " lights, " << static_cast<int>(sampling) << ", point " << i);
         check_draws(tree, count, p, random.direction());
+        check_draws(tree, count, p, {0, 0, 0});  // of a point in a medium
       }
     }
 }
