@@ -898,6 +898,7 @@ write(
     "fog",
     "A spotlight through boards, and a lamp, in a box of mist; and a ball of smoke.",
     room="""\
+  <integrator> <path> <clampindirect>1</clampindirect> </path> </integrator>
   <viewplane> <hres>320</hres> <vres>240</vres> <samples>256</samples> </viewplane>
   <camera> <eye x="0" y="1.5" z="7"/> <lookat x="0" y="1.35" z="0"/> <viewdistance>440</viewdistance> </camera>
 """,
