@@ -34,24 +34,28 @@ void for_each_part_in_fog(const TracedScene& scene, const Ray<FloatN>& rays, Mas
     Hits hits =
         scene.accelerator().intersect(left, lanes & (left.far > FloatN(0)), Coherence::incoherent, nullptr, &identity);
     const FloatN end = select(hits.hit, min(begin + left.far, rays.far), rays.far);
-    SurfaceInteraction<FloatN> surface;
     IntN inside(0);
+    MaskN enters(false), leaves(false);
+    Vec3<FloatN> behind = left.origin;
     if (any(hits.hit)) {
       if (tables.has_motion()) [[unlikely]]
         hits.time = ids.times();
-      surface = scene.accelerator().surface(left, hits);
+      const SurfaceInteraction<FloatN> surface = scene.accelerator().surface(left, hits);
       inside = select_lanes(hits.hit, tables.media().of_material(tables.material(hits)), IntN(0));
+      enters = hits.hit & surface.front;
+      leaves = hits.hit & !surface.front;
+      behind = offset_ray_origin(surface, hits.hit);
       // What rays come out of they have been in since they began.
-      media.add_first(hits.hit & !surface.front & !media.contains(inside), inside);
+      media.add_first(leaves & !media.contains(inside), inside);
     }
     const IntN fog = media.current(tables.media());
     const MaskN in_fog = lanes & tables.media().is_fog(fog);
     if (any(in_fog)) lanes = (lanes & !in_fog) | part(in_fog, fog, boundaries, begin, end);
     lanes = lanes & hits.hit;
     if (none(lanes)) return;
-    media.add(lanes & surface.front, inside);
-    media.remove(lanes & !surface.front, inside);
-    left.origin = select(lanes, offset_ray_origin(surface, lanes), left.origin);
+    media.add(lanes & enters, inside);
+    media.remove(lanes & leaves, inside);
+    left.origin = select(lanes, behind, left.origin);
     begin = end;
   }
 }
