@@ -121,6 +121,8 @@ void define_merge_options(OptionParser& parser, MergeOptions& options) {
   parser.group("Output");
   parser.add_repeatable("-o,--output", "FILE", "Write the picture to FILE; repeatable",
                         [&](const std::string& text) { settings.outputs.push_back(text); });
+  parser.add_switch("--denoise", settings.denoise,
+                    "Take the noise out of the picture; so it is if the pieces were rendered with --denoise");
   parser.add("--bit-depth", "8|16", "Bits per channel in PNG, TIFF and other sRGB-encoded files (8)",
              settings.bit_depth, bit_depth, {"8", "16"});
   define_view_options(parser, settings.view);

@@ -57,6 +57,7 @@ constexpr Synonyms synonyms[] = {
      " noise noiselimit noisethreshold noiselevel maxerror maxnoise targeterror errorthreshold error threshold "
      "adaptive "
      "adaptivethreshold "},
+    {"--denoise", " denoiser denoising oidn optix noisefree removenoise "},
     {"--resume", " continue restart recover "},
     {"--checkpoint", " snapshot autosave savestate checkpointfile "},
     {"--skip-existing", " skip nooverwrite keepexisting skiprendered "},

@@ -175,6 +175,9 @@ void define_options(OptionParser& parser, Options& options) {
   parser.add_switch("--transparent", options.transparent,
                     "Leave the background out of the colour; alpha is coverage: premultiplied in EXR, straight RGBA in "
                     "PNG and TIFF");
+  parser.add_switch("--denoise", options.denoise,
+                    "Take the noise out of the picture by Open Image Denoise; EXR files keep the noisy one, too. Of "
+                    "tiles and parts of the samples, `raytrace merge` does");
   define_view_options(parser, options.view);
   parser.add("--aov", "LIST",
              "What EXR files hold besides the colour, separated by commas: " + joined(aov_names(), ", ") +

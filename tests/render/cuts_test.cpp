@@ -125,7 +125,7 @@ class CutRender {
         transparent_(transparent),
         description_(small_scene(file, samples)),
         scene_(build_scene(description_, {8, isa})),
-        aovs_(all_light_groups(description_)),
+        aovs_(aovs_of(description_)),
         whole_(in_one(overscan, 1)) {}
 
   /// Whether the picture, or a crop of it, has the same bits when it is rendered in a way of this kind. What was done
@@ -252,8 +252,9 @@ class CutRender {
     return colors;
   }
 
-  static AovSet all_light_groups(const SceneDescription& description) {
-    AovSet aovs;
+  /// Of all light groups, and what a denoiser looks at, which paths bring.
+  static AovSet aovs_of(const SceneDescription& description) {
+    AovSet aovs = aov_set({"denoise_albedo", "denoise_normal"});
     aovs.wants_all_light_groups = true;
     return with_light_groups(aovs, light_group_names(description));
   }

@@ -49,6 +49,8 @@ struct Aov {
   float (*bound)(const AovBounds& bounds) = nullptr;
   /// The names of what its ids stand for, in the order of their indices.
   std::vector<std::string> (*names)(const SceneDescription& description) = nullptr;
+  /// mean: where paths are traced, it is of the first surface on the way of a sample that is neither a mirror nor clear.
+  bool follows_mirrors = false;
 
   /// What a sample, or for a coverage its index, takes in AovSettings.
   constexpr std::size_t values() const {
@@ -75,6 +77,19 @@ inline constexpr Aov aov_table[] = {
         .rule = AovRule::mean,
         .channel_names = {"albedo.R", "albedo.G", "albedo.B"},
         .bound = [](const AovBounds& bounds) { return bounds.albedo; }},
+    // The same of what a pixel shows, in mirrors and behind glass as well, in the colour that they give it: what a
+    // denoiser takes for edges and textures. Of the last surface if a way ends in a mirror or in glass.
+    Aov{.name = "denoise_albedo",
+        .rule = AovRule::mean,
+        .channel_names = {"denoise_albedo.R", "denoise_albedo.G", "denoise_albedo.B"},
+        .bound = [](const AovBounds& bounds) { return bounds.albedo; },
+        .follows_mirrors = true},
+    // The unit normal there, in world space, on the side that the ray comes from.
+    Aov{.name = "denoise_normal",
+        .rule = AovRule::mean,
+        .channel_names = {"denoise_normal.X", "denoise_normal.Y", "denoise_normal.Z"},
+        .bound = [](const AovBounds&) { return 1.001F; },
+        .follows_mirrors = true},
     // The nearest object and its material, by their numbers in the scene, counted from 1; 0: none.
     Aov{.name = "object_id",
         .rule = AovRule::nearest,

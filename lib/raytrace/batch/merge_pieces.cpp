@@ -6,7 +6,9 @@
 #include <set>
 
 #include "raytrace/aovs/aov_selection.h"
+#include "raytrace/batch/merged_rows.h"
 #include "raytrace/batch/output_files.h"
+#include "raytrace/batch/picture_metadata.h"
 #include "raytrace/batch/piece_layout.h"
 #include "raytrace/batch/provenance.h"
 #include "raytrace/output/auto_exposure.h"
@@ -33,6 +35,9 @@ std::vector<Channel> all_channels(const Piece& piece) {
 /// Throws InputError if the file holds what no piece does.
 Piece piece_of(const ExrReader& reader) {
   Piece piece{reader.file(), identity_of(reader), {}, {}};
+  if (reader.attribute<int>(denoised_name))
+    throw InputError(piece.file + " is denoised: pieces are rendered with --tile or --sample-offset, and --denoise then "
+                                  "denoises the picture that they are merged to");
   const AovSettings& aovs = piece.identity.film.aovs;
   const std::vector<Channel>& all = reader.channels();
   piece.channels = color_channels(std::find(all.begin(), all.end(), Channel{"R", ChannelType::float32}) != all.end());
@@ -202,16 +207,20 @@ class Merger {
     if (agree_in_view())
       for (ImageAttribute& attribute : wished_view(settings_.view.over(first.view)))
         metadata_.data_attributes.push_back(std::move(attribute));
+    std::vector<Channel> all = channels_;
+    std::optional<DenoisedPicture> denoised;
+    if (denoises()) {
+      for (ImageAttribute& attribute : denoised_attributes()) metadata_.attributes.push_back(std::move(attribute));
+      denoised = denoise(whole, rows);
+      for (Channel& channel : noisy_channels(image_settings.full_float)) all.push_back(std::move(channel));
+    }
     std::vector<std::unique_ptr<ImageFile>> files;
     for (const std::string& file : settings_.outputs)
-      files.push_back(std::make_unique<ImageFile>(file, identity.film.extent, channels_, metadata_, image_settings));
-    for (Region band = whole; band.y0 < whole.y1; band.y0 = band.y1) {
-      heed_stop();
-      band.y1 = std::min(band.y0 + rows, whole.y1);
-      const ImageBand merged = merged_band(band);
-      for (const auto& file : files) file->write(merged);
-    }
-    refuse_problems();
+      files.push_back(std::make_unique<ImageFile>(file, identity.film.extent, all, metadata_, image_settings));
+    for_each_band(whole, rows, [&](ImageBand& band) {
+      if (denoised) denoised->put_into(band);
+      for (const auto& file : files) file->write(band);
+    });
     for (std::size_t i = 0; i < files.size(); ++i) {
       const Repairs repairs = files[i]->commit();
       for (std::string& warning : warnings_of(repairs, settings_.outputs[i]))
@@ -252,20 +261,47 @@ class Merger {
   /// That the merged picture asks for itself, which takes another reading of all pieces.
   double exposure_of(const Region& whole, int rows) {
     AutoExposure exposure;
+    for_each_band(whole, rows, [&](const ImageBand& band) { exposure.add(band); });
+    return exposure.stops();
+  }
+
+  bool denoises() const {
+    return settings_.denoise || std::all_of(pieces_.begin(), pieces_.end(),
+                                            [](const Piece& piece) { return piece.identity.denoise; });
+  }
+
+  /// The same of the merged picture's colours.
+  DenoisedPicture denoise(const Region& whole, int rows) {
+    const auto has = [&](const std::string& start) {
+      return std::any_of(channels_.begin(), channels_.end(),
+                         [&](const Channel& channel) { return channel.name.starts_with(start); });
+    };
+    for (const char* const aov : denoiser_aovs)
+      if (!has(aov + std::string(".")))
+        refuse({"--denoise: the pieces have no " + std::string(aov) + ": render them with --denoise, too"});
+    DenoisedPicture picture(whole, channels_);
+    for_each_band(whole, rows, [&](const ImageBand& band) { picture.add(band); });
+    if (!picture.denoise(settings_.threads, stop_ ? stop_ : [] { return false; })) throw Stopped();
+    return picture;
+  }
+
+  /// Calls use(band) with all rows of the merged picture, some at a time.
+  template <class Use>
+  void for_each_band(const Region& whole, int rows, const Use& use) {
     for (Region band = whole; band.y0 < whole.y1; band.y0 = band.y1) {
       heed_stop();
       band.y1 = std::min(band.y0 + rows, whole.y1);
-      exposure.add(merged_band(band));
+      ImageBand merged = merged_band(band);
+      use(merged);
     }
     refuse_problems();
-    return exposure.stops();
   }
 
   ImageBand merged_band(const Region& region) {
     ImageBand band;
     band.region = region;
     make_planes(band, 0, channels_);
-    if (report_.missing_parts && !pieces_.front().identity.film.transparent) fill_background(band);
+    if (report_.missing_parts && !pieces_.front().identity.film.transparent) fill_missing(band);
     add_up_sums(band);
     for (const Piece& piece : pieces_) {
       const auto [top, bottom] = common_rows(piece, region);
@@ -314,45 +350,7 @@ class Merger {
       any = true;
     }
     if (any || report_.missing_parts) fill_aovs(band, 4, film);
-    if (any) develop(film, band);
-  }
-
-  /// Checks of 8 x 8 pixels in two greys with alpha 0: nobody takes them for a part of the picture. (But "over" adds
-  /// them to what is behind a transparent one.)
-  static void fill_background(ImageBand& band) {
-    for_each_pixel(band.region, [&](std::size_t pixel, int x, int y) {
-      for (std::size_t i = 0; i < 3; ++i)
-        std::get<std::vector<float>>(band.planes[i])[pixel] = ((x ^ y) & 8) == 0 ? 0.1F : 0.2F;
-    });
-  }
-
-  static void copy_rows(const ImageBand& from, ImageBand& to) {
-    const auto width = static_cast<std::size_t>(from.region.width());
-    for (std::size_t plane = 0; plane < from.planes.size(); ++plane)
-      std::visit(
-          [&](const auto& source) {
-            auto& target = std::get<std::decay_t<decltype(source)>>(to.planes[plane]);
-            for (int y = from.region.y0; y < from.region.y1; ++y) {
-              const auto row = static_cast<std::size_t>(y - from.region.y0) * width;
-              const auto target_row =
-                  static_cast<std::size_t>(y - to.region.y0) * static_cast<std::size_t>(to.region.width()) +
-                  static_cast<std::size_t>(from.region.x0 - to.region.x0);
-              std::copy_n(source.begin() + static_cast<std::ptrdiff_t>(row), width,
-                          target.begin() + static_cast<std::ptrdiff_t>(target_row));
-            }
-          },
-          from.planes[plane]);
-  }
-
-  /// The means of all pixels that have sums.
-  static void develop(const Film& sums, ImageBand& band) {
-    for_each_pixel(band.region, [&](std::size_t pixel, int x, int y) {
-      if (sums.sum(x, y).samples == 0) return;
-      const Pixel mean = sums.pixel(x, y);
-      std::size_t plane = 0;
-      for (const float value : {mean.red, mean.green, mean.blue, mean.alpha})
-        std::get<std::vector<float>>(band.planes[plane++])[pixel] = value;
-    });
+    if (any) copy_means(film, band);
   }
 
   void heed_stop() const {

@@ -18,7 +18,8 @@ struct MergeSettings {
   bool partial = false;  ///< what is missing has fewer samples, or is filled with checks of alpha 0; with nothing in a
                          ///< transparent picture
   int bit_depth = 8;
-  ViewOptions view;  ///< in place of the pieces' own; some output must be for display
+  bool denoise = false;  ///< the picture; it is as well if all pieces say that it is to be
+  ViewOptions view;      ///< in place of the pieces' own; some output must be for display
   int threads = 0;
 };
 

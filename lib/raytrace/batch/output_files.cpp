@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "raytrace/aovs/aov_selection.h"
+#include "raytrace/batch/denoise.h"
 #include "raytrace/batch/provenance.h"
 #include "raytrace/batch/settings_error.h"
 #include "raytrace/description/scene_description.h"
@@ -39,6 +40,7 @@ void check_output_settings(const RenderJob& job) {
 
 void check_outputs(const RenderJob& job) {
   check_output_settings(job);
+  if (is_denoised(job)) denoiser_name();  // throws if there is no denoiser
   for (const std::string& file : job.files()) {
     const AtomicFile made_and_removed(file);
   }
@@ -64,6 +66,9 @@ void refuse_useless_tile(const RenderJob& job, const ViewPlane& viewplane, bool 
     if (light_paths_of_others && !format.data)
       throw SettingsError("--tile: " + file +
                           ": the scene's light paths (<caustics>) reach all tiles; write EXR files and merge them");
+    if (job.denoise && !is_denoised(job) && !format.data)
+      throw SettingsError("--denoise: " + file +
+                          ": a picture is denoised as a whole; write EXR files of its parts and merge them");
     if (job.tile && viewplane.autoexposure && format.for_display)
       throw SettingsError("--tile: " + file +
                           ": the whole picture's brightness says how it is exposed; write EXR files and merge them");
@@ -96,7 +101,7 @@ bool outputs_are_complete(const RenderJob& job, const SceneDescription& descript
   wanted.extent = identity.film.extent;
   wanted.light_paths_extent = identity.whole;
   wanted.channels = color_channels(job.full_float);
-  for (Channel& channel : aov_channels(job.aovs)) wanted.channels.push_back(std::move(channel));
+  for (Channel& channel : aov_channels(film_aovs(job))) wanted.channels.push_back(std::move(channel));
   if (job.sample_offset)
     for (Channel& channel : sum_channels()) wanted.channels.push_back(std::move(channel));
   wanted.bit_depth = job.bit_depth;
@@ -109,6 +114,7 @@ bool outputs_are_complete(const RenderJob& job, const SceneDescription& descript
     wanted.view[attribute.name] = std::get<std::string>(attribute.value);
   if (view.auto_exposure) wanted.view.erase(exposure_keyword);  // which only the picture knows
   wanted.attributes = picture_attributes(identity, job.time_limit || job.error_limit);
+  wanted.attributes[denoised_name] = is_denoised(job) ? "1" : "";
   return std::all_of(job.outputs.begin(), job.outputs.end(),
                      [&](const std::string& file) { return is_complete_picture(file, wanted); });
 }
@@ -138,11 +144,16 @@ bool OutputFiles::succeeds(const Action& action) const {
 
 OutputFiles::OutputFiles(const RenderJob& job, const std::vector<std::string>& files, const ImageFileSettings& settings,
                          const PictureExtent& extent, const ImageMetadata& metadata, std::vector<Channel> sums,
-                         RenderObserver& observer)
-    : job_(job), observer_(observer), sums_(std::move(sums)), channels_(color_channels(job.full_float)) {
-  const std::vector<Channel> aovs = aov_channels(job.aovs);
-  channels_.insert(channels_.end(), aovs.begin(), aovs.end());
-  channels_.insert(channels_.end(), sums_.begin(), sums_.end());
+                         const DenoisedPicture* denoised, RenderObserver& observer)
+    : job_(job),
+      observer_(observer),
+      denoised_(denoised),
+      sums_(std::move(sums)),
+      channels_(color_channels(job.full_float)) {
+  const auto add = [&](const std::vector<Channel>& more) { channels_.insert(channels_.end(), more.begin(), more.end()); };
+  add(aov_channels(film_aovs(job)));
+  if (denoised_ != nullptr) add(noisy_channels(job.full_float));
+  add(sums_);
   for (const std::string& name : files) {
     succeeds(
         [&] { files_.push_back({name, std::make_unique<ImageFile>(name, extent, channels_, metadata, settings)}); });
@@ -156,6 +167,7 @@ bool OutputFiles::write(const Film& film) {
     band.planes.resize(std::min(band.planes.size(), ImageBand::colors));
     fill_color(band, film, y0, std::min(y0 + band_rows(region.width(), channels_.size()), region.y1), job_.threads);
     fill_aovs(band, ImageBand::colors, film);
+    if (denoised_ != nullptr) denoised_->put_into(band);
     if (!sums_.empty()) append_sums(band, sums_, film);
     std::erase_if(files_, [&](File& file) { return !succeeds([&] { file.image->write(band); }); });
   }

@@ -8,6 +8,7 @@
 #include "raytrace/batch/render_job.h"
 #include "raytrace/batch/render_observer.h"
 #include "raytrace/description/scene_description.h"
+#include "raytrace/output/denoised_picture.h"
 #include "raytrace/output/image_file.h"
 
 namespace raytrace {
@@ -23,8 +24,8 @@ void check_output_settings(const RenderJob& job);
 void refuse_useless_view(const std::vector<std::string>& files, const ImageFileSettings& settings,
                          const ViewOptions& view);
 
-/// Throws SettingsError for files of a tile that cannot be put together, where that needs the whole picture: light
-/// paths of other tiles reach this one; or the picture is to be exposed by itself.
+/// Throws SettingsError for files of a piece that cannot be put together, where that needs the whole picture: light
+/// paths of other tiles reach this one; or the picture is to be exposed by itself, or denoised.
 void refuse_useless_tile(const RenderJob& job, const ViewPlane& viewplane, bool light_paths_of_others);
 
 /// Whether any is for display.
@@ -47,10 +48,10 @@ std::vector<std::string> warnings_of(const Repairs& repairs, const std::string& 
 class OutputFiles {
  public:
   /// files: those of job.outputs to write. settings: the job's, with the picture's view. sums: the sum_channels() that
-  /// EXR files keep, too; empty if none.
+  /// EXR files keep, too; empty if none. denoised: has the film's colours in their place; null: they stay.
   OutputFiles(const RenderJob& job, const std::vector<std::string>& files, const ImageFileSettings& settings,
               const PictureExtent& extent, const ImageMetadata& metadata, std::vector<Channel> sums,
-              RenderObserver& observer);
+              const DenoisedPicture* denoised, RenderObserver& observer);
 
   /// film: whole rows of the extent's region, the next below those written before. False if no file is left.
   bool write(const Film& film);
@@ -68,6 +69,7 @@ class OutputFiles {
 
   const RenderJob& job_;
   RenderObserver& observer_;
+  const DenoisedPicture* denoised_;
   std::vector<Channel> sums_, channels_;  ///< channels_: all of them
   std::vector<File> files_;               ///< those without a fault
 };

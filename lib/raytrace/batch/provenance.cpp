@@ -273,6 +273,7 @@ PieceIdentity identity_of(const ExrReader& piece) {
   identity.partial = flag(piece, partial_name, piece.attribute<int>(partial_name).value_or(0));
   identity.frame = piece.attribute<int>(frame_name);
   identity.view = read_view(piece);
+  identity.denoise = flag(piece, denoise_name, piece.attribute<int>(denoise_name).value_or(0));
   identity.variables = piece.attribute<std::string>(variables_name).value_or("");
   return identity;
 }

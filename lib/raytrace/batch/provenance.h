@@ -43,7 +43,12 @@ struct PieceIdentity {
   std::optional<int> frame = std::nullopt;  ///< none: not one of several
   std::string variables{};                  ///< variables_text()
   ViewSettings view{};                      ///< for the files for display that it becomes a part of
+  bool denoise = false;                     ///< so is the picture that it becomes a part of
 };
+
+/// The attributes of a picture without noise, and of a piece of one; 1 there.
+inline constexpr const char* denoised_name = "raytrace:denoised";
+inline constexpr const char* denoise_name = "raytrace:denoise";
 
 /// What a file of linear colour says of how it is to be shown: nothing where all is the default.
 std::vector<ImageAttribute> wished_view(const ViewSettings& view);

@@ -45,6 +45,7 @@ struct RenderJob {
   std::string integrator;  ///< its element, such as "normals"; empty: the scene's
   AovSet aovs;
   bool transparent = false;
+  bool denoise = false;  ///< a tile, or a part of the samples: says so to the merge (batch/denoise.h)
 
   std::vector<std::string> outputs;  ///< image files, in the formats of their extensions
   bool skip_existing = false;        ///< render nothing if all outputs are there, and complete

@@ -11,9 +11,11 @@
 #include "raytrace/aovs/aov_selection.h"
 #include "raytrace/batch/bands.h"
 #include "raytrace/batch/checkpoint.h"
+#include "raytrace/batch/denoise.h"
 #include "raytrace/batch/error_limit.h"
 #include "raytrace/batch/output_files.h"
 #include "raytrace/batch/passes.h"
+#include "raytrace/batch/picture_metadata.h"
 #include "raytrace/batch/provenance.h"
 #include "raytrace/batch/settings_error.h"
 #include "raytrace/description/check_scene.h"
@@ -68,13 +70,13 @@ class PictureRender {
     begin_film();
     const bool others_reach_it = identity_.film.rendered() != identity_.film.extent.region;
     refuse_useless_tile(job_, description_->viewplane, others_reach_it);
-    const AovSettings aovs = aov_settings(job_.aovs);
+    const AovSettings aovs = aov_settings(settings_.aovs);
     const int rows = rows_at_once(settings_.region, sizeof(PixelSum) + AovFilm::pixel_bytes(aovs));
     // What goes on later, or may end at any sample, needs the whole film; so do the channels of a piece's AOVs.
     const bool whole_film = !job_.checkpoint.empty() || job_.time_limit || job_.error_limit ||
                             (job_.sample_offset && aovs.gather()) ||
                             scene_->traces_light_paths() ||  // which reach any row
-                            !job_.aovs.light_groups().empty() || is_exposed_by_itself();
+                            !job_.aovs.light_groups().empty() || is_exposed_by_itself() || is_denoised(job_);
     in_bands_ = !whole_film && rows < settings_.region.height();
     const RenderOutcome outcome = in_bands_ ? render_in_bands(rows) : render_at_once();
     report_invalid_samples();
@@ -114,7 +116,7 @@ class PictureRender {
     settings_.whole = identity_.whole;
     settings_.seed = job_.seed;
     settings_.samples = sample_range(description_->viewplane, job_);
-    settings_.aovs = job_.aovs;
+    settings_.aovs = film_aovs(job_);
     settings_.transparent = job_.transparent;
     film_content_ = film_content();
     identity_.film = film_settings(*scene_, *description_, settings_);
@@ -136,7 +138,7 @@ class PictureRender {
   FilmContent film_content() const {
     const Region picture{0, 0, description_->viewplane.hres, description_->viewplane.vres};
     if (!job_.checkpoint.empty() || job_.time_limit || job_.error_limit || job_.sample_offset || job_.display_server ||
-        !job_.aovs.empty() || settings_.region != picture || scene_->traces_light_paths() ||
+        !settings_.aovs.empty() || settings_.region != picture || scene_->traces_light_paths() ||
         light_group_names(*description_).size() > 1)
       return FilmContent::sums;
     const bool halves = std::all_of(job_.outputs.begin(), job_.outputs.end(), [&](const std::string& file) {
@@ -178,7 +180,12 @@ class PictureRender {
       report(MessageLevel::warning, *warning);
     else if (done < all)
       report(MessageLevel::warning, "the time limit was reached after " + counted(done, "sample") + " per pixel");
-    if (!write_picture(film, job_.outputs, done, false)) return RenderOutcome::failed;
+    std::optional<DenoisedPicture> denoised;
+    const Denoising denoising = is_denoised(job_) ? denoise(film, job_, observer_, control_, result_.statistics, denoised)
+                                                  : Denoising::done;
+    if (denoising == Denoising::stopped) return write_partial(film);
+    const bool written = write_picture(film, job_.outputs, done, false, denoised ? &*denoised : nullptr);
+    if (!written || denoising == Denoising::failed) return RenderOutcome::failed;
     checkpoint_.remove(observer_);
     return RenderOutcome::written;
   }
@@ -188,7 +195,7 @@ class PictureRender {
     const Region region = settings_.region;
     Phases& phases = result_.statistics.phases;
     OutputFiles outputs(job_, job_.outputs, file_settings(0), identity_.film.extent, metadata(),
-                        job_.sample_offset ? all_sum_channels() : std::vector<Channel>(), observer_);
+                        job_.sample_offset ? all_sum_channels() : std::vector<Channel>(), nullptr, observer_);
     for (Region band = region; band.y0 < region.y1; band.y0 = band.y1) {
       band.y1 = std::min(band.y0 + band_rows, region.y1);
       settings_.region = band;
@@ -300,9 +307,11 @@ class PictureRender {
   }
 
   /// samples: that each pixel has, or is to have if the picture is partial.
-  bool write_picture(const Film& film, const std::vector<std::string>& files, std::uint32_t samples, bool partial) {
+  /// denoised: null if it is not.
+  bool write_picture(const Film& film, const std::vector<std::string>& files, std::uint32_t samples, bool partial,
+                     const DenoisedPicture* denoised = nullptr) {
     const PhaseTimer timer(result_.statistics.phases.write);
-    ImageMetadata its_metadata = metadata();
+    ImageMetadata its_metadata = metadata(denoised != nullptr);
     its_metadata.samples = static_cast<int>(samples);
     if (partial) {
       its_metadata.attributes = partial_attributes(identity_, film);
@@ -313,7 +322,7 @@ class PictureRender {
     const bool keeps_sums = film.content() == FilmContent::sums && (partial || job_.sample_offset || is_part);
     const ImageFileSettings settings = file_settings(is_exposed_by_itself() ? automatic_exposure(film) : 0);
     OutputFiles outputs(job_, files, settings, film.settings().extent, its_metadata,
-                        keeps_sums ? sum_channels(film) : std::vector<Channel>(), observer_);
+                        keeps_sums ? sum_channels(film) : std::vector<Channel>(), denoised, observer_);
     if (!outputs.write(film)) return false;
     result_.statistics.outputs = outputs.commit();
     return result_.statistics.outputs.size() == files.size();
@@ -334,20 +343,8 @@ class PictureRender {
     return settings;
   }
 
-  ImageMetadata metadata() const {
-    const RenderStatistics& statistics = result_.statistics;
-    ImageMetadata metadata;
-    metadata.software = statistics.software;
-    metadata.scene_file = statistics.scene_file;
-    metadata.samples = static_cast<int>(identity_.film.samples.count);
-    metadata.seed = statistics.seed;
-    metadata.threads = statistics.threads;
-    metadata.camera = camera_matrices(*description_);
-    metadata.attributes = identity_attributes(identity_);
-    metadata.data_attributes = aov_attributes(job_.aovs, *description_);
-    for (ImageAttribute& attribute : wished_view(view_settings(description_->viewplane)))
-      metadata.data_attributes.push_back(std::move(attribute));
-    return metadata;
+  ImageMetadata metadata(bool denoised = false) const {
+    return picture_metadata(job_, *description_, identity_, result_.statistics, denoised);
   }
 
   void report_invalid_samples() const {
@@ -357,11 +354,7 @@ class PictureRender {
   /// Completes the statistics, and writes them to their file.
   void write_statistics() {
     result_.statistics.peak_memory_bytes = peak_memory_bytes();
-    if (job_.statistics.empty()) return;
-    AtomicFile file(job_.statistics);
-    const std::string text = statistics_json(result_.statistics);
-    if (std::fwrite(text.data(), 1, text.size(), file.stream()) != text.size()) file.fail(errno);
-    file.commit();
+    if (!job_.statistics.empty()) write_statistics_file(result_.statistics, job_.statistics);
   }
 
   void report(MessageLevel level, const std::string& text) const { observer_.on_message(level, text); }

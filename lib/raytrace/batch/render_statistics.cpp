@@ -3,10 +3,13 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstddef>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "raytrace/memory/process_status.h"
+#include "raytrace/output/atomic_file.h"
 #include "raytrace/text/message.h"
 
 namespace raytrace {
@@ -147,6 +150,13 @@ std::string statistics_json(const RenderStatistics& s) {
   };
   // A file name need not be UTF-8; JSON must.
   return report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+void write_statistics_file(const RenderStatistics& statistics, const std::string& file) {
+  AtomicFile written(file);
+  const std::string text = statistics_json(statistics);
+  if (std::fwrite(text.data(), 1, text.size(), written.stream()) != text.size()) written.fail(errno);
+  written.commit();
 }
 
 }  // namespace raytrace

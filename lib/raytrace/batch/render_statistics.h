@@ -2,7 +2,6 @@
 // share/statistics.schema.json and docs/command-line.md; it says when its schema_version must grow.
 #pragma once
 
-#include <array>
 #include <chrono>
 #include <cstdint>
 #include <optional>
@@ -24,11 +23,15 @@ struct Phases {
   Phase load;    ///< scene file -> description
   Phase build;   ///< description -> scene with its BVH
   Phase render;  ///< scene -> film
+  Phase denoise{};  ///< film -> colours without noise, where they are wanted
   Phase write;   ///< film -> image files
-  double seconds() const { return load.seconds + build.seconds + render.seconds + write.seconds; }
-  /// With their names, in their order.
-  std::array<std::pair<const char*, Phase>, 4> named() const {
-    return {{{"load", load}, {"build", build}, {"render", render}, {"write", write}}};
+  double seconds() const { return load.seconds + build.seconds + render.seconds + denoise.seconds + write.seconds; }
+  /// With their names, in their order. The picture was not denoised: without that.
+  std::vector<std::pair<const char*, Phase>> named() const {
+    std::vector<std::pair<const char*, Phase>> phases = {{"load", load}, {"build", build}, {"render", render}};
+    if (denoise.seconds > 0) phases.emplace_back("denoise", denoise);
+    phases.emplace_back("write", write);
+    return phases;
   }
 };
 
@@ -70,6 +73,9 @@ std::uint64_t peak_memory_bytes();
 std::string statistics_text(const RenderStatistics& statistics);
 
 std::string statistics_json(const RenderStatistics& statistics);
+
+/// That, in a file. Throws OutputError.
+void write_statistics_file(const RenderStatistics& statistics, const std::string& file);
 
 /// Adds the time from its making to its end, or to stop(), to a phase, and notes the memory then.
 class PhaseTimer {

@@ -15,6 +15,10 @@ class AovSet {
  public:
   void add(std::size_t aov) { bits_ |= std::uint32_t{1} << aov; }
   bool has(std::size_t aov) const { return (bits_ >> aov & 1U) != 0; }
+  void add(const AovSet& others) {
+    bits_ |= others.bits_;
+    light_groups_.insert(others.light_groups_.begin(), others.light_groups_.end());
+  }
   void add_light_group(const std::string& name) { light_groups_.insert(name); }
   const std::set<std::string>& light_groups() const { return light_groups_; }
   /// All light groups of the scene, if it has any but the default one: replaced by their names when it is read.

@@ -19,9 +19,9 @@ auto aov_values(const AovInputs& inputs) {
   } else if constexpr (name == "position") {
     const Vec3<FloatN> position = inputs.position();
     return std::array{position.x, position.y, position.z};
-  } else if constexpr (name == "normal") {
+  } else if constexpr (name == "normal" || name == "denoise_normal") {
     return std::array{inputs.normal().x, inputs.normal().y, inputs.normal().z};
-  } else if constexpr (name == "albedo") {
+  } else if constexpr (name == "albedo" || name == "denoise_albedo") {
     const Rgb<FloatN> albedo = inputs.albedo();
     return std::array{albedo.red, albedo.green, albedo.blue};
   } else if constexpr (name == "object_id") {
@@ -34,6 +34,30 @@ auto aov_values(const AovInputs& inputs) {
     static_assert(name == "crypto_material", "an AOV needs a case here");
     return inputs.material();
   }
+}
+
+/// What the ways of camera rays met first, in each lane, that was neither a mirror nor clear. 0 where there is nothing.
+struct FollowedSurface {
+  Rgb<FloatN> albedo;
+  Vec3<FloatN> normal;
+};
+
+/// The same of an AOV that follows mirrors.
+template <std::size_t aov>
+std::array<FloatN, 3> followed_values(const FollowedSurface& surface) {
+  if constexpr (aov_table[aov].name == "denoise_normal") {
+    return {surface.normal.x, surface.normal.y, surface.normal.z};
+  } else {
+    static_assert(aov_table[aov].name == "denoise_albedo", "an AOV that follows mirrors needs a case here");
+    return {surface.albedo.red, surface.albedo.green, surface.albedo.blue};
+  }
+}
+
+/// Whether some of these AOVs follow mirrors.
+inline bool follow_mirrors(const AovSet& aovs) {
+  for (std::size_t i = 0; i < std::size(aov_table); ++i)
+    if (aov_table[i].follows_mirrors && aovs.has(i)) return true;
+  return false;
 }
 
 }  // namespace raytrace

@@ -6,8 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "raytrace/tracing/aov_values.h"
-
 namespace raytrace {
 
 void BlockAovs::prepare() {
@@ -20,7 +18,7 @@ void BlockAovs::prepare() {
   }
 }
 
-void BlockAovs::add(const AovInputs& seen, const MaskN& wanted, const UintN& sample) {
+void BlockAovs::add(const AovInputs& seen, const MaskN& wanted, const UintN& sample, bool followed_apart) {
   const MaskN hit = seen.hit() & wanted;
   if (none(hit)) return;
   const MaskN nearer = hit & (seen.depth() < depth_);
@@ -29,12 +27,34 @@ void BlockAovs::add(const AovInputs& seen, const MaskN& wanted, const UintN& sam
 
   NextValues next;
   [&]<std::size_t... aov>(std::index_sequence<aov...>) {
-    (add_values<aov>(seen, hit, nearer, next), ...);
+    (add_values<aov>(seen, hit, nearer, followed_apart, next), ...);
   }(std::make_index_sequence<std::size(aov_table)>());
 }
 
+void BlockAovs::add_followed(const FollowedSurface& surface, const MaskN& wanted) {
+  std::size_t next_mean = 0;
+  const auto add_values_of = [&]<std::size_t aov>(std::integral_constant<std::size_t, aov>) {
+    if (!film_.settings().wanted.has(aov)) return;
+    if constexpr (aov_table[aov].follows_mirrors) {
+      std::size_t mean = next_mean;
+      for (const FloatN& value : followed_values<aov>(surface)) add_to_mean(mean++, wanted, value);
+    }
+    if constexpr (aov_table[aov].rule == AovRule::mean) next_mean += aov_table[aov].values();
+  };
+  [&]<std::size_t... aov>(std::index_sequence<aov...>) {
+    (add_values_of(std::integral_constant<std::size_t, aov>()), ...);
+  }(std::make_index_sequence<std::size(aov_table)>());
+}
+
+void BlockAovs::add_to_mean(std::size_t mean, const MaskN& lanes, const FloatN& value) {
+  Mean& to = means_[mean];
+  const MaskN counts = lanes & (abs(value) <= to.largest);  // false for NaN
+  to.sum.add(select(counts, value, FloatN(0)), to.units);
+}
+
 template <std::size_t aov>
-void BlockAovs::add_values(const AovInputs& seen, const MaskN& hit, const MaskN& nearer, NextValues& next) {
+void BlockAovs::add_values(const AovInputs& seen, const MaskN& hit, const MaskN& nearer, bool followed_apart,
+                           NextValues& next) {
   if (!film_.settings().wanted.has(aov)) return;
   constexpr AovRule rule = aov_table[aov].rule;
   if constexpr (rule == AovRule::nearest) {
@@ -43,11 +63,11 @@ void BlockAovs::add_values(const AovInputs& seen, const MaskN& hit, const MaskN&
       kept = select(nearer, value, kept);
     }
   } else if constexpr (rule == AovRule::mean) {
-    for (const FloatN& value : aov_values<aov>(seen)) {
-      Mean& mean = means_[next.mean++];
-      const MaskN counts = hit & (abs(value) <= mean.largest);  // false for NaN
-      mean.sum.add(select(counts, value, FloatN(0)), mean.units);
+    if (aov_table[aov].follows_mirrors && followed_apart) {
+      next.mean += aov_table[aov].values();
+      return;
     }
+    for (const FloatN& value : aov_values<aov>(seen)) add_to_mean(next.mean++, hit, value);
   } else if constexpr (rule == AovRule::coverage) {
     count(next.coverage++, select_lanes(hit, aov_values<aov>(seen), IntN(nothing)));
   }

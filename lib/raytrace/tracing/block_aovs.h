@@ -8,6 +8,7 @@
 #include "raytrace/film/aov_film.h"
 #include "raytrace/math/fixed_point_sums.h"
 #include "raytrace/scene/aov_inputs.h"
+#include "raytrace/tracing/aov_values.h"
 
 namespace raytrace {
 
@@ -26,8 +27,12 @@ class BlockAovs {
     prepare();
   }
 
-  /// Adds a sample of each lane of `wanted`. sample: its index, above those that the lane added before.
-  void add(const AovInputs& seen, const MaskN& wanted, const UintN& sample);
+  /// Adds a sample of each lane of `wanted`. sample: its index, above those that the lane added before. followed_apart:
+  /// AOVs that follow mirrors are left to add_followed().
+  void add(const AovInputs& seen, const MaskN& wanted, const UintN& sample, bool followed_apart);
+
+  /// Adds the AOVs that follow mirrors of a sample of each lane of `wanted`.
+  void add_followed(const FollowedSurface& surface, const MaskN& wanted);
 
   /// After the last sample: the film has it all.
   void finish();
@@ -54,7 +59,8 @@ class BlockAovs {
   void prepare();
   /// Of aov_table[aov], which counts in `next` what it has of each rule.
   template <std::size_t aov>
-  void add_values(const AovInputs& seen, const MaskN& hit, const MaskN& nearer, NextValues& next);
+  void add_values(const AovInputs& seen, const MaskN& hit, const MaskN& nearer, bool followed_apart, NextValues& next);
+  void add_to_mean(std::size_t mean, const MaskN& lanes, const FloatN& value);
   void count(std::size_t coverage, const IntN& things);
   void end_run(std::size_t coverage, std::size_t lane);
 

@@ -25,6 +25,7 @@ PathBatch::PathBatch(const TracedScene& scene, const Film& film)
     : scene_(scene),
       photons_(static_cast<const PhotonMap*>(film.photons())),
       is_transparent_(film.settings().transparent),
+      follows_mirrors_(follow_mirrors(film.settings().aovs.wanted)),
       settings_(std::get<Path::Parameters>(scene.tables().integrator())),
       paths_(most_packets * packet_lanes, scene.tables().media()),
       next_(most_packets * packet_lanes, scene.tables().media()),
@@ -37,6 +38,7 @@ PathBatch::PathBatch(const TracedScene& scene, const Film& film)
 void PathBatch::clear() {
   direct_.clear();
   indirect_.clear();
+  followed_.clear();
 }
 
 MaskN PathBatch::add(CameraRays& camera, const MaskN& active, const MaskN& wanted, FirstHits* first) {
@@ -55,6 +57,7 @@ MaskN PathBatch::add(CameraRays& camera, const MaskN& active, const MaskN& wante
   const auto first_slot = static_cast<std::int32_t>(packets() * packet_lanes);
   direct_.resize(direct_.size() + groups_);
   indirect_.resize(indirect_.size() + groups_);
+  if (follows_mirrors_) followed_.emplace_back();
   PathPacket path;
   path.rays = camera.rays;
   path.set_hits(hits);
@@ -235,6 +238,8 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   const auto textures =
       add_textures(tables, hits, surface, [&] { return tables.ray_cone().half_width(path.distance); });
   const TexturePoint<FloatN>* const point = textures ? &*textures : nullptr;
+  if (follows_mirrors_) [[unlikely]]
+    follow(path, hits, surface, point, lanes);
   clock_.end(Stage::texture);
   const float environment_share = environment_share_of(tables);
   // Light paths bring what comes by what focuses light to the first point, photons what comes to any other.
@@ -304,6 +309,8 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   const Sample2D direction = draw(PathDraw::direction), choices = draw(PathDraw::lobe_and_roulette);
   const Scattering scattering = tables.scatter(hits, surface, vertex.frame, boundary.media, wo, drawn.lit,
                                                drawn.local_wi, choices.x, direction.x, direction.y, point);
+  if (follows_mirrors_) [[unlikely]]
+    stop_following(path, lanes & !scattering.sample.specular);
   clock_.end(Stage::shade);
   if (any(drawn.lit)) {
     light += arriving_light(scene_, vertex, drawn, scattering.towards, coherence, ids(lights + 1), counts, clock_,

@@ -15,6 +15,7 @@
 #include "raytrace/film/film.h"
 #include "raytrace/integrators/path.h"
 #include "raytrace/scene/medium_table.h"
+#include "raytrace/tracing/aov_values.h"
 #include "raytrace/tracing/path_chunk.h"
 #include "raytrace/tracing/photon_map.h"
 #include "raytrace/tracing/ray_result.h"
@@ -46,6 +47,10 @@ class PathBatch {
   /// What came along the camera rays of that packet from lights of that group, in its lanes with a path.
   Rgb<FloatN> radiance(std::size_t packet, std::size_t group) const;
 
+  /// Whether the film has AOVs that follow mirrors, and then what they hold of that packet's lanes.
+  bool follows_mirrors() const { return follows_mirrors_; }
+  FollowedSurface followed(std::size_t packet) const;
+
   /// Removes all.
   void clear();
 
@@ -54,6 +59,16 @@ class PathBatch {
 
   using Sums = std::array<std::array<float, packet_lanes>, 3>;  ///< red, green and blue of each lane
 
+  /// Of each lane's path: albedo and normal of what it met last, as long as that was a mirror or clear.
+  struct Followed {
+    std::array<std::array<float, packet_lanes>, 6> values{};
+    std::array<bool, packet_lanes> has_ended{};
+  };
+
+  /// What those paths have met becomes what was followed last.
+  void follow(const PathPacket& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface,
+              const TexturePoint<FloatN>* point, const MaskN& lanes);
+  void stop_following(const PathPacket& path, const MaskN& lanes);
   /// Adds to those lanes' paths what came from lights of each lane's group.
   void add(std::vector<Sums>& sums, const IntN& slot, const MaskN& lanes, const Rgb<FloatN>& radiance,
            const IntN& group) const;
@@ -104,7 +119,7 @@ class PathBatch {
 
   const TracedScene& scene_;
   const PhotonMap* photons_;
-  bool is_transparent_;
+  bool is_transparent_, follows_mirrors_;
   const Path::Parameters& settings_;
   StageClock clock_;
   PathChunk paths_, next_;
@@ -113,6 +128,7 @@ class PathBatch {
   std::size_t groups_;               ///< of the scene's lights
   /// Of each packet, group by group: what was scattered once or never, and all else.
   std::vector<Sums> direct_, indirect_;
+  std::vector<Followed> followed_;  ///< of each packet, if AOVs follow mirrors
 };
 
 }  // namespace raytrace

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "raytrace/math/color.h"
+#include "raytrace/scene/environment.h"
 #include "raytrace/scene/hits.h"
 #include "raytrace/scene/surface_interaction.h"
 #include "raytrace/textures/texture_point.h"
@@ -14,6 +15,14 @@ struct RayResult {
   Rgb<FloatN> radiance;
   MaskN hit;  ///< false: the background was met
 };
+
+/// The radiance, of the environment where nothing else was met. The arguments are copies of the innermost loop's, which
+/// stay in registers there.
+[[gnu::noinline]] inline Rgb<FloatN> in_environment(const Environment& environment, const RayResult& result,
+                                                    const Vec3<FloatN>& direction) {
+  if (all(result.hit)) return result.radiance;
+  return select(result.hit, result.radiance, environment.radiance(direction));
+}
 
 /// What the rays met first, for AOVs.
 struct FirstHits {

@@ -31,14 +31,6 @@ constexpr int packets_per_look = 16;
 FloatN to_float(const UintN& numbers) { return to_float(same_bits<IntN>(numbers)); }
 FloatN to_float(std::uint32_t number) { return FloatN(static_cast<float>(static_cast<std::int32_t>(number))); }
 
-/// The radiance, of the environment where nothing else was met. The arguments are copies of the innermost loop's, which
-/// stay in registers there.
-[[gnu::noinline]] Rgb<FloatN> in_environment(const Environment& environment, const RayResult& result,
-                                             const Vec3<FloatN>& direction) {
-  if (all(result.hit)) return result.radiance;
-  return select(result.hit, result.radiance, environment.radiance(direction));
-}
-
 /// The pixels of a part of a film, block by block. Ray casting takes so little time that a call for each packet shows,
 /// so it has renderers of its own; all other integrators share theirs.
 template <bool raycast, PacketShape shape>
@@ -160,7 +152,8 @@ class BlockRenderer {
         result.radiance = select(traced, result.radiance, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
       if (aovs != nullptr) [[unlikely]] {
         const auto* const textures = first.textures ? &*first.textures : nullptr;
-        aovs->add(AovInputs(scene_.tables(), camera, first.hits, first.surface, textures), wanted, sample);
+        aovs->add(AovInputs(scene_.tables(), camera, first.hits, first.surface, textures), wanted, sample,
+                  batch_ && batch_->follows_mirrors());
       }
       report_.rays.camera += count_lanes(wanted & traced);
       if (!raycast && batch_) batch_->clock().end(Stage::film);
@@ -225,7 +218,9 @@ class BlockRenderer {
       if (!open_ || open_->block.left != packet.block.left || open_->block.top != packet.block.top) {
         if (open_) close_block();
         open_ = std::make_unique<OpenBlock>(packet, scale_, layers_.size());
+        if (batch_->follows_mirrors()) open_->followed.emplace(*film_.aovs(), packet.block, region_);
       }
+      if (open_->followed) open_->followed->add_followed(batch_->followed(i), packet.wanted);
       const UintN sample = UintN(packet.base) + Block::slots();
       if (by_group_) {
         for (std::size_t group = 0; group < group_light_.size(); ++group)
@@ -253,6 +248,7 @@ class BlockRenderer {
     else
       open_->sums.add_to(film_, open_->block, region_);
     open_->error.add_to(report_.error, open_->block, region_);
+    if (open_->followed) open_->followed->finish();
     open_.reset();
   }
 
@@ -343,6 +339,7 @@ class BlockRenderer {
     BlockSums<Block> sums;
     GroupSums<Block> group_sums;  ///< in place of them where there are groups
     BlockError<Block> error;
+    std::optional<BlockAovs> followed{};  ///< those that follow mirrors, if the film has any
     int packets = 0;
     OpenBlock(const WaitingPacket& first, const SumScale& scale, std::size_t groups)
         : block(first.block), sums(scale), group_sums(scale, groups), error(first.first, first.last) {}

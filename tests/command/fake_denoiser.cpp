@@ -1,0 +1,114 @@
+// Stands in for Open Image Denoise's library, so that tests need not load it: the functions that the program uses, of the
+// same names and meaning (https://www.openimagedenoise.org/documentation.html), and a filter that tells in each number
+// what it was made of:
+//
+//   albedo alone: 2 albedo            normal alone: -normal            color: color / 2 + albedo + 4 normal
+//
+// $FAKE_DENOISER: "fails": each filter does; "waits": until the program's progress monitor stops it.
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdlib>
+#include <map>
+#include <string>
+#include <thread>
+
+namespace {
+
+struct Device {
+  int error = 0;
+  std::string message;
+  bool committed = false;
+};
+
+struct Filter {
+  explicit Filter(Device* owner) : device(owner) {}
+  Device* device;
+  std::map<std::string, float*> images;
+  std::map<std::string, bool> flags;
+  std::size_t numbers = 0;
+  bool (*monitor)(void*, double) = nullptr;
+  void* monitor_data = nullptr;
+  bool committed = false;
+};
+
+std::string mode() {
+  const char* const text = std::getenv("FAKE_DENOISER");
+  return text == nullptr ? "" : text;
+}
+
+}  // namespace
+
+// NOLINTBEGIN(readability-identifier-naming): the library's
+extern "C" {
+
+Device* oidnNewDevice(int type) { return type == 1 ? new Device : nullptr; }
+void oidnSetDeviceInt(Device*, const char*, int) {}
+void oidnSetDeviceBool(Device*, const char*, bool) {}
+int oidnGetDeviceInt(Device*, const char* name) { return std::string(name) == "version" ? 20304 : 0; }
+void oidnCommitDevice(Device* device) { device->committed = true; }
+void oidnReleaseDevice(Device* device) { delete device; }
+
+int oidnGetDeviceError(Device* device, const char** message) {
+  *message = device->message.c_str();
+  const int error = device->error;
+  device->error = 0;
+  return error;
+}
+
+Filter* oidnNewFilter(Device* device, const char* type) {
+  return device->committed && std::string(type) == "RT" ? new Filter(device) : nullptr;
+}
+
+void oidnSetSharedFilterImage(Filter* filter, const char* name, void* data, int format, std::size_t width,
+                              std::size_t height, std::size_t offset, std::size_t pixel_stride,
+                              std::size_t row_stride) {
+  constexpr int three_floats = 3;
+  if (format != three_floats || offset != 0 || pixel_stride != 0 || row_stride != 0) {
+    filter->device->error = 2;
+    filter->device->message = "unknown layout";
+  }
+  filter->images[name] = static_cast<float*>(data);
+  filter->numbers = 3 * width * height;
+}
+
+void oidnSetFilterBool(Filter* filter, const char* name, bool value) { filter->flags[name] = value; }
+
+void oidnSetFilterProgressMonitorFunction(Filter* filter, bool (*monitor)(void*, double), void* data) {
+  filter->monitor = monitor;
+  filter->monitor_data = data;
+}
+
+void oidnCommitFilter(Filter* filter) { filter->committed = true; }
+
+void oidnExecuteFilter(Filter* filter) {
+  Device& device = *filter->device;
+  if (mode() == "fails") {
+    device.error = 1;
+    device.message = "told to";
+    return;
+  }
+  while (mode() == "waits" && filter->monitor(filter->monitor_data, 0.5))
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  if (!filter->monitor(filter->monitor_data, 1)) {
+    device.error = 6;
+    return;
+  }
+  auto& images = filter->images;
+  float* const output = images["output"];
+  if (images.count("color") != 0 && filter->committed && filter->flags["hdr"] && filter->flags["cleanAux"]) {
+    for (std::size_t i = 0; i < filter->numbers; ++i)
+      output[i] = images["color"][i] / 2 + images["albedo"][i] + 4 * images["normal"][i];
+  } else if (images.count("color") == 0 && filter->committed && filter->images.size() == 2) {
+    for (std::size_t i = 0; i < filter->numbers; ++i)
+      output[i] = images.count("albedo") != 0 ? 2 * images["albedo"][i] : -images["normal"][i];
+  } else {
+    device.error = 3;
+    device.message = "not the images and flags that it needs";
+  }
+}
+
+void oidnReleaseFilter(Filter* filter) { delete filter; }
+
+}  // extern "C"
+// NOLINTEND(readability-identifier-naming)
