@@ -133,7 +133,8 @@ def canal():
 
 
 def boat(middle, length, beam):
-    """A rowing boat along the quay: its outside and its inside, which meet at the gunwale."""
+    """A rowing boat along the quay: its outside and its inside, which meet at the gunwale. Inside, boards keep one's
+    feet above the water."""
     sections, steps = 20, 7
     positions, faces = [], []
     for inset in (0.0, 0.05):
@@ -143,7 +144,8 @@ def boat(middle, length, beam):
             keel, gunwale = WATER - 0.22 + 0.3 * t**4 + inset * 2, WATER + 0.36 + 0.26 * t * t
             for j in range(-steps, steps + 1):
                 a = j / steps * math.pi / 2
-                positions.append((middle[0] + half * math.sin(a), keel + (gunwale - keel) * (1 - math.cos(a)), middle[1] + t * length / 2 * (1 - inset / 3)))
+                y = keel + (gunwale - keel) * (1 - math.cos(a))
+                positions.append((middle[0] + half * math.sin(a), max(y, WATER + 0.05) if inset else y, middle[1] + t * length / 2 * (1 - inset / 3)))
     row = 2 * steps + 1
     rows = sections + 1
     for side in range(2):

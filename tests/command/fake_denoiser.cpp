@@ -1,10 +1,11 @@
-// Stands in for Open Image Denoise's library, so that tests need not load it: the functions that the program uses, of the
-// same names and meaning (https://www.openimagedenoise.org/documentation.html), and a filter that tells in each number
-// what it was made of:
+// Stands in for Open Image Denoise's library, so that tests need not load it: the functions that the program uses, of
+// the same names and meaning (https://www.openimagedenoise.org/documentation.html), and a filter that tells in each
+// number what it was made of:
 //
 //   albedo alone: 2 albedo            normal alone: -normal            color: color / 2 + albedo + 4 normal
 //
-// $FAKE_DENOISER: "fails": each filter does; "waits": until the program's progress monitor stops it.
+// $FAKE_DENOISER: "fails": each filter does; "memory": has none; "waits": until the program's progress monitor stops
+// it.
 #include <array>
 #include <chrono>
 #include <cstddef>
@@ -83,9 +84,9 @@ void oidnCommitFilter(Filter* filter) { filter->committed = true; }
 
 void oidnExecuteFilter(Filter* filter) {
   Device& device = *filter->device;
-  if (mode() == "fails") {
-    device.error = 1;
-    device.message = "told to";
+  if (mode() == "fails" || mode() == "memory") {
+    device.error = mode() == "fails" ? 1 : 4;
+    device.message = "it was asked to";
     return;
   }
   while (mode() == "waits" && filter->monitor(filter->monitor_data, 0.5))

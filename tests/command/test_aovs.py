@@ -13,8 +13,8 @@ from exr import Exr
 from png import Png
 from support import CommandTest
 
-NAMES = ["depth", "position", "normal", "albedo", "object_id", "material_id", "crypto_object", "crypto_material",
-         "samples"]
+NAMES = ["depth", "position", "normal", "albedo", "denoise_albedo", "denoise_normal", "object_id", "material_id",
+         "crypto_object", "crypto_material", "samples"]
 
 
 def mattes(exr, layer):
@@ -73,7 +73,8 @@ class Aovs(CommandTest):
         plain, picture = self.render(name="b.exr"), self.render("--aov", "all")
         types = {**plain.channels, "Z": "f", "id.object": "I", "id.material": "I", "samples": "I"}
         types.update({f"{layer}.{axis}": "f" for layer in "PN" for axis in "XYZ"})
-        types.update({f"albedo.{color}": "f" for color in "RGB"})
+        types.update({f"{layer}.{color}": "f" for layer in ("albedo", "denoise_albedo") for color in "RGB"})
+        types.update({f"denoise_normal.{axis}": "f" for axis in "XYZ"})
         types.update({f"{layer}{level}.{part}": "f" for layer in ("crypto_object", "crypto_material")
                       for level in ("00", "01", "02") for part in "RGBA"})
         types.update({f"light_{group}.{color}": "f" for group in ("default", "key") for color in "RGB"})

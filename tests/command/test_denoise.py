@@ -148,11 +148,12 @@ class Failures(DenoiseTest):
 
     def test_a_filter_that_fails_loses_no_picture(self):
         self.render("noisy.exr", "--aov", "denoise_albedo,denoise_normal")
-        environment = {**ENVIRONMENT, "FAKE_DENOISER": "fails"}
-        message = self.fail_with(1, "scene.xml", *SIZE, "-o", "a.exr", "--denoise", "--checkpoint", "a.ckpt",
-                                 env=environment)
-        self.assertIn("Open Image Denoise fails: told to; the picture keeps its noise", message)
-        self.assertEqual(Exr(self.read("a.exr")).row_bytes, Exr(self.read("noisy.exr")).row_bytes)
+        for mode, reason in (("fails", "Open Image Denoise fails: it was asked to"),
+                             ("memory", "no memory to denoise the picture")):
+            message = self.fail_with(1, "scene.xml", *SIZE, "-o", "a.exr", "--denoise", "--checkpoint", f"{mode}.ckpt",
+                                     env={**ENVIRONMENT, "FAKE_DENOISER": mode})
+            self.assertIn(f"{reason}; it is written with its noise", message)
+            self.assertEqual(Exr(self.read("a.exr")).row_bytes, Exr(self.read("noisy.exr")).row_bytes)
         # It is not the picture that was asked for.
         self.check(self.render("a.exr", "--denoise", "--skip-existing"))
 

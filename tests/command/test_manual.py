@@ -38,7 +38,7 @@ class Manual(CommandTest):
 
     def test_the_options_are_those_we_know(self):
         self.assertEqual(self.defined_in_help(), {
-            "-o", "--output", "--float", "--bit-depth", "-r", "--resolution", "--fit", "--scale", "--crop", "-s", "--spp",
+            "-o", "--output", "--float", "--denoise", "--bit-depth", "-r", "--resolution", "--fit", "--scale", "--crop", "-s", "--spp",
             "--seed", "-t", "--threads", "--isa", "-q", "--quiet", "-v", "--verbose", "--progress", "--stats",
             "--validate", "--print-scene", "--list", "--version", "-h", "--help", "--tile", "--sample-offset", "--pixel",
             "--time-limit", "--error-limit", "--checkpoint", "--checkpoint-interval", "--resume", "--log-file", "--display-server",

@@ -49,7 +49,8 @@ struct Aov {
   float (*bound)(const AovBounds& bounds) = nullptr;
   /// The names of what its ids stand for, in the order of their indices.
   std::vector<std::string> (*names)(const SceneDescription& description) = nullptr;
-  /// mean: where paths are traced, it is of the first surface on the way of a sample that is neither a mirror nor clear.
+  /// mean: where paths are traced, it is of the first surface on the way of a sample that is neither a mirror nor
+  /// clear.
   bool follows_mirrors = false;
 
   /// What a sample, or for a coverage its index, takes in AovSettings.

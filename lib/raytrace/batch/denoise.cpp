@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <new>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,14 +41,19 @@ bool is_denoised(const RenderJob& job) { return job.denoise && !job.tile && !job
 Denoising denoise(const Film& film, const RenderJob& job, RenderObserver& observer, const RenderControl& control,
                   RenderStatistics& statistics, std::optional<DenoisedPicture>& denoised) {
   Phase& phase = statistics.phases.denoise;
+  const auto fail = [&](const std::string& reason) {
+    observer.on_message(MessageLevel::error, reason + "; it is written with its noise");
+    return Denoising::failed;
+  };
   try {
     const PhaseTimer timer(phase);
     DenoisedPicture picture = picture_of(film, job.threads);
     if (!picture.denoise(job.threads, [&] { return control.is_stopped(); })) return Denoising::stopped;
     denoised = std::move(picture);
   } catch (const OutputError& error) {
-    observer.on_message(MessageLevel::error, std::string(error.what()) + "; the picture keeps its noise");
-    return Denoising::failed;
+    return fail(error.what());
+  } catch (const std::bad_alloc&) {
+    return fail("no memory to denoise the picture");
   }
   observer.on_message(MessageLevel::step, "denoised" + time_taken(phase.seconds));
   return Denoising::done;

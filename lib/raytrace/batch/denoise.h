@@ -22,7 +22,7 @@ enum class Denoising {
   failed,   ///< which the observer knows: the picture keeps its noise
 };
 
-/// Sets `denoised` to the film's colours if it can be done. Throws std::bad_alloc.
+/// Sets `denoised` to the film's colours if it can be done.
 Denoising denoise(const Film& film, const RenderJob& job, RenderObserver& observer, const RenderControl& control,
                   RenderStatistics& statistics, std::optional<DenoisedPicture>& denoised);
 

@@ -36,8 +36,9 @@ std::vector<Channel> all_channels(const Piece& piece) {
 Piece piece_of(const ExrReader& reader) {
   Piece piece{reader.file(), identity_of(reader), {}, {}};
   if (reader.attribute<int>(denoised_name))
-    throw InputError(piece.file + " is denoised: pieces are rendered with --tile or --sample-offset, and --denoise then "
-                                  "denoises the picture that they are merged to");
+    throw InputError(piece.file +
+                     " is denoised: pieces are rendered with --tile or --sample-offset, and --denoise then "
+                     "denoises the picture that they are merged to");
   const AovSettings& aovs = piece.identity.film.aovs;
   const std::vector<Channel>& all = reader.channels();
   piece.channels = color_channels(std::find(all.begin(), all.end(), Channel{"R", ChannelType::float32}) != all.end());
@@ -266,8 +267,8 @@ class Merger {
   }
 
   bool denoises() const {
-    return settings_.denoise || std::all_of(pieces_.begin(), pieces_.end(),
-                                            [](const Piece& piece) { return piece.identity.denoise; });
+    return settings_.denoise ||
+           std::all_of(pieces_.begin(), pieces_.end(), [](const Piece& piece) { return piece.identity.denoise; });
   }
 
   /// The same of the merged picture's colours.

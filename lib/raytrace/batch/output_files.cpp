@@ -150,7 +150,9 @@ OutputFiles::OutputFiles(const RenderJob& job, const std::vector<std::string>& f
       denoised_(denoised),
       sums_(std::move(sums)),
       channels_(color_channels(job.full_float)) {
-  const auto add = [&](const std::vector<Channel>& more) { channels_.insert(channels_.end(), more.begin(), more.end()); };
+  const auto add = [&](const std::vector<Channel>& more) {
+    channels_.insert(channels_.end(), more.begin(), more.end());
+  };
   add(aov_channels(film_aovs(job)));
   if (denoised_ != nullptr) add(noisy_channels(job.full_float));
   add(sums_);

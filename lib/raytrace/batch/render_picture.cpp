@@ -181,8 +181,8 @@ class PictureRender {
     else if (done < all)
       report(MessageLevel::warning, "the time limit was reached after " + counted(done, "sample") + " per pixel");
     std::optional<DenoisedPicture> denoised;
-    const Denoising denoising = is_denoised(job_) ? denoise(film, job_, observer_, control_, result_.statistics, denoised)
-                                                  : Denoising::done;
+    const Denoising denoising =
+        is_denoised(job_) ? denoise(film, job_, observer_, control_, result_.statistics, denoised) : Denoising::done;
     if (denoising == Denoising::stopped) return write_partial(film);
     const bool written = write_picture(film, job_.outputs, done, false, denoised ? &*denoised : nullptr);
     if (!written || denoising == Denoising::failed) return RenderOutcome::failed;

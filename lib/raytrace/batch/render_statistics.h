@@ -20,11 +20,11 @@ struct Phase {
 };
 
 struct Phases {
-  Phase load;    ///< scene file -> description
-  Phase build;   ///< description -> scene with its BVH
-  Phase render;  ///< scene -> film
+  Phase load;       ///< scene file -> description
+  Phase build;      ///< description -> scene with its BVH
+  Phase render;     ///< scene -> film
   Phase denoise{};  ///< film -> colours without noise, where they are wanted
-  Phase write;   ///< film -> image files
+  Phase write;      ///< film -> image files
   double seconds() const { return load.seconds + build.seconds + render.seconds + denoise.seconds + write.seconds; }
   /// With their names, in their order. The picture was not denoised: without that.
   std::vector<std::pair<const char*, Phase>> named() const {

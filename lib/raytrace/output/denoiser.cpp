@@ -45,10 +45,10 @@ void* open_library() {
     if (says_out_of_memory(reason) || reason.find("failed to map segment") != std::string::npos) throw std::bad_alloc();
     if (candidates.size() == 1 || std::filesystem::exists(candidate)) reasons += ": " + reason;
   }
-  throw OutputError(
-      "denoising needs Open Image Denoise 2, whose library libOpenImageDenoise.so.2 cannot be loaded" + reasons +
-      "; with raytrace's sources, run cmake/denoiser; else install it, and say where its libraries are: "
-      "RAYTRACE_DENOISER=FOLDER");
+  throw OutputError("denoising needs Open Image Denoise 2, whose library libOpenImageDenoise.so.2 cannot be loaded" +
+                    reasons +
+                    "; with raytrace's sources, run cmake/denoiser; else install it, and say where its libraries are: "
+                    "RAYTRACE_DENOISER=FOLDER");
 }
 
 class Library {

@@ -1,5 +1,5 @@
-// Takes the noise out of a picture by Intel's Open Image Denoise (https://www.openimagedenoise.org), version 2: a trained
-// filter, which looks at a picture's colours, albedos and normals.
+// Takes the noise out of a picture by Intel's Open Image Denoise (https://www.openimagedenoise.org), version 2: a
+// trained filter, which looks at a picture's colours, albedos and normals.
 //
 // No Debian has it, and its libraries are large: they are loaded when a picture asks for them, from the folder
 // $RAYTRACE_DENOISER; without it from ../lib beside the program's folder, from where cmake/denoiser puts them, or from

@@ -193,23 +193,6 @@ IntN PathBatch::group_of(const DrawnLight& light) const {
   return select_lanes(light.is_sky, sky, tables.light_group_of_material(light.sample.material));
 }
 
-void PathBatch::add_photons(const PathPacket& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface,
-                            const TexturePoint<FloatN>* point, const MaskN& lanes, int depth) {
-  const FloatN u = get_2d(path.pixel, path.sample, photon_dimension(depth)).x;
-  const PhotonMap::Light found = photons_->choose(surface.p, surface.ng, lanes, u, settings_.maxdepth - depth - 1);
-  if (none(found.lanes)) return;
-  IncidentLight light{select(found.lanes, found.wi, surface.ns), FloatN(0), found.flux_density};
-  // Over the shaded surface the same light is more or less than over the true one; not much more, since photons that
-  // graze the true one are few and would be bright dots.
-  const FloatN shaded = dot(surface.ns, light.wi), true_cosine = dot(surface.ng, light.wi);
-  light.cosine = select(found.lanes & (true_cosine > FloatN(0)) & (shaded > FloatN(0)),
-                        shaded / max(true_cosine, shaded * FloatN(0.25F)), FloatN(0));
-  if (surface.has_relief) light.cosine = light.cosine * relief_shadow(surface, light.wi);
-  const Rgb<FloatN> radiance =
-      scene_.tables().shade(hits, surface, Rgb<float>(0, 0, 0), {&light, 1}, point) * path.throughput;
-  add(indirect_, path.slot, found.lanes, radiance, groups_ > 1 ? found.group : IntN(0));
-}
-
 void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCounts& counts) {
   const SceneTables& tables = scene_.tables();
   Ray<FloatN>& rays = path.rays;

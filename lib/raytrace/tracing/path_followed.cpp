@@ -28,7 +28,8 @@ void PathBatch::follow(const PathPacket& path, const Hits& hits, const SurfaceIn
   // What fog scatters shows nothing of where it goes.
   const MaskN scattered = lanes & float_mask<FloatN>(path.way == IntN(by_scattering));
   if (any(scattered)) stop_following(path, scattered);
-  // What mirrors and glass let through: without the radiance's change by refraction. Roulette makes it larger than that.
+  // What mirrors and glass let through: without the radiance's change by refraction. Roulette makes it larger than
+  // that.
   const Rgb<FloatN> throughput = path.throughput * path.eta2;
   const Rgb<FloatN> through{min(throughput.red, FloatN(1)), min(throughput.green, FloatN(1)),
                             min(throughput.blue, FloatN(1))};

@@ -1,0 +1,24 @@
+// The light that photons bring to paths.
+#include "raytrace/sampling/sampler.h"
+#include "raytrace/tracing/path_batch.h"
+
+namespace raytrace {
+
+void PathBatch::add_photons(const PathPacket& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface,
+                            const TexturePoint<FloatN>* point, const MaskN& lanes, int depth) {
+  const FloatN u = get_2d(path.pixel, path.sample, photon_dimension(depth)).x;
+  const PhotonMap::Light found = photons_->choose(surface.p, surface.ng, lanes, u, settings_.maxdepth - depth - 1);
+  if (none(found.lanes)) return;
+  IncidentLight light{select(found.lanes, found.wi, surface.ns), FloatN(0), found.flux_density};
+  // Over the shaded surface the same light is more or less than over the true one; not much more, since photons that
+  // graze the true one are few and would be bright dots.
+  const FloatN shaded = dot(surface.ns, light.wi), true_cosine = dot(surface.ng, light.wi);
+  light.cosine = select(found.lanes & (true_cosine > FloatN(0)) & (shaded > FloatN(0)),
+                        shaded / max(true_cosine, shaded * FloatN(0.25F)), FloatN(0));
+  if (surface.has_relief) light.cosine = light.cosine * relief_shadow(surface, light.wi);
+  const Rgb<FloatN> radiance =
+      scene_.tables().shade(hits, surface, Rgb<float>(0, 0, 0), {&light, 1}, point) * path.throughput;
+  add(indirect_, path.slot, found.lanes, radiance, groups_ > 1 ? found.group : IntN(0));
+}
+
+}  // namespace raytrace
