@@ -2,7 +2,8 @@
 // the same names and meaning (https://www.openimagedenoise.org/documentation.html), and a filter that tells in each
 // number what it was made of:
 //
-//   albedo alone: 2 albedo            normal alone: -normal            color: color / 2 + albedo + 4 normal
+//   albedo alone: 2 albedo       normal alone: -normal       color, hdr: color / 2 + albedo + 4 normal
+//   color from 0 to 1: color / 2 + albedo / 8
 //
 // $FAKE_DENOISER: "fails": each filter does; "memory": has none; "waits": until the program's progress monitor stops
 // it.
@@ -97,9 +98,12 @@ void oidnExecuteFilter(Filter* filter) {
   }
   auto& images = filter->images;
   float* const output = images["output"];
-  if (images.count("color") != 0 && filter->committed && filter->flags["hdr"] && filter->flags["cleanAux"]) {
-    for (std::size_t i = 0; i < filter->numbers; ++i)
-      output[i] = images["color"][i] / 2 + images["albedo"][i] + 4 * images["normal"][i];
+  if (images.count("color") != 0 && filter->committed && filter->flags["cleanAux"] &&
+      filter->flags["hdr"] != filter->flags["srgb"]) {
+    for (std::size_t i = 0; i < filter->numbers; ++i) {
+      const float color = images["color"][i] / 2, albedo = images["albedo"][i], normal = images["normal"][i];
+      output[i] = filter->flags["hdr"] ? color + albedo + 4 * normal : color + albedo / 8;
+    }
   } else if (images.count("color") == 0 && filter->committed && filter->images.size() == 2) {
     for (std::size_t i = 0; i < filter->numbers; ++i)
       output[i] = images.count("albedo") != 0 ? 2 * images["albedo"][i] : -images["normal"][i];

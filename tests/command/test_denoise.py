@@ -59,6 +59,29 @@ class Pictures(DenoiseTest):
         self.render("noisy.png")
         self.assertNotEqual(Png(self.read("alone.png")).rows, Png(self.read("noisy.png")).rows)
 
+    def test_alpha(self):
+        noisy = self.render("noisy.exr", "--transparent", "--crop=0,-12,24,9")
+        picture = self.render("clean.exr", "--transparent", "--denoise", "--crop=0,-12,24,9")
+        self.assertEqual([row["noisy.A"] for row in picture.row_bytes.values()],
+                         [row["A"] for row in noisy.row_bytes.values()])
+        width, height = picture.width, picture.height
+        top = picture.data_window[1]
+        alpha = [picture.rows[top + y]["noisy.A"] for y in range(height)]
+        kept = {0: 0, 1: 0, None: 0}
+        for y in range(height):
+            row = picture.rows[top + y]
+            for x in range(width):
+                around = {alpha[v][u] for v in range(max(0, y - 2), min(height, y + 3))
+                          for u in range(max(0, x - 2), min(width, x + 3))}
+                even = around in ({0}, {1})
+                kept[alpha[y][x] if even else None] += 1
+                wanted = alpha[y][x] if even else min(alpha[y][x] / 2 + row["denoise_albedo.R"][x] / 4, 1)
+                self.assertAlmostEqual(row["A"][x], wanted, delta=1e-5)
+                if row["A"][x] == 0:
+                    self.assertEqual([row[color][x] for color in "RGB"], [0, 0, 0])
+        self.assertTrue(all(count > 5 for count in kept.values()), kept)
+        self.assertNotIn("noisy.A", self.render("opaque.exr", "--denoise").channels)
+
     def test_light_groups_and_halves(self):
         self.succeed("scene.xml", "-q", "-r", "24x18", "-s", "4", "-o", "half.exr", "--denoise", "--aov",
                      "light_default", env=ENVIRONMENT)

@@ -24,7 +24,7 @@ DenoisedPicture picture_of(const Film& film, int threads) {
   const Region& region = film.region();
   std::vector<Channel> channels = color_channels(true);
   for (Channel& channel : aov_channels(film.settings().aovs.wanted)) channels.push_back(std::move(channel));
-  DenoisedPicture picture(region, channels);
+  DenoisedPicture picture(region, channels, film.settings().transparent);
   ImageBand band;
   for (int y0 = region.y0; y0 < region.y1; y0 = band.region.y1) {
     fill_color(band, film, y0, std::min(y0 + band_rows(region.width(), channels.size()), region.y1), threads);

@@ -213,7 +213,8 @@ class Merger {
     if (denoises()) {
       for (ImageAttribute& attribute : denoised_attributes()) metadata_.attributes.push_back(std::move(attribute));
       denoised = denoise(whole, rows);
-      for (Channel& channel : noisy_channels(image_settings.full_float)) all.push_back(std::move(channel));
+      for (Channel& channel : noisy_channels(image_settings.full_float, image_settings.transparent))
+        all.push_back(std::move(channel));
     }
     std::vector<std::unique_ptr<ImageFile>> files;
     for (const std::string& file : settings_.outputs)
@@ -280,7 +281,7 @@ class Merger {
     for (const char* const aov : denoiser_aovs)
       if (!has(aov + std::string(".")))
         refuse({"--denoise: the pieces have no " + std::string(aov) + ": render them with --denoise, too"});
-    DenoisedPicture picture(whole, channels_);
+    DenoisedPicture picture(whole, channels_, pieces_.front().identity.film.transparent);
     for_each_band(whole, rows, [&](const ImageBand& band) { picture.add(band); });
     if (!picture.denoise(settings_.threads, stop_ ? stop_ : [] { return false; })) throw Stopped();
     return picture;

@@ -154,7 +154,7 @@ OutputFiles::OutputFiles(const RenderJob& job, const std::vector<std::string>& f
     channels_.insert(channels_.end(), more.begin(), more.end());
   };
   add(aov_channels(film_aovs(job)));
-  if (denoised_ != nullptr) add(noisy_channels(job.full_float));
+  if (denoised_ != nullptr) add(noisy_channels(job.full_float, job.transparent));
   add(sums_);
   for (const std::string& name : files) {
     succeeds(

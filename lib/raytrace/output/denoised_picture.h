@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -14,13 +15,16 @@ namespace raytrace {
 /// The AOVs that denoising looks at, as --aov spells them.
 inline constexpr const char* denoiser_aovs[] = {"denoise_albedo", "denoise_normal"};
 
-/// "noisy.R", "noisy.G" and "noisy.B": the colours as they were rendered, which files keep beside the others.
-std::vector<Channel> noisy_channels(bool full_float);
+/// "noisy.R", "noisy.G" and "noisy.B": the colours as they were rendered, which files keep beside the others; of
+/// transparent pictures "noisy.A", too.
+std::vector<Channel> noisy_channels(bool full_float, bool transparent);
 
 class DenoisedPicture {
  public:
-  /// region: of the picture. channels: of its bands, colour first; denoiser_aovs among them. Throws std::bad_alloc.
-  DenoisedPicture(const Region& region, const std::vector<Channel>& channels);
+  /// region: of the picture. channels: of its bands, colour first; denoiser_aovs among them. transparent: its alpha is
+  /// denoised, too, since shadows on what is not in the picture have noise there; but where it is 0 or 1 all around.
+  /// Throws std::bad_alloc.
+  DenoisedPicture(const Region& region, const std::vector<Channel>& channels, bool transparent);
 
   /// Rows of the picture; all are to be added before it is denoised.
   void add(const ImageBand& band);
@@ -32,12 +36,15 @@ class DenoisedPicture {
   void put_into(ImageBand& band) const;
 
  private:
-  /// Copies three planes' rows of the band to the picture's.
-  void copy(const ImageBand& band, std::size_t first_plane, std::vector<float>& pixels) const;
+  /// Copies a plane's rows of the band to a channel of the picture's.
+  void copy(const ImageBand& band, std::size_t plane, std::size_t channel, std::vector<float>& pixels) const;
+  std::vector<std::uint8_t> even_alpha() const;
+  /// The number of the band's first pixel.
+  std::size_t begin_of(const ImageBand& band) const;
 
   Region region_;
   std::size_t albedo_ = 0, normal_ = 0;  ///< their first planes
-  NoisyPicture picture_;
+  DenoiserPicture picture_;              ///< in the end colour, and alpha once a pixel
 };
 
 }  // namespace raytrace

@@ -119,25 +119,26 @@ class Device {
            std::to_string(version % 100);
   }
 
-  /// Filters a picture of `filtered`, "color", "albedo" or "normal", where it lies; by others as well, which have no
-  /// noise, if that is the colour. False if it was stopped.
-  bool filter(NoisyPicture& picture, const char* filtered, const std::function<bool()>& stop) const {
+  enum class Guided { no, yes };
+
+  /// Filters one of the picture's images where it lies, guided by albedo and normal, which have no noise, or by
+  /// nothing. image: as the library calls it; a colour is radiance if `hdr`, else from 0 to 1. False if it was stopped.
+  bool filter(DenoiserPicture& picture, std::vector<float>& pixels, const char* image, Guided guided, bool hdr,
+              const std::function<bool()>& stop) const {
     const std::unique_ptr<FilterHandle, decltype(Library::release_filter)> filter(
         library_.new_filter(device_.get(), "RT"), library_.release_filter);
     if (filter == nullptr) refuse();
-    const std::string name = filtered;
-    const auto add = [&](const char* role, std::vector<float>& pixels) {
-      library_.set_filter_image(filter.get(), role, pixels.data(), three_floats,
-                                static_cast<std::size_t>(picture.width), static_cast<std::size_t>(picture.height), 0, 0,
-                                0);
+    const auto add = [&](const char* role, std::vector<float>& data) {
+      library_.set_filter_image(filter.get(), role, data.data(), three_floats, static_cast<std::size_t>(picture.width),
+                                static_cast<std::size_t>(picture.height), 0, 0, 0);
     };
-    std::vector<float>& pixels = name == "color" ? picture.color : name == "albedo" ? picture.albedo : picture.normal;
-    add(filtered, pixels);
+    add(image, pixels);
     add("output", pixels);
-    if (name == "color") {
+    if (guided == Guided::yes) {
       add("albedo", picture.albedo);
       add("normal", picture.normal);
-      library_.set_filter_bool(filter.get(), "hdr", true);
+      library_.set_filter_bool(filter.get(), "hdr", hdr);
+      library_.set_filter_bool(filter.get(), "srgb", !hdr);  // what is from 0 to 1 is filtered as it is
       library_.set_filter_bool(filter.get(), "cleanAux", true);
     }
     const auto goes_on = [](void* data, double) { return !(*static_cast<const std::function<bool()>*>(data))(); };
@@ -170,12 +171,16 @@ class Device {
 
 std::string denoiser_name() { return "Open Image Denoise " + Device(1).version(); }
 
-std::optional<std::vector<float>> denoised(NoisyPicture picture, int threads, const std::function<bool()>& stop) {
+std::optional<DenoiserPicture> denoised(DenoiserPicture picture, int threads, const std::function<bool()>& stop) {
+  using enum Device::Guided;
   const Device device(threads);
-  // First what guides the colour, so that its own noise shows nowhere.
-  for (const char* const filtered : {"albedo", "normal", "color"})
-    if (!device.filter(picture, filtered, stop)) return std::nullopt;
-  return std::move(picture.color);
+  // First what guides the others, so that its own noise shows nowhere.
+  if (!device.filter(picture, picture.albedo, "albedo", no, false, stop) ||
+      !device.filter(picture, picture.normal, "normal", no, false, stop) ||
+      !device.filter(picture, picture.color, "color", yes, true, stop))
+    return std::nullopt;
+  if (!picture.alpha.empty() && !device.filter(picture, picture.alpha, "color", yes, false, stop)) return std::nullopt;
+  return picture;
 }
 
 }  // namespace raytrace

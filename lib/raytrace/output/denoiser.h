@@ -14,9 +14,10 @@
 namespace raytrace {
 
 /// Rows from the top, without gaps, three numbers a pixel.
-struct NoisyPicture {
+struct DenoiserPicture {
   int width = 0, height = 0;
   std::vector<float> color;   ///< linear radiance; what is below 0 becomes 0
+  std::vector<float> alpha;   ///< from 0 to 1, three times the same; empty: the picture has none
   std::vector<float> albedo;  ///< from 0 to 1; may have noise, as the next
   std::vector<float> normal;  ///< of length 1 at most, in any space
 };
@@ -24,9 +25,9 @@ struct NoisyPicture {
 /// "Open Image Denoise 2.5.1". Throws OutputError, with what to do, if there is none.
 std::string denoiser_name();
 
-/// The colours without noise. none: `stop`, which is asked now and then, said so. threads: 0: all processors; the
+/// The picture without noise. none: `stop`, which is asked now and then, said so. threads: 0: all processors; the
 /// result does not depend on it, but may on the kind of processor. Throws OutputError if there is no denoiser, or if it
 /// fails; std::bad_alloc.
-std::optional<std::vector<float>> denoised(NoisyPicture picture, int threads, const std::function<bool()>& stop);
+std::optional<DenoiserPicture> denoised(DenoiserPicture picture, int threads, const std::function<bool()>& stop);
 
 }  // namespace raytrace
