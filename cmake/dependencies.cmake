@@ -53,6 +53,17 @@ endmacro()
 raytrace_codec(draco 1.5.5 draco::draco RAYTRACE_DRACO KHR_draco_mesh_compression)
 raytrace_codec(meshoptimizer 0.18 meshoptimizer::meshoptimizer RAYTRACE_MESHOPTIMIZER EXT_meshopt_compression)
 
+# What converts models of other formats, in a program of its own. Without it, such files are refused by an error that names it.
+find_package(assimp CONFIG QUIET)
+if(assimp_FOUND AND assimp_VERSION VERSION_LESS 5.2)
+  set(assimp_FOUND OFF)
+endif()
+if(assimp_FOUND)
+  list(APPEND raytrace_codec_definitions RAYTRACE_ASSIMP) # for tests: nothing in the library knows of it
+else()
+  message(STATUS "assimp 5.2 or later is not installed: .fbx, .dae and other models will be refused")
+endif()
+
 # Standalone Asio: headers alone, and no CMake files in Debian's package.
 find_path(ASIO_INCLUDE_DIR asio.hpp REQUIRED)
 mark_as_advanced(ASIO_INCLUDE_DIR)

@@ -6,6 +6,9 @@ set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/raytrace)
 
 install(TARGETS raytrace_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS raytrace_openimageio LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/raytrace)
+if(TARGET raytrace_convert)
+  install(TARGETS raytrace_convert RUNTIME DESTINATION ${CMAKE_INSTALL_LIBDIR}/raytrace)
+endif()
 install(TARGETS raytrace EXPORT raytraceTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})

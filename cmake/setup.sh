@@ -10,7 +10,7 @@ program_packages="
   cmake ninja-build g++ pkg-config
   libembree-dev libopenimageio-dev openimageio-tools libopenexr-dev libpng-dev libjpeg-dev libwebp-dev zlib1g-dev libtbb-dev
   libxsimd-dev libcli11-dev nlohmann-json3-dev libtinyxml2-dev libxxhash-dev libasio-dev
-  libdraco-dev libmeshoptimizer-dev
+  libdraco-dev libmeshoptimizer-dev libassimp-dev
 "
 # What tests and benchmarks need besides.
 packages="

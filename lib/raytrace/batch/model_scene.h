@@ -31,7 +31,8 @@ struct ModelStage {
   std::optional<std::array<double, 2>> sun;  ///< where it is, by its angles
 };
 
-/// Whether it is one of those files, by its extension: .glb, .gltf, .obj, .ply, .stl, perhaps with .gz behind.
+/// Whether it is one of those files, by its extension: .glb, .gltf, .obj, .ply, .stl, perhaps with .gz behind, or
+/// one of converted_types (import/converted_model.h).
 bool is_model(const std::string& file);
 
 /// The model in the file's lights, exposed by its own brightness since they may be of any; where there are none in a

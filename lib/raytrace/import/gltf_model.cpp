@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "raytrace/import/converted_model.h"
 #include "raytrace/import/gltf_animation.h"
 #include "raytrace/import/gltf_draco.h"
 #include "raytrace/import/gltf_instancing.h"
@@ -97,6 +98,7 @@ void ModelReader::check_extensions(Diagnostics& diagnostics) const {
   };
   if (const std::string required = names("extensionsRequired"); !required.empty())
     root_.fail("requires extensions that are not read: " + required);
+  if (is_converted_model(document_.name())) return;  // it says nothing to users of other formats
   if (const std::string used = names("extensionsUsed"); !used.empty())
     diagnostics.warning({}, "uses extensions that are not read: " + used);
 }

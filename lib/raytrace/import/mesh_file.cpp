@@ -12,6 +12,7 @@
 #include <system_error>
 #include <utility>
 
+#include "raytrace/import/converted_model.h"
 #include "raytrace/memory/process_status.h"
 #include "raytrace/parallel/for_each_index.h"
 #include "raytrace/parallel/read_file_at.h"
@@ -84,6 +85,15 @@ bool MeshFile::load(int threads, Diagnostics& diagnostics) {
     return false;
   }
   memory_ = std::move(memory);
+  return true;
+}
+
+bool MeshFile::convert(const std::string& name, Diagnostics& diagnostics) {
+  std::optional<ConvertedModel> model = convert_model(name, diagnostics);
+  if (!model) return false;
+  memory_ = std::move(model->glb);
+  size_ = model->size;
+  file_.reset();
   return true;
 }
 

@@ -40,6 +40,10 @@ class MeshFile {
   /// read, since the file became shorter or its disk failed. Threads may call this at the same time.
   const char* bytes(std::size_t offset, std::size_t count, Scratch& scratch) const;
 
+  /// Replaces its bytes, those of the file of that name, by what convert_model() makes of them. False, and an error, if
+  /// that cannot be done.
+  bool convert(const std::string& name, Diagnostics& diagnostics);
+
   /// Reads all of it into memory, if it is not yet there. False, and an error, if it cannot be read.
   bool load(int threads, Diagnostics& diagnostics);
 

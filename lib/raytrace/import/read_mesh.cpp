@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "raytrace/import/converted_model.h"
 #include "raytrace/import/mesh_faces.h"
 #include "raytrace/import/mesh_file.h"
 #include "raytrace/import/mesh_readers.h"
@@ -28,20 +29,24 @@ std::string mesh_type(const std::string& file) {
 
 bool is_mesh_file(const std::string& file) {
   const std::string type = mesh_type(file);
-  return type == ".ply" || type == ".obj" || type == ".stl" || type == ".gltf" || type == ".glb";
+  return type == ".ply" || type == ".obj" || type == ".stl" || type == ".gltf" || type == ".glb" ||
+         is_converted_model(file);
 }
 
 std::optional<MeshData> read_mesh(const std::string& name, const MeshReadSettings& settings, Diagnostics& diagnostics) {
   if (!is_mesh_file(name)) {
-    diagnostics.error(
-        {}, "is no mesh by its name, which ends in none of .ply, .obj, .stl, .gltf and .glb, perhaps with .gz behind");
+    diagnostics.error({},
+                      "is no mesh by its name, which ends in none of .ply, .obj, .stl, .gltf and .glb, perhaps with "
+                      ".gz behind, and " +
+                          converted_types_text());
     return std::nullopt;
   }
   std::optional<MeshFile> file = MeshFile::open(name, diagnostics);
+  if (file && is_converted_model(name) && !file->convert(name, diagnostics)) file.reset();
   if (!file) return std::nullopt;
   const std::string type = mesh_type(name);
   std::optional<MeshData> mesh;
-  const bool is_gltf = type == ".gltf" || type == ".glb";
+  const bool is_gltf = type == ".gltf" || type == ".glb" || is_converted_model(name);
   if (!is_gltf && !settings.variant.empty()) {
     diagnostics.error({}, "has no material variant " + in_quotes(settings.variant) + ": it is no glTF");
     return std::nullopt;

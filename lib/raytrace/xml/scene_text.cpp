@@ -51,7 +51,7 @@ using namespace std::string_view_literals;
 constexpr const char* picture = "; if it is the picture to write, put -o before it";
 constexpr const char* piece = "; if it is a piece of a picture, use raytrace merge";
 constexpr const char* packed = "; unpack it first";
-constexpr const char* model = ", and models by their names' ends: .glb, .gltf, .obj, .ply and .stl";
+constexpr const char* model = ", and models by their names' ends: .glb, .gltf, .obj, .ply, .stl, .fbx, .blend and others";
 constexpr const char* other_model = ", and models in .glb, .gltf, .obj, .ply and .stl: export it as one of them";
 
 struct FileType {
@@ -64,12 +64,12 @@ constexpr FileType file_types[] = {
     {"ply\n"sv, "a PLY model", model},
     {"ply\r"sv, "a PLY model", model},
     {"glTF"sv, "a glTF model (.glb)", model},
-    {"BLENDER"sv, "a Blender file", other_model},
-    {"Kaydara FBX Binary"sv, "an FBX model", other_model},
-    {"; FBX"sv, "an FBX model", other_model},
+    {"BLENDER"sv, "a Blender file", model},
+    {"Kaydara FBX Binary"sv, "an FBX model", model},
+    {"; FBX"sv, "an FBX model", model},
     {"solid "sv, "an STL model", model},
     {"Ogawa"sv, "an Alembic model", other_model},
-    {"OFF\n"sv, "an OFF model", other_model},
+    {"OFF\n"sv, "an OFF model", model},
     {"PXR-USDC"sv, "a USD scene", other_model},
     {"#usda"sv, "a USD scene", other_model},
     {"##RenderMan"sv, "a RenderMan scene (RIB)"},

@@ -1,0 +1,166 @@
+// Models of other formats: what Assimp makes of them, in a program of its own.
+#include "raytrace/import/converted_model.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "import/support.h"
+#include "support/catch.h"
+#include "support/temporary_folder.h"
+
+namespace raytrace::test {
+
+namespace {
+
+/// Collada: a square in z = 2, from (0, 0) to (3, 3), whose material has this colour or texture.
+std::string square(const std::string& diffuse, const std::string& images = "") {
+  return R"(<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+  <asset><unit meter="1"/><up_axis>Y_UP</up_axis></asset>
+  <library_images>)" +
+         images + R"(</library_images>
+  <library_effects><effect id="e"><profile_COMMON>
+    <newparam sid="s"><surface type="2D"><init_from>i</init_from></surface></newparam>
+    <newparam sid="t"><sampler2D><source>s</source></sampler2D></newparam>
+    <technique sid="c"><lambert><diffuse>)" +
+         diffuse + R"(</diffuse></lambert></technique></profile_COMMON></effect></library_effects>
+  <library_materials><material id="m" name="paint"><instance_effect url="#e"/></material></library_materials>
+  <library_geometries><geometry id="g"><mesh>
+    <source id="p"><float_array id="pa" count="12">0 0 2 3 0 2 3 3 2 0 3 2</float_array><technique_common>
+      <accessor source="#pa" count="4" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+      <param name="Z" type="float"/></accessor></technique_common></source>
+    <source id="u"><float_array id="ua" count="8">0 0 1 0 1 1 0 1</float_array><technique_common>
+      <accessor source="#ua" count="4" stride="2"><param name="S" type="float"/><param name="T" type="float"/></accessor>
+      </technique_common></source>
+    <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+    <polylist count="1" material="m"><input semantic="VERTEX" source="#v" offset="0"/>
+      <input semantic="TEXCOORD" source="#u" offset="1"/><vcount>4</vcount><p>0 0 1 1 2 2 3 3</p></polylist>
+  </mesh></geometry></library_geometries>
+  <library_visual_scenes><visual_scene id="w"><node id="n"><instance_geometry url="#g"><bind_material><technique_common>
+    <instance_material symbol="m" target="#m"/></technique_common></bind_material></instance_geometry></node></visual_scene>
+  </library_visual_scenes>
+  <scene><instance_visual_scene url="#w"/></scene>
+</COLLADA>
+)";
+}
+
+const std::string red = "<color>0.5 0.25 0.125 1</color>";
+const std::string textured = R"(<texture texture="t" texcoord="UV"/>)";
+
+/// What its material says of the base colour.
+MeshParameter base_color(const MeshData& mesh) {
+  for (const MeshParameter& parameter : mesh.materials.at(0).openpbr)
+    if (parameter.name == "base_color") return parameter;
+  return {};
+}
+
+std::string texture_of(const std::string& name_in_file, const std::string& file) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(std::filesystem::path(folder.file(file)).parent_path());
+  write_text(folder.file(file), "of which nobody reads a byte");
+  write_text(folder.file("square.dae"),
+             square(textured, R"(<image id="i"><init_from>)" + name_in_file + "</init_from></image>"));
+  Diagnostics diagnostics(folder.file("square.dae"));
+  const auto mesh = read_mesh(folder.file("square.dae"), {}, diagnostics);
+  INFO(printed(diagnostics, folder.path().string()));
+  REQUIRE(mesh.has_value());
+  std::string found = base_color(*mesh).texture.file;
+  return found.starts_with("./") ? found.substr(2) : found;
+}
+
+/// What is said of a program with these commands, in the place of raytrace-convert.
+std::string refusal_by(const std::string& commands) {
+  const TemporaryFolder folder;
+  const std::string program = folder.file("program"), file = folder.file("a.fbx");
+  write_text(program, "#!/bin/sh\n" + commands + "\n");
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  write_text(file, "a model");
+  Diagnostics diagnostics(file);
+  CHECK_FALSE(convert_model_by(program, file, diagnostics).has_value());
+  return printed(diagnostics, folder.path().string());
+}
+
+}  // namespace
+
+TEST_CASE("converted types are told by the file's name") {
+  for (const char* const name : {"a.fbx", "a/b.FBX", "a.dae", "a.3ds", "a.blend", "a.x"})
+    CHECK(is_converted_model(name));
+  for (const char* const name : {"a.obj", "a.glb", "fbx", "a.fbx.gz", "a.xml"}) CHECK_FALSE(is_converted_model(name));
+  CHECK(is_mesh_file("a.fbx"));
+  CHECK_FALSE(is_mesh_file("a.fbx.gz"));
+}
+
+TEST_CASE("a program that fails, crashes or says nothing is an error of the file") {
+  CHECK(refusal_by("echo 'no such block' >&2; echo more >&2; exit 1") ==
+        "a.fbx: error: cannot be converted to glTF: no such block\n");
+  CHECK(refusal_by("exit 0") == "a.fbx: error: cannot be converted to glTF: Assimp does not say why\n");
+  CHECK(refusal_by("kill -SEGV $$")
+            .starts_with("a.fbx: error: cannot be converted to glTF: Assimp ended by signal 11 ("));
+  CHECK(refusal_by("printf '\\033[1mbold\\n' >&2; exit 3") ==
+        "a.fbx: error: cannot be converted to glTF: \\x1b[1mbold\n");
+  const TemporaryFolder folder;
+  Diagnostics diagnostics(folder.file("a.fbx"));
+  CHECK_FALSE(convert_model_by(folder.file("none"), folder.file("a.fbx"), diagnostics).has_value());
+  CHECK(printed(diagnostics, folder.path().string()) ==
+        "a.fbx: error: cannot be converted to glTF: there is no raytrace-convert, which is built where Assimp "
+        "(libassimp-dev) is installed\n");
+}
+
+TEST_CASE("the program gets the file and a limit, and its output is the model") {
+  const TemporaryFolder folder;
+  const std::string program = folder.file("program"), file = folder.file("a.fbx");
+  write_text(program, "#!/bin/sh\n[ \"$2\" -gt 1000000 ] && cat \"$1\"; cat\n");
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  write_text(file, "a model");
+  Diagnostics diagnostics(file);
+  const auto model = convert_model_by(program, file, diagnostics);
+  REQUIRE(model.has_value());
+  CHECK(std::string(model->glb.data(), model->size) == "a model");
+}
+
+#if defined(RAYTRACE_ASSIMP)
+
+TEST_CASE("Collada becomes a mesh with its material") {
+  const ReadResult read = read_bytes("square.dae", square(red));
+  CHECK(read.messages.empty());
+  REQUIRE(read.mesh.has_value());
+  const MeshData& mesh = *read.mesh;
+  CHECK(mesh.face_count() == 2);
+  CHECK(mesh.vertex_count() >= 4);
+  float most = 0;
+  for (std::size_t i = 0; i < mesh.positions.size(); i += 3) {
+    most = std::max({most, mesh.positions[i], mesh.positions[i + 1]});
+    CHECK(mesh.positions[i + 2] == 2);
+  }
+  CHECK(most == 3);
+  CHECK(mesh.uvs.size() == 2 * mesh.vertex_count());
+  CHECK(mesh.normals.size() == 3 * mesh.vertex_count());
+  const Rgb<double> color = base_color(mesh).value;
+  CHECK(color.red == Approx(0.5));
+  CHECK(color.green == Approx(0.25));
+  CHECK(color.blue == Approx(0.125));
+}
+
+TEST_CASE("textures are found where they are, whatever the machine was that the model was made on") {
+  CHECK(texture_of("paint.png", "paint.png") == "paint.png");
+  CHECK(texture_of("PAINT.PNG", "paint.png") == "paint.png");
+  CHECK(texture_of("C:\\work\\paint.png", "textures/paint.png") == "textures/paint.png");
+  CHECK(texture_of("/home/me/paint.png", "square.fbm/Paint.png") == "square.fbm/Paint.png");
+  CHECK(texture_of("elsewhere.png", "paint.png") == "elsewhere.png");
+}
+
+TEST_CASE("what is no model is refused with Assimp's reason") {
+  for (const std::string& name : {std::string("a.fbx"), std::string("a.dae"), std::string("a.blend")}) {
+    const ReadResult read = read_bytes(name, "hello");
+    CHECK_FALSE(read.mesh.has_value());
+    INFO(read.messages);
+    CHECK(read.messages.starts_with(name + ": error: cannot be converted to glTF: "));
+    CHECK(read.messages.find("does not say why") == std::string::npos);
+  }
+  CHECK(read_bytes("a.fbx", "").messages == "a.fbx: error: is empty\n");
+}
+
+#endif
+
+}  // namespace raytrace::test
