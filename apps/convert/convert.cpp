@@ -37,7 +37,7 @@ void set_limits(rlim_t memory) {
   limit(RLIMIT_CPU, seconds);
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_FSIZE, memory);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(RAYTRACE_SANITIZED)
+#if !defined(RAYTRACE_SANITIZED)  // sanitizers reserve far more than they use
   limit(RLIMIT_AS, memory);
 #endif
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody waits for it then

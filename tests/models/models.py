@@ -10,6 +10,7 @@ ENDINGS = (".gltf", ".glb", ".obj", ".ply", ".stl", ".ply.gz")
 # A few of all kinds, for every commit.
 FEW = [
     "assimp/3DS/cubes_with_alpha.3DS",
+    "assimp/3DS/fels.3ds",
     "assimp/Collada/box_nested_animation.dae",
     "assimp/Collada/duck.dae",
     "assimp/FBX/huesitos.fbx",
@@ -35,6 +36,7 @@ FEW = [
 NO_FACES = "has no faces"
 # What cannot be rendered, by a part of the error. All else must be.
 REFUSED = {
+    "assimp/3DS/cubes_with_alpha.3DS": "the texture 'BERETTA_.JPG' cannot be used",
     "assimp/FBX/transparentTest.fbx": "cannot be converted to glTF: FBX-Tokenize",
     "assimp/LWO/LWOB/ConcavePolygon.lwo": "cannot be converted to glTF: LWO",
     "assimp/OBJ/box_UTF16BE.obj": NO_FACES,
