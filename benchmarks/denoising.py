@@ -12,7 +12,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path.insert(0, os.path.join(ROOT, "tests", "command"))
 from exr import Exr  # noqa: E402
 
-SCENES = [os.path.join(ROOT, "scenes", "gallery", f"{name}.xml") for name in ("window", "room", "neon", "quay")]
+SCENES = [os.path.join(ROOT, "scenes", "gallery", f"{name}.xml") for name in ("window", "room", "neon")]
 SIZE, REFERENCE, FEW = "480x270", 1024, (4, 16, 64)
 
 

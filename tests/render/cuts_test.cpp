@@ -123,6 +123,7 @@ class CutRender {
         finer_(finer),
         samples_(samples),
         transparent_(transparent),
+        single_splats_(seed % 2 == 1),
         description_(small_scene(file, samples)),
         scene_(build_scene(description_, {8, isa})),
         aovs_(aovs_of(description_)),
@@ -156,7 +157,8 @@ class CutRender {
 
   /// whole: that the region is a part of.
   Film empty_film(const Region& region, const SampleRange& samples, const Region& whole) const {
-    FilmSettings settings = film_settings(*scene_, description_, {1, 0, region, samples, aovs_, transparent_, whole});
+    FilmSettings settings =
+        film_settings(*scene_, description_, {1, 0, region, samples, aovs_, transparent_, whole, single_splats_});
     settings.unit_exponent -= finer_;
     return Film(settings);
   }
@@ -270,7 +272,7 @@ class CutRender {
   TemporaryFolder folder_;
   Chance chance_;
   int finer_, samples_;
-  bool transparent_;
+  bool transparent_, single_splats_;
   SceneDescription description_;
   std::unique_ptr<const Scene> scene_;
   AovSet aovs_;

@@ -274,6 +274,7 @@ PieceIdentity identity_of(const ExrReader& piece) {
   identity.frame = piece.attribute<int>(frame_name);
   identity.view = read_view(piece);
   identity.denoise = flag(piece, denoise_name, piece.attribute<int>(denoise_name).value_or(0));
+  film.single_splats = identity.denoise && film.light_paths_of;
   identity.variables = piece.attribute<std::string>(variables_name).value_or("");
   return identity;
 }
@@ -315,6 +316,8 @@ std::optional<std::string> difference(const PieceIdentity& wanted, const PieceId
     return other("the background", text(d), text(c)) + ": use --transparent for all of them, or none";
   }
   if (c.light_paths_of.has_value() != d.light_paths_of.has_value()) return "its light paths: only one has any";
+  if (c.single_splats != d.single_splats)
+    return "its light paths, which differ if the picture is to be denoised: use --denoise for all of them, or none";
   if (c.aovs.wanted != d.aovs.wanted) {
     const auto text = [](const AovSettings& aovs) {
       return aovs.wanted.empty() ? "none" : joined(aov_names(aovs.wanted), ",");

@@ -118,6 +118,7 @@ class PictureRender {
     settings_.samples = sample_range(description_->viewplane, job_);
     settings_.aovs = film_aovs(job_);
     settings_.transparent = job_.transparent;
+    settings_.single_splats = job_.denoise;
     film_content_ = film_content();
     identity_.film = film_settings(*scene_, *description_, settings_);
     if (const auto warning = rounding_warning(*scene_, identity_.film)) report(MessageLevel::warning, *warning);

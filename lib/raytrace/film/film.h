@@ -77,6 +77,9 @@ struct FilmSettings {
   /// of it is rendered: these are the pixels whose samples and light paths it takes. None: there are no light paths,
   /// and all its pixels are.
   std::optional<Region> light_paths_of = std::nullopt;
+  /// What a light path brings goes to one of the pixels that the filter would spread it over, by chance, so that the
+  /// noise of each pixel is its own: a denoiser takes noise that pixels share for a texture.
+  bool single_splats = false;
   Region rendered() const { return light_paths_of.value_or(extent.region); }
   friend bool operator==(const FilmSettings&, const FilmSettings&) = default;
 };

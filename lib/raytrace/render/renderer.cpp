@@ -155,6 +155,7 @@ FilmSettings film_settings(const Scene& scene, const SceneDescription& descripti
     throw RenderError("the region to render has no pixel");
   if (scene.traces_light_paths()) {
     film.light_paths_of = film.extent.region;
+    film.single_splats = settings.single_splats;
     if (settings.whole != Region()) film.extent.region = settings.whole;
   }
   film.samples = settings.samples.value_or(SampleRange{0, all, all == 1});

@@ -22,6 +22,7 @@ struct RenderSettings {
   AovSet aovs{};
   bool transparent = false;  ///< FilmSettings::transparent
   Region whole{};  ///< the picture or crop that the region is of: films with light paths hold it; not set: the region
+  bool single_splats = false;  ///< FilmSettings::single_splats, if there are light paths
 };
 
 struct RenderProgress {

@@ -6,6 +6,8 @@
 #include <variant>
 
 #include "raytrace/math/frame.h"
+#include "raytrace/sampling/footprint.h"
+#include "raytrace/sampling/hash.h"
 #include "raytrace/sampling/pixel_sampler.h"
 #include "raytrace/sampling/sampler.h"
 #include "raytrace/tracing/direct_light.h"
@@ -137,15 +139,18 @@ void LightPaths::splat(const LightPathPacket& path, std::size_t lane, const Film
   const double x = point.x + extent.full_width / 2.0, y = extent.full_height / 2.0 - point.y, reach = filter.reach();
   const Region& region = film_.region();
   if (!(x > region.x0 - reach && x < region.x1 + reach && y > region.y0 - reach && y < region.y1 + reach)) return;
-  const auto first = [&](double at) { return static_cast<int>(std::ceil(at - reach - 0.5)); };
-  const auto last = [&](double at) { return static_cast<int>(std::floor(at + reach - 0.5)); };
-  const int column = static_cast<int>(std::floor(x)), row = static_cast<int>(std::floor(y));
-  const bool moves = filter.moves_samples();
-  for (int to_y = moves ? first(y) : row; to_y <= (moves ? last(y) : row); ++to_y)
-    for (int to_x = moves ? first(x) : column; to_x <= (moves ? last(x) : column); ++to_x) {
+  const bool single = film_.settings().single_splats;
+  const auto chance = [&](std::uint32_t axis) -> std::optional<double> {
+    constexpr std::uint32_t purpose = 0x73706c61;
+    if (!single) return std::nullopt;
+    const auto depth = static_cast<std::uint32_t>(path.depth);
+    return hash<std::uint32_t>(path.pixel.get(lane), path.sample.get(lane), depth, purpose + axis) * 0x1p-32;
+  };
+  const Footprint columns(filter, x, chance(0)), rows(filter, y, chance(1));
+  for (int to_y = rows.first(); to_y <= rows.last(); ++to_y)
+    for (int to_x = columns.first(); to_x <= columns.last(); ++to_x) {
       if (to_x < region.x0 || to_x >= region.x1 || to_y < region.y0 || to_y >= region.y1) continue;
-      const double share =
-          moves ? filter.density(x - to_x - 0.5) * filter.density(y - to_y - 0.5) / pixels : 1 / pixels;
+      const double share = columns.share(to_x) * rows.share(to_y) / pixels;
       if (share == 0) continue;
       RadianceSum units;
       std::size_t channel = 0;
