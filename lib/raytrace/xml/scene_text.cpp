@@ -51,7 +51,8 @@ using namespace std::string_view_literals;
 constexpr const char* picture = "; if it is the picture to write, put -o before it";
 constexpr const char* piece = "; if it is a piece of a picture, use raytrace merge";
 constexpr const char* packed = "; unpack it first";
-constexpr const char* model = ", and models by their names' ends: .glb, .gltf, .obj, .ply, .stl, .fbx, .blend and others";
+constexpr const char* model =
+    ", and models by their names' ends: .glb, .gltf, .obj, .ply, .stl, .fbx, .blend and others";
 constexpr const char* other_model = ", and models in .glb, .gltf, .obj, .ply and .stl: export it as one of them";
 
 struct FileType {
