@@ -15,7 +15,7 @@ TEST_CASE("a file of another format is named by what it seems to be") {
                                 "; raytrace reads scenes in XML, which start with <raytracer>" + advice + "\n");
   };
   const std::string obj = "a Wavefront OBJ model";
-  const std::string model = ", and models by their names' ends: .glb, .gltf, .obj, .ply and .stl",
+  const std::string model = ", and models by their names' ends: .glb, .gltf, .obj, .ply, .stl, .fbx, .dae and others",
                     other = ", and models in .glb, .gltf, .obj, .ply and .stl: export it as one of them",
                     povray = "; docs/from-pov-ray.md tells how to come over";
   check("# Blender v3.4\nmtllib a.mtl\no Cube\nv 1 1 1\n", obj, model);
@@ -27,6 +27,7 @@ TEST_CASE("a file of another format is named by what it seems to be") {
   check("glTF\2\0\0\0"s, "a glTF model (.glb)", model);
   check("{ \"asset\": { \"version\": \"2.0\" } }", "a glTF model", model);
   check("BLENDER-v300", "a Blender file", other);
+  check("Kaydara FBX Binary  \0"s, "an FBX model", model);
   check("\x28\xb5\x2f\xfd\0"s, "packed with zstd, as Blender does with its files", "; unpack it first");
   check("\x1f\x8b\x08\0"s, "packed with gzip", "; unpack it first");
   check("\x89PNG\r\n\x1a\n\0"s, "a PNG picture", "; if it is the picture to write, put -o before it");

@@ -185,7 +185,8 @@ GgxShares ggx_share_changes(const FloatN& cosine, const FloatN& roughness, const
   GgxShares sum{{zero, zero, zero}, {zero, zero, zero}};
   for (int i = 0; i < turns * heights; ++i) {
     const float root = (static_cast<float>(i % heights) + 0.5F) / heights;
-    const FloatN turn((static_cast<float>(i / heights) + 0.5F) * 0.5F / turns), weight(root * 2 / (turns * heights));
+    const int ring = i / heights;
+    const FloatN turn((static_cast<float>(ring) + 0.5F) * 0.5F / turns), weight(root * 2 / (turns * heights));
     const Vec3<FloatN> facet = ggx.sample_facet(wo, turn, FloatN(1 - root * root));
     const FloatN c = min(max(dot(wo, facet), zero), one);
     const FresnelReflection<FloatN> bare = fresnel_reflection(c, eta);

@@ -51,8 +51,7 @@ using namespace std::string_view_literals;
 constexpr const char* picture = "; if it is the picture to write, put -o before it";
 constexpr const char* piece = "; if it is a piece of a picture, use raytrace merge";
 constexpr const char* packed = "; unpack it first";
-constexpr const char* model =
-    ", and models by their names' ends: .glb, .gltf, .obj, .ply, .stl, .fbx, .blend and others";
+constexpr const char* model = ", and models by their names' ends: .glb, .gltf, .obj, .ply, .stl, .fbx, .dae and others";
 constexpr const char* other_model = ", and models in .glb, .gltf, .obj, .ply and .stl: export it as one of them";
 
 struct FileType {
@@ -65,7 +64,7 @@ constexpr FileType file_types[] = {
     {"ply\n"sv, "a PLY model", model},
     {"ply\r"sv, "a PLY model", model},
     {"glTF"sv, "a glTF model (.glb)", model},
-    {"BLENDER"sv, "a Blender file", model},
+    {"BLENDER"sv, "a Blender file", other_model},
     {"Kaydara FBX Binary"sv, "an FBX model", model},
     {"; FBX"sv, "an FBX model", model},
     {"solid "sv, "an STL model", model},
