@@ -84,7 +84,7 @@ labels_of() {
 
 # targets_of TIER: what must be built for its tests.
 targets_of() {
-  printf 'raytrace_program raytrace_manual'
+  printf 'raytrace_program raytrace_manual fake_denoiser'
   for label in $(labels_of "$1" | tr '^(|)$' ' '); do
     for source in "$root/tests/$label"/*_test.cpp; do
       [ ! -f "$source" ] || { printf ' %s_tests' "$label" && break; }

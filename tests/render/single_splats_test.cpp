@@ -9,7 +9,6 @@
 #include "raytrace/sampling/footprint.h"
 #include "render/scenes.h"
 #include "support/catch.h"
-#include "support/sanitized.h"
 
 namespace raytrace::test {
 
@@ -33,7 +32,7 @@ struct Splats {
 };
 
 Splats splats_of(bool single) {
-  const int renders = is_sanitized ? 20 : 60;
+  constexpr int renders = 60;
   const SceneDescription description = parsed_scene(scene_text_of_mirror);
   const auto scene = build_scene(description, {1, {}});
   const Region all = whole(description);
