@@ -44,27 +44,30 @@ std::string mode() {
 // NOLINTBEGIN(readability-identifier-naming): the library's
 extern "C" {
 
-Device* oidnNewDevice(int type) { return type == 1 ? new Device : nullptr; }
-void oidnSetDeviceInt(Device*, const char*, int) {}
-void oidnSetDeviceBool(Device*, const char*, bool) {}
-int oidnGetDeviceInt(Device*, const char* name) { return std::string(name) == "version" ? 20304 : 0; }
-void oidnCommitDevice(Device* device) { device->committed = true; }
-void oidnReleaseDevice(Device* device) { delete device; }
+void* oidnNewDevice(int type) { return type == 1 ? new Device : nullptr; }
+void oidnSetDeviceInt(void*, const char*, int) {}
+void oidnSetDeviceBool(void*, const char*, bool) {}
+int oidnGetDeviceInt(void*, const char* name) { return std::string(name) == "version" ? 20304 : 0; }
+void oidnCommitDevice(void* device) { static_cast<Device*>(device)->committed = true; }
+void oidnReleaseDevice(void* device) { delete static_cast<Device*>(device); }
 
-int oidnGetDeviceError(Device* device, const char** message) {
+int oidnGetDeviceError(void* handle, const char** message) {
+  auto* const device = static_cast<Device*>(handle);
   *message = device->message.c_str();
   const int error = device->error;
   device->error = 0;
   return error;
 }
 
-Filter* oidnNewFilter(Device* device, const char* type) {
+void* oidnNewFilter(void* handle, const char* type) {
+  auto* const device = static_cast<Device*>(handle);
   return device->committed && std::string(type) == "RT" ? new Filter(device) : nullptr;
 }
 
-void oidnSetSharedFilterImage(Filter* filter, const char* name, void* data, int format, std::size_t width,
+void oidnSetSharedFilterImage(void* handle, const char* name, void* data, int format, std::size_t width,
                               std::size_t height, std::size_t offset, std::size_t pixel_stride,
                               std::size_t row_stride) {
+  auto* const filter = static_cast<Filter*>(handle);
   constexpr int three_floats = 3;
   if (format != three_floats || offset != 0 || pixel_stride != 0 || row_stride != 0) {
     filter->device->error = 2;
@@ -74,16 +77,20 @@ void oidnSetSharedFilterImage(Filter* filter, const char* name, void* data, int 
   filter->numbers = 3 * width * height;
 }
 
-void oidnSetFilterBool(Filter* filter, const char* name, bool value) { filter->flags[name] = value; }
+void oidnSetFilterBool(void* filter, const char* name, bool value) {
+  static_cast<Filter*>(filter)->flags[name] = value;
+}
 
-void oidnSetFilterProgressMonitorFunction(Filter* filter, bool (*monitor)(void*, double), void* data) {
+void oidnSetFilterProgressMonitorFunction(void* handle, bool (*monitor)(void*, double), void* data) {
+  auto* const filter = static_cast<Filter*>(handle);
   filter->monitor = monitor;
   filter->monitor_data = data;
 }
 
-void oidnCommitFilter(Filter* filter) { filter->committed = true; }
+void oidnCommitFilter(void* filter) { static_cast<Filter*>(filter)->committed = true; }
 
-void oidnExecuteFilter(Filter* filter) {
+void oidnExecuteFilter(void* handle) {
+  auto* const filter = static_cast<Filter*>(handle);
   Device& device = *filter->device;
   if (mode() == "fails" || mode() == "memory") {
     device.error = mode() == "fails" ? 1 : 4;
@@ -113,7 +120,7 @@ void oidnExecuteFilter(Filter* filter) {
   }
 }
 
-void oidnReleaseFilter(Filter* filter) { delete filter; }
+void oidnReleaseFilter(void* filter) { delete static_cast<Filter*>(filter); }
 
 }  // extern "C"
 // NOLINTEND(readability-identifier-naming)

@@ -19,8 +19,8 @@ namespace {
 // What we use of the library's interface, whose headers only its own packages have: names, types and numbers are those
 // of https://www.openimagedenoise.org/documentation.html.
 
-struct DeviceHandle;
-struct FilterHandle;
+using DeviceHandle = void;
+using FilterHandle = void;
 using ProgressMonitor = bool(void* data, double done);
 
 constexpr int cpu_device = 1;
