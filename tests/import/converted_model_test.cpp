@@ -83,7 +83,7 @@ std::string refusal_by(const std::string& commands) {
 
 }  // namespace
 
-TEST_CASE("converted types are told by the file's name") {
+TEST_CASE("converted types are recognized by the file's name") {
   for (const char* const name : {"a.fbx", "a/b.FBX", "a.dae", "a.3ds", "a.blend", "a.x"})
     CHECK(is_converted_model(name));
   for (const char* const name : {"a.obj", "a.glb", "fbx", "a.fbx.gz", "a.xml"}) CHECK_FALSE(is_converted_model(name));
