@@ -12,6 +12,7 @@
 #include <iterator>
 #include <system_error>
 
+#include "raytrace/import/mesh_file.h"
 #include "raytrace/memory/process_status.h"
 #include "raytrace/parallel/read_file_at.h"
 #include "raytrace/text/message.h"
@@ -82,10 +83,8 @@ std::string converter() {
 }  // namespace
 
 bool is_converted_model(const std::string& file) {
-  std::string type = std::filesystem::path(file).extension();
-  std::transform(type.begin(), type.end(), type.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return std::find(std::begin(converted_types), std::end(converted_types), type) != std::end(converted_types);
+  return !file.ends_with(".gz") && std::find(std::begin(converted_types), std::end(converted_types), mesh_type(file)) !=
+                                       std::end(converted_types);
 }
 
 std::string converted_types_text() {

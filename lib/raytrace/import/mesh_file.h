@@ -12,6 +12,9 @@
 
 namespace raytrace {
 
+/// By its name, in lower case: ".ply" of "a/b.PLY.gz".
+std::string mesh_type(const std::string& file);
+
 class MeshFile {
  public:
   /// Memory that bytes() may need, of one thread.

@@ -13,20 +13,6 @@
 #include "raytrace/text/message.h"
 
 namespace raytrace {
-namespace {
-
-/// ".ply" of "a/b.PLY.gz".
-std::string mesh_type(const std::string& file) {
-  std::filesystem::path path(file);
-  if (path.extension() == ".gz") path = path.stem();
-  std::string type = path.extension().string();
-  std::transform(type.begin(), type.end(), type.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return type;
-}
-
-}  // namespace
-
 bool is_mesh_file(const std::string& file) {
   const std::string type = mesh_type(file);
   return type == ".ply" || type == ".obj" || type == ".stl" || type == ".gltf" || type == ".glb" ||
