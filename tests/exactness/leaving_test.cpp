@@ -88,7 +88,7 @@ void check_leaving(const std::string& kind) {
   const std::vector<std::string> isas = usable_isas();
   for (const std::string& isa : isas) {
     Random random(815);
-    LeavingTally packets, singles;
+    LeavingTally packets, scattered, singles;
     const int rays_of_isa = isa == isas.back() ? rays_a_shape : rays_a_shape / 10;
     for (int scene = ray_count(rays_of_isa) / rays_a_scene; scene >= 0; --scene) {
       const ShapeCase shape = random_shape_case(kind, random);
@@ -105,14 +105,21 @@ void check_leaving(const std::string& kind) {
         arrived.push_back(left[i]);
         leaving.push_back({left[i].offset_ray_origin, rounded(direction)});
       }
-      // Half of the scenes each: leaving a surface is the same for both, and meeting one is the other tests' concern.
-      const bool in_packets = scene % 2 == 0;
-      const std::vector<ProbeHit> hits = in_packets ? probe.intersect_packet(leaving) : probe.intersect_single(leaving);
+      // A third of the scenes each: leaving a surface is the same for both, and meeting one is the other tests'
+      // concern.
+      const int way = scene % 3;
+      const std::vector<ProbeHit> hits = way == 0   ? probe.intersect_packet(leaving)
+                                         : way == 1 ? probe.intersect_scattered(leaving)
+                                                    : probe.intersect_single(leaving);
       for (std::size_t i = 0; i < leaving.size(); ++i) {
-        (in_packets ? packets : singles).count(shape, arriving[i], arrived[i], leaving[i], hits[i]);
+        (way == 0   ? packets
+         : way == 1 ? scattered
+                    : singles)
+            .count(shape, arriving[i], arrived[i], leaving[i], hits[i]);
       }
     }
-    for (const auto& [queries, tally] : {std::pair{"packets", packets}, std::pair{"single rays", singles}}) {
+    for (const auto& [queries, tally] :
+         {std::pair{"packets", packets}, std::pair{"scattered rays", scattered}, std::pair{"single rays", singles}}) {
       INFO(kind << ", " << isa << ", " << queries << ": " << tally.rays << " rays, " << tally.free << " free, "
                 << tally.blocked << " blocked, " << tally.uncertain << " uncertain");
       {

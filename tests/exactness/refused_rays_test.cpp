@@ -47,6 +47,16 @@ bool same(const ProbeHit& a, const ProbeHit& b) {
   return a.hit == b.hit && (!a.hit || (a.distance == b.distance && a.kind == b.kind && a.index == b.index));
 }
 
+struct Way {
+  const char* name;
+  std::vector<ProbeHit> (Probe::*intersect)(std::span<const ProbeRay>) const;
+  std::vector<bool> (Probe::*occluded)(std::span<const ProbeRay>) const;
+};
+
+constexpr Way ways[] = {{"packets", &Probe::intersect_packet, &Probe::occluded_packet},
+                        {"scattered rays", &Probe::intersect_scattered, &Probe::occluded_scattered},
+                        {"single rays", &Probe::intersect_single, &Probe::occluded_single}};
+
 }  // namespace
 
 TEST_CASE("rays that Embree cannot take miss and leave the other lanes alone") {
@@ -72,11 +82,10 @@ TEST_CASE("rays that Embree cannot take miss and leave the other lanes alone") {
         bad.push_back(random.chance(0.4));
         mixed.push_back(!bad.back() ? ray : random.chance(0.8) ? spoilt(ray, random) : without_interval(ray, random));
       }
-      for (const bool packets : {false, true}) {
-        INFO(isa << (packets ? ", packets" : ", single rays") << ", round " << round);
-        const auto before = packets ? probe.intersect_packet(good) : probe.intersect_single(good);
-        const auto after = packets ? probe.intersect_packet(mixed) : probe.intersect_single(mixed);
-        const auto occluded = packets ? probe.occluded_packet(mixed) : probe.occluded_single(mixed);
+      for (const Way& way : ways) {
+        INFO(isa << ", " << way.name << ", round " << round);
+        const auto before = (probe.*way.intersect)(good), after = (probe.*way.intersect)(mixed);
+        const auto occluded = (probe.*way.occluded)(mixed);
         for (std::size_t i = 0; i < good.size(); ++i) {
           INFO(replay(*target.shape, mixed[i]));
           if (bad[i]) {

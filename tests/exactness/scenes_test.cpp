@@ -17,6 +17,7 @@ void for_each_isa_and_query(const SceneDescription& description, std::span<const
   for (const std::string& isa : usable_isas()) {
     const Probe probe(description, isa);
     check(isa + ", single rays", probe.intersect_single(rays), probe.occluded_single(rays));
+    check(isa + ", scattered rays", probe.intersect_scattered(rays), probe.occluded_scattered(rays));
     check(isa + ", native packets", probe.intersect_packet(rays), probe.occluded_packet(rays));
     for (const int size : {4, 8, 16}) {
       check(isa + ", Embree's packets of " + std::to_string(size), probe.intersect_embree(rays, size),

@@ -26,12 +26,14 @@ struct Query {
   std::function<std::vector<bool>(const Probe&, std::span<const ProbeRay>)> occluded;
 };
 
-bool is_native(const Query& query) { return query.name == "single rays" || query.name == "native packets"; }
+bool is_native(const Query& query) { return query.name.starts_with("single") || query.name.starts_with("native"); }
 
 std::vector<Query> queries() {
   std::vector<Query> all = {
       {"single rays", [](const Probe& probe, auto rays) { return probe.intersect_single(rays); },
        [](const Probe& probe, auto rays) { return probe.occluded_single(rays); }},
+      {"scattered rays", [](const Probe& probe, auto rays) { return probe.intersect_scattered(rays); },
+       [](const Probe& probe, auto rays) { return probe.occluded_scattered(rays); }},
       {"native packets", [](const Probe& probe, auto rays) { return probe.intersect_packet(rays); },
        [](const Probe& probe, auto rays) { return probe.occluded_packet(rays); }}};
   for (const int size : {4, 8, 16}) {

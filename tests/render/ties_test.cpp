@@ -76,6 +76,7 @@ std::vector<ProbeHit> hits_of(const Probe& probe, const Vec3f& origin, const std
     CHECK(wrong == 0);
   };
   check("single rays", probe.intersect_single(rays));
+  check("scattered rays", probe.intersect_scattered(rays));
   for (const int size : {4, 8, 16})
     check(("Embree's packets of " + std::to_string(size)).c_str(), probe.intersect_embree(rays, size));
   const auto from_buffer = probe.intersect_seen_from(origin, rays);
@@ -123,11 +124,13 @@ TEST_CASE("wherever rays come from, copies of a surface are hit in the same orde
       INFO(isa << ": " << shape.group);
       int hits = 0, others = 0;
       // So many in one place are for Embree: there is no direction buffer of them.
-      const std::vector<ProbeHit> wanted = probe.intersect_packet(rays), single = probe.intersect_single(rays);
+      const std::vector<ProbeHit> wanted = probe.intersect_packet(rays), single = probe.intersect_single(rays),
+                                  scattered = probe.intersect_scattered(rays);
       for (std::size_t i = 0; i < rays.size(); ++i) {
         hits += wanted[i].hit;
         others += wanted[i].hit && (wanted[i].index != 0 || wanted[i].kind != registry_index(shape.group));
         CHECK(same_hit(single[i], wanted[i]));
+        CHECK(same_hit(scattered[i], wanted[i]));
       }
       CHECK(hits > 500);
       CHECK(others == 0);

@@ -28,11 +28,15 @@ Probe::Probe(const SceneDescription& description, const std::string& isa)
 Probe::~Probe() = default;
 
 std::vector<ProbeHit> Probe::intersect_single(std::span<const ProbeRay> rays) const {
-  return implementation_->backend->intersect(rays, false);
+  return implementation_->backend->intersect(rays, ProbeWay::single);
+}
+
+std::vector<ProbeHit> Probe::intersect_scattered(std::span<const ProbeRay> rays) const {
+  return implementation_->backend->intersect(rays, ProbeWay::scattered);
 }
 
 std::vector<ProbeHit> Probe::intersect_packet(std::span<const ProbeRay> rays) const {
-  return implementation_->backend->intersect(rays, true);
+  return implementation_->backend->intersect(rays, ProbeWay::packets);
 }
 
 std::vector<ProbeHit> Probe::intersect_embree(std::span<const ProbeRay> rays, int packet_size) const {
@@ -40,11 +44,15 @@ std::vector<ProbeHit> Probe::intersect_embree(std::span<const ProbeRay> rays, in
 }
 
 std::vector<bool> Probe::occluded_single(std::span<const ProbeRay> rays) const {
-  return implementation_->backend->occluded(rays, false);
+  return implementation_->backend->occluded(rays, ProbeWay::single);
+}
+
+std::vector<bool> Probe::occluded_scattered(std::span<const ProbeRay> rays) const {
+  return implementation_->backend->occluded(rays, ProbeWay::scattered);
 }
 
 std::vector<bool> Probe::occluded_packet(std::span<const ProbeRay> rays) const {
-  return implementation_->backend->occluded(rays, true);
+  return implementation_->backend->occluded(rays, ProbeWay::packets);
 }
 
 std::vector<bool> Probe::occluded_embree(std::span<const ProbeRay> rays, int packet_size) const {

@@ -38,8 +38,10 @@ class Probe {
   Probe(const SceneDescription& description, const std::string& isa);
   ~Probe();
 
-  /// Nearest hits, one ray a query.
+  /// Nearest hits, one ray a query of Embree's.
   std::vector<ProbeHit> intersect_single(std::span<const ProbeRay> rays) const;
+  /// The same as paths ask for them: with all objects where they are few, else as before.
+  std::vector<ProbeHit> intersect_scattered(std::span<const ProbeRay> rays) const;
   /// The same by packets of the variant's native width (consecutive rays share one; the last one is filled up with
   /// inactive lanes).
   std::vector<ProbeHit> intersect_packet(std::span<const ProbeRay> rays) const;
@@ -49,8 +51,9 @@ class Probe {
   /// Nearest hits of rays from `point`, with directions of unit length, by packets that know what is seen from there;
   /// none if the accelerator sees nothing to gain.
   std::optional<std::vector<ProbeHit>> intersect_seen_from(const Vec3f& point, std::span<const ProbeRay> rays) const;
-  /// Whether anything lies between near and far; the same three ways.
+  /// Whether anything lies between near and far; the same ways.
   std::vector<bool> occluded_single(std::span<const ProbeRay> rays) const;
+  std::vector<bool> occluded_scattered(std::span<const ProbeRay> rays) const;
   std::vector<bool> occluded_packet(std::span<const ProbeRay> rays) const;
   std::vector<bool> occluded_embree(std::span<const ProbeRay> rays, int packet_size) const;
   /// Of rays that go to `place`: a point, to which their direction leads, or infinitely far, with `place` for

@@ -5,12 +5,14 @@
 
 namespace raytrace::test {
 
+enum class ProbeWay { single, scattered, packets };
+
 class ProbeBackend {
  public:
   virtual ~ProbeBackend() = default;
-  virtual std::vector<ProbeHit> intersect(std::span<const ProbeRay> rays, bool coherent) const = 0;
+  virtual std::vector<ProbeHit> intersect(std::span<const ProbeRay> rays, ProbeWay way) const = 0;
   virtual std::vector<ProbeHit> intersect_embree(std::span<const ProbeRay> rays, int packet_size) const = 0;
-  virtual std::vector<bool> occluded(std::span<const ProbeRay> rays, bool coherent) const = 0;
+  virtual std::vector<bool> occluded(std::span<const ProbeRay> rays, ProbeWay way) const = 0;
   virtual std::vector<bool> occluded_embree(std::span<const ProbeRay> rays, int packet_size) const = 0;
   virtual std::optional<std::vector<ProbeHit>> intersect_seen_from(const Vec3f& point,
                                                                    std::span<const ProbeRay> rays) const = 0;

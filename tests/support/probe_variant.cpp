@@ -96,32 +96,31 @@ class Backend final : public ProbeBackend {
  public:
   explicit Backend(const SceneDescription& description)
       : tables_(description, 1),
-        accelerator_(tables_.geometry(), 1,
-                     register_lanes == 16  ? "avx512"
-                     : register_lanes == 8 ? "avx2"
-                                           : "sse4.2",
-                     tables_.fogs()) {}
-
-  std::vector<ProbeHit> intersect(std::span<const ProbeRay> all, bool coherent) const override {
-    return intersect(all, coherence(coherent), nullptr);
+        accelerator_(tables_.geometry(), 1, embree_isa, tables_.fogs()),
+        embree_alone_(tables_.geometry(), 1, embree_isa, tables_.fogs()) {
+    embree_alone_.use_embree_alone();
   }
 
-  std::vector<bool> occluded(std::span<const ProbeRay> all, bool coherent) const override {
-    return occluded(all, coherence(coherent), nullptr);
+  std::vector<ProbeHit> intersect(std::span<const ProbeRay> all, ProbeWay way) const override {
+    return intersect(all, way, nullptr);
+  }
+
+  std::vector<bool> occluded(std::span<const ProbeRay> all, ProbeWay way) const override {
+    return occluded(all, way, nullptr);
   }
 
   std::optional<std::vector<ProbeHit>> intersect_seen_from(const Vec3f& point,
                                                            std::span<const ProbeRay> all) const override {
     const auto seen = seen_from({point});
     if (!seen) return std::nullopt;
-    return intersect(all, Coherence::coherent, &*seen);
+    return intersect(all, ProbeWay::packets, &*seen);
   }
 
   std::optional<std::vector<bool>> occluded_seen_from(const Vec3f& place, bool infinitely_far,
                                                       std::span<const ProbeRay> all) const override {
     const auto seen = seen_from({place, infinitely_far});
     if (!seen) return std::nullopt;
-    return occluded(all, Coherence::coherent, &*seen);
+    return occluded(all, ProbeWay::packets, &*seen);
   }
 
   std::vector<ProbeHit> intersect_embree(std::span<const ProbeRay> all, int packet_size) const override {
@@ -161,13 +160,17 @@ class Backend final : public ProbeBackend {
   }
 
  private:
-  static Coherence coherence(bool coherent) { return coherent ? Coherence::coherent : Coherence::incoherent; }
+  static constexpr const char* embree_isa = register_lanes == 16 ? "avx512" : register_lanes == 8 ? "avx2" : "sse4.2";
 
-  std::vector<ProbeHit> intersect(std::span<const ProbeRay> all, Coherence coherence,
-                                  const DirectionBuffer* seen) const {
+  const Accelerator& accelerator(ProbeWay way) const { return way == ProbeWay::single ? embree_alone_ : accelerator_; }
+  static Coherence coherence(ProbeWay way) {
+    return way == ProbeWay::packets ? Coherence::coherent : Coherence::incoherent;
+  }
+
+  std::vector<ProbeHit> intersect(std::span<const ProbeRay> all, ProbeWay way, const DirectionBuffer* seen) const {
     std::vector<ProbeHit> result(all.size());
     for_each_packet(all, [&](std::size_t first, std::size_t count, Ray<FloatN>& rays, const MaskN& active) {
-      const Hits hits = accelerator_.intersect(rays, active, coherence, seen);
+      const Hits hits = accelerator(way).intersect(rays, active, coherence(way), seen);
       const std::uint32_t lanes = bits_of<FloatN>(hits.hit);
       if (lanes == 0) return;
       const SurfaceInteraction<FloatN> surface = accelerator_.surface(rays, hits);
@@ -185,10 +188,10 @@ class Backend final : public ProbeBackend {
     return result;
   }
 
-  std::vector<bool> occluded(std::span<const ProbeRay> all, Coherence coherence, const DirectionBuffer* seen) const {
+  std::vector<bool> occluded(std::span<const ProbeRay> all, ProbeWay way, const DirectionBuffer* seen) const {
     std::vector<bool> result(all.size());
     for_each_packet(all, [&](std::size_t first, std::size_t count, const Ray<FloatN>& rays, const MaskN& active) {
-      const std::uint32_t lanes = bits_of<FloatN>(accelerator_.occluded(rays, active, coherence, seen));
+      const std::uint32_t lanes = bits_of<FloatN>(accelerator(way).occluded(rays, active, coherence(way), seen));
       for (std::size_t i = 0; i < count; ++i) result[first + i] = (lanes >> i & 1) != 0;
     });
     return result;
@@ -199,7 +202,7 @@ class Backend final : public ProbeBackend {
   }
 
   SceneTables tables_;
-  Accelerator accelerator_;
+  Accelerator accelerator_, embree_alone_;
 };
 
 }  // namespace

@@ -93,7 +93,7 @@ struct Accelerator::Report {
 };
 
 Accelerator::Accelerator(const GeometryTable& table, int threads, const char* isa, std::span<const std::uint8_t> fogs)
-    : report_(std::make_unique<Report>()), table_(table) {
+    : report_(std::make_unique<Report>()), table_(table), few_objects_(table) {
   const std::string configuration = "threads=" + std::to_string(threads) + ",set_affinity=0,isa=" + isa;
   device_.reset(rtcNewDevice(configuration.c_str()));
   if (!device_) throw_embree_error(rtcGetDeviceError(nullptr), "no device could be created");

@@ -15,6 +15,7 @@
 #include "raytrace/accel/callbacks.h"
 #include "raytrace/accel/direction_buffer.h"
 #include "raytrace/accel/embree.h"
+#include "raytrace/accel/few_objects.h"
 #include "raytrace/accel/instance_callbacks.h"
 #include "raytrace/scene/scene_tables.h"
 
@@ -23,7 +24,8 @@ namespace raytrace {
 /// How the rays of one call relate: it decides how they are traced, not what they hit.
 enum class Coherence {
   coherent,    ///< neighbours take the same way (camera rays, shadow rays to one light): a packet query
-  incoherent,  ///< they scatter (bounces): one query a ray, up to 4 times faster there (docs/design.md)
+  incoherent,  ///< they scatter (bounces): one query a ray, up to 4 times faster there (docs/design.md); in scenes of
+               ///< few objects, a packet with all of them (accel/few_objects.h)
 };
 
 /// Owns Embree's device and scene of a geometry table's objects. Embree's BVH is built when it is first asked for, by
@@ -69,6 +71,8 @@ class Accelerator {
   /// scene that holds all others, whose rays need NearestHits. `active`: lanes that Embree can take.
   Hits intersect_unbounded(Ray<FloatN>& rays, const MaskN& active, const RayIdentity* identity = nullptr) const;
   MaskN occluded_unbounded(const Ray<FloatN>& rays, const MaskN& active, const RayIdentity* identity = nullptr) const;
+  /// For them as well: from now on rays that scatter go to Embree, however few objects there are.
+  void use_embree_alone() { few_objects_.clear(); }
   RTCScene embree_scene() const {
     if (!is_built_.load(std::memory_order_acquire)) build();
     return scene_.get();
@@ -99,6 +103,10 @@ class Accelerator {
   Ray<FloatN> in_instances(const Ray<FloatN>& rays, const Hits& hits) const;
   /// And the way back, of what was hit.
   void to_world(const Hits& hits, SurfaceInteraction<FloatN>& surface) const;
+  /// Whether rays that scatter are tested with all objects, which are few, and not put to Embree.
+  bool tests_all(Coherence coherence, const RayIdentity* identity) const {
+    return !few_objects_.empty() && coherence == Coherence::incoherent && identity == nullptr;
+  }
   // Those of candidates return the lanes that are left to Embree. distance: of the hits so far, or where the rays end;
   // rays.far: as far as they are followed.
   void intersect_bvh(const Ray<FloatN>& rays, const MaskN& active, Coherence coherence, const RayIdentity* identity,
@@ -111,6 +119,7 @@ class Accelerator {
   std::unique_ptr<Report> report_;  ///< before device_, which still reports while it ends
   const GeometryTable& table_;
   std::array<RecordsInMemory, Shapes::size> records_in_memory_;  ///< of each table
+  FewObjects few_objects_;
   embree::Device device_;
   std::vector<embree::Scene> group_scenes_;
   InstanceCallbacks instance_callbacks_;

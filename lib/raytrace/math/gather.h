@@ -52,6 +52,13 @@ RAYTRACE_INLINE CompilerFloats<lanes> load_rows(const float* base, const std::in
   }
 }
 
+/// The way back: four floats to each of base + offsets[0], base + offsets[4]...
+template <class Vector>
+RAYTRACE_INLINE void store_rows(const Vector& rows, float* base, const std::int32_t* offsets) {
+  for (std::size_t i = 0; i < sizeof(Vector) / sizeof(CompilerFloats<4>); ++i)
+    std::memcpy(base + offsets[4 * i], reinterpret_cast<const float*>(&rows) + 4 * i, sizeof(CompilerFloats<4>));
+}
+
 /// In each four lanes those of a (0 to 3) and b (4 to 7) that are named: what one instruction does.
 template <int first, int second, int third, int fourth, class Vector, std::size_t... lane>
 RAYTRACE_INLINE Vector shuffle_fours(const Vector& a, const Vector& b, std::index_sequence<lane...>) {
@@ -85,7 +92,42 @@ RAYTRACE_INLINE void gather_four(const float* base, const std::int32_t* offsets,
   for (std::size_t i = 0; i < 4; ++i) result[i] = {lower[i], upper[i]};
 }
 
+/// The way back: base[i + offset of that lane] = numbers[i].
+RAYTRACE_INLINE void scatter_four(const std::array<RegisterFloats, 4>& numbers, float* base,
+                                  const std::int32_t* offsets) {
+  using Floats = CompilerFloats<register_lanes>;
+  constexpr auto lanes = std::make_index_sequence<register_lanes>();
+  const auto a = std::bit_cast<Floats>(numbers[0]), b = std::bit_cast<Floats>(numbers[1]);
+  const auto c = std::bit_cast<Floats>(numbers[2]), d = std::bit_cast<Floats>(numbers[3]);
+  const auto low_ab = shuffle_fours<0, 4, 1, 5>(a, b, lanes), high_ab = shuffle_fours<2, 6, 3, 7>(a, b, lanes);
+  const auto low_cd = shuffle_fours<0, 4, 1, 5>(c, d, lanes), high_cd = shuffle_fours<2, 6, 3, 7>(c, d, lanes);
+  store_rows(shuffle_fours<0, 1, 4, 5>(low_ab, low_cd, lanes), base, offsets);
+  store_rows(shuffle_fours<2, 3, 6, 7>(low_ab, low_cd, lanes), base, offsets + 1);
+  store_rows(shuffle_fours<0, 1, 4, 5>(high_ab, high_cd, lanes), base, offsets + 2);
+  store_rows(shuffle_fours<2, 3, 6, 7>(high_ab, high_cd, lanes), base, offsets + 3);
+}
+template <class Arch>
+RAYTRACE_INLINE void scatter_four(const TwinBatch<float, Arch>* numbers, float* base, const std::int32_t* offsets) {
+  scatter_four({numbers[0].lower(), numbers[1].lower(), numbers[2].lower(), numbers[3].lower()}, base, offsets);
+  scatter_four({numbers[0].upper(), numbers[1].upper(), numbers[2].upper(), numbers[3].upper()}, base,
+               offsets + register_lanes);
+}
+
 }  // namespace detail
+
+/// The lanes' records of so many floats, at least four, from base + offsets[lane] on, field by field; and the way back.
+RAYTRACE_INLINE void gather_fields(const float* base, const std::int32_t* offsets, std::size_t fields, FloatN* result) {
+  // The last four overlap with those before where their number is not a multiple of four.
+  for (std::size_t field = 0; field + 4 < fields; field += 4)
+    detail::gather_four(base + field, offsets, result + field);
+  detail::gather_four(base + fields - 4, offsets, result + fields - 4);
+}
+RAYTRACE_INLINE void scatter_fields(const FloatN* numbers, std::size_t fields, float* base,
+                                    const std::int32_t* offsets) {
+  for (std::size_t field = 0; field + 4 < fields; field += 4)
+    detail::scatter_four(numbers + field, base + field, offsets);
+  detail::scatter_four(numbers + fields - 4, base + fields - 4, offsets);
+}
 
 /// A place in a table for each lane. It knows where all are the same: neighbours mostly hit the same thing.
 class LaneIndices {
@@ -121,10 +163,7 @@ Record<Wide> gather_records(const Record<Scalar>* table, const LaneIndices& plac
     if constexpr (fields >= 4 && std::is_same_v<Wide, FloatN>) {
       alignas(64) std::array<std::int32_t, packet_lanes> offsets;
       first_field.store_aligned(offsets.data());
-      // The last four overlap with those before where their number is not a multiple of four.
-      for (std::size_t field = 0; field + 4 < fields; field += 4)
-        detail::gather_four(base + field, offsets.data(), gathered + field);
-      detail::gather_four(base + fields - 4, offsets.data(), gathered + fields - 4);
+      gather_fields(base, offsets.data(), fields, gathered);
     } else
       for (std::size_t field = 0; field < fields; ++field) gathered[field] = gather(base + field, first_field);
   }

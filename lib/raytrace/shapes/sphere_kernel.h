@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cmath>
+#include <type_traits>
 
 #include "raytrace/math/bounds.h"
 #include "raytrace/math/doubles.h"
@@ -38,9 +39,9 @@ class Kernel<Sphere> {
   static constexpr bool is_its_bounding_sphere = true;  ///< so that nothing is seen through it
 
   /// The nearest distance inside (ray.near, ray.far) in each lane of `active`; infinity elsewhere.
-  /// Rays: Ray<F> or RaysFromPoint<F>.
-  template <class F, class Rays>
-  static F intersect(const Record<float>& sphere, const Rays& ray, const Mask<F>& active);
+  /// Rays: Ray<F> or RaysFromPoint<F>. T: float, or F where lanes have different spheres.
+  template <class F, class T, class Rays>
+  static F intersect(const Record<T>& sphere, const Rays& ray, const Mask<F>& active);
 
   /// The surface at a distance that intersect() gave.
   template <class F>
@@ -60,8 +61,8 @@ class Kernel<Sphere> {
   }
 
  private:
-  template <class F, class Rays>
-  static F intersect_in_double(const Record<float>& sphere, const Rays& ray);
+  template <class F, class T, class Rays>
+  static F intersect_in_double(const Record<T>& sphere, const Rays& ray);
 };
 
 namespace detail {
@@ -74,8 +75,8 @@ RAYTRACE_INLINE void exact_difference(const F& a, const F& b, F& difference, F& 
 }
 }  // namespace detail
 
-template <class F, class Rays>
-RAYTRACE_INLINE F Kernel<Sphere>::intersect(const Record<float>& sphere, const Rays& ray, const Mask<F>& active) {
+template <class F, class T, class Rays>
+RAYTRACE_INLINE F Kernel<Sphere>::intersect(const Record<T>& sphere, const Rays& ray, const Mask<F>& active) {
   const Vec3<F>& d = ray.direction;
   const F radius(sphere.radius);
   // o = origin - center = from_center + rest, exactly.
@@ -116,12 +117,13 @@ RAYTRACE_INLINE F Kernel<Sphere>::intersect(const Record<float>& sphere, const R
   return select(possible & (t > ray.near) & (t < ray.far), t, infinity<F>());
 }
 
-template <class F, class Rays>
-F Kernel<Sphere>::intersect_in_double(const Record<float>& sphere, const Rays& ray) {
+template <class F, class T, class Rays>
+F Kernel<Sphere>::intersect_in_double(const Record<T>& sphere, const Rays& ray) {
   using D = Doubles<F>;
-  const Vec3<D> o = Vec3<D>(ray.origin) - Vec3<D>(Vec3d(sphere.center));
+  using Double = std::conditional_t<std::is_same_v<T, float>, double, D>;  // as wide as the sphere is
+  const Vec3<D> o = Vec3<D>(ray.origin) - Vec3<D>(Vec3<Double>(sphere.center));
   const Vec3<D> d(ray.direction);
-  const D radius(static_cast<double>(sphere.radius));
+  const D radius{Double(sphere.radius)};
   const D a = dot(d, d);
   const D half_b = dot(o, d);
   const D c = dot(o, o) - radius * radius;

@@ -39,9 +39,9 @@ class Kernel<Triangle> {
   /// coordinates u of vertex 2, v of vertex 3. Rays do not pass between triangles that share an edge: both find the
   /// same on which side of it the ray is, and what is within rounding belongs to both. Plücker coordinates: Davidovič
   /// et al., "3D Rasterization: A Bridge between Rasterization and Ray Casting", Graphics Interface 2012.
-  /// Rays: Ray<F> or RaysFromPoint<F>.
-  template <class F, class Rays>
-  static F intersect(const Record<float>& triangle, const Rays& ray, const Mask<F>& active, F& u, F& v);
+  /// Rays: Ray<F> or RaysFromPoint<F>. T: float, or F where lanes have different triangles.
+  template <class F, class T, class Rays>
+  static F intersect(const Record<T>& triangle, const Rays& ray, const Mask<F>& active, F& u, F& v);
 
   /// The surface at barycentric coordinates: u of vertex 2, v of vertex 3.
   template <class F>
@@ -74,9 +74,9 @@ RAYTRACE_INLINE Vec3<F> fused_cross(const Vec3<F>& a, const Vec3<F>& b) {
 
 }  // namespace detail
 
-template <class F, class Rays>
-RAYTRACE_INLINE F Kernel<Triangle>::intersect(const Record<float>& triangle, const Rays& ray, const Mask<F>& active,
-                                              F& u, F& v) {
+template <class F, class T, class Rays>
+RAYTRACE_INLINE F Kernel<Triangle>::intersect(const Record<T>& triangle, const Rays& ray, const Mask<F>& active, F& u,
+                                              F& v) {
   using Vector = std::remove_cvref_t<decltype(ray.origin)>;  // as wide as the origin is
   const Vector vertex1 = Vector(triangle.vertex1) - ray.origin;
   const Vector vertex2 = Vector(triangle.vertex2) - ray.origin;

@@ -1,4 +1,4 @@
-// Paths on their way, field by field: taken out in any order, and put back, a packet at a time.
+// Paths on their way: taken out in any order, and put back, a packet at a time.
 #pragma once
 
 #include <array>
@@ -69,13 +69,14 @@ class PathChunk {
  public:
   /// Takes so many paths. Throws std::bad_alloc.
   PathChunk(std::size_t capacity, const MediumTable& media)
-      : stride_((capacity / packet_lanes + 2) * packet_lanes),
-        fields_(media.disperses() ? fields
+      : fields_(media.disperses() ? fields
                 : media.has_fog() ? fields - 1
                 : media.empty()   ? fields - 4
                                   : fields - 2),
-        numbers_(stride_ * fields_) {
-    buckets_.reserve(capacity + packet_lanes);
+        stride_((fields_ + 3) / 4 * 4),
+        numbers_(stride_ * (capacity + 1)),
+        unused_(static_cast<std::int32_t>(stride_ * capacity)) {
+    buckets_.reserve(capacity);
   }
 
   std::size_t size() const { return buckets_.size(); }
@@ -86,29 +87,24 @@ class PathChunk {
 
   /// Adds those lanes. bucket: from 0 to 255 each; paths of one are worth being together.
   void append(const PathPacket& packet, std::uint32_t lanes, const IntN& bucket) {
-    alignas(64) std::array<std::int32_t, packet_lanes> buckets, from{};
+    alignas(64) std::array<std::int32_t, packet_lanes> buckets, offsets;
     bucket.store_aligned(buckets.data());
-    std::size_t count = 0;
-    float* to = numbers_.data() + size();
+    offsets.fill(unused_);
     for (; lanes != 0; lanes &= lanes - 1) {
-      const int lane = std::countr_zero(lanes);
-      const std::int32_t here = buckets[static_cast<std::size_t>(lane)];
-      buckets_.push_back(static_cast<std::uint8_t>(here));
-      ++ends_[static_cast<std::size_t>(here)];
-      from[count++] = lane;
+      const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+      offsets[lane] = static_cast<std::int32_t>(stride_ * size());
+      buckets_.push_back(static_cast<std::uint8_t>(buckets[lane]));
+      ++ends_[static_cast<std::size_t>(buckets[lane])];
     }
-    const IntN index = IntN::load_aligned(from.data());
-    const auto* numbers = reinterpret_cast<const float*>(&packet);
-    for (std::size_t field = 0; field < fields_; ++field, numbers += packet_lanes, to += stride_)
-      gather(numbers, index).store_unaligned(to);
+    scatter_fields(reinterpret_cast<const FloatN*>(&packet), fields_, numbers_.data(), offsets.data());
   }
 
   /// Those of the given numbers.
   PathPacket load(const IntN& index) const {
+    alignas(64) std::array<std::int32_t, packet_lanes> offsets;
+    (index * IntN(static_cast<std::int32_t>(stride_))).store_aligned(offsets.data());
     PathPacket packet;
-    auto* field = reinterpret_cast<FloatN*>(&packet);
-    for (const float* numbers = numbers_.data(); numbers != numbers_.data() + fields_ * stride_; numbers += stride_)
-      *field++ = gather(numbers, index);
+    gather_fields(numbers_.data(), offsets.data(), fields_, reinterpret_cast<FloatN*>(&packet));
     return packet;
   }
 
@@ -125,8 +121,9 @@ class PathChunk {
   static constexpr std::size_t fields = sizeof(PathPacket) / sizeof(FloatN);
   static_assert(sizeof(PathPacket) == fields * packet_lanes * sizeof(float));
 
-  std::size_t stride_, fields_;
-  std::vector<float> numbers_;            ///< field by field
+  std::size_t fields_, stride_;
+  std::vector<float> numbers_;            ///< path by path
+  std::int32_t unused_;                   ///< where numbers of lanes go that are not added
   std::vector<std::uint8_t> buckets_;     ///< of each path
   std::array<std::int32_t, 256> ends_{};  ///< of each bucket: how many are in it; while they are sorted, where it ends
 };
