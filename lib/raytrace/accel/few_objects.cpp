@@ -15,7 +15,7 @@ namespace raytrace {
 namespace {
 
 /// Up to about so many, all tests take less time than Embree's queries.
-constexpr std::size_t most_objects = 3 * packet_lanes;
+constexpr std::size_t most_objects = 4 * packet_lanes;
 
 /// How far the tests' roundings carry beyond a box, of the largest coordinate of either.
 constexpr float box_margin = 0x1p-19F;
@@ -33,24 +33,26 @@ class BoxTest {
  public:
   explicit BoxTest(const Ray<FloatN>& rays) : near_(rays.near) {
     const FloatN margin = largest_component(rays.origin) * FloatN(box_margin);
-    const Vec3<FloatN> margins(margin, margin, margin);
-    from_lower_ = rays.origin + margins;
-    from_upper_ = rays.origin - margins;
     // No component is 0, so that no product is undefined.
     const auto inverse = [least = FloatN(1e-18F)](const FloatN& d) {
       return FloatN(1) / select(abs(d) < least, select(d < FloatN(0), -least, least), d);
     };
     inverse_ = {inverse(rays.direction.x), inverse(rays.direction.y), inverse(rays.direction.z)};
+    const auto at_origin = [](const Vec3<FloatN>& o, const FloatN& moved, const Vec3<FloatN>& d) {
+      return Vec3<FloatN>(-(o.x + moved) * d.x, -(o.y + moved) * d.y, -(o.z + moved) * d.z);
+    };
+    from_lower_ = at_origin(rays.origin, margin, inverse_);
+    from_upper_ = at_origin(rays.origin, -margin, inverse_);
   }
 
   /// All that do before `far`, and perhaps some that pass it by.
   MaskN meets(const Bounds& box, const FloatN& far) const {
-    const FloatN x0 = (FloatN(box.lower.x) - from_lower_.x) * inverse_.x;
-    const FloatN y0 = (FloatN(box.lower.y) - from_lower_.y) * inverse_.y;
-    const FloatN z0 = (FloatN(box.lower.z) - from_lower_.z) * inverse_.z;
-    const FloatN x1 = (FloatN(box.upper.x) - from_upper_.x) * inverse_.x;
-    const FloatN y1 = (FloatN(box.upper.y) - from_upper_.y) * inverse_.y;
-    const FloatN z1 = (FloatN(box.upper.z) - from_upper_.z) * inverse_.z;
+    const FloatN x0 = multiply_add(FloatN(box.lower.x), inverse_.x, from_lower_.x);
+    const FloatN y0 = multiply_add(FloatN(box.lower.y), inverse_.y, from_lower_.y);
+    const FloatN z0 = multiply_add(FloatN(box.lower.z), inverse_.z, from_lower_.z);
+    const FloatN x1 = multiply_add(FloatN(box.upper.x), inverse_.x, from_upper_.x);
+    const FloatN y1 = multiply_add(FloatN(box.upper.y), inverse_.y, from_upper_.y);
+    const FloatN z1 = multiply_add(FloatN(box.upper.z), inverse_.z, from_upper_.z);
     const FloatN entry = max(max(min(x0, x1), min(y0, y1)), max(min(z0, z1), near_));
     const FloatN exit = min(min(max(x0, x1), max(y0, y1)), min(max(z0, z1), far));
     return entry <= exit * FloatN(1 + box_margin);
@@ -58,7 +60,8 @@ class BoxTest {
 
  private:
   FloatN near_;
-  Vec3<FloatN> from_lower_, from_upper_, inverse_;
+  Vec3<FloatN> inverse_;
+  Vec3<FloatN> from_lower_, from_upper_;  ///< where planes through 0 are on the rays, moved outwards for either edge
 };
 
 template <class T>

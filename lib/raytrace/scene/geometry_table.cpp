@@ -186,6 +186,8 @@ void GeometryTable::set_object_materials(const ObjectLists& objects, std::span<c
       }
     });
   });
+  objects_have_one_material_ =
+      std::all_of(meshes_.begin(), meshes_.end(), [](const MeshTable& mesh) { return mesh.only_material(); });
   for (const Geometry& geometry : geometries_)
     if (geometry.mesh != nullptr)
       object_materials_[static_cast<std::size_t>(geometry.first_object)] = geometry.mesh->material(std::size_t{0});
@@ -343,7 +345,7 @@ std::int32_t GeometryTable::material_of(std::uint32_t instance, std::uint32_t ge
 }
 
 IntN GeometryTable::material(const Hits& hits) const {
-  if (meshes_.empty() && !hits.in_instances) return gather(object_materials_.data(), object(hits));
+  if (objects_have_one_material_ && !hits.in_instances) return gather(object_materials_.data(), object(hits));
   IntN material(0);
   for_each_geometry(hits, [&](const GeometryTable& table, std::uint32_t index, const MaskN& here) {
     const auto first = static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(here)));

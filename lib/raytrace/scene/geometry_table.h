@@ -147,6 +147,7 @@ class GeometryTable {
   // Of each geometry, side by side: its first object, and 0 if it is one object, else all bits.
   std::vector<std::int32_t> first_objects_, primitive_masks_;
   std::vector<std::int32_t> object_materials_;  ///< of each object; of a mesh, its first
+  bool objects_have_one_material_ = true;       ///< each
   std::vector<std::int32_t> catchers_;          ///< the objects that are shadow catchers, by number
   std::vector<bool> instances_catch_;           ///< whether all of an instance is one
   bool has_catchers_ = false;

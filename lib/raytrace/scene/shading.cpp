@@ -75,6 +75,8 @@ bool SceneTables::has_textures(const Hits& hits) const {
 Rgb<FloatN> SceneTables::emitted(const Hits& hits, const SurfaceInteraction<FloatN>& surface,
                                  const TexturePoint<FloatN>* point) const {
   const Rgb<FloatN> black(Rgb<float>(0, 0, 0));
+  if (const auto only = geometry_->only_material(hits); only && shining_sides_[static_cast<std::size_t>(*only)] == 0)
+    return black;
   const MaskN shining = hits.hit & shines(material(hits), surface.front);
   if (none(shining)) return black;
   const Rgb<FloatN> radiance = by_material(

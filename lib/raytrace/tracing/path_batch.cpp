@@ -29,7 +29,8 @@ PathBatch::PathBatch(const TracedScene& scene, const Film& film)
       settings_(std::get<Path::Parameters>(scene.tables().integrator())),
       paths_(most_packets * packet_lanes, scene.tables().media()),
       next_(most_packets * packet_lanes, scene.tables().media()),
-      groups_(scene.tables().light_groups().size()) {
+      groups_(scene.tables().light_groups().size()),
+      has_one_light_(scene.tables().emitters().size() + (scene.tables().environment() != nullptr ? 1 : 0) == 1) {
   order_.reserve(most_packets * packet_lanes);
   direct_.reserve(most_packets * groups_);
   indirect_.reserve(most_packets * groups_);
@@ -283,7 +284,8 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   const Vec3<FloatN> wo = vertex.frame.to_local(surface.wo);
   DrawnLight drawn;
   if (tables.environment() != nullptr || !tables.emitters().empty())
-    drawn = draw_light(tables, vertex, draw(PathDraw::light), draw(PathDraw::light_point));
+    drawn = draw_light(tables, vertex, has_one_light_ ? Sample2D{FloatN(0), FloatN(0)} : draw(PathDraw::light),
+                       draw(PathDraw::light_point));
   drawn.lit = drawn.lit & !on_way;
   clock_.end(Stage::lights);
   // The last direction is for what shines alone.

@@ -126,6 +126,7 @@ class PathBatch {
   RayCounts camera_walks_;           ///< of what was added since trace() ran
   std::vector<std::int32_t> order_;  ///< the numbers of paths, in the lowest 16 bits of their keys
   std::size_t groups_;               ///< of the scene's lights
+  bool has_one_light_;               ///< to draw: none is chosen
   /// Of each packet, group by group: what was scattered once or never, and all else.
   std::vector<Sums> direct_, indirect_;
   std::vector<Followed> followed_;  ///< of each packet, if AOVs follow mirrors
