@@ -46,7 +46,7 @@ class BoxTest {
   }
 
   /// All that do before `far`, and perhaps some that pass it by.
-  MaskN meets(const Bounds& box, const FloatN& far) const {
+  RAYTRACE_INLINE MaskN meets(const Bounds& box, const FloatN& far) const {
     const FloatN x0 = multiply_add(FloatN(box.lower.x), inverse_.x, from_lower_.x);
     const FloatN y0 = multiply_add(FloatN(box.lower.y), inverse_.y, from_lower_.y);
     const FloatN z0 = multiply_add(FloatN(box.lower.z), inverse_.z, from_lower_.z);
@@ -221,7 +221,7 @@ struct FewObjects::NearestOfLanes {
 
 void FewObjects::intersect(Ray<FloatN>& rays, const MaskN& active, FloatN& distance, Hits& hits) const {
   const BoxTest test(rays);
-  const auto meets = [&](std::size_t box) { return active & test.meets(boxes_[box], rays.far); };
+  const auto meets = [&](std::size_t box) RAYTRACE_INLINE_LAMBDA { return active & test.meets(boxes_[box], rays.far); };
   for_each_other(meets, [&]<class Shape>(std::type_identity<Shape>, const auto& record, std::uint32_t primitive,
                                          const MaskN& lanes) {
     intersect_object<Shape>(record, primitive, rays, lanes, {hits, distance, rays.far});
@@ -248,7 +248,7 @@ void FewObjects::intersect(Ray<FloatN>& rays, const MaskN& active, FloatN& dista
   });
   const std::size_t first = spheres_.size();
   pairs.for_each_packet(
-      triangles_, [&](std::size_t i) { return meets(first + i); },
+      triangles_, [&](std::size_t i) RAYTRACE_INLINE_LAMBDA { return meets(first + i); },
       [&](const Ray<FloatN>& some, const auto& triangles, const MaskN& valid) {
         FloatN u(0), v(0);
         const FloatN t = Kernel<Triangle>::intersect<FloatN>(triangles, some, valid, u, v);
@@ -261,7 +261,7 @@ MaskN FewObjects::occluded(const Ray<FloatN>& rays, const MaskN& active) const {
   const Ray<FloatN> followed{rays.origin, rays.direction, max(rays.near, FloatN(0)), rays.far};
   const BoxTest test(followed);
   MaskN open = active;
-  const auto meets = [&](std::size_t box) { return open & test.meets(boxes_[box], rays.far); };
+  const auto meets = [&](std::size_t box) RAYTRACE_INLINE_LAMBDA { return open & test.meets(boxes_[box], rays.far); };
   if (!for_each_other(
           meets, [&]<class Shape>(std::type_identity<Shape>, const auto& record, std::uint32_t, const MaskN& lanes) {
             open = open & !occludes<Shape>(record, followed, lanes);
@@ -281,7 +281,7 @@ MaskN FewObjects::occluded(const Ray<FloatN>& rays, const MaskN& active) const {
   });
   const std::size_t first = spheres_.size();
   pairs.for_each_packet(
-      triangles_, [&](std::size_t i) { return meets(first + i); },
+      triangles_, [&](std::size_t i) RAYTRACE_INLINE_LAMBDA { return meets(first + i); },
       [&](const Ray<FloatN>& some, const auto& triangles, const MaskN& valid) {
         hide(occludes<Triangle>(triangles, some, valid));
       });
