@@ -53,10 +53,10 @@ RAYTRACE_INLINE CompilerFloats<lanes> load_rows(const float* base, const std::in
 }
 
 /// The way back: four floats to each of base + offsets[0], base + offsets[4]...
-template <class Vector>
-RAYTRACE_INLINE void store_rows(const Vector& rows, float* base, const std::int32_t* offsets) {
-  for (std::size_t i = 0; i < sizeof(Vector) / sizeof(CompilerFloats<4>); ++i)
-    std::memcpy(base + offsets[4 * i], reinterpret_cast<const float*>(&rows) + 4 * i, sizeof(CompilerFloats<4>));
+template <std::size_t lanes>
+RAYTRACE_INLINE void store_rows(const CompilerFloats<lanes>& rows, float* base, const std::int32_t* offsets) {
+  for (std::size_t i = 0; i < lanes; i += 4)
+    std::memcpy(base + offsets[i], reinterpret_cast<const float*>(&rows) + i, 4 * sizeof(float));
 }
 
 /// In each four lanes those of a (0 to 3) and b (4 to 7) that are named: what one instruction does.
@@ -101,10 +101,10 @@ RAYTRACE_INLINE void scatter_four(const std::array<RegisterFloats, 4>& numbers, 
   const auto c = std::bit_cast<Floats>(numbers[2]), d = std::bit_cast<Floats>(numbers[3]);
   const auto low_ab = shuffle_fours<0, 4, 1, 5>(a, b, lanes), high_ab = shuffle_fours<2, 6, 3, 7>(a, b, lanes);
   const auto low_cd = shuffle_fours<0, 4, 1, 5>(c, d, lanes), high_cd = shuffle_fours<2, 6, 3, 7>(c, d, lanes);
-  store_rows(shuffle_fours<0, 1, 4, 5>(low_ab, low_cd, lanes), base, offsets);
-  store_rows(shuffle_fours<2, 3, 6, 7>(low_ab, low_cd, lanes), base, offsets + 1);
-  store_rows(shuffle_fours<0, 1, 4, 5>(high_ab, high_cd, lanes), base, offsets + 2);
-  store_rows(shuffle_fours<2, 3, 6, 7>(high_ab, high_cd, lanes), base, offsets + 3);
+  store_rows<register_lanes>(shuffle_fours<0, 1, 4, 5>(low_ab, low_cd, lanes), base, offsets);
+  store_rows<register_lanes>(shuffle_fours<2, 3, 6, 7>(low_ab, low_cd, lanes), base, offsets + 1);
+  store_rows<register_lanes>(shuffle_fours<0, 1, 4, 5>(high_ab, high_cd, lanes), base, offsets + 2);
+  store_rows<register_lanes>(shuffle_fours<2, 3, 6, 7>(high_ab, high_cd, lanes), base, offsets + 3);
 }
 template <class Arch>
 RAYTRACE_INLINE void scatter_four(const TwinBatch<float, Arch>* numbers, float* base, const std::int32_t* offsets) {
