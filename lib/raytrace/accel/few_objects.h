@@ -43,8 +43,8 @@ class FewObjects {
   void add_shapes();
   void add_mesh(std::uint32_t geometry);
   void add(const Bounds& box, std::uint32_t geometry, std::size_t primitive, bool second_triangle = false);
-  /// Calls f(type, object, lanes) for each object that is no sphere and no triangle, with the rays that meet its box,
-  /// until it returns false.
+  /// Calls f(type, record, primitive, lanes) for each object that is no sphere and no triangle, with the rays that meet
+  /// its box, until it returns false. The result: whether it never did.
   template <class Meets, class Function>
   bool for_each_other(const Meets& meets, const Function& f) const;
 
