@@ -54,12 +54,9 @@ void attach(const embree::Scene& scene, const embree::Geometry& geometry, std::s
 
 template <class Shape>
 BoundedObject placed_object(const typename ShapeTable<Shape>::Record& record, std::uint32_t primitive) {
-  const Bounds bounds = Kernel<Shape>::bounds(record);
-  double radius = length(Vec3d(bounds.upper) - Vec3d(bounds.lower)) / 2;
-  if constexpr (requires { Kernel<Shape>::bounding_radius(record); })
-    radius = std::min(radius, Kernel<Shape>::bounding_radius(record));
   constexpr bool is_sphere = requires { requires Kernel<Shape>::is_its_bounding_sphere; };
-  BoundedObject object{static_cast<std::uint16_t>(index_of<Shape>(Shapes{})), is_sphere, primitive, bounds, radius};
+  BoundedObject object{static_cast<std::uint16_t>(index_of<Shape>(Shapes{})), is_sphere, primitive,
+                       Kernel<Shape>::bounds(record), bounding_radius<Shape>(record)};
   if constexpr (EmbreeTriangle<Shape>) object.corners = &record.vertex1;
   return object;
 }

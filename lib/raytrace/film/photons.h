@@ -12,7 +12,7 @@ struct PhotonPasses {
   PhotonPasses(int full_width, int full_height) {
     const std::uint64_t samples = std::uint64_t{samples_per_pass} * static_cast<std::uint64_t>(full_width) *
                                   static_cast<std::uint64_t>(full_height);
-    while (paths < most_paths && paths < samples / 2) paths *= 2;
+    while (paths < most_paths && paths < samples / 4) paths *= 2;
   }
 
   static constexpr std::uint32_t samples_per_pass = 8, most_paths = 1U << 20U;

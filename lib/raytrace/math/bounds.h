@@ -31,6 +31,12 @@ inline Bounds join(const Bounds& a, const Bounds& b) {
           {std::max(a.upper.x, b.upper.x), std::max(a.upper.y, b.upper.y), std::max(a.upper.z, b.upper.z)}};
 }
 
+/// The sphere through the box's corners.
+inline BoundingSphere sphere_around(const Bounds& box) {
+  const Vec3d lower(box.lower), upper(box.upper);
+  return {(lower + upper) * 0.5, length(upper - lower) / 2};
+}
+
 /// The box around center +- extent in double, rounded outwards to floats.
 inline Bounds bounds_around(const Vec3d& center, const Vec3d& extent) {
   const auto down = [](double value) {

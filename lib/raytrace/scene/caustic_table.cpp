@@ -95,18 +95,23 @@ void CausticTable::add_targets(const GeometryTable& geometry, std::span<const st
                    [](const FocusingObject& a, const FocusingObject& b) { return a.object < b.object; });
   std::size_t kept = 0;
   for (const FocusingObject& object : objects) {
-    if (kept > 0 && objects[kept - 1].object == object.object)
-      objects[kept - 1].bounds = join(objects[kept - 1].bounds, object.bounds);
-    else
+    if (kept > 0 && objects[kept - 1].object == object.object) {
+      FocusingObject& whole = objects[kept - 1];
+      whole.bounds = join(whole.bounds, object.bounds);
+      whole.radius = sphere_around(whole.bounds).radius;
+    } else {
       objects[kept++] = object;
+    }
   }
   objects.resize(kept);
   for_each_group(std::span(objects), most_targets, [&](std::span<const FocusingObject> group) {
-    const Bounds all = bounds_of(group);
-    const Vec3d lower(all.lower), upper(all.upper);
+    const BoundingSphere all = sphere_around(bounds_of(group));
+    double radius = 0;
+    for (const FocusingObject& object : group)
+      radius = std::max(radius, length(sphere_around(object.bounds).center - all.center) + object.radius);
     const auto number = static_cast<std::int32_t>(targets_.size());
     // A little larger, so that nothing of them is outside by rounding.
-    targets_.push_back({Vec3f((lower + upper) * 0.5), static_cast<float>(length(upper - lower) * 0.5001)});
+    targets_.push_back({Vec3f(all.center), static_cast<float>(std::min(radius, all.radius) * 1.0002)});
     for (const FocusingObject& object : group) {
       std::vector<std::int32_t>& numbers = object.object < 0 ? target_of_instance_ : target_of_object_;
       const auto at = static_cast<std::size_t>(object.object < 0 ? -1 - object.object : object.object);

@@ -224,8 +224,9 @@ BoundingSphere GeometryTable::bounding_sphere() const {
   Bounds all = bounds_;
   for (std::size_t i = 0; i < instances_.size(); ++i) all = join(all, instances_.bounds(i));
   if (all.lower.x > all.upper.x) return {{0, 0, 0}, -1};
-  const Vec3d lower(all.lower), upper(all.upper);
-  return {(lower + upper) * 0.5, length(upper - lower) / 2 * (1 + 1e-6)};
+  BoundingSphere sphere = sphere_around(all);
+  sphere.radius *= 1 + 1e-6;
+  return sphere;
 }
 
 std::vector<GeometryTable::BoundedObject> GeometryTable::bounded_objects(
@@ -246,7 +247,8 @@ std::vector<GeometryTable::BoundedObject> GeometryTable::bounded_objects(
       for (std::size_t i = 0; i < shapes.records.size(); ++i) {
         if (shapes.is_instanced(i) || !is_wanted(own_material(type, static_cast<std::uint32_t>(i)))) continue;
         const IntN object = this->object(type, IntN(static_cast<std::int32_t>(i)));
-        objects.push_back({Kernel<Shape>::bounds(shapes.records[i]), object.get(0), type});
+        objects.push_back({Kernel<Shape>::bounds(shapes.records[i]),
+                           raytrace::bounding_radius<Shape>(shapes.records[i]), object.get(0), type});
       }
     }
   });
@@ -256,7 +258,7 @@ std::vector<GeometryTable::BoundedObject> GeometryTable::bounded_objects(
     if (mesh == nullptr) continue;
     std::vector<std::uint8_t> used(wanted_materials.size());
     mesh->add_used_materials(used);
-    if (has_wanted(used)) objects.push_back({mesh->bounds(), first_object, i});
+    if (has_wanted(used)) objects.push_back({mesh->bounds(), mesh->bounding_radius(), first_object, i});
   }
   for (std::size_t i = 0; i < instances_.size(); ++i) {
     const InstanceTarget& target = instances_.target(i);
@@ -266,7 +268,8 @@ std::vector<GeometryTable::BoundedObject> GeometryTable::bounded_objects(
     const bool has = instead >= 0      ? is_wanted(instead)
                      : target.is_shape ? is_wanted(table.own_material(target.shape_type, target.primitive))
                                        : has_wanted(table.used_materials(count));
-    if (has) objects.push_back({instances_.bounds(i), -1 - static_cast<std::int32_t>(i), geometries});
+    const Bounds bounds = instances_.bounds(i);
+    if (has) objects.push_back({bounds, sphere_around(bounds).radius, -1 - static_cast<std::int32_t>(i), geometries});
   }
   return objects;
 }

@@ -82,6 +82,7 @@ class GeometryTable {
   /// Each object that has bounds, and each instance, if f(material) is true for any material that it has.
   struct BoundedObject {
     Bounds bounds;
+    double radius;           ///< of a sphere around it, whose center is that of the bounds
     std::int32_t object;     ///< its number; of an instance, -1 less its number, counted from 0
     std::uint32_t geometry;  ///< that it is of; of instances the number behind the last
   };

@@ -1,6 +1,7 @@
 #include "raytrace/scene/mesh_table.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "raytrace/import/vertex_normals.h"
@@ -81,6 +82,16 @@ void MeshTable::set_bounds(int threads) {
     for (std::size_t i = first; i < last; ++i) bounds = join(bounds, {position(i), position(i)});
   });
   for (const Bounds& chunk : chunks) bounds_ = join(bounds_, chunk);
+}
+
+double MeshTable::bounding_radius() const {
+  const BoundingSphere sphere = sphere_around(bounds_);
+  double square = 0;
+  for (std::size_t i = 0; i < vertex_count(); ++i) {
+    const Vec3d way = Vec3d(position(i)) - sphere.center;
+    square = std::max(square, dot(way, way));
+  }
+  return std::min(std::sqrt(square), sphere.radius);
 }
 
 LaneTriangles MeshTable::triangles(const IntN& faces, const Hits& hits) const {

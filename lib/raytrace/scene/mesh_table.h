@@ -37,6 +37,8 @@ class MeshTable {
   std::size_t face_count() const { return data_->face_count(); }
   int corners() const { return data_->corners; }
   const Bounds& bounds() const { return bounds_; }
+  /// Of a sphere around all vertices, whose center is that of the bounds.
+  double bounding_radius() const;
 
   /// A face's triangle, or its second where `second`.
   RAYTRACE_INLINE Kernel<Triangle>::Record<float> triangle(std::size_t face, bool second = false) const {

@@ -17,6 +17,9 @@
 // A Record that is no template is of a shape whose objects are few: surface() then takes one of them.
 #pragma once
 
+#include <algorithm>
+
+#include "raytrace/math/bounds.h"
 #include "raytrace/shapes/annulus_kernel.h"
 #include "raytrace/shapes/box_kernel.h"
 #include "raytrace/shapes/cone_kernel.h"
@@ -28,3 +31,17 @@
 #include "raytrace/shapes/sphere_kernel.h"
 #include "raytrace/shapes/torus_kernel.h"
 #include "raytrace/shapes/triangle_kernel.h"
+
+namespace raytrace {
+
+/// The radius of a sphere around an object, whose center is that of its bounds.
+template <class Shape, class Record>
+double bounding_radius(const Record& record) {
+  const double radius = sphere_around(Kernel<Shape>::bounds(record)).radius;
+  if constexpr (requires { Kernel<Shape>::bounding_radius(record); })
+    return std::min(radius, Kernel<Shape>::bounding_radius(record));
+  else
+    return radius;
+}
+
+}  // namespace raytrace

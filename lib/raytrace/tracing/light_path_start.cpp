@@ -1,6 +1,8 @@
 #include "raytrace/tracing/light_path_start.h"
 
+#include <array>
 #include <bit>
+#include <cstdint>
 #include <numbers>
 
 #include "raytrace/accel/surface_uv.h"
@@ -16,11 +18,19 @@ namespace {
 
 constexpr float two_pi = static_cast<float>(2 * std::numbers::pi);
 
+IntN start_of(LightPathStart start) { return IntN(static_cast<std::int32_t>(start)); }
+
+/// The targets' spheres.
+struct Targets {
+  Vec3<FloatN> center;
+  FloatN radius;
+};
+
 /// Directions from the rays' origins into the cone around the target. Divides the light by their density.
-void aim(LightPathPacket& path, const MaskN& lanes) {
+void aim(LightPathPacket& path, const Targets& targets, const MaskN& lanes) {
   const Sample2D u = get_2d(path.pixel, path.sample, light_path_dimension(LightPathDraw::direction));
-  const Vec3<FloatN> way = path.center() - path.rays.origin;
-  const FloatN radius = path.radius(), distance2 = dot(way, way);
+  const Vec3<FloatN> way = targets.center - path.rays.origin;
+  const FloatN radius = targets.radius, distance2 = dot(way, way);
   const MaskN outside = distance2 > radius * radius;
   const FloatN sine2 = radius * radius / max(distance2, FloatN(1e-30F));
   const FloatN cone = select(outside, sine2 / (FloatN(1) + sqrt(max(FloatN(1) - sine2, FloatN(0)))), FloatN(2));
@@ -33,48 +43,45 @@ void aim(LightPathPacket& path, const MaskN& lanes) {
 }
 
 /// Parallel rays onto the target, of those directions, from beyond all objects with bounds.
-void start_far_away(const SceneTables& scene, LightPathPacket& path, const MaskN& lanes) {
+void start_far_away(const SceneTables& scene, LightPathPacket& path, const Targets& targets, const MaskN& lanes) {
   const Sample2D u = get_2d(path.pixel, path.sample, light_path_dimension(LightPathDraw::place));
   const DiskPoint<FloatN> disk = on_unit_disk(u.x, u.y);
-  const FloatN radius = path.radius();
+  const FloatN radius = targets.radius;
   const Frame<FloatN> frame(path.rays.direction);
-  const Vec3<FloatN> at = path.center() + (frame.x * disk.x + frame.y * disk.y) * radius;
+  const Vec3<FloatN> at = targets.center + (frame.x * disk.x + frame.y * disk.y) * radius;
   const BoundingSphere& all = scene.caustics()->scene_sphere();
   const FloatN back = length(at - Vec3<FloatN>(Vec3f(all.center))) + FloatN(static_cast<float>(all.radius));
   path.rays.origin = select(lanes, at - path.rays.direction * back, path.rays.origin);
+  path.start = select_lanes(lanes, start_of(LightPathStart::far_away), path.start);
   path.flux = select(lanes, path.flux * (radius * radius * FloatN(two_pi / 2)), path.flux);
 }
 
-void set_group(LightPathPacket& path, const IntN& group, const MaskN& lanes) {
-  select_lanes(lanes, group, IntN::load_aligned(path.groups.data())).store_aligned(path.groups.data());
-}
-
-void start_at_source(const SceneTables& scene, LightPathPacket& path, std::int32_t source, const MaskN& lanes) {
-  set_group(path, IntN(scene.light_group(static_cast<std::size_t>(source))), lanes);
+void start_at_source(const SceneTables& scene, LightPathPacket& path, const Targets& targets, std::int32_t source,
+                     const MaskN& lanes) {
+  path.group = select_lanes(lanes, IntN(scene.light_group(static_cast<std::size_t>(source))), path.group);
   const LightSource& light = *scene.lights()[static_cast<std::size_t>(source)];
   if (const auto location = light.location()) {
     path.rays.origin = select(lanes, Vec3<FloatN>(*location), path.rays.origin);
     path.flux = select(lanes, Rgb<FloatN>(Rgb<float>(1, 1, 1)), path.flux);
-    path.from_point = path.from_point | lanes;
-    aim(path, lanes);
+    path.start = select_lanes(lanes, start_of(LightPathStart::at_point), path.start);
+    aim(path, targets, lanes);
     return;
   }
   Ray<FloatN> ray;
-  ray.origin = path.center();
+  ray.origin = targets.center;
   Rgb<FloatN> radiance;
   light.sample(ray, get_2d(path.pixel, path.sample, light_path_dimension(LightPathDraw::direction)), radiance);
   path.rays.direction = select(lanes, -unit_vector(ray.direction), path.rays.direction);
   path.flux = select(lanes, radiance, path.flux);
-  start_far_away(scene, path, lanes);
+  start_far_away(scene, path, targets, lanes);
 }
 
-void start_at_patches(const SceneTables& scene, LightPathPacket& path, const MaskN& lanes) {
+void start_at_patches(const SceneTables& scene, LightPathPacket& path, const Targets& targets, const MaskN& lanes) {
   const auto first = static_cast<std::int32_t>(scene.lights().size());
-  const IntN source = IntN::load_aligned(path.sources.data());
-  const IntN patch = select_lanes(lanes, source - IntN(first), IntN(0));
+  const IntN patch = select_lanes(lanes, path.source - IntN(first), IntN(0));
   // Places are drawn for a point of the target that no plane of a lamp is likely to go through; of spheres, whose far
   // sides such a point does not see, for one inside.
-  Vec3<FloatN> from = path.center() + Vec3<FloatN>(Vec3f(0.137F, 0.271F, 0.391F)) * path.radius();
+  Vec3<FloatN> from = targets.center + Vec3<FloatN>(Vec3f(0.137F, 0.271F, 0.391F)) * targets.radius;
   alignas(64) std::array<float, packet_lanes> x, y, z;
   from.x.store_aligned(x.data());
   from.y.store_aligned(y.data());
@@ -89,7 +96,7 @@ void start_at_patches(const SceneTables& scene, LightPathPacket& path, const Mas
   from = {FloatN::load_aligned(x.data()), FloatN::load_aligned(y.data()), FloatN::load_aligned(z.data())};
   const Sample2D place = get_2d(path.pixel, path.sample, light_path_dimension(LightPathDraw::place));
   const EmitterTable::Sample sample = scene.emitters().sample(patch, from, place.x, place.y);
-  set_group(path, scene.light_group_of_material(sample.material), lanes);
+  path.group = select_lanes(lanes, scene.light_group_of_material(sample.material), path.group);
   const PatchSample& drawn = sample.point;
   // Per area, from per solid angle.
   const Vec3<FloatN> way = drawn.p - from;
@@ -98,7 +105,7 @@ void start_at_patches(const SceneTables& scene, LightPathPacket& path, const Mas
   const MaskN good = lanes & (drawn.pdf < infinity<FloatN>()) & (per_area > FloatN(0));
   path.rays.origin = select(lanes, drawn.p, path.rays.origin);
   path.flux = select(good, Rgb<FloatN>(Rgb<float>(1, 1, 1)) * (FloatN(1) / per_area), path.flux);
-  aim(path, lanes);
+  aim(path, targets, lanes);
   SurfaceInteraction<FloatN> light{};
   light.front = dot(drawn.normal, path.rays.direction) > FloatN(0);
   light.ng = light.ns = select(light.front, drawn.normal, -drawn.normal);
@@ -116,42 +123,54 @@ void start_at_patches(const SceneTables& scene, LightPathPacket& path, const Mas
 MaskN start_light_paths(const SceneTables& scene, LightPathPacket& path) {
   const CausticTable& caustics = *scene.caustics();
   const Sample2D choice = get_2d(path.pixel, path.sample, light_path_dimension(LightPathDraw::source));
-  alignas(64) std::array<float, packet_lanes> probabilities;
+  alignas(64) std::array<float, packet_lanes> probabilities, x, y, z, radii;
+  alignas(64) std::array<std::int32_t, packet_lanes> source_numbers, target_numbers;
   for (std::size_t lane = 0; lane < packet_lanes; ++lane) {
     const auto source = caustics.choose_source(choice.x.get(lane)), target = caustics.choose_target(choice.y.get(lane));
-    path.sources[lane] = source.number;
-    path.targets[lane] = target.number;
-    path.target[lane] = caustics.target(target.number);
+    source_numbers[lane] = source.number;
+    target_numbers[lane] = target.number;
+    const CausticTable::Target& sphere = caustics.target(target.number);
+    x[lane] = sphere.center.x;
+    y[lane] = sphere.center.y;
+    z[lane] = sphere.center.z;
+    radii[lane] = sphere.radius;
     probabilities[lane] = source.probability * target.probability;
   }
   const FloatN choices = FloatN::load_aligned(probabilities.data());
-  path.flux = path.share = Rgb<FloatN>(Rgb<float>(0, 0, 0));
+  path.flux = Rgb<FloatN>(Rgb<float>(0, 0, 0));
   path.rays.near = FloatN(0);
   path.rays.origin = path.rays.direction = Vec3<FloatN>(Vec3f(0, 0, 1));
-  path.from_point = MaskN(false);
-  path.groups = {};
-  const IntN source = IntN::load_aligned(path.sources.data());
+  path.group = IntN(0);
+  path.start = start_of(LightPathStart::on_surface);
+  path.source = IntN::load_aligned(source_numbers.data());
+  path.target = IntN::load_aligned(target_numbers.data());
+  const IntN& source = path.source;
+  const Targets targets{
+      {FloatN::load_aligned(x.data()), FloatN::load_aligned(y.data()), FloatN::load_aligned(z.data())},
+      FloatN::load_aligned(radii.data())};
   const auto lights = static_cast<std::int32_t>(scene.lights().size());
   const auto patches = static_cast<std::int32_t>(scene.emitters().size());
   for (MaskN left = float_mask<FloatN>(source < IntN(lights)); any(left);) {
-    const std::int32_t number = path.sources[static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(left)))];
+    const std::int32_t number = source_numbers[static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(left)))];
     const MaskN here = left & float_mask<FloatN>(source == IntN(number));
-    start_at_source(scene, path, number, here);
+    start_at_source(scene, path, targets, number, here);
     left = left & !here;
   }
   const MaskN at_patch =
       float_mask<FloatN>(source >= IntN(lights)) & float_mask<FloatN>(source < IntN(lights + patches));
-  if (any(at_patch)) start_at_patches(scene, path, at_patch);
+  if (any(at_patch)) start_at_patches(scene, path, targets, at_patch);
   const MaskN far = float_mask<FloatN>(source >= IntN(lights + patches));
   if (any(far)) {
     const Sample2D place = get_2d(path.pixel, path.sample, light_path_dimension(LightPathDraw::direction));
     const EnvironmentSample sky = scene.environment()->sample(place.x, place.y);
-    set_group(path, IntN(scene.environment_group()), far);
+    path.group = select_lanes(far, IntN(scene.environment_group()), path.group);
     path.rays.direction = select(far, -sky.wi, path.rays.direction);
     path.flux = select(far, sky.radiance * (FloatN(1) / sky.pdf), path.flux);
-    start_far_away(scene, path, far);
+    start_far_away(scene, path, targets, far);
   }
   path.flux = path.flux * (FloatN(1) / choices);
+  path.share = Rgb<FloatN>(Rgb<float>(1, 1, 1));
+  path.deviation = FloatN(0);
   return largest(path.flux) > FloatN(0);
 }
 

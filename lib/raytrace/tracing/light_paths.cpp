@@ -17,8 +17,8 @@
 
 namespace raytrace {
 
-LightPaths::LightPaths(const TracedScene& scene, Film& film)
-    : LightPathTracer(scene, std::get<Path::Parameters>(scene.tables().integrator()).maxdepth),
+LightPaths::LightPaths(const TracedScene& scene, Film& film, StageClock& clock)
+    : LightPathTracer(scene, std::get<Path::Parameters>(scene.tables().integrator()).maxdepth, clock),
       film_(film),
       catches_shadows_(film.settings().transparent && tables_.geometry().has_shadow_catchers()),
       inverse_unit_(std::ldexp(1.0, -film.settings().unit_exponent)) {
@@ -26,15 +26,13 @@ LightPaths::LightPaths(const TracedScene& scene, Film& film)
     layers_.push_back(layer == nullptr ? nullptr : layer->splats.get());
 }
 
-void LightPaths::trace(const Pixels& pixels, const UintN& samples, const MaskN& wanted, RenderReport& report) {
+void LightPaths::begin(const Pixels& pixels, const UintN& samples, const MaskN& wanted, RenderReport& report) {
   report_ = &report;
   SplatLayer& splats = *film_.splats();
   const auto width = static_cast<std::uint64_t>(film_.settings().extent.full_width);
-  LightPathPacket path;
-  path.sample = samples;
   std::uint32_t left = bits_of<FloatN>(wanted);
   for (std::uint64_t i = 0; left != 0; ++i) {
-    alignas(64) std::array<std::uint32_t, packet_lanes> columns{}, rows{}, lanes{};
+    alignas(64) std::array<std::int32_t, packet_lanes> columns{}, rows{}, lanes{};
     for (std::uint32_t those = left; those != 0; those &= those - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(those));
       const int x = pixels.x[lane], y = pixels.y[lane];
@@ -43,21 +41,26 @@ void LightPaths::trace(const Pixels& pixels, const UintN& samples, const MaskN& 
         continue;
       }
       lanes[lane] = 1;
-      path.picture_pixel[lane] = splats.path_pixel(x, y, i);
-      columns[lane] = static_cast<std::uint32_t>(path.picture_pixel[lane] % width);
-      rows[lane] = static_cast<std::uint32_t>(path.picture_pixel[lane] / width);
+      const std::uint64_t pixel = splats.path_pixel(x, y, i);
+      columns[lane] = static_cast<std::int32_t>(pixel % width);
+      rows[lane] = static_cast<std::int32_t>(pixel / width);
     }
     if (left == 0) return;
-    path.pixel =
-        pixel_hash(UintN::load_aligned(columns.data()), UintN::load_aligned(rows.data()), film_.settings().seed);
-    const MaskN here = float_mask<FloatN>(UintN::load_aligned(lanes.data()) != UintN(0u));
-    follow(path, start_light_paths(tables_, path) & here, report.rays);
+    const IntN column = IntN::load_aligned(columns.data()), row = IntN::load_aligned(rows.data());
+    const MaskN here = float_mask<FloatN>(IntN::load_aligned(lanes.data()) != IntN(0));
+    LightPathTracer::begin(pixel_hash(same_bits<UintN>(column), same_bits<UintN>(row), film_.settings().seed), samples,
+                           column, row, here, report.rays);
     splats.add_paths(count_lanes(here));
   }
 }
 
-void LightPaths::arrive(const LightPathPacket& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface,
-                        const MediumBoundary& boundary, const MaskN& scattered) {
+void LightPaths::finish(RenderReport& report) {
+  report_ = &report;
+  follow(report.rays);
+}
+
+void LightPaths::arrive(const LightPathPoint& at, const MaskN& scattered) {
+  const auto& [path, depth, media, hits, surface, boundary] = at;
   MaskN lanes = scattered;
   if (catches_shadows_) [[unlikely]] {
     lanes = lanes & !tables_.geometry().shadow_catchers(hits);
@@ -115,22 +118,23 @@ void LightPaths::arrive(const LightPathPacket& path, const Hits& hits, const Sur
   report_->rays.shadow += count_lanes(arrives);
   const MaskN hidden =
       tables_.identifies_rays()
-          ? occluded_identified(scene_, ray, arrives, ray_ids(path, static_cast<std::uint32_t>(path.depth) * 2 + 1),
+          ? occluded_identified(scene_, ray, arrives, ray_ids(path, static_cast<std::uint32_t>(depth) * 2 + 1),
                                 Coherence::incoherent)
           : scene_.accelerator().occluded(ray, arrives, Coherence::incoherent);
   arrives = arrives & !hidden;
   if (has_fog && any(arrives)) [[unlikely]] {
-    const RayIds ids = ray_ids(path, static_cast<std::uint32_t>(path.depth) * 2 + 1);
-    radiance = radiance * light_through(scene_, ray, arrives, ids, {path.media, boundary.current});
+    const RayIds ids = ray_ids(path, static_cast<std::uint32_t>(depth) * 2 + 1);
+    radiance = radiance * light_through(scene_, ray, arrives, ids, {media, boundary.current});
   }
   for (std::uint32_t left = bits_of<FloatN>(arrives); left != 0; left &= left - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(left));
-    splat(path, lane, points[lane], radiance);
+    splat(at, lane, points[lane], radiance);
   }
 }
 
-void LightPaths::splat(const LightPathPacket& path, std::size_t lane, const FilmPoint& point,
+void LightPaths::splat(const LightPathPoint& at, std::size_t lane, const FilmPoint& point,
                        const Rgb<FloatN>& radiance) {
+  const LightPathPacket& path = at.path;
   const PictureExtent& extent = film_.settings().extent;
   const FilterTable& filter = tables_.pixel_filter();
   const double pixels = static_cast<double>(extent.full_width) * static_cast<double>(extent.full_height);
@@ -143,7 +147,7 @@ void LightPaths::splat(const LightPathPacket& path, std::size_t lane, const Film
   const auto chance = [&](std::uint32_t axis) -> std::optional<double> {
     constexpr std::uint32_t purpose = 0x73706c61;
     if (!single) return std::nullopt;
-    const auto depth = static_cast<std::uint32_t>(path.depth);
+    const auto depth = static_cast<std::uint32_t>(at.depth);
     return hash<std::uint32_t>(path.pixel.get(lane), path.sample.get(lane), depth, purpose + axis) * 0x1p-32;
   };
   const Footprint columns(filter, x, chance(0)), rows(filter, y, chance(1));
@@ -162,12 +166,10 @@ void LightPaths::splat(const LightPathPacket& path, std::size_t lane, const Film
       }
       if (fits) {
         film_.splats()->add(to_x, to_y, units);
-        if (RadianceLayer* const layer = layers_[static_cast<std::size_t>(path.groups[lane])])
+        if (RadianceLayer* const layer = layers_[static_cast<std::size_t>(path.group.get(lane))])
           layer->add(to_x, to_y, units);
       } else {
-        const auto width = static_cast<std::uint64_t>(extent.full_width);
-        report_->invalid_samples.add({static_cast<int>(path.picture_pixel[lane] % width),
-                                      static_cast<int>(path.picture_pixel[lane] / width), path.sample.get(lane)});
+        report_->invalid_samples.add({path.column.get(lane), path.row.get(lane), path.sample.get(lane)});
         return;
       }
     }

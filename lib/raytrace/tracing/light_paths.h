@@ -21,27 +21,28 @@ namespace raytrace {
 
 class LightPaths final : private LightPathTracer {
  public:
-  /// The scene must have caustics, the film splats.
-  LightPaths(const TracedScene& scene, Film& film);
+  /// The scene must have caustics, the film splats. clock: of the thread. Throws std::bad_alloc.
+  LightPaths(const TracedScene& scene, Film& film, StageClock& clock);
 
   /// A pixel of the film for each lane.
   struct Pixels {
     std::array<int, packet_lanes> x, y;
   };
-  /// Traces those of these samples of these pixels, in the lanes of `wanted`.
-  void trace(const Pixels& pixels, const UintN& samples, const MaskN& wanted, RenderReport& report);
+  /// Begins those of these samples of these pixels, in the lanes of `wanted`.
+  void begin(const Pixels& pixels, const UintN& samples, const MaskN& wanted, RenderReport& report);
+  /// Brings all of them to their ends.
+  void finish(RenderReport& report);
 
  private:
   /// Sends what reaches those points to the camera, where it shows them.
-  void arrive(const LightPathPacket& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface,
-              const MediumBoundary& boundary, const MaskN& scattered) override;
-  void splat(const LightPathPacket& path, std::size_t lane, const FilmPoint& point, const Rgb<FloatN>& radiance);
+  void arrive(const LightPathPoint& at, const MaskN& scattered) override;
+  void splat(const LightPathPoint& at, std::size_t lane, const FilmPoint& point, const Rgb<FloatN>& radiance);
 
   Film& film_;
   bool catches_shadows_;  ///< shadow catchers are not in the picture
   double inverse_unit_;
   std::vector<RadianceLayer*> layers_;  ///< of each light group; null where the film has none
-  RenderReport* report_ = nullptr;      ///< while trace() runs
+  RenderReport* report_ = nullptr;      ///< while begin() and finish() run
 };
 
 }  // namespace raytrace

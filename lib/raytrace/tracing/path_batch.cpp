@@ -27,8 +27,8 @@ PathBatch::PathBatch(const TracedScene& scene, const Film& film)
       is_transparent_(film.settings().transparent),
       follows_mirrors_(follow_mirrors(film.settings().aovs.wanted)),
       settings_(std::get<Path::Parameters>(scene.tables().integrator())),
-      paths_(most_packets * packet_lanes, scene.tables().media()),
-      next_(most_packets * packet_lanes, scene.tables().media()),
+      paths_(most_packets * packet_lanes, PathPacket::unused(scene.tables().media())),
+      next_(most_packets * packet_lanes, PathPacket::unused(scene.tables().media())),
       groups_(scene.tables().light_groups().size()),
       has_one_light_(scene.tables().emitters().size() + (scene.tables().environment() != nullptr ? 1 : 0) == 1) {
   order_.reserve(most_packets * packet_lanes);
@@ -96,13 +96,10 @@ MaskN PathBatch::add(CameraRays& camera, const MaskN& active, const MaskN& wante
   return met;
 }
 
-void PathBatch::append(PathChunk& chunk, const PathPacket& path, const Hits& hits, const MaskN& lanes) const {
-  const std::uint32_t bits = bits_of<FloatN>(lanes);
-  if (bits == 0) return;
-  // By geometry, which says the shape, and by material. Those that share a bucket are shaded in turn.
-  const IntN geometry = same_bits<IntN>(hits.geometry), material = scene_.tables().material(hits);
-  const IntN bucket = ((geometry & IntN(15)) << 4) | (material & IntN(15));
-  chunk.append(path, bits, select_lanes(float_mask<FloatN>(path.way == IntN(from_below)), bucket ^ IntN(0x88), bucket));
+void PathBatch::append(Chunk& chunk, const PathPacket& path, const Hits& hits, const MaskN& lanes) const {
+  const IntN bucket = bucket_of(hits, scene_.tables().material(hits));
+  chunk.append(path, lanes,
+               select_lanes(float_mask<FloatN>(path.way == IntN(from_below)), bucket ^ IntN(0x88), bucket));
 }
 
 void PathBatch::trace(RayCounts& counts) {
@@ -111,13 +108,9 @@ void PathBatch::trace(RayCounts& counts) {
     paths_.sort(order_);
     next_.clear();
     for (std::size_t first = 0; first < order_.size(); first += packet_lanes) {
-      const std::size_t lanes = std::min<std::size_t>(order_.size() - first, packet_lanes);
-      // Lanes beyond the last path follow the first of the packet.
-      alignas(64) std::array<std::int32_t, packet_lanes> index;
-      for (std::size_t lane = 0; lane < packet_lanes; ++lane) index[lane] = order_[first + (lane < lanes ? lane : 0)];
       clock_.begin_packet();
-      PathPacket path = paths_.load(IntN::load_aligned(index.data()));
-      extend(path, first_lanes<FloatN>(static_cast<int>(lanes)), depth, counts);
+      auto [path, lanes] = paths_.load(order_, first);
+      extend(path, lanes, depth, counts);
     }
     std::swap(paths_, next_);
   }
@@ -298,7 +291,9 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
     stop_following(path, lanes & !scattering.sample.specular);
   clock_.end(Stage::shade);
   if (any(drawn.lit)) {
-    light += arriving_light(scene_, vertex, drawn, scattering.towards, coherence, ids(lights + 1), counts, clock_,
+    // Rays to one light are neighbours as the camera's are, those to many are not.
+    const Coherence to_lights = has_one_light_ ? coherence : Coherence::incoherent;
+    light += arriving_light(scene_, vertex, drawn, scattering.towards, to_lights, ids(lights + 1), counts, clock_,
                             has_media ? &point_media : nullptr);
   }
   add(sums, path.slot, lanes, path.throughput * light, groups_ > 1 ? group_of(drawn) : IntN(0));

@@ -16,7 +16,7 @@
 #include "raytrace/integrators/path.h"
 #include "raytrace/scene/medium_table.h"
 #include "raytrace/tracing/aov_values.h"
-#include "raytrace/tracing/path_chunk.h"
+#include "raytrace/tracing/path_packet.h"
 #include "raytrace/tracing/photon_map.h"
 #include "raytrace/tracing/ray_result.h"
 #include "raytrace/tracing/render_report.h"
@@ -57,6 +57,7 @@ class PathBatch {
  private:
   static constexpr std::size_t most_packets = 1024 / packet_lanes;
 
+  using Chunk = PathChunk<PathPacket>;
   using Sums = std::array<std::array<float, packet_lanes>, 3>;  ///< red, green and blue of each lane
 
   /// Of each lane's path: albedo and normal of what it met last, as long as that was a mirror or clear.
@@ -115,14 +116,14 @@ class PathBatch {
                    const TexturePoint<FloatN>* point, const MaskN& lanes, int depth);
   /// What comes to paths from where nothing is, along their ray number `depth`: 0 is the camera's.
   void add_escaped(const PathPacket& path, const MaskN& lanes, int depth);
-  void append(PathChunk& chunk, const PathPacket& path, const Hits& hits, const MaskN& lanes) const;
+  void append(Chunk& chunk, const PathPacket& path, const Hits& hits, const MaskN& lanes) const;
 
   const TracedScene& scene_;
   const PhotonMap* photons_;
   bool is_transparent_, follows_mirrors_;
   const Path::Parameters& settings_;
   StageClock clock_;
-  PathChunk paths_, next_;
+  Chunk paths_, next_;
   RayCounts camera_walks_;           ///< of what was added since trace() ran
   std::vector<std::int32_t> order_;  ///< the numbers of paths, in the lowest 16 bits of their keys
   std::size_t groups_;               ///< of the scene's lights

@@ -1,6 +1,7 @@
 // Paths on their way: taken out in any order, and put back, a packet at a time.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -8,42 +9,18 @@
 #include <utility>
 #include <vector>
 
-#include "raytrace/math/color.h"
 #include "raytrace/math/gather.h"
 #include "raytrace/math/ray.h"
 #include "raytrace/scene/hits.h"
-#include "raytrace/scene/medium_table.h"
 
 namespace raytrace {
 
-/// What a path from the camera has met, as far as light paths are concerned (tracing/light_paths.h).
-enum PathWay : std::int32_t {
-  any_way,        ///< or nothing yet
-  by_scattering,  ///< no surface yet, but what is in a medium
-  by_reflection,  ///< last a point that light paths bring light to, or photons, which reflected it
-  by_focus,       ///< that, and from there on one or more points of what does: light from here is a light path's
-  from_below,     ///< anything, and it now comes out from below the surface that it has hit
-};
-
-/// A path for each lane, whose last ray has hit something.
-struct PathPacket {
-  Ray<FloatN> rays;  ///< the last ones, which end where they hit
+/// Rays for each lane that have hit something, and what: as paths keep them between two points.
+struct ArrivedRays {
+  Ray<FloatN> rays;  ///< which end where they hit
   UintN instance, geometry;
   IntN primitive;
   FloatN u, v;
-
-  Rgb<FloatN> throughput;
-  FloatN eta2;      ///< of the media that the path is in and was in at its start, squared
-  FloatN distance;  ///< of all rays before the last one together
-  // Of the last direction: its density, infinite where light cannot be drawn for it, and where it starts.
-  FloatN pdf;
-  Vec3<FloatN> from, from_normal;
-  UintN pixel, sample;           ///< as CameraRays have them
-  IntN slot;                     ///< where the path's radiance goes
-  IntN way;                      ///< PathWay
-  IntN first_media, last_media;  ///< MediumStack::Packed, in scenes with media
-  IntN fog_scatterings;          ///< how often fog has scattered it; in scenes with fog
-  FloatN deviation;              ///< of the path's wavelength, or 0 if it has none; where media disperse light
 
   void set_hits(const Hits& hits) {
     instance = hits.instance;
@@ -65,14 +42,19 @@ struct PathPacket {
   }
 };
 
+/// In which paths of one material on one geometry, which says the shape, are together.
+inline IntN bucket_of(const Hits& hits, const IntN& material) {
+  return ((same_bits<IntN>(hits.geometry) & IntN(15)) << 4) | (material & IntN(15));
+}
+
+/// Packet: a path for each lane; of members of a lane's width only, the last of which may be unused.
+template <class Packet>
 class PathChunk {
  public:
-  /// Takes so many paths. Throws std::bad_alloc.
-  PathChunk(std::size_t capacity, const MediumTable& media)
-      : fields_(media.disperses() ? fields
-                : media.has_fog() ? fields - 1
-                : media.empty()   ? fields - 4
-                                  : fields - 2),
+  /// Takes so many paths, of whose packets the last `unused` members are not kept. Throws std::bad_alloc.
+  PathChunk(std::size_t capacity, std::size_t unused)
+      : capacity_(capacity),
+        fields_(fields - unused),
         stride_((fields_ + 3) / 4 * 4),
         numbers_(stride_ * (capacity + 1)),
         unused_(static_cast<std::int32_t>(stride_ * capacity)) {
@@ -80,13 +62,17 @@ class PathChunk {
   }
 
   std::size_t size() const { return buckets_.size(); }
+  /// Whether it may not take a packet more.
+  bool is_full() const { return size() + packet_lanes > capacity_; }
   void clear() {
     buckets_.clear();
     ends_ = {};
   }
 
   /// Adds those lanes. bucket: from 0 to 255 each; paths of one are worth being together.
-  void append(const PathPacket& packet, std::uint32_t lanes, const IntN& bucket) {
+  void append(const Packet& packet, const MaskN& mask, const IntN& bucket) {
+    std::uint32_t lanes = bits_of<FloatN>(mask);
+    if (lanes == 0) return;
     alignas(64) std::array<std::int32_t, packet_lanes> buckets, offsets;
     bucket.store_aligned(buckets.data());
     offsets.fill(unused_);
@@ -99,13 +85,16 @@ class PathChunk {
     scatter_fields(reinterpret_cast<const FloatN*>(&packet), fields_, numbers_.data(), offsets.data());
   }
 
-  /// Those of the given numbers.
-  PathPacket load(const IntN& index) const {
+  /// The paths order[first], order[first + 1]... that there are, at most a packet of them; and how many. Lanes beyond
+  /// the last one follow the first.
+  std::pair<Packet, MaskN> load(const std::vector<std::int32_t>& order, std::size_t first) const {
+    const std::size_t lanes = std::min<std::size_t>(order.size() - first, packet_lanes);
     alignas(64) std::array<std::int32_t, packet_lanes> offsets;
-    (index * IntN(static_cast<std::int32_t>(stride_))).store_aligned(offsets.data());
-    PathPacket packet;
+    for (std::size_t lane = 0; lane < packet_lanes; ++lane)
+      offsets[lane] = order[first + (lane < lanes ? lane : 0)] * static_cast<std::int32_t>(stride_);
+    Packet packet;
     gather_fields(numbers_.data(), offsets.data(), fields_, reinterpret_cast<FloatN*>(&packet));
-    return packet;
+    return {packet, first_lanes<FloatN>(static_cast<int>(lanes))};
   }
 
   /// Sets the order in which paths are by bucket, each bucket's as they came. clear() ends it.
@@ -118,10 +107,10 @@ class PathChunk {
   }
 
  private:
-  static constexpr std::size_t fields = sizeof(PathPacket) / sizeof(FloatN);
-  static_assert(sizeof(PathPacket) == fields * packet_lanes * sizeof(float));
+  static constexpr std::size_t fields = sizeof(Packet) / sizeof(FloatN);
+  static_assert(sizeof(Packet) == fields * packet_lanes * sizeof(float));
 
-  std::size_t fields_, stride_;
+  std::size_t capacity_, fields_, stride_;
   std::vector<float> numbers_;            ///< path by path
   std::int32_t unused_;                   ///< where numbers of lanes go that are not added
   std::vector<std::uint8_t> buckets_;     ///< of each path

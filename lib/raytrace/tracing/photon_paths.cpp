@@ -30,29 +30,32 @@ class PhotonTracer final : private LightPathTracer {
  public:
   /// paths: of the pass; the camera's have one point at least before they look up photons.
   PhotonTracer(const TracedScene& scene, std::uint32_t paths)
-      : LightPathTracer(scene, std::get<Path::Parameters>(scene.tables().integrator()).maxdepth - 1),
+      : LightPathTracer(scene, std::get<Path::Parameters>(scene.tables().integrator()).maxdepth - 1, clock_),
         share_(1 / static_cast<float>(paths)) {}
 
   /// Light paths [first, first + count) of the pass, whose numbers they draw as samples of one pixel.
   void trace(std::uint32_t pixel, std::uint32_t before, std::uint32_t first, std::uint32_t count,
              RenderReport& report) {
+    const UintN first_sample = UintN(before + first) + lane_numbers<UintN>();
     for (std::uint32_t i = 0; i < count; i += packet_lanes) {
-      LightPathPacket path;
-      path.picture_pixel = {};
-      path.pixel = UintN(pixel);
-      path.sample = UintN(before + first + i) + lane_numbers<UintN>();
       clock_.begin_packet();
-      follow(path, start_light_paths(tables_, path), report.rays);
+      begin(UintN(pixel), first_sample + UintN(i), IntN(0), IntN(0), MaskN(true), report.rays);
       clock_.end(Stage::light_paths);
     }
+    follow(report.rays);
+    std::ranges::sort(photons_, {}, [&](const PathPhoton& one) { return one.sample - (before + first); });
     report.stages += clock_.times();
   }
 
-  std::vector<Photon>& photons() { return photons_; }
+  /// In the order of the paths, each of which has left one at most.
+  void add_to(std::vector<Photon>& photons) const {
+    for (const PathPhoton& one : photons_) photons.push_back(one.photon);
+  }
 
  private:
-  void arrive(const LightPathPacket& path, const Hits&, const SurfaceInteraction<FloatN>& surface,
-              const MediumBoundary&, const MaskN& lanes) override {
+  void arrive(const LightPathPoint& at, const MaskN& lanes) override {
+    const LightPathPacket& path = at.path;
+    const SurfaceInteraction<FloatN>& surface = at.surface;
     const auto lane_of = [](const Vec3<FloatN>& v, std::size_t lane) {
       return Vec3f{v.x.get(lane), v.y.get(lane), v.z.get(lane)};
     };
@@ -60,15 +63,20 @@ class PhotonTracer final : private LightPathTracer {
     for (std::uint32_t left = bits_of<FloatN>(lit); left != 0; left &= left - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(left));
       photons_.push_back(
-          {lane_of(surface.p, lane), lane_of(surface.ng, lane), lane_of(surface.wo, lane),
-           Rgb<float>(path.flux.red.get(lane), path.flux.green.get(lane), path.flux.blue.get(lane)) * share_,
-           path.groups[lane], path.depth});
+          {path.sample.get(lane),
+           {lane_of(surface.p, lane), lane_of(surface.ng, lane), lane_of(surface.wo, lane),
+            Rgb<float>(path.flux.red.get(lane), path.flux.green.get(lane), path.flux.blue.get(lane)) * share_,
+            path.group.get(lane), at.depth}});
     }
   }
 
+  struct PathPhoton {
+    std::uint32_t sample;  ///< of the path
+    Photon photon;
+  };
   float share_;
   StageClock clock_;
-  std::vector<Photon> photons_;  ///< in the order of the paths, and of their points
+  std::vector<PathPhoton> photons_;
 };
 
 struct Traced {
@@ -94,7 +102,7 @@ Traced trace_pass(const TracedScene& scene, const FilmSettings& film, std::uint3
     PhotonTracer tracer(scene, passes.paths);
     tracer.trace(pixel, static_cast<std::uint32_t>(before), static_cast<std::uint32_t>(piece) * paths_at_once,
                  paths_at_once, reports[i]);
-    photons[i] = std::move(tracer.photons());
+    tracer.add_to(photons[i]);
   });
   Traced traced;
   traced.stopped = is_stopped();

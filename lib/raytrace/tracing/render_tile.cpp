@@ -60,13 +60,14 @@ class BlockRenderer {
                        scene.tables().geometry().has_shadow_catchers();
     needs_sample_ids_ = (!raycast && integrator_.takes_samples) || scene.tables().identifies_rays() ||
                         scene.tables().has_sampled_lights() || catches_shadows_;
-    if (film.splats() != nullptr) light_paths_.emplace(scene, film);
+    if (film.splats() != nullptr) light_paths_.emplace(scene, film, batch_->clock());
   }
 
   /// Continues all pixels to `samples` each; returns early if it is stopped.
   RenderReport render(std::uint32_t samples) {
     render_blocks(samples);
     if (batch_) trace_batch();
+    if (light_paths_) light_paths_->finish(report_);
     if (open_) close_block();
     if (batch_) report_.stages += batch_->clock().times();
     return report_;
@@ -158,7 +159,7 @@ class BlockRenderer {
       report_.rays.camera += count_lanes(wanted & traced);
       if (!raycast && batch_) batch_->clock().end(Stage::film);
       if (!raycast && light_paths_) {
-        trace_light_paths(block, sample, wanted);
+        begin_light_paths(block, sample, wanted);
         batch_->clock().end(Stage::light_paths);
       }
       if (!raycast && batch_) {
@@ -197,7 +198,7 @@ class BlockRenderer {
 
   /// Those of the lanes' pixels and samples. They are in the film before the samples are, but in one call of render():
   /// nobody looks at the film in between.
-  void trace_light_paths(const Block& block, const UintN& samples, const MaskN& wanted) {
+  void begin_light_paths(const Block& block, const UintN& samples, const MaskN& wanted) {
     LightPaths::Pixels pixels;
     alignas(64) std::array<std::uint32_t, packet_lanes> in_region{};
     block.for_each_lane(region_, [&](int x, int y, std::size_t lane) {
@@ -206,7 +207,7 @@ class BlockRenderer {
       in_region[lane] = 1;
     });
     const MaskN here = float_mask<FloatN>(UintN::load_aligned(in_region.data()) != UintN(0u));
-    light_paths_->trace(pixels, samples, wanted & here, report_);
+    light_paths_->begin(pixels, samples, wanted & here, report_);
   }
 
   /// Packets' results, when their paths have been traced.
