@@ -181,7 +181,8 @@ TEST_CASE("the schema refuses most of the bad scenes, the program all", "[schema
       "include_missing"};
   // Nor that one element stands in place of another, or goes with some only.
   expected.insert({"exposure_too_low", "filter_too_wide", "fisheye_beyond_all", "fov_and_pixelsize",
-                   "fov_and_viewdistance", "fov_too_wide", "lens_of_two_blades", "missing_viewdistance"});
+                   "fov_and_viewdistance", "fov_too_wide", "lens_of_two_blades", "missing_viewdistance",
+                   "too_many_indirectsamples"});
   // Nor what a material's numbers and colours are together.
   expected.insert({"conductor_of_two_colors", "conductor_of_two_edges", "conductor_too_rough",
                    "conductor_too_stretched", "conductor_without_color", "dielectric_that_shines",

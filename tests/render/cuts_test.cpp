@@ -55,6 +55,13 @@ SceneDescription small_scene(const std::string& file, int samples) {
   return std::move(*description);
 }
 
+/// With so many paths that go on from camera rays' first points, where paths are traced.
+SceneDescription with_branches(SceneDescription description, int branches) {
+  if (description.integrator)
+    if (auto* const path = std::get_if<Path::Parameters>(&*description.integrator)) path->indirectsamples = branches;
+  return description;
+}
+
 class Chance {
  public:
   explicit Chance(unsigned seed) : bits_(seed) {}
@@ -124,7 +131,7 @@ class CutRender {
         samples_(samples),
         transparent_(transparent),
         single_splats_(seed % 2 == 1),
-        description_(small_scene(file, samples)),
+        description_(with_branches(small_scene(file, samples), seed % 4 == 1 ? 3 : 1)),
         scene_(build_scene(description_, {8, isa})),
         aovs_(aovs_of(description_)),
         whole_(in_one(overscan, 1)) {}

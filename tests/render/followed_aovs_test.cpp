@@ -50,7 +50,7 @@ void check(const std::array<double, 3>& got, const std::array<double, 3>& wanted
   for (std::size_t i = 0; i < 3; ++i) CHECK(got[i] == Approx(wanted[i]).margin(margin));
 }
 
-const std::string path = "<path/>";
+const std::string path = "<path/>", branching_path = "<path><indirectsamples>3</indirectsamples></path>";
 const std::string wall_material =
     "<mattes><matte><name>wall</name><ka>1</ka><kd>0.5</kd><cd red='0.8' green='0.4' blue='0.2'/></matte></mattes>";
 const std::array<double, 3> wall_albedo{0.4, 0.2, 0.1};
@@ -74,8 +74,8 @@ std::string mirror(const std::string& color) {
 }  // namespace
 
 TEST_CASE("what a mirror shows is followed, in the mirror's colour") {
-  const Features seen =
-      features_of(path, 16, wall_material + mirror("red='0.5' green='1' blue='0.25'"), tilted + wall_aside);
+  const Features seen = features_of(GENERATE(path, branching_path), 16,
+                                    wall_material + mirror("red='0.5' green='1' blue='0.25'"), tilted + wall_aside);
   check(seen.albedo, {0.2, 0.2, 0.025});
   check(seen.normal, {-1, 0, 0});
 }

@@ -115,6 +115,15 @@ TEST_CASE("the bits of what moves do not depend on how the work is cut") {
       motion_scene(moving_ball + turning_box + moving_instance, moving_eye + shutter_open, 16, mesh_group)));
 }
 
+TEST_CASE("the bits of paths that branch among what moves do not depend on how the work is cut") {
+  std::string text =
+      motion_scene(moving_ball + turning_box + moving_instance, moving_eye + shutter_open, 8, mesh_group);
+  const std::string root = "<raytracer>";
+  text.insert(text.find(root) + root.size(),
+              "<integrator><path><maxdepth>3</maxdepth><indirectsamples>3</indirectsamples></path></integrator>");
+  check_same_bits(parsed_scene(text));
+}
+
 TEST_CASE("a scene in which nothing moves is the same with an open shutter") {
   const std::string ball =
       "<spheres><sphere><center x='0' y='0' z='0'/><radius>1.5</radius><material>red</material></sphere></spheres>";

@@ -9,12 +9,17 @@ from ..process import run
 from .files import write_ply, write_sky, write_texture
 from .scenes import WIDTH, Diffuse, Glass, Lamp, Mesh, Metal, Rectangle, Sphere, Textured
 
-VARIANTS = {"raytrace": None}
 LIMIT = 3600  # seconds for one render
 
 
 def available():
     return None if os.path.exists(PROGRAM) else f"{PROGRAM} is not built"
+
+
+def variants(scene):
+    """With its defaults, and with what its documents advise for what the scene's noise is mostly of."""
+    tuned = {"raytrace, tuned": "tuned.xml"} if scene.focused or scene.bounced else {}
+    return {"raytrace": "scene.xml"} | tuned
 
 
 def _vector(name, v):
@@ -42,14 +47,21 @@ def _material(name, material):
 
 
 def write(scene, folder, chosen):
-    with open(os.path.join(folder, "scene.xml"), "w", encoding="utf-8") as file:
+    # A depth here is a scattering: one less than the segments of a path, which the others count.
+    depth = f"<maxdepth>{chosen.depth - 1}</maxdepth>"
+    _write(scene, folder, chosen, "scene.xml", depth + ("<caustics>light</caustics>" if scene.caustics else ""))
+    photons = "<caustics>photons</caustics>" if scene.focused else ""
+    branches = "<indirectsamples>4</indirectsamples>" if scene.bounced else ""
+    _write(scene, folder, chosen, "tuned.xml", depth + photons + branches)
+
+
+def _write(scene, folder, chosen, name, settings):
+    with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
         say = file.write
         say(f"<raytracer>\n<!-- {scene.title} -->\n<viewplane><hres>{WIDTH}</hres><vres>{WIDTH}</vres>")
         say(f"<samples>{chosen.samples}</samples></viewplane>\n<camera>{_vector('eye', scene.eye)}")
         say(f"{_vector('lookat', scene.lookat)}<fov>{scene.fov:.9g}</fov></camera>\n")
-        # A depth here is a scattering: one less than the segments of a path, which the others count.
-        caustics = "<caustics>light</caustics>" if scene.caustics else ""
-        say(f"<integrator><path><maxdepth>{chosen.depth - 1}</maxdepth>{caustics}</path></integrator>\n<lights>")
+        say(f"<integrator><path>{settings}</path></integrator>\n<lights>")
         if scene.sky:
             say("<environmentlights><environmentlight><file>sky.exr</file></environmentlight></environmentlights>")
             write_sky(folder, lambda row, height: (row + 0.5) / height)
@@ -75,10 +87,10 @@ def write(scene, folder, chosen):
         say("</meshes>\n</objects>\n</raytracer>\n")
 
 
-def renders(variant, folder, chosen):
+def renders(scene_file, folder, chosen):
     """Yields (seconds, picture), without end."""
     for seed in range(1, 1 << 30):
-        command = [PROGRAM, "scene.xml", "-q", "-t", chosen.threads, "--float", "-o", "picture.exr", "--stats=stats.json"]
+        command = [PROGRAM, scene_file, "-q", "-t", chosen.threads, "--float", "-o", "picture.exr", "--stats=stats.json"]
         run([*command, "--seed", seed], folder, LIMIT)
         with open(os.path.join(folder, "stats.json"), encoding="utf-8") as file:
             seconds = json.load(file)["seconds"]["render"]

@@ -69,7 +69,9 @@ def measured(scene, chosen):
         shutil.rmtree(folder, ignore_errors=True)
         os.makedirs(folder)
         RENDERERS[name].write(scene, folder, chosen)
-        for variant, setting in RENDERERS[name].VARIANTS.items():
+        renderer = RENDERERS[name]
+        variants = renderer.variants(scene) if hasattr(renderer, "variants") else renderer.VARIANTS
+        for variant, setting in variants.items():
             running[variant] = RENDERERS[name].renders(setting, folder, chosen)
     taken = {variant: [] for variant in running}
     for _ in range(chosen.renders):

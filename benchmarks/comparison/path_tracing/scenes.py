@@ -82,6 +82,9 @@ class Scene:
     objects: list = field(default_factory=list)
     sky: bool = False
     caustics: bool = False  # on paths from the lights, where a renderer has them
+    # What its noise is mostly of, for renderers with a setting for that.
+    focused: bool = False  # light by way of metal or glass
+    bounced: bool = False  # light from one diffuse surface to the next
 
     def of(self, shape):
         return [item for item in self.objects if isinstance(item, shape)]
@@ -146,6 +149,8 @@ def cornell(name, title, short, tall):
         "white": WHITE, "red": Diffuse((0.63, 0.065, 0.05)), "green": Diffuse((0.14, 0.45, 0.091)),
         "lamp": Lamp((17, 12, 4)), "short": short, "tall": tall,
     }
+    scene.bounced = isinstance(short, Diffuse)
+    scene.focused = not scene.bounced
     scene.objects = walls() + [Rectangle((-0.25, 0.998, -0.2), (0.5, 0, 0), (0, 0, 0.4), "lamp")]
     if isinstance(short, Glass):
         scene.objects += [Sphere((0.4, -0.6, 0.4), 0.4, "short"), Sphere((-0.4, -0.45, -0.35), 0.5, "tall")]
@@ -204,7 +209,7 @@ def lamps(name, title):
 def window(name, title):
     """A closed room; the sun shines through a window in its right wall on the floor."""
     scene = furnished(name, title)
-    scene.sky = True
+    scene.sky = scene.bounced = True
     scene.eye, scene.fov = (0, 0, 0.98), 85
     right = [item for item in scene.objects if item.material == "green"]
     scene.objects = [item for item in scene.objects if item not in right]
@@ -240,6 +245,7 @@ def grid_faces(columns, rows):
 def knot(name, title, columns=1024, rows=96):
     """A textured tube, knotted, in a white room."""
     scene = furnished(name, title)
+    scene.bounced = True
     scene.objects = scene.objects[:5] + [Rectangle((-0.25, 0.998, -0.2), (0.5, 0, 0), (0, 0, 0.4), "lamp")]
     scene.materials["knot"] = Textured()
     t, s = numpy.meshgrid(numpy.linspace(0, 2 * math.pi, columns + 1), numpy.linspace(0, 2 * math.pi, rows + 1))
@@ -273,7 +279,7 @@ def ball(center, radius, columns, rows, material):
 
 def crystal(name, title):
     """A ball of cut glass and a ring of mirrors on a floor, under a lamp."""
-    scene = Scene(name, title, (0.1, 5, 2.2), (0.1, 0.2, 0.25), 36, caustics=True)
+    scene = Scene(name, title, (0.1, 5, 2.2), (0.1, 0.2, 0.25), 36, caustics=True, focused=True)
     scene.materials = {"floor": Diffuse((0.7, 0.68, 0.65)), "lamp": Lamp((375, 340, 275)), "glass": Glass(),
                        "mirror": Metal((0.95, 0.85, 0.6))}
     t, y = numpy.meshgrid(numpy.linspace(0, 2 * math.pi, 65), numpy.array([0.001, 0.25]))

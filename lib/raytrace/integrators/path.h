@@ -4,6 +4,8 @@
 //   <integrator> <path> <maxdepth>8</maxdepth> </path> </integrator>
 #pragma once
 
+#include <optional>
+
 #include "raytrace/parameters/fields.h"
 
 namespace raytrace {
@@ -32,9 +34,12 @@ struct Choices<Caustics> {
 
 class Path {
  public:
+  static constexpr int most_indirectsamples = 16;
+
   struct Parameters {
-    int maxdepth = 16;      ///< so many scatterings at most: 1 is direct light alone
-    int roulettedepth = 3;  ///< from this scattering on, paths that carry little may end
+    int maxdepth = 16;        ///< so many scatterings at most: 1 is direct light alone
+    int roulettedepth = 3;    ///< from this scattering on, paths that carry little may end
+    int indirectsamples = 1;  ///< paths that go on from a camera ray's first point
     LightSampling lightsampling = LightSampling::tree;
     Caustics caustics = Caustics::none;
     double photonradius = 0;  ///< within which the first pass looks up photons; 0: found from the photons
@@ -45,10 +50,15 @@ class Path {
   static Fields fields() {
     return {optional("maxdepth", &Parameters::maxdepth, Range::positive),
             optional("roulettedepth", &Parameters::roulettedepth, Range::positive),
+            optional("indirectsamples", &Parameters::indirectsamples, Range::positive),
             optional("lightsampling", &Parameters::lightsampling),
             optional("caustics", &Parameters::caustics),
             optional("photonradius", &Parameters::photonradius, Range::not_negative),
             optional("clampindirect", &Parameters::clampindirect, Range::not_negative)};
+  }
+  static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {
+    if (parameters.indirectsamples <= most_indirectsamples) return std::nullopt;
+    return ParameterDiagnostic{ParameterDiagnostic::Effect::error, "<indirectsamples> is 16 at most"};
   }
 };
 

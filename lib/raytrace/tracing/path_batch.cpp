@@ -27,13 +27,16 @@ PathBatch::PathBatch(const TracedScene& scene, const Film& film)
       is_transparent_(film.settings().transparent),
       follows_mirrors_(follow_mirrors(film.settings().aovs.wanted)),
       settings_(std::get<Path::Parameters>(scene.tables().integrator())),
-      paths_(most_packets * packet_lanes, PathPacket::unused(scene.tables().media())),
-      next_(most_packets * packet_lanes, PathPacket::unused(scene.tables().media())),
+      branches_(static_cast<std::size_t>(settings_.indirectsamples)),
+      most_packets_(std::max<std::size_t>(1, most_paths / packet_lanes / branches_)),
+      paths_(most_packets_ * branches_ * packet_lanes, PathPacket::unused(scene.tables().media())),
+      next_(most_packets_ * branches_ * packet_lanes, PathPacket::unused(scene.tables().media())),
       groups_(scene.tables().light_groups().size()),
-      has_one_light_(scene.tables().emitters().size() + (scene.tables().environment() != nullptr ? 1 : 0) == 1) {
-  order_.reserve(most_packets * packet_lanes);
-  direct_.reserve(most_packets * groups_);
-  indirect_.reserve(most_packets * groups_);
+      has_one_light_(scene.tables().emitters().size() + (scene.tables().environment() != nullptr ? 1 : 0) == 1),
+      strands_(branches_ == 1 ? 1 : 1 + branches_) {
+  order_.reserve(most_packets_ * branches_ * packet_lanes);
+  direct_.reserve(most_packets_ * strands_ * groups_);
+  indirect_.reserve(most_packets_ * strands_ * groups_);
 }
 
 void PathBatch::clear() {
@@ -55,9 +58,9 @@ MaskN PathBatch::add(CameraRays& camera, const MaskN& active, const MaskN& wante
           add_textures(scene_.tables(), hits, first->surface, [&] { return camera_radius(scene_.tables(), camera); });
     }
   }
-  const auto first_slot = static_cast<std::int32_t>(packets() * packet_lanes);
-  direct_.resize(direct_.size() + groups_);
-  indirect_.resize(indirect_.size() + groups_);
+  const auto first_slot = static_cast<std::int32_t>(packets() * strands_ * packet_lanes);
+  direct_.resize(direct_.size() + strands_ * groups_);
+  indirect_.resize(indirect_.size() + strands_ * groups_);
   if (follows_mirrors_) followed_.emplace_back();
   PathPacket path;
   path.rays = camera.rays;
@@ -135,26 +138,33 @@ void PathBatch::add(std::vector<Sums>& sums, const IntN& slot, const MaskN& lane
   }
 }
 
-Rgb<FloatN> PathBatch::radiance(std::size_t packet, std::size_t group) const {
-  const auto load = [](const Sums& sums) {
-    return Rgb<FloatN>(FloatN::load_unaligned(sums[0].data()), FloatN::load_unaligned(sums[1].data()),
-                       FloatN::load_unaligned(sums[2].data()));
+Rgb<FloatN> PathBatch::sum(const std::vector<Sums>& sums, std::size_t packet, std::size_t group) const {
+  const auto load = [&](std::size_t strand) {
+    const Sums& some = sums[(packet * strands_ + strand) * groups_ + group];
+    return Rgb<FloatN>(FloatN::load_unaligned(some[0].data()), FloatN::load_unaligned(some[1].data()),
+                       FloatN::load_unaligned(some[2].data()));
   };
-  const std::size_t first = packet * groups_;
-  Rgb<FloatN> indirect = load(indirect_[first + group]);
+  if (strands_ == 1) return load(0);
+  Rgb<FloatN> all = load(1);
+  for (std::size_t strand = 2; strand < strands_; ++strand) all += load(strand);
+  return load(0) + all * FloatN(1 / static_cast<float>(branches_));
+}
+
+Rgb<FloatN> PathBatch::radiance(std::size_t packet, std::size_t group) const {
+  Rgb<FloatN> indirect = sum(indirect_, packet, group);
   if (settings_.clampindirect > 0) {
     const FloatN most(static_cast<float>(settings_.clampindirect));
     if (groups_ == 1) {
       indirect = {min(indirect.red, most), min(indirect.green, most), min(indirect.blue, most)};
     } else {
       // Groups lose the same share of a sum that is too large.
-      Rgb<FloatN> all = load(indirect_[first]);
-      for (std::size_t i = 1; i < groups_; ++i) all += load(indirect_[first + i]);
-      const auto left = [&](const FloatN& sum) { return select(sum > most, most / sum, FloatN(1)); };
+      Rgb<FloatN> all = sum(indirect_, packet, 0);
+      for (std::size_t i = 1; i < groups_; ++i) all += sum(indirect_, packet, i);
+      const auto left = [&](const FloatN& whole) { return select(whole > most, most / whole, FloatN(1)); };
       indirect = indirect * Rgb<FloatN>(left(all.red), left(all.green), left(all.blue));
     }
   }
-  return load(direct_[first + group]) + indirect;
+  return sum(direct_, packet, group) + indirect;
 }
 
 void PathBatch::add_escaped(const PathPacket& path, const MaskN& lanes, int depth) {
@@ -287,8 +297,6 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   const Sample2D direction = draw(PathDraw::direction), choices = draw(PathDraw::lobe_and_roulette);
   const Scattering scattering = tables.scatter(hits, surface, vertex.frame, boundary.media, wo, drawn.lit,
                                                drawn.local_wi, choices.x, direction.x, direction.y, point);
-  if (follows_mirrors_) [[unlikely]]
-    stop_following(path, lanes & !scattering.sample.specular);
   clock_.end(Stage::shade);
   if (any(drawn.lit)) {
     // Rays to one light are neighbours as the camera's are, those to many are not.
@@ -303,82 +311,10 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   clock_.end(Stage::lights);
   if (!goes_on) return;
 
-  const BsdfSample<FloatN>& sample = scattering.sample;
-  rays.direction = vertex.frame.to_world(sample.wi);
-  const MaskN through = sample.wi.z < FloatN(0);
-  // On the true surface the direction is on the same side as on the shaded one.
-  MaskN alive = lanes & (sample.pdf > FloatN(0)) & (dot(rays.direction, surface.ng) * sample.wi.z > FloatN(0));
-  FloatN weight = abs(sample.wi.z) / sample.pdf;
-  if (surface.has_relief) weight = select(through, weight, weight * relief_shadow(surface, rays.direction));
-  path.throughput = select(alive, path.throughput * sample.f * weight, black());
-  path.eta2 = path.eta2 * sample.eta2;
-  if (depth + 1 >= settings_.roulettedepth) {
-    // Twice as many as carry it: what ends has cost little, and what goes on need not be much brighter.
-    const FloatN survival = min(largest(path.throughput) * path.eta2 * FloatN(2), FloatN(1));
-    path.throughput = path.throughput * (FloatN(1) / max(survival, FloatN(1e-12F)));
-    alive = alive & (choices.y < survival);
-  }
-  alive = alive & (largest(path.throughput) > FloatN(0));
-  if (none(alive)) return clock_.end(Stage::shade);
-  path.pdf = select(sample.specular | through, infinity<FloatN>(), sample.pdf);
-  if (caustics != nullptr) {
-    const MaskN reflects = (is_first | MaskN(photons_ != nullptr)) & !(focuses | through | sample.specular);
-    path.way = select_lanes(on_way, IntN(by_focus), select_lanes(reflects, IntN(by_reflection), IntN(any_way)));
-  }
-  path.from = surface.p;
-  path.from_normal = surface.ns;
-  rays.origin = offset_ray_origin(surface, through & alive);
-  if (const MaskN enters = alive & sample.enters; any(enters)) [[unlikely]] {
-    clock_.end(Stage::shade);
-    if (!is_last) go_below(path, hits, surface, point, enters, depth, counts);
-    clock_.end(Stage::trace);
-    alive = alive & !enters;
-    if (none(alive)) return;
-  }
-  MaskN walks(false);
-  IntN medium(0);
-  if (has_media) {
-    boundary.cross(media, through & alive, surface.front);
-    const MediumStack::Packed packed = media.packed();
-    path.first_media = packed.first;
-    path.last_media = packed.last;
-    if (tables.media().scatters()) [[unlikely]] {
-      medium = media.current(tables.media());
-      walks = alive & tables.media().scatters(medium);
-    }
-  }
-  rays.near = FloatN(0);
-  rays.far = infinity<FloatN>();
-  if (any(walks)) [[unlikely]] {
-    clock_.end(Stage::shade);
-    const Hits walked = walk(path, medium, walks, static_cast<std::uint32_t>(depth) + 1, depth + 1, counts);
-    path.set_hits(walked);
-    append(next_, path, walked, walked.hit);
-    alive = alive & !walks;
-    clock_.end(Stage::trace);
-    if (none(alive)) return;
-  }
+  const PathDeparture from{vertex, boundary, media, depth, first_key + lights + 2, lanes, focuses, is_first, on_way};
+  if (depth > 0 || settings_.indirectsamples == 1) return scatter(path, from, scattering.sample, choices.y, counts);
   clock_.end(Stage::shade);
-  if (tables.media().has_fog()) [[unlikely]] {
-    const Hits next = go_through_fog(path, media, alive, {static_cast<std::uint32_t>(depth) + 1, depth + 1}, counts);
-    path.set_hits(next);
-    append(next_, path, next, next.hit);
-    return clock_.end(Stage::trace);
-  }
-  counts.indirect += count_lanes(alive);
-  if (tables.identifies_rays()) {
-    const RayIdentity identity(tables, scene_.accelerator(), rays, ids(lights + 2));
-    hits = scene_.accelerator().intersect(rays, alive, Coherence::incoherent, nullptr, &identity);
-  } else {
-    hits = scene_.accelerator().intersect(rays, alive, Coherence::incoherent);
-  }
-  clock_.end(Stage::trace);
-  if (const MaskN escaped = alive & !hits.hit; any(escaped)) add_escaped(path, escaped, depth + 1);
-  clock_.end(Stage::lights);
-  if (none(hits.hit)) return;
-  path.set_hits(hits);
-  append(next_, path, hits, hits.hit);
-  clock_.end(Stage::surface);
+  for (int branch = 0; branch < settings_.indirectsamples; ++branch) scatter_branch(path, from, branch, counts);
 }
 
 }  // namespace raytrace

@@ -30,8 +30,8 @@ class PathBatch {
   /// film: that the samples are for, with their photons if the scene has any. Throws std::bad_alloc.
   PathBatch(const TracedScene& scene, const Film& film);
 
-  std::size_t packets() const { return direct_.size() / groups_; }
-  bool is_full() const { return packets() == most_packets; }
+  std::size_t packets() const { return direct_.size() / (strands_ * groups_); }
+  bool is_full() const { return packets() == most_packets_; }
 
   /// Of what is done with packets, here and by who adds them.
   StageClock& clock() { return clock_; }
@@ -55,7 +55,7 @@ class PathBatch {
   void clear();
 
  private:
-  static constexpr std::size_t most_packets = 1024 / packet_lanes;
+  static constexpr std::size_t most_paths = 1024;
 
   using Chunk = PathChunk<PathPacket>;
   using Sums = std::array<std::array<float, packet_lanes>, 3>;  ///< red, green and blue of each lane
@@ -73,8 +73,25 @@ class PathBatch {
   /// Adds to those lanes' paths what came from lights of each lane's group.
   void add(std::vector<Sums>& sums, const IntN& slot, const MaskN& lanes, const Rgb<FloatN>& radiance,
            const IntN& group) const;
-  /// From the points that these paths have met, in those lanes, to the next ones.
+  Rgb<FloatN> sum(const std::vector<Sums>& sums, std::size_t packet, std::size_t group) const;
+  /// Lights the points that these paths have met, in those lanes, and scatters the paths there.
   void extend(PathPacket& path, const MaskN& arrived, int depth, RayCounts& counts);
+  /// Points that paths scatter at.
+  struct PathDeparture {
+    const PathVertex& vertex;
+    const MediumBoundary& boundary;
+    const MediumStack& media;  ///< that they came through
+    int depth;
+    std::uint32_t next_key;  ///< of the next rays
+    MaskN lanes;
+    // In scenes with caustics: those that focus light; camera rays' first points; those on light paths' ways.
+    MaskN focuses, is_first, on_way;
+  };
+  /// From there in a direction that was drawn to the next points. roulette: a random number.
+  void scatter(PathPacket& path, const PathDeparture& from, const BsdfSample<FloatN>& sample, const FloatN& roulette,
+               RayCounts& counts);
+  /// One of the paths that go on from a camera ray's first point, where several do.
+  void scatter_branch(const PathPacket& path, const PathDeparture& from, int branch, RayCounts& counts);
   /// Those paths' ways through media that scatter light, from where their rays start, to the next surfaces. depth: the
   /// number of their rays, 0 the camera's.
   Hits walk(PathPacket& path, const IntN& medium, const MaskN& lanes, std::uint32_t number, int depth,
@@ -123,12 +140,16 @@ class PathBatch {
   bool is_transparent_, follows_mirrors_;
   const Path::Parameters& settings_;
   StageClock clock_;
+  std::size_t branches_, most_packets_;  ///< that go on from a camera ray's first point
   Chunk paths_, next_;
   RayCounts camera_walks_;           ///< of what was added since trace() ran
   std::vector<std::int32_t> order_;  ///< the numbers of paths, in the lowest 16 bits of their keys
   std::size_t groups_;               ///< of the scene's lights
   bool has_one_light_;               ///< to draw: none is chosen
-  /// Of each packet, group by group: what was scattered once or never, and all else.
+  /// Sums of each lane: that of its camera ray's first point, then those of the branches, whose paths are in any order;
+  /// one of all where there is one branch.
+  std::size_t strands_;
+  /// Of each packet and strand, group by group: what was scattered once or never, and all else.
   std::vector<Sums> direct_, indirect_;
   std::vector<Followed> followed_;  ///< of each packet, if AOVs follow mirrors
 };

@@ -9,15 +9,16 @@ namespace raytrace {
 
 namespace {
 
-/// Calls f(packet, lane, lane of the packet at hand) for each of those lanes' slots.
+/// Calls f(packet, lane, lane of the packet at hand) for each of those lanes' slots; of branches, for the first.
 template <class Function>
-void for_each_slot(const IntN& slot, const MaskN& lanes, const Function& f) {
+void for_each_slot(const IntN& slot, std::size_t strands, const MaskN& lanes, const Function& f) {
   alignas(64) std::array<std::int32_t, packet_lanes> slots;
   slot.store_aligned(slots.data());
   for (std::uint32_t bits = bits_of<FloatN>(lanes); bits != 0; bits &= bits - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
     const auto to = static_cast<std::size_t>(slots[lane]);
-    f(to / packet_lanes, to % packet_lanes, lane);
+    if (to / packet_lanes % strands > 1) continue;
+    f(to / packet_lanes / strands, to % packet_lanes, lane);
   }
 }
 
@@ -38,7 +39,7 @@ void PathBatch::follow(const PathPacket& path, const Hits& hits, const SurfaceIn
   const FloatN values[] = {albedo.red, albedo.green, albedo.blue, normal.x, normal.y, normal.z};
   alignas(64) std::array<std::array<float, packet_lanes>, 6> stored;
   for (std::size_t i = 0; i < stored.size(); ++i) values[i].store_aligned(stored[i].data());
-  for_each_slot(path.slot, lanes, [&](std::size_t packet, std::size_t to, std::size_t from) {
+  for_each_slot(path.slot, strands_, lanes, [&](std::size_t packet, std::size_t to, std::size_t from) {
     Followed& followed = followed_[packet];
     if (followed.has_ended[to]) return;
     for (std::size_t i = 0; i < stored.size(); ++i) followed.values[i][to] = stored[i][from];
@@ -46,7 +47,7 @@ void PathBatch::follow(const PathPacket& path, const Hits& hits, const SurfaceIn
 }
 
 void PathBatch::stop_following(const PathPacket& path, const MaskN& lanes) {
-  for_each_slot(path.slot, lanes,
+  for_each_slot(path.slot, strands_, lanes,
                 [&](std::size_t packet, std::size_t to, std::size_t) { followed_[packet].has_ended[to] = true; });
 }
 

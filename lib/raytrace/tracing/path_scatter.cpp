@@ -1,0 +1,107 @@
+// From one point of a path to the next.
+#include "raytrace/sampling/sampler.h"
+#include "raytrace/tracing/path_batch.h"
+
+namespace raytrace {
+
+void PathBatch::scatter_branch(const PathPacket& path, const PathDeparture& from, int branch, RayCounts& counts) {
+  PathPacket next = path;
+  next.sample =
+      sample_of_branch(path.sample, static_cast<std::uint32_t>(branch), static_cast<std::uint32_t>(branches_));
+  next.slot = path.slot + IntN((branch + 1) * packet_lanes);
+  const auto draw = [&](PathDraw what) { return get_2d(next.pixel, next.sample, path_dimension(from.depth, what)); };
+  const Sample2D direction = draw(PathDraw::direction), choices = draw(PathDraw::lobe_and_roulette);
+  const PathVertex& vertex = from.vertex;
+  const Vec3<FloatN> wo = vertex.frame.to_local(vertex.surface.wo);
+  const Scattering scattering =
+      scene_.tables().scatter(vertex.hits, vertex.surface, vertex.frame, from.boundary.media, wo, MaskN(false), wo,
+                              choices.x, direction.x, direction.y, vertex.textures);
+  scatter(next, from, scattering.sample, choices.y, counts);
+}
+
+void PathBatch::scatter(PathPacket& path, const PathDeparture& from, const BsdfSample<FloatN>& sample,
+                        const FloatN& roulette, RayCounts& counts) {
+  const SceneTables& tables = scene_.tables();
+  const SurfaceInteraction<FloatN>& surface = from.vertex.surface;
+  const int depth = from.depth;
+  Ray<FloatN>& rays = path.rays;
+  if (follows_mirrors_) [[unlikely]]
+    stop_following(path, from.lanes & !sample.specular);
+  rays.direction = from.vertex.frame.to_world(sample.wi);
+  const MaskN through = sample.wi.z < FloatN(0);
+  // On the true surface the direction is on the same side as on the shaded one.
+  MaskN alive = from.lanes & (sample.pdf > FloatN(0)) & (dot(rays.direction, surface.ng) * sample.wi.z > FloatN(0));
+  FloatN weight = abs(sample.wi.z) / sample.pdf;
+  if (surface.has_relief) weight = select(through, weight, weight * relief_shadow(surface, rays.direction));
+  path.throughput = select(alive, path.throughput * sample.f * weight, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
+  path.eta2 = path.eta2 * sample.eta2;
+  if (depth + 1 >= settings_.roulettedepth) {
+    // Twice as many as carry it: what ends has cost little, and what goes on need not be much brighter.
+    const FloatN survival = min(largest(path.throughput) * path.eta2 * FloatN(2), FloatN(1));
+    path.throughput = path.throughput * (FloatN(1) / max(survival, FloatN(1e-12F)));
+    alive = alive & (roulette < survival);
+  }
+  alive = alive & (largest(path.throughput) > FloatN(0));
+  if (none(alive)) return clock_.end(Stage::shade);
+  path.pdf = select(sample.specular | through, infinity<FloatN>(), sample.pdf);
+  if (tables.caustics() != nullptr) {
+    const MaskN reflects = (from.is_first | MaskN(photons_ != nullptr)) & !(from.focuses | through | sample.specular);
+    path.way = select_lanes(from.on_way, IntN(by_focus), select_lanes(reflects, IntN(by_reflection), IntN(any_way)));
+  }
+  path.from = surface.p;
+  path.from_normal = surface.ns;
+  rays.origin = offset_ray_origin(surface, through & alive);
+  if (const MaskN enters = alive & sample.enters; any(enters)) [[unlikely]] {
+    clock_.end(Stage::shade);
+    if (depth + 1 < settings_.maxdepth)
+      go_below(path, from.vertex.hits, surface, from.vertex.textures, enters, depth, counts);
+    clock_.end(Stage::trace);
+    alive = alive & !enters;
+    if (none(alive)) return;
+  }
+  MediumStack media = from.media;
+  if (!tables.media().empty()) {
+    from.boundary.cross(media, through & alive, surface.front);
+    const MediumStack::Packed packed = media.packed();
+    path.first_media = packed.first;
+    path.last_media = packed.last;
+  }
+  rays.near = FloatN(0);
+  rays.far = infinity<FloatN>();
+  if (tables.media().scatters()) [[unlikely]] {
+    const IntN medium = media.current(tables.media());
+    if (const MaskN walks = alive & tables.media().scatters(medium); any(walks)) {
+      clock_.end(Stage::shade);
+      const Hits walked = walk(path, medium, walks, static_cast<std::uint32_t>(depth) + 1, depth + 1, counts);
+      path.set_hits(walked);
+      append(next_, path, walked, walked.hit);
+      alive = alive & !walks;
+      clock_.end(Stage::trace);
+      if (none(alive)) return;
+    }
+  }
+  clock_.end(Stage::shade);
+  if (tables.media().has_fog()) [[unlikely]] {
+    const Hits next = go_through_fog(path, media, alive, {static_cast<std::uint32_t>(depth) + 1, depth + 1}, counts);
+    path.set_hits(next);
+    append(next_, path, next, next.hit);
+    return clock_.end(Stage::trace);
+  }
+  counts.indirect += count_lanes(alive);
+  Hits hits;
+  if (tables.identifies_rays()) {
+    const RayIdentity identity(tables, scene_.accelerator(), rays, {path.pixel, path.sample, from.next_key});
+    hits = scene_.accelerator().intersect(rays, alive, Coherence::incoherent, nullptr, &identity);
+  } else {
+    hits = scene_.accelerator().intersect(rays, alive, Coherence::incoherent);
+  }
+  clock_.end(Stage::trace);
+  if (const MaskN escaped = alive & !hits.hit; any(escaped)) add_escaped(path, escaped, depth + 1);
+  clock_.end(Stage::lights);
+  if (none(hits.hit)) return;
+  path.set_hits(hits);
+  append(next_, path, hits, hits.hit);
+  clock_.end(Stage::surface);
+}
+
+}  // namespace raytrace
