@@ -192,6 +192,7 @@ def furnished(name, title):
     """The Cornell box without its lamp."""
     scene = cornell(name, title, Diffuse((0.6, 0.6, 0.7)), Diffuse((0.7, 0.6, 0.5)))
     scene.objects = [item for item in scene.objects if item.material != "lamp"]
+    scene.bounced = False
     return scene
 
 
