@@ -22,7 +22,7 @@ TEST_CASE("passes of photons follow from the sample and the size of the picture 
   CHECK(PhotonPasses::pass_of(8) == 1);
   CHECK(PhotonPasses::end_of(1) == 16);
   CHECK(PhotonPasses(8, 8).paths == 4096);
-  CHECK(PhotonPasses(320, 240).paths == 524288);  // the next power of 2 from 307,200 on
+  CHECK(PhotonPasses(320, 240).paths == 262144);  // the next power of 2 from 153,600 on
   CHECK(PhotonPasses(3840, 2160).paths == PhotonPasses::most_paths);
 }
 
