@@ -1,6 +1,8 @@
 // Pictures of what moves while the shutter is open: the mean of those of its moments.
 #include "raytrace/description/motion.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -108,6 +110,44 @@ TEST_CASE("what moves by its own numbers, a transform, as an instance or as the 
     CHECK(std::abs(found.mean) < 2e-4);
     CHECK(found.largest < 0.04);
   }
+}
+
+TEST_CASE("a mirror that turns throws light where it does at each moment") {
+  const auto scene = [](const std::string& shutter, int samples) {
+    std::string text = scene_text(
+        32, 32, samples,
+        "<lights><pointlights><pointlight><location x='0' y='6' z='0'/><scaleradiance>40</scaleradiance>"
+        "<color red='1' green='1' blue='1'/><falloff>inversesquare</falloff></pointlight></pointlights></lights>"
+        "<materials><mattes><matte><name>grey</name><ka>0</ka><kd>0.8</kd><cd red='1' green='1' blue='1'/></matte>"
+        "</mattes><mirrors><mirror><name>glass</name><cr red='1' green='1' blue='1'/></mirror></mirrors></materials>"
+        "<objects><planes><plane><point x='0' y='0' z='-6'/><normal x='0' y='0' "
+        "z='1'/><material>grey</material></plane>"
+        "</planes><boxes><box><min x='-1' y='-0.1' z='-1'/><max x='1' y='0.1' z='1'/><material>glass</material>"
+        "<transform>" +
+            keys("rotate", "x='1' y='0' z='0' angle='-50'", "x='1' y='0' z='0' angle='-10'") +
+            "</transform></box></boxes></objects>",
+        "<eye x='0' y='2' z='12'/><lookat x='0' y='2' z='0'/>" + shutter);
+    const std::string root = "<raytracer>";
+    return text.insert(text.find(root) + root.size(),
+                       "<integrator><path><maxdepth>2</maxdepth><caustics>light</caustics></path></integrator>");
+  };
+  constexpr std::size_t blocks = 4;
+  const auto add_blocks = [](const FloatPicture& picture, double share, std::array<double, blocks * blocks>& means) {
+    for (std::size_t i = 0; i < picture.pixels().size(); ++i)
+      means[i / 32 / 8 * blocks + i % 32 / 8] += share * double{picture.pixels()[i].red} / 64;
+  };
+  std::array<double, blocks * blocks> moving{}, still{};
+  add_blocks(rendered(parsed_scene(scene(shutter_open, 256))), 1, moving);
+  constexpr int moments = 32;
+  for (int i = 0; i < moments; ++i)
+    add_blocks(rendered(at_moment(scene("", 16), -0.25 + (i + 0.5) / moments)), 1.0 / moments, still);
+  double worst = 0, most = 0;
+  for (std::size_t i = 0; i < still.size(); ++i) {
+    worst = std::max(worst, std::abs(moving[i] - still[i]));
+    most = std::max(most, still[i]);
+  }
+  INFO(worst << " of " << most);
+  CHECK(worst < 0.03 * most);
 }
 
 TEST_CASE("the bits of what moves do not depend on how the work is cut") {

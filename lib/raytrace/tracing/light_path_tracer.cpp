@@ -83,6 +83,8 @@ void LightPathTracer::follow(RayCounts& rays) {
 void LightPathTracer::extend(LightPathPacket& path, MaskN alive, int depth, RayCounts& counts) {
   const Vec3<FloatN> from = path.rays.origin;
   Hits hits = path.hits(alive);
+  if (tables_.has_motion()) [[unlikely]]
+    hits.time = ray_ids(path, 0).times();
   SurfaceInteraction<FloatN> surface = scene_.accelerator().surface(path.rays, hits);
   MediumBoundary boundary;
   MediumStack media;
