@@ -11,7 +11,7 @@
 namespace raytrace {
 
 /// Where several paths go on from a camera ray's first point: the sample whose numbers one of them draws, number
-/// `branch` of `branches`, 2 to 16. Neighbours of all the pixel's branches are stratified together. Of samples below
+/// `branch` of `branches`, 2 to 16. All branches of a pixel are stratified together. Of samples below
 /// 2^24.
 inline UintN sample_of_branch(const UintN& sample, std::uint32_t branch, std::uint32_t branches) {
   return ((sample * UintN(branches) + UintN(branch)) & UintN(0x0FFFFFFFU)) | UintN((branches - 1) << 28U);
