@@ -138,6 +138,15 @@ void PathBatch::add(std::vector<Sums>& sums, const IntN& slot, const MaskN& lane
   }
 }
 
+void PathBatch::add_scattered(const PathPacket& path, const MaskN& lanes, const Rgb<FloatN>& radiance,
+                              const IntN& group, int scatterings) {
+  if (!scene_.tables().media().has_fog()) [[likely]]
+    return add(scatterings <= 1 ? direct_ : indirect_, path.slot, lanes, radiance, group);
+  const MaskN once = float_mask<FloatN>(path.fog_scatterings + IntN(scatterings) <= IntN(1));
+  add(direct_, path.slot, lanes & once, radiance, group);
+  add(indirect_, path.slot, lanes & !once, radiance, group);
+}
+
 Rgb<FloatN> PathBatch::sum(const std::vector<Sums>& sums, std::size_t packet, std::size_t group) const {
   const auto load = [&](std::size_t strand) {
     const Sums& some = sums[(packet * strands_ + strand) * groups_ + group];
@@ -169,7 +178,6 @@ Rgb<FloatN> PathBatch::radiance(std::size_t packet, std::size_t group) const {
 
 void PathBatch::add_escaped(const PathPacket& path, const MaskN& lanes, int depth) {
   const SceneTables& tables = scene_.tables();
-  std::vector<Sums>& sums = depth <= 1 ? direct_ : indirect_;
   const Environment* const environment = tables.environment();
   IntN scatterings(depth);
   if (tables.media().has_fog()) [[unlikely]]
@@ -181,13 +189,13 @@ void PathBatch::add_escaped(const PathPacket& path, const MaskN& lanes, int dept
       const EnvironmentSample sky = environment->at(path.rays.direction);
       const FloatN other = sky.pdf * FloatN(environment_share_of(tables));
       const MaskN left_out = float_mask<FloatN>(path.way == IntN(by_focus));
-      add(sums, path.slot, in_sky & !left_out, path.throughput * (sky.radiance * power_heuristic(path.pdf, other)),
-          IntN(tables.environment_group()));
+      add_scattered(path, in_sky & !left_out, path.throughput * (sky.radiance * power_heuristic(path.pdf, other)),
+                    IntN(tables.environment_group()), depth);
     }
   }
   const MaskN in_background = lanes & !in_sky & float_mask<FloatN>(scatterings < IntN(settings_.maxdepth));
-  add(sums, path.slot, in_background, path.throughput * Rgb<FloatN>(Rgb<float>(tables.viewplane().background)),
-      IntN(0));
+  add_scattered(path, in_background, path.throughput * Rgb<FloatN>(Rgb<float>(tables.viewplane().background)), IntN(0),
+                depth);
 }
 
 IntN PathBatch::group_of(const DrawnLight& light) const {
@@ -247,8 +255,8 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
             tables.emitters().pdf(path.from, path.from_normal, hits, drawn, surface) * FloatN(1 - environment_share);
         emitted = select(drawn, emitted * power_heuristic(path.pdf, other), emitted);
       }
-      add(depth <= 1 ? direct_ : indirect_, path.slot, shines, path.throughput * emitted,
-          tables.light_group_of_material(tables.material(hits)));
+      add_scattered(path, shines, path.throughput * emitted, tables.light_group_of_material(tables.material(hits)),
+                    depth);
     }
   }
   clock_.end(Stage::lights);
@@ -267,7 +275,6 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   const auto ids = [&](std::uint32_t ray) { return RayIds{path.pixel, path.sample, first_key + ray}; };
   const auto draw = [&](PathDraw what) { return get_2d(path.pixel, path.sample, path_dimension(depth, what)); };
   const Coherence coherence = depth == 0 ? Coherence::coherent : Coherence::incoherent;
-  std::vector<Sums>& sums = depth == 0 ? direct_ : indirect_;
   const MaskN is_first = depth == 0 ? !float_mask<FloatN>(path.way == IntN(by_scattering)) : MaskN(false);
   const MaskN on_way =
       focuses & (float_mask<FloatN>(path.way == IntN(by_reflection)) | float_mask<FloatN>(path.way == IntN(by_focus)));
@@ -280,7 +287,7 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
                          has_media ? &point_media : nullptr);
     if (any(on_way)) light = select(on_way, black(), light);
     if (groups_ == 1) break;  // which is added with the light that is drawn
-    add(sums, path.slot, lanes, path.throughput * light, IntN(static_cast<std::int32_t>(group)));
+    add_scattered(path, lanes, path.throughput * light, IntN(static_cast<std::int32_t>(group)), depth + 1);
     light = black();
   }
   const PathVertex vertex{hits, surface, point, tables.shading_frame(hits, surface, point), path.distance};
@@ -304,7 +311,7 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
     light += arriving_light(scene_, vertex, drawn, scattering.towards, to_lights, ids(lights + 1), counts, clock_,
                             has_media ? &point_media : nullptr);
   }
-  add(sums, path.slot, lanes, path.throughput * light, groups_ > 1 ? group_of(drawn) : IntN(0));
+  add_scattered(path, lanes, path.throughput * light, groups_ > 1 ? group_of(drawn) : IntN(0), depth + 1);
   if (photons_ != nullptr)
     if (const MaskN shown = lanes & !(focuses | is_first); any(shown))
       add_photons(path, hits, surface, point, shown, depth);

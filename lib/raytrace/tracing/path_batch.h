@@ -38,13 +38,14 @@ class PathBatch {
 
   /// Begins a path in each lane of `wanted`, where its camera ray hits something. Ends the rays there, and sets `first`
   /// to what all rays of `active` hit if it is not null. The result: the lanes of `active` that hit something, or were
-  /// in fog; in transparent films, were scattered by it.
+  /// in fog. In transparent films it is their coverage: those that hit something, or were scattered by fog. Fog that
+  /// scatters nothing there may still send light along the others.
   MaskN add(CameraRays& camera, const MaskN& active, const MaskN& wanted, FirstHits* first);
 
   /// Follows all paths to their ends.
   void trace(RayCounts& counts);
 
-  /// What came along the camera rays of that packet from lights of that group, in its lanes with a path.
+  /// What came along the camera rays of that packet from lights of that group; nothing in lanes without a path.
   Rgb<FloatN> radiance(std::size_t packet, std::size_t group) const;
 
   /// Whether the film has AOVs that follow mirrors, and then what they hold of that packet's lanes.
@@ -73,6 +74,9 @@ class PathBatch {
   /// Adds to those lanes' paths what came from lights of each lane's group.
   void add(std::vector<Sums>& sums, const IntN& slot, const MaskN& lanes, const Rgb<FloatN>& radiance,
            const IntN& group) const;
+  /// The same to the sums of what surfaces have scattered so often, and fogs path.fog_scatterings times.
+  void add_scattered(const PathPacket& path, const MaskN& lanes, const Rgb<FloatN>& radiance, const IntN& group,
+                     int scatterings);
   Rgb<FloatN> sum(const std::vector<Sums>& sums, std::size_t packet, std::size_t group) const;
   /// Lights the points that these paths have met, in those lanes, and scatters the paths there.
   void extend(PathPacket& path, const MaskN& arrived, int depth, RayCounts& counts);
@@ -112,8 +116,7 @@ class PathBatch {
   /// them there, and from where nothing is, is added. media: where they start, and then are; those of the paths follow.
   Hits go_through_fog(PathPacket& path, MediumStack& media, const MaskN& lanes, const FogWay& way, RayCounts& counts);
   /// The light of all lights that a part of their ways sends along paths.
-  void light_fog(const PathPacket& path, const FogPart& part, FogNumbers numbers, std::vector<Sums>& sums,
-                 RayCounts& counts);
+  void light_fog(const PathPacket& path, const FogPart& part, FogNumbers numbers, int depth, RayCounts& counts);
   FogLight choose_light(const PathPacket& path, const FogPart& part, const FogNumbers& numbers, const FloatN& u) const;
   FogLight draw_light_in_fog(const PathPacket& path, const FogPart& part, const FogNumbers& numbers,
                              const FloatN& u) const;

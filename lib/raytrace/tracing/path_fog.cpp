@@ -66,7 +66,7 @@ struct PathBatch::FogLight {
 };
 
 /// Random numbers of a part, and which its rays are: where paths go on a straight way, which begins with `step`
-/// scatterings. Up to the first of them, numbers are well spread.
+/// scatterings. Up to the first of them, those of the first parts are well spread.
 struct PathBatch::FogNumbers {
   const UintN& pixel;
   const UintN& sample;
@@ -74,9 +74,10 @@ struct PathBatch::FogNumbers {
   std::uint32_t round = 0;  ///< how often light has been looked for
 
   Sample2D operator()(FogDraw what) const {
-    const std::uint32_t round_of_part = round << 5U | (part & 0x1FU);
-    if (step == 0) return get_2d(pixel, sample, fog_dimension(walk, round_of_part, what));
-    const UintN key = mix_bits(RayIds{pixel, sample, 0x70000000U | walk}.keys());
+    constexpr std::uint32_t spread_parts = 32;  // that have dimensions of their own
+    const std::uint32_t round_of_part = round << 5U | part % spread_parts, repeat = part / spread_parts;
+    if (step == 0 && repeat == 0) return get_2d(pixel, sample, fog_dimension(walk, round_of_part, what));
+    const UintN key = mix_bits(RayIds{pixel, sample, 0x70000000U | walk}.keys() + UintN(repeat * 0x85ebca6bU));
     const std::uint32_t number = ((step << 8U | round_of_part) * 8 + static_cast<std::uint32_t>(what)) * 2;
     return {to_unit(mix_bits(key + UintN(number * 0x9e3779b9U))),
             to_unit(mix_bits(key + UintN((number + 1) * 0x9e3779b9U)))};
@@ -86,7 +87,7 @@ struct PathBatch::FogNumbers {
   }
 };
 
-void PathBatch::light_fog(const PathPacket& path, const FogPart& part, FogNumbers numbers, std::vector<Sums>& sums,
+void PathBatch::light_fog(const PathPacket& path, const FogPart& part, FogNumbers numbers, int depth,
                           RayCounts& counts) {
   const SceneTables& tables = scene_.tables();
   const FloatN begin = numbers(FogDraw::light).x, begin_of_drawn = numbers(FogDraw::flights).y;
@@ -101,7 +102,8 @@ void PathBatch::light_fog(const PathPacket& path, const FogPart& part, FogNumber
       if (none(lit)) return;
     }
     const Rgb<FloatN> left = light_through(scene_, light.ray, lit, ids, {part.media, part.fog});
-    add(sums, path.slot, lit, path.throughput * part.scattering * light.radiance * left * FloatN(share), light.group);
+    add_scattered(path, lit, path.throughput * part.scattering * light.radiance * left * FloatN(share), light.group,
+                  depth + 1);
   };
   for (int round = 0; round < part.rounds; ++round) {
     numbers.round = static_cast<std::uint32_t>(round);
@@ -246,7 +248,7 @@ Hits PathBatch::go_through_fog(PathPacket& path, MediumStack& media, const MaskN
           fogged = fogged | in_fog;
           FogPart lit = part;
           lit.lanes = in_fog & float_mask<FloatN>(path.fog_scatterings < IntN(settings_.maxdepth - way.depth));
-          if (any(lit.lanes)) light_fog(path, lit, numbers, way.depth == 0 && step == 0 ? direct_ : indirect_, counts);
+          if (any(lit.lanes)) light_fog(path, lit, numbers, way.depth, counts);
           const MaskN here = scatter_in_fog(path, part, numbers, way.depth);
           scatters = scatters | (here & lit.lanes);
           ends = ends | here;
@@ -268,7 +270,8 @@ Hits PathBatch::go_through_fog(PathPacket& path, MediumStack& media, const MaskN
       result.find_first();
     }
     MaskN escapes = goes_on & !ends & !arrives;
-    if (way.first_hits != nullptr && step == 0) escapes = escapes & fogged;
+    // What the camera sees behind fogs is no part of a transparent picture's colour.
+    if (way.first_hits != nullptr && step == 0) escapes = is_transparent_ ? MaskN(false) : escapes & fogged;
     if (any(escapes)) add_escaped(path, escapes, way.depth);
     goes_on = scatters & (largest(path.throughput) > FloatN(0));
   }

@@ -185,13 +185,16 @@ class BlockRenderer {
     if (!raycast) error.add_to(report_.error, block, region_);
   }
 
+  /// Lanes whose light is their paths': in transparent pictures all, since fog lights what it does not cover.
+  MaskN has_own_light(const MaskN& hit) const { return batch_ && film_.settings().transparent ? MaskN(true) : hit; }
+
   /// Adds group_light_ where something was hit. missed: its radiance is what arrives elsewhere.
   void add_by_group(GroupSums<Block>& sums, const RayResult& missed, const MaskN& wanted, const Block& block,
                     std::uint32_t base) {
     const Rgb<FloatN> black(Rgb<float>(0, 0, 0));
     const auto group = static_cast<std::size_t>(environment_ != nullptr ? scene_.tables().environment_group() : 0);
     for (std::size_t i = 0; i < group_light_.size(); ++i)
-      group_light_[i] = select(missed.hit, group_light_[i], i == group ? missed.radiance : black);
+      group_light_[i] = select(has_own_light(missed.hit), group_light_[i], i == group ? missed.radiance : black);
     if (const std::uint32_t refused = sums.add(group_light_, missed.hit, wanted); refused != 0)
       add_invalid(refused, block, base);
   }
@@ -232,7 +235,7 @@ class BlockRenderer {
       }
       BlockSums<Block>& sums = open_->sums;
       const MaskN hit = packet.missed.hit;
-      const RayResult result{select(hit, batch_->radiance(i, 0), packet.missed.radiance), hit};
+      const RayResult result{select(has_own_light(hit), batch_->radiance(i, 0), packet.missed.radiance), hit};
       open_->error.add(result.radiance, sample, packet.wanted);
       const MaskN large = sums.add(result, packet.wanted);
       if (any(large)) add_invalid(sums.add_large(result.radiance, large), packet.block, packet.base);
@@ -298,7 +301,6 @@ class BlockRenderer {
   }
 
   bool stopped() const { return stop_ != nullptr && stop_->load(std::memory_order_relaxed); }
-
   void add_invalid(std::uint32_t lanes, const Block& block, std::uint32_t base) {
     block.for_each_lane(region_, [&](int x, int y, std::size_t lane) {
       if ((lanes >> lane & 1U) != 0)

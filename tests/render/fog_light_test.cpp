@@ -1,0 +1,93 @@
+// What becomes of the light that fog scatters: in transparent pictures, behind many fogs in a row, and where light that
+// was scattered often is clamped.
+//
+// Not with the thread sanitizer: statistics of code that cuts_test runs in threads.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "raytrace/aovs/aov_selection.h"
+#include "render/fogged.h"
+#include "render/scenes.h"
+#include "support/catch.h"
+
+namespace raytrace::test {
+
+TEST_CASE("fog has the same colour in a transparent picture as before a black background") {
+  // Thin enough to cover little, of all that there is to see; in one half of the picture, before a wall, too.
+  Fogged scene;
+  scene.free_path = "20";
+  scene.eye = "<eye x='0' y='0' z='5'/><lookat x='0' y='0' z='0'/><fov>10</fov>";
+  scene.lights =
+      "<pointlights><pointlight><location x='0' y='2' z='0'/><falloff>inversesquare</falloff><group>a</group>"
+      "</pointlight></pointlights><environmentlights><environmentlight><color red='1' green='0.5' blue='0.2'/>"
+      "<visible>false</visible><group>b</group></environmentlight></environmentlights>";
+  scene.objects =
+      "<rectangles><rectangle><corner x='0' y='-9' z='-4'/><edge1 x='9' y='0' z='0'/>"
+      "<edge2 x='0' y='18' z='0'/><material>grey</material></rectangle></rectangles>";
+  scene.samples = 16;
+  const SceneDescription description = parsed_scene(text_of(scene));
+  const auto built = build_scene(description, {2, {}});
+  const auto picture = [&](bool transparent, bool by_groups) {
+    RenderSettings settings{2, 0, whole(description)};
+    settings.transparent = transparent;
+    if (by_groups) settings.aovs = aov_set({"light_a", "light_b", "light_default"});
+    RayCounts rays;
+    return render(*built, description, settings, rays).pixels();
+  };
+  const std::vector<Pixel> opaque = picture(false, false);
+  for (const bool by_groups : {false, true}) {
+    const std::vector<Pixel> transparent = picture(true, by_groups);
+    double covered = 0, largest_difference = 0;
+    for (std::size_t i = 0; i < opaque.size(); ++i) {
+      covered += double{transparent[i].alpha} / static_cast<double>(opaque.size());
+      for (const auto channel : {&Pixel::red, &Pixel::green, &Pixel::blue}) {
+        const double expected = opaque[i].*channel, difference = std::abs(double{transparent[i].*channel} - expected);
+        largest_difference = std::max(largest_difference, difference / expected);
+      }
+    }
+    INFO("covered " << covered << ", difference " << largest_difference << (by_groups ? ", by groups" : ""));
+    CHECK((covered > 0.5 && covered < 0.7));
+    CHECK(largest_difference < 1e-5);
+  }
+}
+
+TEST_CASE("many fogs in a row let through what one of their depth does") {
+  // 80 sheets, and gaps between them: their free flights have nothing to do with each other.
+  Fogged scene;
+  scene.free_path = "5";
+  scene.fog = "<color red='0' green='0' blue='0'/>";
+  scene.background = "<background red='1' green='1' blue='1'/>";
+  scene.box = "";
+  constexpr int sheets = 80;
+  constexpr double thickness = 0.1;
+  for (int i = 0; i < sheets; ++i) {
+    const double z = -0.2 * i;
+    scene.box += "<box><min x='-9' y='-9' z='" + std::to_string(z - thickness) + "'/><max x='9' y='9' z='" +
+                 std::to_string(z) + "'/><material>fog</material></box>";
+  }
+  const double expected = std::exp(-sheets * thickness / 5);
+  const double mean = mean_of(scene).red;
+  INFO(mean << " of " << expected);
+  CHECK(std::abs(mean - expected) < 0.01);
+}
+
+TEST_CASE("clampindirect clamps what fog has scattered twice, however it comes to the light") {
+  Fogged scene;
+  scene.fog = "<color red='0.9' green='0.9' blue='0.9'/>";
+  scene.lights =
+      "<environmentlights><environmentlight><color red='1' green='1' blue='1'/></environmentlight>"
+      "</environmentlights>";
+  scene.samples = 1024;
+  const double once = mean_of(scene).red;
+  scene.path = "<maxdepth>8</maxdepth>";
+  const double often = mean_of(scene).red;
+  scene.path += "<clampindirect>0.000001</clampindirect>";
+  const double clamped = mean_of(scene).red;
+  INFO(once << ", " << often << ", clamped " << clamped);
+  CHECK(often > 1.3 * once);
+  CHECK(std::abs(clamped / once - 1) < 0.01);
+}
+
+}  // namespace raytrace::test
