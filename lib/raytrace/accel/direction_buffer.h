@@ -21,7 +21,7 @@ namespace raytrace {
 
 /// The directions from a point are those through the six faces of a cube around it. On each face, a grid covers what
 /// the objects cover, and each of its cells lists all objects that directions through it may meet.
-/// From infinitely far, one grid lies across all rays, on a face of the cube (projection.h).
+/// From infinitely far, one grid lies across all rays, on a face of the cube (cube_projection.h).
 class DirectionBuffer {
  public:
   struct Object {
@@ -72,7 +72,7 @@ class DirectionBuffer {
   }
 
   /// From infinitely far, a ray is seen as a point of the picture across all rays, up to rounding: the direction from
-  /// there to the point from which that picture is seen (projection.h).
+  /// there to the point from which that picture is seen (cube_projection.h).
   template <class F>
   RAYTRACE_INLINE Vec3<F> direction_to_picture(const Vec3<F>& origin) const {
     return {F(start_.x) - dot(Vec3<F>(across_), origin), F(start_.y) - dot(Vec3<F>(up_), origin), F(-1)};

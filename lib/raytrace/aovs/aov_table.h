@@ -1,7 +1,7 @@
 // Arbitrary output variables (AOVs): what a picture can hold of each pixel besides its colour.
 //
 // All of them are the table below. A new AOV: a line in it and, unless the film knows its value, a case in
-// integrators/aov_values.h, which says how a hit gives it. (docs/how-to-add-a-type.md)
+// tracing/aov_values.h, which says how a hit gives it. (docs/how-to-add-a-type.md)
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // Cryptomatte: mattes by the names of things, with soft edges (Friedman and Jones, "Fully Automatic ID Mattes with
 // Support for Motion Blur and Transparency"; specification 1.2 at https://github.com/Psyop/Cryptomatte).
 //
-// A pixel holds pairs of an id and the share of the pixel that the things of that id coverage, the largest first. An id
+// A pixel holds pairs of an id and the share of the pixel that the things of that id cover, the largest first. An id
 // is a hash of the name, so that it stays the same from frame to frame and from scene to scene.
 #pragma once
 

@@ -30,9 +30,8 @@ int exponent_for_dimmest(const RadianceRange& range) {
   return std::max(exponent_above(range.dimmest), least_half) - float_bits;
 }
 
-/// Where there are as many light paths for each pixel as it has samples, one exact sum; else, while a render goes on,
-/// the sum of two means.
-/// paths: light paths for each pixel; sum: the pixel's, with the numbers of samples.
+/// One exact sum if the pixel has as many samples as there are light paths for each pixel; while a render goes on, the
+/// sum of two means. paths: light paths for each pixel; sum: the pixel's, with its numbers of samples.
 Pixel mean_with_splats(const RadianceSum& own, const RadianceSum& splat, double paths, const PixelSum& sum,
                        const FilmSettings& settings) {
   const bool is_whole = paths == sum.samples;

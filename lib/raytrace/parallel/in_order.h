@@ -8,8 +8,8 @@
 
 namespace raytrace {
 
-/// For each i in [0, count): make(i, slot) on any thread, and then take(i, slot), which comes after that of i - 1 and
-/// never runs twice at once. slots: a container with random access. A slot holds what make hands to take, and is used
+/// For each i in [0, count): make(i, slot) runs on any thread, then take(i, slot): one at a time, in the order of i.
+/// slots: a container with random access. A slot holds what make hands to take, and is used
 /// again for another i; if there is but one, nothing runs at once.
 template <class Slots, class Make, class Take>
 void in_order(std::size_t count, Slots& slots, tbb::task_arena& arena, Make&& make, Take&& take) {

@@ -73,13 +73,14 @@ class GeometryTable {
   const std::vector<std::unique_ptr<const GeometryTable>>& groups() const { return groups_; }
   const InstanceTable& instances() const { return instances_; }
 
-  /// Whether all that has bounds is a shape that rays meet as it stands in its table.
   bool has_clouds() const { return !clouds_.empty(); }
+  /// Whether all that has bounds is a shape that rays meet as it stands in its table.
   bool has_shapes_only() const { return meshes_.empty() && instances_.empty(); }
   std::uint64_t primitive_count() const;
   /// Around all objects that have bounds; of negative radius if there are none.
   BoundingSphere bounding_sphere() const;
-  /// Each object that has bounds, and each instance, if f(material) is true for any material that it has.
+  /// Each object that has bounds, and each instance, if any of its materials is wanted: wanted_materials has a 1 at its
+  /// number.
   struct BoundedObject {
     Bounds bounds;
     double radius;           ///< of a sphere around it, whose center is that of the bounds

@@ -55,7 +55,7 @@ class LightTree {
   void build(const std::vector<LightEmission>& lights, std::span<std::uint32_t> order, std::size_t node,
              std::uint32_t trail, int depth);
   IntN children_of(const IntN& node) const;
-  /// How often the first of two children is chosen; reached: clears lanes that none of both lights.
+  /// How often the first of two children is chosen. Clears `reached` in lanes that neither of them lights.
   FloatN first_share(const IntN& children, const Vec3<FloatN>& p, const Vec3<FloatN>& normal, MaskN& reached) const;
   FloatN importance(const Node<FloatN>& node, const Vec3<FloatN>& p, const Vec3<FloatN>& normal) const;
 

@@ -54,7 +54,7 @@ class SceneTables {
   const Vec3d& origin() const { return origin_; }
 
   const ViewPlane& viewplane() const { return viewplane_; }
-  /// Raycast where the description leaves it open.
+  /// If the description names none: Path where a material or light needs it, else Raycast.
   const IntegratorParameters& integrator() const { return integrator_; }
   /// Sets rays through points of the picture, as cameras/kernels.h has them. lens: where on the camera's lens, if
   /// camera_has_lens(). The result: the lanes that have a ray; the picture is black in the others.

@@ -12,8 +12,8 @@
 
 namespace raytrace {
 
-/// Of each of a PacketBlock's pixels, the sums of the four quarters of its samples, in their order. Each is as well
-/// distributed as a whole of its size.
+/// Of each of a PacketBlock's pixels, the sums of the four quarters of its samples, in their order. Each quarter
+/// is as well distributed as a full set of that many samples.
 template <class Block>
 class BlockError {
  public:

@@ -14,8 +14,8 @@
 namespace raytrace {
 
 /// Lights are gathered in runs of this many before the materials get them, so that each material reads its parameters
-/// once a run. Runs are counted with the lights that reach no lane: how a lane's radiance is summed must not depend on
-/// the others.
+/// once a run. Lights that reach no lane count, too, so that how a lane's sum is grouped does not depend on its
+/// neighbours.
 inline constexpr std::size_t lights_per_run = 16;
 
 /// The surface's own texture coordinates, where its materials want them, and its relief. radius: as texture_point()'s.

@@ -14,9 +14,9 @@ struct PointMedia {
 /// Goes along rays from boundary to boundary of fogs, as far as they reach, or nearly: what ends at a surface, such as
 /// the fog of a room at its wall, goes on behind it. media: where the rays start; then where they end.
 ///
-/// part(lanes, fog, number, begin, end): called for parts of the way in a fog, each lane's in its own, and each number
-/// at most once. begin, end: as distances along rays are. The result: the lanes that go on behind it; the others' media
-/// stay what they are there.
+/// part(lanes, fog, number, begin, end): called once for each interval between two boundaries. `lanes` are in a fog
+/// there, each in the one that `fog` says; `number` counts the intervals; begin, end: as distances along rays are. The
+/// result: the lanes that go on behind it; the others' media stay what they are there.
 template <class Part>
 void for_each_part_in_fog(const TracedScene& scene, const Ray<FloatN>& rays, MaskN lanes, const RayIds& ids,
                           MediumStack& media, const Part& part) {
