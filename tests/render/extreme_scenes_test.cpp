@@ -41,6 +41,35 @@ TEST_CASE("a scene without objects is its background, which is opaque") {
   }
 }
 
+TEST_CASE("a scene without objects is what is around it, by every integrator") {
+  const std::string integrator =
+      GENERATE("<raycast/>", "<normals/>", "<uv/>", "<albedo/>", "<ambientocclusion/>", "<path/>",
+               "<path><caustics>light</caustics></path>", "<path><caustics>photons</caustics></path>",
+               "<path><indirectsamples>2</indirectsamples></path>");
+  const bool has_sky = GENERATE(false, true);
+  const std::string sky =
+      "<environmentlights><environmentlight><color red='0.5' green='0.5' blue='0.5'/>"
+      "</environmentlight></environmentlights>";
+  // One that is left out with a warning is none, either.
+  const std::string objects =
+      GENERATE("",
+               "<objects><triangles><triangle><vertexposition1 x='0' y='0' z='0'/><vertexposition2 x='1' y='0' z='0'/>"
+               "<vertexposition3 x='2' y='0' z='0'/><material>m</material></triangle></triangles></objects>");
+  const SceneDescription description =
+      parsed_scene(scene_text(9, 5, 4,
+                              "<integrator>" + integrator + "</integrator><lights>" + (has_sky ? sky : "") +
+                                  "</lights>" + (objects.empty() ? "" : white + objects)));
+  for (const std::string& isa : usable_isas()) {
+    INFO(integrator << (has_sky ? " with a sky, " : ", ") << isa);
+    const FloatPicture film = rendered(description, 1, isa);
+    int wrong = 0;
+    for (const Pixel& pixel : film.pixels())
+      wrong += std::abs(pixel.red - (has_sky ? 0.5F : 0.1F)) > 1e-6F ||
+               std::abs(pixel.blue - (has_sky ? 0.5F : 0.4F)) > 1e-6F || pixel.alpha != 1;
+    CHECK(wrong == 0);
+  }
+}
+
 TEST_CASE("coordinates and sizes as large and as small as the format takes give finite pictures") {
   const auto objects = [](const std::string& far, const std::string& size, const std::string& tube) {
     const auto at = [&](const std::string& element, const std::string& x, const std::string& y, const std::string& z) {

@@ -100,6 +100,7 @@ MaskN PathBatch::add(CameraRays& camera, const MaskN& active, const MaskN& wante
 }
 
 void PathBatch::append(Chunk& chunk, const PathPacket& path, const Hits& hits, const MaskN& lanes) const {
+  if (none(lanes)) return;  // where nothing was hit, there may be no object to have a material
   const IntN bucket = bucket_of(hits, scene_.tables().material(hits));
   chunk.append(path, lanes,
                select_lanes(float_mask<FloatN>(path.way == IntN(from_below)), bucket ^ IntN(0x88), bucket));
