@@ -10,6 +10,7 @@
 #include "support/catch.h"
 #include "support/contains.h"
 #include "support/sanitized.h"
+#include "support/temporary_folder.h"
 
 namespace raytrace::test {
 
@@ -213,6 +214,18 @@ TEST_CASE("a scene may be read as it stands at its frame") {
   CHECK(scene->moving_camera.empty());
   CHECK(scene->groups.empty());
   CHECK(contains(print_scene(*scene), "<shutteropen>-0.25</shutteropen>"));
+}
+
+TEST_CASE("a shutter that opens before the frame and closes at it is open, also where the file names one of both") {
+  TemporaryFolder folder;
+  for (const std::string shutter : {"<shutteropen>-0.5</shutteropen>", "<shutterclose>0.5</shutterclose>"}) {
+    write_text(folder.file("scene.xml"), motion_scene(moving_ball, still_eye + shutter, 4));
+    Diagnostics diagnostics("scene.xml");
+    const auto scene = load_scene(folder.file("scene.xml"), diagnostics, 1);
+    REQUIRE(scene.has_value());
+    INFO(shutter);
+    CHECK(scene->groups.size() == 1);  // of what moves
+  }
 }
 
 TEST_CASE("what cannot be blurred is an error") {

@@ -43,7 +43,7 @@ std::optional<SceneDescription> load_scene(const std::string& file, Diagnostics&
   std::optional<TextBuffer> text = read_text_file(file, threads, diagnostics);
   if (!text) return std::nullopt;
   // Standard input is read but once, and the first reading takes the text.
-  const bool may_move = text->text().find("shutterclose") != std::string_view::npos ||
+  const bool may_move = text->text().find("<shutter") != std::string_view::npos ||
                         text->text().find(Include::element) != std::string_view::npos;
   const std::string again(may_move ? text->text() : std::string_view());
   ReadScene read = read_scene(std::move(*text), file, diagnostics, threads, settings);
