@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <type_traits>
+#include <utility>
 
 #include "raytrace/math/doubles.h"
 #include "raytrace/math/gather.h"
@@ -10,35 +11,74 @@ namespace raytrace {
 
 namespace {
 
-/// Sets those of the lanes of `here`, which hit one shape.
-template <class Shape>
-void set_uv(const ShapeTable<Shape>& table, const MaskN& here, const Hits& hits,
-            const SurfaceInteraction<FloatN>& surface, SurfaceUv<FloatN>& result) {
-  // The other lanes follow the first of these, so that they read a record that exists.
-  const auto first = [&](const MaskN& lanes) {
-    return hits.primitive.get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(lanes))));
-  };
+/// A point of a surface, before a map to the world.
+struct LocalPoint {
+  Vec3<FloatN> p, ng;
+};
+
+LocalPoint local_point(const AffineRecord<FloatN>& world_from_object, const AffineRecord<FloatN>& object_from_world,
+                       const LocalPoint& point) {
+  const Vec3<FloatN>& n = point.ng;
+  return {
+      apply_point(object_from_world, point.p),
+      normalize(Vec3<FloatN>(dot(world_from_object.x, n), dot(world_from_object.y, n), dot(world_from_object.z, n)))};
+}
+
+void move_derivatives(const AffineRecord<FloatN>& world_from_object, const MaskN& here, SurfaceUv<FloatN>& uv) {
+  uv.dpdu = select(here, apply_vector(world_from_object, uv.dpdu), uv.dpdu);
+  uv.dpdv = select(here, apply_vector(world_from_object, uv.dpdv), uv.dpdv);
+}
+
+/// index, in the lanes of `here`; the others have that of the first of these, so that they read a record that exists.
+IntN follow_first(const MaskN& here, const IntN& index) {
+  return select_lanes(here, index, IntN(index.get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(here))))));
+}
+
+/// Sets those of the lanes of `here`, which hit records of one shape.
+template <class Shape, class Record>
+void set_uv(const std::vector<Record>& all, const IntN& index, const MaskN& here, const Hits& hits,
+            const LocalPoint& point, SurfaceUv<FloatN>& result) {
   if constexpr (SurfaceOfOne<Shape>) {
     for (MaskN left = here; any(left);) {
-      const std::int32_t next = first(left);
-      const MaskN same = left & float_mask<FloatN>(hits.primitive == IntN(next));
-      const auto& record = table.records[static_cast<std::size_t>(next)];
-      result = select<FloatN>(same, Kernel<Shape>::template uv<FloatN>(record, surface.p, surface.ng), result);
+      const std::int32_t next = follow_first(left, index).get(0);
+      const MaskN same = left & float_mask<FloatN>(index == IntN(next));
+      const auto& record = all[static_cast<std::size_t>(next)];
+      result = select<FloatN>(same, Kernel<Shape>::template uv<FloatN>(record, point.p, point.ng), result);
       left = left & !same;
     }
   } else {
-    constexpr bool in_float =
-        std::is_same_v<typename ShapeTable<Shape>::Record, typename Kernel<Shape>::template Record<float>>;
+    constexpr bool in_float = std::is_same_v<Record, typename Kernel<Shape>::template Record<float>>;
     using Wide = std::conditional_t<in_float, FloatN, Doubles<FloatN>>;
-    const IntN primitive = select_lanes(here, hits.primitive, IntN(first(here)));
-    const auto records = gather_records<Kernel<Shape>::template Record, Wide>(table.records.data(), primitive);
+    const auto records = gather_records<Kernel<Shape>::template Record, Wide>(all.data(), follow_first(here, index));
     if constexpr (EmbreeTriangle<Shape>) {
-      const SurfaceUv<FloatN> own = Kernel<Shape>::template uv<FloatN>(records, hits.u, hits.v);
-      result = select<FloatN>(here, own, result);
+      result = select<FloatN>(here, Kernel<Shape>::template uv<FloatN>(records, hits.u, hits.v), result);
     } else {
-      result = select<FloatN>(here, Kernel<Shape>::template uv<FloatN>(records, surface.p, surface.ng), result);
+      result = select<FloatN>(here, Kernel<Shape>::template uv<FloatN>(records, point.p, point.ng), result);
     }
   }
+}
+
+/// The same of objects, some of which may have had a transform.
+template <class Shape>
+void set_uv(const ShapeTable<Shape>& table, const MaskN& here, const Hits& hits, const LocalPoint& point,
+            SurfaceUv<FloatN>& result) {
+  const auto& frames = table.uv_frames;
+  MaskN moved(false);
+  if (!frames.empty()) {
+    const IntN frame = gather(frames.of_object.data(), follow_first(here, hits.primitive));
+    moved = here & float_mask<FloatN>(frame >= IntN(0));
+    if (any(moved)) {
+      const LaneIndices index(follow_first(moved, frame));
+      const auto to_world = gather_records<AffineRecord, FloatN>(frames.world_from_object.data(), index);
+      const auto to_object = gather_records<AffineRecord, FloatN>(frames.object_from_world.data(), index);
+      Hits before = hits;
+      if constexpr (EmbreeTriangle<Shape>) std::swap(before.u, before.v);  // of mirrored ones alone
+      set_uv<Shape>(frames.records, frame, moved, before, local_point(to_world, to_object, point), result);
+      move_derivatives(to_world, moved, result);
+    }
+  }
+  if (const MaskN rest = here & !moved; any(rest))
+    set_uv<Shape>(table.records, hits.primitive, rest, hits, point, result);
 }
 
 SurfaceUv<FloatN> surface_uv(const GeometryTable& world, const Hits& hits, const SurfaceInteraction<FloatN>& surface,
@@ -47,31 +87,24 @@ SurfaceUv<FloatN> surface_uv(const GeometryTable& world, const Hits& hits, const
   SurfaceUv<FloatN> result{zero, zero, {zero, zero, zero}, {zero, zero, zero}};
   const MaskN in_instance = hits.hit & float_mask<FloatN>(hits.instance != UintN(0u));
   const UintN instance = select_lanes(in_instance, hits.instance, UintN(0u));
-  SurfaceInteraction<FloatN> local = surface;
+  LocalPoint point{surface.p, surface.ng};
   if (hits.in_instances) {
-    const auto to_world = world.instances().world_from_object(instance, hits.time);
-    const Vec3<FloatN>& n = surface.ng;
-    const Vec3<FloatN> normal{dot(to_world.x, n), dot(to_world.y, n), dot(to_world.z, n)};
-    local.p = select(in_instance, apply_point(world.instances().object_from_world(instance, hits.time), surface.p),
-                     surface.p);
-    local.ng = select(in_instance, normalize(normal), n);
+    const LocalPoint in_object = local_point(world.instances().world_from_object(instance, hits.time),
+                                             world.instances().object_from_world(instance, hits.time), point);
+    point = {select(in_instance, in_object.p, point.p), select(in_instance, in_object.ng, point.ng)};
   }
   world.for_each_geometry(hits, [&](const GeometryTable& table, std::uint32_t geometry, const MaskN& here) {
     if (const MeshTable* const mesh = table.geometry(geometry).mesh; mesh != nullptr) {
-      const IntN other(hits.primitive.get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(here)))));
-      const LaneTriangles triangles = mesh->triangles(select_lanes(here, hits.primitive, other), hits);
+      const LaneTriangles triangles = mesh->triangles(follow_first(here, hits.primitive), hits);
       result = select<FloatN>(here, mesh->uv(triangles, set), result);
       return;
     }
     with_type(Shapes{}, geometry, [&]<class Shape>(std::type_identity<Shape>) {
-      set_uv<Shape>(table.table<Shape>(), here, hits, local, result);
+      set_uv<Shape>(table.table<Shape>(), here, hits, point, result);
     });
   });
-  if (hits.in_instances) {
-    const auto world_from_object = world.instances().world_from_object(instance, hits.time);
-    result.dpdu = select(in_instance, apply_vector(world_from_object, result.dpdu), result.dpdu);
-    result.dpdv = select(in_instance, apply_vector(world_from_object, result.dpdv), result.dpdv);
-  }
+  if (hits.in_instances)
+    move_derivatives(world.instances().world_from_object(instance, hits.time), in_instance, result);
   return result;
 }
 
@@ -90,8 +123,7 @@ Rgb<FloatN> vertex_color(const GeometryTable& world, const Hits& hits) {
     }
     const MeshTable* const mesh = table.geometry(geometry).mesh;
     if (mesh == nullptr || !mesh->has_colors()) return;
-    const IntN other(hits.primitive.get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(here)))));
-    const LaneTriangles triangles = mesh->triangles(select_lanes(here, hits.primitive, other), hits);
+    const LaneTriangles triangles = mesh->triangles(follow_first(here, hits.primitive), hits);
     result = select(here, mesh->color(triangles), result);
   });
   return result;

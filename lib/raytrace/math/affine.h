@@ -41,6 +41,12 @@ struct Affine {
     return result;
   }
 
+  /// Whether it moves and scales alone, so that the axes keep their directions.
+  bool keeps_axes() const {
+    return x.x > 0 && x.y == 0 && x.z == 0 && y.x == 0 && y.y > 0 && y.z == 0 && z.x == 0 && z.y == 0 && z.z > 0;
+  }
+  bool is_identity() const { return keeps_axes() && x.x == 1 && y.y == 1 && z.z == 1 && length(origin) == 0; }
+
   /// Whether it turns and mirrors alone, but for what writing it with six digits rounds.
   bool is_turn() const {
     constexpr double rounding = 1e-5;

@@ -28,4 +28,15 @@ std::optional<typename Shape::Parameters> transformed(typename Shape::Parameters
   }
 }
 
+/// Whether the texture coordinates of the transformed shape, by its new numbers, are those that it had before. Those
+/// of most shapes are counted from the world's axes.
+template <class Shape>
+bool keeps_uv(const Affine& affine) {
+  if constexpr (requires { Shape::keeps_uv(affine); }) {
+    return Shape::keeps_uv(affine);
+  } else {
+    return affine.keeps_axes();
+  }
+}
+
 }  // namespace raytrace

@@ -71,14 +71,15 @@ void GeometryTable::add_shapes(const ObjectLists& objects, const Vec3d& origin) 
   for_each_type(Shapes{}, [&]<class Shape>(std::type_identity<Shape>) {
     constexpr std::uint32_t type = index_of<Shape>(Shapes{});
     const auto& items = std::get<ObjectItems<Shape>>(objects);
-    auto& [records, instanced] = std::get<ShapeTable<Shape>>(tables_);
+    auto& [records, instanced, uv_frames] = std::get<ShapeTable<Shape>>(tables_);
     reserve_large(records, items.size() + 1);  // Embree reads whole 16 byte words of the last vertex
     const Fields points = point_fields<Shape>();
     for (const auto& item : items) {
       typename Shape::Parameters parameters = item.parameters;
       bool is_in_place = true;
+      Affine affine;
       if (!item.transform.empty()) {
-        const Affine affine = item.transform.affine();
+        affine = item.transform.affine();
         const auto transformed_shape = transformed<Shape>(parameters, affine);
         is_in_place = transformed_shape.has_value();
         if constexpr (requires { &Kernel<Shape>::bounds; }) {
@@ -92,8 +93,12 @@ void GeometryTable::add_shapes(const ObjectLists& objects, const Vec3d& origin) 
         }
         parameters = transformed_shape.value_or(parameters);
       }
-      if (is_in_place)
+      if (is_in_place) {
+        affine = moved(affine, origin);
+        if (!keeps_uv<Shape>(affine))
+          uv_frames.add(records.size(), items.size(), Kernel<Shape>::record(item.parameters), affine);
         for (const Field& point : points) point.get<Vec3d>(&parameters) += -origin;
+      }
       records.push_back(Kernel<Shape>::record(parameters));
       if constexpr (requires { &Kernel<Shape>::bounds; })
         if (!is_in_place) transformed_.back().bounds = Kernel<Shape>::bounds(records.back());
@@ -105,7 +110,7 @@ void GeometryTable::add_shapes(const ObjectLists& objects, const Vec3d& origin) 
 }
 
 void GeometryTable::add_clouds(const std::vector<ObjectItem<SphereCloud>>& clouds, const Vec3d& origin) {
-  auto& [records, instanced] = std::get<ShapeTable<Sphere>>(tables_);
+  auto& [records, instanced, uv_frames] = std::get<ShapeTable<Sphere>>(tables_);
   std::size_t count = records.size();
   for (const auto& cloud : clouds) count += cloud.data->size();
   reserve_large(records, count);
@@ -124,6 +129,7 @@ void GeometryTable::add_clouds(const std::vector<ObjectItem<SphereCloud>>& cloud
     clouds_.push_back({first, static_cast<std::int32_t>(records.size()), 0, cloud.data});
   }
   if (!instanced.empty()) instanced.resize(records.size());
+  if (!uv_frames.empty()) uv_frames.of_object.resize(records.size(), -1);
 }
 
 void GeometryTable::add_instances(const SceneDescription& description, const Vec3d& origin,

@@ -10,7 +10,6 @@
 #include <optional>
 #include <span>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 #include "raytrace/description/scene_description.h"
@@ -19,19 +18,9 @@
 #include "raytrace/scene/hits.h"
 #include "raytrace/scene/instance_table.h"
 #include "raytrace/scene/mesh_table.h"
-#include "raytrace/shapes/kernels.h"
+#include "raytrace/scene/shape_table.h"
 
 namespace raytrace {
-
-/// The records of all objects of one shape.
-template <class Shape>
-struct ShapeTable {
-  using Record = decltype(Kernel<Shape>::record(std::declval<typename Shape::Parameters>()));
-  std::vector<Record> records;
-  std::vector<bool> instanced;  ///< those that rays meet by an instance alone; empty: none
-
-  bool is_instanced(std::size_t i) const { return !instanced.empty() && instanced[i]; }
-};
 
 /// One of Embree's geometries: all objects of a shape, each of which is a primitive, or the faces of a mesh, which is
 /// one object.

@@ -7,12 +7,6 @@
 
 namespace raytrace {
 
-namespace {
-
-AffineRecord<float> to_float(const Affine& a) { return {Vec3f(a.x), Vec3f(a.y), Vec3f(a.z), Vec3f(a.origin)}; }
-
-}  // namespace
-
 void InstanceTable::add(const InstanceTarget& target, const Affine& world_from_object, const Bounds& box,
                         std::int32_t object, std::int32_t material) {
   targets_.push_back(target);

@@ -19,6 +19,8 @@ struct AffineRecord {
   Vec3<T> x, y, z, origin;
 };
 
+inline AffineRecord<float> to_float(const Affine& a) { return {Vec3f(a.x), Vec3f(a.y), Vec3f(a.z), Vec3f(a.origin)}; }
+
 /// Every coordinate by the same three fused operations, for packets and single rays, so that both find the same.
 template <class F, class T>
 RAYTRACE_INLINE Vec3<F> apply_vector(const AffineRecord<T>& affine, const Vec3<F>& v) {

@@ -34,6 +34,7 @@ MeshTable::MeshTable(const ObjectItem<Mesh>& mesh, const Vec3d& origin, std::spa
   affine.origin = affine.point(data_->origin) + -origin;
   const bool is_transformed = !mesh.transform.empty();
   if (is_transformed || length(affine.origin) > 0) move(affine, threads);
+  if (is_transformed && affine.determinant() < 0) turn_faces(threads);
   if (mesh.parameters.normals.groups.empty() && mesh.parameters.normals.word == Mesh::smooth) {
     computed_normals_ = vertex_normals(*data_, positions(), threads);
     normals_ = computed_normals_.data();
@@ -57,6 +58,17 @@ void MeshTable::move(const Affine& affine, int threads) {
         moved_[i + static_cast<std::size_t>(axis)] = static_cast<float>(coordinate);
       }
     }
+  });
+}
+
+/// Mirrored faces keep their fronts: the corners go round the other way, from the same one.
+void MeshTable::turn_faces(int threads) {
+  turned_faces_ = MeshBuffer<std::uint32_t>(data_->indices.size());
+  const auto count = static_cast<std::size_t>(corners());
+  for_each_chunk(face_count(), threads, [&](std::size_t, std::size_t first, std::size_t last) {
+    std::copy(&data_->indices[count * first], &data_->indices[0] + count * last, &turned_faces_[count * first]);
+    for (std::size_t face = first; face < last; ++face)
+      std::swap(turned_faces_[count * face + 1], turned_faces_[count * face + count - 1]);
   });
 }
 
@@ -122,7 +134,10 @@ SurfaceUv<FloatN> MeshTable::uv(const LaneTriangles& triangles, UvSet set) const
   const auto corners = records(triangles);
   const SurfaceUv<FloatN> barycentric = Kernel<Triangle>::uv(corners, triangles.u, triangles.v);
   const MeshBuffer<float>& uvs = set == UvSet::second && !data_->uvs2.empty() ? data_->uvs2 : data_->uvs;
-  if (uvs.empty()) return barycentric;
+  if (uvs.empty()) {
+    if (turned_faces_.empty()) return barycentric;
+    return {barycentric.v, barycentric.u, barycentric.dpdv, barycentric.dpdu};
+  }
   const auto uv_at = [&](const IntN& vertex) {
     const IntN first = vertex * IntN(2);
     return std::pair(gather(uvs.data(), first), gather(uvs.data() + 1, first));

@@ -32,7 +32,7 @@ class MeshTable {
             int threads);
 
   const float* positions() const { return moved_.empty() ? data_->positions.data() : moved_.data(); }
-  const std::uint32_t* indices() const { return data_->indices.data(); }
+  const std::uint32_t* indices() const { return turned_faces_.empty() ? data_->indices.data() : turned_faces_.data(); }
   std::size_t vertex_count() const { return data_->vertex_count(); }
   std::size_t face_count() const { return data_->face_count(); }
   int corners() const { return data_->corners; }
@@ -77,11 +77,13 @@ class MeshTable {
     return {p[0], p[1], p[2]};
   }
   void move(const Affine& affine, int threads);
+  void turn_faces(int threads);
   void turn_normals(const Affine& affine, int threads);
   void set_bounds(int threads);
 
   std::shared_ptr<const MeshData> data_;
-  MeshBuffer<float> moved_;  ///< positions, if they are not the data's
+  MeshBuffer<float> moved_;                 ///< positions, if they are not the data's
+  MeshBuffer<std::uint32_t> turned_faces_;  ///< indices, if faces are mirrored
   MeshBuffer<float> computed_normals_;
   const float* normals_ = nullptr;
   std::vector<std::int32_t> materials_;  ///< the numbers of those of the data

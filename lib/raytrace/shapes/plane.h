@@ -19,6 +19,7 @@ class Plane {
   static Parameters transformed(const Parameters& parameters, const Affine& affine) {
     return {affine.point(parameters.point), affine.normal(parameters.normal)};
   }
+  static bool keeps_uv(const Affine& affine) { return affine.is_identity(); }
   static Fields fields() {
     return {required("point", &Parameters::point, a_point), required("normal", &Parameters::normal, Range::nonzero)};
   }

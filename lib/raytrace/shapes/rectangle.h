@@ -7,6 +7,7 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 
 #include "raytrace/math/affine.h"
 #include "raytrace/parameters/fields.h"
@@ -22,10 +23,14 @@ class Rectangle {
   };
   static constexpr std::string_view group = "rectangles";
   static constexpr std::string_view element = "rectangle";
-  /// A parallelogram stays one.
+  /// A parallelogram stays one; a mirrored one keeps its front.
   static Parameters transformed(const Parameters& parameters, const Affine& affine) {
-    return {affine.point(parameters.corner), affine.vector(parameters.edge1), affine.vector(parameters.edge2)};
+    Parameters result{affine.point(parameters.corner), affine.vector(parameters.edge1),
+                      affine.vector(parameters.edge2)};
+    if (affine.determinant() < 0) std::swap(result.edge1, result.edge2);
+    return result;
   }
+  static bool keeps_uv(const Affine& affine) { return affine.determinant() > 0; }
   static Fields fields() {
     return {required("corner", &Parameters::corner, a_point), required("edge1", &Parameters::edge1, Range::nonzero),
             required("edge2", &Parameters::edge2, Range::nonzero)};

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 
 #include "raytrace/math/affine.h"
 #include "raytrace/parameters/fields.h"
@@ -20,9 +21,14 @@ class Triangle {
   };
   static constexpr std::string_view group = "triangles";
   static constexpr std::string_view element = "triangle";
+  /// A mirrored one keeps its front.
   static Parameters transformed(const Parameters& parameters, const Affine& affine) {
-    return {affine.point(parameters.vertex1), affine.point(parameters.vertex2), affine.point(parameters.vertex3)};
+    Parameters result{affine.point(parameters.vertex1), affine.point(parameters.vertex2),
+                      affine.point(parameters.vertex3)};
+    if (affine.determinant() < 0) std::swap(result.vertex2, result.vertex3);
+    return result;
   }
+  static bool keeps_uv(const Affine& affine) { return affine.determinant() > 0; }
   static Fields fields() {
     return {required("vertexposition1", &Parameters::vertex1, a_point),
             required("vertexposition2", &Parameters::vertex2, a_point),
