@@ -47,7 +47,7 @@ TEST_CASE("OpenPBR: rough glass chooses between its sides by the facet, so that 
 }
 
 TEST_CASE("OpenPBR: what absorbs nothing sends all light on, from both sides") {
-  for (const double roughness : {0.0, 0.1, 0.3, 0.6, 1.0})
+  for (const double roughness : {0.0, 0.035, 0.06, 0.1, 0.3, 0.6, 1.0})
     for (const auto& [name, parameters] : white_materials(roughness))
       for (const bool front : {true, false}) {
         double mean = 0;
@@ -73,7 +73,7 @@ OpenPbr::Parameters brushed_metal(double roughness) {
 
 }  // namespace
 
-TEST_CASE("OpenPBR: stretched lobes follow their pdf, and lose or gain little") {
+TEST_CASE("OpenPBR: stretched lobes follow their pdf, and white ones send all light on") {
   const Vec3d normal{0, 0, 1};
   for (const double roughness : {0.45, 0.6})
     for (const double angle : {0.0, 45.0, 75.0})
@@ -82,7 +82,7 @@ TEST_CASE("OpenPBR: stretched lobes follow their pdf, and lose or gain little") 
         const Vec3d wo = at_angle(normal, angle, turn);
         INFO("roughness " << roughness << ", wo at " << angle << ", turned by " << turn);
         CHECK(judge(above, wo, normal, Cells(normal, 1), true).deviation < 4.5);
-        CHECK(sent_on(above.judged.bsdf, wo) == Approx(1).epsilon(0.08));
+        CHECK(sent_on(above.judged.bsdf, wo) == Approx(1).epsilon(0.015));
       }
 }
 

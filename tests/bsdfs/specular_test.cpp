@@ -293,6 +293,19 @@ TEST_CASE("white metals send all light on, as rough as they are") {
     }
 }
 
+TEST_CASE("white brushed metals send all light on, along their grooves and across") {
+  for (const double roughness : {0.05, 0.2, 0.45, 0.8, 1.0})
+    for (const double anisotropy : {0.05, 0.3, 0.7, 0.9, 1.0})
+      for (const double angle : {0.0, 30.0, 60.0, 80.0})
+        for (const double turn : {0.0, 0.4, 1.2, 1.57}) {
+          INFO("roughness " << roughness << ", anisotropy " << anisotropy << ", wo at " << angle << ", turned by "
+                            << turn);
+          MetalBsdf bsdf = metal(roughness);
+          bsdf.anisotropy = FloatN(static_cast<float>(anisotropy));
+          CHECK(sent_share(bsdf, at_angle({0, 0, 1}, angle, turn)) == Approx(1).epsilon(0.02));
+        }
+}
+
 TEST_CASE("clear glass sends all light on, as rough as it is, from both sides") {
   const bool thin = GENERATE(false, true);
   for (const double ior : {1.33, 1.5, 2.4})

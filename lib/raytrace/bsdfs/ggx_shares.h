@@ -18,8 +18,9 @@ namespace raytrace {
 
 namespace detail {
 
-/// The axes of tables: roughness from that of the least alpha to 1, and a function of it and of the cosine that gives
-/// what falls off at grazing angles of the least rough as many steps as the rest.
+/// The axes of tables: roughness from that of the least alpha to 1, and a function of it and of the cosine. Half its
+/// steps are even ones of the cosine's root, for what Fresnel's equations let through; the other half goes to what the
+/// facets shadow, at grazing angles alone where they are the least rough.
 class ShareAxes {
  public:
   static constexpr int steps = 32, size = steps * steps;
@@ -28,7 +29,7 @@ class ShareAxes {
   static FloatN look_up(const float* table, const IntN& first, const FloatN& cosine, const FloatN& roughness) {
     const FloatN root = sqrt(cosine);
     const FloatN x = (roughness - FloatN(least)) * FloatN((steps - 1) / (1 - least));
-    const FloatN y = (FloatN(1) + roughness) * root / (root + roughness) * FloatN(steps - 1);
+    const FloatN y = ((FloatN(1) + roughness) / (root + roughness) + FloatN(1)) * root * FloatN(0.5F * (steps - 1));
     const IntN column = cell(x), row = cell(y);
     const FloatN right = x - to_float(column), up = y - to_float(row);
     const IntN at = first + column * IntN(steps) + row;
@@ -47,7 +48,7 @@ class ShareAxes {
       for (int row = 0; row < steps; ++row) {
         const float roughness = least + static_cast<float>(column) * (1 - least) / (steps - 1);
         const float y = static_cast<float>(row) / (steps - 1);
-        const float root = y * roughness / (1 + roughness - y);
+        const float b = 0.5F + roughness - y, root = std::sqrt(b * b + 2 * y * roughness) - b;
         table[column * steps + row] = share(std::clamp(root * root, 1e-4F, 1.0F), roughness);
       }
   }

@@ -3,7 +3,7 @@
 
 #include "raytrace/bsdfs/fresnel.h"
 #include "raytrace/bsdfs/ggx_shares.h"
-#include "raytrace/bsdfs/stretched_ggx.h"
+#include "raytrace/bsdfs/stretched_shares.h"
 #include "raytrace/materials/conductor.h"
 #include "raytrace/math/kernel.h"
 
@@ -27,7 +27,7 @@ class Kernel<Conductor> {
       const Mask<T> rough = ggx().is_rough();
       if (none(rough)) return black();
       const Vec3<T> from = above_surface(wo, surface_normal);
-      return select(rough, f(reflection(from, wi, surface_normal), dot(from, surface_normal)), black());
+      return select(rough, f(reflection(from, wi, surface_normal), from, dot(from, surface_normal)), black());
     }
     BsdfSample<T> sample(const Vec3<T>& wo, const T&, const T& u1, const T& u2) const {
       const Vec3<T> from = above_surface(wo, local_normal<T>());
@@ -39,7 +39,7 @@ class Kernel<Conductor> {
       if (any(is_stretched())) facet = select(is_stretched(), stretched().sample_facet(from, u1, u2), facet);
       const Vec3<T> wi = normalize(facet * (T(2) * dot(from, facet)) - from);
       const auto reflected = reflection(from, wi, local_normal<T>());
-      return select(rough, BsdfSample<T>{wi, f(reflected, from.z), reflected.pdf}, mirrored);
+      return select(rough, BsdfSample<T>{wi, f(reflected, from, from.z), reflected.pdf}, mirrored);
     }
     T pdf(const Vec3<T>& wo, const Vec3<T>& wi) const {
       const Vec3<T> normal_here = local_normal<T>();
@@ -67,11 +67,10 @@ class Kernel<Conductor> {
       const T rest = T(1) - cosine, square = rest * rest, fifth = square * square * rest;
       return normal + rise * fifth + dip * (-cosine * fifth * rest);
     }
-    Rgb<T> f(const typename Ggx<T>::Reflection& reflection, const T& cosine_o) const {
+    Rgb<T> f(const typename Ggx<T>::Reflection& reflection, const Vec3<T>& wo, const T& cosine_o) const {
       // What is lost at one facet meets others: the paler the metal, the more of it comes out.
-      T even = roughness;
-      if (any(is_stretched())) even = select(is_stretched(), stretched().even_roughness(), even);
-      const T share = ggx_reflected_share(min(cosine_o, T(1)), even);
+      T share = ggx_reflected_share(min(cosine_o, T(1)), roughness);
+      if (any(is_stretched())) share = select(is_stretched(), stretched_reflected_share(stretched(), wo), share);
       const T lost = (T(1) - share) / share;
       return reflectance(reflection.cosine) * (Rgb<T>(T(1), T(1), T(1)) + normal * lost) * reflection.f;
     }

@@ -17,7 +17,7 @@
 #include "raytrace/bsdfs/lambertian.h"
 #include "raytrace/bsdfs/layer_normals.h"
 #include "raytrace/bsdfs/oren_nayar.h"
-#include "raytrace/bsdfs/stretched_ggx.h"
+#include "raytrace/bsdfs/stretched_shares.h"
 #include "raytrace/bsdfs/thin_film.h"
 #include "raytrace/materials/medium.h"
 #include "raytrace/materials/subsurface.h"

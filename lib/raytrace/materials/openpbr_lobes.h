@@ -18,6 +18,9 @@ template <class T>
   if (any(rough)) {
     const T even = ggx().even_roughness();
     layers.white_share = select(rough, ggx_reflected_share(cosine, even), one);
+    const Mask<T> stretched = rough & (ggx().alpha_y < ggx().alpha_x);
+    if (any(stretched))
+      layers.white_share = select(stretched, stretched_reflected_share(ggx(), layers.from), layers.white_share);
     layers.dielectric_share = select(rough, ggx_dielectric_share(cosine, even, eta), one);
     layers.base_reflection =
         select(rough, ggx_dielectric_share<true>(cosine, even, eta) / layers.dielectric_share, layers.base_reflection);
