@@ -955,7 +955,7 @@ write(
     <skylights>
       <skylight>
         <sundirection x="-1" y="0.4" z="-0.8"/> <turbidity>2.5</turbidity>
-        <scaleradiance>2</scaleradiance>
+        <scaleradiance>3.5</scaleradiance>
       </skylight>
     </skylights>
   </lights>

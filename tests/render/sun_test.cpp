@@ -104,7 +104,7 @@ TEST_CASE("a floor under a skylight is as bright as the ground that the sky's pi
       from, to - from,
       "<lights><skylights><skylight><sundirection x='1' y='1' z='0.5'/><groundalbedo red='1' green='1' blue='1'/>"
       "</skylight></skylights></lights>");
-  const Picture sky = SkyModel({.sundirection = {1, 1, 0.5}, .groundalbedo = {1, 1, 1}}).picture(1);
+  const Picture sky = SkyModel({.sundirection = {1, 1, 0.5}, .groundalbedo = {1, 1, 1}}, 1).picture();
   float green = 0;
   std::memcpy(&green, sky.pixels.data() + (std::size_t{4} * 1024 * 512 - 3) * sizeof green, sizeof green);
   const double floor = mean_green(text);

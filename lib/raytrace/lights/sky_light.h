@@ -5,8 +5,7 @@
 //     <scaleradiance>1</scaleradiance> <visible>true</visible>
 //   </skylight>
 //
-// Preetham, Shirley and Smits, "A Practical Analytic Model for Daylight", 1999: a few formulas, where better models
-// (Hosek and Wilkie 2012) need tables that are larger than all of this. It holds for turbidities of 2 and more.
+// lights/atmosphere.h says whose model it is.
 #pragma once
 
 #include "raytrace/parameters/light_group.h"
@@ -17,7 +16,7 @@ class SkyLight {
  public:
   struct Parameters {
     Vec3d sundirection{};                     ///< towards the sun; above the horizon. Up is +y
-    double turbidity = 3;                     ///< haze: 2 is a very clear day, 10 a hazy one
+    double turbidity = 3;                     ///< haze: 1 is pure air, 2 a very clear day, 10 a hazy one
     Rgb<double> groundalbedo{0.2, 0.2, 0.2};  ///< of the ground, which is what is below the horizon
     double scaleradiance = 1;
     bool visible = true;  ///< to the camera, in place of the background
@@ -39,8 +38,8 @@ class SkyLight {
     };
     if (!(parameters.sundirection.y > 0))
       return error("the skylight's <sundirection> is not above the horizon (y is up): there is no model of the night");
-    if (parameters.turbidity < 2 || parameters.turbidity > 10)
-      return error("the skylight's <turbidity> is not from 2, a very clear sky, to 10, a hazy one");
+    if (parameters.turbidity < 1 || parameters.turbidity > 10)
+      return error("the skylight's <turbidity> is not from 1, pure air, to 10, a hazy one");
     return std::nullopt;
   }
 };

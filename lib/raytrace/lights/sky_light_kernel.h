@@ -11,7 +11,7 @@ class Kernel<SkyLight> : public Kernel<DirectionalLight> {
  public:
   explicit Kernel(const SkyLight::Parameters& parameters)
       : Kernel<DirectionalLight>(
-            {.direction = parameters.sundirection, .color = SkyModel(parameters).sun(), .angle = 0.53}) {}
+            {.direction = parameters.sundirection, .color = sun_irradiance(parameters), .angle = 0.53}) {}
 };
 
 }  // namespace raytrace

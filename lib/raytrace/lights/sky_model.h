@@ -1,38 +1,42 @@
 // The light of the sky, its sun and the ground below it, of a SkyLight.
 #pragma once
 
+#include <vector>
+
 #include "raytrace/lights/sky_light.h"
 #include "raytrace/output/picture.h"
 
 namespace raytrace {
 
-/// Linear, with the sRGB primaries. A radiance of 1 is 40,000 candela per square metre, so that the sun high in a clear
-/// sky gives a white floor about 0.8.
+// Light is linear, with the sRGB primaries. A radiance of 1 is 40,000 candela per square metre, so that the sun high in
+// a clear sky gives a white floor about 0.8.
+
+/// What a surface that faces the sun gets from it.
+Rgb<double> sun_irradiance(const SkyLight::Parameters& parameters);
+
 class SkyModel {
  public:
-  explicit SkyModel(const SkyLight::Parameters& parameters);
+  /// threads: so many at most share the work, of some hundredths of a second.
+  SkyModel(const SkyLight::Parameters& parameters, int threads);
 
   /// Of the sky, without the sun. direction: of unit length, not below the horizon.
   Rgb<double> sky(const Vec3d& direction) const;
 
-  /// What a surface that faces the sun gets from it.
-  Rgb<double> sun() const { return sun_; }
-
   /// The sky, and the ground as the two light it, as a picture of longitude and latitude (environment_light.h).
-  /// threads: so many at most share the work.
-  Picture picture(int threads) const;
+  Picture picture() const;
 
  private:
-  /// Perez' formula: how bright a part of the sky is, relative to others.
-  struct Distribution {
-    double a, b, c, d, e;
-    double at(double cosine, double angle, double cosine_of_angle) const;
+  /// What atmosphere.h has of a ray, as colours.
+  struct Scattered {
+    Rgb<double> by_molecules, by_haze, further;
   };
+
+  static constexpr int heights = 48, turns = 17;  ///< above the horizon, and from the sun's side to the other
+
   SkyLight::Parameters parameters_;
+  int threads_;
   Vec3d to_sun_;
-  Distribution luminance_, x_, y_;
-  double scale_, scale_x_, scale_y_;
-  Rgb<double> sun_;
+  std::vector<Scattered> table_;
 };
 
 }  // namespace raytrace

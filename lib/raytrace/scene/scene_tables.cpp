@@ -134,7 +134,7 @@ void SceneTables::add_lights(const SceneDescription& description, int threads) {
   for (const auto& item : std::get<LightItems<SkyLight>>(description.lights)) {
     environment_group_ = group_of(item);
     LightItem<EnvironmentLight> sky{{.file = {"sky"}, .visible = item.parameters.visible}};
-    sky.image.color = std::make_shared<const TexelImage>(SkyModel(item.parameters).picture(threads), false, threads);
+    sky.image.color = std::make_shared<const TexelImage>(SkyModel(item.parameters, threads).picture(), false, threads);
     environment_.emplace(sky, threads);
   }
   for_each_type(Lights{}, [&]<class Light>(std::type_identity<Light>) {
