@@ -6,6 +6,7 @@ import json
 import math
 import struct
 import unittest
+import zlib
 
 from exr import Exr
 from png import Png
@@ -76,6 +77,40 @@ class Models(CommandTest):
             self.assertEqual(model.row_bytes, Exr(self.read("printed.exr")).row_bytes)
             self.assertGreater(max(pixel[1] for pixel in model.pixels().values()), 0.1)
         self.assertIn("<hres>1280</hres>", self.succeed("slab.ply", "--print-scene").stdout)
+
+    def test_colours_of_a_gltf_file_are_srgb_whatever_their_depth(self):
+        """And its numbers are not. The same texel of a colour in 8 and in 16 bits."""
+        def png(depth):
+            texel = struct.pack(">BBBB" if depth == 8 else ">HHHH", *(value * (1 if depth == 8 else 257)
+                                                                    for value in (128, 64, 200, 255)))
+            chunks = [(b"IHDR", struct.pack(">IIBBBBB", 1, 1, depth, 6, 0, 0, 0)),
+                      (b"IDAT", zlib.compress(b"\0" + texel)), (b"IEND", b"")]
+            return b"\x89PNG\r\n\x1a\n" + b"".join(
+                struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+                for name, data in chunks)
+
+        corners = struct.pack("<9f", -1, -1, 0, 1, -1, 0, 0, 1, 0) + struct.pack("<6f", 0, 0, 1, 0, 0, 1)
+        seen = []
+        for depth in (8, 16):
+            self.write(f"{depth}.gltf", json.dumps({
+                "asset": {"version": "2.0"},
+                "buffers": [{"byteLength": 60, "uri": "data:;base64," + base64.b64encode(corners).decode()}],
+                "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 24}],
+                "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                               "min": [-1, -1, 0], "max": [1, 1, 0]},
+                              {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2"}],
+                "images": [{"uri": "data:image/png;base64," + base64.b64encode(png(depth)).decode()}],
+                "textures": [{"source": 0}],
+                "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0},
+                                                        "metallicRoughnessTexture": {"index": 0}}}],
+                "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": 0}]}],
+                "nodes": [{"mesh": 0}], "scenes": [{"nodes": [0]}], "scene": 0}))
+            seen.append(Exr((self.succeed(f"{depth}.gltf", *OPTIONS, "--view", "front", "-o", f"{depth}.exr"),
+                             self.read(f"{depth}.exr"))[1]).pixels())
+        differences = [abs(a - b) for place in seen[0] for a, b in zip(seen[0][place], seen[1][place])]
+        self.assertLess(max(differences), 0.004)
+        middle = seen[0][48, 30]
+        self.assertGreater(middle[2], 2 * middle[0])
 
     def test_a_turntable_is_a_full_turn(self):
         self.succeed("slab.ply", *OPTIONS, "--turntable", "4", "--transparent", "-o", "turn.#.exr")

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "import/support.h"
 #include "support/catch.h"
 #include "support/contains.h"
@@ -51,7 +53,6 @@ TEST_CASE("an OBJ file's materials come from its MTL files") {
   REQUIRE(mesh->materials.size() == 2);
   const MeshMaterial& red = mesh->materials[0];
   CHECK(red.name == "dark red");
-  CHECK(red.ka->green == 0.1);
   CHECK(red.kd->red == 0.5);
   CHECK(red.kd->blue == 0);
   CHECK(red.ns == 30);
@@ -61,11 +62,61 @@ TEST_CASE("an OBJ file's materials come from its MTL files") {
   CHECK(red.map_kd.scale == std::array<double, 2>{2, 3});
   CHECK(red.map_kd.offset == std::array<double, 2>{0.5, 0});
   CHECK(red.map_kd.edge == MeshTexture::Edge::clamp);
-  CHECK(red.map_bump.strength == 0.5);
+  CHECK(red.openpbr.empty());
   CHECK(mesh->materials[1].name == "missing");
   CHECK(printed(diagnostics, folder.path().string()) ==
+        "a.obj:1: warning: my materials.mtl:9: 'map_bump' is left out, here and in the rest of the file\n"
         "a.obj:1: warning: my materials.mtl:10: 'ks' needs one or three numbers\n"
         "a.obj:9: warning: no material 'missing' in the material libraries\n");
+}
+
+TEST_CASE("an MTL's metals, glass and lamps are OpenPBR's") {
+  const TemporaryFolder folder;
+  write_text(folder.file("a.mtl"),
+             "newmtl plain\nKd 0.5 0.5 0.5\nKs 0 0 0\nKe 0 0 0\nNi 1.45\nd 1\nillum 2\n"
+             "newmtl gold\nKd 1 0.7 0.3\nPm 1\nPr 0.2\nmap_Pr rough.png\nPc 0.5\nPcr 0.1\nPs 0.25\naniso 0.75\n"
+             "newmtl glass\nKd 0 0 0\nNi 1.6\nTf 0.9 1 0.9\nd 0.3\nillum 7\n"
+             "newmtl opaque\nTf 0 0 0\nillum 4\n"
+             "newmtl mirror\nKd 0 0 0\nKs 0.9 0.8 0.7\nillum 3\n"
+             "newmtl lamp\nKd 0 0 0\nKs 0 0 0\nKe 5 4 3\n"
+             "newmtl screen\nmap_Ke film.png\nKs 1 1 1\nNs 98\n");
+  write_text(folder.file("a.obj"),
+             "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl plain\nf 1 2 3\nusemtl gold\nf 1 2 3\nusemtl glass\n"
+             "f 1 2 3\nusemtl opaque\nf 1 2 3\nusemtl mirror\nf 1 2 3\nusemtl lamp\nf 1 2 3\nusemtl screen\nf 1 2 3\n");
+  Diagnostics diagnostics(folder.file("a.obj"));
+  const auto mesh = read_mesh(folder.file("a.obj"), {}, diagnostics);
+  REQUIRE(mesh);
+  CHECK(diagnostics.kept().empty());
+  const auto parameter = [&](std::string_view material, std::string_view name) -> MeshParameter {
+    for (const MeshMaterial& one : mesh->materials)
+      if (one.name == material)
+        for (const MeshParameter& parameter : one.openpbr)
+          if (parameter.name == name) return parameter;
+    return {"none", {-1, -1, -1}};
+  };
+  const auto number = [&](std::string_view material, std::string_view name) {
+    return parameter(material, name).value.red;
+  };
+  CHECK(number("plain", "base_color") == -1);
+  CHECK(number("opaque", "base_color") == -1);
+  CHECK(parameter("gold", "base_color").value.blue == 0.3);
+  CHECK(number("gold", "base_metalness") == 1);
+  CHECK(number("gold", "specular_roughness") == 0.2);
+  CHECK(parameter("gold", "specular_roughness").texture.file == "rough.png");
+  CHECK(number("gold", "coat_weight") == 0.5);
+  CHECK(number("gold", "coat_roughness") == 0.1);
+  CHECK(number("gold", "fuzz_weight") == 0.25);
+  CHECK(number("gold", "specular_roughness_anisotropy") == 0.75);
+  CHECK(number("glass", "transmission_weight") == 1);
+  CHECK(number("glass", "transmission_color") == 0.9);
+  CHECK(number("glass", "specular_ior") == 1.6);
+  CHECK(number("glass", "specular_roughness") == 0);
+  CHECK(number("mirror", "base_metalness") == 1);
+  CHECK(parameter("mirror", "base_color").value.green == 0.8);
+  CHECK(parameter("lamp", "emission_color").value.blue == 3);
+  CHECK(number("lamp", "specular_weight") == 0);
+  CHECK(parameter("screen", "emission_color").texture.file == "film.png");
+  CHECK(number("screen", "specular_roughness") == Approx(std::pow(0.02, 0.25)));
 }
 
 TEST_CASE("what is wrong in an OBJ file is an error in its line") {

@@ -211,8 +211,10 @@ class MeshLoader {
     constexpr std::array channels{TextureChannel::red, TextureChannel::green, TextureChannel::blue,
                                   TextureChannel::alpha};
     for (const MeshParameter& parameter : material.openpbr) {
+      const bool is_srgb = parameter.texture.srgb && fields[find_field(fields, parameter.name)].is<Rgb<double>>();
       if (!parameter.texture.file.empty())
-        set_texture(added, parameter.name, image(parameter.texture, folder),
+        set_texture(added, parameter.name,
+                    image(parameter.texture, folder, is_srgb ? ColorSpace::srgb : ColorSpace::automatic),
                     channels[static_cast<std::size_t>(parameter.channel)]);
       if (parameter.of_vertices && material.vertex_colors) set_texture(added, parameter.name, vertex_colors());
     }
@@ -220,17 +222,19 @@ class MeshLoader {
   }
 
   /// The same one for what uses an image in the same way.
-  TextureReference image(const MeshTexture& texture, const std::filesystem::path& folder) {
+  TextureReference image(const MeshTexture& texture, const std::filesystem::path& folder,
+                         ColorSpace colorspace = ColorSpace::automatic) {
     auto& images = std::get<TextureItems<Image>>(scene_.textures);
     const std::string path = (folder / texture.file).string();
     const ImageUse key{
-        path,         texture.scale,  texture.offset, texture.rotation, texture.value_scale, texture.value_offset,
-        texture.edge, texture.by_uvs2};
+        path,         texture.scale,   texture.offset, texture.rotation, texture.value_scale, texture.value_offset,
+        texture.edge, texture.by_uvs2, colorspace};
     const auto [known, is_new] = known_images_.try_emplace(key, images.size());
     const auto index = static_cast<std::uint32_t>(known->second);
     if (!is_new) return {index_of<Image>(Textures{}), index};
     TextureItem<Image>& image = images.emplace_back();
     image.parameters.file.path = path;
+    image.parameters.colorspace = colorspace;
     image.parameters.uvscale = {texture.scale[0], texture.scale[1]};
     image.parameters.uvoffset = {texture.offset[0], texture.offset[1]};
     image.parameters.uvrotation = texture.rotation;
@@ -292,7 +296,7 @@ class MeshLoader {
   std::set<std::string> taken_names_;
   std::set<std::string> unlit_;  // files of models whose lights have been left out
   using ImageUse = std::tuple<std::string, std::array<double, 2>, std::array<double, 2>, double, double, double,
-                              MeshTexture::Edge, bool>;
+                              MeshTexture::Edge, bool, ColorSpace>;
   std::map<ImageUse, std::size_t> known_images_;
   MaterialReference grey_ = no_material, painted_ = no_material;
 };

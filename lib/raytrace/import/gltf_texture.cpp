@@ -22,6 +22,7 @@ MeshTexture TextureReader::read(const Item& info) {
   }
   const auto known = std::find(coordinates_.begin(), coordinates_.end(), coordinates);
   texture.by_uvs2 = known - coordinates_.begin() == 1;
+  texture.srgb = true;
   if (known == coordinates_.end()) {
     if (coordinates_.size() == 2) {
       document_.warn(info.place(), "has other coordinates than the material's TEXCOORD_" +

@@ -56,10 +56,11 @@ struct MeshTexture {
   std::array<double, 2> scale{1, 1}, offset{0, 0};
   double rotation = 0;                       ///< in degrees, from u to v, between both
   double value_scale = 1, value_offset = 0;  ///< of what is in the picture
-  double strength = 1;                       ///< of a bump or normal map
+  double strength = 1;                       ///< of a normal map
   bool alpha = false;                        ///< of an opacity: that it is its alpha, which is 1 where it has none
   Edge edge = Edge::repeat;                  ///< what is beyond
   bool by_uvs2 = false;                      ///< it is placed by the mesh's second texture coordinates
+  bool srgb = false;                         ///< its colours are sRGB's, whatever the picture's depth
   /// The picture's file, where it is within the model's; `file` is then a name for messages.
   std::shared_ptr<const std::string> bytes{};
 };
@@ -79,11 +80,11 @@ struct MeshMaterial {
   std::string name;
   std::vector<MeshParameter> openpbr{};
   bool thin_walled = false;
-  std::optional<Rgb<double>> ka, kd, ks, ke, tf;
-  std::optional<double> ns, d, ni, pr, pm;
+  std::optional<Rgb<double>> kd, ks, ke, tf;
+  std::optional<double> ns, d, ni, pr, pm, ps, pc, pcr, aniso;
   std::optional<int> illum;
   bool vertex_colors = false;  ///< multiply kd
-  MeshTexture map_ka, map_kd, map_ks, map_ke, map_ns, map_d, map_bump, map_pr, map_pm, norm;
+  MeshTexture map_kd, map_ke, map_d, map_pr, map_pm, norm;
 };
 
 /// A camera that the mesh's file has, in the file's space.

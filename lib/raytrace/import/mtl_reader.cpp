@@ -1,7 +1,9 @@
 // MTL, the materials of OBJ files: https://paulbourke.net/dataformats/mtl/, with the usual additions for roughness
-// (Pr), metalness (Pm) and normal maps (norm). Statements without a meaning here are skipped.
+// (Pr), metalness (Pm), sheen (Ps), a coat (Pc, Pcr), anisotropy (aniso) and normal maps (norm). Of statements that say
+// how a surface looks, but mean nothing here, there is a warning; others are skipped.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -19,19 +21,17 @@ struct Field {
   std::string_view name;  // in lower case
   Member MeshMaterial::* member;
 };
-constexpr Field<std::optional<Rgb<double>>> color_fields[] = {{"ka", &MeshMaterial::ka},
-                                                              {"kd", &MeshMaterial::kd},
-                                                              {"ks", &MeshMaterial::ks},
-                                                              {"ke", &MeshMaterial::ke},
-                                                              {"tf", &MeshMaterial::tf}};
-constexpr Field<std::optional<double>> number_fields[] = {{"ns", &MeshMaterial::ns}, {"d", &MeshMaterial::d},
-                                                          {"tr", &MeshMaterial::d},  {"ni", &MeshMaterial::ni},
-                                                          {"pr", &MeshMaterial::pr}, {"pm", &MeshMaterial::pm}};
-constexpr Field<MeshTexture> texture_fields[] = {
-    {"map_ka", &MeshMaterial::map_ka},     {"map_kd", &MeshMaterial::map_kd}, {"map_ks", &MeshMaterial::map_ks},
-    {"map_ke", &MeshMaterial::map_ke},     {"map_ns", &MeshMaterial::map_ns}, {"map_d", &MeshMaterial::map_d},
-    {"map_bump", &MeshMaterial::map_bump}, {"bump", &MeshMaterial::map_bump}, {"map_pr", &MeshMaterial::map_pr},
-    {"map_pm", &MeshMaterial::map_pm},     {"norm", &MeshMaterial::norm}};
+constexpr Field<std::optional<Rgb<double>>> color_fields[] = {
+    {"kd", &MeshMaterial::kd}, {"ks", &MeshMaterial::ks}, {"ke", &MeshMaterial::ke}, {"tf", &MeshMaterial::tf}};
+constexpr Field<std::optional<double>> number_fields[] = {
+    {"ns", &MeshMaterial::ns},   {"d", &MeshMaterial::d},        {"tr", &MeshMaterial::d},  {"ni", &MeshMaterial::ni},
+    {"pr", &MeshMaterial::pr},   {"pm", &MeshMaterial::pm},      {"ps", &MeshMaterial::ps}, {"pc", &MeshMaterial::pc},
+    {"pcr", &MeshMaterial::pcr}, {"aniso", &MeshMaterial::aniso}};
+constexpr Field<MeshTexture> texture_fields[] = {{"map_kd", &MeshMaterial::map_kd}, {"map_ke", &MeshMaterial::map_ke},
+                                                 {"map_d", &MeshMaterial::map_d},   {"map_pr", &MeshMaterial::map_pr},
+                                                 {"map_pm", &MeshMaterial::map_pm}, {"norm", &MeshMaterial::norm}};
+/// Textures that are left out.
+constexpr std::string_view unread[] = {"map_bump", "bump", "disp", "map_ks", "map_ns", "refl", "decal"};
 
 template <class Fields>
 auto find_field(const Fields& fields, std::string_view name) {
@@ -79,10 +79,65 @@ MeshTexture read_texture(LineWords& words) {
   return texture;
 }
 
+/// In OpenPBR's terms, what no Lambertian and Phong's highlight can show: metals, glass, lamps, and what says how rough
+/// it is. Which materials are glass is said by illum (4, 6, 7 and 9), and mirrors (3, 5 and 8).
+void set_physical(MeshMaterial& material) {
+  const Rgb<double> black(0, 0, 0), white(1, 1, 1);
+  const auto largest = [](const Rgb<double>& c) { return std::max({c.red, c.green, c.blue}); };
+  const auto inside = [](double share) { return std::clamp(share, 0.0, 1.0); };
+  const auto inside_color = [&](const Rgb<double>& c) {
+    return Rgb<double>(inside(c.red), inside(c.green), inside(c.blue));
+  };
+  const int illum = material.illum.value_or(2);
+  const Rgb<double> diffuse = material.kd.value_or(white), specular = material.ks.value_or(black);
+  const Rgb<double> emitted = material.ke.value_or(material.map_ke.file.empty() ? black : white);
+  const bool is_lamp = largest(emitted) > 0,
+             is_glass =
+                 (illum == 4 || illum == 6 || illum == 7 || illum == 9) && largest(material.tf.value_or(white)) > 0,
+             is_mirror = (illum == 3 || illum == 5 || illum == 8) && largest(specular) > 0 && largest(diffuse) == 0,
+             is_rough = material.pr || material.pm || !material.map_pr.file.empty() || !material.map_pm.file.empty();
+  if (!is_lamp && !is_glass && !is_mirror && !is_rough) return;
+  const auto add = [&](std::string_view name, double value, const MeshTexture& texture = {}) {
+    material.openpbr.push_back({name, {value, value, value}, texture});
+  };
+  // A number that a texture gives is 1 where the file says nothing more.
+  const auto number = [](const std::optional<double>& value, const MeshTexture& map, double otherwise) {
+    return value.value_or(map.file.empty() ? otherwise : 1);
+  };
+  material.openpbr.push_back(
+      {"base_color", inside_color(is_mirror ? specular : diffuse), is_mirror ? MeshTexture{} : material.map_kd});
+  material.openpbr.back().of_vertices = true;
+  add("base_metalness", inside(is_mirror ? 1 : number(material.pm, material.map_pm, 0)), material.map_pm);
+  // The alpha of facets that reflect about as Phong's lobe does (Walter and others, 2007).
+  const double of_highlight =
+      is_glass || is_mirror ? 0 : std::pow(2 / (std::max(material.ns.value_or(20), 0.0) + 2), 0.25);
+  add("specular_roughness", inside(number(material.pr, material.map_pr, of_highlight)), material.map_pr);
+  if (!is_rough && !is_glass && !is_mirror && (illum < 2 || largest(specular) == 0)) add("specular_weight", 0);
+  const double ior = material.ni.value_or(1.5);
+  add("specular_ior", std::clamp(ior > 1 ? ior : 1.5, 1.0, 10.0));
+  if (is_glass) {
+    add("transmission_weight", 1);
+    material.openpbr.push_back({"transmission_color", inside_color(material.tf.value_or(white))});
+    material.d.reset();
+  }
+  if (is_lamp) {
+    add("emission_luminance", 1);
+    material.openpbr.push_back({"emission_color", emitted, material.map_ke});
+  }
+  if (material.ps.value_or(0) > 0) add("fuzz_weight", inside(*material.ps));
+  if (material.pc.value_or(0) > 0) {
+    add("coat_weight", inside(*material.pc));
+    add("coat_roughness", inside(material.pcr.value_or(0)));
+  }
+  if (material.aniso.value_or(0) > 0) add("specular_roughness_anisotropy", inside(*material.aniso));
+}
+
 /// Adds the materials of a file. Calls report(line, message) for what is wrong, which is skipped.
 void read_text(std::string_view text, std::vector<MeshMaterial>& materials,
                const std::function<void(std::uint32_t, const std::string&)>& report) {
+  const std::size_t first = materials.size();
   bool any = false;
+  std::vector<std::string> left_out;
   if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   for_each_line<true>(text, [&](const char* start, const char* end) {
     LineWords words(start, end);
@@ -103,6 +158,11 @@ void read_text(std::string_view text, std::vector<MeshMaterial>& materials,
     const auto* const color = find_field(color_fields, keyword);
     const auto* const number = find_field(number_fields, keyword);
     const auto* const texture = find_field(texture_fields, keyword);
+    if (std::find(std::begin(unread), std::end(unread), keyword) != std::end(unread) &&
+        std::find(left_out.begin(), left_out.end(), keyword) == left_out.end()) {
+      left_out.push_back(keyword);
+      return refuse(in_quotes(keyword) + " is left out, here and in the rest of the file");
+    }
     if (color == nullptr && number == nullptr && texture == nullptr && keyword != "illum") return true;
     if (!any) return refuse(in_quotes(keyword) + " before the first newmtl");
     MeshMaterial& material = materials.back();
@@ -127,6 +187,7 @@ void read_text(std::string_view text, std::vector<MeshMaterial>& materials,
     }
     return true;
   });
+  for (std::size_t i = first; i < materials.size(); ++i) set_physical(materials[i]);
 }
 
 }  // namespace
