@@ -123,6 +123,31 @@ TEST_CASE("a model is a mesh and its file's lights") {
   CHECK(scene_hash(model) == scene_hash(equivalent));
 }
 
+TEST_CASE("a scene's materials may take the place of a file's of the same names") {
+  ModelFolder files;
+  const auto names = [&](const std::string& model) {
+    const SceneDescription scene = files.load("<objects>" + model + "</objects>");
+    std::vector<std::string> result;
+    for (const auto& mesh : std::get<ObjectItems<Mesh>>(scene.objects))
+      with_type(Materials{}, mesh.materials.at(0).type, [&]<class T>(std::type_identity<T>) {
+        result.push_back(std::get<MaterialItems<T>>(scene.materials).at(mesh.materials[0].index).name);
+      });
+    return result;
+  };
+  const std::string overridden = "<file>slab.obj</file><overridematerials>true</overridematerials>";
+  CHECK(names("<models><model>" + overridden + "</model></models>") == std::vector<std::string>{"wood"});
+  CHECK(files.messages().empty());
+  // The same file in both ways.
+  CHECK(names("<meshes><mesh><file>slab.obj</file></mesh><mesh>" + overridden + "</mesh></meshes>") ==
+        std::vector<std::string>{"wood#2", "wood"});
+  write_text(files.folder().file("slab.mtl"), "newmtl wood!\nKd 0.25 0.5 0.75\n");
+  write_text(files.folder().file("slab.obj"), "mtllib slab.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl wood!\nf 1 2 3\n");
+  CHECK(names("<models><model>" + overridden + "</model></models>") == std::vector<std::string>{"wood!"});
+  CHECK(contains(files.messages(),
+                 "<overridematerials> changes nothing: no material of the scene has a name of the "
+                 "file's, which are 'wood!'"));
+}
+
 TEST_CASE("the printed scene of models is the same scene, and materials keep apart") {
   ModelFolder files;
   const SceneDescription scene = files.load(

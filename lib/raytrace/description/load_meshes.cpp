@@ -22,7 +22,13 @@ class MeshLoader {
   MeshLoader(SceneDescription& scene, Diagnostics& diagnostics, int threads)
       : scene_(scene), diagnostics_(diagnostics), threads_(threads) {
     for_each_type(Materials{}, [&]<class Material>(std::type_identity<Material>) {
-      for (const auto& item : std::get<MaterialItems<Material>>(scene.materials)) taken_names_.insert(item.name);
+      const auto& items = std::get<MaterialItems<Material>>(scene.materials);
+      for (std::size_t i = 0; i < items.size(); ++i) {
+        taken_names_.insert(items[i].name);
+        own_materials_.try_emplace(items[i].name,
+                                   MaterialReference{static_cast<std::uint32_t>(index_of<Material>(Materials{})),
+                                                     static_cast<std::uint32_t>(i)});
+      }
     });
   }
 
@@ -41,11 +47,12 @@ class MeshLoader {
   /// objects: those that it is one of.
   void load(ObjectItem<Model>&& model, ObjectLists& objects) {
     ObjectItem<Mesh>& mesh = std::get<ObjectItems<Mesh>>(objects).emplace_back();
-    auto& [file, animation, time, variant] = model.parameters;
+    auto& [file, animation, time, variant, overridematerials] = model.parameters;
     mesh.parameters.file = std::move(file);
     mesh.parameters.animation = std::move(animation);
     mesh.parameters.time = time;
     mesh.parameters.variant = std::move(variant);
+    mesh.parameters.overridematerials = overridematerials;
     mesh.name = std::move(model.name);
     mesh.material = model.material;
     mesh.line = model.line;
@@ -118,15 +125,18 @@ class MeshLoader {
     settings.variant = mesh.parameters.variant.name;
     // The time is of an animation alone.
     const double time = settings.animation.empty() ? 0 : settings.time;
-    const auto [known, is_new] = files_.try_emplace({file.path, settings.animation, time, settings.variant});
+    const bool overrides = mesh.parameters.overridematerials;
+    const auto [known, is_new] = files_.try_emplace({file.path, settings.animation, time, settings.variant, overrides});
     LoadedFile& loaded = known->second;
     if (!is_new) return loaded;
     std::optional<MeshData> data = read(file, settings, read_mesh);
     if (!data) return loaded;
     if (mesh.material == no_material) {
       const auto folder = std::filesystem::absolute(file.path).parent_path();
+      if (overrides) warn_of_no_override(file, data->materials);
       for (MeshMaterial& material : data->materials) {
-        loaded.materials.push_back(add(material, folder));
+        const auto own = own_materials_.find(material.name);
+        loaded.materials.push_back(overrides && own != own_materials_.end() ? own->second : add(material, folder));
         material = {};  // the textures have its pictures
       }
       // Faces without a material have the last one.
@@ -136,6 +146,22 @@ class MeshLoader {
     }
     loaded.data = std::make_shared<const MeshData>(std::move(*data));
     return loaded;
+  }
+
+  /// Where a name may be misspelt.
+  void warn_of_no_override(const FileName& file, const std::vector<MeshMaterial>& materials) {
+    std::string names;
+    constexpr std::size_t most = 10;
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+      if (own_materials_.contains(materials[i].name)) return;
+      if (i < most) names += (i == 0 ? "" : ", ") + in_quotes(materials[i].name);
+    }
+    if (materials.size() > most) names += " and " + std::to_string(materials.size() - most) + " more";
+    diagnostics_.warning({file.line, file.column},
+                         on_one_line(file.path) +
+                             ": <overridematerials> changes nothing: no material of the scene has a name "
+                             "of the file's, which " +
+                             (names.empty() ? "has none" : "are " + names));
   }
 
   /// reader: read_mesh() or read_point_cloud().
@@ -290,11 +316,12 @@ class MeshLoader {
   SceneDescription& scene_;
   Diagnostics& diagnostics_;
   int threads_;
-  /// By the file, its animation, the time and the variant.
-  std::map<std::tuple<std::string, std::string, double, std::string>, LoadedFile> files_;
+  /// By the file, its animation, the time, the variant, and whether materials are overridden.
+  std::map<std::tuple<std::string, std::string, double, std::string, bool>, LoadedFile> files_;
   std::map<std::string, std::shared_ptr<const PointCloud>> clouds_;
   std::set<std::string> taken_names_;
-  std::set<std::string> unlit_;  // files of models whose lights have been left out
+  std::map<std::string, MaterialReference> own_materials_;  ///< those of the scene, by name
+  std::set<std::string> unlit_;                             // files of models whose lights have been left out
   using ImageUse = std::tuple<std::string, std::array<double, 2>, std::array<double, 2>, double, double, double,
                               MeshTexture::Edge, bool, ColorSpace>;
   std::map<ImageUse, std::size_t> known_images_;

@@ -14,14 +14,14 @@ ParameterDiagnostic refused(std::string message) { return {ParameterDiagnostic::
 }  // namespace
 
 std::optional<ParameterDiagnostic> Mesh::check(const Parameters& parameters) {
-  const auto& [file, positions, faces, normals, uvs, uvs2, animation, _, variant] = parameters;
+  const auto& [file, positions, faces, normals, uvs, uvs2, animation, time, variant, overridematerials] = parameters;
   const bool has_values =
       !positions.empty() || !faces.empty() || !normals.groups.empty() || !uvs.empty() || !uvs2.empty();
   if (!file.path.empty() && has_values)
     return refused("a mesh with <file> has its positions, faces, normals and uvs there; remove them here");
   if (!file.path.empty()) return std::nullopt;
-  if (!animation.name.empty() || !variant.name.empty())
-    return refused("<animation> and <variant> are of a glTF file, and the mesh has no <file>");
+  if (!animation.name.empty() || time != 0 || !variant.name.empty() || overridematerials)
+    return refused("<animation>, <time>, <variant> and <overridematerials> are of a <file>, and the mesh has none");
   if (positions.empty() || faces.empty()) return refused("a mesh needs <file>, or <positions> and <faces>");
 
   const std::size_t vertices = positions.numbers.size() / 3;

@@ -37,9 +37,10 @@ class Mesh {
     NumberGroups uvs;                                  ///< u v of each vertex; (0, 0) is the lower left of an image
     NumberGroups uvs2;                                 ///< the same in a second set, for textures that ask for it
     // Of a glTF file (import/read_mesh.h).
-    Reference animation;  ///< its name, or its number from 0; none: the model is at rest
-    double time = 0;      ///< of the animation, in seconds
-    Reference variant;    ///< of its materials; none: those that primitives have by themselves
+    Reference animation;             ///< its name, or its number from 0; none: the model is at rest
+    double time = 0;                 ///< of the animation, in seconds
+    Reference variant;               ///< of its materials; none: those that primitives have by themselves
+    bool overridematerials = false;  ///< materials of the scene take the place of the file's of the same names
   };
   using Data = MeshData;  ///< of the file, or of the values
   static constexpr std::string_view group = "meshes";
@@ -50,7 +51,7 @@ class Mesh {
             optional("faces", &Parameters::faces), optional("normals", &Parameters::normals),
             optional("uvs", &Parameters::uvs),     optional("animation", &Parameters::animation),
             optional("time", &Parameters::time),   optional("variant", &Parameters::variant),
-            optional("uvs2", &Parameters::uvs2)};
+            optional("uvs2", &Parameters::uvs2),   optional("overridematerials", &Parameters::overridematerials)};
   }
 
   static std::optional<ParameterDiagnostic> check(const Parameters& parameters);
