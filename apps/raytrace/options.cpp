@@ -63,6 +63,8 @@ void refuse_incomplete(const Options& options) {
   if (options.scenes.empty()) throw UsageError(no_scene);
   for (const std::string& scene : options.scenes) {
     if (scene.empty()) throw UsageError("the scene's file name is empty");
+    if (scene == "merge" && !std::filesystem::exists(scene))
+      throw UsageError("the command comes first: raytrace merge, and then its options");
     if (options.statistics == statistics_as_text && scene.ends_with(".json"))
       throw UsageError("--stats takes a file after \"=\": --stats=" + scene);
   }

@@ -25,6 +25,8 @@ class Usage(CommandTest):
         self.assertIn("\nUsage: raytrace merge PIECES", self.refused("merge"))
         self.assertIn("one of shapes, textures, materials", self.refused("--list"))
         self.assertIn("did you mean 'raytrace merge'?", self.refused("mrege", "a.exr", "b.exr", "-o", "c.exr"))
+        self.assertIn("the command comes first: raytrace merge",
+                      self.refused("-t", "1", "merge", "a.exr", "b.exr", "-o", "c.exr"))
         self.assertIn("did you mean '--resolution'?", self.refused("scene.xml", "+W640", "+H480", "-o", "a.exr"))
 
     def test_outputs_that_are_no_files(self):

@@ -197,6 +197,17 @@ TEST_CASE("a model of an included file is looked for beside it, and missed there
         "part.xml:2:31: error: none.glb: cannot read it: No such file or directory\n");
 }
 
+TEST_CASE("files that are missing are reported with what else is wrong") {
+  ModelFolder files;
+  CHECK(files.errors("<objects>\n<spheres><sphere><radius>1</radius><material>wood</material></sphere></"
+                     "spheres>\n<models><model><file>none.glb"
+                     "</file></model></models><meshes><mesh><file>slab.obj</file></mesh><mesh>\n<file>none.ply</file>"
+                     "</mesh></meshes></objects>") ==
+        "scene.xml:5:10: error: missing <center> in <sphere>; add <center x=\"1\" y=\"1\" z=\"1\"/>\n"
+        "scene.xml:6:22: error: none.glb: cannot read it: No such file or directory\n"
+        "scene.xml:7:7: error: none.ply: cannot read it: No such file or directory\n");
+}
+
 TEST_CASE("what is wrong with a model is said where its file is named") {
   ModelFolder files;
   const auto with_model = [&](const std::string& text) {

@@ -1,12 +1,16 @@
+#include <cerrno>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "raytrace/description/include.h"
 #include "raytrace/description/load_images.h"
 #include "raytrace/description/motion.h"
 #include "raytrace/description/scene_reader.h"
+#include "raytrace/text/message.h"
 
 namespace raytrace {
 namespace {
@@ -26,6 +30,24 @@ SceneDescription with_motion(ReadScene read, std::string_view text, Diagnostics&
   };
   add_motion(read.scene, at, diagnostics);
   return std::move(read.scene);
+}
+
+/// load_meshes() comes when there is nothing else wrong; a name that is, one wants to know at once.
+void report_missing_meshes(const SceneDescription& scene, Diagnostics& diagnostics) {
+  const auto look = [&](const FileName& file) {
+    std::error_code error;
+    if (file.path.empty() || std::filesystem::status(file.path, error).type() != std::filesystem::file_type::not_found)
+      return;
+    diagnostics.error({file.line, file.column},
+                      on_one_line(file.path) + ": cannot read it: " + std::generic_category().message(ENOENT));
+  };
+  const auto look_in = [&](const ObjectLists& objects) {
+    for (const auto& mesh : std::get<ObjectItems<Mesh>>(objects)) look(mesh.parameters.file);
+    for (const auto& model : std::get<ObjectItems<Model>>(objects)) look(model.parameters.file);
+    for (const auto& cloud : std::get<ObjectItems<SphereCloud>>(objects)) look(cloud.parameters.file);
+  };
+  look_in(scene.objects);
+  for (const Group& group : scene.groups) look_in(group.objects);
 }
 
 }  // namespace
@@ -51,8 +73,9 @@ std::optional<SceneDescription> load_scene(const std::string& file, Diagnostics&
   SceneDescription scene = with_motion(std::move(read), again, diagnostics, threads, settings);
   // Beside other errors, too, so that one run reports what is wrong with the files.
   load_images(scene, diagnostics, threads, settings.textures);
-  if (diagnostics.has_errors()) return std::nullopt;
-  return scene;
+  if (!diagnostics.has_errors()) return scene;
+  report_missing_meshes(scene, diagnostics);
+  return std::nullopt;
 }
 
 }  // namespace raytrace

@@ -18,9 +18,19 @@ std::uint64_t present_fields(Element element, std::span<const FieldInfo> infos) 
 std::string explain_unknown(Element child, Element parent, std::span<const FieldInfo> infos, std::string_view nearest) {
   const std::string start = "unknown element " + tag(child.name()) + " in " + tag(parent.name()) + "; ";
   if (!nearest.empty()) return start + "did you mean " + tag(nearest) + "?";
-  std::vector<std::string_view> names;
+  std::vector<std::string_view> names, longer;
   for (const FieldInfo& info : infos) names.push_back(info.name);
-  return start + "it takes " + list_of_tags(names);
+  // A name may lack its first word, as OpenPBR's "metalness", or its last one.
+  const auto add_longer = [&](auto&& is_meant) {
+    constexpr std::size_t few = 4;
+    for (const std::string_view name : names)
+      if (longer.size() < few && is_meant(name)) longer.push_back(name);
+  };
+  const std::string last = '_' + std::string(child.name()), first = std::string(child.name()) + '_';
+  add_longer([&](std::string_view name) { return name.ends_with(last); });
+  if (longer.empty()) add_longer([&](std::string_view name) { return name.starts_with(first); });
+  if (longer.empty()) return start + "it takes " + list_of_tags(names);
+  return start + "did you mean " + list_of_tags(longer, "or") + "?";
 }
 
 }  // namespace

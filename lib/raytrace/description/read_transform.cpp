@@ -37,7 +37,7 @@ bool read_attributes_of_step(Element element, TransformStep& step, const ReadCon
     if (!node.element() && node.text().empty()) continue;
     fine = false;
     context.diagnostics.error(node, [&] {
-      return "unexpected content of " + tag(element.name()) + "; write " + example_of(element.name(), fields);
+      return "unexpected content of " + tag(element.name()) + "; write " + example_of(element.name(), fields, element);
     });
   }
   return read_attributes(element, fields, !fine, context) && fine;

@@ -54,11 +54,11 @@ std::string tag(std::string_view name) { return std::string("<").append(printabl
 
 std::string closing_tag(std::string_view name) { return std::string("</").append(printable(name)).append(">"); }
 
-std::string list_of_tags(std::span<const std::string_view> names) {
+std::string list_of_tags(std::span<const std::string_view> names, const char* last_word) {
   if (names.empty()) return "nothing";
   std::string list = tag(names[0]);
   for (std::size_t i = 1; i < names.size(); ++i)
-    list.append(i + 1 < names.size() ? ", " : " and ").append(tag(names[i]));
+    list.append(i + 1 < names.size() ? ", " : ' ' + std::string(last_word) + ' ').append(tag(names[i]));
   return list;
 }
 

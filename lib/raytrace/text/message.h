@@ -25,8 +25,8 @@ std::string in_quotes(std::string_view text);
 std::string tag(std::string_view name);
 std::string closing_tag(std::string_view name);
 
-/// "<a>, <b> and <c>"; "nothing" for none.
-std::string list_of_tags(std::span<const std::string_view> names);
+/// "<a>, <b> and <c>", or another word than "and"; "nothing" for none.
+std::string list_of_tags(std::span<const std::string_view> names, const char* last_word = "and");
 
 /// Damerau-Levenshtein distance (optimal string alignment): how many letters must be inserted, removed, replaced or
 /// swapped with their neighbour; upper and lower case count as the same letter. Values above `limit` are reported as
