@@ -139,7 +139,7 @@ SkySpectrum Atmosphere::sun(double height, double cosine, double share_of_haze) 
 SkySpectrum Atmosphere::sun(double height, double cosine) const { return sun(height, cosine, 1); }
 
 Atmosphere::FurtherScattering::FurtherScattering(const Atmosphere& air, const SkySpectrum& albedo, int threads)
-    : table_(heights * cosines) {
+    : table_(place(heights, 0)) {
   for_each_index(heights, threads, [&](int row) {
     const double share = static_cast<double>(row) / (heights - 1), height = thickness * share * share;
     for (int column = 0; column < cosines; ++column) {
@@ -150,7 +150,8 @@ Atmosphere::FurtherScattering::FurtherScattering(const Atmosphere& air, const Sk
       SkySpectrum once{}, again{};
       constexpr int turns = 6, slopes = 8, parts = 16;
       for (int i = 0; i < turns * slopes; ++i) {
-        const double y = (2 * (i / turns) + 1.0) / slopes - 1, turn = pi * (i % turns + 0.5) / turns;
+        const int slope = i / turns;
+        const double y = (2 * slope + 1.0) / slopes - 1, turn = pi * (i % turns + 0.5) / turns;
         const double level = std::sqrt(1 - y * y);
         const Vec3d direction(level * std::cos(turn), y, level * std::sin(turn));
         const double down = way_down(height, y), way = down >= 0 ? down : way_out(height, y);
@@ -182,7 +183,7 @@ Atmosphere::FurtherScattering::FurtherScattering(const Atmosphere& air, const Sk
         for_each_wavelength(
             [&](std::size_t w) { once[w] += left[w] * albedo[w] / pi * lit[w] * std::max(cosine, 0.0); });
       }
-      SkySpectrum& result = table_[static_cast<std::size_t>(row * cosines + column)];
+      SkySpectrum& result = table_[place(row, column)];
       for_each_wavelength([&](std::size_t w) { result[w] = once[w] / (1 - again[w]); });
     }
   });
@@ -193,7 +194,7 @@ SkySpectrum Atmosphere::FurtherScattering::at(double height, double cosine) cons
                column = (std::clamp(cosine, -1.0, 1.0) + 1) / 2 * (cosines - 1);
   const int low = std::min(static_cast<int>(row), heights - 2), left = std::min(static_cast<int>(column), cosines - 2);
   const double up = row - low, right = column - left;
-  const SkySpectrum* const first = &table_[static_cast<std::size_t>(low * cosines + left)];
+  const SkySpectrum* const first = &table_[place(low, left)];
   SkySpectrum result{};
   for_each_wavelength([&](std::size_t w) {
     result[w] = (first[0][w] * (1 - right) + first[1][w] * right) * (1 - up) +

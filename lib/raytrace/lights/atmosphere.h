@@ -45,6 +45,9 @@ class Atmosphere {
 
    private:
     static constexpr int heights = 12, cosines = 24;
+    static constexpr std::size_t place(int height, int cosine) {
+      return static_cast<std::size_t>(height) * cosines + static_cast<std::size_t>(cosine);
+    }
     std::vector<SkySpectrum> table_;
   };
 

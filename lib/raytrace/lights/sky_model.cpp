@@ -36,7 +36,7 @@ SkyModel::SkyModel(const SkyLight::Parameters& parameters, int threads)
     : parameters_(parameters),
       threads_(threads),
       to_sun_(normalize(parameters.sundirection)),
-      table_(std::size_t{heights} * turns) {
+      table_(place(heights, 0)) {
   const Atmosphere air(parameters.turbidity);
   const Atmosphere::FurtherScattering further(air, reflectance_spectrum(parameters.groundalbedo), threads);
   const double scale = parameters.scaleradiance / radiance_unit;
@@ -49,8 +49,8 @@ SkyModel::SkyModel(const SkyLight::Parameters& parameters, int threads)
       const Vec3d direction =
           (along * std::cos(turn) + across * std::sin(turn)) * std::cos(height) + Vec3d(0, std::sin(height), 0);
       const auto [by_molecules, by_haze, more] = air.scattered(direction, to_sun_, further);
-      table_[static_cast<std::size_t>(row * turns + column)] = {
-          kilocandela(by_molecules) * scale, kilocandela(by_haze) * scale, kilocandela(more) * scale};
+      table_[place(row, column)] = {kilocandela(by_molecules) * scale, kilocandela(by_haze) * scale,
+                                    kilocandela(more) * scale};
     }
   });
 }
@@ -63,7 +63,7 @@ Rgb<double> SkyModel::sky(const Vec3d& direction) const {
   const double cosine = std::clamp(dot(direction, to_sun_), -1.0, 1.0),
                of_molecules = Atmosphere::molecule_phase(cosine), of_haze = Atmosphere::haze_phase(cosine);
   const auto at = [&](int i, int k) {
-    const Scattered& all = table_[static_cast<std::size_t>(i * turns + k)];
+    const Scattered& all = table_[place(i, k)];
     return all.by_molecules * of_molecules + all.by_haze * of_haze + all.further;
   };
   const double up = row - low, right = column - left;

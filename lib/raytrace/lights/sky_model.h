@@ -32,6 +32,9 @@ class SkyModel {
   };
 
   static constexpr int heights = 48, turns = 17;  ///< above the horizon, and from the sun's side to the other
+  static constexpr std::size_t place(int height, int turn) {
+    return static_cast<std::size_t>(height) * turns + static_cast<std::size_t>(turn);
+  }
 
   SkyLight::Parameters parameters_;
   int threads_;
