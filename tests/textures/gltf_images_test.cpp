@@ -135,11 +135,12 @@ TEST_CASE("glTF's roughness and metalness are channels of one image, and a mask 
     return TextureUse{};
   };
   const auto& images = std::get<TextureItems<Image>>(loaded.scene->textures);
-  CHECK(images.size() == 2);  // one of them sharp
+  CHECK(images.size() == 3);  // one of colours, one of numbers, and one sharp
   CHECK(use_of("base_metalness").channel == TextureChannel::blue);
   CHECK(use_of("specular_roughness").channel == TextureChannel::green);
   CHECK(use_of("base_metalness").texture.index == use_of("specular_roughness").texture.index);
-  CHECK(use_of("base_metalness").texture.index == use_of("base_color").texture.index);
+  CHECK(images[use_of("base_color").texture.index].parameters.colorspace == ColorSpace::srgb);
+  CHECK(images[use_of("base_metalness").texture.index].parameters.colorspace == ColorSpace::automatic);
   CHECK(material.parameters.base_metalness == 0.5);
   CHECK(use_of("opacity").channel == TextureChannel::alpha);
   const Image::Parameters& mask = images[use_of("opacity").texture.index].parameters;

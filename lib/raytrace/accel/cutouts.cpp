@@ -21,14 +21,21 @@ RayIdentity::RayIdentity(const SceneTables& of_scene, const Accelerator& its_acc
 std::optional<std::int32_t> cutout_material(const RayIdentity& query, const CutoutSurface& surface) {
   const std::int32_t material =
       query.scene.geometry().material_of(surface.instance, surface.geometry, surface.primitive);
-  const bool passes = query.meets == Meets::surfaces ? query.scene.is_cutout(material) : !query.scene.is_fog(material);
+  const bool is_cutout = query.scene.is_cutout(material);
+  bool passes = is_cutout;
+  if (query.meets == Meets::boundaries_of_fogs) passes = !query.scene.is_fog(material);
+  if (query.meets == Meets::surfaces_but_panes) passes = is_cutout || query.scene.is_pane(material);
+  if (query.meets == Meets::panes) passes = is_cutout || !query.scene.is_pane(material);
   return passes ? std::optional(material) : std::nullopt;
 }
 
 std::uint32_t passing_rays(const RayIdentity& query, unsigned first, std::uint32_t hit, const CutoutSurface& surface,
                            std::int32_t material, std::span<const float> t, std::span<const float> u,
                            std::span<const float> v) {
-  if (query.meets != Meets::surfaces || query.scene.is_fog(material)) return hit;
+  if (query.meets == Meets::boundaries_of_fogs || query.scene.is_fog(material)) return hit;
+  // All of a pane, where it is not met, and all else, where panes alone are.
+  if (query.meets != Meets::surfaces && query.scene.is_pane(material) == (query.meets == Meets::surfaces_but_panes))
+    return hit;
   alignas(64) std::array<float, packet_lanes> far{}, hit_u{}, hit_v{};
   alignas(64) std::array<std::int32_t, packet_lanes> is_hit{};
   for (std::size_t i = 0; i < t.size(); ++i) {

@@ -19,8 +19,8 @@ namespace raytrace {
 class Accelerator;
 class SceneTables;
 
-/// What rays meet. Fogs have boundaries, but no surfaces.
-enum class Meets { surfaces, boundaries_of_fogs };
+/// What rays meet. Fogs have boundaries, but no surfaces. Panes: SceneTables::is_pane().
+enum class Meets { surfaces, boundaries_of_fogs, surfaces_but_panes, panes };
 
 /// What a query knows of its rays besides, in scenes in which rays pass surfaces or things move. Queries without it
 /// meet all there is, surfaces and boundaries.

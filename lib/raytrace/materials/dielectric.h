@@ -79,6 +79,9 @@ class Dielectric {
   static bool focuses(const Parameters& parameters, const auto&) {
     return parameters.roughness * parameters.roughness < 1e-3;  // Ggx's least alpha
   }
+  static bool is_pane(const Parameters& parameters, const auto& is_textured) {
+    return parameters.thinwalled && focuses(parameters, is_textured) && !is_textured("roughness");
+  }
   /// All that a kernel needs.
   static Values<double> values(const Parameters& parameters) {
     Values<double> result = parameters;

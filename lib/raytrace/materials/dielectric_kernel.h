@@ -75,6 +75,11 @@ class Kernel<Dielectric> {
       return {wi, part * f, density, eta2, !rough};
     }
 
+    /// Of a smooth one that is thin.
+    Rgb<T> straight(const Vec3<T>& wo) const {
+      const T cosine = min(above_surface(wo, local_normal<T>()).z, T(1));
+      return transmitted * (T(1) - fresnel(cosine).reflectance);
+    }
     Rgb<T> transmittance(const T& distance) const {
       return {exp(-extinction.red * distance), exp(-extinction.green * distance), exp(-extinction.blue * distance)};
     }

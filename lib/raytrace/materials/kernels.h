@@ -45,6 +45,10 @@
 //   static bool focuses(const Parameters&, is_textured);   is_textured(name): whether that field of it has a texture
 // Then light paths carry the light that it sends on (integrators/path.h, Caustics): evaluate() must know all that
 // sample() draws and is not `specular`.
+//
+// One that lets light straight through, as thin panes do, may say so in the same way by is_pane(). Then shadow rays
+// pass it, and its Bsdf has
+//   Rgb<T> straight(const Vec3<T>& wo) const;    the share of light that comes through, in the local frame
 #pragma once
 
 #include "raytrace/materials/conductor_kernel.h"

@@ -169,6 +169,11 @@ class OpenPbr {
                        parameters.coat_weight == 0;
     return parameters.fuzz_weight == 0 && (metal || glass);
   }
+  static bool is_pane(const Parameters& parameters, const auto& is_textured) {
+    return parameters.geometry_thin_walled && parameters.transmission_weight > 0 && parameters.base_metalness < 1 &&
+           parameters.specular_roughness * parameters.specular_roughness < 1e-3 &&  // Ggx's least alpha
+           parameters.specular_roughness_anisotropy == 0 && !is_textured("specular_roughness");
+  }
   /// Whether it matters where on the surface u grows.
   static bool is_anisotropic(const Parameters& parameters) {
     return parameters.specular_roughness_anisotropy > 0 || parameters.coat_roughness_anisotropy > 0;

@@ -78,6 +78,12 @@ struct OpenPbrBsdf {
   }
   /// As of a conductor.
   Rgb<T> usual_f() const { return albedo(); }
+  /// Of one whose facets are smooth and thin.
+  Rgb<T> straight(const Vec3<T>& wo) const {
+    const Lobes layers = lobes(wo);
+    const BsdfSample<T> through = refracted(layers, ggx(), local_normal<T>(), min(layers.from.z, T(1)), T(1));
+    return through.f * -through.wi.z;
+  }
   Rgb<T> transmittance(const T& distance) const { return exp_of(extinction, -distance); }
   Subsurface<T> subsurface_inside() const {
     return Subsurface<T>::of(inside * (T(1) / max(subsurface, T(1e-6F))), free_path, subsurface_anisotropy, is_thin());

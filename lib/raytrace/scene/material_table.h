@@ -85,6 +85,10 @@ class MaterialTable {
   virtual Rgb<FloatN> transmittance(const LaneIndices& materials, const FloatN& distance,
                                     const TexturePoint<FloatN>* point) const = 0;
 
+  /// The share of light that comes straight through panes, against wo in the local frame.
+  virtual Rgb<FloatN> straight(const LaneIndices& materials, const Refraction<FloatN>& media, const Vec3<FloatN>& wo,
+                               const TexturePoint<FloatN>* point) const = 0;
+
   /// What is below surfaces whose samples `enters`.
   virtual Subsurface<FloatN> subsurface(const LaneIndices& materials, const TexturePoint<FloatN>* point) const = 0;
 
@@ -187,6 +191,14 @@ class MaterialTableOf final : public MaterialTable {
       return gathered(materials, MaskN(false), point).transmittance(distance);
     else
       return Rgb<FloatN>(Rgb<float>(1, 1, 1));
+  }
+
+  Rgb<FloatN> straight(const LaneIndices& materials, const Refraction<FloatN>& media, const Vec3<FloatN>& wo,
+                       const TexturePoint<FloatN>* point) const override {
+    if constexpr (requires(BsdfN bsdf) { bsdf.straight(wo); })
+      return gathered(materials, MaskN(true), point, media).straight(wo);
+    else
+      return Rgb<FloatN>(Rgb<float>(0, 0, 0));
   }
 
   Subsurface<FloatN> subsurface(const LaneIndices& materials, const TexturePoint<FloatN>* point) const override {

@@ -82,6 +82,7 @@ SceneTables::SceneTables(const SceneDescription& description, int threads)
   }
   media_.set(media);
   const auto* const path = std::get_if<Path::Parameters>(&integrator_);
+  add_panes(path);
   if (path == nullptr) emissions.clear();
   emitters_.emplace(*geometry_, emissions, path == nullptr ? LightSampling::tree : path->lightsampling);
   if (path != nullptr && path->caustics != Caustics::none) {
@@ -89,6 +90,22 @@ SceneTables::SceneTables(const SceneDescription& description, int threads)
     // With two points, there is none to look them up at.
     has_photons_ = caustics_ && path->caustics == Caustics::photons && path->maxdepth > 2;
   }
+}
+
+void SceneTables::add_panes(const Path::Parameters* path) {
+  // Light paths go through them, where there are any; light that fogs scatter does not know of them.
+  if (path == nullptr || path->caustics != Caustics::none || path->maxdepth < 2 || media_.has_fog()) return;
+  for (std::size_t i = 0; i < details_.size(); ++i) {
+    const SurfaceDetail& detail = details_[i];
+    panes_.push_back(used_materials_[i] != 0 && detail.is_pane && !detail.has_relief() && !detail.has_layers() ? 1 : 0);
+    details_[i].is_pane = panes_.back() != 0;
+    has_panes_ |= details_[i].is_pane;
+  }
+  has_cutouts_ |= has_panes_;
+}
+
+MaskN SceneTables::is_pane(const IntN& material) const {
+  return float_mask<FloatN>(gather(panes_.data(), material) != IntN(0));
 }
 
 void SceneTables::add_caustics() {
@@ -221,6 +238,8 @@ SceneTables::SurfaceDetail SceneTables::surface_detail(const MaterialItem<Materi
   };
   if constexpr (requires { Material::focuses(item.parameters, is_textured); })
     detail.focuses = Material::focuses(item.parameters, is_textured);
+  if constexpr (requires { Material::is_pane(item.parameters, is_textured); })
+    detail.is_pane = Material::is_pane(item.parameters, is_textured);
   for (const TextureUse& use : item.textures) {
     const std::string_view field = element_type<Material>().fields[use.field].name;
     if (field == opacity_field) detail.opacity.texture = use;

@@ -134,7 +134,7 @@ class SceneTables {
   Rgb<FloatN> shade(const Hits& hits, const SurfaceInteraction<FloatN>& surface, const Rgb<float>& ambient_radiance,
                     std::span<const IncidentLight> lights, const TexturePoint<FloatN>* point) const;
 
-  /// Whether some rays pass a surface of the scene, since its material has an opacity.
+  /// Whether some rays pass a surface of the scene, since its material has an opacity or is a pane.
   bool has_cutouts() const { return has_cutouts_; }
   /// Whether the camera or instances move while the shutter is open.
   bool has_motion() const { return !moving_camera_.empty() || !geometry_->instances().moving().empty(); }
@@ -142,6 +142,12 @@ class SceneTables {
   bool identifies_rays() const { return has_cutouts_ || has_motion(); }
   /// Whether that may be of a material.
   bool is_cutout(std::int32_t material) const { return details_[static_cast<std::size_t>(material)].is_cutout(); }
+  /// Whether shadow rays pass panes: what is thin and clear, and bends no light.
+  bool has_panes() const { return has_panes_; }
+  bool is_pane(std::int32_t material) const {
+    return has_panes_ && details_[static_cast<std::size_t>(material)].is_pane;
+  }
+  MaskN is_pane(const IntN& material) const;
   /// 1 for materials that are fogs, else 0; empty if no object has one.
   std::vector<std::uint8_t> fogs() const;
   /// Whether it has no surface: rays pass it, but paths know its boundary.
@@ -176,6 +182,9 @@ class SceneTables {
                      const FloatN& u, const FloatN& u1, const FloatN& u2, const TexturePoint<FloatN>* point) const;
   /// The share that is left of light that went so far behind the surfaces.
   Rgb<FloatN> transmittance(const Hits& hits, const FloatN& distance, const TexturePoint<FloatN>* point) const;
+  /// As MaterialTable has it.
+  Rgb<FloatN> straight(const Hits& hits, const Refraction<FloatN>& media, const Vec3<FloatN>& wo,
+                       const TexturePoint<FloatN>* point) const;
   /// What is below surfaces whose samples `enters`, and whether any object has such a material.
   Subsurface<FloatN> subsurface(const Hits& hits, const TexturePoint<FloatN>* point) const;
   bool has_subsurface() const { return has_subsurface_; }
@@ -215,7 +224,7 @@ class SceneTables {
     UvSet tangent_set = UvSet::first;  ///< whose u the tangent is along: the map's, or that of the normals
     MaterialEmission emission{};
     std::optional<Medium> medium{};
-    bool is_anisotropic = false, focuses = false, has_coat = false, has_subsurface = false;
+    bool is_anisotropic = false, focuses = false, is_pane = false, has_coat = false, has_subsurface = false;
 
     bool is_cutout() const { return opacity.value < 1 || opacity.texture; }
     bool has_relief() const { return normalmap.texture || bump.texture; }
@@ -255,6 +264,8 @@ class SceneTables {
   /// Of the materials that have a turned one.
   void turn_tangents(const Hits& hits, const TexturePoint<FloatN>& point, Frame<FloatN>& frame) const;
   void add_caustics();
+  /// path: the integrator's, if it is one.
+  void add_panes(const Path::Parameters* path);
 
   /// answer(table, materials) of each material type among the lanes, each lane's of its own.
   template <class Answer>
@@ -289,8 +300,9 @@ class SceneTables {
   std::vector<SurfaceDetail> details_;  ///< of all materials
   MediumTable media_;
   bool has_cutouts_ = false, has_relief_ = false, has_emission_ = false, has_second_uvset_ = false,
-       has_turned_tangents_ = false, has_subsurface_ = false, has_photons_ = false;
+       has_turned_tangents_ = false, has_subsurface_ = false, has_photons_ = false, has_panes_ = false;
   std::vector<std::int32_t> shining_sides_;  ///< of all materials: 0, 1 for the front, 2 for both
+  std::vector<std::int32_t> panes_;          ///< 1 for those that are panes, else 0; empty where none are passed
   std::vector<std::int32_t> textured_;       ///< 1 for materials with textures, else 0; empty if there are none
   std::vector<std::int32_t> anisotropic_;    ///< likewise: those whose reflection differs along the surface
   RayCone ray_cone_;

@@ -119,6 +119,13 @@ Rgb<FloatN> SceneTables::transmittance(const Hits& hits, const FloatN& distance,
   });
 }
 
+Rgb<FloatN> SceneTables::straight(const Hits& hits, const Refraction<FloatN>& media, const Vec3<FloatN>& wo,
+                                  const TexturePoint<FloatN>* point) const {
+  return by_material(hits, [&](const MaterialTable& table, const LaneIndices& materials) {
+    return table.straight(materials, media, wo, point);
+  });
+}
+
 Rgb<FloatN> SceneTables::shade(const Hits& hits, const SurfaceInteraction<FloatN>& surface,
                                const Rgb<float>& ambient_radiance, std::span<const IncidentLight> lights,
                                const TexturePoint<FloatN>* point) const {

@@ -8,6 +8,7 @@
 #include "raytrace/accel/surface_uv.h"
 #include "raytrace/accel/traced_scene.h"
 #include "raytrace/tracing/fog.h"
+#include "raytrace/tracing/panes.h"
 #include "raytrace/tracing/render_report.h"
 #include "raytrace/tracing/stage_times.h"
 
@@ -32,8 +33,10 @@ RAYTRACE_INLINE std::optional<TexturePoint<FloatN>> add_textures(const SceneTabl
 
 /// In scenes that identify their rays.
 [[gnu::noinline]] inline MaskN occluded_identified(const TracedScene& scene, const Ray<FloatN>& rays,
-                                                   const MaskN& active, const RayIds& ids, Coherence coherence) {
-  const RayIdentity identity(scene.tables(), scene.accelerator(), rays, ids);
+                                                   const MaskN& active, const RayIds& ids, Coherence coherence,
+                                                   Meets meets = Meets::surfaces) {
+  RayIdentity identity(scene.tables(), scene.accelerator(), rays, ids);
+  identity.meets = meets;
   return scene.accelerator().occluded(rays, active, coherence, nullptr, &identity);
 }
 
@@ -52,12 +55,14 @@ struct ShadowNumbers {
 };
 
 /// What of the group's lights' radiance leaves the surface along wo, in the lanes that were hit; of its ambient light,
-/// too. clock: if not null, its stages of this end here. media: if not null, what the light comes through.
+/// too. clock: if not null, its stages of this end here. media: if not null, what the light comes through. panes:
+/// likewise, where it comes through some.
 RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const SceneTables::LightGroup& group,
                                          const Hits& hits, const SurfaceInteraction<FloatN>& surface,
                                          const TexturePoint<FloatN>* textures, Coherence coherence,
                                          const MaskN& counted, RayCounts& counts, const ShadowNumbers& numbers,
-                                         StageClock* clock = nullptr, const PointMedia* media = nullptr) {
+                                         StageClock* clock = nullptr, const PointMedia* media = nullptr,
+                                         const PanesAhead* panes = nullptr) {
   const SceneTables& tables = scene.tables();
   std::array<IncidentLight, lights_per_run> incident;
   std::size_t count = 0;
@@ -98,9 +103,12 @@ RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const SceneTa
       counts.shadow += count_lanes(lit & counted);
       const MaskN occluded =
           tables.identifies_rays()
-              ? occluded_identified(scene, shadow_rays, lit, numbers.ids(number), coherence)
+              ? occluded_identified(scene, shadow_rays, lit, numbers.ids(number), coherence,
+                                    panes != nullptr ? Meets::surfaces_but_panes : Meets::surfaces)
               : scene.accelerator().occluded(shadow_rays, lit, Coherence::coherent, scene.light_buffer(number));
       lit = lit & !occluded;
+      if (panes != nullptr && any(lit)) [[unlikely]]
+        here.radiance = here.radiance * light_through_panes(scene, shadow_rays, lit, numbers.ids(number), *panes);
       end(Stage::trace);
     }
     if (none(lit)) continue;

@@ -280,12 +280,15 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   const MaskN on_way =
       focuses & (float_mask<FloatN>(path.way == IntN(by_reflection)) | float_mask<FloatN>(path.way == IntN(by_focus)));
   const PointMedia point_media{media, boundary.current};
+  // Each pane is one more scattering.
+  const PanesAhead ahead{settings_.maxdepth - depth - 1, Refraction<FloatN>(boundary.media.outside), path.distance};
+  const PanesAhead* const panes = tables.has_panes() && ahead.most > 0 ? &ahead : nullptr;
   Rgb<FloatN> light = black();
   for (std::size_t group = 0; group < groups_; ++group) {
     if (tables.light_groups()[group].is_dark()) continue;
     light = direct_light(scene_, tables.light_groups()[group], hits, surface, point, coherence, lanes, counts,
                          ShadowNumbers{path.pixel, path.sample, first_key + 1}, &clock_,
-                         has_media ? &point_media : nullptr);
+                         has_media ? &point_media : nullptr, panes);
     if (any(on_way)) light = select(on_way, black(), light);
     if (groups_ == 1) break;  // which is added with the light that is drawn
     add_scattered(path, lanes, path.throughput * light, IntN(static_cast<std::int32_t>(group)), depth + 1);
@@ -310,7 +313,7 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
     // Rays to one light are neighbours as the camera's are, those to many are not.
     const Coherence to_lights = has_one_light_ ? coherence : Coherence::incoherent;
     light += arriving_light(scene_, vertex, drawn, scattering.towards, to_lights, ids(lights + 1), counts, clock_,
-                            has_media ? &point_media : nullptr);
+                            has_media ? &point_media : nullptr, panes);
   }
   add_scattered(path, lanes, path.throughput * light, groups_ > 1 ? group_of(drawn) : IntN(0), depth + 1);
   if (photons_ != nullptr)

@@ -1,5 +1,6 @@
 // From one point of a path to the next.
 #include "raytrace/sampling/sampler.h"
+#include "raytrace/tracing/panes.h"
 #include "raytrace/tracing/path_batch.h"
 
 namespace raytrace {
@@ -43,13 +44,17 @@ void PathBatch::scatter(PathPacket& path, const PathDeparture& from, const BsdfS
   }
   alive = alive & (largest(path.throughput) > FloatN(0));
   if (none(alive)) return clock_.end(Stage::shade);
-  path.pdf = select(sample.specular | through, infinity<FloatN>(), sample.pdf);
+  MaskN onward(false);  // straight through a pane: as if they came from where they were scattered last
+  if (tables.has_panes()) [[unlikely]]
+    onward = sample.specular & through & tables.is_pane(tables.material(from.vertex.hits)) &
+             goes_straight(-surface.wo, rays.direction);
+  path.pdf = select(onward, path.pdf, select(sample.specular | through, infinity<FloatN>(), sample.pdf));
   if (tables.caustics() != nullptr) {
     const MaskN reflects = (from.is_first | MaskN(photons_ != nullptr)) & !(from.focuses | through | sample.specular);
     path.way = select_lanes(from.on_way, IntN(by_focus), select_lanes(reflects, IntN(by_reflection), IntN(any_way)));
   }
-  path.from = surface.p;
-  path.from_normal = surface.ns;
+  path.from = select(onward, path.from, surface.p);
+  path.from_normal = select(onward, path.from_normal, surface.ns);
   rays.origin = offset_ray_origin(surface, through & alive);
   if (const MaskN enters = alive & sample.enters; any(enters)) [[unlikely]] {
     clock_.end(Stage::shade);

@@ -117,23 +117,28 @@ inline Rgb<FloatN> radiance_of(const SceneTables& tables, const DrawnLight& ligh
 }
 
 /// What of it leaves the vertex along wo: over the density of the draw, times its share beside directions that the BSDF
-/// draws. bsdf: for wo and the light's direction. media: where the light arrives; null if the scene has none.
+/// draws. bsdf: for wo and the light's direction. media: where the light arrives; null if the scene
+/// has none. panes: likewise.
 inline Rgb<FloatN> arriving_light(const TracedScene& scene, const PathVertex& vertex, const DrawnLight& light,
                                   const BsdfValue& bsdf, Coherence coherence, const RayIds& ids, RayCounts& counts,
-                                  StageClock& clock, const PointMedia* media) {
+                                  StageClock& clock, const PointMedia* media, const PanesAhead* panes) {
   const SceneTables& tables = scene.tables();
   FloatN weight = light.local_wi.z / light.pdf * power_heuristic(light.pdf, bsdf.pdf);
   if (vertex.surface.has_relief) weight = weight * relief_shadow(vertex.surface, light.wi);
   const Rgb<FloatN> black(Rgb<float>(0, 0, 0));
-  const Rgb<FloatN> radiance = bsdf.f * radiance_of(tables, light, vertex.distance) * weight;
+  Rgb<FloatN> radiance = bsdf.f * radiance_of(tables, light, vertex.distance) * weight;
   const MaskN lit = light.lit & (largest(radiance) > FloatN(0));
   if (none(lit)) return black;
   counts.shadow += count_lanes(lit);
   clock.end(Stage::lights);
-  const MaskN occluded = tables.identifies_rays() ? occluded_identified(scene, light.ray, lit, ids, coherence)
-                                                  : scene.accelerator().occluded(light.ray, lit, coherence);
-  clock.end(Stage::trace);
+  const MaskN occluded = tables.identifies_rays()
+                             ? occluded_identified(scene, light.ray, lit, ids, coherence,
+                                                   panes != nullptr ? Meets::surfaces_but_panes : Meets::surfaces)
+                             : scene.accelerator().occluded(light.ray, lit, coherence);
   const MaskN arrives = lit & !occluded;
+  if (panes != nullptr && any(arrives)) [[unlikely]]
+    radiance = radiance * light_through_panes(scene, light.ray, arrives, ids, *panes);
+  clock.end(Stage::trace);
   if (media == nullptr) [[likely]]
     return select(arrives, radiance, black);
   return select(arrives, radiance * light_through(scene, light.ray, arrives, ids, *media), black);
