@@ -964,6 +964,88 @@ write(
 )
 
 
+
+def stained_glass():
+    """A room whose only light is daylight through a window of panes in two colours and clear ones."""
+    colors = ["0.9 0.12 0.08", "0.08 0.25 0.8", "0.95 0.7 0.1", "0.1 0.55 0.2"]
+    panes, glass = "", ""
+    for number, color in enumerate(colors):
+        red, green, blue = color.split()
+        glass += f"""\
+      <dielectric>
+        <name>glass {number}</name> <ct red="{red}" green="{green}" blue="{blue}"/> <thinwalled>true</thinwalled>
+      </dielectric>
+"""
+    size = 0.4
+    for row in range(5):
+        for column in range(6):
+            number = int("013203 4214 1 302031 1240 4 301302".replace(" ", "4")[6 * row + column])
+            material = "clear" if number == 4 else f"glass {number}"
+            panes += f"""\
+      <rectangle>
+        <corner x="-2.5" y="{0.9 + size * row:.4g}" z="{-1.4 + size * column:.4g}"/> <edge1 x="0" y="0" z="{size - 0.04:.4g}"/>
+        <edge2 x="0" y="{size - 0.04:.4g}" z="0"/> <material>{material}</material>
+      </rectangle>
+"""
+    bars = ""
+    for row in range(6):
+        y = 0.9 + size * row
+        bars += f"""\
+      <box> <min x="-2.52" y="{y - 0.04:.4g}" z="-1.44"/> <max x="-2.48" y="{y:.4g}" z="1"/> <material>wall</material> </box>
+"""
+    for column in range(7):
+        z = -1.4 + size * column
+        bars += f"""\
+      <box> <min x="-2.52" y="0.86" z="{z - 0.04:.4g}"/> <max x="-2.48" y="2.9" z="{z:.4g}"/> <material>wall</material> </box>
+"""
+    walls = """\
+      <box> <min x="-2.6" y="0" z="-2.5"/> <max x="-2.4" y="3.2" z="-1.4"/> <material>wall</material> </box>
+      <box> <min x="-2.6" y="0" z="1"/> <max x="-2.4" y="3.2" z="5"/> <material>wall</material> </box>
+      <box> <min x="-2.6" y="0" z="-1.4"/> <max x="-2.4" y="0.88" z="1"/> <material>wall</material> </box>
+      <box> <min x="-2.6" y="2.88" z="-1.4"/> <max x="-2.4" y="3.2" z="1"/> <material>wall</material> </box>
+      <box> <min x="-2.6" y="0" z="-2.7"/> <max x="2.6" y="3.2" z="-2.5"/> <material>wall</material> </box>
+      <box> <min x="2.4" y="0" z="-2.5"/> <max x="2.6" y="3.2" z="5"/> <material>wall</material> </box>
+      <box> <min x="-2.6" y="0" z="5"/> <max x="2.6" y="3.2" z="5.2"/> <material>wall</material> </box>
+      <box> <min x="-2.6" y="3.2" z="-2.7"/> <max x="2.6" y="3.4" z="5.2"/> <material>wall</material> </box>
+"""
+    write(
+        "panes",
+        "A room lit by the sun and the sky through a window of thin, coloured glass.",
+        room="""\
+  <viewplane>
+    <hres>320</hres> <vres>240</vres> <samples>512</samples> <viewtransform>agx</viewtransform> <exposure>2.8</exposure>
+  </viewplane>
+  <camera> <eye x="0.9" y="1.5" z="4.6"/> <lookat x="-0.35" y="1.15" z="0"/> <viewdistance>250</viewdistance> </camera>
+""",
+        lights="""\
+  <lights>
+    <skylights> <skylight> <sundirection x="-1" y="0.75" z="0.12"/> </skylight> </skylights>
+  </lights>
+""",
+        mattes=CLAY
+        + """\
+      <matte> <name>wall</name> <ka>0.12</ka> <kd>0.8</kd> <cd red="0.92" green="0.9" blue="0.86"/> </matte>
+""",
+        materials_more=f"""\
+    <dielectrics>
+      <dielectric> <name>clear</name> <thinwalled>true</thinwalled> </dielectric>
+{glass}    </dielectrics>
+""",
+        objects=f"""\
+    <boxes>
+{walls}{bars}    </boxes>
+    <rectangles>
+{panes}    </rectangles>
+    <spheres>
+      <sphere> <center x="0.35" y="0.5" z="0.1"/> <radius>0.5</radius> <material>wall</material> </sphere>
+    </spheres>
+""",
+    )
+
+
+stained_glass()
+
+
 def ies_file(name, intensity):
     """A lamp that is alike all around; intensity(degrees from straight down)."""
     angles = [2.5 * i for i in range(37)]
