@@ -138,6 +138,23 @@ TEST_CASE("where light paths go through panes, shadow rays do not bring their li
   CHECK(green_of(floor_below(overhead_sun, pane_at(2, "window"), "<raycast/>")).mean == 0);
 }
 
+TEST_CASE("on a shadow catcher, a pane's shadow is what it does not let through") {
+  std::string text = floor_below(overhead_sun, pane_at(2, "green"), "<path/>", 1024);
+  const std::string floor_end = "<material>floor</material></plane>";
+  text.insert(text.find(floor_end) + floor_end.size() - std::string("</plane>").size(),
+              "<shadowcatcher>true</shadowcatcher>");
+  const SceneDescription scene = parsed_scene(text);
+  const auto built = build_scene(scene, {1, {}});
+  RayCounts rays;
+  RenderSettings settings{1, 0, whole(scene)};
+  settings.transparent = true;
+  const FloatPicture picture = render(*built, scene, settings, rays);
+  double alpha = 0;
+  for (const Pixel& pixel : picture.pixels())
+    alpha += double{pixel.alpha} / static_cast<double>(picture.pixels().size());
+  CHECK(alpha == Approx(1 - through_window * (0.5 + 1 + 0.5) / 3).epsilon(0.02));
+}
+
 TEST_CASE("pictures of what is behind panes depend on no cut") {
   const std::string rectangles =
       lamp_rectangle + pane_at(2, "green") + pane_at(2.5, "half there") + pane_at(3, "printed") + pane_at(1.5, "sheet");

@@ -153,8 +153,8 @@ Hits catch_shadows(const TracedScene& scene, const CameraRays& camera, const Hit
   const SurfaceInteraction<FloatN> surface = scene.accelerator().surface(camera.rays, on_catcher);
   CatcherPoint point{tables, camera, surface, {}};
   point.ray = {offset_ray_origin(surface), surface.ng, FloatN(0), infinity<FloatN>()};
-  LightChoice choice{Reservoir(get_2d(camera.pixel, camera.sample, catcher_dimension(CatcherDraw::choice)).x),
-                     point.ray};
+  const Sample2D drawn = get_2d(camera.pixel, camera.sample, catcher_dimension(CatcherDraw::choice));
+  LightChoice choice{Reservoir(drawn.x), point.ray};
   add_lights(point, choice);
   if (std::holds_alternative<Path::Parameters>(tables.integrator())) {  // all that rays are cast for is lights
     add_emitters(point, on_catcher, choice);
@@ -164,9 +164,18 @@ Hits catch_shadows(const TracedScene& scene, const CameraRays& camera, const Hit
   if (none(lit)) return others;
   caught.shadow_rays = count_lanes(lit & caught.counted);
   const RayIds ids{camera.pixel, camera.sample, 0x10000000U};
-  caught.shadowed =
-      lit & (tables.identifies_rays() ? occluded_identified(scene, choice.ray, lit, ids, Coherence::coherent)
-                                      : scene.accelerator().occluded(choice.ray, lit, Coherence::coherent));
+  caught.shadowed = lit & (tables.identifies_rays()
+                               ? occluded_identified(scene, choice.ray, lit, ids, Coherence::coherent,
+                                                     tables.has_panes() ? Meets::surfaces_but_panes : Meets::surfaces)
+                               : scene.accelerator().occluded(choice.ray, lit, Coherence::coherent));
+  if (const MaskN open = lit & !caught.shadowed; tables.has_panes() && any(open)) [[unlikely]] {
+    // Panes hide as much as they do not let through.
+    const int most = std::get<Path::Parameters>(tables.integrator()).maxdepth - 1;
+    const PanesAhead panes{most, {}, camera.skipped + camera.rays.far};
+    const Rgb<FloatN> left = light_through_panes(scene, choice.ray, open, ids, panes);
+    const FloatN mean = (left.red + left.green + left.blue) * FloatN(1.0F / 3);
+    caught.shadowed = caught.shadowed | (open & (drawn.y >= mean));
+  }
   return others;
 }
 
