@@ -43,8 +43,12 @@ std::string version() {
 }
 
 std::vector<std::pair<std::string, Names>> listings() {
-  return {{"shapes", names_in(Shapes())}, {"textures", names_in(Textures())}, {"materials", names_in(Materials())},
-          {"lights", names_in(Lights())}, {"cameras", names_in(Cameras())},   {"integrators", names_in(Integrators())},
+  return {{"shapes", names_in(Objects())},
+          {"textures", names_in(Textures())},
+          {"materials", names_in(Materials())},
+          {"lights", names_in(Lights())},
+          {"cameras", names_in(Cameras())},
+          {"integrators", names_in(Integrators())},
           {"aovs", aov_names()}};
 }
 

@@ -69,7 +69,7 @@ class Messages(CommandTest):
         self.assertIn("<samples>7</samples>", printed)
 
     def test_list(self):
-        for kind, member in [("shapes", "sphere"), ("materials", "phong"), ("lights", "pointlight"),
+        for kind, member in [("shapes", "sphere"), ("shapes", "mesh"), ("shapes", "instance"), ("materials", "phong"), ("lights", "pointlight"),
                              ("cameras", "pinhole"), ("integrators", "raycast")]:
             self.assertIn(member, self.succeed("--list", kind).stdout.splitlines())
         self.assertIn("did you mean 'shapes'?", self.fail_with(2, "--list", "shape"))

@@ -243,6 +243,22 @@ TEST_CASE("EXT_mesh_gpu_instancing puts a mesh to many places") {
                  "accessors[2] has elements of 4 numbers, and not of 3"));
 }
 
+TEST_CASE("KHR_node_visibility hides a node and all below it") {
+  const auto faces = [](const std::string& parent, const std::string& child) {
+    const std::string extension = R"("extensions":{"KHR_node_visibility":{"visible":)";
+    const ReadResult read = read_bytes(
+        "a.gltf",
+        triangle().text(R"("extensionsUsed":["KHR_node_visibility"],"scenes":[{"nodes":[0,1]}],"nodes":[{"mesh":0},
+        {"mesh":0,)" + extension +
+                        parent + R"(}},"children":[2]},{"mesh":0,)" + extension + child + "}}}]," + mesh_of_triangle));
+    CHECK(read.messages.empty());
+    return read.mesh ? read.mesh->face_count() : 0;
+  };
+  CHECK(faces("true", "true") == 3);
+  CHECK(faces("true", "false") == 2);
+  CHECK(faces("false", "true") == 1);
+}
+
 TEST_CASE("material variants of glTF") {
   const std::string bytes = triangle().text(R"("extensionsUsed":["KHR_materials_variants"],
       "extensions":{"KHR_materials_variants":{"variants":[{"name":"day"},{"name":"night"}]}},"scenes":[{"nodes":[0]}],

@@ -13,6 +13,7 @@ namespace raytrace::gltf {
 
 /// What primitives have several materials by.
 inline constexpr const char* variants_extension = "KHR_materials_variants";
+inline constexpr const char* visibility_extension = "KHR_node_visibility";
 
 /// Whether read_material() reads it.
 bool is_material_extension(std::string_view name);

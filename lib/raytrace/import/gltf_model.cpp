@@ -81,8 +81,8 @@ void ModelReader::check_extensions(Diagnostics& diagnostics) const {
   const auto is_read = [](std::string_view name) {
     return name == "KHR_mesh_quantization" || name == "KHR_texture_transform" || name == webp_extension ||
            name == lights_extension || name == instancing_extension || name == variants_extension ||
-           is_material_extension(name) || (name == draco_extension && can_read_draco()) ||
-           (is_meshopt_extension(name) && can_read_meshopt());
+           name == visibility_extension || is_material_extension(name) ||
+           (name == draco_extension && can_read_draco()) || (is_meshopt_extension(name) && can_read_meshopt());
   };
   const auto without = [](std::string_view name) -> std::string {
     if (name == draco_extension) return " (this program was built without the library Draco)";
@@ -103,6 +103,12 @@ void ModelReader::check_extensions(Diagnostics& diagnostics) const {
     diagnostics.warning({}, "uses extensions that are not read: " + used);
 }
 
+bool is_shown(const Item& node) {
+  const auto visibility = extension(node, visibility_extension);
+  const std::optional<Item> visible = visibility ? visibility->find("visible") : std::nullopt;
+  return !visible || visible->is_true();
+}
+
 void ModelReader::read_nodes() {
   const std::optional<Item> first = root_.find("scene"), scenes = root_.find("scenes");
   if (!scenes || scenes->size() == 0) root_.fail("has no scenes");
@@ -110,26 +116,32 @@ void ModelReader::read_nodes() {
   const std::optional<Item> nodes = root_.find("nodes");
   transforms_.resize(nodes ? nodes->size() : 0);
   std::vector<char> known(transforms_.size());
-  std::vector<std::pair<std::size_t, Affine>> open;  // with its parent's transform; the last is the next
-  const auto add = [&](const std::optional<Item>& children, const Affine& parent) {
+  struct Open {
+    std::size_t number;
+    Affine parent;
+    bool is_visible;
+  };
+  std::vector<Open> open;  // with its parent's transform; the last is the next
+  const auto add = [&](const std::optional<Item>& children, const Affine& parent, bool is_visible) {
     for (std::size_t i = children ? children->size() : 0; i-- > 0;) {
       const Item child = (*children)[i];
       const std::uint64_t number = child.whole();
       if (number >= known.size()) child.fail("there is no nodes[" + std::to_string(number) + ']');
       if (known[number]++ != 0) child.fail("names nodes[" + std::to_string(number) + "], which has a parent already");
-      open.emplace_back(number, parent);
+      open.push_back({number, parent, is_visible});
     }
   };
-  add(scene.find("nodes"), {});
+  add(scene.find("nodes"), {}, true);
   std::vector<std::uint64_t> in_order;
   while (!open.empty()) {
-    const auto [number, parent] = open.back();
+    const auto [number, parent, parent_is_visible] = open.back();
     open.pop_back();
     const Item node = (*nodes)[number];
     const Affine transform = parent * transform_of(node, number);
     transforms_[number] = transform;
-    in_order.push_back(number);
-    add(node.find("children"), transform);
+    const bool is_visible = parent_is_visible && is_shown(node);
+    if (is_visible) in_order.push_back(number);
+    add(node.find("children"), transform, is_visible);
   }
   // Skins ask where nodes are that come later.
   for (const std::uint64_t number : in_order) read_node((*nodes)[number], number, *transforms_[number]);
