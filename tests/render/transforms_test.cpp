@@ -29,8 +29,11 @@ std::string transforms_scene(const std::string& integrator, const std::string& o
       48, 36, 4,
       "<integrator>" + integrator +
           "</integrator><lights/><textures><checkers><checker><name>squares</name><uvscale x='0.3' "
-          "y='0.3'/></checker></checkers></textures><materials><mattes><matte><name>squares</name><ka>0</ka><kd>1</"
-          "kd><cd texture='squares'/></matte><matte><name>grey</name><ka>0</ka><kd>1</kd>"
+          "y='0.3'/></checker><checker><name>cubes</name><scale>0.7</scale><space>object</space></checker></checkers>"
+          "<noises><noise><name>clouds</name><scale>1.5</scale><space>object</space></noise></noises></textures>"
+          "<materials><mattes><matte><name>squares</name><ka>0</ka><kd>1</kd><cd texture='squares'/></matte><matte>"
+          "<name>cubes</name><ka>0</ka><kd>1</kd><cd texture='cubes'/></matte><matte><name>clouds</name><ka>0</ka>"
+          "<kd>1</kd><cd texture='clouds'/></matte><matte><name>grey</name><ka>0</ka><kd>1</kd>"
           "<cd red='1' green='1' blue='1'/></matte></mattes><emissives><emissive><name>lamp</name>"
           "<ce red='3' green='3' blue='3'/></emissive></emissives></materials><objects>" +
           objects + "</objects>" +
@@ -115,6 +118,46 @@ TEST_CASE("far from the origin a plane has the texture coordinates that it has i
   CHECK(different_share(around(8000), around(0)) < 0.05);
 }
 
+TEST_CASE("a texture in the object's space goes with the object") {
+  const Element shape =
+      GENERATE(Element{"sphere", "<center x='0.5' y='0' z='0'/><radius>3</radius>"},
+               Element{"torus",
+                       "<center x='0' y='0' z='0'/><axis x='0' y='1' z='1'/><sweptradius>2.5</sweptradius>"
+                       "<tuberadius>1</tuberadius>"},
+               Element{"triangle",
+                       "<vertexposition1 x='-3' y='-3' z='0'/><vertexposition2 x='3' y='-2' z='0'/>"
+                       "<vertexposition3 x='0' y='3' z='0.1'/>"},
+               Element{"plane", "<point x='0' y='-1' z='0.1'/><normal x='0' y='1' z='0.3'/>"},
+               Element{"mesh", "<positions>-3 -3 0.2, 3 -2 0.2, 1 2 0.5, -2 3 0.2</positions><faces>0 1 2 3,</faces>"});
+  const std::string texture = GENERATE("cubes", "clouds");
+  const bool is_plane = shape.first == "plane";
+  INFO(shape.first << ", " << texture);
+  const std::string camera = "<eye x='1' y='2' z='12'/><lookat x='0' y='0' z='0'/>",
+                    beside = "<eye x='6.3' y='2' z='12.4'/><lookat x='5.3' y='0' z='0.4'/>",
+                    step = "<translate x='5.3' y='0' z='0.4'/>";
+  const FloatPicture wanted = rendered(transforms_scene("<albedo/>", object(shape, texture, ""), {}, camera));
+  CHECK(different_share(wanted, rendered(transforms_scene("<albedo/>", object(shape, "grey", ""), {}, camera))) > 0.02);
+  CHECK(different_share(wanted, rendered(transforms_scene("<albedo/>", object(shape, texture, step), {}, beside))) <
+        0.01);
+  if (is_plane) return;  // which no group has
+  CHECK(different_share(wanted, rendered(transforms_scene("<albedo/>", instance_under(step), object(shape, texture, ""),
+                                                          beside))) < 0.01);
+  for (const std::string& steps : {turned, mirrored, exchanged, grown})
+    CHECK(different_share(rendered(transforms_scene("<albedo/>", object(shape, texture, steps), {}, camera)),
+                          rendered(transforms_scene("<albedo/>", instance_under(steps), object(shape, texture, ""),
+                                                    camera))) < 0.015);
+}
+
+TEST_CASE("far from the origin, an object's space is its own") {
+  const auto around = [](double x) {
+    const std::string step = "<translate x='" + std::to_string(x) + "' y='0' z='0'/>";
+    return rendered(transforms_scene(
+        "<albedo/>", object({"sphere", "<center x='0.5' y='0' z='0'/><radius>3</radius>"}, "cubes", step), {},
+        vector_text("eye", x + 1, 2, 12) + vector_text("lookat", x, 0, 0)));
+  };
+  CHECK(different_share(around(8000.3), around(0)) < 0.03);
+}
+
 TEST_CASE("a mirrored surface keeps its front") {
   // One that shines on its front.
   const Element shape = GENERATE(
@@ -150,6 +193,9 @@ TEST_CASE("pictures of turned, textured shapes depend on no cut") {
         Element{"mesh", "<positions>-3 3 0, 3 3 0, 1 5 0.5, -2 6 0</positions><faces>0 1 2 3,</faces>"}})
     for (const std::string& steps : {turned, exchanged}) objects += object(shape, "grey", steps);
   check_same_bits(parsed_scene(transforms_scene("<uv/>", objects)));
+  check_same_bits(parsed_scene(transforms_scene(
+      "<albedo/>", objects + object({"box", "<min x='-1' y='-1' z='3'/><max x='1' y='1' z='4'/>"}, "cubes", turned) +
+                       object({"sphere", "<center x='0' y='3' z='3'/><radius>1</radius>"}, "clouds", turned))));
 }
 
 }  // namespace raytrace::test

@@ -27,10 +27,10 @@ double mean_wave(double x, double width) {
 
 TexturePoint<FloatN> point_at(const std::array<Vec3d, lanes>& points, double width) {
   TexturePoint<FloatN> point{};
-  point.p = vectors_of([&](std::size_t lane) { return points[lane]; });
-  point.p_across = spread({width, 0, 0});
-  point.p_along = spread({0, width, 0});
-  point.uv = {point.p.x, point.p.y};
+  point.world.p = vectors_of([&](std::size_t lane) { return points[lane]; });
+  point.world.p_across = spread({width, 0, 0});
+  point.world.p_along = spread({0, width, 0});
+  point.uv = {point.world.p.x, point.world.p.y};
   point.uv_across = {FloatN(static_cast<float>(width)), FloatN(0)};
   point.uv_along = {FloatN(0), FloatN(static_cast<float>(width))};
   return point;

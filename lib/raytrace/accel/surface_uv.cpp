@@ -2,7 +2,6 @@
 
 #include <bit>
 #include <type_traits>
-#include <utility>
 
 #include "raytrace/math/doubles.h"
 #include "raytrace/math/gather.h"
@@ -72,7 +71,11 @@ void set_uv(const ShapeTable<Shape>& table, const MaskN& here, const Hits& hits,
       const auto to_world = gather_records<AffineRecord, FloatN>(frames.world_from_object.data(), index);
       const auto to_object = gather_records<AffineRecord, FloatN>(frames.object_from_world.data(), index);
       Hits before = hits;
-      if constexpr (EmbreeTriangle<Shape>) std::swap(before.u, before.v);  // of mirrored ones alone
+      if constexpr (EmbreeTriangle<Shape>) {  // corners of mirrored ones have changed places
+        const MaskN mirrored = dot(to_world.x, cross(to_world.y, to_world.z)) < FloatN(0);
+        before.u = select(mirrored, hits.v, hits.u);
+        before.v = select(mirrored, hits.u, hits.v);
+      }
       set_uv<Shape>(frames.records, frame, moved, before, local_point(to_world, to_object, point), result);
       move_derivatives(to_world, moved, result);
     }
@@ -106,6 +109,47 @@ SurfaceUv<FloatN> surface_uv(const GeometryTable& world, const Hits& hits, const
   if (hits.in_instances)
     move_derivatives(world.instances().world_from_object(instance, hits.time), in_instance, result);
   return result;
+}
+
+SpacePoint<FloatN> mapped(const AffineRecord<FloatN>& map, const SpacePoint<FloatN>& point) {
+  return {apply_point(map, point.p), apply_vector(map, point.p_across), apply_vector(map, point.p_along)};
+}
+
+void set(SpacePoint<FloatN>& point, const MaskN& here, const SpacePoint<FloatN>& value) {
+  point = {select(here, value.p, point.p), select(here, value.p_across, point.p_across),
+           select(here, value.p_along, point.p_along)};
+}
+
+/// Before all transforms. point: in the space of the tables, which begins at the scene's origin.
+SpacePoint<FloatN> in_object(const GeometryTable& world, const Hits& hits, SpacePoint<FloatN> point) {
+  const MaskN in_instance = hits.hit & float_mask<FloatN>(hits.instance != UintN(0u));
+  if (hits.in_instances)
+    set(point, in_instance,
+        mapped(world.instances().object_from_world(select_lanes(in_instance, hits.instance, UintN(0u)), hits.time),
+               point));
+  const auto map_of_all = [](const AffineRecord<float>& map) {
+    return gather_records<AffineRecord, FloatN>(&map, LaneIndices(0));
+  };
+  world.for_each_geometry(hits, [&](const GeometryTable& table, std::uint32_t geometry, const MaskN& here) {
+    if (const MeshTable* const mesh = table.geometry(geometry).mesh; mesh != nullptr) {
+      set(point, here, mapped(map_of_all(mesh->object_from_world()), point));
+      return;
+    }
+    with_type(Shapes{}, geometry, [&]<class Shape>(std::type_identity<Shape>) {
+      const auto& frames = table.table<Shape>().uv_frames;
+      if (frames.empty()) return;
+      const IntN frame = gather(frames.of_object.data(), follow_first(here, hits.primitive));
+      const MaskN framed = here & float_mask<FloatN>(frame >= IntN(0));
+      if (none(framed)) return;
+      const LaneIndices index(follow_first(framed, frame));
+      set(point, framed, mapped(gather_records<AffineRecord, FloatN>(frames.object_from_world.data(), index), point));
+    });
+    if (geometry == index_of<Sphere>(Shapes{}))
+      table.for_each_cloud(hits.primitive, here, [&](const CloudSpheres& cloud, const MaskN& lanes) {
+        set(point, lanes, mapped(map_of_all(cloud.object_from_world), point));
+      });
+  });
+  return point;
 }
 
 Rgb<FloatN> vertex_color(const GeometryTable& world, const Hits& hits) {
@@ -155,17 +199,17 @@ TexturePoint<FloatN> texture_point(const SceneTables& scene, const FloatN& radiu
   const Vec3<FloatN> along =
       normalize(select(slanted, view * (FloatN(1) / sine), cross(surface.ng, select(upright, x, z))));
   TexturePoint<FloatN> point;
-  point.p = surface.p;
+  point.world = {surface.p, cross(surface.ng, along) * radius, along * (radius / max(cosine, FloatN(1e-3F)))};
+  if (scene.has_object_space()) [[unlikely]]
+    point.object = in_object(scene.geometry(), hits, point.world);
   const Vec3d& origin = scene.origin();
   if (origin.x != 0 || origin.y != 0 || origin.z != 0) {
     using D = Doubles<FloatN>;
-    point.p = to_float(Vec3<D>(surface.p) + Vec3<D>(origin));
+    point.world.p = to_float(Vec3<D>(surface.p) + Vec3<D>(origin));
   }
-  point.p_across = cross(surface.ng, along) * radius;
-  point.p_along = along * (radius / max(cosine, FloatN(1e-3F)));
   const auto on_surface = [&](UvSet set) -> UvPoint<FloatN> {
     const SurfaceUv<FloatN> uv = surface_uv(scene.geometry(), hits, surface, set);
-    return {{uv.u, uv.v}, uv_along(uv, point.p_across), uv_along(uv, point.p_along), uv.dpdu, uv.dpdv};
+    return {{uv.u, uv.v}, uv_along(uv, point.world.p_across), uv_along(uv, point.world.p_along), uv.dpdu, uv.dpdv};
   };
   point.by(UvSet::first) = on_surface(UvSet::first);
   if (scene.has_second_uvset()) [[unlikely]]

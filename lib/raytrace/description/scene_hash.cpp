@@ -71,8 +71,9 @@ class SceneHash {
         if constexpr (requires { item.data; }) {
           hash.add_loaded(fields, item);
         } else if constexpr (requires { item.image; }) {
-          hash.add_parameters(fields, &item.parameters,
-                              {item.image.hash.empty() ? "" : "file", unused_field(item.parameters)});
+          hash.add_parameters(
+              fields, &item.parameters,
+              {item.image.hash.empty() ? "" : "file", unused_field(item.parameters), unused_space(item.parameters)});
           hash.add(item.image.hash);
         } else if constexpr (requires { item.photometry; }) {
           hash.add_parameters(fields, &item.parameters, {item.photometry.hash.empty() ? "" : "iesfile"});
@@ -139,11 +140,26 @@ class SceneHash {
     return "";
   }
 
+  template <class Parameters>
+  static std::string_view unused_override(const Parameters& parameters) {
+    if constexpr (requires { parameters.overridematerials; })
+      if (!parameters.overridematerials) return "overridematerials";
+    return "";
+  }
+
+  template <class Parameters>
+  static std::string_view unused_space(const Parameters& parameters) {
+    if constexpr (requires { parameters.space; })
+      if (parameters.space == TextureSpace::world) return "space";
+    return "";
+  }
+
   /// By what it was read from a file, if it was.
   template <class Item>
   void add_loaded(const Fields& fields, const Item& item) {
     const bool from_file = item.data != nullptr && !item.parameters.file.path.empty();
-    add_parameters(fields, &item.parameters, {from_file ? "file" : "", unused_field(item.parameters)});
+    add_parameters(fields, &item.parameters,
+                   {from_file ? "file" : "", unused_field(item.parameters), unused_override(item.parameters)});
     if (!from_file) return;
     add(item.data->origin);
     add(*item.data);

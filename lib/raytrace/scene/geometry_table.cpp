@@ -34,15 +34,18 @@ Maps composed(const Maps& outer, const Maps& inner) {
 }  // namespace
 
 GeometryTable::GeometryTable(const ObjectLists& objects, const Vec3d& origin,
-                             std::span<const std::int32_t> first_materials, int threads) {
+                             std::span<const std::int32_t> first_materials, bool has_object_space, int threads)
+    : has_object_space_(has_object_space) {
   add_objects(objects, origin, first_materials, threads);
 }
 
 GeometryTable::GeometryTable(const SceneDescription& description, const Vec3d& origin,
-                             std::span<const std::int32_t> first_materials, int threads) {
+                             std::span<const std::int32_t> first_materials, bool has_object_space, int threads)
+    : has_object_space_(has_object_space) {
   add_objects(description.objects, origin, first_materials, threads);
   for (const Group& group : description.groups)
-    groups_.push_back(std::make_unique<const GeometryTable>(group.objects, Vec3d(0, 0, 0), first_materials, threads));
+    groups_.push_back(std::make_unique<const GeometryTable>(group.objects, Vec3d(0, 0, 0), first_materials,
+                                                            has_object_space, threads));
   add_instances(description, origin, first_materials);
   for (const auto& group : groups_) has_catchers_ = has_catchers_ || group->has_catchers_;
 }
@@ -95,7 +98,7 @@ void GeometryTable::add_shapes(const ObjectLists& objects, const Vec3d& origin) 
       }
       if (is_in_place) {
         affine = moved(affine, origin);
-        if (!keeps_uv<Shape>(affine))
+        if (has_object_space_ ? !affine.is_identity() : !keeps_uv<Shape>(affine))
           uv_frames.add(records.size(), items.size(), Kernel<Shape>::record(item.parameters), affine);
         for (const Field& point : points) point.get<Vec3d>(&parameters) += -origin;
       }
@@ -126,7 +129,8 @@ void GeometryTable::add_clouds(const std::vector<ObjectItem<SphereCloud>>& cloud
       if (!cloud.transform.empty()) center = affine.point(center);
       records.push_back(Kernel<Sphere>::record({center + -origin, radius * scale}));
     }
-    clouds_.push_back({first, static_cast<std::int32_t>(records.size()), 0, cloud.data});
+    clouds_.push_back(
+        {first, static_cast<std::int32_t>(records.size()), 0, cloud.data, to_float(moved(affine, origin).inverse())});
   }
   if (!instanced.empty()) instanced.resize(records.size());
   if (!uv_frames.empty()) uv_frames.of_object.resize(records.size(), -1);

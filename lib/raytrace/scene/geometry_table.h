@@ -35,6 +35,7 @@ struct CloudSpheres {
   std::int32_t first, end;
   std::int32_t object;
   std::shared_ptr<const PointCloud> data;
+  AffineRecord<float> object_from_world;
 };
 
 /// The objects of the world, or of a group.
@@ -46,11 +47,12 @@ struct CloudSpheres {
 class GeometryTable {
  public:
   /// first_materials: of each material type, the number of its first material, all counted together.
+  /// has_object_space: whether textures may ask where a point lay before its object's transform.
   GeometryTable(const ObjectLists& objects, const Vec3d& origin, std::span<const std::int32_t> first_materials,
-                int threads);
+                bool has_object_space, int threads);
   /// The world's: all objects and groups. origin: subtracted from all points, in double.
   GeometryTable(const SceneDescription& description, const Vec3d& origin, std::span<const std::int32_t> first_materials,
-                int threads);
+                bool has_object_space, int threads);
 
   const std::vector<Geometry>& geometries() const { return geometries_; }
   const Geometry& geometry(std::uint32_t index) const { return geometries_[index]; }
@@ -131,6 +133,7 @@ class GeometryTable {
   void set_shadow_catchers(const ObjectLists& objects, int threads);
   void set_bounds(int threads);
 
+  bool has_object_space_;  ///< all transforms of shapes are kept then
   TupleOf<Shapes, ShapeTable>::type tables_;
   std::deque<MeshTable> meshes_;  ///< they stay where they are
   std::vector<CloudSpheres> clouds_;

@@ -31,6 +31,9 @@ MeshTable::MeshTable(const ObjectItem<Mesh>& mesh, const Vec3d& origin, std::spa
     materials_.push_back(first_materials[material.type] + static_cast<std::int32_t>(material.index));
 
   Affine affine = mesh.transform.affine();
+  Affine to_world = affine;
+  to_world.origin += -origin;
+  object_from_world_ = to_float(to_world.inverse());
   affine.origin = affine.point(data_->origin) + -origin;
   const bool is_transformed = !mesh.transform.empty();
   if (is_transformed || length(affine.origin) > 0) move(affine, threads);

@@ -12,6 +12,7 @@
 #include "raytrace/math/simd.h"
 #include "raytrace/math/surface_uv.h"
 #include "raytrace/scene/hits.h"
+#include "raytrace/scene/instance_table.h"
 #include "raytrace/shapes/kernels.h"
 #include "raytrace/textures/uv_set.h"
 
@@ -33,6 +34,8 @@ class MeshTable {
 
   const float* positions() const { return moved_.empty() ? data_->positions.data() : moved_.data(); }
   const std::uint32_t* indices() const { return turned_faces_.empty() ? data_->indices.data() : turned_faces_.data(); }
+  /// To where its points lay in its file.
+  const AffineRecord<float>& object_from_world() const { return object_from_world_; }
   std::size_t vertex_count() const { return data_->vertex_count(); }
   std::size_t face_count() const { return data_->face_count(); }
   int corners() const { return data_->corners; }
@@ -88,6 +91,7 @@ class MeshTable {
   const float* normals_ = nullptr;
   std::vector<std::int32_t> materials_;  ///< the numbers of those of the data
   Bounds bounds_ = empty_bounds;
+  AffineRecord<float> object_from_world_;
 };
 
 }  // namespace raytrace

@@ -29,8 +29,10 @@ Vec3<FloatN> bumped_normal(const Height& height, UvSet set, const TexturePoint<F
   const FloatN here = height(point);
   const UvPoint<FloatN>& on = point.by(set);
   TexturePoint<FloatN> there = point;
-  const auto slope = [&](const Vec3<FloatN>& way, const Vec2<FloatN>& uv_way) {
-    there.p = point.p + way;
+  const auto slope = [&](Vec3<FloatN> SpacePoint<FloatN>::* side, const Vec2<FloatN>& uv_way) {
+    const Vec3<FloatN>& way = point.world.*side;
+    there.world.p = point.world.p + way;
+    there.object.p = point.object.p + point.object.*side;
     there.by(set).uv = {on.uv.x + uv_way.x, on.uv.y + uv_way.y};
     const FloatN size = length(way);
     const MaskN is_wide = size > FloatN(0);
@@ -39,7 +41,8 @@ Vec3<FloatN> bumped_normal(const Height& height, UvSet set, const TexturePoint<F
     const FloatN rise = min(max((height(there) - here) * inverse, FloatN(-1e6F)), FloatN(1e6F));
     return way * (select(is_wide, rise, FloatN(0)) * inverse);
   };
-  return normalize(normal - slope(point.p_across, on.uv_across) - slope(point.p_along, on.uv_along));
+  return normalize(normal - slope(&SpacePoint<FloatN>::p_across, on.uv_across) -
+                   slope(&SpacePoint<FloatN>::p_along, on.uv_along));
 }
 
 }  // namespace

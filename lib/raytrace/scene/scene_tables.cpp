@@ -54,13 +54,15 @@ SceneTables::SceneTables(const SceneDescription& description, int threads)
   for (std::string& name : light_group_names(description)) light_groups_.push_back({std::move(name)});
   textures_ = std::make_unique<const TextureTable>(description);
   has_second_uvset_ = textures_->has_second_uvset();
+  has_object_space_ = textures_->has_object_space();
   add_materials(description);
-  geometry_ = std::make_unique<const GeometryTable>(description, origin_, first_material_, threads);
+  geometry_ = std::make_unique<const GeometryTable>(description, origin_, first_material_, has_object_space_, threads);
   if (camera_is_far_from(geometry_->bounding_sphere(), description)) {
     const Vec3d center = geometry_->bounding_sphere().center;
     if (length(origin_) > 0) {
       origin_ += rounded(center);
-      geometry_ = std::make_unique<const GeometryTable>(description, origin_, first_material_, threads);
+      geometry_ =
+          std::make_unique<const GeometryTable>(description, origin_, first_material_, has_object_space_, threads);
     }
     camera_target_ = geometry_->bounding_sphere();
   }

@@ -205,6 +205,8 @@ class SceneTables {
   bool has_textures(const Hits& hits) const;
   /// Whether any texture looks up by the second set of texture coordinates.
   bool has_second_uvset() const { return has_second_uvset_; }
+  /// Whether any texture is fixed to objects.
+  bool has_object_space() const { return has_object_space_; }
   /// How wide a pixel is where the camera's rays start, and by how much it widens with their lengths.
   const RayCone& ray_cone() const { return ray_cone_; }
 
@@ -300,7 +302,8 @@ class SceneTables {
   std::vector<SurfaceDetail> details_;  ///< of all materials
   MediumTable media_;
   bool has_cutouts_ = false, has_relief_ = false, has_emission_ = false, has_second_uvset_ = false,
-       has_turned_tangents_ = false, has_subsurface_ = false, has_photons_ = false, has_panes_ = false;
+       has_turned_tangents_ = false, has_subsurface_ = false, has_photons_ = false, has_panes_ = false,
+       has_object_space_ = false;
   std::vector<std::int32_t> shining_sides_;  ///< of all materials: 0, 1 for the front, 2 for both
   std::vector<std::int32_t> panes_;          ///< 1 for those that are panes, else 0; empty where none are passed
   std::vector<std::int32_t> textured_;       ///< 1 for materials with textures, else 0; empty if there are none

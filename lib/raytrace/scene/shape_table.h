@@ -13,7 +13,8 @@
 namespace raytrace {
 
 /// What the texture coordinates of some objects are taken from: the object as it was before its transform, and where a
-/// point of its surface lay then.
+/// point of its surface lay then. Of those whose coordinates the transform changes; of all that it changes where
+/// textures are fixed to objects.
 template <class Record>
 struct UvFrames {
   std::vector<std::int32_t> of_object;  ///< of each object; -1: its record has its coordinates. Empty: all have

@@ -41,6 +41,20 @@ class TextureTable {
                        [](const AnyTexture& texture) { return uvset_of(texture) == UvSet::second; });
   }
 
+  /// Whether any is fixed to objects.
+  bool has_object_space() const {
+    return std::any_of(textures_.begin(), textures_.end(), [](const AnyTexture& any) {
+      return std::visit(
+          [](const auto& texture) {
+            if constexpr (requires { texture.space(); })
+              return texture.space() == TextureSpace::object;
+            else
+              return false;
+          },
+          any);
+    });
+  }
+
   /// uses: those of a material of this type.
   template <class Material>
   std::vector<TextureFactor> factors(std::span<const TextureUse> uses) const {

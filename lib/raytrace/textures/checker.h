@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "raytrace/parameters/fields.h"
+#include "raytrace/textures/texture_space.h"
 #include "raytrace/textures/uv_set.h"
 
 namespace raytrace {
@@ -21,19 +22,25 @@ class Checker {
     Vec2d uvscale{1, 1};  ///< how many squares fit into one unit of u and v
     double scale = 0;     ///< edge of the cubes in space that are there in place of squares; 0: none are
     UvSet uvset = UvSet::first;
+    TextureSpace space = TextureSpace::world;  ///< of the cubes
   };
   static constexpr std::string_view group = "checkers";
   static constexpr std::string_view element = "checker";
   static Fields fields() {
-    return {optional("color1", &Parameters::color1), optional("color2", &Parameters::color2),
+    return {optional("color1", &Parameters::color1),   optional("color2", &Parameters::color2),
             optional("uvscale", &Parameters::uvscale), optional("scale", &Parameters::scale, Range::not_negative),
-            optional("uvset", &Parameters::uvset)};
+            optional("uvset", &Parameters::uvset),     optional("space", &Parameters::space)};
   }
   static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {
+    const auto error = [](const char* message) {
+      return ParameterDiagnostic{ParameterDiagnostic::Effect::error, message};
+    };
     const bool on_surface = parameters.uvscale.x != 1 || parameters.uvscale.y != 1;
-    if (parameters.scale == 0 || !on_surface) return std::nullopt;
-    return ParameterDiagnostic{ParameterDiagnostic::Effect::error,
-                               "<uvscale> is for squares on a surface, and <scale> for cubes in space; remove one"};
+    if (parameters.scale != 0 && on_surface)
+      return error("<uvscale> is for squares on a surface, and <scale> for cubes in space; remove one");
+    if (parameters.scale == 0 && parameters.space == TextureSpace::object)
+      return error("<space> is for cubes in space, which have a <scale>; squares are on the object");
+    return std::nullopt;
   }
 };
 

@@ -34,10 +34,12 @@ class Kernel<Checker> {
         color2_(checker.color2),
         uvscale_{static_cast<float>(checker.uvscale.x), static_cast<float>(checker.uvscale.y)},
         uvset_(checker.uvset),
+        space_(checker.space),
         in_space_(checker.scale > 0),
         frequency_(in_space_ ? static_cast<float>(1 / std::max(checker.scale, smallest_size)) : 0) {}
 
   UvSet uvset() const { return uvset_; }
+  TextureSpace space() const { return space_; }
   float largest() const {
     const Rgb<float> both = max(abs(color1_), abs(color2_));
     return std::max({both.red, both.green, both.blue});
@@ -50,7 +52,7 @@ class Kernel<Checker> {
     };
     FloatN product = FloatN(1);
     if (in_space_) {
-      const Vec3<FloatN>&p = point.p, &a = point.p_across, &b = point.p_along;
+      const auto& [p, a, b] = point.in(space_);
       product = wave(p.x, a.x, b.x, frequency_) * wave(p.y, a.y, b.y, frequency_) * wave(p.z, a.z, b.z, frequency_);
     } else {
       const UvPoint<FloatN>& on = point.by(uvset_);
@@ -65,6 +67,7 @@ class Kernel<Checker> {
   Rgb<float> color1_, color2_;
   Vec2<float> uvscale_;
   UvSet uvset_;
+  TextureSpace space_;
   bool in_space_;
   float frequency_;
 };

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "raytrace/parameters/fields.h"
+#include "raytrace/textures/texture_space.h"
 
 namespace raytrace {
 
@@ -21,6 +22,7 @@ class Noise {
     Rgb<double> color1{0, 0, 0}, color2{1, 1, 1};
     double scale = 1;  ///< size of the largest clouds
     int octaves = 4;
+    TextureSpace space = TextureSpace::world;
   };
   static constexpr int most_octaves = 16;
   static constexpr std::string_view group = "noises";
@@ -28,7 +30,7 @@ class Noise {
   static Fields fields() {
     return {optional("color1", &Parameters::color1), optional("color2", &Parameters::color2),
             optional("scale", &Parameters::scale, Range::positive),
-            optional("octaves", &Parameters::octaves, Range::positive)};
+            optional("octaves", &Parameters::octaves, Range::positive), optional("space", &Parameters::space)};
   }
   static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {
     if (parameters.octaves <= most_octaves) return std::nullopt;

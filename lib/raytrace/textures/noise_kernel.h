@@ -51,7 +51,10 @@ class Kernel<Noise> {
       : color1_(noise.color1),
         color2_(noise.color2),
         frequency_(static_cast<float>(1 / noise.scale)),
-        octaves_(noise.octaves) {}
+        octaves_(noise.octaves),
+        space_(noise.space) {}
+
+  TextureSpace space() const { return space_; }
 
   float largest() const {
     const Rgb<float> both = max(abs(color1_), abs(color2_));
@@ -59,7 +62,8 @@ class Kernel<Noise> {
   }
 
   Rgba<FloatN> at(const TexturePoint<FloatN>& point) const {
-    const FloatN width = sqrt(max(dot(point.p_across, point.p_across), dot(point.p_along, point.p_along)));
+    const auto& [at, across, along] = point.in(space_);
+    const FloatN width = sqrt(max(dot(across, across), dot(along, along)));
     FloatN sum = FloatN(0);
     float frequency = frequency_, strength = 0.5F;
     for (int octave = 0; octave < octaves_; ++octave, frequency *= 2, strength *= 0.5F) {
@@ -67,7 +71,7 @@ class Kernel<Noise> {
       const FloatN visible = min(max(FloatN(2) - FloatN(2) * width * FloatN(frequency), FloatN(0)), FloatN(1));
       if (none(visible > FloatN(0))) break;
       // Shifted, so that the octaves are not all 0 at the same points.
-      const Vec3<FloatN> p = point.p * FloatN(frequency) + Vec3<FloatN>(Vec3f(0.37F, 0.59F, 0.83F));
+      const Vec3<FloatN> p = at * FloatN(frequency) + Vec3<FloatN>(Vec3f(0.37F, 0.59F, 0.83F));
       sum = sum + select(visible > FloatN(0), gradient_noise(p) * visible * FloatN(strength), FloatN(0));
     }
     const FloatN second = min(max(FloatN(0.5F) + sum, FloatN(0)), FloatN(1));
@@ -78,6 +82,7 @@ class Kernel<Noise> {
   Rgb<float> color1_, color2_;
   float frequency_;
   int octaves_;
+  TextureSpace space_;
 };
 
 }  // namespace raytrace

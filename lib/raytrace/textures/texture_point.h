@@ -4,6 +4,7 @@
 #include "raytrace/math/color.h"
 #include "raytrace/math/vec2.h"
 #include "raytrace/math/vec3.h"
+#include "raytrace/textures/texture_space.h"
 #include "raytrace/textures/uv_set.h"
 
 namespace raytrace {
@@ -16,16 +17,22 @@ struct UvPoint {
   Vec3<F> dpdu, dpdv;  ///< how the point moves with u and v
 };
 
+/// In a space.
+template <class F>
+struct SpacePoint {
+  Vec3<F> p, p_across, p_along;
+};
+
 /// In space and on the surface, with half of what a pixel covers there: samples share a pixel. It is about the shape
 /// with the two axes `across` and `along`, at right angles: `along` is the one that the view stretches. Lanes that hit
 /// nothing hold anything.
 template <class F>
 struct TexturePoint : UvPoint<F> {
-  Vec3<F> p;
-  Vec3<F> p_across, p_along;
-  Rgb<F> vertex_color;  ///< between those of the mesh's vertices; white where there are none
-  UvPoint<F> second;    ///< of the second set; anything in scenes that have no texture which asks for it
+  SpacePoint<F> world, object;  ///< the latter: anything in scenes without textures in that space
+  Rgb<F> vertex_color;          ///< between those of the mesh's vertices; white where there are none
+  UvPoint<F> second;            ///< of the second set; anything in scenes that have no texture which asks for it
 
+  const SpacePoint<F>& in(TextureSpace space) const { return space == TextureSpace::world ? world : object; }
   UvPoint<F>& by(UvSet set) { return set == UvSet::first ? *this : second; }
   const UvPoint<F>& by(UvSet set) const { return set == UvSet::first ? *this : second; }
 };
