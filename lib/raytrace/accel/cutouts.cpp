@@ -34,8 +34,11 @@ std::uint32_t passing_rays(const RayIdentity& query, unsigned first, std::uint32
                            std::span<const float> v) {
   if (query.meets == Meets::boundaries_of_fogs || query.scene.is_fog(material)) return hit;
   // All of a pane, where it is not met, and all else, where panes alone are.
-  if (query.meets != Meets::surfaces && query.scene.is_pane(material) == (query.meets == Meets::surfaces_but_panes))
+  if (query.meets == Meets::panes && !query.scene.is_pane(material)) return hit;
+  if (query.meets == Meets::surfaces_but_panes && query.scene.is_pane(material)) {
+    if (query.passed_panes != nullptr) *query.passed_panes |= hit << first;
     return hit;
+  }
   alignas(64) std::array<float, packet_lanes> far{}, hit_u{}, hit_v{};
   alignas(64) std::array<std::int32_t, packet_lanes> is_hit{};
   for (std::size_t i = 0; i < t.size(); ++i) {

@@ -32,6 +32,7 @@ struct RayIdentity {
   FloatN times;
   const CameraRays* camera;  ///< what camera rays cover, textures are filtered by; null: other rays
   Meets meets = Meets::surfaces;
+  std::uint32_t* passed_panes = nullptr;  ///< bit i is set where ray i passes a pane, by surfaces_but_panes
 
   RayIdentity(const SceneTables& of_scene, const Accelerator& its_accelerator, const Ray<FloatN>& its_rays,
               const RayIds& ids, const CameraRays* its_camera = nullptr);

@@ -33,11 +33,26 @@ RAYTRACE_INLINE std::optional<TexturePoint<FloatN>> add_textures(const SceneTabl
 
 /// In scenes that identify their rays.
 [[gnu::noinline]] inline MaskN occluded_identified(const TracedScene& scene, const Ray<FloatN>& rays,
-                                                   const MaskN& active, const RayIds& ids, Coherence coherence,
-                                                   Meets meets = Meets::surfaces) {
-  RayIdentity identity(scene.tables(), scene.accelerator(), rays, ids);
-  identity.meets = meets;
+                                                   const MaskN& active, const RayIds& ids, Coherence coherence) {
+  const RayIdentity identity(scene.tables(), scene.accelerator(), rays, ids);
   return scene.accelerator().occluded(rays, active, coherence, nullptr, &identity);
+}
+
+/// The same of all but panes. light: of what is not occluded, panes take their part.
+[[gnu::noinline]] inline MaskN occluded_behind_panes(const TracedScene& scene, const Ray<FloatN>& rays,
+                                                     const MaskN& active, const RayIds& ids, Coherence coherence,
+                                                     const PanesAhead& panes, Rgb<FloatN>& light) {
+  RayIdentity identity(scene.tables(), scene.accelerator(), rays, ids);
+  std::uint32_t passed = 0;
+  identity.meets = Meets::surfaces_but_panes;
+  identity.passed_panes = &passed;
+  const MaskN occluded = scene.accelerator().occluded(rays, active, coherence, nullptr, &identity);
+  if (passed == 0) return occluded;
+  alignas(64) std::array<std::int32_t, packet_lanes> has_passed;
+  for (std::size_t i = 0; i < packet_lanes; ++i) has_passed[i] = static_cast<std::int32_t>(passed >> i & 1U);
+  const MaskN behind = active & !occluded & float_mask<FloatN>(IntN::load_aligned(has_passed.data()) != IntN(0));
+  if (any(behind)) light = select(behind, light * light_through_panes(scene, rays, behind, ids, panes), light);
+  return occluded;
 }
 
 /// The random numbers of a point's shadow rays, each for its light.
@@ -102,13 +117,12 @@ RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const SceneTa
       end(Stage::lights);
       counts.shadow += count_lanes(lit & counted);
       const MaskN occluded =
-          tables.identifies_rays()
-              ? occluded_identified(scene, shadow_rays, lit, numbers.ids(number), coherence,
-                                    panes != nullptr ? Meets::surfaces_but_panes : Meets::surfaces)
+          panes != nullptr
+              ? occluded_behind_panes(scene, shadow_rays, lit, numbers.ids(number), coherence, *panes, here.radiance)
+          : tables.identifies_rays()
+              ? occluded_identified(scene, shadow_rays, lit, numbers.ids(number), coherence)
               : scene.accelerator().occluded(shadow_rays, lit, Coherence::coherent, scene.light_buffer(number));
       lit = lit & !occluded;
-      if (panes != nullptr && any(lit)) [[unlikely]]
-        here.radiance = here.radiance * light_through_panes(scene, shadow_rays, lit, numbers.ids(number), *panes);
       end(Stage::trace);
     }
     if (none(lit)) continue;

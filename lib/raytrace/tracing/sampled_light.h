@@ -131,13 +131,11 @@ inline Rgb<FloatN> arriving_light(const TracedScene& scene, const PathVertex& ve
   if (none(lit)) return black;
   counts.shadow += count_lanes(lit);
   clock.end(Stage::lights);
-  const MaskN occluded = tables.identifies_rays()
-                             ? occluded_identified(scene, light.ray, lit, ids, coherence,
-                                                   panes != nullptr ? Meets::surfaces_but_panes : Meets::surfaces)
-                             : scene.accelerator().occluded(light.ray, lit, coherence);
+  const MaskN occluded = panes != nullptr
+                             ? occluded_behind_panes(scene, light.ray, lit, ids, coherence, *panes, radiance)
+                         : tables.identifies_rays() ? occluded_identified(scene, light.ray, lit, ids, coherence)
+                                                    : scene.accelerator().occluded(light.ray, lit, coherence);
   const MaskN arrives = lit & !occluded;
-  if (panes != nullptr && any(arrives)) [[unlikely]]
-    radiance = radiance * light_through_panes(scene, light.ray, arrives, ids, *panes);
   clock.end(Stage::trace);
   if (media == nullptr) [[likely]]
     return select(arrives, radiance, black);

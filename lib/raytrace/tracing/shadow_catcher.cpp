@@ -164,18 +164,19 @@ Hits catch_shadows(const TracedScene& scene, const CameraRays& camera, const Hit
   if (none(lit)) return others;
   caught.shadow_rays = count_lanes(lit & caught.counted);
   const RayIds ids{camera.pixel, camera.sample, 0x10000000U};
-  caught.shadowed = lit & (tables.identifies_rays()
-                               ? occluded_identified(scene, choice.ray, lit, ids, Coherence::coherent,
-                                                     tables.has_panes() ? Meets::surfaces_but_panes : Meets::surfaces)
-                               : scene.accelerator().occluded(choice.ray, lit, Coherence::coherent));
-  if (const MaskN open = lit & !caught.shadowed; tables.has_panes() && any(open)) [[unlikely]] {
-    // Panes hide as much as they do not let through.
-    const int most = std::get<Path::Parameters>(tables.integrator()).maxdepth - 1;
-    const PanesAhead panes{most, {}, camera.skipped + camera.rays.far};
-    const Rgb<FloatN> left = light_through_panes(scene, choice.ray, open, ids, panes);
-    const FloatN mean = (left.red + left.green + left.blue) * FloatN(1.0F / 3);
-    caught.shadowed = caught.shadowed | (open & (drawn.y >= mean));
+  if (!tables.has_panes()) [[likely]] {
+    caught.shadowed =
+        lit & (tables.identifies_rays() ? occluded_identified(scene, choice.ray, lit, ids, Coherence::coherent)
+                                        : scene.accelerator().occluded(choice.ray, lit, Coherence::coherent));
+    return others;
   }
+  // Panes hide as much as they do not let through.
+  const int most = std::get<Path::Parameters>(tables.integrator()).maxdepth - 1;
+  const PanesAhead panes{most, {}, camera.skipped + camera.rays.far};
+  Rgb<FloatN> left(Rgb<float>(1, 1, 1));
+  const MaskN occluded = occluded_behind_panes(scene, choice.ray, lit, ids, Coherence::coherent, panes, left);
+  const FloatN mean = (left.red + left.green + left.blue) * FloatN(1.0F / 3);
+  caught.shadowed = lit & (occluded | (drawn.y >= mean));
   return others;
 }
 
