@@ -59,23 +59,29 @@ class ShareAxes {
   static IntN cell(const FloatN& x) { return to_int(min(max(x, FloatN(0)), FloatN(steps - 1.001F))); }
 };
 
-/// The mean of scattered(wo, facet) over the facets that are visible from wo.
-template <class Scattered>
-float mean_over_facets(float cosine, const Ggx<FloatN>& ggx, const Scattered& scattered) {
-  // A midpoint rule of as many angles in half a circle, and steps from the tail of the facets' slopes.
-  constexpr int turns = 32, heights = 48;
-  const Vec3<FloatN> wo(Vec3f{std::sqrt(1 - cosine * cosine), 0, cosine});
+/// The mean of scattered(wo, facet) over the facets that are visible from wo. circle: the part of it that has all: a
+/// half where both sides of the plane of wo and the normal are alike, else 1.
+template <int heights, class Facets, class Scattered>
+float mean_over_facets(const Vec3<FloatN>& wo, const Facets& ggx, float circle, const Scattered& scattered) {
+  // A midpoint rule of as many angles, and steps from the tail of the facets' slopes.
+  constexpr int turns = 32;
   FloatN sum(0);
   for (int first = 0; first < turns * heights; first += packet_lanes) {
     const FloatN number = lane_numbers<FloatN>() + FloatN(static_cast<float>(first) + 0.5F);
     const FloatN height = floor(number * FloatN(1.0F / turns));
-    const FloatN turn = (number - height * FloatN(turns)) * FloatN(0.5F / turns);
+    const FloatN turn = (number - height * FloatN(turns)) * FloatN(circle / turns);
     const FloatN root = (height + FloatN(0.5F)) * FloatN(1.0F / heights);
     sum += scattered(wo, ggx.sample_facet(wo, turn, FloatN(1) - root * root)) * root;
   }
   float total = 0;
   for (std::size_t lane = 0; lane < packet_lanes; ++lane) total += sum.get(lane);
   return total * 2 / (turns * heights);
+}
+
+template <class Scattered>
+float mean_over_facets(float cosine, const Ggx<FloatN>& ggx, const Scattered& scattered) {
+  const Vec3<FloatN> wo(Vec3f{std::sqrt(1 - cosine * cosine), 0, cosine});
+  return mean_over_facets<48>(wo, ggx, 0.5F, scattered);
 }
 
 /// Of what a facet of that normal reflects.

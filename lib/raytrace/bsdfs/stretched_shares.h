@@ -66,22 +66,11 @@ class StretchedShares {
     const float b = 0.5F + roughness - step[0], root = std::sqrt(b * b + 2 * step[0] * roughness) - b;
     const float cosine = std::clamp(root * root, 1e-4F, 1.0F), sine = std::sqrt(1 - cosine * cosine);
     const Vec3<FloatN> wo(Vec3f{sine * std::sqrt(across), sine * std::sqrt(1 - across), cosine});
-    // The midpoint rule of mean_over_facets(), all around.
-    constexpr int turns = 32, heights = 24;
-    FloatN sum(0);
-    for (int first = 0; first < turns * heights; first += packet_lanes) {
-      const FloatN number = lane_numbers<FloatN>() + FloatN(static_cast<float>(first) + 0.5F);
-      const FloatN height = floor(number * FloatN(1.0F / turns));
-      const FloatN turn = (number - height * FloatN(turns)) * FloatN(1.0F / turns);
-      const FloatN top = (height + FloatN(0.5F)) * FloatN(1.0F / heights);
-      const Vec3<FloatN> facet = ggx.sample_facet(wo, turn, FloatN(1) - top * top);
-      const Vec3<FloatN> wi = facet * (FloatN(2) * dot(wo, facet)) - wo;
-      const FloatN lambda_o = ggx.lambda(wo), lambda_i = ggx.lambda({wi.x, wi.y, max(wi.z, FloatN(1e-6F))});
-      sum += select(wi.z > FloatN(0), (FloatN(1) + lambda_o) / (FloatN(1) + lambda_o + lambda_i) * top, FloatN(0));
-    }
-    float total = 0;
-    for (std::size_t lane = 0; lane < packet_lanes; ++lane) total += sum.get(lane);
-    return total * 2 / (turns * heights);
+    return mean_over_facets<24>(wo, ggx, 1, [&](const Vec3<FloatN>& from, const Vec3<FloatN>& facet) {
+      const Vec3<FloatN> wi = facet * (FloatN(2) * dot(from, facet)) - from;
+      const FloatN lambda_o = ggx.lambda(from), lambda_i = ggx.lambda({wi.x, wi.y, max(wi.z, FloatN(1e-6F))});
+      return select(wi.z > FloatN(0), (FloatN(1) + lambda_o) / (FloatN(1) + lambda_o + lambda_i), FloatN(0));
+    });
   }
 
   std::array<float, sizes[0] * sizes[1] * sizes[2] * sizes[3]> shares_;

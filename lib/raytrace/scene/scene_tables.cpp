@@ -100,8 +100,7 @@ void SceneTables::add_panes(const Path::Parameters* path) {
   for (std::size_t i = 0; i < details_.size(); ++i) {
     const SurfaceDetail& detail = details_[i];
     panes_.push_back(used_materials_[i] != 0 && detail.is_pane && !detail.has_relief() && !detail.has_layers() ? 1 : 0);
-    details_[i].is_pane = panes_.back() != 0;
-    has_panes_ |= details_[i].is_pane;
+    has_panes_ |= panes_.back() != 0;
   }
   has_cutouts_ |= has_panes_;
 }

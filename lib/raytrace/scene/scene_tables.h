@@ -144,9 +144,7 @@ class SceneTables {
   bool is_cutout(std::int32_t material) const { return details_[static_cast<std::size_t>(material)].is_cutout(); }
   /// Whether shadow rays pass panes: what is thin and clear, and bends no light.
   bool has_panes() const { return has_panes_; }
-  bool is_pane(std::int32_t material) const {
-    return has_panes_ && details_[static_cast<std::size_t>(material)].is_pane;
-  }
+  bool is_pane(std::int32_t material) const { return has_panes_ && panes_[static_cast<std::size_t>(material)] != 0; }
   MaskN is_pane(const IntN& material) const;
   /// 1 for materials that are fogs, else 0; empty if no object has one.
   std::vector<std::uint8_t> fogs() const;

@@ -1,5 +1,6 @@
 #include "raytrace/tracing/panes.h"
 
+#include <algorithm>
 #include <optional>
 
 #include "raytrace/accel/surface_uv.h"
@@ -8,7 +9,8 @@ namespace raytrace {
 
 Rgb<FloatN> light_through_panes(const TracedScene& scene, const Ray<FloatN>& rays, const MaskN& lanes,
                                 const RayIds& ids, const PanesAhead& panes) {
-  constexpr float before_end = 1 - 0x1p-16F;  // more than what rounding makes of a pane at the light itself
+  const int most = std::min(panes.most, 1000);  // where rounding keeps a ray at one
+  constexpr float before_end = 1 - 0x1p-16F;    // more than what rounding makes of a pane at the light itself
   const SceneTables& tables = scene.tables();
   const Rgb<FloatN> black(Rgb<float>(0, 0, 0));
   const Vec3<FloatN> way = normalize(rays.direction);
@@ -26,7 +28,7 @@ Rgb<FloatN> light_through_panes(const TracedScene& scene, const Ray<FloatN>& ray
                                               &identity);
     goes_on = goes_on & hits.hit;
     if (none(goes_on)) break;
-    if (crossed == panes.most) return select(goes_on, black, light);
+    if (crossed == most) return select(goes_on, black, light);
     if (tables.has_motion()) [[unlikely]]
       hits.time = ids.times();
     const SurfaceInteraction<FloatN> surface = scene.accelerator().surface(left, hits);
