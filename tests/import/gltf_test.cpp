@@ -134,6 +134,33 @@ TEST_CASE("glTF's nodes place meshes, and a mirrored one keeps its front") {
   CHECK(is_near(normal(6), {-0.5, 1, 0}));
 }
 
+TEST_CASE("glTF's tangents are placed with their nodes, where there are normals") {
+  GltfFile file;
+  file.add(Numbers{1, 0, 0, 0, 1, 0, 0, 0, 1}, "VEC3", float_type, 3);
+  file.add(Numbers{0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3", float_type, 3);
+  file.add(Numbers{1, 0, 0, 1, 0, 1, 0, -1, 1, 1, 0, 1}, "VEC4", float_type, 3);
+  const auto read = [&](const std::string& attributes) {
+    const ReadResult result = read_bytes("a.gltf", file.text(R"("scenes":[{"nodes":[0,1]}],"nodes":[
+        {"mesh":0,"rotation":[0,0,0.70710678118654757,0.70710678118654757],"scale":[3,1,1]},
+        {"mesh":0,"scale":[-1,1,1]}],"meshes":[{"primitives":[{"attributes":{"POSITION":0)" +
+                                                             attributes + "}}]}]"));
+    INFO(result.messages);
+    REQUIRE(result.mesh);
+    return values(result.mesh->tangents);
+  };
+  const Numbers tangents = read(R"(,"NORMAL":1,"TANGENT":2)");
+  const auto a = static_cast<float>(std::sqrt(0.1)), b = static_cast<float>(std::sqrt(0.5));
+  const Numbers wanted{0,  1, 0, 1,  -1, 0, 0, -1, -a, 3 * a, 0, 1,    // turned and stretched
+                       -1, 0, 0, -1, 0,  1, 0, 1,  -b, b,     0, -1};  // mirrored
+  REQUIRE(tangents.size() == wanted.size());
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    INFO(i);
+    CHECK(std::abs(tangents[i] - wanted[i]) < 1e-6F);
+  }
+  CHECK(read(R"(,"TANGENT":2)").empty());
+  CHECK(read(R"(,"NORMAL":1)").empty());
+}
+
 TEST_CASE("glTF's cameras and lights stand where their nodes are") {
   const std::string lights =
       R"("extensionsUsed":["KHR_lights_punctual"],"extensions":{"KHR_lights_punctual":{"lights":[)"

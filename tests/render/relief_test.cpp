@@ -6,6 +6,7 @@
 #include "raytrace/description/load_images.h"
 #include "render/scenes.h"
 #include "support/catch.h"
+#include "support/gltf.h"
 #include "support/temporary_folder.h"
 
 namespace raytrace::test {
@@ -77,6 +78,40 @@ TEST_CASE("a normal map's x is along u, its y along v") {
   const Vec3d half(s / 2, 0, c);
   check_normal(rendered(relief_scene(to_u, "<normalmap texture='t' strength='0.5'/>", panel)),
                half * (1 / length(half)));
+}
+
+TEST_CASE("a file's own tangents say what a normal map's x and y are along") {
+  const double s = std::sin(0.5), c = std::cos(0.5);
+  const std::string map = "<normalmap texture='t'/>";
+  const std::string to_u = constant(0.5 + s / 2, 0.5, 0.5 + c / 2), to_v = constant(0.5, 0.5 + s / 2, 0.5 + c / 2);
+  const TemporaryFolder folder;
+  const auto panel_with = [&](const std::vector<float>& tangent, const std::string& more = "") {
+    GltfFile file;
+    std::vector<float> tangents;
+    for (int i = 0; i < 4; ++i) tangents.insert(tangents.end(), tangent.begin(), tangent.end());
+    file.add(std::vector<float>{-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0}, "VEC3", 5126, 4);
+    file.add(std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3", 5126, 4);
+    file.add(std::vector<float>{0, 1, 1, 1, 1, 0, 0, 0}, "VEC2", 5126, 4);
+    file.add(tangents, "VEC4", 5126, 4);
+    file.add(std::vector<std::uint16_t>{0, 1, 2, 0, 2, 3}, "SCALAR", 5123, 6);
+    write_text(folder.file("panel.gltf"),
+               file.text(R"("scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":)"
+                         R"({"POSITION":0,"NORMAL":1,"TEXCOORD_0":2,"TANGENT":3},"indices":4}]}])"));
+    return "<meshes><mesh><file>" + folder.file("panel.gltf") + "</file>" + more +
+           "<material>m</material></mesh></meshes>";
+  };
+  const auto check = [&](const std::string& texture, const std::string& object, const Vec3d& wanted) {
+    check_normal(rendered(relief_scene(texture, map, object)), wanted);
+  };
+  check(to_u, panel_with({1, 0, 0, 1}), {s, 0, c});
+  check(to_v, panel_with({1, 0, 0, 1}), {0, s, c});
+  check(to_u, panel_with({0, 1, 0, 1}), {0, s, c});
+  check(to_v, panel_with({0, 1, 0, 1}), {-s, 0, c});
+  check(to_v, panel_with({0, 1, 0, -1}), {s, 0, c});
+  const std::string mirrored = "<transform><scale x='-1' y='1' z='1'/></transform>";
+  check(to_u, panel_with({1, 0, 0, 1}, mirrored), {-s, 0, c});
+  check(to_v, panel_with({1, 0, 0, 1}, mirrored), {0, s, c});
+  check(to_v, panel_with({0, 0, 0, 0}), {0, s, c});  // none
 }
 
 TEST_CASE("in instances, normal maps turn with the object") {

@@ -111,6 +111,29 @@ SurfaceUv<FloatN> surface_uv(const GeometryTable& world, const Hits& hits, const
   return result;
 }
 
+/// Sets them where meshes have them at vertices.
+void set_vertex_tangents(const GeometryTable& world, const Hits& hits, UvSet set, UvPoint<FloatN>& point) {
+  const Vec3<FloatN> zero(Vec3f(0, 0, 0));
+  MeshTable::Tangents tangents{zero, zero};
+  world.for_each_geometry(hits, [&](const GeometryTable& table, std::uint32_t geometry, const MaskN& here) {
+    const MeshTable* const mesh = table.geometry(geometry).mesh;
+    if (mesh == nullptr || !mesh->has_tangents(set)) return;
+    const auto [u, v] = mesh->tangents(mesh->triangles(follow_first(here, hits.primitive), hits), set);
+    tangents = {select(here, u, tangents.u), select(here, v, tangents.v)};
+  });
+  const MaskN found = dot(tangents.u, tangents.u) > FloatN(0);
+  if (!any(found)) return;
+  if (hits.in_instances) {
+    const MaskN in_instance = hits.hit & float_mask<FloatN>(hits.instance != UintN(0u));
+    const auto map =
+        world.instances().world_from_object(select_lanes(in_instance, hits.instance, UintN(0u)), hits.time);
+    tangents = {select(in_instance, apply_vector(map, tangents.u), tangents.u),
+                select(in_instance, apply_vector(map, tangents.v), tangents.v)};
+  }
+  point.tangent = select(found, tangents.u, point.tangent);
+  point.bitangent = select(found, tangents.v, point.bitangent);
+}
+
 SpacePoint<FloatN> mapped(const AffineRecord<FloatN>& map, const SpacePoint<FloatN>& point) {
   return {apply_point(map, point.p), apply_vector(map, point.p_across), apply_vector(map, point.p_along)};
 }
@@ -209,7 +232,10 @@ TexturePoint<FloatN> texture_point(const SceneTables& scene, const FloatN& radiu
   }
   const auto on_surface = [&](UvSet set) -> UvPoint<FloatN> {
     const SurfaceUv<FloatN> uv = surface_uv(scene.geometry(), hits, surface, set);
-    return {{uv.u, uv.v}, uv_along(uv, point.world.p_across), uv_along(uv, point.world.p_along), uv.dpdu, uv.dpdv};
+    UvPoint<FloatN> result{
+        {uv.u, uv.v}, uv_along(uv, point.world.p_across), uv_along(uv, point.world.p_along), uv.dpdu, uv.dpdv};
+    if (scene.has_vertex_tangents()) set_vertex_tangents(scene.geometry(), hits, set, result);
+    return result;
   };
   point.by(UvSet::first) = on_surface(UvSet::first);
   if (scene.has_second_uvset()) [[unlikely]]

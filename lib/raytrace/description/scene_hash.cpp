@@ -174,6 +174,7 @@ class SceneHash {
     if (!data.uvs2.empty()) add_values(data.uvs2);
     add_values(data.colors);
     add_values(data.face_materials);
+    if (!data.tangents.empty()) add_values(data.tangents);
   }
 
   void add(const PointCloud& data) {

@@ -135,8 +135,10 @@ std::vector<Primitive> read_primitives(Document& document, DracoReader& draco, c
     VertexReader vertices(document, attributes, compressed);
     // What is decoded is triangles, of strips as well.
     Primitive primitive{
-        vertices.positions(), {}, {}, {}, {}, {}, {}, {}, of_draco ? Mode::triangles : static_cast<Mode>(mode)};
+        vertices.positions(), {}, {}, {}, {}, {}, {}, {}, {}, of_draco ? Mode::triangles : static_cast<Mode>(mode)};
     primitive.normals = vertices.attribute("NORMAL", 3, 3);
+    // Without normals, they are none.
+    if (primitive.normals) primitive.tangents = vertices.attribute("TANGENT", 4, 4);
     primitive.colors = vertices.attribute("COLOR_0", 3, 4);
     if (primitive.colors) be_normalized(*primitive.colors);
     primitive.joint_sets = vertices.joint_sets();

@@ -27,7 +27,7 @@ struct JointSet {
 
 struct Primitive {
   Accessor positions;
-  std::optional<Accessor> normals, uvs, uvs2, colors, indices;
+  std::optional<Accessor> normals, tangents, uvs, uvs2, colors, indices;
   std::vector<MorphTarget> targets;
   std::vector<JointSet> joint_sets;
   Mode mode = Mode::triangles;

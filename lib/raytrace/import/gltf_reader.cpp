@@ -1,5 +1,6 @@
 // glTF and GLB: gltf_model.h reads what the file says; this joins its primitives into one mesh in world space.
 #include <algorithm>
+#include <cmath>
 
 #include "raytrace/import/gltf_model.h"
 #include "raytrace/import/mesh_faces.h"
@@ -70,6 +71,7 @@ class MeshWriter {
     return affine.determinant() < 0;
   }
   void write_vertices(const Primitive& primitive, const Instance& instance);
+  void write_tangents(const Primitive& primitive, const Instance& instance, std::size_t first_vertex);
   void write_faces(const Primitive& primitive, std::size_t first_vertex, bool mirrored);
 
   const Model& model_;
@@ -80,7 +82,7 @@ class MeshWriter {
 };
 
 bool MeshWriter::allocate(std::size_t file_size) {
-  bool normals = false, uvs = false, uvs2 = false, colors = false, materials = false;
+  bool normals = false, tangents = false, uvs = false, uvs2 = false, colors = false, materials = false;
   std::size_t vertices = 0;
   FaceCounts faces;
   std::size_t deformed_at_once = 0;
@@ -92,6 +94,7 @@ bool MeshWriter::allocate(std::size_t file_size) {
         deformed_at_once = std::max(deformed_at_once, primitive.positions.elements.count);
       faces.triangles += primitive.faces();
       normals = normals || primitive.normals;
+      tangents = tangents || (primitive.tangents && !is_deformed(primitive, instance));
       uvs = uvs || primitive.uvs;
       uvs2 = uvs2 || primitive.uvs2;
       colors = colors || primitive.colors;
@@ -99,7 +102,7 @@ bool MeshWriter::allocate(std::size_t file_size) {
     }
   // What each node has for itself is some times as large as in the file.
   constexpr std::size_t bytes_of_face = 4 * sizeof(std::uint32_t);
-  const std::size_t bytes_of_vertex = (uvs2 ? 13 : 11) * sizeof(float);
+  const std::size_t bytes_of_vertex = (11 + (uvs2 ? 2 : 0) + (tangents ? 4 : 0)) * sizeof(float);
   const std::size_t bytes =
       vertices * bytes_of_vertex + faces.triangles * bytes_of_face + deformed_at_once * bytes_of_deformed_vertex;
   if (bytes / 64 > file_size && bytes > available_memory() / 4) {
@@ -114,6 +117,7 @@ bool MeshWriter::allocate(std::size_t file_size) {
   if (!make_faces(faces, mesh_, diagnostics_)) return false;
   mesh_.positions = MeshBuffer<float>(3 * vertices);
   if (normals) mesh_.normals = MeshBuffer<float>(3 * vertices);
+  if (tangents) mesh_.tangents = MeshBuffer<float>(4 * vertices);
   if (uvs) mesh_.uvs = MeshBuffer<float>(2 * vertices);
   if (uvs2) mesh_.uvs2 = MeshBuffer<float>(2 * vertices);
   if (colors) mesh_.colors = MeshBuffer<float>(3 * vertices);
@@ -164,10 +168,28 @@ void MeshWriter::write_vertices(const Primitive& primitive, const Instance& inst
                      [&](std::size_t i, const Values& values) { put_position(i, {values[0], values[1], values[2]}); });
     write(mesh_.normals, 3, primitive.normals, 0, placed_normal);
   }
+  write_tangents(primitive, instance, first);
   const auto from_lower_left = [](const Vec3d& uv) { return Vec3d{uv.x, 1 - uv.y, 0}; };
   write(mesh_.uvs, 2, primitive.uvs, 0, from_lower_left);
   write(mesh_.uvs2, 2, primitive.uvs2 ? primitive.uvs2 : primitive.uvs, 0, from_lower_left);
   write(mesh_.colors, 3, primitive.colors, 1, [](const Vec3d& color) { return color; });
+}
+
+/// What is deformed has none: those that follow from its texture coordinates are as good.
+void MeshWriter::write_tangents(const Primitive& primitive, const Instance& instance, std::size_t first_vertex) {
+  if (mesh_.tangents.empty()) return;
+  float* const out = &mesh_.tangents[4 * first_vertex];
+  std::fill_n(out, 4 * primitive.positions.elements.count, 0.0F);
+  if (!primitive.tangents || is_deformed(primitive, instance)) return;
+  const double mirror = is_mirrored(primitive, instance) ? -1 : 1;
+  for_each_element(*primitive.tangents, settings_.threads, [&](std::size_t i, const auto& values) {
+    const Vec3d tangent = instance.transform.vector({values[0], values[1], values[2]});
+    const double size = length(tangent);
+    const bool is_there = size > 0 && std::isfinite(size);
+    for (int k = 0; k < 3; ++k)
+      out[4 * i + static_cast<std::size_t>(k)] = is_there ? rounded(component(tangent, k) / size) : 0.0F;
+    out[4 * i + 3] = !is_there ? 0.0F : values[3] * mirror < 0 ? -1.0F : 1.0F;
+  });
 }
 
 void MeshWriter::write_faces(const Primitive& primitive, std::size_t first_vertex, bool mirrored) {

@@ -121,6 +121,9 @@ struct MeshData {
   MeshBuffer<float> uvs;      ///< two numbers; (0, 0) is the lower left of an image
   MeshBuffer<float> uvs2;     ///< a second set of such
   MeshBuffer<float> colors;   ///< linear red, green and blue
+  /// The directions in which u grows where the material's normal map is looked up, and 1, or -1 where v grows against
+  /// normal x tangent; 0 0 0 0 where that vertex has none.
+  MeshBuffer<float> tangents;
 
   /// Of each face its material, or no_material. Empty: all have the first material, or none if there is none.
   MeshBuffer<std::uint32_t> face_materials;

@@ -1,42 +1,11 @@
 #include "raytrace/import/vertex_normals.h"
 
-#include <algorithm>
-#include <atomic>
 #include <bit>
-#include <cmath>
 
+#include "raytrace/import/direction_sums.h"
 #include "raytrace/import/unique_items.h"
 
 namespace raytrace {
-
-namespace {
-
-/// Sums of unit vectors times angles, as integers: in whatever order threads add to them, they are the same.
-class NormalSums {
- public:
-  explicit NormalSums(std::size_t count) : sums_(LargeArray<std::int64_t>::zeros(3 * count)) {}
-
-  void add(std::size_t i, const Vec3d& normal) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto term = static_cast<std::int64_t>(std::llrint(component(normal, axis) * unit));
-      std::atomic_ref(sums_[3 * i + static_cast<std::size_t>(axis)]).fetch_add(term, std::memory_order_relaxed);
-    }
-  }
-
-  Vec3d operator[](std::size_t i) const {
-    return {static_cast<double>(sums_[3 * i]), static_cast<double>(sums_[3 * i + 1]),
-            static_cast<double>(sums_[3 * i + 2])};
-  }
-
- private:
-  static constexpr double unit = 0x1p28;  // a vertex may have 2^33 faces
-
-  LargeArray<std::int64_t> sums_;
-};
-
-double angle(const Vec3d& a, const Vec3d& b) { return std::atan2(length(cross(a, b)), dot(a, b)); }
-
-}  // namespace
 
 MeshBuffer<float> vertex_normals(const MeshData& mesh, const float* positions, int threads) {
   const std::size_t vertices = mesh.vertex_count();
@@ -50,7 +19,7 @@ MeshBuffer<float> vertex_normals(const MeshData& mesh, const float* positions, i
         return bits(i, 0) == bits(j, 0) && bits(i, 1) == bits(j, 1) && bits(i, 2) == bits(j, 2);
       });
 
-  NormalSums sums(unique.first.size());
+  DirectionSums sums(unique.first.size());
   const auto add_triangle = [&](const std::uint32_t* face, int a, int b, int c) {
     const std::uint32_t corners[] = {face[a], face[b], face[c]};
     Vec3d p[3];
@@ -62,7 +31,7 @@ MeshBuffer<float> vertex_normals(const MeshData& mesh, const float* positions, i
     const double size = length(normal);
     if (!(size > 0)) return;
     for (int i = 0; i < 3; ++i) {
-      const double weight = angle(p[(i + 1) % 3] - p[i], p[(i + 2) % 3] - p[i]);
+      const double weight = angle_between(p[(i + 1) % 3] - p[i], p[(i + 2) % 3] - p[i]);
       sums.add(unique.number[corners[i]], normal * (weight / size));
     }
   };
@@ -80,13 +49,7 @@ MeshBuffer<float> vertex_normals(const MeshData& mesh, const float* positions, i
 
   MeshBuffer<float> normals(3 * vertices);
   for_each_chunk(vertices, threads, [&](std::size_t, std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      const Vec3d sum = sums[unique.number[i]];
-      const double size = length(sum);
-      for (int axis = 0; axis < 3; ++axis)
-        normals[3 * i + static_cast<std::size_t>(axis)] =
-            size > 0 ? static_cast<float>(component(sum, axis) / size) : 0.0F;
-    }
+    for (std::size_t i = first; i < last; ++i) sums.write(unique.number[i], &normals[3 * i]);
   });
   return normals;
 }

@@ -33,29 +33,29 @@ Maps composed(const Maps& outer, const Maps& inner) {
 
 }  // namespace
 
-GeometryTable::GeometryTable(const ObjectLists& objects, const Vec3d& origin,
-                             std::span<const std::int32_t> first_materials, bool has_object_space, int threads)
+GeometryTable::GeometryTable(const ObjectLists& objects, const Vec3d& origin, const MeshMaterials& materials,
+                             bool has_object_space, int threads)
     : has_object_space_(has_object_space) {
-  add_objects(objects, origin, first_materials, threads);
+  add_objects(objects, origin, materials, threads);
 }
 
-GeometryTable::GeometryTable(const SceneDescription& description, const Vec3d& origin,
-                             std::span<const std::int32_t> first_materials, bool has_object_space, int threads)
+GeometryTable::GeometryTable(const SceneDescription& description, const Vec3d& origin, const MeshMaterials& materials,
+                             bool has_object_space, int threads)
     : has_object_space_(has_object_space) {
-  add_objects(description.objects, origin, first_materials, threads);
+  add_objects(description.objects, origin, materials, threads);
   for (const Group& group : description.groups)
-    groups_.push_back(std::make_unique<const GeometryTable>(group.objects, Vec3d(0, 0, 0), first_materials,
-                                                            has_object_space, threads));
-  add_instances(description, origin, first_materials);
+    groups_.push_back(
+        std::make_unique<const GeometryTable>(group.objects, Vec3d(0, 0, 0), materials, has_object_space, threads));
+  add_instances(description, origin, materials.first);
   for (const auto& group : groups_) has_catchers_ = has_catchers_ || group->has_catchers_;
 }
 
-void GeometryTable::add_objects(const ObjectLists& objects, const Vec3d& origin,
-                                std::span<const std::int32_t> first_materials, int threads) {
+void GeometryTable::add_objects(const ObjectLists& objects, const Vec3d& origin, const MeshMaterials& materials,
+                                int threads) {
   add_shapes(objects, origin);
   std::int32_t count = geometries_.back().first_object + static_cast<std::int32_t>(geometries_.back().primitives);
   for (const auto& item : std::get<ObjectItems<Mesh>>(objects)) {
-    const MeshTable& mesh = meshes_.emplace_back(item, origin, first_materials, threads);
+    const MeshTable& mesh = meshes_.emplace_back(item, origin, materials, threads);
     geometries_.push_back({static_cast<std::uint32_t>(mesh.face_count()), count++, &mesh});
   }
   for (CloudSpheres& cloud : clouds_) cloud.object = count++;
@@ -65,7 +65,7 @@ void GeometryTable::add_objects(const ObjectLists& objects, const Vec3d& origin,
   }
   set_bounds(threads);
   object_materials_.resize(static_cast<std::size_t>(count));
-  set_object_materials(objects, first_materials, threads);
+  set_object_materials(objects, materials.first, threads);
   set_shadow_catchers(objects, threads);
 }
 

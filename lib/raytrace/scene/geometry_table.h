@@ -46,12 +46,11 @@ struct CloudSpheres {
 /// table as they are before them; rays meet them by an instance each.
 class GeometryTable {
  public:
-  /// first_materials: of each material type, the number of its first material, all counted together.
   /// has_object_space: whether textures may ask where a point lay before its object's transform.
-  GeometryTable(const ObjectLists& objects, const Vec3d& origin, std::span<const std::int32_t> first_materials,
-                bool has_object_space, int threads);
+  GeometryTable(const ObjectLists& objects, const Vec3d& origin, const MeshMaterials& materials, bool has_object_space,
+                int threads);
   /// The world's: all objects and groups. origin: subtracted from all points, in double.
-  GeometryTable(const SceneDescription& description, const Vec3d& origin, std::span<const std::int32_t> first_materials,
+  GeometryTable(const SceneDescription& description, const Vec3d& origin, const MeshMaterials& materials,
                 bool has_object_space, int threads);
 
   const std::vector<Geometry>& geometries() const { return geometries_; }
@@ -111,8 +110,7 @@ class GeometryTable {
     Bounds bounds;  ///< before it
   };
 
-  void add_objects(const ObjectLists& objects, const Vec3d& origin, std::span<const std::int32_t> first_materials,
-                   int threads);
+  void add_objects(const ObjectLists& objects, const Vec3d& origin, const MeshMaterials& materials, int threads);
   void add_instances(const SceneDescription& description, const Vec3d& origin,
                      std::span<const std::int32_t> first_materials);
   void add_shapes(const ObjectLists& objects, const Vec3d& origin);

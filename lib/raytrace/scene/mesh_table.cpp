@@ -22,13 +22,30 @@ Vec3<FloatN> vectors_at(const float* values, const IntN& vertex) {
   return {gather(values, first), gather(values + 1, first), gather(values + 2, first)};
 }
 
+/// The coordinates of a triangle's first vertex, and what they are more at the second and the third.
+struct UvEdges {
+  FloatN u1, v1, du2, dv2, du3, dv3;
+
+  FloatN determinant() const { return du2 * dv3 - du3 * dv2; }
+};
+
+UvEdges uv_edges(const float* uvs, const LaneTriangles& triangles) {
+  const auto uv_at = [&](const IntN& vertex) {
+    const IntN first = vertex * IntN(2);
+    return std::pair(gather(uvs, first), gather(uvs + 1, first));
+  };
+  const auto [u1, v1] = uv_at(triangles.vertex1);
+  const auto [u2, v2] = uv_at(triangles.vertex2);
+  const auto [u3, v3] = uv_at(triangles.vertex3);
+  return {u1, v1, u2 - u1, v2 - v1, u3 - u1, v3 - v1};
+}
+
 }  // namespace
 
-MeshTable::MeshTable(const ObjectItem<Mesh>& mesh, const Vec3d& origin, std::span<const std::int32_t> first_materials,
-                     int threads)
+MeshTable::MeshTable(const ObjectItem<Mesh>& mesh, const Vec3d& origin, const MeshMaterials& materials, int threads)
     : data_(mesh.data) {
   for (const MaterialReference& material : mesh.materials)
-    materials_.push_back(first_materials[material.type] + static_cast<std::int32_t>(material.index));
+    materials_.push_back(materials.first[material.type] + static_cast<std::int32_t>(material.index));
 
   Affine affine = mesh.transform.affine();
   Affine to_world = affine;
@@ -45,6 +62,14 @@ MeshTable::MeshTable(const ObjectItem<Mesh>& mesh, const Vec3d& origin, std::spa
              (!mesh.parameters.normals.groups.empty() || mesh.parameters.normals.word == Mesh::of_file)) {
     normals_ = data_->normals.data();
     if (is_transformed) turn_normals(affine, threads);
+  }
+  for (const UvSet set : {UvSet::first, UvSet::second}) {
+    const auto number = static_cast<std::size_t>(set);
+    const std::vector<std::uint8_t>& want = materials.want_tangents[number];
+    const auto wants = [&](std::int32_t material) { return want[static_cast<std::size_t>(material)] != 0; };
+    if (materials.instances_want_tangents[number] ||
+        (!want.empty() && std::any_of(materials_.begin(), materials_.end(), wants)))
+      set_tangents(set, affine, threads);
   }
   set_bounds(threads);
 }
@@ -88,6 +113,29 @@ void MeshTable::turn_normals(const Affine& affine, int threads) {
     }
   });
   normals_ = computed_normals_.data();
+}
+
+void MeshTable::set_tangents(UvSet set, const Affine& affine, int threads) {
+  const MeshBuffer<float>& uvs = uvs_of(set);
+  if (!is_smooth() || uvs.empty()) return;
+  VertexTangents& tangents = tangents_[static_cast<std::size_t>(set)].of_faces;
+  tangents = vertex_tangents({*data_, positions(), indices(), normals_, uvs.data()}, threads);
+  if (data_->tangents.empty()) return;
+  const float mirror = affine.determinant() < 0 ? -1.0F : 1.0F;
+  for (MeshBuffer<float>& of_faces : tangents) {
+    if (of_faces.empty()) continue;
+    for_each_chunk(vertex_count(), threads, [&](std::size_t, std::size_t first, std::size_t last) {
+      for (std::size_t i = 4 * first; i < 4 * last; i += 4) {
+        const float* const t = data_->tangents.data() + i;
+        if (t[3] == 0) continue;
+        const Vec3d turned = affine.vector({t[0], t[1], t[2]});
+        const double size = length(turned);
+        for (int axis = 0; axis < 3; ++axis)
+          of_faces[i + static_cast<std::size_t>(axis)] = static_cast<float>(component(turned, axis) / size);
+        of_faces[i + 3] = t[3] * mirror;
+      }
+    });
+  }
 }
 
 void MeshTable::set_bounds(int threads) {
@@ -136,20 +184,14 @@ Vec3<FloatN> MeshTable::normal(const IntN& vertex) const {
 SurfaceUv<FloatN> MeshTable::uv(const LaneTriangles& triangles, UvSet set) const {
   const auto corners = records(triangles);
   const SurfaceUv<FloatN> barycentric = Kernel<Triangle>::uv(corners, triangles.u, triangles.v);
-  const MeshBuffer<float>& uvs = set == UvSet::second && !data_->uvs2.empty() ? data_->uvs2 : data_->uvs;
+  const MeshBuffer<float>& uvs = uvs_of(set);
   if (uvs.empty()) {
     if (turned_faces_.empty()) return barycentric;
     return {barycentric.v, barycentric.u, barycentric.dpdv, barycentric.dpdu};
   }
-  const auto uv_at = [&](const IntN& vertex) {
-    const IntN first = vertex * IntN(2);
-    return std::pair(gather(uvs.data(), first), gather(uvs.data() + 1, first));
-  };
-  const auto [u1, v1] = uv_at(triangles.vertex1);
-  const auto [u2, v2] = uv_at(triangles.vertex2);
-  const auto [u3, v3] = uv_at(triangles.vertex3);
-  const FloatN du2 = u2 - u1, dv2 = v2 - v1, du3 = u3 - u1, dv3 = v3 - v1;
-  const FloatN determinant = du2 * dv3 - du3 * dv2;
+  const UvEdges edges = uv_edges(uvs.data(), triangles);
+  const auto& [u1, v1, du2, dv2, du3, dv3] = edges;
+  const FloatN determinant = edges.determinant();
   // Where the coordinates are those of one point or a line, they say nothing of directions.
   const MaskN fine = abs(determinant) > FloatN(0);
   const FloatN scale = FloatN(1) / determinant;
@@ -157,6 +199,29 @@ SurfaceUv<FloatN> MeshTable::uv(const LaneTriangles& triangles, UvSet set) const
   return {u1 + du2 * triangles.u + du3 * triangles.v, v1 + dv2 * triangles.u + dv3 * triangles.v,
           select(fine, (edge2 * dv3 - edge3 * dv2) * scale, edge2),
           select(fine, (edge3 * du2 - edge2 * du3) * scale, edge3)};
+}
+
+MeshTable::Tangents MeshTable::tangents(const LaneTriangles& triangles, UvSet set) const {
+  const MaskN mirrored = uv_edges(uvs_of(set).data(), triangles).determinant() < FloatN(0);
+  const TangentTable& table = tangents_[static_cast<std::size_t>(set)];
+  const auto at = [&](int number, const IntN& first) {
+    return select(mirrored, gather(table.at(true) + number, first), gather(table.at(false) + number, first));
+  };
+  Tangents result{Vec3<FloatN>(Vec3f(0, 0, 0)), {}};
+  FloatN sign(0);
+  const auto add = [&](const IntN& vertex, const FloatN& weight) {
+    const IntN first = vertex * IntN(4);
+    result.u = result.u + Vec3<FloatN>(at(0, first), at(1, first), at(2, first)) * weight;
+    sign = sign + at(3, first);
+  };
+  add(triangles.vertex1, FloatN(1) - triangles.u - triangles.v);
+  add(triangles.vertex2, triangles.u);
+  add(triangles.vertex3, triangles.v);
+  const auto corners = records(triangles);
+  const Vec3<FloatN> normal = cross(corners.vertex2 - corners.vertex1, corners.vertex3 - corners.vertex1);
+  const Vec3<FloatN> across = cross(normal, result.u);
+  result.v = select(sign < FloatN(0), -across, across);
+  return result;
 }
 
 Rgb<FloatN> MeshTable::color(const LaneTriangles& triangles) const {

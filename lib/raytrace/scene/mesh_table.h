@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "raytrace/description/scene_description.h"
+#include "raytrace/import/vertex_tangents.h"
 #include "raytrace/math/bounds.h"
 #include "raytrace/math/gather.h"
 #include "raytrace/math/ray.h"
@@ -24,13 +25,22 @@ struct LaneTriangles {
   FloatN u, v;                     ///< of the lane's hit, as Kernel<Triangle> has them
 };
 
+/// Of the materials that there are, what meshes want to know.
+struct MeshMaterials {
+  std::span<const std::int32_t> first;  ///< of each material type, the number of its first material
+  /// For each set of texture coordinates, of each material by number: 1 if it asks for tangents by that set. Empty: no
+  /// material does.
+  std::array<std::vector<std::uint8_t>, 2> want_tangents{};
+  /// Whether instances replace materials by such ones.
+  std::array<bool, 2> instances_want_tangents{};
+};
+
 /// Quads are two triangles: the first with corners 0, 1 and 3, the second with corners 2, 3 and 1. Hits on the second
 /// have 1 - u and 1 - v of its own, as in Embree (doc/src/api/RTC_GEOMETRY_TYPE_QUAD.md).
 class MeshTable {
  public:
-  /// origin: as GeometryTable's. first_materials: of each material type, the number of its first.
-  MeshTable(const ObjectItem<Mesh>& mesh, const Vec3d& origin, std::span<const std::int32_t> first_materials,
-            int threads);
+  /// origin: as GeometryTable's.
+  MeshTable(const ObjectItem<Mesh>& mesh, const Vec3d& origin, const MeshMaterials& materials, int threads);
 
   const float* positions() const { return moved_.empty() ? data_->positions.data() : moved_.data(); }
   const std::uint32_t* indices() const { return turned_faces_.empty() ? data_->indices.data() : turned_faces_.data(); }
@@ -63,6 +73,15 @@ class MeshTable {
   /// By the coordinates at vertices of that set; without a second one by the first, and without any barycentric.
   SurfaceUv<FloatN> uv(const LaneTriangles& triangles, UvSet set) const;
 
+  /// Whether it has tangents at vertices: if it is smooth and has that set, and its materials ask for them.
+  bool has_tangents(UvSet set) const { return !tangents_[set == UvSet::first ? 0 : 1].empty(); }
+  /// Between those of the lanes' triangles: where u grows and where v does, not across any normal and of any length; 0
+  /// where vertices have none.
+  struct Tangents {
+    Vec3<FloatN> u, v;
+  };
+  Tangents tangents(const LaneTriangles& triangles, UvSet set) const;
+
   /// Whether it has colours at vertices, and what they are between those of the lanes' triangles.
   bool has_colors() const { return !data_->colors.empty(); }
   Rgb<FloatN> color(const LaneTriangles& triangles) const;
@@ -79,17 +98,35 @@ class MeshTable {
     const float* const p = positions() + 3 * vertex;
     return {p[0], p[1], p[2]};
   }
+  /// The first, if there is no second.
+  const MeshBuffer<float>& uvs_of(UvSet set) const {
+    return set == UvSet::second && !data_->uvs2.empty() ? data_->uvs2 : data_->uvs;
+  }
   void move(const Affine& affine, int threads);
   void turn_faces(int threads);
   void turn_normals(const Affine& affine, int threads);
+  void set_tangents(UvSet set, const Affine& affine, int threads);
   void set_bounds(int threads);
+
+  /// Of one set of texture coordinates.
+  struct TangentTable {
+    VertexTangents of_faces;
+
+    bool empty() const { return of_faces[0].empty() && of_faces[1].empty(); }
+    /// Of the faces that it mirrors, or of the others.
+    const float* at(bool mirrored) const {
+      const std::size_t wanted = mirrored ? 1 : 0;
+      return of_faces[of_faces[wanted].empty() ? 1 - wanted : wanted].data();
+    }
+  };
 
   std::shared_ptr<const MeshData> data_;
   MeshBuffer<float> moved_;                 ///< positions, if they are not the data's
   MeshBuffer<std::uint32_t> turned_faces_;  ///< indices, if faces are mirrored
   MeshBuffer<float> computed_normals_;
   const float* normals_ = nullptr;
-  std::vector<std::int32_t> materials_;  ///< the numbers of those of the data
+  std::array<TangentTable, 2> tangents_;  ///< of each UvSet
+  std::vector<std::int32_t> materials_;   ///< the numbers of those of the data
   Bounds bounds_ = empty_bounds;
   AffineRecord<float> object_from_world_;
 };

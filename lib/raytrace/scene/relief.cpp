@@ -9,12 +9,12 @@ namespace {
 Vec3<FloatN> mapped_normal(const Rgb<FloatN>& map, float strength, const UvPoint<FloatN>& point,
                            const Vec3<FloatN>& normal) {
   const auto component = [](const FloatN& number) { return number * FloatN(2) - FloatN(1); };
-  const Vec3<FloatN> u = point.dpdu - normal * dot(normal, point.dpdu);
+  const Vec3<FloatN> u = point.tangent - normal * dot(normal, point.tangent);
   const FloatN size = length(u);
   const MaskN has_tangent = size > FloatN(0);
   const Vec3<FloatN> tangent = u * (FloatN(1) / select(has_tangent, size, FloatN(1)));
   const Vec3<FloatN> across = cross(normal, tangent);
-  const Vec3<FloatN> bitangent = select(dot(across, point.dpdv) < FloatN(0), -across, across);
+  const Vec3<FloatN> bitangent = select(dot(across, point.bitangent) < FloatN(0), -across, across);
   const FloatN x = component(map.red) * FloatN(strength), y = component(map.green) * FloatN(strength);
   // No normal points into its surface, as those of damaged maps may.
   const FloatN z = max(component(map.blue), FloatN(0.01F));
@@ -59,6 +59,7 @@ void SceneTables::add_relief(const Hits& hits, const TexturePoint<FloatN>& point
     const FloatN behind = max(FloatN(least_cosine) - dot(normal, surface.wo), FloatN(0));
     return normalize(normal + surface.wo * behind);
   };
+  surface.ns_without_relief = surface.ns;
   for_each_detail(hits, [&](const SurfaceDetail& detail, const MaskN& here) {
     if (!detail.has_relief() && !detail.has_layers()) return;
     Vec3<FloatN> normal = surface.ns;

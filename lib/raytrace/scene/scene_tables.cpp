@@ -56,13 +56,14 @@ SceneTables::SceneTables(const SceneDescription& description, int threads)
   has_second_uvset_ = textures_->has_second_uvset();
   has_object_space_ = textures_->has_object_space();
   add_materials(description);
-  geometry_ = std::make_unique<const GeometryTable>(description, origin_, first_material_, has_object_space_, threads);
+  const MeshMaterials materials = mesh_materials(description);
+  has_vertex_tangents_ = !materials.want_tangents[0].empty() || !materials.want_tangents[1].empty();
+  geometry_ = std::make_unique<const GeometryTable>(description, origin_, materials, has_object_space_, threads);
   if (camera_is_far_from(geometry_->bounding_sphere(), description)) {
     const Vec3d center = geometry_->bounding_sphere().center;
     if (length(origin_) > 0) {
       origin_ += rounded(center);
-      geometry_ =
-          std::make_unique<const GeometryTable>(description, origin_, first_material_, has_object_space_, threads);
+      geometry_ = std::make_unique<const GeometryTable>(description, origin_, materials, has_object_space_, threads);
     }
     camera_target_ = geometry_->bounding_sphere();
   }
@@ -302,6 +303,35 @@ void SceneTables::add_materials(const SceneDescription& description) {
     for (std::size_t i = 0; i < details_.size(); ++i) textured_[i] |= anisotropic_[i];
   }
   if (!textured_.empty()) textured_.resize(static_cast<std::size_t>(first_material_.back()));
+}
+
+MeshMaterials SceneTables::mesh_materials(const SceneDescription& description) const {
+  MeshMaterials result{first_material_};
+  const auto add = [&](UvSet set, std::size_t material) {
+    std::vector<std::uint8_t>& of_set = result.want_tangents[static_cast<std::size_t>(set)];
+    of_set.resize(details_.size());
+    of_set[material] = 1;
+  };
+  for (std::size_t i = 0; i < details_.size(); ++i) {
+    const SurfaceDetail& detail = details_[i];
+    for (const TexturedNumber* const map : {&detail.normalmap, &detail.coatnormalmap})
+      if (map->texture) add(textures_->uvset(*map->texture), i);
+    if (!detail.is_anisotropic) continue;
+    add(UvSet::first, i);
+    if (detail.has_turned_tangent()) add(detail.tangent_set, i);
+  }
+  const auto add_instances = [&](const ObjectLists& objects) {
+    for (const auto& item : std::get<ObjectItems<Instance>>(objects))
+      for (std::size_t set = 0; set < 2 && !(item.material == no_material); ++set) {
+        const std::int32_t material =
+            first_material_[item.material.type] + static_cast<std::int32_t>(item.material.index);
+        const std::vector<std::uint8_t>& want = result.want_tangents[set];
+        result.instances_want_tangents[set] |= !want.empty() && want[static_cast<std::size_t>(material)] != 0;
+      }
+  };
+  add_instances(description.objects);
+  for (const Group& group : description.groups) add_instances(group.objects);
+  return result;
 }
 
 std::vector<std::uint8_t> SceneTables::fogs() const {

@@ -203,6 +203,8 @@ class SceneTables {
   bool has_textures(const Hits& hits) const;
   /// Whether any texture looks up by the second set of texture coordinates.
   bool has_second_uvset() const { return has_second_uvset_; }
+  /// Whether materials ask for tangents at the vertices of meshes.
+  bool has_vertex_tangents() const { return has_vertex_tangents_; }
   /// Whether any texture is fixed to objects.
   bool has_object_space() const { return has_object_space_; }
   /// How wide a pixel is where the camera's rays start, and by how much it widens with their lengths.
@@ -263,6 +265,7 @@ class SceneTables {
   void for_each_detail(const Hits& hits, const Function& f) const;
   /// Of the materials that have a turned one.
   void turn_tangents(const Hits& hits, const TexturePoint<FloatN>& point, Frame<FloatN>& frame) const;
+  MeshMaterials mesh_materials(const SceneDescription& description) const;
   void add_caustics();
   /// path: the integrator's, if it is one.
   void add_panes(const Path::Parameters* path);
@@ -301,7 +304,7 @@ class SceneTables {
   MediumTable media_;
   bool has_cutouts_ = false, has_relief_ = false, has_emission_ = false, has_second_uvset_ = false,
        has_turned_tangents_ = false, has_subsurface_ = false, has_photons_ = false, has_panes_ = false,
-       has_object_space_ = false;
+       has_vertex_tangents_ = false, has_object_space_ = false;
   std::vector<std::int32_t> shining_sides_;  ///< of all materials: 0, 1 for the front, 2 for both
   std::vector<std::int32_t> panes_;          ///< 1 for those that are panes, else 0; empty where none are passed
   std::vector<std::int32_t> textured_;       ///< 1 for materials with textures, else 0; empty if there are none

@@ -20,7 +20,8 @@ struct SurfaceInteraction {
   /// flat faces: so far out, shadows are those of the smooth surface. Hanika, "Hacking the Shadow Terminator", Ray
   /// Tracing Gems II, chapter 4.
   Vec3<F> to_smooth_surface;
-  bool is_smooth = false;  ///< whether any lane has it
+  bool is_smooth = false;     ///< whether any lane has it
+  Vec3<F> ns_without_relief;  ///< where is_smooth and has_relief
 
   /// Whether a normal map or a bump has turned any lane's ns, and which lanes'.
   bool has_relief = false;
@@ -36,6 +37,14 @@ struct SurfaceInteraction {
   bool has_layers = false;
   LayerNormals<F> layers;
 
+  /// The normal whose side says which light comes to the surface: ng, or, where a smooth surface bulges above flat
+  /// faces, the smooth one's.
+  Vec3<F> true_normal() const {
+    if (!is_smooth) return ng;
+    const Vec3<F>& far = to_smooth_surface;
+    return select(abs(far.x) + abs(far.y) + abs(far.z) > F(0), has_relief ? ns_without_relief : ns, ng);
+  }
+
   /// ns, or what it is of the base.
   Vec3<F> base_normal() const { return has_layers ? select(layers.lanes, layers.base, ns) : ns; }
 };
@@ -43,7 +52,8 @@ struct SurfaceInteraction {
 /// The share of the light from wi, of unit length, that reaches the surface. Of those of which some lane has relief.
 template <class F>
 RAYTRACE_INLINE F relief_shadow(const SurfaceInteraction<F>& surface, const Vec3<F>& wi) {
-  const F share = relief_shadow(dot(surface.ng, wi), dot(surface.ns, wi), dot(surface.ng, surface.ns));
+  const Vec3<F> normal = surface.true_normal();
+  const F share = relief_shadow(dot(normal, wi), dot(surface.ns, wi), dot(normal, surface.ns));
   return select(surface.relief, share, F(1));
 }
 

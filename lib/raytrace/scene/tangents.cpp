@@ -21,10 +21,10 @@ Frame<FloatN> SceneTables::shading_frame(const Hits& hits, const SurfaceInteract
                                          const TexturePoint<FloatN>* point) const {
   Frame<FloatN> frame(surface.ns);
   if (anisotropic_.empty() || point == nullptr) return frame;
-  const Vec3<FloatN> tangent = point->dpdu - surface.ns * dot(surface.ns, point->dpdu);
+  const Vec3<FloatN> tangent = point->tangent - surface.ns * dot(surface.ns, point->tangent);
   const FloatN size = length(tangent);
   const MaskN turned = float_mask<FloatN>(gather(anisotropic_.data(), material(hits)) != IntN(0)) &
-                       (size > length(point->dpdu) * FloatN(1e-3F));
+                       (size > length(point->tangent) * FloatN(1e-3F));
   frame.x = select(turned, tangent * (FloatN(1) / size), frame.x);
   frame.y = select(turned, cross(frame.z, frame.x), frame.y);
   if (has_turned_tangents_) [[unlikely]]
@@ -36,11 +36,11 @@ void SceneTables::turn_tangents(const Hits& hits, const TexturePoint<FloatN>& po
   for_each_detail(hits, [&](const SurfaceDetail& detail, const MaskN& here) {
     if (!detail.has_turned_tangent()) return;
     const UvPoint<FloatN>& on = point.by(detail.tangent_set);
-    const Vec3<FloatN> along = on.dpdu - frame.z * dot(frame.z, on.dpdu);
+    const Vec3<FloatN> along = on.tangent - frame.z * dot(frame.z, on.tangent);
     const FloatN size = length(along);
-    const MaskN turned = here & (size > length(on.dpdu) * FloatN(1e-3F));
+    const MaskN turned = here & (size > length(on.tangent) * FloatN(1e-3F));
     const Vec3<FloatN> u = along * (FloatN(1) / size), across = cross(frame.z, u);
-    const Vec3<FloatN> v = select(dot(across, on.dpdv) < FloatN(0), -across, across);
+    const Vec3<FloatN> v = select(dot(across, on.bitangent) < FloatN(0), -across, across);
     Vec2<FloatN> tangent{FloatN(1), FloatN(0)};
     if (detail.tangentmap) tangent = mapped_tangent(textures_->vector_at(*detail.tangentmap, point));
     FloatN turns(detail.tangentrotation.value);

@@ -14,7 +14,9 @@ template <class F>
 struct UvPoint {
   Vec2<F> uv;
   Vec2<F> uv_across, uv_along;
-  Vec3<F> dpdu, dpdv;  ///< how the point moves with u and v
+  /// Where u and v grow: how the point moves with them, or, on a smooth mesh, what is between the tangents of its
+  /// vertices. Not of unit length; 0 0 0 where a coordinate says nothing, as at a pole.
+  Vec3<F> tangent, bitangent;
 };
 
 /// In a space.

@@ -33,7 +33,7 @@ class Kernel<AmbientOcclusion> {
       rays.near = FloatN(0);
       rays.far = settings.distance > 0 ? FloatN(static_cast<float>(settings.distance)) : infinity<FloatN>();
       // Below the true surface there is the thing itself.
-      const MaskN upwards = met.hits.hit & (dot(rays.direction, surface.ng) > FloatN(0));
+      const MaskN upwards = met.hits.hit & (dot(rays.direction, surface.true_normal()) > FloatN(0));
       counts.shadow += count_lanes(upwards & counted);
       const MaskN occluded =
           scene.tables().identifies_rays()

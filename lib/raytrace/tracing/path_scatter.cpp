@@ -31,7 +31,8 @@ void PathBatch::scatter(PathPacket& path, const PathDeparture& from, const BsdfS
   rays.direction = from.vertex.frame.to_world(sample.wi);
   const MaskN through = sample.wi.z < FloatN(0);
   // On the true surface the direction is on the same side as on the shaded one.
-  MaskN alive = from.lanes & (sample.pdf > FloatN(0)) & (dot(rays.direction, surface.ng) * sample.wi.z > FloatN(0));
+  const FloatN true_cosine = dot(rays.direction, select(through, surface.ng, surface.true_normal()));
+  MaskN alive = from.lanes & (sample.pdf > FloatN(0)) & (true_cosine * sample.wi.z > FloatN(0));
   FloatN weight = abs(sample.wi.z) / sample.pdf;
   if (surface.has_relief) weight = select(through, weight, weight * relief_shadow(surface, rays.direction));
   path.throughput = select(alive, path.throughput * sample.f * weight, Rgb<FloatN>(Rgb<float>(0, 0, 0)));

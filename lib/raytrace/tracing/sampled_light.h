@@ -98,8 +98,8 @@ inline DrawnLight draw_light(const SceneTables& tables, const PathVertex& vertex
                              const Sample2D& point) {
   DrawnLight light = draw_light(tables, vertex.surface, choice, point);
   light.local_wi = vertex.frame.to_local(light.wi);
-  light.lit =
-      vertex.hits.hit & light.lit & (light.local_wi.z > FloatN(0)) & (dot(light.wi, vertex.surface.ng) > FloatN(0));
+  light.lit = vertex.hits.hit & light.lit & (light.local_wi.z > FloatN(0)) &
+              (dot(light.wi, vertex.surface.true_normal()) > FloatN(0));
   return light;
 }
 

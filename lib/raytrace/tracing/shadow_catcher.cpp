@@ -45,7 +45,7 @@ struct CatcherPoint {
   /// The cosine of the light's angle with the surface, 0 where it comes from behind.
   FloatN cosine(const Vec3<FloatN>& wi) const {
     const FloatN of_normal = dot(surface.ns, wi);
-    return select((of_normal > FloatN(0)) & (dot(surface.ng, wi) > FloatN(0)), of_normal, FloatN(0));
+    return select((of_normal > FloatN(0)) & (dot(surface.true_normal(), wi) > FloatN(0)), of_normal, FloatN(0));
   }
   /// Of a sample's candidate, which has so many.
   Sample2D draw(CatcherDraw what, std::uint32_t candidate, std::uint32_t count) const {
