@@ -41,7 +41,7 @@ TEST_CASE("an OBJ file's materials come from its MTL files") {
   const TemporaryFolder folder;
   write_text(folder.file("my materials.mtl"),
              "newmtl dark red\nKa 0.1\nKd 0.5 0 0\nKs 1 1 1\nNs 30\nTr 0.25\nillum 2\n"
-             "map_Kd -s 2 3 1 -o 0.5 -clamp on textures\\a wood.png\nmap_Bump -bm 0.5 bump.png\nKs red\n"
+             "map_Kd -s 2 3 1 -o 0.5 -clamp on textures\\a wood.png\nmap_Ks -bm 0.5 gloss.png\nmap_Bump bump.png\nKs red\n"
              "newmtl other\nKd 1 1 1\n");
   write_text(folder.file("a.obj"),
              "mtllib my materials.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\nusemtl dark red\nf 1 2 3\nf 3 2 1\n"
@@ -61,12 +61,13 @@ TEST_CASE("an OBJ file's materials come from its MTL files") {
   CHECK(red.map_kd.file == "textures/a wood.png");
   CHECK(red.map_kd.scale == std::array<double, 2>{2, 3});
   CHECK(red.map_kd.offset == std::array<double, 2>{0.5, 0});
+  CHECK(red.map_bump.file == "bump.png");
   CHECK(red.map_kd.edge == MeshTexture::Edge::clamp);
   CHECK(red.openpbr.empty());
   CHECK(mesh->materials[1].name == "missing");
   CHECK(printed(diagnostics, folder.path().string()) ==
-        "a.obj:1: warning: my materials.mtl:9: 'map_bump' is left out, here and in the rest of the file\n"
-        "a.obj:1: warning: my materials.mtl:10: 'ks' needs one or three numbers\n"
+        "a.obj:1: warning: my materials.mtl:9: 'map_ks' is left out, here and in the rest of the file\n"
+        "a.obj:1: warning: my materials.mtl:11: 'ks' needs one or three numbers\n"
         "a.obj:9: warning: no material 'missing' in the material libraries\n");
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "raytrace/description/file_lights.h"
+#include "raytrace/description/holds_normals.h"
 #include "raytrace/description/load_images.h"
 #include "raytrace/description/read_value.h"
 #include "raytrace/description/scene_description.h"
@@ -136,7 +137,9 @@ class MeshLoader {
       if (overrides) warn_of_no_override(file, data->materials);
       for (MeshMaterial& material : data->materials) {
         const auto own = own_materials_.find(material.name);
-        loaded.materials.push_back(overrides && own != own_materials_.end() ? own->second : add(material, folder));
+        const bool is_overridden = overrides && own != own_materials_.end();
+        if (!is_overridden) take_bump_map(material, file, folder);
+        loaded.materials.push_back(is_overridden ? own->second : add(material, folder));
         material = {};  // the textures have its pictures
       }
       // Faces without a material have the last one.
@@ -146,6 +149,22 @@ class MeshLoader {
     }
     loaded.data = std::make_shared<const MeshData>(std::move(*data));
     return loaded;
+  }
+
+  /// Programs that write MTL call both normals and heights bumps: the picture says which it is.
+  void take_bump_map(MeshMaterial& material, const FileName& file, const std::filesystem::path& folder) {
+    const MeshTexture& map = material.map_bump;
+    if (map.file.empty() || !material.norm.file.empty()) return;
+    const auto [known, is_new] = normal_maps_.try_emplace((folder / map.file).string());
+    if (is_new) {
+      known->second = holds_normals(known->first);
+      if (!known->second)
+        diagnostics_.warning({file.line, file.column},
+                             on_one_line(file.path) + ": the map_Bump " + in_quotes(map.file) +
+                                 " holds heights, and MTL does not say how high they are: it is left out; a <bump> of "
+                                 "a material of the scene may have it, with <overridematerials>");
+    }
+    if (known->second) material.norm = map;
   }
 
   /// Where a name may be misspelt.
@@ -319,6 +338,7 @@ class MeshLoader {
   /// By the file, its animation, the time, the variant, and whether materials are overridden.
   std::map<std::tuple<std::string, std::string, double, std::string, bool>, LoadedFile> files_;
   std::map<std::string, std::shared_ptr<const PointCloud>> clouds_;
+  std::map<std::string, bool> normal_maps_;  ///< of pictures that may be such, whether they are
   std::set<std::string> taken_names_;
   std::map<std::string, MaterialReference> own_materials_;  ///< those of the scene, by name
   std::set<std::string> unlit_;                             // files of models whose lights have been left out

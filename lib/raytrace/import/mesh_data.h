@@ -85,6 +85,7 @@ struct MeshMaterial {
   std::optional<int> illum;
   bool vertex_colors = false;  ///< multiply kd
   MeshTexture map_kd, map_ke, map_d, map_pr, map_pm, norm;
+  MeshTexture map_bump;  ///< normals, or heights of no known size
 };
 
 /// A camera that the mesh's file has, in the file's space.

@@ -27,11 +27,12 @@ constexpr Field<std::optional<double>> number_fields[] = {
     {"ns", &MeshMaterial::ns},   {"d", &MeshMaterial::d},        {"tr", &MeshMaterial::d},  {"ni", &MeshMaterial::ni},
     {"pr", &MeshMaterial::pr},   {"pm", &MeshMaterial::pm},      {"ps", &MeshMaterial::ps}, {"pc", &MeshMaterial::pc},
     {"pcr", &MeshMaterial::pcr}, {"aniso", &MeshMaterial::aniso}};
-constexpr Field<MeshTexture> texture_fields[] = {{"map_kd", &MeshMaterial::map_kd}, {"map_ke", &MeshMaterial::map_ke},
-                                                 {"map_d", &MeshMaterial::map_d},   {"map_pr", &MeshMaterial::map_pr},
-                                                 {"map_pm", &MeshMaterial::map_pm}, {"norm", &MeshMaterial::norm}};
+constexpr Field<MeshTexture> texture_fields[] = {
+    {"map_kd", &MeshMaterial::map_kd},     {"map_ke", &MeshMaterial::map_ke}, {"map_d", &MeshMaterial::map_d},
+    {"map_pr", &MeshMaterial::map_pr},     {"map_pm", &MeshMaterial::map_pm}, {"norm", &MeshMaterial::norm},
+    {"map_bump", &MeshMaterial::map_bump}, {"bump", &MeshMaterial::map_bump}};
 /// Textures that are left out.
-constexpr std::string_view unread[] = {"map_bump", "bump", "disp", "map_ks", "map_ns", "refl", "decal"};
+constexpr std::string_view unread[] = {"disp", "map_ks", "map_ns", "refl", "decal"};
 
 template <class Fields>
 auto find_field(const Fields& fields, std::string_view name) {

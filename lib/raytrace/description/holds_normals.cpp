@@ -1,0 +1,52 @@
+#include "raytrace/description/holds_normals.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <stdexcept>
+
+#include "raytrace/output/picture.h"
+
+namespace raytrace {
+namespace {
+
+/// Whether the mean blue is far more than the mean red and green. Channel: of so many that a pixel has.
+template <class Channel>
+bool is_blue(const Picture& picture, double most) {
+  const std::size_t pixels = static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
+  const auto channels = static_cast<std::size_t>(picture.channels);
+  std::array<double, 3> sums{};
+  for (std::size_t i = 0; i < pixels; ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      Channel value{};
+      std::memcpy(&value, picture.pixels.data() + (i * channels + k) * sizeof value, sizeof value);
+      sums[k] += static_cast<double>(value);
+    }
+  // Flat ground is (0.5, 0.5, 1); heights are grey.
+  constexpr double difference = 0.15;
+  return sums[2] - std::max(sums[0], sums[1]) > difference * most * static_cast<double>(pixels);
+}
+
+}  // namespace
+
+bool holds_normals(const std::string& file) {
+  try {
+    const auto reader = open_picture(file);
+    if (reader->layout().channels < 3) return false;
+    const Picture picture = reader->read();
+    switch (picture.format) {
+      case TexelFormat::bytes:
+        return is_blue<std::uint8_t>(picture, 255);
+      case TexelFormat::shorts:
+        return is_blue<std::uint16_t>(picture, 65535);
+      case TexelFormat::floats:
+        return is_blue<float>(picture, 1);
+      default:
+        return true;
+    }
+  } catch (const std::runtime_error&) {
+    return true;
+  }
+}
+
+}  // namespace raytrace
