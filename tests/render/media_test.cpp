@@ -174,6 +174,34 @@ TEST_CASE("light paths through media in each other bring what paths from the cam
   }
 }
 
+TEST_CASE("light that a medium swallows on its way out of a hidden boundary is gone, beside instances, too") {
+  // A ball of milk that begins in one of glass: paths walk to the glass' hidden surface, and some do not arrive.
+  const auto ball = [](double x, const std::string& material) {
+    return "<spheres><sphere><center x='" + std::to_string(x) + "' y='0' z='0'/><radius>1</radius><material>" +
+           material + "</material></sphere></spheres>";
+  };
+  const std::string scene =
+      scene_text(32, 32, 64,
+                 "<integrator><path/></integrator><materials><dielectrics><dielectric><name>glass</name></dielectric>"
+                 "</dielectrics><openpbrs><openpbr><name>milk</name><transmission_weight>1</transmission_weight>"
+                 "<specular_roughness>0</specular_roughness><transmission_depth>0.5</transmission_depth>"
+                 "<transmission_color red='0.4' green='0.6' blue='0.8'/>"
+                 "<transmission_scatter red='0.3' green='0.2' blue='0.1'/><priority>1</priority></openpbr></openpbrs>"
+                 "<mattes><matte><name>white</name><ka>0</ka><kd>1</kd><cd red='0.5' green='0.5' blue='0.5'/></matte>"
+                 "</mattes></materials><groups><group><name>g</name><objects><toruses><torus><center x='0.5' y='0' "
+                 "z='0'/><axis x='0.2' y='1' z='0'/><sweptradius>0.5</sweptradius><tuberadius>0.2</tuberadius>"
+                 "<material>white</material></torus></toruses></objects></group></groups><objects><instances><instance>"
+                 "<group>g</group></instance></instances>" +
+                     ball(-0.5, "glass") + ball(0.5, "milk") + "</objects>",
+                 "<eye x='0' y='0' z='5'/><lookat x='0' y='0' z='0'/>");
+  const FloatPicture one = rendered(parsed_scene(scene), 1), two = rendered(parsed_scene(scene), 2);
+  CHECK(identical(one, two));
+  for (const Pixel& pixel : one.pixels()) {
+    REQUIRE(pixel.green >= 0);
+    REQUIRE(pixel.green < 0.25F);  // of 0.2 around
+  }
+}
+
 TEST_CASE("paths through media in each other have the same bits however they are cut") {
   check_same_bits(basin("light", 16, true));
   check_same_bits(basin("photons", 20, false));

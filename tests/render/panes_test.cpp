@@ -22,8 +22,11 @@ const std::string panes_materials =
     "<ct red='0' green='0' blue='0'/><thinwalled>true</thinwalled></dielectric><dielectric><name>printed</name>"
     "<ior>1</ior><ct texture='squares'/><thinwalled>true</thinwalled></dielectric></dielectrics><openpbrs><openpbr>"
     "<name>sheet</name><transmission_weight>1</transmission_weight><transmission_color red='0.5' green='1' blue='0.5'/>"
-    "<specular_roughness>0</specular_roughness><geometry_thin_walled>true</geometry_thin_walled></openpbr></openpbrs>"
-    "<emissives><emissive><name>lamp</name><ce red='4' green='4' blue='4'/></emissive></emissives></materials>";
+    "<specular_roughness>0</specular_roughness><geometry_thin_walled>true</geometry_thin_walled></openpbr>"
+    "<openpbr><name>misted</name><transmission_weight>1</transmission_weight><specular_roughness>0</specular_roughness>"
+    "<geometry_thin_walled>true</geometry_thin_walled><coat_weight>0.7</coat_weight><coat_roughness>0.1"
+    "</coat_roughness></openpbr></openpbrs><emissives><emissive><name>lamp</name><ce red='4' green='4' "
+    "blue='4'/></emissive></emissives></materials>";
 
 std::string pane_at(double height, const std::string& material) {
   return "<rectangle><corner x='-9' y='" + std::to_string(height) +
@@ -97,6 +100,15 @@ TEST_CASE("suns and points shine through panes by as much as comes through") {
   CHECK(below(pane_at(2, "air") + pane_at(2.5, "air"), 2) == 0);
   CHECK(below(pane_at(2, "thick"), 2) == 0);
   CHECK(below(pane_at(2, "frosted"), 2) == 0);
+}
+
+TEST_CASE("a sheet that its coat makes rough is no pane") {
+  CHECK(green_of(floor_below(overhead_sun, pane_at(2, "misted"))).mean < green_of(floor_below(overhead_sun, "")).mean);
+  const std::string lamp_above = "<path><maxdepth>3</maxdepth></path>";
+  const double open = green_of(floor_below("", lamp_rectangle, lamp_above, 256)).mean;
+  const double misted = green_of(floor_below("", lamp_rectangle + pane_at(2, "misted"), lamp_above, 256)).mean;
+  CHECK(misted > 0.5 * open);
+  CHECK(misted < open);
 }
 
 TEST_CASE("the colour of a pane is that of the light behind it") {

@@ -170,9 +170,14 @@ class OpenPbr {
     return parameters.fuzz_weight == 0 && (metal || glass);
   }
   static bool is_pane(const Parameters& parameters, const auto& is_textured) {
+    // A coat makes what is below it rougher.
+    const double own = parameters.specular_roughness * parameters.specular_roughness,
+                 coat = parameters.coat_weight > 0 ? parameters.coat_roughness * parameters.coat_roughness : 0;
+    constexpr double least_alpha = 1e-3;  // Ggx's
     return parameters.geometry_thin_walled && parameters.transmission_weight > 0 && parameters.base_metalness < 1 &&
-           parameters.specular_roughness * parameters.specular_roughness < 1e-3 &&  // Ggx's least alpha
-           parameters.specular_roughness_anisotropy == 0 && !is_textured("specular_roughness");
+           own * own + 2 * coat * coat < least_alpha * least_alpha &&
+           parameters.specular_roughness_anisotropy == 0 && !is_textured("specular_roughness") &&
+           !(parameters.coat_weight > 0 && is_textured("coat_roughness"));
   }
   /// Whether it matters where on the surface u grows.
   static bool is_anisotropic(const Parameters& parameters) {
