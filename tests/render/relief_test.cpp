@@ -80,6 +80,76 @@ TEST_CASE("a normal map's x is along u, its y along v") {
                half * (1 / length(half)));
 }
 
+TEST_CASE("from behind, hills of a relief are hollows") {
+  const double s = std::sin(0.5), c = std::cos(0.5);
+  const auto from_behind = [](std::string scene) {
+    const std::string eye = "<eye x='0.2' y='0.1' z='5'/>";
+    return scene.replace(scene.find(eye), eye.size(), "<eye x='0.2' y='0.1' z='-5'/>");
+  };
+  const auto relief_of = [&](const std::string& texture, const std::string& detail) {
+    return rendered(from_behind(relief_scene(texture, detail, panel)));
+  };
+  check_normal(relief_of(constant(0.5 + s / 2, 0.5, 0.5 + c / 2), "<normalmap texture='t'/>"), {-s, 0, -c});
+  // A bump that rises with x, a square's edge after the other.
+  const std::string steps =
+      "<textures><noises><noise><name>t</name><scale>40</scale><octaves>1</octaves></noise></noises></textures>";
+  const std::string bump = "<bump texture='t' height='40'/>";
+  const Vec3d front = normal_of(rendered(relief_scene(steps, bump, panel))), back = normal_of(relief_of(steps, bump));
+  REQUIRE(std::hypot(front.x, front.y) > 0.05);
+  CHECK(length(front + back) < 1e-3);
+}
+
+TEST_CASE("relief on metal takes little of the light that it would reflect") {
+  const std::string map =
+      "<textures><noises><noise><name>t</name><scale>0.5</scale><octaves>2</octaves></noise></noises>"
+      "</textures>";
+  const std::string white = "<ce red='1' green='1' blue='1'/>";
+  for (const std::string& material :
+       {std::string("<conductors><conductor><name>m</name><cr red='1' green='1' blue='1'/><roughness>0.2</roughness>"
+                    "<bump texture='t' height='0.4'/></conductor></conductors>"),
+        std::string("<openpbrs><openpbr><name>m</name><base_color red='1' green='1' blue='1'/><base_metalness>1"
+                    "</base_metalness><specular_roughness>0.2</specular_roughness><bump texture='t' height='0.4'/>"
+                    "</openpbr></openpbrs>")}) {
+    const FloatPicture picture = rendered(
+        "<raytracer><viewplane><hres>16</hres><vres>16</vres><samples>16</samples></viewplane><camera><eye x='0' y='0' "
+        "z='5'/><lookat x='0' y='0' z='0'/><fov>20</fov></camera><integrator><path/></integrator><lights>"
+        "<environmentlights><environmentlight/></environmentlights></lights>" +
+        map + "<materials>" + material +
+        "</materials><objects><spheres><sphere><center x='0' y='0' z='0'/><radius>1</radius><material>m</material>"
+        "</sphere></spheres></objects></raytracer>");
+    double sum = 0;
+    for (const Pixel& pixel : picture.pixels()) sum += double{pixel.green};
+    INFO(material);
+    CHECK(sum / static_cast<double>(picture.pixels().size()) > 0.95);
+  }
+}
+
+TEST_CASE("what a relief makes of a highlight is the same from afar") {
+  // Facets that lean to the left and to the right, of which many are in a pixel.
+  const double s = std::sin(0.3), c = std::cos(0.3);
+  const auto color = [&](const char* name, double x) {
+    return std::string("<") + name + " red='" + std::to_string(0.5 + x / 2) + "' green='0.5' blue='" +
+           std::to_string(0.5 + c / 2) + "'/>";
+  };
+  const auto brightness = [&](const std::string& uvscale) {
+    const std::string facets = "<textures><checkers><checker><name>t</name>" + color("color1", s) +
+                               color("color2", -s) + "<uvscale x='" + uvscale +
+                               "' y='1'/></checker></checkers></textures>";
+    std::string scene = relief_scene(facets, "<normalmap texture='t'/>", panel, "<raycast/>");
+    const std::string pixels = "<vres>8</vres>";
+    scene.insert(scene.find(pixels) + pixels.size(), "<samples>64</samples>");
+    const FloatPicture picture = rendered(scene);
+    double sum = 0;
+    for (const Pixel& pixel : picture.pixels()) sum += double{pixel.green};
+    return sum / static_cast<double>(picture.pixels().size());
+  };
+  const double left = brightness("0.001");  // one facet alone
+  const double both = brightness("300");    // squares of 2/3 of a pixel
+  INFO(left << ' ' << both);
+  CHECK(std::abs(both / left - 1) > 0.1);
+  CHECK(std::abs(brightness("600") / both - 1) < 0.02);
+}
+
 TEST_CASE("a file's own tangents say what a normal map's x and y are along") {
   const double s = std::sin(0.5), c = std::cos(0.5);
   const std::string map = "<normalmap texture='t'/>";

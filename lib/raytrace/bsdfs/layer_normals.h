@@ -2,9 +2,9 @@
 //
 // Each layer reflects about its own normal, in its own frame. Whoever shades the surface counts the light that comes to
 // it about the surface's normal, which is that of the shape and belongs to no layer: so a layer's f is multiplied by
-// the ratio of the two cosines, and by how its relief hides light from itself. No layer gets light from below the
-// surface or from below its own normal: what sample() draws there is lost, its pdf is 0, and no layer sends on more
-// than it would alone.
+// the ratio of the two cosines; of one that is diffuse, also by how its relief hides light from itself. No layer gets
+// light from below the surface or from below its own normal: what sample() draws there is lost, its pdf is 0, and no
+// layer sends on more than it would alone.
 #pragma once
 
 #include "raytrace/bsdfs/ggx.h"
@@ -51,8 +51,12 @@ class LayerFrame {
 
   /// What light from wi is to the layer, over what it is to the surface.
   T share(const Vec3<T>& wi, const Vec3<T>& own_wi) const {
-    const T ratio = own_wi.z / max(wi.z, T(1e-6F)) * relief_shadow(wi.z, own_wi.z, frame_.z.z);
+    const T ratio = own_wi.z / max(wi.z, T(1e-6F));
     return select(lanes_, select((wi.z > T(1e-6F)) & (own_wi.z > T(1e-6F)), ratio, T(0)), T(1));
+  }
+  /// What relief leaves of light from wi to a diffuse layer.
+  T softness(const Vec3<T>& wi, const Vec3<T>& own_wi) const {
+    return select(lanes_, relief_shadow(wi.z, own_wi.z, frame_.z.z), T(1));
   }
   /// Turns f about the layer's normal into f about the surface's, and takes away the pdf where no light comes from.
   template <class F>

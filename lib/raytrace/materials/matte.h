@@ -20,6 +20,7 @@ class Matte {
   using Parameters = Values<double>;
   static constexpr std::string_view group = "mattes";
   static constexpr std::string_view element = "matte";
+  static constexpr bool is_even = true;  ///< under relief its light ends softly
   static Fields fields() {
     return with_surface_detail<Parameters>({required("ka", &Parameters::ka, Range::not_negative),
                                             required("kd", &Parameters::kd, Range::not_negative),

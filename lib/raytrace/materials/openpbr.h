@@ -175,15 +175,15 @@ class OpenPbr {
                  coat = parameters.coat_weight > 0 ? parameters.coat_roughness * parameters.coat_roughness : 0;
     constexpr double least_alpha = 1e-3;  // Ggx's
     return parameters.geometry_thin_walled && parameters.transmission_weight > 0 && parameters.base_metalness < 1 &&
-           own * own + 2 * coat * coat < least_alpha * least_alpha &&
-           parameters.specular_roughness_anisotropy == 0 && !is_textured("specular_roughness") &&
-           !(parameters.coat_weight > 0 && is_textured("coat_roughness"));
+           own * own + 2 * coat * coat < least_alpha * least_alpha && parameters.specular_roughness_anisotropy == 0 &&
+           !is_textured("specular_roughness") && !(parameters.coat_weight > 0 && is_textured("coat_roughness"));
   }
   /// Whether it matters where on the surface u grows.
   static bool is_anisotropic(const Parameters& parameters) {
     return parameters.specular_roughness_anisotropy > 0 || parameters.coat_roughness_anisotropy > 0;
   }
-  /// Whether it has one anywhere: then the coat and the base have normals of their own where there is relief.
+  static constexpr bool has_layers = true;  ///< which have normals of their own where there is relief
+  /// Whether it has one anywhere.
   static bool has_coat(const Parameters& parameters) { return parameters.coat_weight > 0; }
   static bool is_two_sided(const Parameters& parameters) { return parameters.geometry_thin_walled; }
   /// All that a kernel needs.

@@ -128,6 +128,7 @@ struct OpenPbrBsdf {
       const Rgb<T> under_film = OrenNayar<T>{base, diffuse_roughness}.f(layers.from, base_wi) * share;
       result.f = select(filmed, under_film * layers.under_film, result.f);
     }
+    if (frames != nullptr) result.f = result.f * frames->base.softness(wi, base_wi);
     if (const Mask<T> rough = ggx().is_rough(); any(rough)) {
       const auto reflection = ggx().reflection(layers.from, base_wi);
       const Rgb<T> reflectance = at_facet(layers, reflection.cosine);

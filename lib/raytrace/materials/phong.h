@@ -26,6 +26,7 @@ class Phong {
   using Parameters = Values<double>;
   static constexpr std::string_view group = "phongs";
   static constexpr std::string_view element = "phong";
+  static constexpr bool is_even = true;  ///< as Matte's
   static Fields fields() {
     return with_surface_detail<Parameters>(
         {required("ka", &Parameters::ka, Range::not_negative), required("kd", &Parameters::kd, Range::not_negative),

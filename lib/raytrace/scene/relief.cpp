@@ -5,8 +5,26 @@ namespace raytrace {
 
 namespace {
 
+/// Where relief is looked up: over a small part of what else a sample covers. Normals that are averaged there are those
+/// of a smoother surface, so that a material would be another from afar; what one sample does not show of them, many
+/// do.
+TexturePoint<FloatN> relief_point(const TexturePoint<FloatN>& point) {
+  const FloatN part(0.125F);
+  TexturePoint<FloatN> fine = point;
+  for (UvPoint<FloatN>* const on : {&fine.by(UvSet::first), &fine.by(UvSet::second)}) {
+    on->uv_across = {on->uv_across.x * part, on->uv_across.y * part};
+    on->uv_along = {on->uv_along.x * part, on->uv_along.y * part};
+  }
+  for (SpacePoint<FloatN>* const in : {&fine.world, &fine.object}) {
+    in->p_across = in->p_across * part;
+    in->p_along = in->p_along * part;
+  }
+  return fine;
+}
+
 /// A map's normal, in the frame of the texture coordinates about `normal`. Where they have none, at a pole, it stays.
-Vec3<FloatN> mapped_normal(const Rgb<FloatN>& map, float strength, const UvPoint<FloatN>& point,
+/// side: 1, or -1 where the surface shows its back, whose hills are the front's hollows.
+Vec3<FloatN> mapped_normal(const Rgb<FloatN>& map, const FloatN& side, float strength, const UvPoint<FloatN>& point,
                            const Vec3<FloatN>& normal) {
   const auto component = [](const FloatN& number) { return number * FloatN(2) - FloatN(1); };
   const Vec3<FloatN> u = point.tangent - normal * dot(normal, point.tangent);
@@ -15,7 +33,7 @@ Vec3<FloatN> mapped_normal(const Rgb<FloatN>& map, float strength, const UvPoint
   const Vec3<FloatN> tangent = u * (FloatN(1) / select(has_tangent, size, FloatN(1)));
   const Vec3<FloatN> across = cross(normal, tangent);
   const Vec3<FloatN> bitangent = select(dot(across, point.bitangent) < FloatN(0), -across, across);
-  const FloatN x = component(map.red) * FloatN(strength), y = component(map.green) * FloatN(strength);
+  const FloatN x = component(map.red) * FloatN(strength) * side, y = component(map.green) * FloatN(strength) * side;
   // No normal points into its surface, as those of damaged maps may.
   const FloatN z = max(component(map.blue), FloatN(0.01F));
   return select(has_tangent, normalize(tangent * x + bitangent * y + normal * z), normal);
@@ -24,7 +42,7 @@ Vec3<FloatN> mapped_normal(const Rgb<FloatN>& map, float strength, const UvPoint
 /// The normal of the surface that is higher by height(point), which looks up by that set of texture coordinates: by
 /// its slopes towards what half a pixel covers.
 template <class Height>
-Vec3<FloatN> bumped_normal(const Height& height, UvSet set, const TexturePoint<FloatN>& point,
+Vec3<FloatN> bumped_normal(const Height& height, const FloatN& side, UvSet set, const TexturePoint<FloatN>& point,
                            const Vec3<FloatN>& normal) {
   const FloatN here = height(point);
   const UvPoint<FloatN>& on = point.by(set);
@@ -41,23 +59,35 @@ Vec3<FloatN> bumped_normal(const Height& height, UvSet set, const TexturePoint<F
     const FloatN rise = min(max((height(there) - here) * inverse, FloatN(-1e6F)), FloatN(1e6F));
     return way * (select(is_wide, rise, FloatN(0)) * inverse);
   };
-  return normalize(normal - slope(&SpacePoint<FloatN>::p_across, on.uv_across) -
-                   slope(&SpacePoint<FloatN>::p_along, on.uv_along));
+  const Vec3<FloatN> slopes =
+      slope(&SpacePoint<FloatN>::p_across, on.uv_across) + slope(&SpacePoint<FloatN>::p_along, on.uv_along);
+  return normalize(normal - slopes * side);
 }
 
 }  // namespace
 
-void SceneTables::add_relief(const Hits& hits, const TexturePoint<FloatN>& point,
+void SceneTables::add_relief(const Hits& hits, const TexturePoint<FloatN>& at,
                              SurfaceInteraction<FloatN>& surface) const {
+  const TexturePoint<FloatN> point = relief_point(at);
+  const FloatN side = select(surface.front, FloatN(1), FloatN(-1));
+  const Vec3<FloatN> true_normal = surface.true_normal();
   const auto mapped = [&](const TexturedNumber& map, const Vec3<FloatN>& normal) {
-    return mapped_normal(textures_->vector_at(*map.texture, point), map.value, point.by(textures_->uvset(*map.texture)),
-                         normal);
+    return mapped_normal(textures_->vector_at(*map.texture, point), side, map.value,
+                         point.by(textures_->uvset(*map.texture)), normal);
   };
   // wo stays above the surface, as BSDFs expect it.
   const auto below_wo = [&](const Vec3<FloatN>& normal) {
     constexpr float least_cosine = 1e-3F;
     const FloatN behind = max(FloatN(least_cosine) - dot(normal, surface.wo), FloatN(0));
     return normalize(normal + surface.wo * behind);
+  };
+  // So does what a mirror would show there, which would be the dark inside else.
+  const auto reflecting = [&](const Vec3<FloatN>& normal) {
+    const FloatN least = min(max(dot(true_normal, surface.wo), FloatN(0)) * FloatN(0.9F), FloatN(0.01F));
+    const Vec3<FloatN> mirrored = normal * (dot(normal, surface.wo) * FloatN(2)) - surface.wo;
+    const FloatN below = max(least - dot(mirrored, true_normal), FloatN(0));
+    const Vec3<FloatN> bent = normalize(normalize(mirrored + true_normal * below) + surface.wo);
+    return select(below > FloatN(0), bent, normal);
   };
   surface.ns_without_relief = surface.ns;
   for_each_detail(hits, [&](const SurfaceDetail& detail, const MaskN& here) {
@@ -66,12 +96,12 @@ void SceneTables::add_relief(const Hits& hits, const TexturePoint<FloatN>& point
     if (detail.normalmap.texture) normal = mapped(detail.normalmap, normal);
     if (const auto& bump = detail.bump; bump.texture)
       normal = bumped_normal(
-          [&](const TexturePoint<FloatN>& at) { return textures_->number_at(*bump.texture, at) * FloatN(bump.value); },
-          textures_->uvset(*bump.texture), point, normal);
-    if (detail.has_relief()) normal = below_wo(normal);
+          [&](const TexturePoint<FloatN>& p) { return textures_->number_at(*bump.texture, p) * FloatN(bump.value); },
+          side, textures_->uvset(*bump.texture), point, normal);
+    if (detail.has_relief()) normal = detail.is_even ? below_wo(normal) : reflecting(below_wo(normal));
     if (detail.has_layers()) [[unlikely]] {
       const Vec3<FloatN> coat =
-          detail.coatnormalmap.texture ? below_wo(mapped(detail.coatnormalmap, surface.ns)) : surface.ns;
+          detail.coatnormalmap.texture ? reflecting(below_wo(mapped(detail.coatnormalmap, surface.ns))) : surface.ns;
       if (!surface.has_layers) surface.layers = {MaskN(false), normal, coat};
       surface.layers = {surface.layers.lanes | here, select(here, normal, surface.layers.base),
                         select(here, coat, surface.layers.coat)};
@@ -79,7 +109,8 @@ void SceneTables::add_relief(const Hits& hits, const TexturePoint<FloatN>& point
       return;
     }
     surface.ns = select(here, normal, surface.ns);
-    surface.relief = surface.has_relief ? surface.relief | here : here;
+    const MaskN ends_softly = here & MaskN(detail.is_even);
+    surface.relief = surface.has_relief ? surface.relief | ends_softly : ends_softly;
     surface.has_relief = true;
   });
 }

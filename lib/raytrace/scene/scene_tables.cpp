@@ -226,7 +226,9 @@ SceneTables::SurfaceDetail SceneTables::surface_detail(const MaterialItem<Materi
     detail = {{static_cast<float>(item.parameters.opacity)},
               {static_cast<float>(item.parameters.normalmap)},
               {static_cast<float>(item.parameters.bump)}};
-  if constexpr (requires { Material::has_coat(item.parameters); }) {
+  detail.is_even = requires { Material::is_even; };
+  if constexpr (requires { Material::has_layers; }) {
+    detail.is_layered = true;
     detail.has_coat = Material::has_coat(item.parameters);
     detail.coatnormalmap.value = static_cast<float>(item.parameters.coatnormalmap);
   }

@@ -227,11 +227,13 @@ class SceneTables {
     MaterialEmission emission{};
     std::optional<Medium> medium{};
     bool is_anisotropic = false, focuses = false, is_pane = false, has_coat = false, has_subsurface = false;
+    bool is_layered = false;  ///< a coat's normals may differ from those of the base below it
+    bool is_even = false;     ///< it reflects light to all sides, and nothing like a mirror
 
     bool is_cutout() const { return opacity.value < 1 || opacity.texture; }
     bool has_relief() const { return normalmap.texture || bump.texture; }
-    /// Whether a coat's normals differ from those of the base below it.
-    bool has_layers() const { return has_coat && (has_relief() || coatnormalmap.texture); }
+    /// Whether layers have normals of their own.
+    bool has_layers() const { return is_layered && (has_relief() || (has_coat && coatnormalmap.texture)); }
     bool has_turned_tangent() const {
       return is_anisotropic && (tangentrotation.value != 0 || tangentmap || tangent_set == UvSet::second);
     }

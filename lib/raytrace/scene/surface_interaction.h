@@ -23,7 +23,7 @@ struct SurfaceInteraction {
   bool is_smooth = false;     ///< whether any lane has it
   Vec3<F> ns_without_relief;  ///< where is_smooth and has_relief
 
-  /// Whether a normal map or a bump has turned any lane's ns, and which lanes'.
+  /// Whether a normal map or a bump has turned any lane's ns, and the lanes where light then ends softly.
   bool has_relief = false;
   Mask<F> relief;
 
@@ -49,7 +49,7 @@ struct SurfaceInteraction {
   Vec3<F> base_normal() const { return has_layers ? select(layers.lanes, layers.base, ns) : ns; }
 };
 
-/// The share of the light from wi, of unit length, that reaches the surface. Of those of which some lane has relief.
+/// The share of the light from wi, of unit length, that reaches the surface. Of those that have relief.
 template <class F>
 RAYTRACE_INLINE F relief_shadow(const SurfaceInteraction<F>& surface, const Vec3<F>& wi) {
   const Vec3<F> normal = surface.true_normal();
