@@ -144,9 +144,10 @@ void define_options(OptionParser& parser, Options& options) {
                if (text.empty()) throw UsageError("the name is empty");
                stage().camera = text;
              });
-  parser.add("--animation", "NAME",
-             "Animate by this one of the file (its first, if there are --frames), by its name or its number from 0",
-             [stage](const std::string& text) { stage().animation = label(text); });
+  parser.add(
+      "--animation", "NAME",
+      "Animate by this one of the file (its first, if there are --frames), by its name or its number from 0, or by all",
+      [stage](const std::string& text) { stage().animation = label(text); });
   parser.add("--fps", "F", "Frame 1 is the animation's beginning, and F frames are a second of it (24)",
              [stage](const std::string& text) { stage().frames_per_second = frames_per_second(text); });
   parser.add("--variant", "NAME", "Take this variant of the file's materials, by its name or its number from 0",

@@ -133,9 +133,41 @@ TEST_CASE("animations of glTF are chosen by name or number") {
         "a.gltf: error: has no animation 'run'; there are 'grow', 1\n");
   // The first of a file that has none is none.
   const std::string still = triangle().text(R"("scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],)" + mesh_of_triangle);
-  CHECK(near_to(vertex(still, at(0, "0"), 1), {1, 0, 0}));
+  for (const char* const name : {"0", "all"}) CHECK(near_to(vertex(still, at(0, name), 1), {1, 0, 0}));
   CHECK(read_bytes("a.gltf", still, at(0, "1")).messages == "a.gltf: error: has no animation '1', nor any other\n");
   CHECK(read_bytes("a.stl", "solid", at(0)).messages == "a.stl: error: has no animation 'walk': it is no glTF\n");
+}
+
+TEST_CASE("all animations of a glTF file at once") {
+  GltfFile file = triangle();
+  file.add(Numbers{0, 1}, "SCALAR", floats, 2).add(Numbers{0, 0, 0, 1, 0, 0}, "VEC3", floats, 2);
+  file.add(Numbers{0, 2}, "SCALAR", floats, 2).add(Numbers{0, 0, 0, 0, 4, 0}, "VEC3", floats, 2);
+  const auto moving = [](const char* name, int node, int input) {
+    return swapped(animation(R"("input":)" + std::to_string(input) + R"(,"output":)" + std::to_string(input + 1),
+                             "translation", name),
+                   R"("node":0)", R"("node":)" + std::to_string(node));
+  };
+  const auto with = [&](const std::string& animations) {
+    return file.text(R"("scenes":[{"nodes":[0,1]}],"nodes":[{"mesh":0},{"mesh":0}],)" + mesh_of_triangle +
+                     R"(,"animations":[)" + animations + "]");
+  };
+  const std::string each = with(moving("ball", 0, 1) + "," + moving("cube", 1, 3));
+  const ReadResult all = read_bytes("a.gltf", each, at(1, "all"));
+  CHECK(all.messages.empty());
+  REQUIRE(all.mesh);
+  CHECK(all.mesh->positions[0] == 1);
+  CHECK(all.mesh->positions[10] == 2);
+  CHECK(all.mesh->animation_end == 2);
+  CHECK(read_bytes("a.gltf", each, at(1, "ball")).messages ==
+        "a.gltf: warning: animations: the animation 'ball' is played alone; other nodes are moved by 'cube'; the "
+        "animation 'all' plays all of them\n");
+  CHECK(read_bytes("a.gltf", each).messages.empty());  // at rest
+
+  // Of what two move, the later one says how; they are two movements of that, and no warning.
+  const std::string both = with(moving("walk", 0, 1) + "," + moving("run", 0, 3));
+  CHECK(near_to(vertex(both, at(1, "all"), 0), {0, 2, 0}));
+  CHECK(read_bytes("a.gltf", both, at(1, "walk")).messages.empty());
+  CHECK(near_to(vertex(with(moving("all", 0, 1) + "," + moving("cube", 1, 3)), at(1, "all"), 3), {0, 0, 0}));
 }
 
 TEST_CASE("a vertex of glTF moves with the joints that it has, by their weights") {

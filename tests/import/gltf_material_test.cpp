@@ -200,7 +200,60 @@ TEST_CASE("glTF: a coat, sheen, a film and specular colours") {
   const ReadMaterial plastic(R"("pbrMetallicRoughness":{"metallicFactor":0},)" + specular);
   CHECK(plastic.number("specular_weight") == 0.5);
   CHECK(plastic.at("specular_color").value.green == 0.5);
+  CHECK(plastic.find("specular_ior") == nullptr);
   CHECK(ReadMaterial(specular).find("specular_weight") == nullptr);  // a metal keeps its edges
+}
+
+TEST_CASE("glTF: a bright specular colour is one of what reflects straight on") {
+  const auto straight_on = [](double index) { return std::pow((index - 1) / (index + 1), 2); };
+  const auto dielectric = [](const std::string& extensions) {
+    return ReadMaterial(R"("pbrMetallicRoughness":{"metallicFactor":0},"extensions":{)" + extensions + "}");
+  };
+  const auto tinted = [](const std::string& color, const std::string& more = "") {
+    return R"("KHR_materials_specular":{"specularColorFactor":)" + color + more + "}";
+  };
+  const std::string texture = R"(,"specularColorTexture":{"index":2})";
+  for (const std::string& more : {std::string(), texture}) {
+    const ReadMaterial shining = dielectric(tinted("[2,1,0.5]", more));
+    CHECK(straight_on(shining.number("specular_ior")) == Approx(0.08));
+    CHECK(shining.at("specular_color").value.red == 1);
+    CHECK(shining.at("specular_color").value.blue == 0.25);
+    CHECK(shining.at("specular_color").texture.file == (more.empty() ? "" : "2.png"));
+  }
+  const ReadMaterial dim = dielectric(tinted("[0.5,0.5,0.5]") + R"(,"KHR_materials_ior":{"ior":2})");
+  CHECK(straight_on(dim.number("specular_ior")) == Approx(1 / 18.0));
+  CHECK(dim.at("specular_color").value.red == 1);
+  CHECK(dielectric(tinted("[0,0,0]")).at("specular_color").value.red == 0);
+  CHECK(dielectric(tinted("[1e9,0,0]")).number("specular_ior") == 10);
+
+  const ReadMaterial glass =
+      dielectric(tinted("[2,1,0.5]") + R"(,"KHR_materials_transmission":{"transmissionFactor":1})");
+  CHECK(glass.find("specular_ior") == nullptr);
+  CHECK(glass.at("specular_color").value.red == 2);
+}
+
+TEST_CASE("glTF: below a clear coat a base reflects as it does without it") {
+  const auto coated = [](const std::string& coat, const std::string& more = "") {
+    return ReadMaterial(R"("pbrMetallicRoughness":{"metallicFactor":0},"extensions":{"KHR_materials_clearcoat":{)" +
+                        coat + "}" + more + "}");
+  };
+  CHECK(coated(R"("clearcoatFactor":1)").number("specular_ior") == Approx(2.25));
+  CHECK(coated(R"("clearcoatFactor":1)", R"(,"KHR_materials_ior":{"ior":1.8})").number("specular_ior") == Approx(2.7));
+  CHECK(coated(R"("clearcoatFactor":0)").find("specular_ior") == nullptr);
+  // The kernel's mean of the index and of that over the coat's.
+  const double half = coated(R"("clearcoatFactor":0.5)").number("specular_ior");
+  CHECK((half + half / 1.5) / 2 == Approx(1.5));
+  const ReadMaterial painted = coated(R"("clearcoatFactor":1,"clearcoatTexture":{"index":3})");
+  const MeshParameter& index = painted.at("specular_ior");
+  CHECK(index.value.red == 1.5);
+  CHECK(index.texture.file == "3.png");
+  CHECK(index.texture.value_scale == Approx(0.5));
+  CHECK(index.texture.value_offset == 1);
+  CHECK(coated(R"("clearcoatFactor":1)", R"(,"KHR_materials_transmission":{"transmissionFactor":1})")
+            .find("specular_ior") == nullptr);
+  const ReadMaterial film = coated(R"("clearcoatFactor":1)", R"(,"KHR_materials_iridescence":{"iridescenceFactor":1})");
+  CHECK(film.number("thin_film_ior") == Approx(1.3 * 1.5));
+  CHECK(film.number("thin_film_thickness") == Approx(0.4 / 1.5));
 }
 
 TEST_CASE("glTF: an anisotropic surface has the alphas of OpenPBR's") {

@@ -224,7 +224,7 @@ TEST_CASE("glTF's primitives are one mesh with a material for each face") {
       "materials":[{"name":"red","pbrMetallicRoughness":{"baseColorFactor":[0.5,0,2,1],"baseColorTexture":{"index":0}}},
         {"name":"unused"},{"pbrMetallicRoughness":{"baseColorTexture":{"index":1}}}],
       "textures":[{"source":0,"sampler":0},{"source":1}],
-      "samplers":[{"wrapS":33648,"wrapT":33071}],
+      "samplers":[{"wrapS":33648,"wrapT":33071,"magFilter":9728,"minFilter":9987}],
       "images":[{"uri":"textures/my%20wood.png"},{"uri":"data:image/png;base64,AAEC/w=="}])"));
   INFO(read.messages);
   REQUIRE(read.mesh);
@@ -243,8 +243,10 @@ TEST_CASE("glTF's primitives are one mesh with a material for each face") {
   CHECK(red_base.value.blue == 1);
   CHECK(red_base.texture.file == "textures/my wood.png");
   CHECK(red_base.texture.edge == MeshTexture::Edge::mirror);
+  CHECK(red_base.texture.nearest);
   CHECK(first.name == "materials[2]");
   CHECK(first_base.value.green == 1);
+  CHECK_FALSE(first_base.texture.nearest);
   REQUIRE(first_base.texture.bytes);
   CHECK(*first_base.texture.bytes == std::string("\0\1\2\xff", 4));
 }

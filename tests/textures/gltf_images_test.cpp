@@ -113,6 +113,23 @@ TEST_CASE("a glTF material is an openpbr with its textures and the colours at ve
   CHECK(texture_types(mattes[0]) == std::vector{vertices});
 }
 
+TEST_CASE("a glTF image of two samplers is two images where one shows its pixels") {
+  const TemporaryFolder folder;
+  write_text(folder.file("a.gltf"), made_triangle().text(R"("scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+      "textures":[{"source":0,"sampler":0},{"source":0,"sampler":1}],"samplers":[{"magFilter":9728},{"magFilter":9729}],
+      "meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1},"material":0}]}],
+      "materials":[{"emissiveFactor":[1,1,1],"emissiveTexture":{"index":1},
+        "pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],"images":[{"uri":"data:image/png;base64,)" +
+                                                         made_png_base64 + R"("}])"));
+  const LoadedGltf loaded = loaded_gltf(folder, "a.gltf");
+  INFO(loaded.messages);
+  REQUIRE(loaded.fine);
+  const auto& images = std::get<TextureItems<Image>>(loaded.scene->textures);
+  REQUIRE(images.size() == 2);
+  CHECK(images[0].parameters.filter == TextureFilter::nearest);
+  CHECK(images[1].parameters.filter == TextureFilter::smart);
+}
+
 TEST_CASE("glTF's roughness and metalness are channels of one image, and a mask is one made sharp") {
   const TemporaryFolder folder;
   GltfFile file = made_triangle();

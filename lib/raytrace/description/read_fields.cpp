@@ -1,6 +1,9 @@
 #include "raytrace/description/read_fields.h"
 
+#include <algorithm>
 #include <cstdint>
+
+#include "raytrace/description/scene_layout.h"
 
 namespace raytrace {
 namespace {
@@ -15,8 +18,39 @@ std::uint64_t present_fields(Element element, std::span<const FieldInfo> infos) 
   return present;
 }
 
+/// Names of other programs, and the field that stands for them here.
+struct Synonym {
+  std::string_view name, field;
+};
+constexpr Synonym synonyms[] = {
+    {"bumpmap", "bump"},
+    {"normal", "normalmap"},
+    {"filename", "file"},
+    {"spp", "samples"},
+    {"metallic", "base_metalness"},
+    {"sheen", "fuzz_weight"},
+    {"clearcoat", "coat_weight"},
+    {"transmission", "transmission_weight"},
+    {"intensity", "scaleradiance"},
+    {"power", "scaleradiance"},
+    {"radiance", "scaleradiance"},
+};
+
+/// That of the fields which the unknown name stands for or is misspelt of; it is absent.
+std::string_view meant_field(std::span<const FieldInfo> infos, std::uint64_t present, std::string_view name) {
+  for (const Synonym& synonym : synonyms) {
+    const std::size_t i = synonym.name == name ? find_field(infos, synonym.field) : infos.size();
+    if (i < infos.size() && !(present >> i & 1)) return synonym.field;
+  }
+  return nearest_absent(infos, present, name);
+}
+
 std::string explain_unknown(Element child, Element parent, std::span<const FieldInfo> infos, std::string_view nearest) {
   const std::string start = "unknown element " + tag(child.name()) + " in " + tag(parent.name()) + "; ";
+  const auto& steps = TransformStep::elements;
+  if (std::find(steps.begin(), steps.end(), child.name()) != steps.end() &&
+      find_field(infos, transform_element) < infos.size())
+    return start + "put it into " + tag(transform_element);
   if (!nearest.empty()) return start + "did you mean " + tag(nearest) + "?";
   std::vector<std::string_view> names, longer;
   for (const FieldInfo& info : infos) names.push_back(info.name);
@@ -66,7 +100,7 @@ bool read_fields(Element element, std::span<const FieldInfo> infos, std::span<co
     std::string_view nearest;
     if (diagnostics.keeps_another(Severity::error)) {
       if (!present) present = present_fields(element, infos);
-      nearest = nearest_absent(infos, *present, child.name());
+      nearest = meant_field(infos, *present, child.name());
     }
     diagnostics.error(child, [&] { return explain_unknown(child, element, infos, nearest); });
     // One slip, one message: a child that was only misspelt is not reported as missing too.
@@ -87,7 +121,7 @@ bool read_fields(Element element, std::span<const FieldInfo> infos, std::span<co
     if (!infos[i].required || (read >> i & 1)) continue;
     diagnostics.error(element, [&] {
       return "missing " + tag(infos[i].name) + " in " + tag(element.name()) + "; add " +
-             example_value(infos[i], targets[i]);
+             example_value(infos[i], targets[i], element.name());
     });
   }
   return diagnostics.error_count() == errors_before;

@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 
+#include "raytrace/description/include.h"
 #include "raytrace/description/keyframes.h"
 #include "raytrace/description/read_transform.h"
 
@@ -228,6 +229,11 @@ class ValueReader {
   TextureAttributes* texture_;  ///< null if the element has none
 };
 
+const char* example_file(std::string_view parent) {
+  if (parent == Image::element) return "picture.png";
+  return parent == Include::element ? "part.xml" : "model.ply";
+}
+
 }  // namespace
 
 std::span<const std::string_view> component_names(const FieldTarget& target) {
@@ -248,7 +254,7 @@ bool read_value(Element element, const FieldInfo& info, const FieldTarget& targe
   return std::visit(ValueReader(element, info, context, texture), target);
 }
 
-std::string example_value(const FieldInfo& info, const FieldTarget& target) {
+std::string example_value(const FieldInfo& info, const FieldTarget& target, std::string_view parent) {
   if (std::holds_alternative<Vec3d*>(target))
     return example_of(info.name, component_fields<Vec3d>(nullptr, info.range));
   if (std::holds_alternative<Vec2d*>(target))
@@ -260,7 +266,7 @@ std::string example_value(const FieldInfo& info, const FieldTarget& target) {
       choice != nullptr                       ? std::string(choice->words()[0])
       : std::holds_alternative<bool*>(target) ? "true"
       : std::holds_alternative<std::string_view*>(target) || std::holds_alternative<Reference*>(target) ? "..."
-      : std::holds_alternative<FileName*>(target)                                                       ? "model.ply"
+      : std::holds_alternative<FileName*>(target) ? example_file(parent)
       : std::holds_alternative<NumberGroups*>(target) || std::holds_alternative<WordOrGroups*>(target)
           ? "0 0 0, 1 0 0, 0 1 0"
           : "1";

@@ -126,7 +126,7 @@ std::span<const std::string_view> component_names(const FieldTarget& target);
 bool read_value(Element element, const FieldInfo& info, const FieldTarget& target, const ReadContext& context,
                 TextureAttributes* texture = nullptr);
 
-/// How such an element is written, for messages.
-std::string example_value(const FieldInfo& info, const FieldTarget& target);
+/// How such an element is written, for messages. parent: the element that it is in.
+std::string example_value(const FieldInfo& info, const FieldTarget& target, std::string_view parent);
 
 }  // namespace raytrace

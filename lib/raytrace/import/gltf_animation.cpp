@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "raytrace/text/message.h"
+
 namespace raytrace::gltf {
 namespace {
 
@@ -27,7 +29,8 @@ class PoseReader {
  public:
   PoseReader(Document& document, double time) : document_(document), time_(time) {}
 
-  Pose read(const Item& animation) {
+  /// What it moves that others have moved is as it says.
+  void add(const Item& animation) {
     const Item channels = animation["channels"], samplers = animation["samplers"];
     for (std::size_t i = 0; i < channels.size(); ++i) {
       const Item channel = channels[i], target = channel["target"], path = target["path"];
@@ -38,8 +41,9 @@ class PoseReader {
       if (number.whole() >= samplers.size()) number.fail("there is no such sampler");
       read_sampler(samplers[number.whole()], path, pose_.nodes[node->whole()]);
     }
-    return std::move(pose_);
   }
+
+  const Pose& pose() const { return pose_; }
 
  private:
   void read_sampler(const Item& sampler, const Item& path, NodePose& node) {
@@ -182,15 +186,59 @@ class PoseReader {
   std::map<std::uint64_t, Span> spans_;  ///< by the number of their times' accessor
 };
 
+constexpr const char* all_animations = "all";
+
+bool has_name(const Item& animations, const std::string& name) {
+  for (std::size_t i = 0; i < animations.size(); ++i)
+    if (animations[i].name() == name) return true;
+  return false;
+}
+
+/// Some programs write an animation for each object. One that moves some of what is moved is another movement of that.
+void warn_of_others(Document& document, const Item& animations, std::uint64_t played, const Pose& pose) {
+  const auto moves_others_alone = [&](const Item& animation) {
+    const Item channels = animation["channels"];
+    bool moves = false;
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+      const std::optional<Item> node = channels[i]["target"].find("node");
+      if (node && pose.nodes.contains(node->whole())) return false;
+      moves |= node.has_value();
+    }
+    return moves;
+  };
+  const auto name_of = [&](std::size_t i) {
+    const std::string name = animations[i].name();
+    return name.empty() ? std::to_string(i) : in_quotes(name);
+  };
+  std::vector<std::string> names;
+  constexpr std::size_t most = 10;
+  std::size_t others = 0;
+  for (std::size_t i = 0; i < animations.size(); ++i)
+    if (i != played && moves_others_alone(animations[i]) && ++others <= most) names.push_back(name_of(i));
+  if (others == 0) return;
+  document.warn(animations.place(), "the animation " + name_of(played) + " is played alone; other nodes are moved by " +
+                                        joined(names, ", ") +
+                                        (others > most ? " and " + std::to_string(others - most) + " more" : "") +
+                                        "; the animation 'all' plays all of them");
+}
+
 }  // namespace
 
 Pose read_pose(Document& document, const std::string& animation, double time) {
   if (animation.empty()) return {};
   const std::optional<Item> animations = document.root().find("animations");
-  if (animation == "0" && (!animations || animations->size() == 0)) return {};
+  const std::size_t count = animations ? animations->size() : 0;
+  if (count == 0 && (animation == "0" || animation == all_animations)) return {};
   if (!std::isfinite(time)) document.root().fail("has no time that is not finite");
-  const std::uint64_t number = document.number_by_name(animations, animation, "animation");
-  return PoseReader(document, time).read((*animations)[number]);
+  PoseReader reader(document, time);
+  if (animation == all_animations && !has_name(*animations, animation)) {
+    for (std::size_t i = 0; i < count; ++i) reader.add((*animations)[i]);
+  } else {
+    const std::uint64_t number = document.number_by_name(animations, animation, "animation");
+    reader.add((*animations)[number]);
+    warn_of_others(document, *animations, number, reader.pose());
+  }
+  return reader.pose();
 }
 
 std::array<double, 4> slerp(const std::array<double, 4>& a, std::array<double, 4> b, double t) {

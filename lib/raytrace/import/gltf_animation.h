@@ -24,8 +24,9 @@ struct Pose {
   double end = 0;                             ///< the time of the last key
 };
 
-/// animation: its name or number; empty: none. Before the first key of a channel and after its last, that key counts.
-/// "0" of a file without animations is none.
+/// animation: its name or number, or "all" for all of them at once, where none has that name; of what several move, the
+/// last one says how. Empty: none. Of one alone that leaves other nodes to others, it warns. Before the first key of a
+/// channel and after its last, that key counts. "0" and "all" of a file without animations are none.
 Pose read_pose(Document& document, const std::string& animation, double time);
 
 /// From unit quaternion a to b, the short way. With the four operations alone, so that all machines have the same bits.

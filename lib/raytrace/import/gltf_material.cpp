@@ -10,6 +10,7 @@ namespace raytrace::gltf {
 namespace {
 
 enum Channel { red, green, blue, alpha };
+constexpr double coat_index = 1.5, most_index = 10;
 
 double number(const std::optional<Item>& object, const char* key, double otherwise) {
   const std::optional<Item> found = object ? object->find(key) : std::nullopt;
@@ -113,16 +114,43 @@ class MaterialReader {
       material_.norm = texture_of_(*info);
       material_.norm.strength = number(info, "scale", 1);
     }
-    if (const auto ior = find("KHR_materials_ior")) {
-      const double index = number(ior, "ior", 1.5);
-      add("specular_ior", index == 0 ? 10 : std::clamp(index, 1.0, 10.0));  // 0: reflects all
-    }
     // They are of what is no metal; OpenPBR's are of metals, too.
-    const auto specular = find("KHR_materials_specular");
     const bool is_metal = metalness_ == 1 && both.file.empty();
-    if (!specular || is_metal) return;
+    const auto specular = is_metal ? std::nullopt : find("KHR_materials_specular");
+    const Rgb<double> tint = color(specular, "specularColorFactor", 1);
+    const double brightest = largest(tint);
+    read_index(brightest);
+    if (!specular) return;
     add("specular_weight", share(specular, "specularFactor", 1), texture(specular, "specularTexture"), alpha);
-    add("specular_color", color(specular, "specularColorFactor", 1), texture(specular, "specularColorTexture"));
+    add("specular_color", is_clear() || brightest == 0 ? tint : tint * (1 / brightest),
+        texture(specular, "specularColorTexture"));
+  }
+
+  bool is_clear() const { return share(find("KHR_materials_transmission"), "transmissionFactor", 0) > 0; }
+
+  /// What is clear keeps the file's, since it refracts. Else it only says how much is reflected: `factor` times so much
+  /// straight on, and at grazing angles all, as before; below a coat as much as without it, where OpenPBR's base has
+  /// its index over the coat's.
+  void read_index(double factor) {
+    const auto ior = find("KHR_materials_ior");
+    double index = number(ior, "ior", 1.5);
+    index = index == 0 ? most_index : std::clamp(index, 1.0, most_index);  // 0: reflects all
+    const auto coat = find("KHR_materials_clearcoat");
+    MeshTexture map;
+    if (!is_clear()) {
+      const double root = std::min((index - 1) / (index + 1) * std::sqrt(factor), 0.99);
+      if (factor != 1) index = (1 + root) / (1 - root);
+      // The inverse of the kernel's mean of the index and that over the coat's.
+      const double weight = share(coat, "clearcoatFactor", 0), over_coat = 1 / (1 - weight * (1 - 1 / coat_index));
+      map = texture(coat, "clearcoatTexture");
+      if (map.file.empty()) {
+        index *= over_coat;
+        film_index_factor_ = over_coat;
+      }
+      map.value_scale = over_coat - 1;
+      map.value_offset = 1;
+    }
+    if (ior || index != 1.5 || !map.file.empty()) add("specular_ior", std::min(index, most_index), map);
   }
 
   void read_emission() {
@@ -181,7 +209,7 @@ class MaterialReader {
     add("coat_weight", weight, texture(coat, "clearcoatTexture"), red);
     add("coat_roughness", share(coat, "clearcoatRoughnessFactor", 0), texture(coat, "clearcoatRoughnessTexture"),
         green);
-    add("coat_ior", 1.5);
+    add("coat_ior", coat_index);
     add("coat_darkening", 0);  // glTF's base keeps its colour
     if (const auto normals = coat->find("clearcoatNormalTexture"))
       add("coatnormalmap", number(normals, "scale", 1), texture_of_(*normals));
@@ -219,10 +247,13 @@ class MaterialReader {
     const double weight = share(film, "iridescenceFactor", 0);
     if (weight == 0) return;
     add("thin_film_weight", weight, texture(film, "iridescenceTexture"), red);
-    add("thin_film_ior", std::clamp(number(film, "iridescenceIor", 1.3), 1.0, 10.0));
+    // As the base's; the way of light in the film stays what it is.
+    add("thin_film_ior", std::clamp(film_index_factor_ * number(film, "iridescenceIor", 1.3), 1.0, most_index));
     // From nanometres.
-    const double least = std::clamp(number(film, "iridescenceThicknessMinimum", 100), 0.0, 1e6) * 1e-3,
-                 most = std::clamp(number(film, "iridescenceThicknessMaximum", 400), 0.0, 1e6) * 1e-3;
+    const double least =
+                     std::clamp(number(film, "iridescenceThicknessMinimum", 100), 0.0, 1e6) * 1e-3 / film_index_factor_,
+                 most =
+                     std::clamp(number(film, "iridescenceThicknessMaximum", 400), 0.0, 1e6) * 1e-3 / film_index_factor_;
     MeshTexture map = texture(film, "iridescenceThicknessTexture");
     map.value_scale = most - least;
     map.value_offset = least;
@@ -235,6 +266,7 @@ class MaterialReader {
   std::optional<Item> surface_;
   Rgb<double> base_color_{1, 1, 1};
   double base_alpha_ = 1, metalness_ = 1, roughness_ = 1;
+  double film_index_factor_ = 1;  ///< that of an index below a coat
   MeshTexture base_texture_;
 };
 

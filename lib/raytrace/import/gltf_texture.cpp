@@ -41,6 +41,8 @@ MeshTexture TextureReader::read(const Item& info) {
       texture.edge = MeshTexture::Edge::clamp;
     else if (u != repeat && v != repeat && (u == mirrored_repeat || v == mirrored_repeat))
       texture.edge = MeshTexture::Edge::mirror;
+    constexpr std::uint64_t nearest = 9728;
+    texture.nearest = sampler.whole("magFilter", 0) == nearest;
     if (u != v) document_.warn(sampler.place(), "has two wrap modes, of which one is used for both directions");
   }
   const Item image = document_.listed("images", *source);

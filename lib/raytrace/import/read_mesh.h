@@ -48,7 +48,7 @@ struct MeshReadSettings {
   /// own three otherwise.
   bool weld = true;
   // Of a glTF file; for others they must be empty, but that the first animation may be asked for as "0".
-  std::string animation{};  ///< its name, or its number from 0; empty: the model is at rest
+  std::string animation{};  ///< its name, or its number from 0, or all; empty: the model is at rest
   double time = 0;          ///< of it, in seconds; beyond its ends it stands still
   std::string variant{};  ///< of the materials, by its name or number; empty: those that primitives have by themselves
   int threads = 0;        ///< at most; 0: all that the machine has

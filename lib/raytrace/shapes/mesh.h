@@ -37,7 +37,7 @@ class Mesh {
     NumberGroups uvs;                                  ///< u v of each vertex; (0, 0) is the lower left of an image
     NumberGroups uvs2;                                 ///< the same in a second set, for textures that ask for it
     // Of a glTF file (import/read_mesh.h).
-    Reference animation;             ///< its name, or its number from 0; none: the model is at rest
+    Reference animation;             ///< its name, or its number from 0, or all; none: the model is at rest
     double time = 0;                 ///< of the animation, in seconds
     Reference variant;               ///< of its materials; none: those that primitives have by themselves
     bool overridematerials = false;  ///< materials of the scene take the place of the file's of the same names
