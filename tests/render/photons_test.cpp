@@ -62,7 +62,10 @@ std::string ball_in_glass(const std::string& path, int samples, const std::strin
           "<openpbr><name>wax</name><base_color red='0.8' green='0.8' blue='0.8'/><subsurface_weight>1"
           "</subsurface_weight><subsurface_color red='0.8' green='0.8' blue='0.8'/><subsurface_radius>0.05"
           "</subsurface_radius></openpbr><openpbr><name>lacquer</name><base_color red='0.6' green='0.6' blue='0.6'/>"
-          "<specular_roughness>0.4</specular_roughness><coat_weight>0.5</coat_weight></openpbr></openpbrs></materials>"
+          "<specular_roughness>0.4</specular_roughness><coat_weight>0.5</coat_weight></openpbr><openpbr><name>gloss</"
+          "name>"
+          "<base_color red='0.6' green='0.6' blue='0.6'/><specular_roughness>0.1</specular_roughness><coat_weight>0.5"
+          "</coat_weight><coat_roughness>0.2</coat_roughness></openpbr></openpbrs></materials>"
           "<objects><boxes><box><min x='-1' y='-0.1' z='-1'/><max x='1' y='1' z='1'/><material>glass</material></box>"
           "</boxes><rectangles><rectangle><corner x='-6' y='0' z='6'/><edge1 x='12' y='0' z='0'/><edge2 x='0' y='0' "
           "z='-12'/><material>floor</material></rectangle></rectangles><spheres><sphere><center x='0.1' y='0.45' "
@@ -102,7 +105,7 @@ TEST_CASE("a mirror shows the light that it sends to the floor") {
 }
 
 TEST_CASE("photons bring what paths from the camera leave out") {
-  for (const std::string ball : {"floor", "varnish", "lacquer", "wax"}) {
+  for (const std::string ball : {"floor", "varnish", "lacquer", "gloss", "wax"}) {
     const auto mean = [&](const std::string& path, int samples) {
       double sum = 0;
       constexpr int renders = 4;
@@ -133,6 +136,7 @@ TEST_CASE("what they bring is a good part of the light, and grows with the depth
 TEST_CASE("photons have the same bits however a picture is cut") {
   check_same_bits(parsed_scene(ball_in_glass("<caustics>photons</caustics>", 20, "varnish", lamp_without_size)));
   check_same_bits(parsed_scene(ball_in_glass("<caustics>photons</caustics>", 17, "wax")));
+  check_same_bits(parsed_scene(ball_in_glass("<caustics>photons</caustics>", 17, "gloss")));
 }
 
 TEST_CASE("a film keeps the photons of its last pass, and a stopped one goes on with the same bits") {

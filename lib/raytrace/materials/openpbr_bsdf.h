@@ -130,20 +130,16 @@ struct OpenPbrBsdf {
     }
     if (frames != nullptr) result.f = result.f * frames->base.softness(wi, base_wi);
     if (const Mask<T> rough = ggx().is_rough(); any(rough)) {
-      const auto reflection = ggx().reflection(layers.from, base_wi);
-      const Rgb<T> reflectance = at_facet(layers, reflection.cosine);
-      result.f += select(rough, reflectance * reflection.f, black());
-      const T choice = layers.facet_choice * reflection_choice(layers, reflection.cosine, reflectance);
-      result.pdf = result.pdf + select(rough, choice * reflection.pdf, T(0));
+      const Value facets = by_facets(layers, base_wi);
+      result.f += select(rough, facets.f, black());
+      result.pdf = result.pdf + select(rough, facets.pdf, T(0));
     }
     result.f = result.f * under_coat(layers, coat_wi.z);
     if (frames != nullptr) frames->base.count_about_surface(wi, base_wi, result.f, result.pdf);
     if (const Mask<T> rough = coat_ggx().is_rough() & (coat > T(0)); any(rough)) {
-      auto reflection = coat_ggx().reflection(coat_from(layers), coat_wi);
-      if (frames != nullptr) frames->coat.count_about_surface(wi, coat_wi, reflection.f, reflection.pdf);
-      const T reflectance = fresnel_reflection(reflection.cosine, coat_eta).reflectance / layers.coat_share;
-      result.f += select(rough, white() * (coat * reflectance * reflection.f * layers.under_fuzz), black());
-      result.pdf = result.pdf + select(rough, layers.coat_choice * reflection.pdf, T(0));
+      const Value facets = by_coat(layers, wi, coat_wi);
+      result.f += select(rough, facets.f, black());
+      result.pdf = result.pdf + select(rough, facets.pdf, T(0));
     }
     if (const Mask<T> fuzzy = fuzz > T(0); any(fuzzy)) {
       T f = layers.fibers.density(base_wi), pdf = f;
@@ -153,6 +149,9 @@ struct OpenPbrBsdf {
     }
     return {select(is_above, result.f, black()), select(is_above, result.pdf, T(0))};
   }
+
+  /// What of value()'s f is of facets that mirror nearly as smooth ones do. wi: likewise.
+  Rgb<T> gloss(const Lobes& layers, const Vec3<T>& wi) const;
 
   Rgb<T> evaluate(const Vec3<T>& wo, const Vec3<T>& wi, const Vec3<T>&) const { return value(lobes(wo), wi).f; }
   T pdf(const Vec3<T>& wo, const Vec3<T>& wi) const { return value(lobes(wo), wi).pdf; }
@@ -219,6 +218,23 @@ struct OpenPbrBsdf {
   }
 
  private:
+  static constexpr float glossy_roughness = 0.25F;
+
+  /// What rough facets of the base reflect, and how often sample() draws wi by them.
+  Value by_facets(const Lobes& layers, const Vec3<T>& base_wi) const {
+    const auto reflection = ggx().reflection(layers.from, base_wi);
+    const Rgb<T> reflectance = at_facet(layers, reflection.cosine);
+    const T choice = layers.facet_choice * reflection_choice(layers, reflection.cosine, reflectance);
+    return {reflectance * reflection.f, choice * reflection.pdf};
+  }
+  /// The same of the coat's.
+  Value by_coat(const Lobes& layers, const Vec3<T>& wi, const Vec3<T>& coat_wi) const {
+    auto reflection = coat_ggx().reflection(coat_from(layers), coat_wi);
+    if (layers.frames != nullptr) layers.frames->coat.count_about_surface(wi, coat_wi, reflection.f, reflection.pdf);
+    const T reflectance = fresnel_reflection(reflection.cosine, coat_eta).reflectance / layers.coat_share;
+    return {white() * (coat * reflectance * reflection.f * layers.under_fuzz), layers.coat_choice * reflection.pdf};
+  }
+
   static Rgb<T> white() { return Rgb<T>(T(1), T(1), T(1)); }
   static Rgb<T> black() { return Rgb<T>(T(0), T(0), T(0)); }
   static T square(const T& x) { return x * x; }

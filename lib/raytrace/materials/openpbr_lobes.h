@@ -78,4 +78,18 @@ template <class T>
   return layers;
 }
 
+template <class T>
+[[gnu::noinline]] Rgb<T> OpenPbrBsdf<T>::gloss(const Lobes& layers, const Vec3<T>& wi) const {
+  const LayerFrames<T>* const frames = layers.frames;
+  const Vec3<T> base_wi = frames == nullptr ? wi : frames->base.to_own(wi),
+                coat_wi = frames == nullptr ? wi : frames->coat.to_own(wi);
+  Value result{black(), T(0)};
+  if (const Mask<T> near = ggx().is_rough() & (roughness < T(glossy_roughness)); any(near))
+    result.f = select(near, by_facets(layers, base_wi).f * under_coat(layers, coat_wi.z), black());
+  if (frames != nullptr) frames->base.count_about_surface(wi, base_wi, result.f, result.pdf);
+  if (const Mask<T> near = coat_ggx().is_rough() & (coat > T(0)) & (coat_roughness < T(glossy_roughness)); any(near))
+    result.f += select(near, by_coat(layers, wi, coat_wi).f, black());
+  return select(wi.z > T(1e-6F), result.f, black());
+}
+
 }  // namespace raytrace

@@ -51,6 +51,11 @@ constexpr Dimension photon_dimension(int depth) {
   return static_cast<Dimension>(static_cast<std::uint32_t>(depth) | 0x30000000U);
 }
 
+/// Whether a path leaves a point by gloss: none of those above.
+constexpr Dimension gloss_dimension(int depth) {
+  return static_cast<Dimension>(static_cast<std::uint32_t>(depth) | 0x38000000U);
+}
+
 /// None of those above.
 constexpr Dimension light_path_dimension(LightPathDraw draw) {
   return static_cast<Dimension>(static_cast<std::uint32_t>(draw) | 0x40000000U);

@@ -81,6 +81,11 @@ class MaterialTable {
                              const FloatN& u1, const FloatN& u2, const LayerNormals<FloatN>* layers,
                              const TexturePoint<FloatN>* point) const = 0;
 
+  /// What of f, as scatter() has it for light from wi, is nearly a mirror's.
+  virtual Rgb<FloatN> gloss(const LaneIndices& materials, const MaskN& front, const Refraction<FloatN>& media,
+                            const Vec3<FloatN>& wo, const Vec3<FloatN>& wi, const LayerNormals<FloatN>* layers,
+                            const TexturePoint<FloatN>* point) const = 0;
+
   /// The share that is left of light that went so far behind surfaces.
   virtual Rgb<FloatN> transmittance(const LaneIndices& materials, const FloatN& distance,
                                     const TexturePoint<FloatN>* point) const = 0;
@@ -182,6 +187,19 @@ class MaterialTableOf final : public MaterialTable {
       Scattering result{bsdfs.sample(wo, u, u1, u2), {black, FloatN(0)}};
       if (any(lit)) result.towards = {bsdfs.evaluate(wo, wi, local_normal<FloatN>()), bsdfs.pdf(wo, wi)};
       return result;
+    }
+  }
+
+  Rgb<FloatN> gloss(const LaneIndices& materials, const MaskN& front, const Refraction<FloatN>& media,
+                    const Vec3<FloatN>& wo, const Vec3<FloatN>& wi, const LayerNormals<FloatN>* layers,
+                    const TexturePoint<FloatN>* point) const override {
+    if constexpr (has_layers) {
+      const auto bsdfs = gathered(materials, front, point, media);
+      if (layers == nullptr) return bsdfs.gloss(bsdfs.lobes(wo), wi);
+      const LayerFrames<FloatN> frames(*layers, wo);
+      return bsdfs.gloss(bsdfs.lobes(wo, &frames), wi);
+    } else {
+      return Rgb<FloatN>(Rgb<float>(0, 0, 0));
     }
   }
 

@@ -1,6 +1,7 @@
 // What surfaces do with light: SceneTables' answers by the materials of what was hit.
 #include <algorithm>
 #include <bit>
+#include <optional>
 
 #include "raytrace/bsdfs/lambertian.h"
 #include "raytrace/math/gather.h"
@@ -104,6 +105,17 @@ Scattering SceneTables::scatter(const Hits& hits, const SurfaceInteraction<Float
     return with_layers(nullptr);
   const LayerNormals<FloatN> layers = surface.layers.to_local(frame);
   return with_layers(&layers);
+}
+
+Rgb<FloatN> SceneTables::gloss(const Hits& hits, const SurfaceInteraction<FloatN>& surface, const Frame<FloatN>& frame,
+                               const Refraction<FloatN>& media, const Vec3<FloatN>& wo, const Vec3<FloatN>& wi,
+                               const TexturePoint<FloatN>* point) const {
+  std::optional<LayerNormals<FloatN>> layers;
+  if (surface.has_layers) layers = surface.layers.to_local(frame);
+  const Rgb<FloatN> gloss = by_material(hits, [&](const MaterialTable& table, const LaneIndices& materials) {
+    return table.gloss(materials, surface.front, media, wo, wi, layers ? &*layers : nullptr, point);
+  });
+  return surface.has_emerging ? select(surface.emerges, Rgb<FloatN>(Rgb<float>(0, 0, 0)), gloss) : gloss;
 }
 
 Subsurface<FloatN> SceneTables::subsurface(const Hits& hits, const TexturePoint<FloatN>* point) const {

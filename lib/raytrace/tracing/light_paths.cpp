@@ -104,7 +104,15 @@ void LightPaths::arrive(const LightPathPoint& at, const MaskN& scattered) {
           .towards;
   FloatN weight = FloatN::load_aligned(areas.data()) * cosine * (wi.z / max(true_wi, FloatN(1e-6F)));
   if (seen.has_relief) weight = weight * relief_shadow(seen, surface.wo);
-  Rgb<FloatN> radiance = path.flux * bsdf.f * weight;
+  // What gloss reflects of lamps and skies, paths from the camera find; of lights without size they do not.
+  Rgb<FloatN> f = bsdf.f;
+  if (const MaskN found = lit & float_mask<FloatN>(path.source >= IntN(static_cast<int>(tables_.lights().size())));
+      any(found)) {
+    const Rgb<FloatN> gloss = tables_.gloss(hits, seen, frame, boundary.media, wo, wi, point);
+    const Rgb<FloatN> rest = f + gloss * FloatN(-1);
+    f = select(found, {max(rest.red, FloatN(0)), max(rest.green, FloatN(0)), max(rest.blue, FloatN(0))}, f);
+  }
+  Rgb<FloatN> radiance = path.flux * f * weight;
   const bool has_fog = tables_.media().has_fog();
   if (!tables_.media().empty() && !has_fog)
     radiance = radiance * tables_.media().transmittance(boundary.current, distance);

@@ -279,6 +279,8 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   const MaskN is_first = depth == 0 ? !float_mask<FloatN>(path.way == IntN(by_scattering)) : MaskN(false);
   const MaskN on_way =
       focuses & (float_mask<FloatN>(path.way == IntN(by_reflection)) | float_mask<FloatN>(path.way == IntN(by_focus)));
+  const MaskN on_gloss_way =
+      focuses & (float_mask<FloatN>(path.way == IntN(by_gloss)) | float_mask<FloatN>(path.way == IntN(by_gloss_focus)));
   const PointMedia point_media{media, boundary.current};
   // Each pane is one more scattering.
   const PanesAhead ahead{settings_.maxdepth - depth - 1, Refraction<FloatN>(boundary.media.outside), path.distance};
@@ -289,7 +291,7 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
     light = direct_light(scene_, tables.light_groups()[group], hits, surface, point, coherence, lanes, counts,
                          ShadowNumbers{path.pixel, path.sample, first_key + 1}, &clock_,
                          has_media ? &point_media : nullptr, panes);
-    if (any(on_way)) light = select(on_way, black(), light);
+    if (any(on_way | on_gloss_way)) light = select(on_way | on_gloss_way, black(), light);
     if (groups_ == 1) break;  // which is added with the light that is drawn
     add_scattered(path, lanes, path.throughput * light, IntN(static_cast<std::int32_t>(group)), depth + 1);
     light = black();
@@ -322,7 +324,8 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   clock_.end(Stage::lights);
   if (!goes_on) return;
 
-  const PathDeparture from{vertex, boundary, media, depth, first_key + lights + 2, lanes, focuses, is_first, on_way};
+  const PathDeparture from{vertex, boundary, media,    depth,  first_key + lights + 2,
+                           lanes,  focuses,  is_first, on_way, on_gloss_way};
   if (depth > 0 || settings_.indirectsamples == 1) return scatter(path, from, scattering.sample, choices.y, counts);
   clock_.end(Stage::shade);
   for (int branch = 0; branch < settings_.indirectsamples; ++branch) scatter_branch(path, from, branch, counts);

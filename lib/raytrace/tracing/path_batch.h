@@ -88,12 +88,19 @@ class PathBatch {
     int depth;
     std::uint32_t next_key;  ///< of the next rays
     MaskN lanes;
-    // In scenes with caustics: those that focus light; camera rays' first points; those on light paths' ways.
-    MaskN focuses, is_first, on_way;
+    // In scenes with caustics: those that focus light; camera rays' first points; those on light paths' ways, and those
+    // that would be, but for gloss.
+    MaskN focuses, is_first, on_way, on_gloss_way;
   };
   /// From there in a direction that was drawn to the next points. roulette: a random number.
   void scatter(PathPacket& path, const PathDeparture& from, const BsdfSample<FloatN>& sample, const FloatN& roulette,
                RayCounts& counts);
+  /// Says what those paths leave by, for light paths.
+  void set_way(PathPacket& path, const PathDeparture& from, const BsdfSample<FloatN>& sample, const MaskN& lanes) const;
+  /// Of paths in those lanes, makes each one of what gloss reflects, or of the rest, so that both are as bright as they
+  /// were. The result: those by gloss.
+  MaskN split_gloss(PathPacket& path, const PathDeparture& from, const BsdfSample<FloatN>& sample,
+                    const MaskN& lanes) const;
   /// One of the paths that go on from a camera ray's first point, where several do.
   void scatter_branch(const PathPacket& path, const PathDeparture& from, int branch, RayCounts& counts);
   /// Those paths' ways through media that scatter light, from where their rays start, to the next surfaces. depth: the

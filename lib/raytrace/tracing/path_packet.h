@@ -12,11 +12,13 @@ namespace raytrace {
 
 /// What a path from the camera has met, as far as light paths are concerned (tracing/light_paths.h).
 enum PathWay : std::int32_t {
-  any_way,        ///< or nothing yet
-  by_scattering,  ///< no surface yet, but what is in a medium
-  by_reflection,  ///< last a point that light paths bring light to, or photons, which reflected it
-  by_focus,       ///< that, and from there on one or more points of what does: light from here is a light path's
-  from_below,     ///< anything, and it now comes out from below the surface that it has hit
+  any_way,         ///< or nothing yet
+  by_scattering,   ///< no surface yet, but what is in a medium
+  by_reflection,   ///< last a point that light paths bring light to, or photons, which reflected it
+  by_focus,        ///< that, and from there on one or more points of what does: light from here is a light path's
+  by_gloss,        ///< last such a point, which reflected it nearly as a mirror does: light is its own
+  by_gloss_focus,  ///< that, and then as by_focus: light of what a path can hit is its own
+  from_below,      ///< anything, and it now comes out from below the surface that it has hit
 };
 
 /// A path from the camera for each lane, whose last ray has hit something.

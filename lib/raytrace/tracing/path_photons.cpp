@@ -16,8 +16,19 @@ void PathBatch::add_photons(const PathPacket& path, const Hits& hits, const Surf
   light.cosine = select(found.lanes & (true_cosine > FloatN(0)) & (shaded > FloatN(0)),
                         shaded / max(true_cosine, shaded * FloatN(0.25F)), FloatN(0));
   if (surface.has_relief) light.cosine = light.cosine * relief_shadow(surface, light.wi);
-  const Rgb<FloatN> radiance =
-      scene_.tables().shade(hits, surface, Rgb<float>(0, 0, 0), {&light, 1}, point) * path.throughput;
+  const SceneTables& tables = scene_.tables();
+  const Rgb<float> black(0, 0, 0);
+  Rgb<FloatN> radiance = tables.shade(hits, surface, black, {&light, 1}, point);
+  // What gloss reflects of lamps and skies, paths find by themselves.
+  if (any(found.is_met)) {
+    const Frame<FloatN> frame = tables.shading_frame(hits, surface, point);
+    const Rgb<FloatN> gloss =
+        tables.gloss(hits, surface, frame, {}, frame.to_local(surface.wo), frame.to_local(light.wi), point);
+    const Rgb<FloatN> rest = radiance + gloss * light.radiance * (light.cosine * FloatN(-1));
+    radiance = select(found.is_met, {max(rest.red, FloatN(0)), max(rest.green, FloatN(0)), max(rest.blue, FloatN(0))},
+                      radiance);
+  }
+  radiance = radiance * path.throughput;
   add(indirect_, path.slot, found.lanes, radiance, groups_ > 1 ? found.group : IntN(0));
 }
 

@@ -20,6 +20,42 @@ void PathBatch::scatter_branch(const PathPacket& path, const PathDeparture& from
   scatter(next, from, scattering.sample, choices.y, counts);
 }
 
+void PathBatch::set_way(PathPacket& path, const PathDeparture& from, const BsdfSample<FloatN>& sample,
+                        const MaskN& lanes) const {
+  const MaskN through = sample.wi.z < FloatN(0);
+  const MaskN reflects = (from.is_first | MaskN(photons_ != nullptr)) & !(from.focuses | through | sample.specular);
+  const MaskN by_gloss_alone = split_gloss(path, from, sample, lanes & reflects);
+  IntN way = select_lanes(reflects, IntN(by_reflection), IntN(any_way));
+  way = select_lanes(by_gloss_alone, IntN(by_gloss), way);
+  way = select_lanes(from.on_gloss_way, IntN(by_gloss_focus), way);
+  path.way = select_lanes(from.on_way, IntN(by_focus), way);
+}
+
+MaskN PathBatch::split_gloss(PathPacket& path, const PathDeparture& from, const BsdfSample<FloatN>& sample,
+                             const MaskN& lanes) const {
+  if (none(lanes)) return lanes;
+  const PathVertex& vertex = from.vertex;
+  const Vec3<FloatN> wo = vertex.frame.to_local(vertex.surface.wo);
+  const Rgb<FloatN> gloss = scene_.tables().gloss(vertex.hits, vertex.surface, vertex.frame, from.boundary.media, wo,
+                                                  sample.wi, vertex.textures);
+  const auto sum = [](const Rgb<FloatN>& c) { return c.red + c.green + c.blue; };
+  const FloatN all = sum(sample.f);
+  const FloatN chance = select(lanes & (all > FloatN(0)), min(sum(gloss) / all, FloatN(1)), FloatN(0));
+  const MaskN both = lanes & (chance > FloatN(0));
+  if (none(both)) return both;
+  const FloatN u = get_2d(path.pixel, path.sample, gloss_dimension(from.depth)).x;
+  const MaskN by_gloss_alone = both & (u < chance);
+  const FloatN scale = FloatN(1) / select(by_gloss_alone, chance, max(FloatN(1) - chance, FloatN(1e-6F)));
+  const auto part = [&](const FloatN& of_gloss, const FloatN& of_all) {
+    const FloatN kept = select(by_gloss_alone, of_gloss, max(of_all - of_gloss, FloatN(0)));
+    return select(of_all > FloatN(0), kept / of_all * scale, FloatN(0));
+  };
+  const Rgb<FloatN> parts{part(gloss.red, sample.f.red), part(gloss.green, sample.f.green),
+                          part(gloss.blue, sample.f.blue)};
+  path.throughput = select(both, path.throughput * parts, path.throughput);
+  return by_gloss_alone;
+}
+
 void PathBatch::scatter(PathPacket& path, const PathDeparture& from, const BsdfSample<FloatN>& sample,
                         const FloatN& roulette, RayCounts& counts) {
   const SceneTables& tables = scene_.tables();
@@ -37,6 +73,7 @@ void PathBatch::scatter(PathPacket& path, const PathDeparture& from, const BsdfS
   if (surface.has_relief) weight = select(through, weight, weight * relief_shadow(surface, rays.direction));
   path.throughput = select(alive, path.throughput * sample.f * weight, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
   path.eta2 = path.eta2 * sample.eta2;
+  if (tables.caustics() != nullptr) set_way(path, from, sample, alive);
   if (depth + 1 >= settings_.roulettedepth) {
     // Twice as many as carry it: what ends has cost little, and what goes on need not be much brighter.
     const FloatN survival = min(largest(path.throughput) * path.eta2 * FloatN(2), FloatN(1));
@@ -50,10 +87,6 @@ void PathBatch::scatter(PathPacket& path, const PathDeparture& from, const BsdfS
     onward = sample.specular & through & tables.is_pane(tables.material(from.vertex.hits)) &
              goes_straight(-surface.wo, rays.direction);
   path.pdf = select(onward, path.pdf, select(sample.specular | through, infinity<FloatN>(), sample.pdf));
-  if (tables.caustics() != nullptr) {
-    const MaskN reflects = (from.is_first | MaskN(photons_ != nullptr)) & !(from.focuses | through | sample.specular);
-    path.way = select_lanes(from.on_way, IntN(by_focus), select_lanes(reflects, IntN(by_reflection), IntN(any_way)));
-  }
   path.from = select(onward, path.from, surface.p);
   path.from_normal = select(onward, path.from_normal, surface.ns);
   rays.origin = offset_ray_origin(surface, through & alive);

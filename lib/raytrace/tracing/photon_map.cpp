@@ -160,7 +160,7 @@ PhotonMap::Light PhotonMap::choose(const Vec3<FloatN>& p, const Vec3<FloatN>& no
                                    const FloatN& u, int most_points) const {
   alignas(64) std::array<std::array<float, packet_lanes>, 6> numbers{};
   alignas(64) std::array<std::int32_t, packet_lanes> groups{};
-  alignas(64) std::array<std::uint32_t, packet_lanes> found{};
+  alignas(64) std::array<std::uint32_t, packet_lanes> found{}, met{};
   // Of Epanechnikov's kernel, 1 - (distance / radius)^2.
   const auto per_area = static_cast<float>(2 / (std::numbers::pi * double{radius_} * double{radius_}));
   for (std::uint32_t left = bits_of<FloatN>(lanes); left != 0; left &= left - 1) {
@@ -179,13 +179,15 @@ PhotonMap::Light PhotonMap::choose(const Vec3<FloatN>& p, const Vec3<FloatN>& no
     numbers[4][lane] = photon.flux.green * share;
     numbers[5][lane] = photon.flux.blue * share;
     groups[lane] = photon.group;
+    met[lane] = photon.is_met ? 1 : 0;
     found[lane] = 1;
   }
   const auto load = [&](std::size_t i) { return FloatN::load_aligned(numbers[i].data()); };
   return {float_mask<FloatN>(UintN::load_aligned(found.data()) != UintN(0u)),
           {load(0), load(1), load(2)},
           {load(3), load(4), load(5)},
-          IntN::load_aligned(groups.data())};
+          IntN::load_aligned(groups.data()),
+          float_mask<FloatN>(UintN::load_aligned(met.data()) != UintN(0u))};
 }
 
 float radius_for(const std::vector<Photon>& photons, std::size_t neighbours, int threads) {

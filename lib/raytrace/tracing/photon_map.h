@@ -19,6 +19,7 @@ struct Photon {
   Vec3f wi;             ///< towards where it came from; unit length
   Rgb<float> flux;      ///< its share of that of all light paths of the pass
   std::int32_t group;   ///< of lights
+  bool is_met;          ///< paths from the camera may come to its light: it is a lamp's, or the sky's
   std::int32_t points;  ///< that focused it
 };
 
@@ -34,6 +35,7 @@ class PhotonMap final : public Photons {
     Vec3<FloatN> wi;
     Rgb<FloatN> flux_density;  ///< over the surface, whatever the light's direction
     IntN group;
+    MaskN is_met;
   };
   /// Estimates the light at points p of surfaces of those normals, from photons that came by `most_points` or fewer:
   /// draws one of them in proportion to its flux and to a kernel that falls off with the distance, and gives it the

@@ -59,6 +59,7 @@ class PhotonTracer final : private LightPathTracer {
     const auto lane_of = [](const Vec3<FloatN>& v, std::size_t lane) {
       return Vec3f{v.x.get(lane), v.y.get(lane), v.z.get(lane)};
     };
+    const auto lights = static_cast<std::int32_t>(tables_.lights().size());
     const MaskN lit = lanes & (dot(surface.ng, surface.wo) > FloatN(0)) & (largest(path.flux) < infinity<FloatN>());
     for (std::uint32_t left = bits_of<FloatN>(lit); left != 0; left &= left - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(left));
@@ -66,7 +67,7 @@ class PhotonTracer final : private LightPathTracer {
           {path.sample.get(lane),
            {lane_of(surface.p, lane), lane_of(surface.ng, lane), lane_of(surface.wo, lane),
             Rgb<float>(path.flux.red.get(lane), path.flux.green.get(lane), path.flux.blue.get(lane)) * share_,
-            path.group.get(lane), at.depth}});
+            path.group.get(lane), path.source.get(lane) >= lights, at.depth}});
     }
   }
 
