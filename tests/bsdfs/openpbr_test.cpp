@@ -62,6 +62,24 @@ TEST_CASE("OpenPBR: what absorbs nothing sends all light on, from both sides") {
       }
 }
 
+TEST_CASE("OpenPBR: what absorbs nothing sends all light on, of whatever index it is") {
+  for (const double ior : {0.1, 0.2, 3.0, 5.0, 10.0})
+    for (const bool coated : {false, true})
+      for (const double transmission : {0.0, 1.0})
+        for (const bool front : {true, false}) {
+          OpenPbr::Parameters parameters = white(0.6);
+          parameters.transmission_weight = transmission;
+          (coated ? parameters.coat_ior : parameters.specular_ior) = ior;
+          parameters.coat_weight = coated ? 1 : 0;
+          parameters.coat_roughness = 0.6;
+          for (const double angle : {0.0, 40.0, 75.0}) {
+            INFO((coated ? "coat" : "base") << " of " << ior << (front ? "" : " from its back") << ", transmission "
+                                            << transmission << ", wo at " << angle);
+            CHECK(sent_on(bsdf_of(parameters, front), at_angle({0, 0, 1}, angle, 1)) == Approx(1).epsilon(0.02));
+          }
+        }
+}
+
 namespace {
 
 OpenPbr::Parameters brushed_metal(double roughness) {

@@ -114,9 +114,10 @@ namespace detail {
 template <bool reflection>
 class DielectricShares {
  public:
-  static constexpr int layers = 33;
-  // Even steps of the root of |eta - 1| / (eta + 1): total reflection starts suddenly.
-  static constexpr float most = 0.67F;
+  // Even steps of the root of |eta - 1| / (eta + 1), since total reflection starts suddenly: to either side of an eta
+  // of 1 as many as the root needs to come to 1, of which `unit` are the size of `unit_root`.
+  static constexpr int unit = 16, most = 24, layers = 2 * most + 1;
+  static constexpr float unit_root = 0.67F;
 
   /// From the layer's first number on.
   const float* shares() const { return shares_.data(); }
@@ -126,7 +127,8 @@ class DielectricShares {
     if (is_made_[index].load(std::memory_order_acquire)) return;
     const std::lock_guard lock(making_);
     if (is_made_[index].load(std::memory_order_relaxed)) return;
-    const float step = (static_cast<float>(layer) * 2 / (layers - 1) - 1) * most, x = step * std::abs(step);
+    const float step = static_cast<float>(layer - most) / unit * unit_root;
+    const float x = std::clamp(step * std::abs(step), -0.99999F, 0.99999F);
     const FloatN eta((1 + x) / (1 - x));
     ShareAxes::fill(&shares_[index * ShareAxes::size], [&](float cosine, float roughness) {
       const Ggx<FloatN> ggx{FloatN(roughness * roughness)};
@@ -152,17 +154,16 @@ class DielectricShares {
 
 }  // namespace detail
 
-/// Of facets that reflect and refract as a boundary of that eta does (fresnel.h); beyond 2.6 and 1 / 2.6 as there.
-/// reflection: what they reflect alone.
+/// Of facets that reflect and refract as a boundary of that eta does (fresnel.h). reflection: what they reflect alone.
 template <bool reflection = false>
 FloatN ggx_dielectric_share(const FloatN& cosine, const FloatN& roughness, const FloatN& eta) {
   using DielectricShares = detail::DielectricShares<reflection>;
   static DielectricShares table;
   const FloatN x = (eta - FloatN(1)) / (eta + FloatN(1));
-  const FloatN size = min(sqrt(abs(x)) * FloatN(1 / DielectricShares::most), FloatN(1));
-  constexpr int last = DielectricShares::layers - 1;
-  const FloatN height = (FloatN(1) + select(x < FloatN(0), -size, size)) * FloatN(last / 2);
-  const IntN layer = to_int(min(height, FloatN(last - 0.001F)));
+  const FloatN size = min(sqrt(abs(x)), FloatN(1)) * FloatN(1 / DielectricShares::unit_root);
+  const FloatN height = (FloatN(1) + select(x < FloatN(0), -size, size)) * FloatN(DielectricShares::unit);
+  const FloatN below = floor(height);
+  const IntN layer = to_int(below) + IntN(DielectricShares::most - DielectricShares::unit);
   const LaneIndices numbers(layer);
   for (std::size_t lane = 0; lane < (numbers.all_same() ? 1 : packet_lanes); ++lane) {
     table.make(layer.get(lane));
@@ -172,7 +173,7 @@ FloatN ggx_dielectric_share(const FloatN& cosine, const FloatN& roughness, const
     return detail::ShareAxes::look_up(table.shares(), number * IntN(detail::ShareAxes::size), cosine, roughness);
   };
   const FloatN low = at(layer);
-  return low + (at(layer + IntN(1)) - low) * (height - to_float(layer));
+  return low + (at(layer + IntN(1)) - low) * (height - below);
 }
 
 /// What facets send on, and of it what they reflect.
