@@ -80,6 +80,39 @@ TEST_CASE("OpenPBR: what absorbs nothing sends all light on, of whatever index i
         }
 }
 
+TEST_CASE("OpenPBR: rough diffuse reflection beside light that goes in loses nothing") {
+  for (const double weight : {0.5, 1.0})
+    for (const std::string kind : {"walks", "no walks", "thin"})
+      for (const bool front : {true, false}) {
+        OpenPbr::Parameters parameters = white(1);
+        parameters.specular_ior = 1;
+        parameters.base_diffuse_roughness = 1;
+        parameters.subsurface_weight = weight;
+        parameters.subsurface_color = {1, 1, 1};
+        parameters.walks = kind == "no walks" ? 0 : 1;
+        parameters.geometry_thin_walled = kind == "thin";
+        for (const double angle : {10.0, 70.0}) {
+          INFO("weight " << weight << ", " << kind << (front ? "" : " from its back") << ", wo at " << angle);
+          CHECK(sent_on(bsdf_of(parameters, front), at_angle({0, 0, 1}, angle, 1)) == Approx(1).epsilon(3e-3));
+        }
+      }
+}
+
+TEST_CASE("OpenPBR: what is diffuse beside light that goes in is as rough as without") {
+  OpenPbr::Parameters parameters = white(1);
+  parameters.specular_ior = 1;
+  parameters.base_color = {0.3, 0.6, 0.9};
+  parameters.base_diffuse_roughness = 1;
+  const Vec3<FloatN> wo = spread(at_angle({0, 0, 1}, 50, 1)), wi = spread(at_angle({0, 0, 1}, 30, 2));
+  const auto f = [&](double weight) {
+    parameters.subsurface_weight = weight;
+    return bsdf_of(parameters).evaluate(wo, wi, local_normal<FloatN>());
+  };
+  const Rgb<FloatN> all = f(0), part = f(0.75);
+  CHECK(part.red.get(0) == Approx(all.red.get(0) / 4).epsilon(1e-5));
+  CHECK(part.blue.get(0) == Approx(all.blue.get(0) / 4).epsilon(1e-5));
+}
+
 namespace {
 
 OpenPbr::Parameters brushed_metal(double roughness) {

@@ -66,7 +66,9 @@ struct OpenPbrBsdf {
     // Walks go in below the front alone: from behind there is no inside to walk in.
     if (const auto walks = subsurface > T(0); any(walks)) {
       const auto behind = walks & !(front | is_thin());
-      base = select(behind, base + inside, base);
+      const T weight = base_weight + subsurface;
+      base = select(behind, (base * base_weight + inside) * (T(1) / weight), base);
+      base_weight = select(behind, weight, base_weight);
       inside = select(behind, black(), inside);
     }
   }

@@ -43,13 +43,16 @@ class Kernel<OpenPbr> {
     const auto has_subsurface = below > none;
     const Value comes_back = pick(values.thin > none, half * (one - g), one - walks),
                 goes_on = walks * pick(values.thin > none, half * (one + g), one);
+    // One colour of weights that multiply what comes of it, since rough diffuse reflection is not linear in its colour.
+    const Value of_base = values.base_weight * (one - below), of_subsurface = below * comes_back,
+                diffuse = of_base + of_subsurface;
     const auto base = [&](const Value& color, const Value& inside) {
-      return pick(has_subsurface, values.base_weight * color * (one - below) + inside * below * comes_back, color);
+      return pick(has_subsurface, (of_base * color + of_subsurface * inside) / least(diffuse), color);
     };
     bsdf.base = Rgb<T>(Rgb<Value>(base(values.base_color.red, values.subsurface_color.red),
                                   base(values.base_color.green, values.subsurface_color.green),
                                   base(values.base_color.blue, values.subsurface_color.blue)));
-    bsdf.base_weight = number(pick(has_subsurface, one, values.base_weight));
+    bsdf.base_weight = number(pick(has_subsurface, diffuse, values.base_weight));
     bsdf.subsurface = number(below * walks);
     bsdf.inside = each(values.subsurface_color, [&](const Value& c) { return c * below * goes_on; });
     bsdf.free_path = each(values.subsurface_radius_scale, [&](const Value& c) { return c * values.subsurface_radius; });
