@@ -236,6 +236,45 @@ TEST_CASE("fog that ends at the walls of a room is that which goes on behind the
   CHECK(std::abs(at_walls / behind - 1) < 0.005);
 }
 
+TEST_CASE("fog that ends at what light comes through ends there") {
+  Fogged scene;
+  scene.materials =
+      "<dielectrics><dielectric><name>pane</name><thinwalled>true</thinwalled></dielectric><dielectric><name>air</"
+      "name><ior>1</ior></dielectric></dielectrics>";
+  scene.lights = "<environmentlights><environmentlight/></environmentlights>";
+  scene.fog = "";
+  scene.path = "<maxdepth>300</maxdepth>";
+  scene.box = "<box><min x='-2' y='-2' z='-2'/><max x='2' y='2' z='2'/><material>fog</material></box>";
+  scene.eye = "<eye x='0.3' y='0.2' z='1'/><lookat x='0.1' y='0' z='-2'/><fov>20</fov>";
+  scene.samples = 64;
+  SECTION("at a pane, from inside and outside") {
+    scene.objects = wall(-2, "pane");
+    CHECK(std::abs(mean_of(scene).red - 1) < 0.01);
+    scene.eye = "<eye x='0.3' y='0.2' z='-7'/><lookat x='0.1' y='0' z='-2'/><fov>20</fov>";
+    CHECK(std::abs(mean_of(scene).red - 1) < 0.01);
+  }
+  SECTION("at all of a ball's surface, with the camera inside") {
+    scene.box = "";
+    scene.objects = "<spheres>";
+    for (const std::string material : {"fog", "air"})
+      scene.objects +=
+          "<sphere><center x='0' y='0' z='0'/><radius>2</radius><material>" + material + "</material></sphere>";
+    scene.objects += "</spheres>";
+    CHECK(std::abs(mean_of(scene).red - 1) < 1e-4);
+  }
+}
+
+TEST_CASE("fog that begins at a pane is behind it") {
+  Fogged scene;
+  scene.fog = "<color red='0' green='0' blue='0'/>";
+  scene.path = "<maxdepth>3</maxdepth>";
+  scene.materials =
+      "<dielectrics><dielectric><name>pane</name><thinwalled>true</thinwalled><ior>1</ior></dielectric></dielectrics>";
+  scene.objects = wall(-1, "lamp") + wall(2, "pane");
+  scene.objects.replace(scene.objects.find("</rectangles><rectangles>"), 25, "");
+  CHECK(std::abs(mean_of(scene).red - 3 * std::exp(-3 / mean_free_path)) < 0.01);
+}
+
 TEST_CASE("in a transparent picture fog covers what it does not let through") {
   Fogged scene;
   scene.background = "<background red='1' green='1' blue='1'/>";

@@ -2,6 +2,37 @@
 
 namespace raytrace {
 
+void pass_boundaries_at_starts(const TracedScene& scene, Ray<FloatN>& rays, MaskN lanes, const FloatN& distance,
+                               const RayIds& ids, MediumStack& media) {
+  constexpr int most_boundaries = 16;
+  const SceneTables& tables = scene.tables();
+  const Vec3<FloatN> start = rays.origin;
+  const FloatN size = distance + abs(start.x) + abs(start.y) + abs(start.z), before = size * FloatN(end_of_ray);
+  Ray<FloatN> left{start - rays.direction * before, rays.direction, FloatN(0), FloatN(0)};
+  FloatN reach = before * FloatN(1 + 1.0F / 16);
+  for (int boundaries = 0; boundaries < most_boundaries && any(lanes); ++boundaries) {
+    left.far = reach;
+    RayIdentity identity(tables, scene.accelerator(), left, ids);
+    identity.meets = Meets::boundaries_of_fogs;
+    Hits hits =
+        scene.accelerator().intersect(left, lanes & (reach > FloatN(0)), Coherence::incoherent, nullptr, &identity);
+    lanes = hits.hit;
+    if (none(lanes)) return;
+    if (tables.has_motion()) [[unlikely]]
+      hits.time = ids.times();
+    const SurfaceInteraction<FloatN> surface = scene.accelerator().surface(left, hits);
+    const IntN inside = select_lanes(lanes, tables.media().of_material(tables.material(hits)), IntN(0));
+    // Some may have been passed before: the last one says what the rays are in.
+    const MaskN is_in = media.contains(inside);
+    media.add(lanes & surface.front & !is_in, inside);
+    media.remove(lanes & !surface.front & is_in, inside);
+    left.origin = select(lanes, offset_ray_origin(surface, lanes), left.origin);
+    reach = reach - left.far;
+    const MaskN ahead = lanes & (dot(left.origin - start, rays.direction) > FloatN(0));
+    rays.origin = select(ahead, left.origin, rays.origin);
+  }
+}
+
 Rgb<FloatN> fog_transmittance(const TracedScene& scene, const Ray<FloatN>& rays, const MaskN& lanes, const RayIds& ids,
                               MediumStack& media) {
   const FloatN unit = length(rays.direction);

@@ -11,8 +11,12 @@ struct PointMedia {
   const IntN& current;  ///< that of them which counts
 };
 
+/// How much of a ray's length is at its end: more than what rounding makes of two surfaces in one place.
+inline constexpr float end_of_ray = 0x1p-16F;
+
 /// Goes along rays from boundary to boundary of fogs, as far as they reach, or nearly: what ends at a surface, such as
-/// the fog of a room at its wall, goes on behind it. media: where the rays start; then where they end.
+/// the fog of a room at its wall, is passed by what comes through that surface alone. media: where the rays start; then
+/// where they end.
 ///
 /// part(lanes, fog, number, begin, end): called once for each interval between two boundaries. `lanes` are in a fog
 /// there, each in the one that `fog` says; `number` counts the intervals; begin, end: as distances along rays are. The
@@ -20,10 +24,9 @@ struct PointMedia {
 template <class Part>
 void for_each_part_in_fog(const TracedScene& scene, const Ray<FloatN>& rays, MaskN lanes, const RayIds& ids,
                           MediumStack& media, const Part& part) {
-  constexpr int most_boundaries = 1000;       // where rounding keeps a ray at one
-  constexpr float before_end = 1 - 0x1p-16F;  // more than what rounding makes of two surfaces in one place
+  constexpr int most_boundaries = 1000;  // where rounding keeps a ray at one
   const SceneTables& tables = scene.tables();
-  const FloatN reach = rays.far * FloatN(before_end);
+  const FloatN reach = rays.far * FloatN(1 - end_of_ray);
   Ray<FloatN> left = rays;
   left.near = FloatN(0);
   FloatN begin(0);
@@ -59,6 +62,12 @@ void for_each_part_in_fog(const TracedScene& scene, const Ray<FloatN>& rays, Mas
     begin = end;
   }
 }
+
+/// For rays that came through the surfaces where they start, in those lanes: passes the boundaries of fogs in the same
+/// places, which the rays that ended there did not pass, such as of a fog that ends at a window; rays start behind
+/// them. distance: at least that of the rays that ended there. media: where these ended; then where the rays start.
+void pass_boundaries_at_starts(const TracedScene& scene, Ray<FloatN>& rays, MaskN lanes, const FloatN& distance,
+                               const RayIds& ids, MediumStack& media);
 
 /// The share that fogs leave of the light on the way along those rays; media: as above.
 Rgb<FloatN> fog_transmittance(const TracedScene& scene, const Ray<FloatN>& rays, const MaskN& lanes, const RayIds& ids,

@@ -237,7 +237,11 @@ Hits PathBatch::go_through_fog(PathPacket& path, MediumStack& media, const MaskN
       rays.far = select(goes_on, ray.far, rays.far);
     }
     MaskN scatters(false), ends(false);
-    const Ray<FloatN> ray = rays;
+    Ray<FloatN> ray = rays;
+    if (step == 0) {
+      const MaskN through = goes_on & (MaskN(way.is_passed()) | (dot(rays.direction, path.from_normal) < FloatN(0)));
+      if (any(through)) pass_boundaries_at_starts(scene_, ray, through, path.distance, numbers.ids(0), media);
+    }
     for_each_part_in_fog(
         scene_, ray, goes_on, numbers.ids(0), media,
         [&](const MaskN& in_fog, const IntN& fog, int number, const FloatN& begin, const FloatN& end) {
