@@ -208,6 +208,54 @@ TEST_CASE("lamps in instances are drawn as lamps that stand there themselves") {
   CHECK(std::abs(instanced / single - 1) < 0.02);
 }
 
+TEST_CASE("lamps in instances are as bright far from the origin as at it") {
+  const auto mean_at = [](double x) {
+    const std::string at = "<translate x='" + std::to_string(x) + "' y='0' z='0'/>", from = std::to_string(x);
+    return mean(rendered(parsed_scene(
+        "<raytracer><viewplane><hres>16</hres><vres>16</vres><samples>64</samples></viewplane><camera><eye x='" + from +
+        "' y='0.25' z='0.6'/><lookat x='" + from +
+        "' y='-0.04' z='0'/><fov>45</fov></camera><integrator><path><maxdepth>1</maxdepth></path></integrator>"
+        "<materials><mattes><matte><name>floor</name><ka>0</ka><kd>1</kd><cd red='0.7' green='0.7' blue='0.7'/></matte>"
+        "</mattes><emissives><emissive><name>lamp</name><ce red='4' green='4' blue='4'/></emissive></emissives>"
+        "</materials><groups><group><name>g</name><objects><rectangles><rectangle><corner x='-0.1' y='0.3' z='-0.1'/>"
+        "<edge1 x='0.2' y='0' z='0'/><edge2 x='0' y='0' z='0.2'/><material>lamp</material></rectangle></rectangles>"
+        "</objects></group></groups><objects><rectangles><rectangle><corner x='-0.3' y='-0.1' z='0.3'/>"
+        "<edge1 x='0.6' y='0' z='0'/><edge2 x='0' y='0' z='-0.6'/><material>floor</material><transform>" +
+        at + "</transform></rectangle></rectangles><instances><instance><group>g</group><transform>" + at +
+        "</transform></instance></instances></objects></raytracer>")));
+  };
+  const double near = mean_at(0), far = mean_at(4000);
+  INFO(far << ", at the origin " << near);
+  CHECK(std::abs(far / near - 1) < 1e-3);
+}
+
+TEST_CASE("a floor close below a huge sphere that shines gets all the light of its hemisphere") {
+  const double lit = mean(rendered(parsed_scene(
+      "<raytracer><viewplane><hres>8</hres><vres>8</vres><samples>64</samples></viewplane><camera>"
+      "<eye x='0.5' y='0.4' z='0'/><lookat x='0' y='0' z='0'/><fov>0.2</fov></camera><integrator><path>"
+      "<maxdepth>1</maxdepth></path></integrator><materials><mattes><matte><name>floor</name><ka>0</ka><kd>0.8</kd>"
+      "<cd red='1' green='1' blue='1'/></matte></mattes><emissives><emissive><name>lamp</name>"
+      "<ce red='1' green='1' blue='1'/></emissive></emissives></materials><objects><spheres><sphere>"
+      "<center x='0' y='100001' z='0'/><radius>100000</radius><material>lamp</material></sphere></spheres>"
+      "<rectangles><rectangle><corner x='-0.5' y='0' z='0.5'/><edge1 x='1' y='0' z='0'/><edge2 x='0' y='0' z='-1'/>"
+      "<material>floor</material></rectangle></rectangles></objects></raytracer>")));
+  INFO(lit);
+  CHECK(std::abs(lit / 0.8 - 1) < 0.003);
+}
+
+TEST_CASE("the inside of a sphere that shines is lit by itself") {
+  const double lit = mean(rendered(parsed_scene(
+      "<raytracer><viewplane><hres>8</hres><vres>8</vres><samples>256</samples></viewplane><camera>"
+      "<eye x='0.5' y='0.4' z='0'/><lookat x='0' y='0' z='0'/><fov>90</fov></camera><integrator><path>"
+      "<maxdepth>40</maxdepth></path></integrator><materials><openpbrs><openpbr><name>lamp</name>"
+      "<base_color red='0.5' green='0.5' blue='0.5'/><specular_weight>0</specular_weight>"
+      "<emission_luminance>1</emission_luminance><geometry_thin_walled>true</geometry_thin_walled></openpbr></openpbrs>"
+      "</materials><objects><spheres><sphere><center x='0' y='0' z='0'/><radius>3</radius><material>lamp</material>"
+      "</sphere></spheres></objects></raytracer>")));
+  INFO(lit);
+  CHECK(std::abs(lit / 2 - 1) < 0.01);
+}
+
 TEST_CASE("drawn light does not depend on threads, samples at once, or how the picture is cut") {
   std::string all;
   for (const Lamp& lamp : lamps) all += lamp.objects;

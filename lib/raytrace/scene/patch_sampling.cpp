@@ -21,6 +21,12 @@ MaskN is(const PatchRecord<FloatN>& patch, PatchShape shape) {
   return float_mask<FloatN>(shapes == IntN(static_cast<std::int32_t>(shape)));
 }
 
+/// By how many times a patch's points may be farther off the surface that rays meet than rounding alone puts them.
+FloatN error_factor(const PatchRecord<FloatN>& patch) {
+  const IntN instanced = same_bits<IntN>(patch.code) & IntN(PatchCode::instanced);
+  return select(float_mask<FloatN>(instanced == IntN(0)), FloatN(1), FloatN(32));
+}
+
 /// Of a density per area.
 FloatN per_solid_angle(const FloatN& density, const Vec3<FloatN>& from, const Vec3<FloatN>& p,
                        const Vec3<FloatN>& normal) {
@@ -31,8 +37,9 @@ FloatN per_solid_angle(const FloatN& density, const Vec3<FloatN>& from, const Ve
 
 /// The directions to a sphere from a point outside of it.
 struct SphereCone {
-  Vec3<FloatN> axis;  ///< from the center to the point, of unit length
-  MaskN outside;
+  Vec3<FloatN> axis;        ///< from the center to the point, of unit length
+  FloatN distance;          ///< from there to there
+  MaskN outside;            ///< so far that it is no point of the sphere itself, which its inside lights
   FloatN sine2;             ///< of half the cone's angle, squared
   FloatN one_minus_cosine;  ///< of that angle, without cancellation
 
@@ -40,8 +47,11 @@ struct SphereCone {
     constexpr float least = 1e-37F;
     const Vec3<FloatN> way = from - sphere.origin;
     const FloatN squared = max(dot(way, way), FloatN(least)), radius2 = sphere.a.x * sphere.a.x;
-    axis = way * (FloatN(1) / sqrt(squared));
-    outside = squared > radius2;
+    distance = sqrt(squared);
+    axis = way * (FloatN(1) / distance);
+    const FloatN sizes = max(largest_component(sphere.origin), sphere.a.x);
+    const FloatN far = sphere.a.x + rounding_error(from, sizes) * error_factor(sphere) * FloatN(4);
+    outside = squared > far * far;
     sine2 = min(max(radius2 / squared, FloatN(least)), FloatN(1));
     one_minus_cosine = sine2 / (FloatN(1) + sqrt(FloatN(1) - sine2));
   }
@@ -132,15 +142,16 @@ FloatN torus_density(const PatchRecord<FloatN>& torus, const Vec3<FloatN>& p) {
   return FloatN(1 / (4 * pi * pi)) / (tube * max(from_axis, tube * FloatN(1e-6F)));
 }
 
-void set(const MaskN& here, const Vec3<FloatN>& p, const Vec3<FloatN>& normal, const FloatN& size,
-         PatchSample& result) {
+void set(const MaskN& here, const Vec3<FloatN>& from, const Vec3<FloatN>& p, const Vec3<FloatN>& normal,
+         const FloatN& size, PatchSample& result) {
   result.p = select(here, p, result.p);
+  result.way = select(here, p - from, result.way);
   result.normal = select(here, normal, result.normal);
   result.error = select(here, rounding_error(p, size), result.error);
 }
 
-void sample_flat(const PatchRecord<FloatN>& patch, const MaskN& here, const FlatView& view, const FloatN& u1,
-                 const FloatN& u2, PatchSample& result) {
+void sample_flat(const PatchRecord<FloatN>& patch, const MaskN& here, const Vec3<FloatN>& from, const FlatView& view,
+                 const FloatN& u1, const FloatN& u2, PatchSample& result) {
   // Triangles by halves of the square: Heitz, "A Low-Distortion Map Between Triangle and Square", 2019.
   const MaskN triangle = is(patch, PatchShape::triangle), below = u1 < u2;
   const FloatN half1 = u1 * FloatN(0.5F), half2 = u2 * FloatN(0.5F);
@@ -152,8 +163,9 @@ void sample_flat(const PatchRecord<FloatN>& patch, const MaskN& here, const Flat
     result.v = select(view.near, v, result.v);
   }
   const Vec3<FloatN> across = cross(patch.a, patch.b);
-  set(here, patch.origin + patch.a * result.u + patch.b * result.v, across * (FloatN(1) / length(across)),
+  set(here, from, patch.origin + patch.a * result.u + patch.b * result.v, across * (FloatN(1) / length(across)),
       max(largest_component(patch.a), largest_component(patch.b)), result);
+  result.way = select(here, view.to_origin + patch.a * result.u + patch.b * result.v, result.way);
 }
 
 void sample_sphere(const PatchRecord<FloatN>& patch, const MaskN& here, const Vec3<FloatN>& from, const FloatN& u1,
@@ -169,26 +181,34 @@ void sample_sphere(const PatchRecord<FloatN>& patch, const MaskN& here, const Ve
   const FloatN cosine = select(cone.outside, min(at_center, FloatN(1)), FloatN(1) - FloatN(2) * radius2);
   const FloatN sine = sqrt(max((FloatN(1) - cosine) * (FloatN(1) + cosine), FloatN(0)));
   const FloatN across = sine / max(sqrt(radius2), FloatN(1e-18F));
-  const Vec3<FloatN> normal = Frame<FloatN>(cone.axis).to_world({point.x * across, point.y * across, cosine});
-  set(here, patch.origin + normal * patch.a.x, normal, patch.a.x, result);
+  const Frame<FloatN> frame(cone.axis);
+  const Vec3<FloatN> normal = frame.to_world({point.x * across, point.y * across, cosine});
+  set(here, from, patch.origin + normal * patch.a.x, normal, patch.a.x, result);
+  // In the cone, by the angle there: near a large sphere, points of it are too coarse.
+  const FloatN &radius = patch.a.x, to_axis = FloatN(1) - one_minus_cosine;
+  const FloatN far = (cone.distance - radius) * (cone.distance + radius) /
+                     (cone.distance * to_axis + radius * sqrt(FloatN(1) - share));
+  const FloatN aside = sqrt(sine2) / max(sqrt(radius2), FloatN(1e-18F));
+  const Vec3<FloatN> direction = frame.to_world({point.x * aside, point.y * aside, -to_axis});
+  result.way = select(here & cone.outside, direction * far, result.way);
 }
 
-void sample_band(const PatchRecord<FloatN>& band, const MaskN& here, const FloatN& u1, const Vec3<FloatN>& outwards,
-                 PatchSample& result) {
+void sample_band(const PatchRecord<FloatN>& band, const MaskN& here, const Vec3<FloatN>& from, const FloatN& u1,
+                 const Vec3<FloatN>& outwards, PatchSample& result) {
   const auto& [first, last, height] = band.b;
   const FloatN rise = last - first;
   const FloatN radius = sqrt(max(first * first + u1 * (last - first) * (last + first), FloatN(0)));
   const FloatN along = u1 * (first + last) / max(first + radius, FloatN(1e-37F));
   const FloatN slope = FloatN(1) / sqrt(rise * rise + height * height);
-  set(here, band.origin + band.a * (height * along) + outwards * radius,
+  set(here, from, band.origin + band.a * (height * along) + outwards * radius,
       outwards * (height * slope) - band.a * (rise * slope), max(max(first, last), height), result);
 }
 
-void sample_torus(const PatchRecord<FloatN>& torus, const MaskN& here, const FloatN& u1, const Vec3<FloatN>& outwards,
-                  PatchSample& result) {
+void sample_torus(const PatchRecord<FloatN>& torus, const MaskN& here, const Vec3<FloatN>& from, const FloatN& u1,
+                  const Vec3<FloatN>& outwards, PatchSample& result) {
   const auto [sine, cosine] = sin_cos_of_turns(u1);
   const Vec3<FloatN> normal = outwards * cosine + torus.a * sine;
-  set(here, torus.origin + outwards * torus.b.x + normal * torus.b.y, normal, torus.b.x + torus.b.y, result);
+  set(here, from, torus.origin + outwards * torus.b.x + normal * torus.b.y, normal, torus.b.x + torus.b.y, result);
 }
 
 /// patch_pdf(). view: where any lane's patch is flat.
@@ -219,18 +239,17 @@ PatchSample sample_patch(const PatchRecord<FloatN>& patch, const Vec3<FloatN>& f
   std::optional<FlatView> view;
   if (any(flat)) {
     view.emplace(patch, from);
-    sample_flat(patch, flat, *view, u1, u2, result);
+    sample_flat(patch, flat, from, *view, u1, u2, result);
   }
   if (any(sphere)) sample_sphere(patch, sphere, from, u1, u2, result);
   if (any(band | torus)) {
     const auto [sine, cosine] = sin_cos_of_turns(u2);
     const Frame<FloatN> frame(select(band | torus, patch.a, Vec3<FloatN>(Vec3f(0, 0, 1))));
     const Vec3<FloatN> outwards = frame.x * cosine + frame.y * sine;
-    if (any(band)) sample_band(patch, band, u1, outwards, result);
-    if (any(torus)) sample_torus(patch, torus, u1, outwards, result);
+    if (any(band)) sample_band(patch, band, from, u1, outwards, result);
+    if (any(torus)) sample_torus(patch, torus, from, u1, outwards, result);
   }
-  const IntN instanced = same_bits<IntN>(patch.code) & IntN(PatchCode::instanced);
-  result.error = result.error * select(float_mask<FloatN>(instanced == IntN(0)), FloatN(1), FloatN(32));
+  result.error = result.error * error_factor(patch);
   result.pdf = density(patch, view, from, result.p, result.normal);
   return result;
 }

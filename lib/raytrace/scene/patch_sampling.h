@@ -36,9 +36,11 @@ struct PatchCode {
 /// Points of patches, one a lane.
 struct PatchSample {
   Vec3<FloatN> p, normal;  ///< the normal has unit length, on the front
-  FloatN error;            ///< bound of the distance between p and the true surface
-  FloatN pdf;              ///< density per solid angle, from where it was drawn for; 0 where the point is on edge
-  FloatN u, v;             ///< barycentric coordinates, of triangles
+  Vec3<FloatN>
+      way;  ///< to p from where it was drawn for, in the direction that pdf is of, of which p - from has lost digits
+  FloatN error;  ///< bound of the distance between p and the true surface
+  FloatN pdf;    ///< density per solid angle, from where it was drawn for; 0 where the point is on edge
+  FloatN u, v;   ///< barycentric coordinates, of triangles
 };
 
 /// A point of each lane's patch, drawn out of u1 and u2 in [0, 1) for light that goes to `from`: of spheres that `from`

@@ -53,16 +53,19 @@ inline void draw_from_surfaces(const SceneTables& tables, const SurfaceInteracti
                                const FloatN& choice, const Sample2D& point, DrawnLight& result) {
   result.sample = tables.emitters().sample(surface.p, surface.ns, choice, point.x, point.y);
   const PatchSample& drawn = result.sample.point;
-  // A shadow ray ends as far before the light as it starts from the surface.
   SurfaceInteraction<FloatN>& light = result.surface;
   light = {};
-  light.front = dot(drawn.normal, surface.p - drawn.p) > FloatN(0);
+  light.front = dot(drawn.normal, drawn.way) < FloatN(0);
   light.ng = select(light.front, drawn.normal, -drawn.normal);
   light.ns = light.ng;
   light.p = drawn.p;
   light.error = max(drawn.error, surface.error);
-  result.ray.direction = offset_ray_origin(light) - result.ray.origin;
-  result.ray.far = FloatN(1);
+  result.wi = normalize(drawn.way);
+  // The shadow ray ends as far before the light as it starts from the surface, but on the same way: the density is that
+  // of its direction. It keeps half of its length where it comes in flat.
+  result.ray.direction = drawn.way - (result.ray.origin - surface.p);
+  const FloatN height = max(-dot(light.ng, result.ray.direction), FloatN(1e-30F));
+  result.ray.far = max(FloatN(1) - light.error * FloatN(4) / height, FloatN(0.5F));
   result.pdf = select(drawn.pdf < infinity<FloatN>(), drawn.pdf, FloatN(0));
 }
 
@@ -84,10 +87,11 @@ inline DrawnLight draw_light(const SceneTables& tables, const SurfaceInteraction
     const FloatN pdf = sky.pdf * FloatN(environment_share);
     light.radiance = sky.radiance;
     light.ray.direction = environment_share < 1 ? select(light.is_sky, sky.wi, light.ray.direction) : sky.wi;
-    light.ray.far = environment_share < 1 ? select(light.is_sky, infinity<FloatN>(), FloatN(1)) : infinity<FloatN>();
+    light.ray.far =
+        environment_share < 1 ? select(light.is_sky, infinity<FloatN>(), light.ray.far) : infinity<FloatN>();
+    light.wi = environment_share < 1 ? select(light.is_sky, normalize(sky.wi), light.wi) : normalize(sky.wi);
     light.pdf = environment_share < 1 ? select(light.is_sky, pdf, light.pdf) : pdf;
   }
-  light.wi = normalize(light.ray.direction);
   light.surface.wo = -light.wi;
   light.lit = light.pdf > FloatN(0);
   return light;

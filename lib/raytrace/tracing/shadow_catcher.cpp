@@ -80,7 +80,6 @@ void add_emitters(CatcherPoint& point, const Hits& hits, LightChoice& choice) {
     light.ray = point.ray;
     draw_from_surfaces(tables, point.surface, point.draw(CatcherDraw::emitter, i, count).x,
                        point.draw(CatcherDraw::emitter_point, i, count), light);
-    light.wi = normalize(light.ray.direction);
     light.surface.wo = -light.wi;
     const FloatN cosine = point.cosine(light.wi);
     const MaskN lit = hits.hit & (light.pdf > FloatN(0)) & (cosine > FloatN(0));
