@@ -165,21 +165,73 @@ TEST_CASE("a lamp cut into many triangles is as bright as one") {
 }
 
 TEST_CASE("a lamp with a texture is as bright where it is drawn as where it is met") {
-  const auto bright = [](const std::string& more, int samples) {
-    std::string text = room(
-        "<rectangles><rectangle><corner x='-0.5' y='0.3' z='-0.5'/><edge1 x='1' y='0' z='0'/><edge2 x='0' y='0' z='1'/>"
-        "M</rectangle></rectangles>",
-        more, samples, "");
+  // Half of it, in squares, so that all of these are cut into pieces.
+  const auto bright = [](const std::string& lamp, const std::string& more, int samples) {
+    std::string text = room(lamp, more, samples, "");
     const std::string root = "<raytracer>", color = "<ce red='1' green='1' blue='1'/>";
     text.insert(root.size(),
                 "<textures><checkers><checker><name>squares</name><color1 red='1' green='1' blue='1'/>"
-                "<color2 red='0' green='0' blue='0'/><uvscale x='3' y='3'/></checker></checkers></textures>");
+                "<color2 red='0' green='0' blue='0'/><uvscale x='3' y='2'/></checker></checkers></textures>");
     text.replace(text.find(color), color.size(), "<ce red='1' green='1' blue='1' texture='squares'/>");
+    text.replace(text.find("<fov>50"), 7, "<fov>6");  // small pixels, which see the squares
     return mean(rendered(parsed_scene(text), 2));
   };
-  const double drawn = bright("", 512), met = bright("<opacity>0.9999999</opacity>", 4096);
-  INFO(drawn << ", by chance " << met);
-  CHECK(std::abs(drawn / met - 1) < 0.02);
+  const std::string mirrored =
+      "<transform><scale x='-1' y='1' z='0.5'/><rotate x='0' y='0' z='1' angle='20'/></transform>";
+  const std::string quads =
+      "<meshes><mesh><positions>-0.5 0.2 -0.5  0.5 0.2 -0.5  0.5 0.3 0.5  -0.5 0 0.4</positions>"
+      "<faces>0 1 2 3</faces><uvs>0 0  1 0  1 1  0 1</uvs>M";
+  const Lamp textured[] = {
+      {"rectangle",
+       "<rectangles><rectangle><corner x='-0.5' y='0.3' z='-0.5'/><edge1 x='1' y='0' z='0'/><edge2 x='0' y='0' z='1'/>"
+       "M</rectangle></rectangles>"},
+      {"triangle", lamps[1].objects},
+      {"disk", lamps[4].objects},
+      {"mirrored box", lamps[10].objects}};
+  const auto check = [&](const std::string& name, const std::string& objects) {
+    const std::string sides = name == "triangle" ? "<twosided>true</twosided>" : "";
+    const double drawn = bright(objects, sides, 512),
+                 met = bright(objects, sides + "<opacity>0.9999999</opacity>", is_sanitized ? 512 : 8192);
+    INFO(name << ": " << drawn << ", by chance " << met);
+    CHECK(met > 0.005);
+    CHECK(std::abs(drawn / met - 1) < (is_sanitized ? 0.2 : 0.02));
+  };
+  for (const Lamp& lamp : textured) check(lamp.name, lamp.objects);
+  check("quads", quads + "</mesh></meshes>");
+  check("mirrored quads", quads + mirrored + "</mesh></meshes>");
+}
+
+TEST_CASE("of a lamp whose texture is dark but for a spot, light is drawn from the spot") {
+  std::string text = room(
+      "<rectangles><rectangle><corner x='-0.5' y='0.3' z='-0.5'/><edge1 x='1' y='0' z='0'/><edge2 x='0' y='0' z='1'/>"
+      "M</rectangle></rectangles>",
+      "", 64, "");
+  const std::string root = "<raytracer>", color = "<ce red='1' green='1' blue='1'/>";
+  text.insert(root.size(), "<textures><images><image><name>spot</name><file>made</file></image></images></textures>");
+  text.replace(text.find(color), color.size(), "<ce red='1' green='1' blue='1' texture='spot'/>");
+  text.replace(text.find("<fov>50"), 7, "<fov>2");  // small pixels, which see the spot as it is
+  const auto with_spot = [&](const std::string& scene_text) {
+    SceneDescription scene = parsed_scene(scene_text);
+    Picture picture{32, 32, 4, TexelFormat::bytes, LargeArray<std::byte>::zeros(std::size_t{32} * 32 * 4)};
+    for (std::size_t i = 0; i < 4; ++i) picture.pixels[(7 * 32 + 21) * 4 + i] = std::byte{255};
+    const auto texels = std::make_shared<const TexelImage>(picture, true, 1);
+    std::get<TextureItems<Image>>(scene.textures).at(0).image = {"made", texels, texels};
+    return rendered(scene, 2);
+  };
+  const FloatPicture some = with_spot(text);
+  std::string evenly = text;
+  evenly.replace(evenly.find("</maxdepth>"), 11, "</maxdepth><lightsampling>uniform</lightsampling>");
+  const FloatPicture even = with_spot(evenly);
+  text.replace(text.find("<samples>64<"), 12, "<samples>2048<");
+  const FloatPicture many = with_spot(text);
+  const auto error = [&](const FloatPicture& picture) {
+    double apart = 0;
+    for (std::size_t i = 0; i < picture.pixels().size(); ++i)
+      apart += std::abs(double{picture.pixels()[i].green} - double{many.pixels()[i].green});
+    return apart / static_cast<double>(picture.pixels().size()) / mean(many);
+  };
+  INFO(error(some) << ", drawn evenly " << error(even) << "; " << mean(many) << ", " << mean(even));
+  CHECK(error(some) < error(even) * 0.3);
 }
 
 TEST_CASE("lamps in instances are drawn as lamps that stand there themselves") {

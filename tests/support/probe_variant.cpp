@@ -2,6 +2,7 @@
 #include <array>
 
 #include "raytrace/accel/accelerator.h"
+#include "raytrace/accel/surface_uv.h"
 #include "support/probe_backend.h"
 
 namespace raytrace::test {
@@ -95,7 +96,7 @@ class EmbreePackets {
 class Backend final : public ProbeBackend {
  public:
   explicit Backend(const SceneDescription& description)
-      : tables_(description, 1),
+      : tables_(description, 1, texture_point),
         accelerator_(tables_.geometry(), 1, embree_isa, tables_.fogs()),
         embree_alone_(tables_.geometry(), 1, embree_isa, tables_.fogs()) {
     embree_alone_.use_embree_alone();

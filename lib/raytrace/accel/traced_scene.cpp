@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <variant>
 
+#include "raytrace/accel/surface_uv.h"
+
 namespace raytrace {
 
 TracedScene::TracedScene(const SceneDescription& description, int threads, const char* isa_name, const char* embree_isa)
-    : tables_(description, threads),
+    : tables_(description, threads, texture_point),
       accelerator_(tables_.geometry(), threads, embree_isa, tables_.fogs()),
       isa_name_(isa_name) {
   make_buffers(threads);

@@ -142,11 +142,9 @@ void CausticTable::weigh(const Lights& lights) {
     }
     for (std::size_t i = 0; i < lights.emitters.size(); ++i) {
       const PatchRecord<float>& patch = lights.emitters.patch(i);
-      const auto material =
-          static_cast<std::size_t>(std::bit_cast<std::int32_t>(patch.code) >> PatchCode::material_shift);
       const Vec3d way = Vec3d(target.center) - Vec3d(patch.origin);
       const double distance2 = dot(way, way) + double{target.radius} * double{target.radius};
-      add(source++, t, lights.emitters.area(i) * double{lights.radiances[material]} * disk / distance2);
+      add(source++, t, lights.emitters.area(i) * double{lights.emitters.radiance(i)} * disk / distance2);
     }
     if (lights.environment != nullptr)
       add(source, t, 4 * pi * double{sum_of(lights.environment->mean_radiance())} * disk);

@@ -34,11 +34,10 @@ class WeightedChoice {
 /// Immutable.
 class CausticTable {
  public:
-  /// What shines. radiances: about that of each material, as MaterialEmission has it.
+  /// What shines.
   struct Lights {
     const std::vector<std::unique_ptr<LightSource>>& sources;
     const EmitterTable& emitters;
-    const std::vector<float>& radiances;
     const Environment* environment;  ///< null if there is none
   };
 

@@ -10,12 +10,18 @@
 #include <tuple>
 #include <utility>
 
+#include "raytrace/scene/patch_pieces.h"
+
 namespace raytrace {
 
 namespace {
 
 /// Beyond so many patches, further ones are left to the rays that meet them.
 constexpr std::size_t most_patches = std::size_t{1} << 24;
+
+/// About as many pieces at most are textured patches cut into, and about as often is a texture looked up for them; but
+/// at least once for each.
+constexpr std::size_t most_pieces = std::size_t{1} << 16, most_look_ups = std::size_t{1} << 20;
 
 bool is_flat(const LightPatch& patch) {
   return patch.shape == PatchShape::parallelogram || patch.shape == PatchShape::triangle;
@@ -66,18 +72,18 @@ Bounds box_of(const LightPatch& patch) {
   return patch.shape == PatchShape::triangle ? three : join(three, around(patch.origin + a + b, 0));
 }
 
-LightEmission emission_of(const LightPatch& patch, const MaterialEmission& material) {
+LightEmission emission_of(const LightPatch& patch, float radiance, bool two_sided) {
   LightEmission emission{box_of(patch)};
-  emission.power = static_cast<float>(area_of(patch) * static_cast<double>(material.radiance));
+  emission.power = static_cast<float>(area_of(patch) * static_cast<double>(radiance));
   std::optional<Vec3d> axis;
   if (is_flat(patch)) axis = cross(patch.a, patch.b);
   if (patch.shape == PatchShape::band && patch.b.z == 0) axis = patch.a * (patch.b.x - patch.b.y);
-  if (axis && length(*axis) > 0 && !material.two_sided) {
+  if (axis && length(*axis) > 0 && !two_sided) {
     emission.axis = Vec3f(normalize(*axis));
   } else {
     emission.cosine = -1;
   }
-  if (material.two_sided) emission.power *= 2;
+  if (two_sided) emission.power *= 2;
   return emission;
 }
 
@@ -103,11 +109,43 @@ Affine to_double(const AffineRecord<float>& affine) {
 }  // namespace
 
 EmitterTable::EmitterTable(const GeometryTable& world, std::span<const MaterialEmission> materials,
-                           LightSampling sampling) {
+                           LightSampling sampling, const RadianceAt& radiance_at) {
   const auto shines = [](const MaterialEmission& material) { return material.radiance > 0; };
   if (std::none_of(materials.begin(), materials.end(), shines)) return;
-  std::vector<LightEmission> emissions;
-  add_table(world, {}, materials, emissions);
+  Making making{materials, radiance_at};
+  making.cuts = 0;
+  // All are drawn alike where they are drawn evenly.
+  if (sampling != LightSampling::uniform && std::any_of(materials.begin(), materials.end(), [&](const auto& material) {
+        return shines(material) && material.textured;
+      })) {
+    std::size_t textured = 0;
+    for_each_geometry(
+        world, materials,
+        [&](const GeometryTable& table, std::uint32_t geometry, const Primitives& primitives, const Setting& setting) {
+          for (std::int32_t i = primitives.first; i < primitives.last; ++i)
+            textured += materials[static_cast<std::size_t>(material_of(table, geometry, i, setting))].textured;
+        });
+    const auto each_way = [&](std::size_t all, int most) {
+      const double each = std::sqrt(static_cast<double>(all) / static_cast<double>(std::max(textured, std::size_t{1})));
+      return std::clamp(static_cast<int>(each), 1, most);
+    };
+    making.cuts = each_way(most_pieces, 32);
+    making.points = each_way(most_look_ups, std::max(64, 4 * making.cuts)) / making.cuts;
+  }
+  for_each_geometry(world, materials,
+                    [&](const GeometryTable& table, std::uint32_t geometry, const Primitives& primitives,
+                        const Setting& setting) { add_geometry(table, geometry, primitives, setting, making); });
+  tree_ = LightTree(making.emissions, sampling);
+}
+
+template <class Function>
+void EmitterTable::for_each_geometry(const GeometryTable& world, std::span<const MaterialEmission> materials,
+                                     const Function& f) {
+  const auto each_of = [&](const GeometryTable& table, const Setting& setting) {
+    for (std::uint32_t i = 0; i < table.geometries().size(); ++i)
+      f(table, i, Primitives{0, static_cast<std::int32_t>(table.geometry(i).primitives)}, setting);
+  };
+  each_of(world, {});
   const InstanceTable& instances = world.instances();
   for (std::size_t i = 0; i < instances.size(); ++i) {
     // Those that move are met by chance alone.
@@ -117,26 +155,24 @@ EmitterTable::EmitterTable(const GeometryTable& world, std::span<const MaterialE
         target.group == InstanceTarget::no_group ? world : *world.groups()[static_cast<std::size_t>(target.group)];
     const Setting setting{instances.number(i), instances.materials()[i], to_double(instances.world_from_object(i)),
                           static_cast<double>(instances.scale(i))};
-    if (setting.material >= 0 && !shines(materials[static_cast<std::size_t>(setting.material)])) continue;
+    if (setting.material >= 0 && !(materials[static_cast<std::size_t>(setting.material)].radiance > 0)) continue;
     if (!target.is_shape) {
-      add_table(table, setting, materials, emissions);
+      each_of(table, setting);
       continue;
     }
     const auto primitive = static_cast<std::int32_t>(target.primitive);
-    add_geometry(table, target.shape_type, {primitive, primitive + 1}, setting, materials, emissions);
+    f(table, target.shape_type, Primitives{primitive, primitive + 1}, setting);
   }
-  tree_ = LightTree(emissions, sampling);
 }
 
-void EmitterTable::add_table(const GeometryTable& table, const Setting& setting,
-                             std::span<const MaterialEmission> materials, std::vector<LightEmission>& emissions) {
-  for (std::uint32_t i = 0; i < table.geometries().size(); ++i)
-    add_geometry(table, i, {0, static_cast<std::int32_t>(table.geometry(i).primitives)}, setting, materials, emissions);
+std::int32_t EmitterTable::material_of(const GeometryTable& table, std::uint32_t geometry, std::int32_t primitive,
+                                       const Setting& setting) {
+  return setting.material >= 0 ? setting.material
+                               : table.material_of(0, geometry, static_cast<std::uint32_t>(primitive));
 }
 
 void EmitterTable::add_geometry(const GeometryTable& table, std::uint32_t geometry, Primitives primitives,
-                                const Setting& setting, std::span<const MaterialEmission> materials,
-                                std::vector<LightEmission>& emissions) {
+                                const Setting& setting, Making& making) {
   const bool is_single = primitives.last - primitives.first == 1 && setting.instance != 0;
   const MeshTable* const mesh = table.geometry(geometry).mesh;
   Range range{setting.instance,
@@ -146,13 +182,12 @@ void EmitterTable::add_geometry(const GeometryTable& table, std::uint32_t geomet
               0,
               mesh != nullptr,
               setting.world_from_object.determinant() < 0};
-  std::vector<LightPatch> patches;
+  Faces faces;
   const auto add = [&](std::int32_t primitive) {
-    const std::int32_t number = setting.material >= 0
-                                    ? setting.material
-                                    : table.material_of(0, geometry, static_cast<std::uint32_t>(primitive));
-    const MaterialEmission& material = materials[static_cast<std::size_t>(number)];
+    const std::int32_t number = material_of(table, geometry, primitive, setting);
+    const MaterialEmission& material = making.materials[static_cast<std::size_t>(number)];
     if (!(material.radiance > 0)) return;
+    std::vector<LightPatch>& patches = faces.patches;
     patches.clear();
     if (mesh != nullptr) {
       for (const bool second : {false, true})
@@ -172,20 +207,27 @@ void EmitterTable::add_geometry(const GeometryTable& table, std::uint32_t geomet
       if (!moved) return;
       patch = *moved;
     }
-    // Primitives of one geometry have equally many, but for caps: ranges are of equals.
+    faces.radiances.assign(patches.size(), material.radiance);
+    faces.cuts = 1;
+    if (making.cuts > 0 && material.textured && std::all_of(patches.begin(), patches.end(), is_flat))
+      weigh(faces, range, primitive, material, making);
+    // Primitives of one geometry have equally many, but for caps and textures: ranges are of equals.
     const auto count = static_cast<std::int32_t>(patches.size());
     if (count == 0 || patches_.size() + patches.size() > most_patches) return;
-    if (count != range.patches_each) {
+    if (count != range.patches_each || faces.cuts != range.cuts) {
       if (!range.primitives.empty()) ranges_.push_back(range);
       range.primitives.clear();
       range.first_patch = static_cast<std::int32_t>(patches_.size());
       range.patches_each = count;
+      range.cuts = faces.cuts;
     }
     range.primitives.push_back(primitive);
-    for (const LightPatch& patch : patches) {
+    for (std::size_t i = 0; i < patches.size(); ++i) {
+      const LightPatch& patch = patches[i];
       patches_.push_back({Vec3f(patch.origin), Vec3f(patch.a), Vec3f(patch.b),
                           PatchCode::of(patch.shape, number, setting.instance != 0)});
-      emissions.push_back(emission_of(patch, material));
+      radiances_.push_back(faces.radiances[i]);
+      making.emissions.push_back(emission_of(patch, faces.radiances[i], material.two_sided));
     }
   };
   for (std::int32_t i = primitives.first; i < primitives.last; ++i) add(i);
@@ -217,13 +259,30 @@ std::int32_t EmitterTable::patch_of(const Hits& hits, std::size_t lane, const Ve
   if (found == primitives.end() || *found != primitive) return -1;
   const std::int32_t first =
       range->first_patch + static_cast<std::int32_t>(found - primitives.begin()) * range->patches_each;
-  if (range->is_mesh) return first + (range->patches_each == 2 && hits.u.get(lane) + hits.v.get(lane) > 1 ? 1 : 0);
-  std::int32_t nearest = first;
-  for (std::int32_t i = first + 1; i < first + range->patches_each; ++i)
-    if (distance_to(patches_[static_cast<std::size_t>(i)], p) <
-        distance_to(patches_[static_cast<std::size_t>(nearest)], p))
-      nearest = i;
-  return nearest;
+  const std::int32_t pieces = range->pieces();
+  std::int32_t face = first;
+  if (range->is_mesh) {
+    face += range->patches_each == 2 * pieces && hits.u.get(lane) + hits.v.get(lane) > 1 ? pieces : 0;
+  } else {
+    for (std::int32_t i = first + pieces; i < first + range->patches_each; i += pieces)
+      if (distance_to(patches_[static_cast<std::size_t>(i)], p) <
+          distance_to(patches_[static_cast<std::size_t>(face)], p))
+        face = i;
+  }
+  if (pieces == 1) return face;
+  return face + piece_of_face(*range, face, range->turned({hits.u.get(lane), hits.v.get(lane)}, face != first), p);
+}
+
+std::int32_t EmitterTable::piece_of_face(const Range& range, std::int32_t face, const Vec2<float>& uv,
+                                         const Vec3f& p) const {
+  const PatchRecord<float>& piece = patches_[static_cast<std::size_t>(face)];
+  const PatchShape shape = PatchCode::shape_of(piece.code);
+  const auto cuts = static_cast<float>(range.cuts);
+  if (shape == PatchShape::triangle) return piece_at(shape, range.cuts, {uv.x * cuts, uv.y * cuts});
+  const Vec3f from = p - piece.origin, normal = cross(piece.a, piece.b);
+  const float scale = 1 / dot(normal, normal);
+  return piece_at(shape, range.cuts,
+                  {dot(cross(from, piece.b), normal) * scale, dot(cross(piece.a, from), normal) * scale});
 }
 
 double EmitterTable::area(std::size_t number) const {
@@ -279,10 +338,15 @@ Hits EmitterTable::hits(const Sample& sample, const MaskN& lanes) const {
     instance[lane] = range.instance;
     geometry[lane] = range.geometry;
     primitive[lane] = range.primitives[static_cast<std::size_t>(offset / range.patches_each)];
-    if (range.is_mirrored) std::swap(u[lane], v[lane]);
-    if (!range.is_mesh || offset % range.patches_each == 0) continue;
-    u[lane] = 1 - u[lane];
-    v[lane] = 1 - v[lane];
+    const std::int32_t in_primitive = offset % range.patches_each, face = in_primitive / range.pieces();
+    Vec2<float> uv{u[lane], v[lane]};
+    if (range.cuts > 1) {
+      const PatchShape shape = PatchCode::shape_of(patches_[static_cast<std::size_t>(patch)].code);
+      uv = in_whole(shape, range.cuts, in_primitive % range.pieces(), uv);
+    }
+    uv = range.turned(uv, range.is_mesh && face > 0);
+    u[lane] = uv.x;
+    v[lane] = uv.y;
   }
   Hits hits;
   hits.hit = lanes;

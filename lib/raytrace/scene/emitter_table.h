@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "raytrace/math/vec2.h"
 #include "raytrace/scene/geometry_table.h"
 #include "raytrace/scene/light_tree.h"
 #include "raytrace/scene/patch_sampling.h"
@@ -17,14 +19,23 @@ namespace raytrace {
 struct MaterialEmission {
   float radiance = 0;  ///< about that of its channels together; 0: light is not drawn from it
   bool two_sided = false;
+  bool textured = false;  ///< whether it may differ along the surface; then `radiance` is about the most
 };
 
 /// The patches of all surfaces that shine. Planes, and round shapes whose instances stretch them, are not among them:
 /// their light counts where a path meets them.
+///
+/// Flat patches whose texture is not even are cut into up to 32 x 32, each with the power that its part of the texture
+/// has: the tree then draws what is bright. Round ones are drawn as if they were as bright everywhere.
 class EmitterTable {
  public:
-  /// materials: of all materials by their numbers.
-  EmitterTable(const GeometryTable& geometry, std::span<const MaterialEmission> materials, LightSampling sampling);
+  /// What lanes of `hits` send out, as MaterialEmission has it, on the mean of a circle of that radius.
+  using RadianceAt =
+      std::function<FloatN(const Hits& hits, const SurfaceInteraction<FloatN>& surface, const FloatN& radius)>;
+
+  /// materials: of all materials by their numbers; radiance_at: asked of those that are textured.
+  EmitterTable(const GeometryTable& geometry, std::span<const MaterialEmission> materials, LightSampling sampling,
+               const RadianceAt& radiance_at);
 
   bool empty() const { return patches_.empty(); }
 
@@ -44,6 +55,8 @@ class EmitterTable {
   std::size_t size() const { return patches_.size(); }
   const PatchRecord<float>& patch(std::size_t number) const { return patches_[number]; }
   double area(std::size_t number) const;
+  /// As MaterialEmission has it, on the mean.
+  float radiance(std::size_t number) const { return radiances_[number]; }
   /// A point of that patch, drawn as sample_patch() draws it.
   Sample sample(const IntN& patch, const Vec3<FloatN>& from, const FloatN& u1, const FloatN& u2) const;
   /// Whether rays that hit something in those lanes met a patch.
@@ -66,6 +79,14 @@ class EmitterTable {
     std::int32_t first_patch;
     std::int32_t patches_each;
     bool is_mesh, is_mirrored;
+    std::int32_t cuts = 1;  ///< their faces are cut into so many pieces each way (patch_pieces.h)
+
+    std::int32_t pieces() const { return cuts * cuts; }  ///< of a face
+    /// The barycentric coordinates that rays have where a patch's triangle has these, or the other way round.
+    Vec2<float> turned(const Vec2<float>& uv, bool is_second) const {
+      const Vec2<float> other = is_second ? Vec2<float>{1 - uv.x, 1 - uv.y} : uv;
+      return is_mirrored ? Vec2<float>{other.y, other.x} : other;
+    }
   };
   /// Where a geometry is, and what its objects are made of.
   struct Setting {
@@ -74,21 +95,48 @@ class EmitterTable {
     Affine world_from_object = {};
     double scale = 1;  ///< of all lengths; 0: not of all the same
   };
-
   struct Primitives {
     std::int32_t first, last;  ///< before that
   };
+  /// What is known while it is made.
+  struct Making {
+    std::span<const MaterialEmission> materials;
+    const RadianceAt& radiance_at;
+    std::int32_t cuts = 1;    ///< of faces whose texture is not even; 0: textures do not count
+    std::int32_t points = 1;  ///< each way, at which a piece's texture is looked up
+    std::vector<LightEmission> emissions = {};
+  };
+  /// A primitive's patches before they are added.
+  struct Faces {
+    std::vector<LightPatch> patches;
+    std::vector<float> radiances;
+    std::int32_t cuts = 1;
+  };
 
-  void add_table(const GeometryTable& table, const Setting& setting, std::span<const MaterialEmission> materials,
-                 std::vector<LightEmission>& emissions);
+  /// f(table, geometry, primitives, setting) of all that may shine.
+  template <class Function>
+  static void for_each_geometry(const GeometryTable& world, std::span<const MaterialEmission> materials,
+                                const Function& f);
+  static std::int32_t material_of(const GeometryTable& table, std::uint32_t geometry, std::int32_t primitive,
+                                  const Setting& setting);
   void add_geometry(const GeometryTable& table, std::uint32_t geometry, Primitives primitives, const Setting& setting,
-                    std::span<const MaterialEmission> materials, std::vector<LightEmission>& emissions);
+                    Making& making);
+  /// Cuts them where the texture is not even, and sets radiances by it. range: of the primitive.
+  static void weigh(Faces& faces, const Range& range, std::int32_t primitive, const MaterialEmission& material,
+                    const Making& making);
+  /// The texture's part in a face's pieces.
+  static std::vector<float> radiances_of(const LightPatch& face, bool is_second, const Range& range,
+                                         std::int32_t primitive, const Making& making);
   /// The number of the patch that each lane's ray hit; -1: none.
   IntN patches_of(const Hits& hits, const MaskN& lanes, const Vec3<FloatN>& p) const;
   /// The same of a lane.
   std::int32_t patch_of(const Hits& hits, std::size_t lane, const Vec3f& p) const;
 
+  /// The number of the face's piece, counted in it, that was hit at p; face: its first piece; uv: on its triangle.
+  std::int32_t piece_of_face(const Range& range, std::int32_t face, const Vec2<float>& uv, const Vec3f& p) const;
+
   std::vector<PatchRecord<float>> patches_;
+  std::vector<float> radiances_;
   std::vector<Range> ranges_;  ///< by instance and geometry
   LightTree tree_;
 };

@@ -46,7 +46,7 @@ Vec3d origin_of(const CameraParameters& camera) {
 
 }  // namespace
 
-SceneTables::SceneTables(const SceneDescription& description, int threads)
+SceneTables::SceneTables(const SceneDescription& description, int threads, const TexturePointOf& point_of)
     : origin_(origin_of(description.camera)),
       viewplane_(description.viewplane),
       pixel_filter_(description.viewplane),
@@ -81,13 +81,22 @@ SceneTables::SceneTables(const SceneDescription& description, int threads)
     media.push_back(used_materials_[i] != 0 ? details_[i].medium : std::nullopt);
     const MaterialEmission& emission = details_[i].emission;
     shining_sides_.push_back(!(emission.radiance > 0) ? 0 : emission.two_sided ? 2 : 1);
-    emissions.push_back(details_[i].is_cutout() ? MaterialEmission{} : details_[i].emission);
+    emissions.push_back(details_[i].is_cutout() ? MaterialEmission{} : emission);
+    emissions.back().textured = !textured_.empty() && textured_[i] != 0;
   }
   media_.set(media);
   const auto* const path = std::get_if<Path::Parameters>(&integrator_);
   add_panes(path);
   if (path == nullptr) emissions.clear();
-  emitters_.emplace(*geometry_, emissions, path == nullptr ? LightSampling::tree : path->lightsampling);
+  emitters_.emplace(*geometry_, emissions, path == nullptr ? LightSampling::tree : path->lightsampling,
+                    [&](const Hits& hits, const SurfaceInteraction<FloatN>& surface, const FloatN& radius) {
+                      // No way from the camera over a surface is shorter, so light is looked up at least so blurred.
+                      const FloatN way = length(surface.p - Vec3<FloatN>(camera_eye_));
+                      const TexturePoint<FloatN> point =
+                          point_of(*this, max(radius, ray_cone_.half_width(way)), hits, surface);
+                      const Rgb<FloatN> radiance = emitted(hits, surface, &point);
+                      return abs(radiance.red) + abs(radiance.green) + abs(radiance.blue);
+                    });
   if (path != nullptr && path->caustics != Caustics::none) {
     add_caustics();
     // With two points, there is none to look them up at.
@@ -112,12 +121,8 @@ MaskN SceneTables::is_pane(const IntN& material) const {
 
 void SceneTables::add_caustics() {
   std::vector<std::uint8_t> focusing;
-  std::vector<float> radiances;
-  for (const SurfaceDetail& detail : details_) {
-    focusing.push_back(detail.focuses ? 1 : 0);
-    radiances.push_back(detail.emission.radiance);
-  }
-  CausticTable table(*geometry_, focusing, {lights_, *emitters_, radiances, environment()});
+  for (const SurfaceDetail& detail : details_) focusing.push_back(detail.focuses ? 1 : 0);
+  CausticTable table(*geometry_, focusing, {lights_, *emitters_, environment()});
   if (!table.empty()) caustics_.emplace(std::move(table));
 }
 

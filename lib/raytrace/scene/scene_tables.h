@@ -42,11 +42,17 @@ struct RayCone {
   }
 };
 
+class SceneTables;
+/// accel/surface_uv.h has it.
+using TexturePointOf = TexturePoint<FloatN>(const SceneTables& scene, const FloatN& radius, const Hits& hits,
+                                            const SurfaceInteraction<FloatN>& surface);
+
 /// Immutable.
 class SceneTables {
  public:
-  /// threads: so many at most share the work. Throws std::bad_alloc.
-  SceneTables(const SceneDescription& description, int threads);
+  /// threads: so many at most share the work; point_of: what textured surfaces that shine are looked up with. Throws
+  /// std::bad_alloc.
+  SceneTables(const SceneDescription& description, int threads, const TexturePointOf& point_of);
 
   /// The world's point that is (0, 0, 0) in all that is traced, so that floats are precise where the camera looks: the
   /// world's own origin if the eye or what it looks at lies within 4096 of it; else the eye or, where the camera is far

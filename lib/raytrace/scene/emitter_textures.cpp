@@ -1,0 +1,84 @@
+// What textures make of the surfaces that light is drawn from.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "raytrace/scene/emitter_table.h"
+#include "raytrace/scene/patch_pieces.h"
+
+namespace raytrace {
+
+std::vector<float> EmitterTable::radiances_of(const LightPatch& face, bool is_second, const Range& range,
+                                              std::int32_t primitive, const Making& making) {
+  const std::int32_t points = making.points * making.points, all = making.cuts * making.cuts * points;
+  const float middle = face.shape == PatchShape::triangle ? 1.0F / 3 : 0.5F;
+  const double spacing = std::max(length(face.a), length(face.b)) / (making.cuts * making.points);
+  SurfaceInteraction<FloatN> surface{};
+  surface.ng = surface.ns = surface.wo = Vec3<FloatN>(Vec3f(normalize(cross(face.a, face.b))));
+  surface.front = MaskN(true);
+  Hits hits;
+  hits.instance = UintN(range.instance);
+  hits.geometry = UintN(range.geometry);
+  hits.primitive = IntN(primitive);
+  std::vector<double> sums(static_cast<std::size_t>(making.cuts * making.cuts));
+  for (std::int32_t first = 0; first < all; first += packet_lanes) {
+    const std::int32_t lanes = std::min<std::int32_t>(packet_lanes, all - first);
+    alignas(64) std::array<float, packet_lanes> x{}, y{}, u{}, v{}, radiances{};
+    for (std::int32_t lane = 0; lane < lanes; ++lane) {
+      const std::int32_t number = first + lane;
+      const Vec2<float> place = in_whole(face.shape, making.cuts, number / points,
+                                         in_whole(face.shape, making.points, number % points, {middle, middle}));
+      const Vec2<float> uv = range.turned(place, is_second);
+      const auto at = static_cast<std::size_t>(lane);
+      x[at] = place.x;
+      y[at] = place.y;
+      u[at] = uv.x;
+      v[at] = uv.y;
+    }
+    hits.hit = first_lanes<FloatN>(lanes);
+    hits.u = FloatN::load_aligned(u.data());
+    hits.v = FloatN::load_aligned(v.data());
+    hits.find_first();
+    surface.p = Vec3<FloatN>(Vec3f(face.origin)) + Vec3<FloatN>(Vec3f(face.a)) * FloatN::load_aligned(x.data()) +
+                Vec3<FloatN>(Vec3f(face.b)) * FloatN::load_aligned(y.data());
+    making.radiance_at(hits, surface, FloatN(static_cast<float>(spacing))).store_aligned(radiances.data());
+    for (std::int32_t lane = 0; lane < lanes; ++lane)
+      sums[static_cast<std::size_t>((first + lane) / points)] += double{radiances[static_cast<std::size_t>(lane)]};
+  }
+  std::vector<float> result;
+  for (const double sum : sums) result.push_back(static_cast<float>(sum / points));
+  return result;
+}
+
+void EmitterTable::weigh(Faces& faces, const Range& range, std::int32_t primitive, const MaterialEmission& material,
+                         const Making& making) {
+  // What look-ups miss may shine all the same: nothing is left out.
+  constexpr float least_of_mean = 0.1F, least_of_most = 1e-4F;
+  constexpr float uneven = 2;  // the brightest piece to the dimmest: less is not worth the longer way in the tree
+  std::vector<float> pieces, wholes;
+  bool is_even = true;
+  for (std::size_t i = 0; i < faces.patches.size(); ++i) {
+    std::vector<float> face = radiances_of(faces.patches[i], range.is_mesh && i > 0, range, primitive, making);
+    double sum = 0;
+    for (const float radiance : face) sum += double{radiance};
+    const auto mean = static_cast<float>(sum / static_cast<double>(face.size()));
+    const float least = std::max(mean * least_of_mean, material.radiance * least_of_most);
+    for (float& radiance : face) radiance = std::isfinite(radiance) ? std::max(radiance, least) : material.radiance;
+    const auto [dimmest, brightest] = std::minmax_element(face.begin(), face.end());
+    is_even = is_even && *brightest <= uneven * *dimmest;
+    // Textures that its emission has none of leave a material as it is.
+    const bool is_whole = std::abs(mean - material.radiance) <= material.radiance * 1e-4F;
+    wholes.push_back(is_whole ? material.radiance : std::isfinite(mean) ? std::max(mean, least) : material.radiance);
+    pieces.insert(pieces.end(), face.begin(), face.end());
+  }
+  if (is_even) {
+    faces.radiances = std::move(wholes);
+    return;
+  }
+  std::vector<LightPatch> patches;
+  for (const LightPatch& face : faces.patches)
+    for (std::int32_t i = 0; i < making.cuts * making.cuts; ++i) patches.push_back(piece_of(face, making.cuts, i));
+  faces = {std::move(patches), std::move(pieces), making.cuts};
+}
+
+}  // namespace raytrace
