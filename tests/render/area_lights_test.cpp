@@ -54,6 +54,9 @@ const Lamp lamps[] = {
     {"flattened sphere",
      "<spheres><sphere><center x='0' y='0' z='0'/><radius>0.5</radius>M<transform>"
      "<scale x='1' y='0.4' z='1'/></transform></sphere></spheres>"},
+    {"stretched, mirrored sphere",
+     "<spheres><sphere><center x='0.1' y='0' z='0'/><radius>0.3</radius>M<transform>"
+     "<scale x='-0.5' y='2' z='1'/><rotate x='1' y='1' z='0.3' angle='40'/></transform></sphere></spheres>"},
 };
 
 /// A grey room's corner about the lamp. emissive: more of the lamp's material.
@@ -232,6 +235,25 @@ TEST_CASE("of a lamp whose texture is dark but for a spot, light is drawn from t
   };
   INFO(error(some) << ", drawn evenly " << error(even) << "; " << mean(many) << ", " << mean(even));
   CHECK(error(some) < error(even) * 0.3);
+}
+
+TEST_CASE("a stretched sphere that shines is drawn, and not left to chance") {
+  const auto with = [](const std::string& emissive, int samples) {
+    return rendered(parsed_scene(room("<spheres><sphere><center x='0' y='0' z='0'/><radius>0.05</radius>M<transform>"
+                                      "<scale x='1' y='4' z='1'/></transform></sphere></spheres>",
+                                      emissive, samples, "")),
+                    2);
+  };
+  const FloatPicture many = with("", 1024);
+  const auto error = [&](const FloatPicture& picture) {
+    double apart = 0;
+    for (std::size_t i = 0; i < picture.pixels().size(); ++i)
+      apart += std::abs(double{picture.pixels()[i].green} - double{many.pixels()[i].green});
+    return apart / static_cast<double>(picture.pixels().size()) / mean(many);
+  };
+  const double drawn = error(with("", 64)), met = error(with("<opacity>0.9999999</opacity>", 64));
+  INFO(drawn << ", by chance " << met);
+  CHECK(drawn < met * 0.5);
 }
 
 TEST_CASE("lamps in instances are drawn as lamps that stand there themselves") {

@@ -10,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include "raytrace/scene/patch_geometry.h"
 #include "raytrace/scene/patch_pieces.h"
 
 namespace raytrace {
@@ -22,55 +23,6 @@ constexpr std::size_t most_patches = std::size_t{1} << 24;
 /// About as many pieces at most are textured patches cut into, and about as often is a texture looked up for them; but
 /// at least once for each.
 constexpr std::size_t most_pieces = std::size_t{1} << 16, most_look_ups = std::size_t{1} << 20;
-
-bool is_flat(const LightPatch& patch) {
-  return patch.shape == PatchShape::parallelogram || patch.shape == PatchShape::triangle;
-}
-
-/// The patch under a map of that scale; none if it is no patch any more.
-std::optional<LightPatch> transformed(const LightPatch& patch, const Affine& affine, double scale) {
-  if (is_flat(patch)) {
-    LightPatch result{patch.shape, affine.point(patch.origin), affine.vector(patch.a), affine.vector(patch.b)};
-    if (affine.determinant() < 0) std::swap(result.a, result.b);  // its front stays
-    return result;
-  }
-  if (scale == 0) return std::nullopt;
-  const Vec3d origin = affine.point(patch.origin);
-  if (patch.shape == PatchShape::sphere) return LightPatch{patch.shape, origin, patch.a * scale, patch.b};
-  return LightPatch{patch.shape, origin, normalize(affine.vector(patch.a)), patch.b * scale};
-}
-
-double area_of(const LightPatch& patch) {
-  constexpr double pi = std::numbers::pi;
-  const Vec3d& sizes = patch.b;
-  switch (patch.shape) {
-    case PatchShape::parallelogram:
-      return length(cross(patch.a, patch.b));
-    case PatchShape::triangle:
-      return length(cross(patch.a, patch.b)) / 2;
-    case PatchShape::sphere:
-      return 4 * pi * patch.a.x * patch.a.x;
-    case PatchShape::band:
-      return pi * (sizes.x + sizes.y) * std::hypot(sizes.y - sizes.x, sizes.z);
-    case PatchShape::torus:
-      return 4 * pi * pi * sizes.x * sizes.y;
-  }
-  return 0;
-}
-
-Bounds box_of(const LightPatch& patch) {
-  const auto around = [](const Vec3d& center, double reach) { return bounds_around(center, {reach, reach, reach}); };
-  const Vec3d &a = patch.a, &b = patch.b;
-  if (patch.shape == PatchShape::sphere) return around(patch.origin, a.x);
-  if (patch.shape == PatchShape::torus) return around(patch.origin, b.x + b.y);
-  const auto ring = [&](double height, double radius) {
-    const auto reach = [&](double axis_i) { return radius * std::sqrt(std::max(0.0, 1 - axis_i * axis_i)); };
-    return bounds_around(patch.origin + a * height, {reach(a.x), reach(a.y), reach(a.z)});
-  };
-  if (patch.shape == PatchShape::band) return join(ring(0, b.x), ring(b.z, b.y));
-  const Bounds three = join(join(around(patch.origin, 0), around(patch.origin + a, 0)), around(patch.origin + b, 0));
-  return patch.shape == PatchShape::triangle ? three : join(three, around(patch.origin + a + b, 0));
-}
 
 LightEmission emission_of(const LightPatch& patch, float radiance, bool two_sided) {
   LightEmission emission{box_of(patch)};

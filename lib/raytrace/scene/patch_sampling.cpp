@@ -43,19 +43,61 @@ struct SphereCone {
   FloatN sine2;             ///< of half the cone's angle, squared
   FloatN one_minus_cosine;  ///< of that angle, without cancellation
 
-  SphereCone(const PatchRecord<FloatN>& sphere, const Vec3<FloatN>& from) {
+  /// way: from the center to the point; margin: how far above the sphere its own points may be.
+  SphereCone(const FloatN& radius, const Vec3<FloatN>& way, const FloatN& margin) {
     constexpr float least = 1e-37F;
-    const Vec3<FloatN> way = from - sphere.origin;
-    const FloatN squared = max(dot(way, way), FloatN(least)), radius2 = sphere.a.x * sphere.a.x;
+    const FloatN squared = max(dot(way, way), FloatN(least)), radius2 = radius * radius, far = radius + margin;
     distance = sqrt(squared);
     axis = way * (FloatN(1) / distance);
-    const FloatN sizes = max(largest_component(sphere.origin), sphere.a.x);
-    const FloatN far = sphere.a.x + rounding_error(from, sizes) * error_factor(sphere) * FloatN(4);
     outside = squared > far * far;
     sine2 = min(max(radius2 / squared, FloatN(least)), FloatN(1));
     one_minus_cosine = sine2 / (FloatN(1) + sqrt(FloatN(1) - sine2));
   }
   FloatN pdf() const { return FloatN(1 / (2 * pi)) / one_minus_cosine; }
+};
+
+/// How far off the surface its own points may be, as rays see it that start there. size: of the patch.
+FloatN margin_of(const PatchRecord<FloatN>& patch, const Vec3<FloatN>& from, const FloatN& size) {
+  return rounding_error(from, max(largest_component(patch.origin), size)) * error_factor(patch) * FloatN(4);
+}
+
+SphereCone cone_of(const PatchRecord<FloatN>& sphere, const Vec3<FloatN>& from) {
+  return {sphere.a.x, from - sphere.origin, margin_of(sphere, from, sphere.a.x)};
+}
+
+/// An ellipsoid, as where a map takes the unit sphere: points drawn on that, mapped, and its cone of directions.
+struct Ellipsoid {
+  struct Symmetric {
+    Vec3<FloatN> x, y, z;
+    Vec3<FloatN> operator()(const Vec3<FloatN>& v) const { return {dot(x, v), dot(y, v), dot(z, v)}; }
+  };
+  FloatN size;             ///< about that; the maps are without it
+  Symmetric map, inverse;  ///< from the unit sphere, and back
+  FloatN determinant;
+
+  explicit Ellipsoid(const PatchRecord<FloatN>& patch) : size((patch.a.x + patch.a.y + patch.a.z) * FloatN(1.0F / 3)) {
+    const FloatN scale = FloatN(1) / size;
+    const Vec3<FloatN> a = patch.a * scale, b = patch.b * scale;
+    map = {{a.x, b.z, b.y}, {b.z, a.y, b.x}, {b.y, b.x, a.z}};
+    const Vec3<FloatN> x = cross(map.y, map.z), y = cross(map.z, map.x), z = cross(map.x, map.y);
+    determinant = dot(map.x, x);
+    const FloatN by_determinant = FloatN(1) / determinant;
+    inverse = {x * by_determinant, y * by_determinant, z * by_determinant};
+  }
+  Vec3<FloatN> to_unit(const Vec3<FloatN>& way) const { return inverse(way * (FloatN(1) / size)); }
+  SphereCone cone(const PatchRecord<FloatN>& patch, const Vec3<FloatN>& from) const {
+    const FloatN narrow = length(inverse.x) + length(inverse.y) + length(inverse.z);  // no less than how narrow it is
+    return {FloatN(1), to_unit(from - patch.origin), margin_of(patch, from, size) * narrow / size};
+  }
+  /// Where directions of the unit sphere's cone are drawn evenly.
+  FloatN cone_pdf(const SphereCone& cone, const Vec3<FloatN>& way) const {
+    const FloatN stretch = length(way) / (size * length(to_unit(way)));
+    return cone.pdf() * stretch * stretch * stretch / determinant;
+  }
+  /// Where points of the unit sphere are.
+  FloatN density(const Vec3<FloatN>& normal) const {
+    return FloatN(1 / (4 * pi)) * length(map(normal)) / (determinant * size * size);
+  }
 };
 
 FloatN sphere_density(const PatchRecord<FloatN>& sphere) { return FloatN(1 / (4 * pi)) / (sphere.a.x * sphere.a.x); }
@@ -168,9 +210,12 @@ void sample_flat(const PatchRecord<FloatN>& patch, const MaskN& here, const Vec3
   result.way = select(here, view.to_origin + patch.a * result.u + patch.b * result.v, result.way);
 }
 
-void sample_sphere(const PatchRecord<FloatN>& patch, const MaskN& here, const Vec3<FloatN>& from, const FloatN& u1,
-                   const FloatN& u2, PatchSample& result) {
-  const SphereCone cone(patch, from);
+/// A point drawn on a sphere.
+struct SpherePoint {
+  Vec3<FloatN> normal;  ///< there, out
+  Vec3<FloatN> way;     ///< to it, where the cone's point is outside
+};
+SpherePoint point_on_sphere(const SphereCone& cone, const FloatN& radius, const FloatN& u1, const FloatN& u2) {
   const DiskPoint<FloatN> point = on_unit_disk(u1, u2);
   const FloatN radius2 = min(point.x * point.x + point.y * point.y, FloatN(1));
   const FloatN one_minus_cosine = cone.one_minus_cosine * radius2;
@@ -182,15 +227,32 @@ void sample_sphere(const PatchRecord<FloatN>& patch, const MaskN& here, const Ve
   const FloatN sine = sqrt(max((FloatN(1) - cosine) * (FloatN(1) + cosine), FloatN(0)));
   const FloatN across = sine / max(sqrt(radius2), FloatN(1e-18F));
   const Frame<FloatN> frame(cone.axis);
-  const Vec3<FloatN> normal = frame.to_world({point.x * across, point.y * across, cosine});
-  set(here, from, patch.origin + normal * patch.a.x, normal, patch.a.x, result);
   // In the cone, by the angle there: near a large sphere, points of it are too coarse.
-  const FloatN &radius = patch.a.x, to_axis = FloatN(1) - one_minus_cosine;
+  const FloatN to_axis = FloatN(1) - one_minus_cosine;
   const FloatN far = (cone.distance - radius) * (cone.distance + radius) /
                      (cone.distance * to_axis + radius * sqrt(FloatN(1) - share));
   const FloatN aside = sqrt(sine2) / max(sqrt(radius2), FloatN(1e-18F));
-  const Vec3<FloatN> direction = frame.to_world({point.x * aside, point.y * aside, -to_axis});
-  result.way = select(here & cone.outside, direction * far, result.way);
+  return {frame.to_world({point.x * across, point.y * across, cosine}),
+          frame.to_world({point.x * aside, point.y * aside, -to_axis}) * far};
+}
+
+void sample_sphere(const PatchRecord<FloatN>& patch, const MaskN& here, const Vec3<FloatN>& from, const FloatN& u1,
+                   const FloatN& u2, PatchSample& result) {
+  const SphereCone cone = cone_of(patch, from);
+  const SpherePoint point = point_on_sphere(cone, patch.a.x, u1, u2);
+  set(here, from, patch.origin + point.normal * patch.a.x, point.normal, patch.a.x, result);
+  result.way = select(here & cone.outside, point.way, result.way);
+}
+
+void sample_ellipsoid(const PatchRecord<FloatN>& patch, const MaskN& here, const Vec3<FloatN>& from, const FloatN& u1,
+                      const FloatN& u2, PatchSample& result) {
+  const Ellipsoid ellipsoid(patch);
+  const SphereCone cone = ellipsoid.cone(patch, from);
+  const SpherePoint point = point_on_sphere(cone, FloatN(1), u1, u2);
+  const FloatN& size = ellipsoid.size;
+  set(here, from, patch.origin + ellipsoid.map(point.normal) * size, normalize(ellipsoid.inverse(point.normal)), size,
+      result);
+  result.way = select(here & cone.outside, ellipsoid.map(point.way) * size, result.way);
 }
 
 void sample_band(const PatchRecord<FloatN>& band, const MaskN& here, const Vec3<FloatN>& from, const FloatN& u1,
@@ -214,16 +276,23 @@ void sample_torus(const PatchRecord<FloatN>& torus, const MaskN& here, const Vec
 /// patch_pdf(). view: where any lane's patch is flat.
 FloatN density(const PatchRecord<FloatN>& patch, const std::optional<FlatView>& view, const Vec3<FloatN>& from,
                const Vec3<FloatN>& p, const Vec3<FloatN>& normal) {
-  const MaskN sphere = is(patch, PatchShape::sphere), band = is(patch, PatchShape::band),
-              torus = is(patch, PatchShape::torus), flat = !(sphere | band | torus);
+  const MaskN sphere = is(patch, PatchShape::sphere), ellipsoid = is(patch, PatchShape::ellipsoid),
+              band = is(patch, PatchShape::band), torus = is(patch, PatchShape::torus),
+              flat = !(sphere | ellipsoid | band | torus);
   FloatN per_area = flat_density(patch);
   if (any(band)) per_area = select(band, band_density(patch), per_area);
   if (any(torus)) per_area = select(torus, torus_density(patch, p), per_area);
   if (any(sphere)) per_area = select(sphere, sphere_density(patch), per_area);
   FloatN pdf = per_solid_angle(per_area, from, p, normal);
   if (any(sphere)) {
-    const SphereCone cone(patch, from);
+    const SphereCone cone = cone_of(patch, from);
     pdf = select(sphere & cone.outside, cone.pdf(), pdf);
+  }
+  if (any(ellipsoid)) {
+    const Ellipsoid one(patch);
+    const SphereCone cone = one.cone(patch, from);
+    const FloatN inside = per_solid_angle(one.density(normal), from, p, normal);
+    pdf = select(ellipsoid, select(cone.outside, one.cone_pdf(cone, p - from), inside), pdf);
   }
   if (view && any(view->near)) pdf = select(flat & view->near, view->pdf(), pdf);
   return pdf;
@@ -233,8 +302,9 @@ FloatN density(const PatchRecord<FloatN>& patch, const std::optional<FlatView>& 
 
 PatchSample sample_patch(const PatchRecord<FloatN>& patch, const Vec3<FloatN>& from, const FloatN& u1,
                          const FloatN& u2) {
-  const MaskN sphere = is(patch, PatchShape::sphere), band = is(patch, PatchShape::band),
-              torus = is(patch, PatchShape::torus), flat = !(sphere | band | torus);
+  const MaskN sphere = is(patch, PatchShape::sphere), ellipsoid = is(patch, PatchShape::ellipsoid),
+              band = is(patch, PatchShape::band), torus = is(patch, PatchShape::torus),
+              flat = !(sphere | ellipsoid | band | torus);
   PatchSample result{};
   std::optional<FlatView> view;
   if (any(flat)) {
@@ -242,6 +312,7 @@ PatchSample sample_patch(const PatchRecord<FloatN>& patch, const Vec3<FloatN>& f
     sample_flat(patch, flat, from, *view, u1, u2, result);
   }
   if (any(sphere)) sample_sphere(patch, sphere, from, u1, u2, result);
+  if (any(ellipsoid)) sample_ellipsoid(patch, ellipsoid, from, u1, u2, result);
   if (any(band | torus)) {
     const auto [sine, cosine] = sin_cos_of_turns(u2);
     const Frame<FloatN> frame(select(band | torus, patch.a, Vec3<FloatN>(Vec3f(0, 0, 1))));

@@ -45,7 +45,7 @@ struct PatchSample {
 
 /// A point of each lane's patch, drawn out of u1 and u2 in [0, 1) for light that goes to `from`: of spheres that `from`
 /// is outside of (pbrt-v4, section 6.2.4), and of parallelograms and triangles that are near, evenly in solid angle; of
-/// all else, evenly in area; of a torus, in its angles.
+/// all else, evenly in area; of a torus, in its angles; of an ellipsoid, as of the unit sphere that is mapped to it.
 ///
 /// Flat patches: Peters, "BRDF Importance Sampling for Polygonal Lights", 2021, section 3. Near are those that cover
 /// more than about 0.01 of solid angle, from points that are not about in their planes: for others floats do not

@@ -88,10 +88,12 @@ void start_at_patches(const SceneTables& scene, LightPathPacket& path, const Tar
   from.z.store_aligned(z.data());
   for (std::size_t lane = 0; lane < packet_lanes; ++lane) {
     const PatchRecord<float>& record = scene.emitters().patch(static_cast<std::size_t>(patch.get(lane)));
-    if (PatchCode::shape_of(record.code) != PatchShape::sphere) continue;
-    x[lane] = record.origin.x;
-    y[lane] = record.origin.y;
-    z[lane] = record.origin.z + record.a.x * 0.25F;
+    const PatchShape shape = PatchCode::shape_of(record.code);
+    if (shape != PatchShape::sphere && shape != PatchShape::ellipsoid) continue;
+    const Vec3f up = shape == PatchShape::sphere ? Vec3f(0, 0, record.a.x) : Vec3f(record.b.y, record.b.x, record.a.z);
+    x[lane] = record.origin.x + up.x * 0.25F;
+    y[lane] = record.origin.y + up.y * 0.25F;
+    z[lane] = record.origin.z + up.z * 0.25F;
   }
   from = {FloatN::load_aligned(x.data()), FloatN::load_aligned(y.data()), FloatN::load_aligned(z.data())};
   const Sample2D place = get_2d(path.pixel, path.sample, light_path_dimension(LightPathDraw::place));

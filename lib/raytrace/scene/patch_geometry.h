@@ -1,0 +1,25 @@
+// What patches are in space.
+#pragma once
+
+#include <optional>
+
+#include "raytrace/math/affine.h"
+#include "raytrace/math/bounds.h"
+#include "raytrace/shapes/light_patch.h"
+
+namespace raytrace {
+
+/// A parallelogram or a triangle.
+bool is_flat(const LightPatch& patch);
+
+/// The patch under a map; scale: of all lengths, 0: not of all the same. None if it is no patch any more: round ones
+/// but spheres that are stretched, and spheres that are stretched too far for floats, such as to a hundredth across two
+/// axes, or to a thousandth across one.
+std::optional<LightPatch> transformed(const LightPatch& patch, const Affine& affine, double scale);
+
+/// Of ellipsoids, which have no closed form, about that; no less.
+double area_of(const LightPatch& patch);
+
+Bounds box_of(const LightPatch& patch);
+
+}  // namespace raytrace
