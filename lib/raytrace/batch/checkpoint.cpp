@@ -121,8 +121,8 @@ bool CheckpointFile::write(const Film& film, const PieceIdentity& identity, cons
   try {
     last_ = write_checkpoint(file_, film, identity, metadata, error);
     observer.on_message(MessageLevel::step, "wrote checkpoint " + file_ + ": " + samples_done_text(film));
-  } catch (const OutputError& error) {
-    observer.on_message(MessageLevel::error, error.what());
+  } catch (const OutputError& failure) {
+    observer.on_message(MessageLevel::error, failure.what());
     written = false;
   }
   // However long it took, it takes no more than a hundredth of the time.

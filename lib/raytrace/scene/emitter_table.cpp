@@ -84,6 +84,9 @@ EmitterTable::EmitterTable(const GeometryTable& world, std::span<const MaterialE
     making.cuts = each_way(most_pieces, 32);
     making.points = each_way(most_look_ups, std::max(64, 4 * making.cuts)) / making.cuts;
   }
+  has_own_radiances_ = making.cuts > 0;
+  if (!has_own_radiances_)
+    for (const MaterialEmission& material : materials) radiances_.push_back(material.radiance);
   for_each_geometry(world, materials,
                     [&](const GeometryTable& table, std::uint32_t geometry, const Primitives& primitives,
                         const Setting& setting) { add_geometry(table, geometry, primitives, setting, making); });
@@ -178,7 +181,7 @@ void EmitterTable::add_geometry(const GeometryTable& table, std::uint32_t geomet
       const LightPatch& patch = patches[i];
       patches_.push_back({Vec3f(patch.origin), Vec3f(patch.a), Vec3f(patch.b),
                           PatchCode::of(patch.shape, number, setting.instance != 0)});
-      radiances_.push_back(faces.radiances[i]);
+      if (has_own_radiances_) radiances_.push_back(faces.radiances[i]);
       making.emissions.push_back(emission_of(patch, faces.radiances[i], material.two_sided));
     }
   };
@@ -235,6 +238,11 @@ std::int32_t EmitterTable::piece_of_face(const Range& range, std::int32_t face, 
   const float scale = 1 / dot(normal, normal);
   return piece_at(shape, range.cuts,
                   {dot(cross(from, piece.b), normal) * scale, dot(cross(piece.a, from), normal) * scale});
+}
+
+float EmitterTable::radiance(std::size_t number) const {
+  const auto material = std::bit_cast<std::int32_t>(patches_[number].code) >> PatchCode::material_shift;
+  return radiances_[has_own_radiances_ ? number : static_cast<std::size_t>(material)];
 }
 
 double EmitterTable::area(std::size_t number) const {

@@ -56,7 +56,7 @@ class EmitterTable {
   const PatchRecord<float>& patch(std::size_t number) const { return patches_[number]; }
   double area(std::size_t number) const;
   /// As MaterialEmission has it, on the mean.
-  float radiance(std::size_t number) const { return radiances_[number]; }
+  float radiance(std::size_t number) const;
   /// A point of that patch, drawn as sample_patch() draws it.
   Sample sample(const IntN& patch, const Vec3<FloatN>& from, const FloatN& u1, const FloatN& u2) const;
   /// Whether rays that hit something in those lanes met a patch.
@@ -136,7 +136,8 @@ class EmitterTable {
   std::int32_t piece_of_face(const Range& range, std::int32_t face, const Vec2<float>& uv, const Vec3f& p) const;
 
   std::vector<PatchRecord<float>> patches_;
-  std::vector<float> radiances_;
+  std::vector<float> radiances_;  ///< of patches, if textures count; else of materials
+  bool has_own_radiances_ = false;
   std::vector<Range> ranges_;  ///< by instance and geometry
   LightTree tree_;
 };

@@ -47,10 +47,10 @@ Vec3<FloatN> bumped_normal(const Height& height, const FloatN& side, UvSet set, 
   const FloatN here = height(point);
   const UvPoint<FloatN>& on = point.by(set);
   TexturePoint<FloatN> there = point;
-  const auto slope = [&](Vec3<FloatN> SpacePoint<FloatN>::* side, const Vec2<FloatN>& uv_way) {
-    const Vec3<FloatN>& way = point.world.*side;
+  const auto slope = [&](Vec3<FloatN> SpacePoint<FloatN>::* direction, const Vec2<FloatN>& uv_way) {
+    const Vec3<FloatN>& way = point.world.*direction;
     there.world.p = point.world.p + way;
-    there.object.p = point.object.p + point.object.*side;
+    there.object.p = point.object.p + point.object.*direction;
     there.by(set).uv = {on.uv.x + uv_way.x, on.uv.y + uv_way.y};
     const FloatN size = length(way);
     const MaskN is_wide = size > FloatN(0);
