@@ -39,10 +39,11 @@ TEST_CASE("an OBJ file of equal indices keeps its vertices, with colours") {
 
 TEST_CASE("an OBJ file's materials come from its MTL files") {
   const TemporaryFolder folder;
-  write_text(folder.file("my materials.mtl"),
-             "newmtl dark red\nKa 0.1\nKd 0.5 0 0\nKs 1 1 1\nNs 30\nTr 0.25\nillum 2\n"
-             "map_Kd -s 2 3 1 -o 0.5 -clamp on textures\\a wood.png\nmap_Ks -bm 0.5 gloss.png\nmap_Bump bump.png\nKs red\n"
-             "newmtl other\nKd 1 1 1\n");
+  write_text(
+      folder.file("my materials.mtl"),
+      "newmtl dark red\nKa 0.1\nKd 0.5 0 0\nKs 1 1 1\nNs 30\nTr 0.25\nillum 2\n"
+      "map_Kd -s 2 3 1 -o 0.5 -clamp on textures\\a wood.png\nmap_Ks -bm 0.5 gloss.png\nmap_Bump bump.png\nKs red\n"
+      "newmtl other\nKd 1 1 1\n");
   write_text(folder.file("a.obj"),
              "mtllib my materials.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\nusemtl dark red\nf 1 2 3\nf 3 2 1\n"
              "usemtl missing\nf 2 3 1\n");
