@@ -64,9 +64,13 @@ std::string scene_of(const Stage& stage, const std::string& caustics, int sample
           "<openpbrs><openpbr><name>copper</name><base_metalness>1</base_metalness><specular_roughness>0.4" +
           "</specular_roughness><coat_weight>0.5</coat_weight></openpbr><openpbr><name>lacquer</name><base_color " +
           "red='0.6' green='0.4' blue='0.2'/><specular_roughness>0.1</specular_roughness><coat_weight>0.5" +
-          "</coat_weight><coat_roughness>0.2</coat_roughness></openpbr></openpbrs></materials><textures><checkers>" +
+          "</coat_weight><coat_roughness>0.2</coat_roughness></openpbr><openpbr><name>cut glass</name>" +
+          "<transmission_weight>1</transmission_weight><specular_roughness>0</specular_roughness><normalmap " +
+          "texture='lean'/></openpbr></openpbrs></materials><textures><checkers>" +
           "<checker><name>stripes</name><color1 red='1' green='1' blue='1'/><color2 red='0.1' green='0' blue='0'/>" +
-          "<uvscale x='4' y='4'/></checker><checker><name>tilt</name><color1 red='0.9' green='0.5' blue='0.8'/>" +
+          "<uvscale x='4' y='4'/></checker><checker><name>lean</name><color1 red='0.65' green='0.5' blue='0.98'/>" +
+          "<color2 red='0.65' green='0.5' blue='0.98'/></checker><checker><name>tilt</name><color1 red='0.9' "
+          "green='0.5' blue='0.8'/>" +
           "<color2 red='0.9' green='0.5' "
           "blue='0.8'/></checker></checkers></textures><groups><group><name>lens</name><objects>" +
           Stage::ball("glass") + "</objects></group></groups><objects>" + stage.focusing + stage.lamp +
@@ -113,6 +117,9 @@ std::vector<Stage> stages() {
       {.name = "an OpenPBR metal under a coat", .focusing = Stage::ball("copper")},
       {.name = "a mirror onto a glossy floor", .focusing = Stage::ball("mirror"), .floor = "varnish"},
       {.name = "a floor with relief", .floor = "tilted"},
+      {.name = "a sheet of glass with relief",
+       .focusing = "<boxes><box><min x='-1' y='0.5' z='-1'/><max x='1' y='0.8' z='1'/><material>cut glass</material>"
+                   "</box></boxes>"},
       {.name = "a lacquered floor", .floor = "lacquer"},
       {.name = "a rough metal on a lacquered floor under a sky",
        .focusing = Stage::ball("brushed"),

@@ -65,7 +65,8 @@ TEST_CASE("an MTL's map_Bump is a normal map if its picture is blue") {
   write_color(folder.file("normals.exr"), {0.4F, 0.5F, 0.9F}, 3, OIIO::TypeDesc::FLOAT);
   write_color(folder.file("heights.png"), {0.7F, 0.7F, 0.7F}, 3, OIIO::TypeDesc::UINT8);
   write_color(folder.file("grey.png"), {0.7F, 0, 0}, 1, OIIO::TypeDesc::UINT8);
-  for (const char* const file : {"normals.png", "normals16.png", "normals.exr"})
+  write_color(folder.file("normals half.exr"), {0.4F, 0.5F, 0.9F}, 3, OIIO::TypeDesc::HALF);
+  for (const char* const file : {"normals.png", "normals16.png", "normals.exr", "normals half.exr"})
     for (const std::string keyword : {"map_Bump", "bump"}) {
       INFO(file << " as " << keyword);
       const ReliefOfModel relief = relief_of(folder, keyword + " -bm 0.5 " + file);
@@ -73,7 +74,8 @@ TEST_CASE("an MTL's map_Bump is a normal map if its picture is blue") {
       CHECK(relief.normalmap == 0.5);
       CHECK(relief.messages.empty());
     }
-  for (const std::string file : {"heights.png", "grey.png"}) {
+  write_color(folder.file("heights.exr"), {0.7F, 0.7F, 0.7F}, 3, OIIO::TypeDesc::HALF);
+  for (const std::string file : {"heights.png", "grey.png", "heights.exr"}) {
     INFO(file);
     const ReliefOfModel relief = relief_of(folder, "map_Bump -bm 0.5 " + file);
     CHECK_FALSE(relief.has_normals);

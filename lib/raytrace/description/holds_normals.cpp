@@ -27,6 +27,18 @@ bool is_blue(const Picture& picture, double most) {
   return sums[2] - std::max(sums[0], sums[1]) > difference * most * static_cast<double>(pixels);
 }
 
+/// Whether red, green and blue have the same bits, 16 of each.
+bool is_grey(const Picture& picture) {
+  const std::size_t pixels = static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
+  const auto channels = static_cast<std::size_t>(picture.channels);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    std::array<std::uint16_t, 3> colors{};
+    std::memcpy(colors.data(), picture.pixels.data() + i * channels * sizeof colors[0], sizeof colors);
+    if (colors[0] != colors[1] || colors[1] != colors[2]) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 bool holds_normals(const std::string& file) {
@@ -42,7 +54,7 @@ bool holds_normals(const std::string& file) {
       case TexelFormat::floats:
         return is_blue<float>(picture, 1);
       default:
-        return true;
+        return !is_grey(picture);
     }
   } catch (const std::runtime_error&) {
     return true;

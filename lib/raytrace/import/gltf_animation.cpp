@@ -197,10 +197,11 @@ bool has_name(const Item& animations, const std::string& name) {
 /// Some programs write an animation for each object. One that moves some of what is moved is another movement of that.
 void warn_of_others(Document& document, const Item& animations, std::uint64_t played, const Pose& pose) {
   const auto moves_others_alone = [&](const Item& animation) {
-    const Item channels = animation["channels"];
+    const std::optional<Item> channels = animation.find("channels");
     bool moves = false;
-    for (std::size_t i = 0; i < channels.size(); ++i) {
-      const std::optional<Item> node = channels[i]["target"].find("node");
+    for (std::size_t i = 0; channels && i < channels->size(); ++i) {
+      const std::optional<Item> target = (*channels)[i].find("target");
+      const std::optional<Item> node = target ? target->find("node") : std::nullopt;
       if (node && pose.nodes.contains(node->whole())) return false;
       moves |= node.has_value();
     }

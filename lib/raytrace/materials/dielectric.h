@@ -79,6 +79,7 @@ class Dielectric {
   static bool focuses(const Parameters& parameters, const auto&) {
     return parameters.roughness * parameters.roughness < 1e-3;  // Ggx's least alpha
   }
+  static bool refracts(const Parameters&) { return true; }
   static bool is_pane(const Parameters& parameters, const auto& is_textured) {
     return parameters.thinwalled && focuses(parameters, is_textured) && !is_textured("roughness");
   }

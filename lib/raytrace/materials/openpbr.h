@@ -178,6 +178,8 @@ class OpenPbr {
            own * own + 2 * coat * coat < least_alpha * least_alpha && parameters.specular_roughness_anisotropy == 0 &&
            !is_textured("specular_roughness") && !(parameters.coat_weight > 0 && is_textured("coat_roughness"));
   }
+  /// Whether light may come through it, bent.
+  static bool refracts(const Parameters& parameters) { return parameters.transmission_weight > 0; }
   /// Whether it matters where on the surface u grows.
   static bool is_anisotropic(const Parameters& parameters) {
     return parameters.specular_roughness_anisotropy > 0 || parameters.coat_roughness_anisotropy > 0;

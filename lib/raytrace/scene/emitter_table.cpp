@@ -75,7 +75,9 @@ EmitterTable::EmitterTable(const GeometryTable& world, std::span<const MaterialE
         world, materials,
         [&](const GeometryTable& table, std::uint32_t geometry, const Primitives& primitives, const Setting& setting) {
           for (std::int32_t i = primitives.first; i < primitives.last; ++i)
-            textured += materials[static_cast<std::size_t>(material_of(table, geometry, i, setting))].textured;
+            if (const auto& material = materials[static_cast<std::size_t>(material_of(table, geometry, i, setting))];
+                shines(material) && material.textured)
+              ++textured;
         });
     const auto each_way = [&](std::size_t all, int most) {
       const double each = std::sqrt(static_cast<double>(all) / static_cast<double>(std::max(textured, std::size_t{1})));

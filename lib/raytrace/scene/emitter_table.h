@@ -19,7 +19,7 @@ namespace raytrace {
 struct MaterialEmission {
   float radiance = 0;  ///< about that of its channels together; 0: light is not drawn from it
   bool two_sided = false;
-  bool textured = false;  ///< whether it may differ along the surface; then `radiance` is about the most
+  bool textured = false;  ///< whether textures may change it along the surface; then `radiance` is about the most
 };
 
 /// The patches of all surfaces that shine. Planes, and round shapes but spheres whose instances stretch them, are not

@@ -12,7 +12,7 @@ std::vector<float> EmitterTable::radiances_of(const LightPatch& face, bool is_se
                                               std::int32_t primitive, const Making& making) {
   const std::int32_t points = making.points * making.points, all = making.cuts * making.cuts * points;
   const float middle = face.shape == PatchShape::triangle ? 1.0F / 3 : 0.5F;
-  const double spacing = std::max(length(face.a), length(face.b)) / (making.cuts * making.points);
+  const double radius = std::max(length(face.a), length(face.b)) / (making.cuts * making.points);
   SurfaceInteraction<FloatN> surface{};
   surface.ng = surface.ns = surface.wo = Vec3<FloatN>(Vec3f(normalize(cross(face.a, face.b))));
   surface.front = MaskN(true);
@@ -41,7 +41,7 @@ std::vector<float> EmitterTable::radiances_of(const LightPatch& face, bool is_se
     hits.find_first();
     surface.p = Vec3<FloatN>(Vec3f(face.origin)) + Vec3<FloatN>(Vec3f(face.a)) * FloatN::load_aligned(x.data()) +
                 Vec3<FloatN>(Vec3f(face.b)) * FloatN::load_aligned(y.data());
-    making.radiance_at(hits, surface, FloatN(static_cast<float>(spacing))).store_aligned(radiances.data());
+    making.radiance_at(hits, surface, FloatN(static_cast<float>(radius))).store_aligned(radiances.data());
     for (std::int32_t lane = 0; lane < lanes; ++lane)
       sums[static_cast<std::size_t>((first + lane) / points)] += double{radiances[static_cast<std::size_t>(lane)]};
   }
@@ -59,16 +59,17 @@ void EmitterTable::weigh(Faces& faces, const Range& range, std::int32_t primitiv
   bool is_even = true;
   for (std::size_t i = 0; i < faces.patches.size(); ++i) {
     std::vector<float> face = radiances_of(faces.patches[i], range.is_mesh && i > 0, range, primitive, making);
+    for (float& radiance : face) radiance = std::isfinite(radiance) ? radiance : material.radiance;
     double sum = 0;
     for (const float radiance : face) sum += double{radiance};
     const auto mean = static_cast<float>(sum / static_cast<double>(face.size()));
     const float least = std::max(mean * least_of_mean, material.radiance * least_of_most);
-    for (float& radiance : face) radiance = std::isfinite(radiance) ? std::max(radiance, least) : material.radiance;
+    for (float& radiance : face) radiance = std::max(radiance, least);
     const auto [dimmest, brightest] = std::minmax_element(face.begin(), face.end());
     is_even = is_even && *brightest <= uneven * *dimmest;
     // Textures that its emission has none of leave a material as it is.
     const bool is_whole = std::abs(mean - material.radiance) <= material.radiance * 1e-4F;
-    wholes.push_back(is_whole ? material.radiance : std::isfinite(mean) ? std::max(mean, least) : material.radiance);
+    wholes.push_back(is_whole ? material.radiance : std::max(mean, least));
     pieces.insert(pieces.end(), face.begin(), face.end());
   }
   if (is_even) {

@@ -5,11 +5,24 @@ namespace raytrace {
 
 namespace {
 
-/// Where relief is looked up: over a small part of what else a sample covers. Normals that are averaged there are those
-/// of a smoother surface, so that a material would be another from afar; what one sample does not show of them, many
-/// do.
+/// Over how much of what else a sample covers relief is looked up: little, but no less than slopes need, which are
+/// differences of floats.
+FloatN relief_part(const TexturePoint<FloatN>& point) {
+  const FloatN usual(0.125F), digits(0x1p-15F), one(1);
+  const auto needed = [&](const FloatN& size, const FloatN& step) {
+    return select(step > FloatN(0), size * digits / step, one);
+  };
+  const SpacePoint<FloatN>& world = point.world;
+  const FloatN in_space = needed(largest_component(world.p), largest_component(world.p_across));
+  const Vec2<FloatN>&uv = point.uv, &across = point.uv_across;
+  const FloatN on_surface = needed(max(abs(uv.x), abs(uv.y)), max(abs(across.x), abs(across.y)));
+  return min(max(max(in_space, on_surface), usual), one);
+}
+
+/// Where relief is looked up. Normals that are averaged over all that a sample covers are those of a smoother surface,
+/// so that a material would be another from afar; what one sample does not show of them, many do.
 TexturePoint<FloatN> relief_point(const TexturePoint<FloatN>& point) {
-  const FloatN part(0.125F);
+  const FloatN part = relief_part(point);
   TexturePoint<FloatN> fine = point;
   for (UvPoint<FloatN>* const on : {&fine.by(UvSet::first), &fine.by(UvSet::second)}) {
     on->uv_across = {on->uv_across.x * part, on->uv_across.y * part};
@@ -98,7 +111,9 @@ void SceneTables::add_relief(const Hits& hits, const TexturePoint<FloatN>& at,
       normal = bumped_normal(
           [&](const TexturePoint<FloatN>& p) { return textures_->number_at(*bump.texture, p) * FloatN(bump.value); },
           side, textures_->uvset(*bump.texture), point, normal);
-    if (detail.has_relief()) normal = detail.is_even ? below_wo(normal) : reflecting(below_wo(normal));
+    // What refracts has the same normal for light from all sides: paths from lights meet that of paths to them.
+    const bool bends = !detail.is_even && !detail.refracts;
+    if (detail.has_relief()) normal = bends ? reflecting(below_wo(normal)) : below_wo(normal);
     if (detail.has_layers()) [[unlikely]] {
       const Vec3<FloatN> coat =
           detail.coatnormalmap.texture ? reflecting(below_wo(mapped(detail.coatnormalmap, surface.ns))) : surface.ns;

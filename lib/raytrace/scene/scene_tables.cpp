@@ -232,6 +232,8 @@ SceneTables::SurfaceDetail SceneTables::surface_detail(const MaterialItem<Materi
               {static_cast<float>(item.parameters.normalmap)},
               {static_cast<float>(item.parameters.bump)}};
   detail.is_even = requires { Material::is_even; };
+  if constexpr (requires { Material::refracts(item.parameters); })
+    detail.refracts = Material::refracts(item.parameters);
   if constexpr (requires { Material::has_layers; }) {
     detail.is_layered = true;
     detail.has_coat = Material::has_coat(item.parameters);

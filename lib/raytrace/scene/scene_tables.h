@@ -240,6 +240,7 @@ class SceneTables {
     bool is_anisotropic = false, focuses = false, is_pane = false, has_coat = false, has_subsurface = false;
     bool is_layered = false;  ///< a coat's normals may differ from those of the base below it
     bool is_even = false;     ///< it reflects light to all sides, and nothing like a mirror
+    bool refracts = false;
 
     bool is_cutout() const { return opacity.value < 1 || opacity.texture; }
     bool has_relief() const { return normalmap.texture || bump.texture; }

@@ -106,7 +106,10 @@ void LightPathTracer::extend(LightPathPacket& path, MaskN alive, int depth, RayC
     }
   }
   const SurfaceInteraction<FloatN> plain = surface;  // without relief, which the camera sees at its own footprint
-  const auto textures = add_textures(tables_, hits, surface, [] { return FloatN(0); });
+  // Hardly more than a point: what bumps need for a slope.
+  const auto textures = add_textures(tables_, hits, surface, [&] {
+    return max(max(abs(surface.p.x), abs(surface.p.y)), abs(surface.p.z)) * FloatN(0x1p-14F);
+  });
   const IntN target = caustics_.target_of(tables_.geometry(), hits, tables_.material(hits));
   alive = alive & hits.hit;
   if (depth == 0) alive = arrive_first(path, from, surface, alive & float_mask<FloatN>(target == path.target));
@@ -169,9 +172,14 @@ MaskN LightPathTracer::scatter(LightPathPacket& path, MediumStack& media, int de
   // f of the two directions is that of the way back, but for the squeezing of radiance where it is refracted. Where
   // many facets share the light, f is not quite the same both ways: there, that of this way.
   Rgb<FloatN> f = sample.f * sample.eta2;
-  // A smooth base under a coat has a normal of its own, about which both cosines are one.
-  if (surface.has_layers)
-    f = select(surface.layers.lanes & sample.specular & !through, f * (sample.wi.z / max(wi.z, FloatN(1e-6F))), f);
+  // A base with relief has a normal of its own: both cosines are about that. Mirrored, they are one.
+  if (surface.has_layers) {
+    const Vec3<FloatN>& base = surface.layers.base;
+    const FloatN mirrored = sample.wi.z / max(wi.z, FloatN(1e-6F));
+    const FloatN of_base = max(dot(surface.wo, base), FloatN(0)) / max(-dot(wo, base), FloatN(1e-6F));
+    f = select(surface.layers.lanes & sample.specular & !through, f * mirrored, f);
+    f = select(surface.layers.lanes & through, f * (of_base * -mirrored), f);
+  }
   if (const MaskN rough = alive & !sample.specular & !through; any(rough)) {
     const auto back =
         tables_.scatter(hits, surface, frame, boundary.media, sample.wi, rough, wi, choice.x, u.x, u.y, point).towards;

@@ -302,7 +302,7 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   if (tables.environment() != nullptr || !tables.emitters().empty())
     drawn = draw_light(tables, vertex, has_one_light_ ? Sample2D{FloatN(0), FloatN(0)} : draw(PathDraw::light),
                        draw(PathDraw::light_point));
-  drawn.lit = drawn.lit & !on_way;
+  drawn.lit = drawn.lit & !(on_way & (dot(drawn.wi, surface.ng) > FloatN(0)));
   clock_.end(Stage::lights);
   // The last direction is for what shines alone.
   const bool is_last = depth + 1 == settings_.maxdepth;

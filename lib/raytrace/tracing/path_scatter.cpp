@@ -23,12 +23,15 @@ void PathBatch::scatter_branch(const PathPacket& path, const PathDeparture& from
 void PathBatch::set_way(PathPacket& path, const PathDeparture& from, const BsdfSample<FloatN>& sample,
                         const MaskN& lanes) const {
   const MaskN through = sample.wi.z < FloatN(0);
-  const MaskN reflects = (from.is_first | MaskN(photons_ != nullptr)) & !(from.focuses | through | sample.specular);
+  // No light path comes to a face from behind it, whatever the smooth surface there.
+  const MaskN above = through | (dot(path.rays.direction, from.vertex.surface.ng) > FloatN(0));
+  const MaskN reflects =
+      (from.is_first | MaskN(photons_ != nullptr)) & above & !(from.focuses | through | sample.specular);
   const MaskN by_gloss_alone = split_gloss(path, from, sample, lanes & reflects);
   IntN way = select_lanes(reflects, IntN(by_reflection), IntN(any_way));
   way = select_lanes(by_gloss_alone, IntN(by_gloss), way);
-  way = select_lanes(from.on_gloss_way, IntN(by_gloss_focus), way);
-  path.way = select_lanes(from.on_way, IntN(by_focus), way);
+  way = select_lanes(from.on_gloss_way & above, IntN(by_gloss_focus), way);
+  path.way = select_lanes(from.on_way & above, IntN(by_focus), way);
 }
 
 MaskN PathBatch::split_gloss(PathPacket& path, const PathDeparture& from, const BsdfSample<FloatN>& sample,
