@@ -616,12 +616,12 @@ write(
 )
 write(
     "relief",
-    "Heights that shading follows: of noise on a sphere and on the floor, and of the tiles' edges on a cylinder.",
+    "Heights that shading follows: of noise on a sphere, on a cylinder and on the floor.",
     textures="""\
-    <checkers> <checker> <name>blocks</name> <uvscale x="12" y="5"/> </checker> </checkers>
     <noises>
       <noise> <name>orange</name> <scale>0.12</scale> <octaves>2</octaves> </noise>
       <noise> <name>waves</name> <scale>0.5</scale> <octaves>3</octaves> </noise>
+      <noise> <name>blows</name> <scale>0.3</scale> <octaves>1</octaves> </noise>
     </noises>
 """,
     mattes="""\
@@ -630,8 +630,8 @@ write(
         <bump texture="waves" height="0.25"/>
       </matte>
       <matte>
-        <name>carved</name> <ka>0.12</ka> <kd>0.9</kd> <cd red="0.9" green="0.85" blue="0.7"/>
-        <bump texture="blocks" height="0.02"/>
+        <name>hammered</name> <ka>0.12</ka> <kd>0.9</kd> <cd red="0.9" green="0.85" blue="0.7"/>
+        <bump texture="blows" height="0.2"/>
       </matte>
 """,
     phongs="""\
@@ -648,7 +648,7 @@ write(
     <spheres> <sphere> <center x="-0.9" y="0.95" z="0"/> <radius>0.95</radius> <material>peel</material> </sphere> </spheres>
     <cylinders>
       <cylinder>
-        <bottom x="1.2" y="0" z="0"/> <top x="1.2" y="1.6" z="0"/> <radius>0.6</radius> <material>carved</material>
+        <bottom x="1.2" y="0" z="0"/> <top x="1.2" y="1.6" z="0"/> <radius>0.6</radius> <material>hammered</material>
       </cylinder>
     </cylinders>
 """,
@@ -1860,7 +1860,7 @@ openpbr_row(
             "thin_film_weight": 1, "thin_film_ior": 2.4, "thin_film_thickness": 0.06,
         },
         {
-            "transmission_weight": 1, "specular_roughness": 0, "specular_ior": 1.33, "geometry_thin_walled": "true",
+            "transmission_weight": 1, "specular_roughness": 0, "specular_ior": 1, "geometry_thin_walled": "true",
             "thin_film_weight": 1, "thin_film_ior": 1.33, "thin_film_thickness": 0.45,
         },
     ],
