@@ -215,7 +215,7 @@ TEST_CASE("of a lamp whose texture is dark but for a spot, light is drawn from t
   text.replace(text.find("<fov>50"), 7, "<fov>2");  // small pixels, which see the spot as it is
   const auto with_spot = [&](const std::string& scene_text) {
     SceneDescription scene = parsed_scene(scene_text);
-    Picture picture{32, 32, 4, TexelFormat::bytes, LargeArray<std::byte>::zeros(std::size_t{32} * 32 * 4)};
+    Picture picture{{32, 32, 4, TexelFormat::bytes}, LargeArray<std::byte>::zeros(std::size_t{32} * 32 * 4)};
     for (std::size_t i = 0; i < 4; ++i) picture.pixels[(7 * 32 + 21) * 4 + i] = std::byte{255};
     const auto texels = std::make_shared<const TexelImage>(picture, true, 1);
     std::get<TextureItems<Image>>(scene.textures).at(0).image = {"made", texels, texels};
