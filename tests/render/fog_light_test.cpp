@@ -1,5 +1,5 @@
-// What becomes of the light that fog scatters: in transparent pictures, behind many fogs in a row, and where light that
-// was scattered often is clamped.
+// What becomes of the light that fog scatters: in transparent pictures, behind panes and many fogs in a row, and where
+// light that was scattered often is clamped.
 //
 // Not with the thread sanitizer: statistics of code that cuts_test runs in threads.
 #include <algorithm>
@@ -51,6 +51,33 @@ TEST_CASE("fog has the same colour in a transparent picture as before a black ba
     CHECK((covered > 0.5 && covered < 0.7));
     CHECK(largest_difference < 1e-5);
   }
+}
+
+TEST_CASE("light paths and photons that come through a pane are in the fog that begins there") {
+  const std::string caustics = GENERATE("light", "photons");
+  const std::string pane = GENERATE(
+      "<rectangles><rectangle><corner x='-3' y='-3' z='1'/><edge1 x='6' y='0' z='0'/><edge2 x='0' y='6' z='0'/>"
+      "<material>pane</material></rectangle></rectangles>",
+      "<boxes><box><min x='-3' y='-3' z='1'/><max x='3' y='3' z='1.3'/><material>pane</material></box></boxes>");
+  const auto mean = [&](const std::string& end) {
+    Fogged scene;
+    scene.path = "<maxdepth>8</maxdepth><caustics>" + caustics + "</caustics>";
+    scene.materials = "<dielectrics><dielectric><name>pane</name><thinwalled>" +
+                      std::string(pane.starts_with("<boxes>") ? "false" : "true") +
+                      "</thinwalled></dielectric></dielectrics>";
+    scene.objects = pane +
+                    "<rectangles><rectangle><corner x='-3' y='-3' z='-3'/><edge1 x='6' y='0' z='0'/>"
+                    "<edge2 x='0' y='6' z='0'/><material>grey</material></rectangle></rectangles>"
+                    "<spheres><sphere><center x='0.5' y='0' z='4'/><radius>1.2</radius><material>lamp</material>"
+                    "</sphere></spheres>";
+    scene.box = "<box><min x='-3' y='-3' z='-3'/><max x='3' y='3' z='" + end + "'/><material>fog</material></box>";
+    scene.free_path = "3";
+    scene.eye = "<eye x='3.2' y='0.5' z='0.5'/><lookat x='0' y='0' z='-2.5'/><fov>50</fov>";
+    return mean_of(scene).red;
+  };
+  const double there = mean("1"), before = mean("0.999");
+  INFO(caustics << ", " << pane << ": " << there << " for " << before);
+  CHECK(std::abs(there / before - 1) < 0.02);
 }
 
 TEST_CASE("many fogs in a row let through what one of their depth does") {

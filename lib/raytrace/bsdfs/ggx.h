@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "raytrace/bsdfs/bsdf_sample.h"
+#include "raytrace/bsdfs/least_alpha.h"
 #include "raytrace/math/turns.h"
 
 namespace raytrace {
@@ -35,8 +36,6 @@ template <class T>
 struct Ggx {
   T alpha;  ///< slope: the root of the mean square of the facets', about
 
-  /// A rougher material's; smoother ones are smooth.
-  static constexpr float least_alpha = 1e-3F;
   auto is_rough() const { return alpha >= T(least_alpha); }
 
   /// Smith's function: of the facets that face a direction of that cosine, 1 / (1 + lambda) are visible from it.

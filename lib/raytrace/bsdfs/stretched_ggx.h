@@ -13,9 +13,9 @@ struct StretchedGgx {
   /// Of OpenPBR's parameters, each in [0, 1]: grooves along y make slopes along x.
   static StretchedGgx of(const T& roughness, const T& anisotropy) {
     const T rest = T(1) - anisotropy, x = roughness * roughness * sqrt(T(2) / (T(1) + rest * rest));
-    return {x, max(x * rest, min(x, T(Ggx<T>::least_alpha)))};
+    return {x, max(x * rest, min(x, T(least_alpha)))};
   }
-  auto is_rough() const { return alpha_x >= T(Ggx<T>::least_alpha); }
+  auto is_rough() const { return alpha_x >= T(least_alpha); }
 
   /// Of facets that are not stretched and send on about as much.
   T even_roughness() const { return min(sqrt((alpha_x + alpha_y) * T(0.5F)), T(1)); }

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <string>
 
+#include "raytrace/bsdfs/least_alpha.h"
 #include "raytrace/materials/dispersion.h"
 #include "raytrace/materials/surface_detail.h"
 #include "raytrace/parameters/light_group.h"
@@ -173,10 +174,10 @@ class OpenPbr {
     // A coat makes what is below it rougher.
     const double own = parameters.specular_roughness * parameters.specular_roughness,
                  coat = parameters.coat_weight > 0 ? parameters.coat_roughness * parameters.coat_roughness : 0;
-    constexpr double least_alpha = 1e-3;  // Ggx's
     return parameters.geometry_thin_walled && parameters.transmission_weight > 0 && parameters.base_metalness < 1 &&
-           own * own + 2 * coat * coat < least_alpha * least_alpha && parameters.specular_roughness_anisotropy == 0 &&
-           !is_textured("specular_roughness") && !(parameters.coat_weight > 0 && is_textured("coat_roughness"));
+           own * own + 2 * coat * coat < double{least_alpha} * least_alpha &&
+           parameters.specular_roughness_anisotropy == 0 && !is_textured("specular_roughness") &&
+           !(parameters.coat_weight > 0 && is_textured("coat_roughness"));
   }
   /// Whether light may come through it, bent.
   static bool refracts(const Parameters& parameters) { return parameters.transmission_weight > 0; }

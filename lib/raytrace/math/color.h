@@ -41,6 +41,12 @@ inline Rgb<float> max(const Rgb<float>& a, const Rgb<float>& b) {
 /// Each channel's magnitude.
 inline Rgb<float> abs(const Rgb<float>& a) { return {std::abs(a.red), std::abs(a.green), std::abs(a.blue)}; }
 
+/// a - b in each channel, or 0 where b is larger.
+template <class T>
+RAYTRACE_INLINE Rgb<T> saturating_difference(const Rgb<T>& a, const Rgb<T>& b) {
+  return {max(a.red - b.red, T(0)), max(a.green - b.green, T(0)), max(a.blue - b.blue, T(0))};
+}
+
 /// Lane by lane: a where the mask is true, else b.
 template <class T, class Mask>
 RAYTRACE_INLINE Rgb<T> select(const Mask& mask, const Rgb<T>& a, const Rgb<T>& b) {

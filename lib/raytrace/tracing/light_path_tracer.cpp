@@ -122,6 +122,11 @@ void LightPathTracer::extend(LightPathPacket& path, MaskN alive, int depth, RayC
   if (depth + 2 > most_points_ || none(alive)) return;
   alive = scatter(path, media, depth, hits, surface, boundary, point, alive);
   if (none(alive)) return;
+  if (const MaskN through = alive & (dot(path.rays.direction, surface.ng) < FloatN(0));
+      tables_.media().has_fog() && any(through)) [[unlikely]] {
+    const RayIds ids = ray_ids(path, static_cast<std::uint32_t>(depth + 1) * 2);
+    pass_boundaries_at_starts(scene_, path.rays, through, length(surface.p - from), ids, media);
+  }
   const Hits next = intersect(path, media, depth + 1, path.rays, alive, counts);
   append(next_, path, media, next, tables_.material(next), alive & next.hit);
 }

@@ -109,8 +109,7 @@ void LightPaths::arrive(const LightPathPoint& at, const MaskN& scattered) {
   if (const MaskN found = lit & float_mask<FloatN>(path.source >= IntN(static_cast<int>(tables_.lights().size())));
       any(found)) {
     const Rgb<FloatN> gloss = tables_.gloss(hits, seen, frame, boundary.media, wo, wi, point);
-    const Rgb<FloatN> rest = f + gloss * FloatN(-1);
-    f = select(found, {max(rest.red, FloatN(0)), max(rest.green, FloatN(0)), max(rest.blue, FloatN(0))}, f);
+    f = select(found, saturating_difference(f, gloss), f);
   }
   Rgb<FloatN> radiance = path.flux * f * weight;
   const bool has_fog = tables_.media().has_fog();

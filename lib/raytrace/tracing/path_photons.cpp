@@ -24,9 +24,7 @@ void PathBatch::add_photons(const PathPacket& path, const Hits& hits, const Surf
     const Frame<FloatN> frame = tables.shading_frame(hits, surface, point);
     const Rgb<FloatN> gloss =
         tables.gloss(hits, surface, frame, {}, frame.to_local(surface.wo), frame.to_local(light.wi), point);
-    const Rgb<FloatN> rest = radiance + gloss * light.radiance * (light.cosine * FloatN(-1));
-    radiance = select(found.is_met, {max(rest.red, FloatN(0)), max(rest.green, FloatN(0)), max(rest.blue, FloatN(0))},
-                      radiance);
+    radiance = select(found.is_met, saturating_difference(radiance, gloss * light.radiance * light.cosine), radiance);
   }
   radiance = radiance * path.throughput;
   add(indirect_, path.slot, found.lanes, radiance, groups_ > 1 ? found.group : IntN(0));
