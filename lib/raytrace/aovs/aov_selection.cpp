@@ -211,16 +211,22 @@ std::vector<std::string> object_names(const SceneDescription& description) {
   for (const std::string& name : names)
     if (!name.empty()) taken.insert(cryptomatte::id_of(name));
 
+  const auto free_name = [&](const std::string& usual) {
+    std::string name = usual;
+    for (int i = 2; !taken.insert(cryptomatte::id_of(name)).second; ++i) name = usual + '#' + std::to_string(i);
+    return name;
+  };
   auto name = names.begin();
   for_each_type(Objects{}, [&]<class Object>(std::type_identity<Object>) {
     const std::size_t count = std::get<ObjectItems<Object>>(description.objects).size();
-    for (std::size_t number = 1; number <= count; ++number, ++name) {
-      if (!name->empty()) continue;
-      const std::string usual = std::string(Object::element) + '#' + std::to_string(number);
-      *name = usual;
-      for (int i = 2; !taken.insert(cryptomatte::id_of(*name)).second; ++i) *name = usual + '#' + std::to_string(i);
-    }
+    for (std::size_t number = 1; number <= count; ++number, ++name)
+      if (name->empty()) *name = free_name(std::string(Object::element) + '#' + std::to_string(number));
   });
+  for (const auto& mesh : std::get<ObjectItems<Mesh>>(description.objects)) {
+    if (mesh.data == nullptr) continue;
+    for (const MeshPart& part : mesh.data->parts)
+      names.push_back(free_name(mesh.name.empty() ? part.name : mesh.name + '/' + part.name));
+  }
   return names;
 }
 

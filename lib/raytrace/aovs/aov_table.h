@@ -16,9 +16,10 @@
 namespace raytrace {
 
 /// What objects are called where a picture has ids of them, in the order that objects are counted in: type by type as
-/// in the Shapes registry, each type's as the file has them. An object without a name is called by its type and its
-/// number among that type's, counted from 1: "sphere#12"; or,
-/// where another object is called so, or has the Cryptomatte id of that name, "sphere#12#2", "sphere#12#3"...
+/// in the Shapes registry, each type's as the file has them, and behind them the parts of meshes, mesh by mesh. An
+/// object without a name is called by its type and its number among that type's, counted from 1: "sphere#12"; a part by
+/// its name in the mesh's file, with "NAME/" before it if the mesh is called NAME. Where another is called so, or has
+/// the Cryptomatte id of that name, "sphere#12#2", "sphere#12#3"...
 std::vector<std::string> object_names(const SceneDescription& description);
 
 /// The same of materials: type by type as in the Materials registry, each type's as the file has them.

@@ -177,7 +177,9 @@ void ModelReader::add_mesh(const Item& node, std::uint64_t number, const Affine&
   const std::vector<Primitive>& primitives = mesh(mesh_number);
   const std::vector<double>& weights = weights_of(node, number, document_.listed("meshes", mesh_number));
   const std::optional<Item> skin_number = node.find("skin");
-  Instance instance{&primitives, transform, &weights, skin_number ? &skin(*skin_number) : nullptr};
+  Instance instance{&primitives, transform, &weights, skin_number ? &skin(*skin_number) : nullptr, number};
+  const std::string name = node.name();
+  model_.node_names[number] = !name.empty() ? name : "node#" + std::to_string(number);
   // Elements of sparse accessors may be far more than the file has values.
   constexpr std::size_t elements_a_value = 16;
   for (const Primitive& primitive : primitives) {

@@ -22,11 +22,13 @@ struct Instance {
   Affine transform;                    ///< of what has no skin
   const std::vector<double>* weights;  ///< of the morph targets
   const Skin* skin = nullptr;          ///< null: none
+  std::uint64_t node = 0;              ///< its number in Model::node_names
 };
 
 struct Model {
   std::unique_ptr<Document> document;  ///< what accessors point into
   std::vector<Instance> instances;     ///< in the order of the nodes
+  std::map<std::uint64_t, std::string> node_names;  ///< of those with a mesh
   std::map<std::uint64_t, std::vector<Primitive>> meshes;
   std::map<std::uint64_t, std::vector<double>> weights;  ///< of a node's mesh, if it has any
   std::map<std::uint64_t, Skin> skins;

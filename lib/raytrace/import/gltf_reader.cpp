@@ -21,6 +21,7 @@ class MeshWriter {
   std::optional<MeshData> write(std::size_t file_size) {
     if (!allocate(file_size)) return std::nullopt;
     for (const Instance& instance : model_.instances) {
+      begin_part(model_.node_names.at(instance.node));
       std::vector<std::size_t> first_vertices;
       for (const Primitive& primitive : *instance.mesh) {
         const bool is_new = primitive.vertices_of == first_vertices.size();
@@ -53,6 +54,7 @@ class MeshWriter {
     mesh_.lights = model_.lights;
     mesh_.animation_end = model_.animation_end;
     for (MeshMaterial& material : mesh_.materials) material.vertex_colors = !mesh_.colors.empty();
+    if (mesh_.parts.size() == 1) mesh_.parts.clear();
     if (!finish_mesh(mesh_, faults, false, settings_.threads, diagnostics_)) return std::nullopt;
     return std::move(mesh_);
   }
@@ -69,6 +71,10 @@ class MeshWriter {
   static bool is_mirrored(const Primitive& primitive, const Instance& instance) {
     const Affine& affine = has_skin(primitive, instance) ? instance.skin->joints.front() : instance.transform;
     return affine.determinant() < 0;
+  }
+  /// Nodes of one name are one part where they follow each other, as instances of a node do.
+  void begin_part(const std::string& name) {
+    if (mesh_.parts.empty() || mesh_.parts.back().name != name) mesh_.parts.push_back({name, next_face_});
   }
   void write_vertices(const Primitive& primitive, const Instance& instance);
   void write_tangents(const Primitive& primitive, const Instance& instance, std::size_t first_vertex);

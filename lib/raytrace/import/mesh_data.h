@@ -107,6 +107,12 @@ struct FileLight {
   double inner_angle = 0, outer_angle = std::numbers::pi / 4;  ///< a spot's, from the axis, in radians
 };
 
+/// What the file has as an object of its own: faces from one on, up to the next part's.
+struct MeshPart {
+  std::string name;
+  std::size_t first_face;
+};
+
 struct MeshData {
   static constexpr std::uint32_t no_material = 0xffffffff;
 
@@ -130,6 +136,8 @@ struct MeshData {
   /// Of each face its material, or no_material. Empty: all have the first material, or none if there is none.
   MeshBuffer<std::uint32_t> face_materials;
   std::vector<MeshMaterial> materials;
+  /// In the order of their faces, of which the first is 0. Empty: the file does not have two or more.
+  std::vector<MeshPart> parts;
 
   // In the order of the file's nodes; not part of the mesh.
   std::vector<FileCamera> cameras;

@@ -204,7 +204,9 @@ bool finish_mesh(MeshData& mesh, const MeshFaults& faults, bool dented_quads, in
   const std::size_t all = mesh.face_count();
   std::size_t kept = 0, degenerate = 0;
   if (faults.bad_vertices > 0 || faults.degenerate_faces > 0) {
+    auto next_part = mesh.parts.begin();
     for (std::size_t i = 0; i < all; ++i) {
+      for (; next_part != mesh.parts.end() && next_part->first_face == i; ++next_part) next_part->first_face = kept;
       const std::uint32_t* const face = &mesh.indices[corners * i];
       if (is_degenerate(face, mesh.corners)) {
         ++degenerate;

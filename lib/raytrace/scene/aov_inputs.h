@@ -36,7 +36,7 @@ class AovInputs {
   /// What the material reflects diffusely of light from all sides.
   Rgb<FloatN> albedo() const { return scene_.albedo(hits_, textures_); }
   /// The numbers of the object and its material, counted from 0, in the orders of object_names() and material_names().
-  IntN object() const { return scene_.object(hits_); }
+  IntN object() const { return scene_.part_or_object(hits_); }
   IntN material() const { return scene_.material(hits_); }
 
   /// A number as an id, counted from 1, the bits of which stand in floats.

@@ -50,7 +50,8 @@ SceneTables::SceneTables(const SceneDescription& description, int threads, const
     : origin_(origin_of(description.camera)),
       viewplane_(description.viewplane),
       pixel_filter_(description.viewplane),
-      integrator_(description.integrator.value_or(default_integrator(description))) {
+      integrator_(description.integrator.value_or(default_integrator(description))),
+      parts_(description) {
   for (std::string& name : light_group_names(description)) light_groups_.push_back({std::move(name)});
   textures_ = std::make_unique<const TextureTable>(description);
   has_second_uvset_ = textures_->has_second_uvset();

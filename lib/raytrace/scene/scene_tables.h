@@ -22,6 +22,7 @@
 #include "raytrace/scene/light_source.h"
 #include "raytrace/scene/material_table.h"
 #include "raytrace/scene/medium_table.h"
+#include "raytrace/scene/part_table.h"
 #include "raytrace/scene/surface_interaction.h"
 
 namespace raytrace {
@@ -130,6 +131,8 @@ class SceneTables {
 
   /// Each object's number, counted from 0: type by type as in the Shapes registry, each type's in their order.
   IntN object(const Hits& hits) const { return geometry_->object(hits); }
+  /// The same, but of a mesh with parts that of the part, as PartTable has it.
+  IntN part_or_object(const Hits& hits) const { return parts_.part_or_object(hits, object(hits)); }
   /// Each material's number, likewise.
   IntN material(const Hits& hits) const { return geometry_->material(hits); }
   /// point: as texture_point() gave it.
@@ -292,6 +295,7 @@ class SceneTables {
   ViewPlane viewplane_;
   FilterTable pixel_filter_;
   IntegratorParameters integrator_;
+  PartTable parts_;
   std::optional<KernelVariant<Cameras>::type> camera_;
   std::vector<KernelVariant<Cameras>::type> moving_camera_;  ///< at each moment while the shutter is open
   std::optional<BoundingSphere> camera_target_;              ///< around all objects with bounds, if it is far

@@ -1,0 +1,39 @@
+#include "raytrace/scene/part_table.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+
+namespace raytrace {
+
+PartTable::PartTable(const SceneDescription& description) {
+  std::int32_t objects = 0, parts = 0;
+  for_each_type(Objects{}, [&]<class Object>(std::type_identity<Object>) {
+    for (const auto& item : std::get<ObjectItems<Object>>(description.objects)) {
+      if constexpr (std::is_same_v<Object, Mesh>) {
+        if (!item.data->parts.empty()) meshes_.push_back({objects, parts, item.data});
+        parts += static_cast<std::int32_t>(item.data->parts.size());
+      }
+      ++objects;
+    }
+  });
+  for (Parts& mesh : meshes_) mesh.first += objects;
+}
+
+IntN PartTable::part_or_object(const Hits& hits, const IntN& object) const {
+  if (meshes_.empty()) return object;
+  alignas(64) std::array<std::int32_t, packet_lanes> numbers;
+  object.store_aligned(numbers.data());
+  for (std::uint32_t left = bits_of<FloatN>(hits.hit); left != 0; left &= left - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+    const auto found = std::ranges::lower_bound(meshes_, numbers[lane], {}, &Parts::object);
+    if (found == meshes_.end() || found->object != numbers[lane]) continue;
+    const auto face = static_cast<std::size_t>(hits.primitive.get(lane));
+    const std::vector<MeshPart>& parts = found->mesh->parts;
+    const auto behind = std::ranges::upper_bound(parts, face, {}, &MeshPart::first_face);
+    numbers[lane] = found->first + static_cast<std::int32_t>(behind - parts.begin()) - 1;
+  }
+  return IntN::load_aligned(numbers.data());
+}
+
+}  // namespace raytrace
