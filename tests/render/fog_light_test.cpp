@@ -4,6 +4,7 @@
 // Not with the thread sanitizer: statistics of code that cuts_test runs in threads.
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "render/fogged.h"
 #include "render/scenes.h"
 #include "support/catch.h"
+#include "support/usable_isas.h"
 
 namespace raytrace::test {
 
@@ -78,6 +80,81 @@ TEST_CASE("light paths and photons that come through a pane are in the fog that 
   const double there = mean("1"), before = mean("0.999");
   INFO(caustics << ", " << pane << ": " << there << " for " << before);
   CHECK(std::abs(there / before - 1) < 0.02);
+}
+
+TEST_CASE("lights shine into fog through a pane as through none") {
+  const std::string caustics = GENERATE("none", "photons");
+  const auto [kind, lights, lamp] = GENERATE(table<std::string, std::string, std::string>(
+      {{"sun",
+        "<directionallights><directionallight><direction x='1' y='0' z='0'/></directionallight></directionallights>",
+        ""},
+       {"sky", "<environmentlights><environmentlight/></environmentlights>", ""},
+       {"lamp", "",
+        "<spheres><sphere><center x='40' y='0' z='0'/><radius>20</radius><material>lamp</material></sphere>"
+        "</spheres>"}}));
+  const auto mean = [&, lights = lights, lamp = lamp](const std::string& pane, int depth) {
+    Fogged scene;
+    scene.fog = "<color red='1' green='1' blue='1'/>";
+    scene.box = "<box><min x='-1' y='-1' z='-3'/><max x='1' y='1' z='2'/><material>fog</material></box>";
+    scene.materials =
+        "<dielectrics><dielectric><name>pane</name><ior>1</ior><thinwalled>true</thinwalled></dielectric>"
+        "</dielectrics>";
+    scene.lights = lights;
+    scene.objects = lamp + pane;
+    scene.path = "<maxdepth>" + std::to_string(depth) + "</maxdepth><caustics>" + caustics + "</caustics>";
+    scene.samples = 128;
+    return mean_of(scene).red;
+  };
+  // Where the fog ends. Of the sky, some comes beside it.
+  const std::string pane =
+      "<rectangles><rectangle><corner x='1' y='-9' z='-9'/><edge1 x='0' y='18' z='0'/><edge2 x='0' y='0' z='18'/>"
+      "<material>pane</material></rectangle></rectangles>";
+  // What is scattered once, and comes through the pane.
+  const double open = mean("", 1), through = mean(pane, 2), twice = mean("", 2);
+  INFO(caustics << ", " << kind << ": " << through << " for " << open << " to " << twice);
+  if (kind == "sun") {
+    CHECK(through > 0.999 * open);
+    CHECK(through < 1.001 * twice);
+    CHECK(std::abs(mean(pane, 12) / mean("", 10) - 1) < 0.01);
+  } else {
+    CHECK(std::abs(mean(pane, 12) / mean("", 10) - 1) < 0.015);
+  }
+}
+
+TEST_CASE("fog between faces of glass that lead nowhere, and instances, has a picture") {
+  // Paths end in glass that they have never come out of. Their hits are nothing, and still have to be of something.
+  std::mt19937 bits(GENERATE(3U, 6U, 9U));
+  const auto place = [&](const std::string& element) {
+    const auto coordinate = [&] { return std::to_string(static_cast<int>(bits() % 120) / 10.0 - 6); };
+    const std::string x = coordinate();
+    return '<' + element + " x='" + x + "' y='0.3' z='" + coordinate() + "'/>";
+  };
+  std::string glass, cones;
+  for (int i = 0; i < 60; ++i) {
+    glass += "<rectangle>" + place("corner") + "<edge1 x='2' y='0' z='0.7'/><edge2 x='0' y='2' z='0'/><material>" +
+             (i % 2 == 0 ? "glass" : "water") + "</material></rectangle>";
+    cones += "<instance><group>tree</group><transform>" + place("translate") + "</transform></instance>";
+  }
+  Fogged scene;
+  scene.free_path = "12";
+  scene.eye = "<eye x='0' y='2' z='8'/><lookat x='0' y='1.5' z='0'/><fov>50</fov>";
+  scene.samples = 4;
+  scene.path = "";
+  scene.materials =
+      "<dielectrics><dielectric><name>glass</name><priority>2</priority></dielectric><dielectric><name>water</name>"
+      "<ior>1.33</ior></dielectric></dielectrics>";
+  scene.lights =
+      "<directionallights><directionallight><direction x='1' y='1' z='0.3'/></directionallight></directionallights>";
+  scene.box = "<box><min x='-30' y='-0.1' z='-30'/><max x='30' y='8' z='30'/><material>fog</material></box>";
+  scene.objects = "<rectangles>" + glass + "</rectangles><instances>" + cones + "</instances>";
+  std::string text = text_of(scene);
+  text.replace(text.find("<hres>16</hres><vres>16</vres>"), 30, "<hres>96</hres><vres>64</vres>");
+  text.insert(
+      text.find("<objects>"),
+      "<groups><group><name>tree</name><objects><cones><cone><bottom x='0' y='0' z='0'/><top x='0' y='4' z='0'/>"
+      "<radius>0.6</radius><material>grey</material></cone></cones></objects></group></groups>");
+  const SceneDescription description = parsed_scene(text);
+  for (const std::string& isa : usable_isas()) CHECK(std::isfinite(mean_of(rendered(description, 1, isa)).red));
 }
 
 TEST_CASE("many fogs in a row let through what one of their depth does") {

@@ -366,7 +366,7 @@ TEST_CASE("instances of fog are as fog in their places, be they shapes or meshes
 }
 
 TEST_CASE("fog has the same bits however its picture is cut") {
-  // Two fogs, one in the other, with all kinds of lights, a cut-out and glass.
+  // Two fogs, one in the other, with all kinds of lights, a cut-out, glass and a pane.
   check_same_bits(parsed_scene(
       "<raytracer><viewplane><hres>37</hres><vres>29</vres><samples>8</samples></viewplane><camera>"
       "<eye x='0' y='1' z='4'/><lookat x='0' y='0' z='0'/><fov>60</fov></camera><integrator><path>"
@@ -377,12 +377,17 @@ TEST_CASE("fog has the same bits however its picture is cut") {
       "<environmentlight><color red='0.2' green='0.2' blue='0.3'/></environmentlight></environmentlights></lights>"
       "<materials><mattes><matte><name>grey</name><ka>0</ka><kd>1</kd><cd red='0.5' green='0.5' blue='0.5'/>"
       "</matte><matte><name>thin</name><ka>0</ka><kd>1</kd><cd red='0.5' green='0.5' blue='0.5'/>"
-      "<opacity>0.5</opacity></matte></mattes><dielectrics><dielectric><name>glass</name></dielectric></dielectrics>"
+      "<opacity>0.5</opacity></matte></mattes><dielectrics><dielectric><name>glass</name></"
+      "dielectric><dielectric><name>pane</name><thinwalled>true"
+      "</thinwalled></dielectric></dielectrics>"
       "<emissives><emissive><name>lamp</name><ce red='3' green='3' blue='3'/></emissive></emissives>"
       "<fogs><fog><name>mist</name><meanfreepath>2</meanfreepath></fog><fog><name>smoke</name>"
       "<meanfreepath>0.5</meanfreepath><color red='0.6' green='0.7' blue='0.8'/><anisotropy>0.5</anisotropy></fog>"
       "</fogs></materials><objects><planes><plane><point x='0' y='-1' z='0'/><normal x='0' y='1' z='0'/>"
-      "<material>grey</material></plane></planes><spheres><sphere><center x='0.7' y='0' z='0'/><radius>0.5</radius>"
+      "<material>grey</material></plane></planes><rectangles><rectangle><corner x='0.8' y='0' z='-2'/><edge1 x='0' "
+      "y='1' z='0'/>"
+      "<edge2 x='0' y='0' z='3'/><material>pane</material></rectangle></rectangles><spheres><sphere><center x='0.7' "
+      "y='0' z='0'/><radius>0.5</radius>"
       "<material>glass</material></sphere><sphere><center x='-0.7' y='0' z='0'/><radius>0.6</radius>"
       "<material>smoke</material></sphere><sphere><center x='0' y='1' z='-1'/><radius>0.2</radius>"
       "<material>lamp</material></sphere><sphere><center x='0' y='0.3' z='0.8'/><radius>0.2</radius>"

@@ -132,6 +132,27 @@ TEST_CASE("light groups add up to the picture exactly, with every integrator, an
   }
 }
 
+TEST_CASE("integrators that know no lights show the same where the environment has a group") {
+  const auto picture = [](const std::string& integrator, const std::string& group) {
+    return rendered(parsed_scene(
+        "<raytracer><viewplane><hres>40</hres><vres>30</vres><samples>4</samples></viewplane><camera><eye x='0' y='0' "
+        "z='8'/><lookat x='0' y='0' z='0'/><fov>30</fov></camera><integrator><" +
+        integrator + "/></integrator><lights><environmentlights><environmentlight>" + group +
+        "<color red='5' green='2' blue='1'/></environmentlight></environmentlights></lights><materials><mattes><matte>"
+        "<name>m</name><ka>0</ka><kd>1</kd><cd red='1' green='1' blue='1'/></matte></mattes></materials><objects>"
+        "<spheres><sphere><center x='0' y='0' z='0'/><radius>1</radius><material>m</material></sphere></spheres>"
+        "</objects></raytracer>"));
+  };
+  for (const std::string integrator : {"ambientocclusion", "normals", "albedo", "uv"}) {
+    const FloatPicture without = picture(integrator, ""), with = picture(integrator, "<group>sky</group>");
+    double most = 0;
+    for (std::size_t i = 0; i < without.pixels().size(); ++i)
+      most = std::max(most, difference(without.pixels()[i], with.pixels()[i]));
+    INFO(integrator);
+    CHECK(most < 1e-5);
+  }
+}
+
 TEST_CASE("a layer of light groups does not change the picture") {
   for (const std::string& text : {lit_scene(""), shining_scene("<caustics>light</caustics>", pinhole)}) {
     const SceneDescription description = parsed_scene(text);

@@ -40,6 +40,16 @@ struct Hits {
   }
 };
 
+/// Of rays that hit nothing, as queries leave them: tables may be asked for any lane.
+inline Hits no_hits() {
+  Hits hits;
+  hits.hit = MaskN(false);
+  hits.instance = hits.geometry = UintN(0u);
+  hits.primitive = IntN(0);
+  hits.u = hits.v = FloatN(0);
+  return hits;
+}
+
 /// Lane by lane: a where the mask is true, else b.
 inline Hits select(const MaskN& mask, const Hits& a, const Hits& b) {
   Hits hits;

@@ -106,8 +106,7 @@ SceneTables::SceneTables(const SceneDescription& description, int threads, const
 }
 
 void SceneTables::add_panes(const Path::Parameters* path) {
-  // Light paths go through them, where there are any; light that fogs scatter does not know of them.
-  if (path == nullptr || path->caustics != Caustics::none || path->maxdepth < 2 || media_.has_fog()) return;
+  if (path == nullptr || path->maxdepth < 2 || (path->caustics != Caustics::none && !media_.has_fog())) return;
   for (std::size_t i = 0; i < details_.size(); ++i) {
     const SurfaceDetail& detail = details_[i];
     panes_.push_back(used_materials_[i] != 0 && detail.is_pane && !detail.has_relief() && !detail.has_layers() ? 1 : 0);

@@ -151,8 +151,10 @@ class SceneTables {
   bool identifies_rays() const { return has_cutouts_ || has_motion(); }
   /// Whether that may be of a material.
   bool is_cutout(std::int32_t material) const { return details_[static_cast<std::size_t>(material)].is_cutout(); }
-  /// Whether shadow rays pass panes: what is thin and clear, and bends no light.
+  /// Whether shadow rays pass panes: what is thin and clear, and bends no light. Those of surfaces do not where light
+  /// paths bring what comes through panes; they bring nothing to fog.
   bool has_panes() const { return has_panes_; }
+  bool has_panes_for_surfaces() const { return has_panes_ && !caustics_; }
   bool is_pane(std::int32_t material) const { return has_panes_ && panes_[static_cast<std::size_t>(material)] != 0; }
   MaskN is_pane(const IntN& material) const;
   /// 1 for materials that are fogs, else 0; empty if no object has one.

@@ -1,6 +1,7 @@
 // The sums of a block's samples by light groups.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -15,6 +16,12 @@ inline Rgb<FloatN> light_of_all(std::span<const Rgb<FloatN>> groups) {
   Rgb<FloatN> light = groups.front();
   for (const Rgb<FloatN>& group : groups.subspan(1)) light += group;
   return light;
+}
+
+/// Light of no group, which counts as the first's.
+inline void set_light(std::span<Rgb<FloatN>> groups, const Rgb<FloatN>& light) {
+  std::ranges::fill(groups, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
+  groups.front() = light;
 }
 
 /// The picture's sums are those of all groups together: each group's light is rounded by itself, so that they add up

@@ -1,6 +1,5 @@
 #include "raytrace/tracing/panes.h"
 
-#include <algorithm>
 #include <optional>
 
 #include "raytrace/accel/surface_uv.h"
@@ -9,8 +8,9 @@ namespace raytrace {
 
 Rgb<FloatN> light_through_panes(const TracedScene& scene, const Ray<FloatN>& rays, const MaskN& lanes,
                                 const RayIds& ids, const PanesAhead& panes) {
-  const int most = std::min(panes.most, 1000);  // where rounding keeps a ray at one
-  constexpr float before_end = 1 - 0x1p-16F;    // more than what rounding makes of a pane at the light itself
+  // No more than where rounding keeps a ray at one.
+  const IntN most = select_lanes(float_mask<FloatN>(panes.most < IntN(1000)), panes.most, IntN(1000));
+  constexpr float before_end = 1 - 0x1p-16F;  // more than what rounding makes of a pane at the light itself
   const SceneTables& tables = scene.tables();
   const Rgb<FloatN> black(Rgb<float>(0, 0, 0));
   const Vec3<FloatN> way = normalize(rays.direction);
@@ -28,7 +28,10 @@ Rgb<FloatN> light_through_panes(const TracedScene& scene, const Ray<FloatN>& ray
                                               &identity);
     goes_on = goes_on & hits.hit;
     if (none(goes_on)) break;
-    if (crossed == most) return select(goes_on, black, light);
+    const MaskN too_many = goes_on & float_mask<FloatN>(most < IntN(crossed + 1));
+    light = select(too_many, black, light);
+    goes_on = goes_on & !too_many;
+    if (none(goes_on)) break;
     if (tables.has_motion()) [[unlikely]]
       hits.time = ids.times();
     const SurfaceInteraction<FloatN> surface = scene.accelerator().surface(left, hits);

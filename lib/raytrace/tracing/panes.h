@@ -11,7 +11,7 @@ namespace raytrace {
 
 /// Of shadow rays from a point.
 struct PanesAhead {
-  int most;                   ///< so many at most may be crossed
+  IntN most;                  ///< so many at most may be crossed
   Refraction<FloatN> around;  ///< by the index of the medium that they are in
   FloatN distance;            ///< the length of the path up to the point
 };

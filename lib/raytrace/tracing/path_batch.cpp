@@ -84,7 +84,7 @@ MaskN PathBatch::add(CameraRays& camera, const MaskN& active, const MaskN& wante
   if (table.has_fog()) [[unlikely]] {
     MediumStack stack = scene_.camera_media();
     MaskN fogged(false);
-    const Hits next = go_through_fog(path, stack, wanted, {0, 0, &hits, &fogged}, camera_walks_);
+    const Hits next = go_through_fog(path, stack, wanted, {0, 0, MaskN(false), &hits, &fogged}, camera_walks_);
     met = met | fogged;
     path.set_hits(next);
     append(paths_, path, next, next.hit);
@@ -283,8 +283,11 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
       focuses & (float_mask<FloatN>(path.way == IntN(by_gloss)) | float_mask<FloatN>(path.way == IntN(by_gloss_focus)));
   const PointMedia point_media{media, boundary.current};
   // Each pane is one more scattering.
-  const PanesAhead ahead{settings_.maxdepth - depth - 1, Refraction<FloatN>(boundary.media.outside), path.distance};
-  const PanesAhead* const panes = tables.has_panes() && ahead.most > 0 ? &ahead : nullptr;
+  const int most_panes = settings_.maxdepth - depth - 1;
+  PanesAhead ahead{IntN(most_panes), Refraction<FloatN>(boundary.media.outside), path.distance};
+  if (tables.media().has_fog()) [[unlikely]]
+    ahead.most = ahead.most - path.fog_scatterings;
+  const PanesAhead* const panes = tables.has_panes_for_surfaces() && most_panes > 0 ? &ahead : nullptr;
   Rgb<FloatN> light = black();
   for (std::size_t group = 0; group < groups_; ++group) {
     if (tables.light_groups()[group].is_dark()) continue;

@@ -113,11 +113,9 @@ class PathBatch {
   struct FogWay {
     std::uint32_t number;              ///< as WalkIds have it
     int depth;                         ///< the number of the paths' rays, 0 the camera's
+    MaskN through;                     ///< those that came through the surfaces where they start
     const Hits* first_hits = nullptr;  ///< what the rays hit, if that is known; their ends are, too
     MaskN* fogged = nullptr;           ///< receives, of those lanes, which to count as hits, if it is not null
-
-    /// Whether it is that of paths behind surfaces that are not there for them: find_boundary() numbers these.
-    bool is_passed() const { return number >= 0x8000U; }
   };
   struct FogPart;
   struct FogLight;

@@ -92,16 +92,20 @@ void PathBatch::light_fog(const PathPacket& path, const FogPart& part, FogNumber
   const SceneTables& tables = scene_.tables();
   const FloatN begin = numbers(FogDraw::light).x, begin_of_drawn = numbers(FogDraw::flights).y;
   const float share = 1 / static_cast<float>(part.rounds);
+  const PanesAhead panes{IntN(settings_.maxdepth - depth - 1) - path.fog_scatterings, {}, path.distance};
   const auto add_light = [&](const FogLight& light) {
     MaskN lit = light.lit;
     if (none(lit)) return;
     const RayIds ids = numbers.ids(light.ray_number);
+    Rgb<FloatN> left(Rgb<float>(1, 1, 1));
     if (const MaskN may_hide = lit & light.has_shadow; any(may_hide)) {
       counts.shadow += count_lanes(may_hide);
-      lit = lit & !occluded_identified(scene_, light.ray, may_hide, ids, Coherence::incoherent);
+      lit = lit & !(tables.has_panes()
+                        ? occluded_behind_panes(scene_, light.ray, may_hide, ids, Coherence::incoherent, panes, left)
+                        : occluded_identified(scene_, light.ray, may_hide, ids, Coherence::incoherent));
       if (none(lit)) return;
     }
-    const Rgb<FloatN> left = light_through(scene_, light.ray, lit, ids, {part.media, part.fog});
+    left = left * light_through(scene_, light.ray, lit, ids, {part.media, part.fog});
     add_scattered(path, lit, path.throughput * part.scattering * light.radiance * left * FloatN(share), light.group,
                   depth + 1);
   };
@@ -218,8 +222,7 @@ Hits PathBatch::go_through_fog(PathPacket& path, MediumStack& media, const MaskN
                                RayCounts& counts) {
   const SceneTables& tables = scene_.tables();
   Ray<FloatN>& rays = path.rays;
-  Hits result;
-  result.hit = MaskN(false);
+  Hits result = no_hits();
   MaskN goes_on = lanes, fogged(false), scattered(false);
   for (std::uint32_t step = 0; any(goes_on); ++step) {
     FogNumbers numbers{path.pixel, path.sample, way.number, step};
@@ -239,7 +242,7 @@ Hits PathBatch::go_through_fog(PathPacket& path, MediumStack& media, const MaskN
     MaskN scatters(false), ends(false);
     Ray<FloatN> ray = rays;
     if (step == 0) {
-      const MaskN through = goes_on & (MaskN(way.is_passed()) | (dot(rays.direction, path.from_normal) < FloatN(0)));
+      const MaskN through = goes_on & way.through;
       if (any(through)) pass_boundaries_at_starts(scene_, ray, through, path.distance, numbers.ids(0), media);
     }
     for_each_part_in_fog(

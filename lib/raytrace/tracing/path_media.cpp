@@ -35,7 +35,7 @@ MediumBoundary PathBatch::find_boundary(PathPacket& path, MediumStack& media, Hi
     }
     if (tables.media().has_fog()) [[unlikely]] {
       std::swap(rays, path.rays);
-      const Hits next = go_through_fog(path, media, lanes, {number(), depth}, counts);
+      const Hits next = go_through_fog(path, media, lanes, {number(), depth, MaskN(true)}, counts);
       std::swap(rays, path.rays);
       return any(walks) ? select(walks, walked, next) : next;
     }

@@ -86,9 +86,13 @@ void PathBatch::scatter(PathPacket& path, const PathDeparture& from, const BsdfS
   alive = alive & (largest(path.throughput) > FloatN(0));
   if (none(alive)) return clock_.end(Stage::shade);
   MaskN onward(false);  // straight through a pane: as if they came from where they were scattered last
-  if (tables.has_panes()) [[unlikely]]
+  if (tables.has_panes()) [[unlikely]] {
     onward = sample.specular & through & tables.is_pane(tables.material(from.vertex.hits)) &
              goes_straight(-surface.wo, rays.direction);
+    // Beside light paths, from fog alone.
+    const Vec3<FloatN>& n = path.from_normal;
+    if (!tables.has_panes_for_surfaces()) onward = onward & (dot(n, n) == FloatN(0));
+  }
   path.pdf = select(onward, path.pdf, select(sample.specular | through, infinity<FloatN>(), sample.pdf));
   path.from = select(onward, path.from, surface.p);
   path.from_normal = select(onward, path.from_normal, surface.ns);
@@ -124,7 +128,8 @@ void PathBatch::scatter(PathPacket& path, const PathDeparture& from, const BsdfS
   }
   clock_.end(Stage::shade);
   if (tables.media().has_fog()) [[unlikely]] {
-    const Hits next = go_through_fog(path, media, alive, {static_cast<std::uint32_t>(depth) + 1, depth + 1}, counts);
+    const Hits next =
+        go_through_fog(path, media, alive, {static_cast<std::uint32_t>(depth) + 1, depth + 1, through}, counts);
     path.set_hits(next);
     append(next_, path, next, next.hit);
     return clock_.end(Stage::trace);

@@ -124,10 +124,7 @@ MediumWalk walk_through(const TracedScene& scene, const IntN& medium, const Mask
                         Ray<FloatN>& rays, Rgb<FloatN>& throughput, RayCounts& counts) {
   const MediumTable& media = scene.tables().media();
   MediumWalk result;
-  result.hits.hit = MaskN(false);  // as queries leave rays that hit nothing
-  result.hits.instance = result.hits.geometry = UintN(0u);
-  result.hits.primitive = IntN(0);
-  result.hits.u = result.hits.v = FloatN(0);
+  result.hits = no_hits();
   const auto met = [&](const Ray<FloatN>&, const Hits& hits) {
     result.hits = any(result.hits.hit) ? select(hits.hit, hits, result.hits) : hits;
     return hits.hit;

@@ -163,7 +163,7 @@ Hits catch_shadows(const TracedScene& scene, const CameraRays& camera, const Hit
   if (none(lit)) return others;
   caught.shadow_rays = count_lanes(lit & caught.counted);
   const RayIds ids{camera.pixel, camera.sample, 0x10000000U};
-  if (!tables.has_panes()) [[likely]] {
+  if (!tables.has_panes_for_surfaces()) [[likely]] {
     caught.shadowed =
         lit & (tables.identifies_rays() ? occluded_identified(scene, choice.ray, lit, ids, Coherence::coherent)
                                         : scene.accelerator().occluded(choice.ray, lit, Coherence::coherent));
@@ -171,7 +171,7 @@ Hits catch_shadows(const TracedScene& scene, const CameraRays& camera, const Hit
   }
   // Panes hide as much as they do not let through.
   const int most = std::get<Path::Parameters>(tables.integrator()).maxdepth - 1;
-  const PanesAhead panes{most, {}, camera.skipped + camera.rays.far};
+  const PanesAhead panes{IntN(most), {}, camera.skipped + camera.rays.far};
   Rgb<FloatN> left(Rgb<float>(1, 1, 1));
   const MaskN occluded = occluded_behind_panes(scene, choice.ray, lit, ids, Coherence::coherent, panes, left);
   const FloatN mean = (left.red + left.green + left.blue) * FloatN(1.0F / 3);
