@@ -218,14 +218,16 @@ class Models(CommandTest):
         picture, places = shown()
         self.assertEqual({x for x, _ in places}, set(range(16, 48)))
         self.assertEqual({y for _, y in places}, set(range(16, 48)))
-        # The lamp's 12 candela at 2 units: an irradiance of 3, of which a white matte surface sends 1 / pi on.
+        # The lamp's 12 candela at 2 units: an irradiance of 3, of which a white matte surface sends 1 / pi on. The sky has
+        # 8 % of the green.
         red, green, blue, _ = picture[32, 32]
-        self.assertAlmostEqual(red, 3 / math.pi, delta=0.02)
-        self.assertAlmostEqual(green, 1.5 / math.pi, delta=0.01)
-        self.assertEqual(blue, 0)
+        sky = 0.08 * 1.5 / math.pi
+        self.assertAlmostEqual(red, 3 / math.pi + sky, delta=0.02)
+        self.assertAlmostEqual(green, 1.5 / math.pi + sky, delta=0.01)
+        self.assertAlmostEqual(blue, sky, delta=0.005)
         self.assertEqual({x for x, _ in shown("--camera", "plan")[1]}, set(range(24, 40)))
         self.assertGreater(len(shown("--view", "front")[1]), 32 * 32)
-        self.assertGreater(shown("--environment", "sky")[0][32, 32][2], 0)
+        self.assertGreater(shown("--environment", "sky")[0][32, 32][2], 2 * sky)
         for camera in ("near", "plan"):
             self.succeed(*options, "--camera", camera, "-o", "model.exr")
             self.write("printed.xml", self.succeed(*options, "--camera", camera, "--print-scene").stdout)

@@ -244,6 +244,10 @@ SceneDescription random_description(Random& random) {
     if (std::is_same_v<T, SkyLight> && !std::get<LightItems<EnvironmentLight>>(scene.lights).empty()) return;
     for (std::size_t i = below(random, only_one ? 2 : 8); i > 0; --i) {
       std::get<LightItems<T>>(scene.lights).push_back({random_parameters<T>(random)});
+      if constexpr (std::is_same_v<T, EnvironmentLight>) {
+        auto& parameters = std::get<LightItems<T>>(scene.lights).back().parameters;
+        if (!parameters.file.path.empty()) parameters.ground = 1;
+      }
     }
   });
   std::vector<TextureReference> textures;

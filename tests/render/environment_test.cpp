@@ -78,6 +78,30 @@ TEST_CASE("of an environment that is bright on one side, a floor gets half") {
   CHECK(std::abs(mean - 0.5) < 0.005);
 }
 
+TEST_CASE("an environment with a ground is even with height") {
+  const double ground = GENERATE(0.2, 0.0, 3.0);
+  const std::string light = "<ground>" + std::to_string(ground) + "</ground>";
+  const auto mean = [&](const std::string& objects, const std::string& camera, int samples) {
+    std::string text = in_environment(scene_text(8, 8, samples, objects, camera), light);
+    const std::string wide = "<viewdistance>8";
+    text.replace(text.find(wide), wide.size(), "<viewdistance>10000");
+    const FloatPicture picture = rendered(parsed_scene(text));
+    double sum = 0;
+    for (const Pixel& pixel : picture.pixels()) sum += double{pixel.red} / static_cast<double>(picture.pixels().size());
+    return sum;
+  };
+  INFO(ground);
+  // What the camera sees, looking up, down and to the horizon.
+  const std::string eye = "<eye x='0' y='3' z='0'/>";
+  CHECK(std::abs(mean("", eye + "<lookat x='0' y='9' z='0.01'/>", 1) - 1) < 1e-3);
+  CHECK(std::abs(mean("", eye + "<lookat x='0' y='-9' z='0.01'/>", 1) - ground) < 1e-3);
+  CHECK(std::abs(mean("", eye + "<lookat x='0' y='3' z='1'/>", 1) - (1 + ground) / 2) < 1e-3);
+  // On a white floor, the sum of (ground + (1 - ground) (1 + y) / 2) y over the upper half, over pi.
+  CHECK(std::abs(mean(white_floor, from_above, 256) / (ground + (1 - ground) * 5 / 6) - 1) < 0.005);
+  const std::string from_below = "<eye x='0' y='-3' z='0.1'/><lookat x='0' y='0' z='0'/>";
+  CHECK(std::abs(mean(white_floor, from_below, 256) - (ground + (1 - ground) / 6)) < 0.005);
+}
+
 TEST_CASE("a spherical camera that looks at +z sees an environment's picture") {
   std::string text = in_environment(scene_text(24, 12, 1, white_sphere));
   const std::size_t begin = text.find("<camera>"), end = text.find("</camera>") + 9;

@@ -212,10 +212,31 @@ void add_floor(SceneDescription& description, const SceneDescription& shown) {
       .push_back({{{middle.x, extent.lower.y, middle.z}, {0, 1, 0}}, "floor", material, 0, true});
 }
 
-void add_even_sky(SceneDescription& description) {
+/// Brighter above than below, so that metal and glass, which show nothing but what is around, have a shape. radiance:
+/// its mean, in green.
+void add_studio_sky(SceneDescription& description, double radiance) {
   LightItem<EnvironmentLight> sky;
-  sky.parameters.color = {0.28, 0.284, 0.292};
+  sky.parameters.ground = 0.2;
+  const double above = 2 * radiance / (1 + sky.parameters.ground);
+  sky.parameters.color = {0.986 * above, above, 1.028 * above};
   std::get<LightItems<EnvironmentLight>>(description.lights).push_back(sky);
+}
+constexpr double studio_radiance = 0.3;
+
+/// Of the sky beside a file's lights, of any brightness: a part of what they give to a surface in the middle that faces
+/// each of them, so that shadows and metals are not black. Lights within the model count as if at its edge.
+double radiance_beside(const std::vector<FileLight>& lights, const Affine& affine, const SceneDescription& shown) {
+  Extent extent;
+  for_each_vertex(shown, [&](const Vec3d& p) { extent.add(p); });
+  const double least = std::max(extent.radius() * extent.radius(), 1e-300);
+  double irradiance = 0;
+  for (const FileLight& light : lights) {
+    const Vec3d way = affine.point(light.position) - extent.middle();
+    const bool is_far = light.kind == FileLight::Kind::directional;
+    irradiance += light.intensity.green / (is_far ? 1 : std::max(dot(way, way), least));
+  }
+  constexpr double share = 0.08;
+  return share * std::min(irradiance, 1e18) / std::numbers::pi;
 }
 
 /// The stage's own, in place of the studio.
@@ -229,7 +250,7 @@ void add_daylight(SceneDescription& description, const ModelStage& stage) {
     return;
   }
   if (stage.environment.empty()) {
-    add_even_sky(description);
+    add_studio_sky(description, studio_radiance);
   } else {
     LightItem<EnvironmentLight> picture;
     picture.parameters.file.path = stage.environment;
@@ -322,14 +343,16 @@ std::optional<SceneDescription> load_model(const std::string& file, const ModelS
   if (stage.floor) add_floor(description, shown);
   if (stage.environment.empty() && !stage.sun && !data_of(description).lights.empty()) {
     const Affine affine = std::get<ObjectItems<Mesh>>(description.objects).front().transform.affine();
-    add_file_lights(data_of(description).lights, affine, description);
+    const std::vector<FileLight>& lights = data_of(description).lights;
+    add_file_lights(lights, affine, description);
+    add_studio_sky(description, radiance_beside(lights, affine, shown));
     description.viewplane.autoexposure = true;
   } else if (stage.environment.empty() && !stage.sun) {
     if (camera != nullptr)
       add_unseen_lamps(description, to);
     else
       add_lamps(description, to, extent);
-    add_even_sky(description);
+    add_studio_sky(description, studio_radiance);
   } else {
     add_daylight(description, stage);
     if (!load_images(description, diagnostics, threads, textures)) return std::nullopt;

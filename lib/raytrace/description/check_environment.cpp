@@ -12,6 +12,9 @@ void check_environment(const SceneDescription& scene,
     if (!skies.empty())
       report({light.line, 0},
              "an <environmentlight> beside a <skylight>; a scene has one of them, and it is all around");
+    if (light.parameters.ground != 1 && !light.parameters.file.path.empty())
+      report({light.line, 0},
+             "the <environmentlight> has a <file>, which is its ground's light, too; take out its <ground>");
     if (!light.transform.affine().is_turn())
       report({light.line, 0},
              "the <environmentlight> has a transform that moves, scales or skews it: it is infinitely far, so it can "

@@ -137,6 +137,8 @@ class SceneHash {
       if (parameters.uvs2.empty()) return "uvs2";
     if constexpr (requires { parameters.tangentrotation; })
       if (parameters.tangentrotation == 0) return tangentrotation_field;
+    if constexpr (requires { parameters.ground; })
+      if (parameters.ground == 1) return "ground";
     return "";
   }
 

@@ -1,5 +1,5 @@
-// Environment light: radiance from all directions, of infinitely far (Suffern, chapter 18), the same from everywhere or
-// as a picture has it.
+// Environment light: radiance from all directions, of infinitely far (Suffern, chapter 18), the same from everywhere,
+// less from below, or as a picture has it.
 //
 //   <environmentlight>
 //     <file>sky.exr</file> <scaleradiance>1</scaleradiance> <color red="1" green="1" blue="1"/> <visible>true</visible>
@@ -20,6 +20,7 @@ class EnvironmentLight {
     FileName file;  ///< none: the radiance is the same from everywhere
     double scaleradiance = 1;
     Rgb<double> color{1, 1, 1};
+    double ground = 1;    ///< without a file: the radiance from below, over that from above; even with height between
     bool visible = true;  ///< to the camera, in place of the background
     Reference group{};    ///< light_group.h
   };
@@ -27,9 +28,9 @@ class EnvironmentLight {
   static constexpr std::string_view element = "environmentlight";
   static constexpr bool may_be_turned = true;  ///< it has a transform, which turns and mirrors alone
   static Fields fields() {
-    return {optional("file", &Parameters::file), optional("scaleradiance", &Parameters::scaleradiance),
-            optional("color", &Parameters::color), optional("visible", &Parameters::visible),
-            light_group<Parameters>()};
+    return {optional("file", &Parameters::file),       optional("scaleradiance", &Parameters::scaleradiance),
+            optional("color", &Parameters::color),     optional("ground", &Parameters::ground, Range::not_negative),
+            optional("visible", &Parameters::visible), light_group<Parameters>()};
   }
 };
 

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "raytrace/description/light_groups.h"
+#include "raytrace/lights/ground_picture.h"
 #include "raytrace/lights/sky_model.h"
 #include "raytrace/math/gather.h"
 
@@ -152,7 +153,13 @@ void SceneTables::add_lights(const SceneDescription& description, int threads) {
     return static_cast<std::int32_t>(find_light_group(names, item.parameters.group));
   };
   for (const auto& item : std::get<LightItems<EnvironmentLight>>(description.lights)) {
-    environment_.emplace(item, threads);
+    LightItem<EnvironmentLight> light = item;
+    if (light.parameters.ground != 1) {
+      light.parameters.file.path = "ground";
+      light.image.color =
+          std::make_shared<const TexelImage>(picture_of_ground(light.parameters.ground), false, threads);
+    }
+    environment_.emplace(light, threads);
     environment_group_ = group_of(item);
   }
   for (const auto& item : std::get<LightItems<SkyLight>>(description.lights)) {
