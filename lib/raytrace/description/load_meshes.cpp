@@ -192,8 +192,7 @@ class MeshLoader {
     std::optional<Data> data = reader(file.path, settings, found);
     if (data) {
       // Once more, less an origin, where floats have too few digits for it.
-      const float* const p = data->positions.data();
-      settings.origin = near_origin({p[0], p[1], p[2]});
+      settings.origin = near_origin({data->positions.data(), data->positions.size()});
       if (length(settings.origin) > 0) {
         data.reset();
         found = Diagnostics(on_one_line(file.path));

@@ -10,9 +10,30 @@
 #include "raytrace/import/mesh_faces.h"
 #include "raytrace/import/mesh_file.h"
 #include "raytrace/import/mesh_readers.h"
+#include "raytrace/math/float_origin.h"
 #include "raytrace/text/message.h"
 
 namespace raytrace {
+
+namespace {
+
+template <class T>
+Vec3d origin_of(std::span<const T> positions) {
+  const auto at = [&](std::size_t i) { return Vec3d(Vec3<T>(positions[i], positions[i + 1], positions[i + 2])); };
+  const Vec3d first = at(0);
+  const double distance = length(first);
+  double size = 0;
+  // Of most meshes, a few of the vertices show that they are large enough.
+  for (std::size_t i = 3; i < positions.size() && (size == 0 || is_coarse(distance, size)); i += 3)
+    size = std::max(size, length(at(i) - first));
+  if (size > 0 && is_coarse(distance, size)) return rounded_origin(first, size);
+  constexpr double near = 4096;  // there, a float's digits reach to 1 / 4096
+  const bool is_far = std::max({std::abs(first.x), std::abs(first.y), std::abs(first.z)}) > near;
+  return is_far ? rounded_origin(first, 1) : Vec3d(0, 0, 0);
+}
+
+}  // namespace
+
 bool is_mesh_file(const std::string& file) {
   const std::string type = mesh_type(file);
   return type == ".ply" || type == ".obj" || type == ".stl" || type == ".gltf" || type == ".glb" ||
@@ -63,7 +84,7 @@ std::optional<MeshData> make_mesh(std::span<const double> positions, std::span<c
       buffer[i] = rounded(values[i] - component(origin, static_cast<int>(i % 3)));
     return buffer;
   };
-  mesh.origin = near_origin(Vec3d(positions[0], positions[1], positions[2]));
+  mesh.origin = origin_of(positions);
   mesh.positions = floats(positions, mesh.origin);
   mesh.normals = floats(normals, {0, 0, 0});
   mesh.uvs = floats(uvs, {0, 0, 0});
@@ -88,11 +109,7 @@ std::optional<MeshData> make_mesh(std::span<const double> positions, std::span<c
   return mesh;
 }
 
-Vec3d near_origin(const Vec3d& point) {
-  constexpr double near = 4096;  // there, a float's digits reach to 1 / 4096
-  if (std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)}) <= near) return {0, 0, 0};
-  return {std::round(point.x), std::round(point.y), std::round(point.z)};
-}
+Vec3d near_origin(std::span<const float> positions) { return origin_of(positions); }
 
 std::optional<PointCloud> read_point_cloud(const std::string& name, const MeshReadSettings& settings,
                                            Diagnostics& diagnostics) {

@@ -59,9 +59,9 @@ struct MeshReadSettings {
 /// std::bad_alloc.
 std::optional<MeshData> read_mesh(const std::string& file, const MeshReadSettings& settings, Diagnostics& diagnostics);
 
-/// Of a mesh whose values are at hand, for make_mesh() and as MeshReadSettings has it: the origin of the world if the
-/// point is near it, else the point, rounded.
-Vec3d near_origin(const Vec3d& point);
+/// For MeshReadSettings, of a mesh or cloud that was read without: the origin of the world if the first position is
+/// near it, and not much farther away than the positions from each other; else this position, rounded.
+Vec3d near_origin(std::span<const float> positions);
 
 /// A mesh of values that are at hand. corners: of the faces, which end there, each of at least three; they are vertices
 /// that exist. normals, uvs, uvs2: of each vertex; empty: none.

@@ -9,6 +9,7 @@
 #include "raytrace/description/light_groups.h"
 #include "raytrace/lights/ground_picture.h"
 #include "raytrace/lights/sky_model.h"
+#include "raytrace/math/float_origin.h"
 #include "raytrace/math/gather.h"
 
 namespace raytrace {
@@ -16,10 +17,6 @@ namespace raytrace {
 extern template class MaterialTableOf<OpenPbr>;
 
 namespace {
-
-constexpr double near_origin = 4096;
-
-Vec3d rounded(const Vec3d& point) { return {std::round(point.x), std::round(point.y), std::round(point.z)}; }
 
 /// Where the description leaves it open.
 IntegratorParameters default_integrator(const SceneDescription& description) {
@@ -39,8 +36,10 @@ IntegratorParameters default_integrator(const SceneDescription& description) {
 Vec3d origin_of(const CameraParameters& camera) {
   return std::visit(
       [](const auto& parameters) {
-        if (std::min(length(parameters.eye), length(parameters.lookat)) <= near_origin) return Vec3d(0, 0, 0);
-        return rounded(parameters.eye);
+        constexpr double near_origin = 4096;
+        const double away = std::min(length(parameters.eye), length(parameters.lookat));
+        const double view = length(parameters.lookat - parameters.eye);
+        return away > near_origin || is_coarse(away, view) ? rounded_origin(parameters.eye, view) : Vec3d(0, 0, 0);
       },
       camera);
 }
@@ -61,14 +60,12 @@ SceneTables::SceneTables(const SceneDescription& description, int threads, const
   const MeshMaterials materials = mesh_materials(description);
   has_vertex_tangents_ = !materials.want_tangents[0].empty() || !materials.want_tangents[1].empty();
   geometry_ = std::make_unique<const GeometryTable>(description, origin_, materials, has_object_space_, threads);
-  if (camera_is_far_from(geometry_->bounding_sphere(), description)) {
-    const Vec3d center = geometry_->bounding_sphere().center;
-    if (length(origin_) > 0) {
-      origin_ += rounded(center);
-      geometry_ = std::make_unique<const GeometryTable>(description, origin_, materials, has_object_space_, threads);
-    }
-    camera_target_ = geometry_->bounding_sphere();
+  if (const auto [center, radius] = geometry_->bounding_sphere(); radius >= 0 && is_coarse(length(center), radius)) {
+    origin_ += rounded_origin(center, radius);
+    geometry_ = std::make_unique<const GeometryTable>(description, origin_, materials, has_object_space_, threads);
   }
+  if (const BoundingSphere sphere = geometry_->bounding_sphere(); camera_is_far_from(sphere, description))
+    camera_target_ = sphere;
   set_camera(description);
   add_lights(description, threads);
   used_materials_ = geometry_->used_materials(first_material_.back());
