@@ -165,7 +165,10 @@ SpacePoint<FloatN> in_object(const GeometryTable& world, const Hits& hits, Space
       const MaskN framed = here & float_mask<FloatN>(frame >= IntN(0));
       if (none(framed)) return;
       const LaneIndices index(follow_first(framed, frame));
-      set(point, framed, mapped(gather_records<AffineRecord, FloatN>(frames.object_from_world.data(), index), point));
+      SpacePoint<FloatN> before =
+          mapped(gather_records<AffineRecord, FloatN>(frames.object_from_world.data(), index), point);
+      before.p += gather_records<Vec3, FloatN>(frames.origins.data(), index);
+      set(point, framed, before);
     });
     if (geometry == index_of<Sphere>(Shapes{}))
       table.for_each_cloud(hits.primitive, here, [&](const CloudSpheres& cloud, const MaskN& lanes) {

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <bit>
-#include <string_view>
-#include <unordered_map>
 
+#include "raytrace/math/float_origin.h"
 #include "raytrace/memory/large_array.h"
 #include "raytrace/parallel/for_each_index.h"
 #include "raytrace/parameters/transformed.h"
@@ -20,32 +19,30 @@ Affine moved(Affine affine, const Vec3d& origin) {
   return affine;
 }
 
-/// Where something is: one map, or one for each moment while the shutter is open.
-using Maps = std::vector<Affine>;
-
-/// First the inner ones.
-Maps composed(const Maps& outer, const Maps& inner) {
-  Maps maps;
-  for (std::size_t i = 0; i < std::max(outer.size(), inner.size()); ++i)
-    maps.push_back(outer[outer.size() == 1 ? 0 : i] * inner[inner.size() == 1 ? 0 : i]);
-  return maps;
+/// Of an object far from the origin of its space, a point of it, rounded; else 0.
+template <class Shape>
+Vec3d own_origin(typename Shape::Parameters parameters, const Fields& points) {
+  if constexpr (requires { &Kernel<Shape>::bounds; }) {
+    const auto [center, radius] = sphere_around(Kernel<Shape>::bounds(Kernel<Shape>::record(parameters)));
+    if (is_coarse(length(center), radius)) return rounded_origin(points.front().get<Vec3d>(&parameters), radius);
+  }
+  return {0, 0, 0};
 }
 
 }  // namespace
 
 GeometryTable::GeometryTable(const ObjectLists& objects, const Vec3d& origin, const MeshMaterials& materials,
                              bool has_object_space, int threads)
-    : has_object_space_(has_object_space) {
+    : has_object_space_(has_object_space), origin_(origin) {
   add_objects(objects, origin, materials, threads);
 }
 
 GeometryTable::GeometryTable(const SceneDescription& description, const Vec3d& origin, const MeshMaterials& materials,
                              bool has_object_space, int threads)
-    : has_object_space_(has_object_space) {
+    : has_object_space_(has_object_space), origin_(origin) {
   add_objects(description.objects, origin, materials, threads);
   for (const Group& group : description.groups)
-    groups_.push_back(
-        std::make_unique<const GeometryTable>(group.objects, Vec3d(0, 0, 0), materials, has_object_space, threads));
+    groups_.push_back(of_group(group.objects, materials, has_object_space, threads));
   add_instances(description, origin, materials.first);
   for (const auto& group : groups_) has_catchers_ = has_catchers_ || group->has_catchers_;
 }
@@ -77,34 +74,35 @@ void GeometryTable::add_shapes(const ObjectLists& objects, const Vec3d& origin) 
     auto& [records, instanced, uv_frames] = std::get<ShapeTable<Shape>>(tables_);
     reserve_large(records, items.size() + 1);  // Embree reads whole 16 byte words of the last vertex
     const Fields points = point_fields<Shape>();
+    const auto record_less = [&](typename Shape::Parameters parameters, const Vec3d& less) {
+      for (const Field& point : points) point.get<Vec3d>(&parameters) += -less;
+      return Kernel<Shape>::record(parameters);
+    };
     for (const auto& item : items) {
-      typename Shape::Parameters parameters = item.parameters;
-      bool is_in_place = true;
-      Affine affine;
-      if (!item.transform.empty()) {
-        affine = item.transform.affine();
-        const auto transformed_shape = transformed<Shape>(parameters, affine);
-        is_in_place = transformed_shape.has_value();
-        if constexpr (requires { &Kernel<Shape>::bounds; }) {
-          if (!is_in_place) {
-            instanced.resize(items.size());
-            instanced[records.size()] = true;
-            transformed_.push_back({{InstanceTarget::no_group, true, type, static_cast<std::uint32_t>(records.size())},
-                                    affine,
-                                    empty_bounds});
-          }
+      const Affine affine = item.transform.affine();
+      const auto shape =
+          item.transform.empty() ? std::optional(item.parameters) : transformed<Shape>(item.parameters, affine);
+      if (shape) {
+        const Affine here = moved(affine, origin);
+        if (has_object_space_ ? !here.is_identity() : !keeps_uv<Shape>(here)) {
+          const Vec3d own = own_origin<Shape>(item.parameters, points);
+          uv_frames.add(records.size(), items.size(), record_less(item.parameters, own), here, own);
         }
-        parameters = transformed_shape.value_or(parameters);
+        records.push_back(record_less(*shape, origin));
+        continue;
       }
-      if (is_in_place) {
-        affine = moved(affine, origin);
-        if (has_object_space_ ? !affine.is_identity() : !keeps_uv<Shape>(affine))
-          uv_frames.add(records.size(), items.size(), Kernel<Shape>::record(item.parameters), affine);
-        for (const Field& point : points) point.get<Vec3d>(&parameters) += -origin;
+      const Vec3d own = own_origin<Shape>(item.parameters, points);
+      if (has_object_space_ && length(own) > 0)
+        uv_frames.add(records.size(), items.size(), record_less(item.parameters, own), Affine{.origin = -own}, own);
+      records.push_back(record_less(item.parameters, own));
+      if constexpr (requires { &Kernel<Shape>::bounds; }) {
+        const auto number = static_cast<std::uint32_t>(records.size() - 1);
+        instanced.resize(items.size());
+        instanced[number] = true;
+        transformed_.push_back({{InstanceTarget::no_group, true, type, number},
+                                affine * Affine{.origin = own},
+                                Kernel<Shape>::bounds(records.back())});
       }
-      records.push_back(Kernel<Shape>::record(parameters));
-      if constexpr (requires { &Kernel<Shape>::bounds; })
-        if (!is_in_place) transformed_.back().bounds = Kernel<Shape>::bounds(records.back());
     }
     if constexpr (std::is_same_v<Shape, Sphere>) add_clouds(std::get<ObjectItems<SphereCloud>>(objects), origin);
     geometries_.push_back({static_cast<std::uint32_t>(records.size()), count, nullptr});
@@ -134,53 +132,6 @@ void GeometryTable::add_clouds(const std::vector<ObjectItem<SphereCloud>>& cloud
   }
   if (!instanced.empty()) instanced.resize(records.size());
   if (!uv_frames.empty()) uv_frames.of_object.resize(records.size(), -1);
-}
-
-void GeometryTable::add_instances(const SceneDescription& description, const Vec3d& origin,
-                                  std::span<const std::int32_t> first_materials) {
-  std::unordered_map<std::string_view, std::size_t> numbers;
-  for (const Group& group : description.groups) numbers.emplace(group.name, numbers.size());
-  const auto material_number = [&](const ObjectItem<Instance>& item, std::int32_t outer) {
-    if (outer >= 0 || item.material == no_material) return outer;
-    return first_materials[item.material.type] + static_cast<std::int32_t>(item.material.index);
-  };
-  // An instance of a group is one of its own objects, and one of each instance in it.
-  const auto add = [&](const InstanceTarget& target, const Maps& maps, const Bounds& box, std::int32_t object,
-                       std::int32_t material, bool catches) {
-    instances_catch_.push_back(catches);
-    has_catchers_ = has_catchers_ || catches;
-    if (maps.size() == 1)
-      instances_.add(target, maps.front(), box, object, material);
-    else
-      instances_.add_moving(target, maps, box, object, material);
-  };
-  const auto add_group = [&](const auto& self, const ObjectItem<Instance>& item, const Maps& outer, std::int32_t object,
-                             std::int32_t outer_material, bool outer_catches) -> void {
-    const std::size_t number = numbers.at(item.parameters.group.name);
-    const GeometryTable& group = *groups_[number];
-    const Maps maps = composed(outer, item.motion.empty() ? Maps{item.transform.affine()} : item.motion);
-    const std::int32_t material = material_number(item, outer_material);
-    const bool catches = outer_catches || item.shadowcatcher;
-    if (group.bounds_.lower.x <= group.bounds_.upper.x)
-      add({static_cast<std::int32_t>(number)}, maps, group.bounds_, object, material, catches);
-    for (const TransformedShape& shape : group.transformed_) {
-      InstanceTarget target = shape.target;
-      target.group = static_cast<std::int32_t>(number);
-      add(target, composed(maps, {shape.affine}), shape.bounds, object, material, catches);
-    }
-    for (const auto& inner : std::get<ObjectItems<Instance>>(description.groups[number].objects))
-      self(self, inner, maps, object, material, catches);
-  };
-  const Maps to_origin{moved({}, origin)};
-  for (const auto& item : std::get<ObjectItems<Instance>>(description.objects)) {
-    add_group(add_group, item, to_origin, static_cast<std::int32_t>(object_materials_.size()), -1, false);
-    object_materials_.push_back(std::max(0, material_number(item, -1)));
-  }
-  for (const TransformedShape& shape : transformed_) {
-    const std::int32_t object =
-        geometries_[shape.target.shape_type].first_object + static_cast<std::int32_t>(shape.target.primitive);
-    add(shape.target, composed(to_origin, {shape.affine}), shape.bounds, object, -1, false);
-  }
 }
 
 void GeometryTable::set_object_materials(const ObjectLists& objects, std::span<const std::int32_t> first_materials,

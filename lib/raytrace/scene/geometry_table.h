@@ -46,10 +46,11 @@ struct CloudSpheres {
 /// table as they are before them; rays meet them by an instance each.
 class GeometryTable {
  public:
-  /// has_object_space: whether textures may ask where a point lay before its object's transform.
+  /// has_object_space: whether textures may ask where a point lay before its object's transform. origin: subtracted
+  /// from all points, in double.
   GeometryTable(const ObjectLists& objects, const Vec3d& origin, const MeshMaterials& materials, bool has_object_space,
                 int threads);
-  /// The world's: all objects and groups. origin: subtracted from all points, in double.
+  /// The world's: all objects and groups.
   GeometryTable(const SceneDescription& description, const Vec3d& origin, const MeshMaterials& materials,
                 bool has_object_space, int threads);
 
@@ -110,6 +111,9 @@ class GeometryTable {
     Bounds bounds;  ///< before it
   };
 
+  /// Those of a group that lies far from the origin of its space are moved next to it.
+  static std::unique_ptr<const GeometryTable> of_group(const ObjectLists& objects, const MeshMaterials& materials,
+                                                       bool has_object_space, int threads);
   void add_objects(const ObjectLists& objects, const Vec3d& origin, const MeshMaterials& materials, int threads);
   void add_instances(const SceneDescription& description, const Vec3d& origin,
                      std::span<const std::int32_t> first_materials);
@@ -132,6 +136,7 @@ class GeometryTable {
   void set_bounds(int threads);
 
   bool has_object_space_;  ///< all transforms of shapes are kept then
+  Vec3d origin_;           ///< subtracted from all points
   TupleOf<Shapes, ShapeTable>::type tables_;
   std::deque<MeshTable> meshes_;  ///< they stay where they are
   std::vector<CloudSpheres> clouds_;

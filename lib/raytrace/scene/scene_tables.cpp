@@ -60,12 +60,14 @@ SceneTables::SceneTables(const SceneDescription& description, int threads, const
   const MeshMaterials materials = mesh_materials(description);
   has_vertex_tangents_ = !materials.want_tangents[0].empty() || !materials.want_tangents[1].empty();
   geometry_ = std::make_unique<const GeometryTable>(description, origin_, materials, has_object_space_, threads);
-  if (const auto [center, radius] = geometry_->bounding_sphere(); radius >= 0 && is_coarse(length(center), radius)) {
-    origin_ += rounded_origin(center, radius);
-    geometry_ = std::make_unique<const GeometryTable>(description, origin_, materials, has_object_space_, threads);
+  if (camera_is_far_from(geometry_->bounding_sphere(), description)) {
+    if (length(origin_) > 0) {
+      const auto [center, radius] = geometry_->bounding_sphere();
+      origin_ += rounded_origin(center, radius);
+      geometry_ = std::make_unique<const GeometryTable>(description, origin_, materials, has_object_space_, threads);
+    }
+    camera_target_ = geometry_->bounding_sphere();
   }
-  if (const BoundingSphere sphere = geometry_->bounding_sphere(); camera_is_far_from(sphere, description))
-    camera_target_ = sphere;
   set_camera(description);
   add_lights(description, threads);
   used_materials_ = geometry_->used_materials(first_material_.back());

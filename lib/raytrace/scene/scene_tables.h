@@ -57,8 +57,8 @@ class SceneTables {
 
   /// The world's point that is (0, 0, 0) in all that is traced, so that floats are precise where the camera looks: the
   /// world's own origin if the eye or what it looks at lies within 4096 of it, and within 128 times the distance of the
-  /// two; else the eye; or the center of all objects, if it lies more than 128 of their radii from there. Rounded to
-  /// whole units, or finer where these are smaller.
+  /// two; else the eye or, where the camera is far from all objects, their center. Rounded to whole units, or finer
+  /// where what is there is smaller.
   const Vec3d& origin() const { return origin_; }
 
   const ViewPlane& viewplane() const { return viewplane_; }

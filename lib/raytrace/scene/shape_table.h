@@ -18,15 +18,19 @@ namespace raytrace {
 template <class Record>
 struct UvFrames {
   std::vector<std::int32_t> of_object;  ///< of each object; -1: its record has its coordinates. Empty: all have
-  std::vector<Record> records;          ///< before the transform
-  std::vector<AffineRecord<float>> object_from_world, world_from_object;
+  // Before the transform, less a point of those that lie far from the origin there.
+  std::vector<Record> records;
+  std::vector<Vec3f> origins;                                             ///< the points
+  std::vector<AffineRecord<float>> object_from_world, world_from_object;  ///< maps of what is less them
 
   bool empty() const { return of_object.empty(); }
-  /// Of object i, one of `count`.
-  void add(std::size_t i, std::size_t count, const Record& record, const Affine& affine) {
+  /// Of object i, one of `count`. affine: the transform; record: less the origin.
+  void add(std::size_t i, std::size_t count, const Record& record, Affine affine, const Vec3d& origin) {
+    if (length(origin) > 0) affine = affine * Affine{.origin = origin};
     of_object.resize(count, -1);
     of_object[i] = static_cast<std::int32_t>(records.size());
     records.push_back(record);
+    origins.emplace_back(origin);
     world_from_object.push_back(to_float(affine));
     object_from_world.push_back(to_float(affine.inverse()));
   }

@@ -1,0 +1,97 @@
+// Groups, and where their instances are.
+#include <string_view>
+#include <unordered_map>
+
+#include "raytrace/math/float_origin.h"
+#include "raytrace/scene/geometry_table.h"
+
+namespace raytrace {
+
+namespace {
+
+/// Where something is: one map, or one for each moment while the shutter is open.
+using Maps = std::vector<Affine>;
+
+/// First the inner ones.
+Maps composed(const Maps& outer, const Maps& inner) {
+  Maps maps;
+  for (std::size_t i = 0; i < std::max(outer.size(), inner.size()); ++i)
+    maps.push_back(outer[outer.size() == 1 ? 0 : i] * inner[inner.size() == 1 ? 0 : i]);
+  return maps;
+}
+
+/// Of points less an origin.
+Maps from_origin(const Maps& maps, const Vec3d& origin) {
+  return length(origin) > 0 ? composed(maps, {Affine{.origin = origin}}) : maps;
+}
+
+}  // namespace
+
+std::unique_ptr<const GeometryTable> GeometryTable::of_group(const ObjectLists& objects, const MeshMaterials& materials,
+                                                             bool has_object_space, int threads) {
+  Vec3d origin(0, 0, 0);
+  const auto table = [&] {
+    return std::make_unique<const GeometryTable>(objects, origin, materials, has_object_space, threads);
+  };
+  auto result = table();
+  // The first time, floats may be too coarse for its size.
+  for (int time = 0; time < 2 && result->bounds_.lower.x <= result->bounds_.upper.x; ++time) {
+    const auto [center, radius] = sphere_around(result->bounds_);
+    // What is small may stand anywhere in a large group.
+    const double distance = length(center), near = std::max(radius, 4096.0);
+    if (!(distance > near) && !is_coarse(distance, radius)) break;
+    origin += rounded_origin(center, radius);
+    result = table();
+  }
+  return result;
+}
+
+void GeometryTable::add_instances(const SceneDescription& description, const Vec3d& origin,
+                                  std::span<const std::int32_t> first_materials) {
+  std::unordered_map<std::string_view, std::size_t> numbers;
+  for (const Group& group : description.groups) numbers.emplace(group.name, numbers.size());
+  const auto material_number = [&](const ObjectItem<Instance>& item, std::int32_t outer) {
+    if (outer >= 0 || item.material == no_material) return outer;
+    return first_materials[item.material.type] + static_cast<std::int32_t>(item.material.index);
+  };
+  // An instance of a group is one of its own objects, and one of each instance in it.
+  const auto add = [&](const InstanceTarget& target, const Maps& maps, const Bounds& box, std::int32_t object,
+                       std::int32_t material, bool catches) {
+    instances_catch_.push_back(catches);
+    has_catchers_ = has_catchers_ || catches;
+    if (maps.size() == 1)
+      instances_.add(target, maps.front(), box, object, material);
+    else
+      instances_.add_moving(target, maps, box, object, material);
+  };
+  const auto add_group = [&](const auto& self, const ObjectItem<Instance>& item, const Maps& outer, std::int32_t object,
+                             std::int32_t outer_material, bool outer_catches) -> void {
+    const std::size_t number = numbers.at(item.parameters.group.name);
+    const GeometryTable& group = *groups_[number];
+    const Maps maps = composed(outer, item.motion.empty() ? Maps{item.transform.affine()} : item.motion);
+    const std::int32_t material = material_number(item, outer_material);
+    const bool catches = outer_catches || item.shadowcatcher;
+    if (group.bounds_.lower.x <= group.bounds_.upper.x)
+      add({static_cast<std::int32_t>(number)}, from_origin(maps, group.origin_), group.bounds_, object, material,
+          catches);
+    for (const TransformedShape& shape : group.transformed_) {
+      InstanceTarget target = shape.target;
+      target.group = static_cast<std::int32_t>(number);
+      add(target, composed(maps, {shape.affine}), shape.bounds, object, material, catches);
+    }
+    for (const auto& inner : std::get<ObjectItems<Instance>>(description.groups[number].objects))
+      self(self, inner, maps, object, material, catches);
+  };
+  const Maps to_origin{Affine{.origin = Vec3d(0, 0, 0) - origin}};
+  for (const auto& item : std::get<ObjectItems<Instance>>(description.objects)) {
+    add_group(add_group, item, to_origin, static_cast<std::int32_t>(object_materials_.size()), -1, false);
+    object_materials_.push_back(std::max(0, material_number(item, -1)));
+  }
+  for (const TransformedShape& shape : transformed_) {
+    const std::int32_t object =
+        geometries_[shape.target.shape_type].first_object + static_cast<std::int32_t>(shape.target.primitive);
+    add(shape.target, composed(to_origin, {shape.affine}), shape.bounds, object, -1, false);
+  }
+}
+
+}  // namespace raytrace
