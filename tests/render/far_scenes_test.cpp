@@ -102,26 +102,30 @@ TEST_CASE("small things far from the origin of their group have the light that t
                  1) < 1e-3);
 }
 
-TEST_CASE("a shape far from the origin of its own space looks as one next to it") {
-  // Stretched, so that rays follow its transform; turned, so that its coordinates are those before it.
+TEST_CASE("shapes far from the origin of their own space look as next to it") {
+  // Stretched, so that rays follow the transform; turned, so that coordinates are those before it.
   const std::string steps = GENERATE("<scale x='1' y='2' z='1'/>", "<rotate x='1' y='1' z='0' angle='40'/>");
   const std::string integrator = GENERATE("<uv/>", "<albedo/>");
+  const bool in_group = GENERATE(false, true);
   const auto seen = [&](const Vec3d& place) {
+    const std::string transform =
+        "<transform>" + vector_text("translate", -place.x, -place.y, -place.z) + steps + "</transform>";
+    const std::string material = "<material>cubes</material>" + (in_group ? "" : transform);
+    const std::string shapes = "<spheres><sphere>" + vector_text("center", place.x + 0.9, place.y, place.z) +
+                               "<radius>1</radius>" + material + "</sphere></spheres><cylinders><cylinder>" +
+                               vector_text("bottom", place.x - 1.5, place.y - 0.3, place.z) +
+                               vector_text("top", place.x - 1, place.y + 0.5, place.z) + "<radius>0.4</radius>" +
+                               material + "</cylinder></cylinders>";
     return rendered(scene_text(
         48, 36, 4,
         "<integrator>" + integrator +
             "</integrator><textures><checkers><checker><name>cubes</name><scale>0.7</scale><space>object</space>"
             "</checker></checkers></textures><materials><mattes><matte><name>cubes</name><ka>0</ka><kd>1</kd>"
-            "<cd texture='cubes'/></matte></mattes></materials><objects><spheres><sphere>" +
-            vector_text("center", place.x + 0.9, place.y, place.z) +
-            "<radius>1</radius><material>cubes</material><transform>" +
-            vector_text("translate", -place.x, -place.y, -place.z) + steps +
-            "</transform></sphere></spheres><cylinders><cylinder>" +
-            vector_text("bottom", place.x - 1.5, place.y - 0.3, place.z) +
-            vector_text("top", place.x - 1, place.y + 0.5, place.z) +
-            "<radius>0.4</radius><material>cubes</material><transform>" +
-            vector_text("translate", -place.x, -place.y, -place.z) + steps +
-            "</transform></cylinder></cylinders></objects>",
+            "<cd texture='cubes'/></matte></mattes></materials>" +
+            (in_group ? "<groups><group><name>g</name><objects>" + shapes +
+                            "</objects></group></groups><objects><instances><instance><group>g</group>" + transform +
+                            "</instance></instances></objects>"
+                      : "<objects>" + shapes + "</objects>"),
         "<eye x='1' y='1' z='3'/><lookat x='0' y='0' z='0'/>"));
   };
   // Whole squares away, and no farther than where the floats that textures look up by still know where they end.
@@ -129,7 +133,7 @@ TEST_CASE("a shape far from the origin of its own space looks as one next to it"
   const FloatPicture near = seen({0, 0, 0}), far = seen(place);
   double sum = 0;
   for (std::size_t i = 0; i < near.pixels().size(); ++i) sum += difference(near.pixels()[i], far.pixels()[i]);
-  INFO(steps << ", " << integrator);
+  INFO(steps << ", " << integrator << (in_group ? ", in a group" : ""));
   CHECK(sum / static_cast<double>(near.pixels().size()) < 2e-3);
 }
 

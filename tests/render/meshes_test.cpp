@@ -193,14 +193,15 @@ TEST_CASE("a file's materials are the mesh's where the scene gives none, and gre
 TEST_CASE("a mesh far from the origin is as precise as near it") {
   const SphereMesh sphere(24);
   const TemporaryFolder folder;
-  const auto write = [&](const char* name, double offset) {
+  const auto write = [&](const char* name, double offset, double size) {
     std::ofstream file(folder.path() / name);
     file.precision(17);
     std::istringstream numbers(sphere.positions);
     std::string point;
     while (std::getline(numbers, point, ',')) {
       double x = 0, y = 0, z = 0;
-      if (std::istringstream(point) >> x >> y >> z) file << "v " << x + offset << ' ' << y << ' ' << z - offset << '\n';
+      if (std::istringstream(point) >> x >> y >> z)
+        file << "v " << size * x + offset << ' ' << size * y << ' ' << size * z - offset << '\n';
     }
     std::istringstream faces(sphere.triangles);
     std::string face;
@@ -210,17 +211,21 @@ TEST_CASE("a mesh far from the origin is as precise as near it") {
     }
   };
   const double away = 16777216;
-  write("near.obj", 0);
-  write("far.obj", away);
-  const auto picture = [&](const char* name, double offset) {
-    const std::string camera = vector_text("eye", offset, 2, 12 - offset) + vector_text("lookat", offset, 0, -offset);
+  write("near.obj", 0, 1);
+  write("far.obj", away, 1);
+  write("small.obj", 2000, 0.001);
+  const auto picture = [&](const char* name, double offset, double size) {
+    const std::string camera =
+        vector_text("eye", offset, 2 * size, 12 * size - offset) + vector_text("lookat", offset, 0, -offset);
     return rendered(scene_text(64, 48, 4,
                                "<lights><directionallights><directionallight><direction x='1' y='2' z='3'/>"
                                "</directionallight></directionallights></lights><objects><meshes><mesh><file>" +
                                    (folder.path() / name).string() + "</file></mesh></meshes></objects>",
                                camera));
   };
-  CHECK(compared(picture("near.obj", 0), picture("far.obj", away)).mean < 1e-3);
+  const FloatPicture near = picture("near.obj", 0, 1);
+  CHECK(compared(near, picture("far.obj", away, 1)).mean < 1e-3);
+  CHECK(compared(near, picture("small.obj", 2000, 0.001)).mean < 1e-3);
 }
 
 TEST_CASE("a mesh that was not loaded is refused") {
