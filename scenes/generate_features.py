@@ -1174,6 +1174,23 @@ write(
     </toruses>
 """,
 )
+TOWERS = "".join(
+    f'      <box> <min x="{x - 0.6:g}" y="0" z="{z - 0.6:g}"/> <max x="{x + 0.6:g}" y="{height}" z="{z + 0.6:g}"/> '
+    "<material>clay</material> </box>\n"
+    for x, z, height in ((-3.2, -3, 4.5), (-1.6, -1, 6), (0, -3, 7.5), (1.6, -1, 5.5), (3.2, -3, 6.5))
+)
+for name, comment, lookat, shift in (
+    ("camera-tilted", "A camera that looks up: verticals lean towards each other.", 3.6, ""),
+    ("camera-shift", "A level camera whose picture is shifted upwards: verticals stay parallel.", 1.6, ' <shift x="0" y="0.25"/>'),
+):
+    write(
+        name,
+        comment,
+        room=ROOM.replace('<eye x="0" y="2.2" z="8"/> <lookat x="0" y="0.9" z="0"/>',
+                          f'<eye x="0" y="1.6" z="8"/> <lookat x="0" y="{lookat}" z="0"/>')
+        .replace("<viewdistance>520</viewdistance>", f"<viewdistance>280</viewdistance>{shift}"),
+        objects=f"    <boxes>\n{TOWERS}    </boxes>\n",
+    )
 
 STAIRS = "".join(
     f"      <rectangle> <corner x=\"{x}\" y=\"{y}\" z=\"{z}\"/> <edge1 {edge1}/> <edge2 {edge2}/> "

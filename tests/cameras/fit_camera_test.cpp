@@ -52,6 +52,9 @@ struct Shown {
           if constexpr (requires { camera.viewdistance; }) {
             x *= camera.viewdistance / depth;
             y *= camera.viewdistance / depth;
+            const double side = picture.pixelsize * std::max(picture.hres, picture.vres);
+            x -= camera.shift.x * side;
+            y -= camera.shift.y * side;
           }
           x /= picture.pixelsize * picture.hres / 2;
           y /= picture.pixelsize * picture.vres / 2;
@@ -184,10 +187,12 @@ TEST_CASE("all cameras that can be moved show all objects, instances of groups o
                              "</objects></group><group><name>b</name><objects>" + objects +
                              "</objects></group></groups>";
   const std::string view = "<eye x='3' y='2' z='4'/><lookat x='1' y='1' z='-1'/>";
-  for (const std::string& camera : {pinhole_to_fit, "<orthographiccamera>" + view + "</orthographiccamera>",
-                                    "<thinlenscamera>" + view +
-                                        "<fov>50</fov><lensradius>0.1</lensradius><focaldistance>1</focaldistance>"
-                                        "</thinlenscamera>"}) {
+  for (const std::string& camera :
+       {pinhole_to_fit, "<camera>" + view + "<viewdistance>70</viewdistance><shift x='0.3' y='-0.6'/></camera>",
+        "<orthographiccamera>" + view + "</orthographiccamera>",
+        "<thinlenscamera>" + view +
+            "<fov>50</fov><lensradius>0.1</lensradius><focaldistance>1</focaldistance>"
+            "</thinlenscamera>"}) {
     INFO(camera);
     SceneDescription scene = scene_to_fit(objects + instance("a"), camera, groups);
     fit_camera(scene, scene);

@@ -57,6 +57,7 @@ TEST_CASE("a scene is printed with every value spelled out") {
     <shutteropen>0</shutteropen>
     <shutterclose>0</shutterclose>
     <viewdistance>4</viewdistance>
+    <shift x="0" y="0"/>
   </camera>
   <lights>
   </lights>

@@ -111,6 +111,35 @@ TEST_CASE("a filter blurs an edge as far as it is wide") {
   CHECK(rows_between("box", "<filterwidth>4.5</filterwidth>") == 4);
 }
 
+TEST_CASE("a shifted picture is a part of a larger one") {
+  // 40 x 30 of 80 x 60 pixels, 10 to the right of its middle and 8 below.
+  SceneDescription larger = parsed_scene(busy_scene(80, 60, 1));
+  SceneDescription shifted = larger;
+  shifted.viewplane.hres = 40;
+  shifted.viewplane.vres = 30;
+  std::get<PinholeCamera::Parameters>(shifted.camera).shift = {10.0 / 40, -8.0 / 40};
+  const FloatPicture all = rendered(larger), part = rendered(shifted);
+  int other = 0;
+  for (int y = 0; y < 30; ++y)
+    for (int x = 0; x < 40; ++x) other += difference(part.at(x, y), all.at(x + 20 + 10, y + 15 + 8)) > 1e-3;
+  CHECK(other < 12);  // on edges, where rays are rounded otherwise
+}
+
+TEST_CASE("a shift that has keys blurs the picture while the shutter is open") {
+  // The horizon moves from row 4 to row 12, evenly.
+  const SceneDescription description =
+      half_space(16, 16, 256,
+                 "<camera>" + level +
+                     "<viewdistance>16</viewdistance><shift><key frame='1' x='0' y='-0.25'/><key frame='2' "
+                     "x='0' y='0.25'/></shift><shutteropen>0</shutteropen><shutterclose>1</shutterclose></camera>");
+  const FloatPicture picture = rendered(description);
+  for (int y = 0; y < 16; ++y) {
+    const double below = std::clamp((y + 0.5 - 4) / 8, 0.0, 1.0);
+    INFO("row " << y);
+    CHECK(double{picture.at(5, y).green} == Approx(2 - 1.5 * below).margin(0.03));
+  }
+}
+
 TEST_CASE("a filter leaves a single sample in the pixel's centre") {
   const SceneDescription plain = parsed_scene(busy_scene(40, 30, 1));
   SceneDescription filtered = plain;

@@ -149,6 +149,12 @@ std::vector<Stage> stages() {
        .camera = "<thinlenscamera>" + eye +
                  "<fov>45</fov><lensradius>0.3</lensradius><focaldistance>6</focaldistance>"
                  "</thinlenscamera>"},
+      {.name = "a shifted camera",
+       .camera = "<camera><eye x='0' y='4' z='6'/><lookat x='0' y='4' z='0.5'/><fov>45</fov><shift x='0.1' y='-0.4'/>"
+                 "</camera>"},
+      {.name = "a shifted thin lens",
+       .camera = "<thinlenscamera><eye x='0' y='4' z='6'/><lookat x='0' y='4' z='0.5'/><fov>45</fov><shift x='0.1' "
+                 "y='-0.4'/><lensradius>0.3</lensradius><focaldistance>6</focaldistance></thinlenscamera>"},
       {.name = "an orthographic camera",
        .camera = "<orthographiccamera>" + eye + "</orthographiccamera>",
        .viewplane = "<pixelsize>0.2</pixelsize>"},

@@ -186,12 +186,15 @@ void fit_camera(const SceneDescription& shown, SceneDescription& scene) {
             const double half = part_in_view * picture.pixelsize / (2 * camera.viewdistance);
             across.tangent = half * picture.hres;
             upwards.tangent = half * picture.vres;
+            const Vec2d shift = shift_in_pixels(camera, picture);
+            across.shift = shift.x * picture.pixelsize / camera.viewdistance;
+            upwards.shift = shift.y * picture.pixelsize / camera.viewdistance;
           }
           const Vec3d &u = frame.u, &v = frame.v, &w = frame.w;
-          const Reaches reaches = measured(shown, {{{w * across.tangent + u},
-                                                    {w * across.tangent - u},
-                                                    {w * upwards.tangent + v},
-                                                    {w * upwards.tangent - v},
+          const Reaches reaches = measured(shown, {{{w * (across.tangent + across.shift) + u},
+                                                    {w * (across.tangent - across.shift) - u},
+                                                    {w * (upwards.tangent + upwards.shift) + v},
+                                                    {w * (upwards.tangent - upwards.shift) - v},
                                                     {w},
                                                     {-w}}});
           std::tie(across.right, across.left, upwards.right, upwards.left) =
@@ -209,8 +212,9 @@ void fit_camera(const SceneDescription& shown, SceneDescription& scene) {
             if (needed > 0) picture.pixelsize = needed;
             distance = nearest + std::max({width, height, depth, smallest_size});
           }
-          camera.lookat = u * across.middle() + v * upwards.middle() + w * middle;
-          camera.eye = u * across.middle() + v * upwards.middle() + w * distance;
+          const Vec3d beside = u * across.eye(distance) + v * upwards.eye(distance);
+          camera.lookat = beside + w * middle;
+          camera.eye = beside + w * distance;
           if constexpr (requires { camera.focaldistance; }) camera.focaldistance = distance - middle;
         }
       },

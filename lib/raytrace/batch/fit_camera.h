@@ -10,16 +10,20 @@ namespace raytrace {
 /// What is in view reaches to so much of the way from the picture's middle to its edge.
 inline constexpr double part_in_view = 0.92;
 
-/// How far all points p reach to either side in a picture of half width `tangent` at distance 1: the largest
-/// p.across + tangent p.back, and tangent p.back - p.across, where back is the way towards the viewer.
+/// How far all points p reach to either side in a picture of half width `tangent` at distance 1, whose middle is
+/// `shift` beside the view's axis: the largest p.across + (tangent + shift) p.back, and (tangent - shift) p.back -
+/// p.across, where back is the way towards the viewer.
 struct Reach {
-  double tangent, right = -1e300, left = -1e300;
+  double tangent, shift = 0, right = -1e300, left = -1e300;
 
   void add(double across, double back) {
-    right = std::max(right, across + tangent * back);
-    left = std::max(left, tangent * back - across);
+    right = std::max(right, across + (tangent + shift) * back);
+    left = std::max(left, (tangent - shift) * back - across);
   }
+  /// Of the picture, at the eye's distance from there.
   double middle() const { return (right - left) / 2; }
+  /// Where the eye is to have the middle there, at that distance.
+  double eye(double eye_distance) const { return middle() - shift * eye_distance; }
   /// Of the eye that has just all of them in view, in the direction towards the viewer.
   double distance() const { return (right + left) / (2 * tangent); }
 };

@@ -59,10 +59,26 @@ ViewPlane requested_view_plane(const ViewPlane& viewplane, const RenderJob& job)
   return requested;
 }
 
+/// A shift counts in the picture's larger side: it stays as long as it was where that is another.
+void keep_shift(const ViewPlane& before, const ViewPlane& now, CameraParameters& any_camera) {
+  const auto side = [](const ViewPlane& picture) { return picture.pixelsize * std::max(picture.hres, picture.vres); };
+  std::visit(
+      [&](auto& camera) {
+        if constexpr (requires { camera.shift; }) {
+          camera.shift.x *= side(before) / side(now);
+          camera.shift.y *= side(before) / side(now);
+        }
+      },
+      any_camera);
+}
+
 }  // namespace
 
 void apply_job(const RenderJob& job, SceneDescription& description) {
-  description.viewplane = requested_view_plane(description.viewplane, job);
+  const ViewPlane scenes = description.viewplane;
+  description.viewplane = requested_view_plane(scenes, job);
+  keep_shift(scenes, description.viewplane, description.camera);
+  for (CameraParameters& moment : description.moving_camera) keep_shift(scenes, description.viewplane, moment);
   if (job.integrator.empty()) return;
   bool found = false;
   for_each_type(Integrators{}, [&]<class Integrator>(std::type_identity<Integrator>) {

@@ -11,6 +11,7 @@
 //   MaskN has_ray(const FloatN& x, const FloatN& y) const;
 //                              if the picture has points without a ray, which are black; generate() gives any there
 //   Vec3f origin() const;      if all rays start there
+//   Vec2d axis() const;        if the view's axis may meet another point of the picture than its center: that point
 //   std::optional<FilmPoint> project(const Vec3d& p) const;   where the picture shows p (cameras/pixel_frame.h); none:
 //                              nowhere. With a lens (p, u1, u2, lane): from the point of it that generate() has for
 //                              these in that lane

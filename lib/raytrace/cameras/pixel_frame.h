@@ -16,15 +16,16 @@ struct FilmPoint {
   double area;  ///< in square pixels: of the picture, for a unit of area at the point that faces the camera
 };
 
-/// What a camera shows of a plane at distance 1 before `from`, whose pixels have those edges, at right angles.
+/// What a camera shows of a plane at distance 1 before `from`, whose pixels have those edges, at right angles. shift:
+/// from the point before it to the picture's center, in pixels.
 inline std::optional<FilmPoint> project_on_plane(const Vec3d& p, const Vec3d& from, const Vec3d& forward,
-                                                 const Vec3d& right, const Vec3d& up) {
+                                                 const Vec3d& right, const Vec3d& up, const Vec2d& shift) {
   const Vec3d way = p - from;
   const double depth = dot(way, forward), distance = length(way);
   if (!(depth > 0)) return std::nullopt;
   const double pixel = length(right) * length(up);
-  return FilmPoint{dot(way, right) / (depth * dot(right, right)), dot(way, up) / (depth * dot(up, up)), from,
-                   distance / (depth * depth * depth * pixel)};
+  return FilmPoint{dot(way, right) / (depth * dot(right, right)) - shift.x,
+                   dot(way, up) / (depth * dot(up, up)) - shift.y, from, distance / (depth * depth * depth * pixel)};
 }
 
 /// In float, and in double for cameras that are far away.

@@ -24,6 +24,7 @@ class ThinLensCamera {
     double focaldistance = 0;  ///< from the lens to the plane that is in focus
     int blades = 0;            ///< corners of the lens, on a circle of lensradius; 0: it is round
     double bladerotation = 0;  ///< degrees that the first corner is turned from the right towards the top
+    Vec2d shift{0, 0};         ///< of the picture on the view plane, right and up, in larger sides of it
     double fov = 0;            ///< of files alone, in degrees; load_scene() sets viewdistance by it
     double shutteropen = 0, shutterclose = 0;  ///< frames after the current one
   };

@@ -15,7 +15,9 @@ class Kernel<ThinLensCamera> {
  public:
   Kernel(const ThinLensCamera::Parameters& parameters, const ViewPlane& viewplane)
       : Kernel(parameters, {parameters.eye, parameters.lookat, parameters.up},
-               viewplane.pixelsize / parameters.viewdistance) {}
+               viewplane.pixelsize / parameters.viewdistance, shift_in_pixels(parameters, viewplane)) {}
+
+  Vec2d axis() const { return {-shift_.x, -shift_.y}; }
 
   template <class F>
   Ray<F> generate(const F& x, const F& y, const FloatN& u1, const FloatN& u2) const {
@@ -33,9 +35,10 @@ class Kernel<ThinLensCamera> {
     const auto& lens = lens_.in_double();
     const auto [right, up] = aperture_.point(u1, u2);
     const Vec3d start = lens.right * double{right.get(lane)} + lens.up * double{up.get(lane)};
-    const double focus = length(plane.forward);
-    auto point = project_on_plane(p, lens.eye + start, plane.forward * (1 / focus), plane.right * (1 / focus),
-                                  plane.up * (1 / focus));
+    const Vec3d forward = plane.forward - plane.right * shift_.x - plane.up * shift_.y;
+    const double focus = length(forward);
+    auto point = project_on_plane(p, lens.eye + start, forward * (1 / focus), plane.right * (1 / focus),
+                                  plane.up * (1 / focus), shift_);
     if (!point) return point;
     // Where the way from there crosses the plane in focus, seen from the lens' middle.
     point->x += dot(start, plane.right) / dot(plane.right, plane.right);
@@ -45,14 +48,17 @@ class Kernel<ThinLensCamera> {
 
  private:
   /// The view plane at distance 1, where pixels are so wide.
-  Kernel(const ThinLensCamera::Parameters& parameters, const ViewFrame& frame, double pixel)
-      : in_focus_(parameters.eye, -frame.w * parameters.focaldistance, frame.u * (pixel * parameters.focaldistance),
-                  frame.v * (pixel * parameters.focaldistance)),
+  Kernel(const ThinLensCamera::Parameters& parameters, const ViewFrame& frame, double pixel, const Vec2d& shift)
+      : in_focus_(parameters.eye,
+                  -(frame.w - frame.u * (pixel * shift.x) - frame.v * (pixel * shift.y)) * parameters.focaldistance,
+                  frame.u * (pixel * parameters.focaldistance), frame.v * (pixel * parameters.focaldistance)),
         lens_(parameters.eye, {0, 0, 0}, frame.u * parameters.lensradius, frame.v * parameters.lensradius),
-        aperture_(parameters.blades, parameters.bladerotation) {}
+        aperture_(parameters.blades, parameters.bladerotation),
+        shift_(shift) {}
 
-  PixelFrame in_focus_, lens_;  ///< the lens has one pixel
+  PixelFrame in_focus_, lens_;  ///< the first's forward: to the picture's center; the lens has one pixel
   Aperture aperture_;
+  Vec2d shift_;  ///< of the picture's center from the view's axis, in pixels
 };
 
 }  // namespace raytrace

@@ -1,6 +1,7 @@
 // The frame of a camera that looks from a point at another.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -42,6 +43,7 @@ template <class Parameters>
 Fields perspective_fields() {
   Fields fields = view_fields<Parameters>();
   fields.push_back(required("viewdistance", &Parameters::viewdistance, Range::positive));
+  fields.push_back(optional("shift", &Parameters::shift));
   return fields;
 }
 template <class Parameters>
@@ -61,10 +63,17 @@ std::optional<ParameterDiagnostic> check_view(const Parameters& parameters) {
   return std::nullopt;
 }
 
-/// The same, and with its field of view.
+/// Larger sides of the picture, to either side: far beyond what any lens has, and no float overflows.
+inline constexpr double largest_shift = 100;
+
+/// The same, and with its field of view or its shift.
 template <class Parameters>
 std::optional<ParameterDiagnostic> check_perspective(const Parameters& parameters) {
   constexpr double least = 1e-6;
+  if (std::abs(parameters.shift.x) > largest_shift || std::abs(parameters.shift.y) > largest_shift)
+    return ParameterDiagnostic{
+        ParameterDiagnostic::Effect::error,
+        "the numbers of the camera's <shift> are from -100 to 100, in larger sides of the picture"};
   if (parameters.fov == 0 || (parameters.fov >= least && parameters.fov < 180)) return check_view(parameters);
   return ParameterDiagnostic{ParameterDiagnostic::Effect::error,
                              "the camera's <fov> is an angle of at least 0.000001 and less than 180 degrees"};
@@ -73,6 +82,13 @@ std::optional<ParameterDiagnostic> check_perspective(const Parameters& parameter
 /// From the eye to the view plane on which the picture's height is seen under that angle, in degrees.
 inline double view_distance(double fov, const ViewPlane& viewplane) {
   return viewplane.pixelsize * viewplane.vres / (2 * std::tan(fov * std::numbers::pi / 360));
+}
+
+/// From where the axis of the view meets the view plane to the picture's middle, to the right and upwards, in pixels.
+template <class Parameters>
+Vec2d shift_in_pixels(const Parameters& parameters, const ViewPlane& viewplane) {
+  const double side = std::max(viewplane.hres, viewplane.vres);
+  return {parameters.shift.x * side, parameters.shift.y * side};
 }
 
 /// screen: from camera space to the picture, as CameraMatrices has it.
@@ -94,11 +110,15 @@ inline CameraMatrices make_camera_matrices(const Vec3d& eye, const ViewFrame& fr
 /// Of a camera with a view plane at `viewdistance`.
 template <class Parameters>
 CameraMatrices perspective_matrices(const Parameters& parameters, const ViewPlane& viewplane) {
-  // The picture spans +-half on the view plane, and -z of camera space divides: x' = x * d / (width * -z) + 1/2.
+  // The picture spans +-half on the view plane, and -z of camera space divides: x' = x * d / (width * -z) + 1/2; what
+  // is on the axis is as far from the middle as the picture is shifted.
+  const Vec2d shift = shift_in_pixels(parameters, viewplane);
+  const double x_shift = shift.x / viewplane.hres, y_shift = shift.y / viewplane.vres;
   const double x_scale = parameters.viewdistance / (viewplane.pixelsize * viewplane.hres);
   const double y_scale = parameters.viewdistance / (viewplane.pixelsize * viewplane.vres);
-  return make_camera_matrices(parameters.eye, ViewFrame(parameters.eye, parameters.lookat, parameters.up),
-                              {{x_scale, 0, 0, 0}, {0, y_scale, 0, 0}, {-0.5, -0.5, -1, -1}, {0, 0, 0, 0}});
+  return make_camera_matrices(
+      parameters.eye, ViewFrame(parameters.eye, parameters.lookat, parameters.up),
+      {{x_scale, 0, 0, 0}, {0, y_scale, 0, 0}, {x_shift - 0.5, y_shift - 0.5, -1, -1}, {0, 0, 0, 0}});
 }
 
 /// Of a camera whose picture no matrix leads to.

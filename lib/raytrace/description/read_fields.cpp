@@ -34,6 +34,9 @@ constexpr Synonym synonyms[] = {
     {"intensity", "scaleradiance"},
     {"power", "scaleradiance"},
     {"radiance", "scaleradiance"},
+    {"lensshift", "shift"},
+    {"shift_x", "shift"},
+    {"shift_y", "shift"},
 };
 
 /// That of the fields which the unknown name stands for or is misspelt of; it is absent.

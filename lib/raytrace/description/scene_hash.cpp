@@ -29,13 +29,15 @@ class SceneHash {
       } else {
         // What moves counts, not when the shutter opens and closes.
         add(T::element);
-        add_parameters(element_type<T>().fields, &parameters, {"shutteropen", "shutterclose"});
+        add_parameters(element_type<T>().fields, &parameters,
+                       {"shutteropen", "shutterclose", unused_shift(parameters)});
       }
     });
     for (const CameraParameters& moment : scene.moving_camera)
       for_each_type(Cameras{}, [&]<class T>(std::type_identity<T>) {
         if (const auto* parameters = std::get_if<typename T::Parameters>(&moment))
-          add_parameters(element_type<T>().fields, parameters, {"shutteropen", "shutterclose"});
+          add_parameters(element_type<T>().fields, parameters,
+                         {"shutteropen", "shutterclose", unused_shift(*parameters)});
       });
     for_each_item_type([&]<class Section, class T>(std::type_identity<Section>, std::type_identity<T>) {
       add_type<T>(items_of<Section, T>(scene));
@@ -71,9 +73,9 @@ class SceneHash {
         if constexpr (requires { item.data; }) {
           hash.add_loaded(fields, item);
         } else if constexpr (requires { item.image; }) {
-          hash.add_parameters(
-              fields, &item.parameters,
-              {item.image.hash.empty() ? "" : "file", unused_field(item.parameters), unused_space(item.parameters)});
+          hash.add_parameters(fields, &item.parameters,
+                              {item.image.hash.empty() ? "" : "file", unused_field(item.parameters),
+                               unused_space(item.parameters)});
           hash.add(item.image.hash);
         } else if constexpr (requires { item.photometry; }) {
           hash.add_parameters(fields, &item.parameters, {item.photometry.hash.empty() ? "" : "iesfile"});
@@ -139,6 +141,13 @@ class SceneHash {
       if (parameters.tangentrotation == 0) return tangentrotation_field;
     if constexpr (requires { parameters.ground; })
       if (parameters.ground == 1) return "ground";
+    return "";
+  }
+
+  template <class Parameters>
+  static std::string_view unused_shift(const Parameters& camera) {
+    if constexpr (requires { camera.shift; })
+      if (camera.shift.x == 0 && camera.shift.y == 0) return "shift";
     return "";
   }
 

@@ -45,11 +45,13 @@ void SceneTables::set_camera(const SceneDescription& description) {
 
 template <class CameraKernel>
 void SceneTables::set_ray_cone(const CameraKernel& camera) {
-  // By two rays in the middle of the picture, a pixel apart; in double, since they are almost the same.
+  // By two rays about the view's axis, a pixel apart; in double, since they are almost the same.
   using D = Doubles<FloatN>;
   const Sample2D middle_of_lens{FloatN(0.5F), FloatN(0.5F)};
-  const Ray<D> middle = generate<D>(camera, D(0.0), D(0.0), middle_of_lens);
-  const Ray<D> beside = generate<D>(camera, D(1.0), D(0.0), middle_of_lens);
+  Vec2d axis{0, 0};
+  if constexpr (requires { camera.axis(); }) axis = camera.axis();
+  const Ray<D> middle = generate<D>(camera, D(axis.x), D(axis.y), middle_of_lens);
+  const Ray<D> beside = generate<D>(camera, D(axis.x + 1), D(axis.y), middle_of_lens);
   const auto apart = [](const Vec3<D>& a, const Vec3<D>& b) { return length(to_float(b - a)).get(0); };
   ray_cone_ = {apart(middle.origin, beside.origin), apart(middle.direction, beside.direction)};
 }
