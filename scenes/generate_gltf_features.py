@@ -110,8 +110,8 @@ def sparse_accessors(file):
 def samplers(file):
     picture = png(arrow)
     shape = panel(2, 2, (-0.6, -0.6), (1.6, 1.6))
-    wraps = (REPEAT, MIRRORED_REPEAT, CLAMP_TO_EDGE)
-    show_row(file, [file.material(texture=file.texture(picture, wrap)) for wrap in wraps], shape)
+    wraps = ((REPEAT, REPEAT), (MIRRORED_REPEAT, MIRRORED_REPEAT), (CLAMP_TO_EDGE, CLAMP_TO_EDGE), (REPEAT, CLAMP_TO_EDGE))
+    show_row(file, [file.material(texture=file.texture(picture, *both)) for both in wraps], shape)
 
 
 def metallic_roughness(file):

@@ -81,10 +81,10 @@ class Gltf:
     def show(self, shape, material=None, at=(0, 0, 0), **properties):
         return self.node(mesh=self.mesh(self.primitive(shape, material)), translation=list(at), **properties)
 
-    def texture(self, picture, wrap=REPEAT):
-        """picture: the bytes of a PNG file."""
+    def texture(self, picture, wrap=REPEAT, wrap_t=None):
+        """picture: the bytes of a PNG file. wrap_t: where it is not that of both directions."""
         image = self.put("images", {"bufferView": self.view(picture), "mimeType": "image/png"})
-        sampler = self.put("samplers", {"wrapS": wrap, "wrapT": wrap})
+        sampler = self.put("samplers", {"wrapS": wrap, "wrapT": wrap_t or wrap})
         return self.put("textures", {"source": image, "sampler": sampler})
 
     def material(self, color=(1, 1, 1), metallic=0.0, roughness=0.5, texture=None, extensions=None, **more):

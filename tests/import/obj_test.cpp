@@ -63,7 +63,8 @@ TEST_CASE("an OBJ file's materials come from its MTL files") {
   CHECK(red.map_kd.scale == std::array<double, 2>{2, 3});
   CHECK(red.map_kd.offset == std::array<double, 2>{0.5, 0});
   CHECK(red.map_bump.file == "bump.png");
-  CHECK(red.map_kd.edge == MeshTexture::Edge::clamp);
+  CHECK(red.map_kd.edge_u == MeshTexture::Edge::clamp);
+  CHECK(red.map_kd.edge_v == MeshTexture::Edge::clamp);
   CHECK(red.openpbr.empty());
   CHECK(mesh->materials[1].name == "missing");
   CHECK(printed(diagnostics, folder.path().string()) ==

@@ -44,14 +44,21 @@ int wrapped_index(int i, int n, Wrap wrap) {
   return j < n ? j : 2 * n - 1 - j;
 }
 
-Color4 reference_texel(const TexelImage& image, std::size_t level, int x, int y, Wrap wrap, bool srgb) {
+struct Wraps {
+  Wrap u, v;
+  Wraps(Wrap both) : u(both), v(both) {}
+  Wraps(Wrap u_wrap, Wrap v_wrap) : u(u_wrap), v(v_wrap) {}
+};
+
+Color4 reference_texel(const TexelImage& image, std::size_t level, int x, int y, const Wraps& wraps, bool srgb) {
   const TexelImage::Level& size = image.levels()[level];
-  const int column = wrapped_index(x, size.width, wrap), row = wrapped_index(y, size.height, wrap);
+  const int column = wrapped_index(x, size.width, wraps.u), row = wrapped_index(y, size.height, wraps.v);
   if (column < 0 || row < 0) return {0, 0, 0, 0};
   return texel_of(image, level, column, row, srgb);
 }
 
-Color4 reference_bilinear(const TexelImage& image, std::size_t level, double u, double v, Wrap wrap, bool srgb) {
+Color4 reference_bilinear(const TexelImage& image, std::size_t level, double u, double v, const Wraps& wraps,
+                          bool srgb) {
   const TexelImage::Level& size = image.levels()[level];
   const double x = u * size.width - 0.5, y = v * size.height - 0.5;
   const int left = static_cast<int>(std::floor(x)), low = static_cast<int>(std::floor(y));
@@ -59,7 +66,7 @@ Color4 reference_bilinear(const TexelImage& image, std::size_t level, double u, 
   for (const int dy : {0, 1})
     for (const int dx : {0, 1}) {
       const double share = (dx == 0 ? 1 - (x - left) : x - left) * (dy == 0 ? 1 - (y - low) : y - low);
-      const Color4 texel = reference_texel(image, level, left + dx, low + dy, wrap, srgb);
+      const Color4 texel = reference_texel(image, level, left + dx, low + dy, wraps, srgb);
       for (std::size_t c = 0; c < 4; ++c) sum[c] += share * texel[c];
     }
   return sum;
@@ -93,6 +100,8 @@ Kernel<Image> kernel_of(const TexelImage& image, const Image::Parameters& parame
   return {parameters, std::shared_ptr<const TexelImage>(&image, [](const TexelImage*) {})};
 }
 
+constexpr std::array every_wrap{Wrap::repeat, Wrap::mirror, Wrap::clamp, Wrap::black};
+
 Image::Parameters with_wrap(Wrap wrap) {
   Image::Parameters parameters;
   parameters.wrap = wrap;
@@ -124,6 +133,38 @@ TEST_CASE("from near, an image is bilinear between its texels: all formats, wrap
           CHECK(worst < (srgb ? 2e-4 : 3e-5));  // the kernel's polynomial for sRGB
         }
       }
+}
+
+TEST_CASE("an image has a wrap of its own above and below, between texels and at the nearest one") {
+  std::mt19937 random(29);
+  RandomPlaces chance(31);
+  const TexelImage image(random_picture(random, 8, 5, 4, TexelFormat::bytes), false, 1);
+  for (const Wrap u : every_wrap)
+    for (const Wrap v : every_wrap)
+      for (const TextureFilter filter : {TextureFilter::smart, TextureFilter::nearest}) {
+        Image::Parameters parameters = with_wrap(u);
+        parameters.wrapv = Image::own_wrap_v(v);
+        parameters.filter = filter;
+        const Kernel<Image> kernel = kernel_of(image, parameters);
+        double worst = 0;
+        for (int i = 0; i < 20; ++i) {
+          auto places = chance.places(3, 0);
+          for (Place& place : places) place.u += 0x1p-17, place.v += 0x1p-17;  // on no edge, where mirrors differ
+          const Rgba<FloatN> found = kernel.at(point_of(places));
+          for (std::size_t lane = 0; lane < lanes; ++lane) {
+            const Place& place = places[lane];
+            const auto cell = [](double x) { return static_cast<int>(std::floor(x)); };
+            const Color4 wanted = filter == TextureFilter::nearest
+                                      ? reference_texel(image, 0, cell(place.u * 8), cell(place.v * 5), {u, v}, false)
+                                      : reference_bilinear(image, 0, place.u, place.v, {u, v}, false);
+            worst = std::max(worst, difference(lane_of(found, lane), wanted));
+          }
+        }
+        INFO("wraps " << static_cast<int>(u) << " and " << static_cast<int>(v));
+        CHECK(worst < 3e-5);
+      }
+  // Left out, it is the other one.
+  CHECK(Image::wrap_v(with_wrap(Wrap::black)) == Wrap::black);
 }
 
 TEST_CASE("the nearest texel is what the place lies in") {

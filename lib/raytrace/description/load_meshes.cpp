@@ -18,6 +18,12 @@ namespace raytrace {
 
 namespace {
 
+Wrap wrap_of(MeshTexture::Edge edge) {
+  return edge == MeshTexture::Edge::clamp    ? Wrap::clamp
+         : edge == MeshTexture::Edge::mirror ? Wrap::mirror
+                                             : Wrap::repeat;
+}
+
 class MeshLoader {
  public:
   MeshLoader(SceneDescription& scene, Diagnostics& diagnostics, int threads)
@@ -271,8 +277,8 @@ class MeshLoader {
     auto& images = std::get<TextureItems<Image>>(scene_.textures);
     const std::string path = (folder / texture.file).string();
     const ImageUse key{
-        path,         texture.scale,   texture.offset,  texture.rotation, texture.value_scale, texture.value_offset,
-        texture.edge, texture.nearest, texture.by_uvs2, colorspace};
+        path,           texture.scale,  texture.offset,  texture.rotation, texture.value_scale, texture.value_offset,
+        texture.edge_u, texture.edge_v, texture.nearest, texture.by_uvs2,  colorspace};
     const auto [known, is_new] = known_images_.try_emplace(key, images.size());
     const auto index = static_cast<std::uint32_t>(known->second);
     if (!is_new) return {index_of<Image>(Textures{}), index};
@@ -284,8 +290,8 @@ class MeshLoader {
     image.parameters.uvrotation = texture.rotation;
     image.parameters.valuescale = texture.value_scale;
     image.parameters.valueoffset = texture.value_offset;
-    if (texture.edge != MeshTexture::Edge::repeat)
-      image.parameters.wrap = texture.edge == MeshTexture::Edge::clamp ? Wrap::clamp : Wrap::mirror;
+    image.parameters.wrap = wrap_of(texture.edge_u);
+    if (texture.edge_v != texture.edge_u) image.parameters.wrapv = Image::own_wrap_v(wrap_of(texture.edge_v));
     if (texture.nearest) image.parameters.filter = TextureFilter::nearest;
     if (texture.by_uvs2) image.parameters.uvset = UvSet::second;
     image.image.bytes = texture.bytes;
@@ -343,7 +349,7 @@ class MeshLoader {
   std::map<std::string, MaterialReference> own_materials_;  ///< those of the scene, by name
   std::set<std::string> unlit_;                             // files of models whose lights have been left out
   using ImageUse = std::tuple<std::string, std::array<double, 2>, std::array<double, 2>, double, double, double,
-                              MeshTexture::Edge, bool, bool, ColorSpace>;
+                              MeshTexture::Edge, MeshTexture::Edge, bool, bool, ColorSpace>;
   std::map<ImageUse, std::size_t> known_images_;
   MaterialReference grey_ = no_material, painted_ = no_material;
 };

@@ -75,7 +75,7 @@ class SceneHash {
         } else if constexpr (requires { item.image; }) {
           hash.add_parameters(fields, &item.parameters,
                               {item.image.hash.empty() ? "" : "file", unused_field(item.parameters),
-                               unused_space(item.parameters)});
+                               unused_space(item.parameters), unused_wrap(item.parameters)});
           hash.add(item.image.hash);
         } else if constexpr (requires { item.photometry; }) {
           hash.add_parameters(fields, &item.parameters, {item.photometry.hash.empty() ? "" : "iesfile"});
@@ -155,6 +155,13 @@ class SceneHash {
   static std::string_view unused_override(const Parameters& parameters) {
     if constexpr (requires { parameters.overridematerials; })
       if (!parameters.overridematerials) return "overridematerials";
+    return "";
+  }
+
+  template <class Parameters>
+  static std::string_view unused_wrap(const Parameters& parameters) {
+    if constexpr (requires { parameters.wrapv; })
+      if (parameters.wrapv == WrapV::same) return Image::wrapv_field;
     return "";
   }
 

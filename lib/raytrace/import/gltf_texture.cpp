@@ -7,6 +7,17 @@
 #include "raytrace/import/gltf_material.h"
 
 namespace raytrace::gltf {
+namespace {
+
+MeshTexture::Edge edge(const Item& sampler, const char* key) {
+  constexpr std::uint64_t repeat = 10497, mirrored_repeat = 33648, clamp_to_edge = 33071;
+  const std::uint64_t mode = sampler.whole(key, repeat);
+  return mode == clamp_to_edge     ? MeshTexture::Edge::clamp
+         : mode == mirrored_repeat ? MeshTexture::Edge::mirror
+                                   : MeshTexture::Edge::repeat;
+}
+
+}  // namespace
 
 MeshTexture TextureReader::read(const Item& info) {
   MeshTexture texture;
@@ -33,17 +44,11 @@ MeshTexture TextureReader::read(const Item& info) {
     coordinates_.push_back(coordinates);
   }
   if (const auto number = item.find("sampler")) {
-    constexpr std::uint64_t repeat = 10497, mirrored_repeat = 33648, clamp_to_edge = 33071;
     const Item sampler = document_.listed("samplers", *number);
-    const std::uint64_t u = sampler.whole("wrapS", repeat), v = sampler.whole("wrapT", repeat);
-    // Where one repeats the image, coordinates are more likely to be beyond it.
-    if (u == clamp_to_edge && v == clamp_to_edge)
-      texture.edge = MeshTexture::Edge::clamp;
-    else if (u != repeat && v != repeat && (u == mirrored_repeat || v == mirrored_repeat))
-      texture.edge = MeshTexture::Edge::mirror;
+    texture.edge_u = edge(sampler, "wrapS");
+    texture.edge_v = edge(sampler, "wrapT");
     constexpr std::uint64_t nearest = 9728;
     texture.nearest = sampler.whole("magFilter", 0) == nearest;
-    if (u != v) document_.warn(sampler.place(), "has two wrap modes, of which one is used for both directions");
   }
   const Item image = document_.listed("images", *source);
   const std::optional<Item> uri = image.find("uri");

@@ -58,10 +58,10 @@ struct MeshTexture {
   double value_scale = 1, value_offset = 0;  ///< of what is in the picture
   double strength = 1;                       ///< of a normal map
   bool alpha = false;                        ///< of an opacity: that it is its alpha, which is 1 where it has none
-  Edge edge = Edge::repeat;                  ///< what is beyond
-  bool nearest = false;                      ///< its pixels are seen as such from near by
-  bool by_uvs2 = false;                      ///< it is placed by the mesh's second texture coordinates
-  bool srgb = false;                         ///< its colours are sRGB's, whatever the picture's depth
+  Edge edge_u = Edge::repeat, edge_v = Edge::repeat;  ///< what is beyond
+  bool nearest = false;                               ///< its pixels are seen as such from near by
+  bool by_uvs2 = false;                               ///< it is placed by the mesh's second texture coordinates
+  bool srgb = false;                                  ///< its colours are sRGB's, whatever the picture's depth
   /// The picture's file, where it is within the model's; `file` is then a name for messages.
   std::shared_ptr<const std::string> bytes{};
 };

@@ -62,7 +62,7 @@ MeshTexture read_texture(LineWords& words) {
     } else if (option == "-bm") {
       if (after.number(number)) texture.strength = number;
     } else if (option == "-clamp") {
-      texture.edge = after.word() == "on" ? MeshTexture::Edge::clamp : MeshTexture::Edge::repeat;
+      texture.edge_u = texture.edge_v = after.word() == "on" ? MeshTexture::Edge::clamp : MeshTexture::Edge::repeat;
     } else if (option == "-mm") {
       if (after.number(number)) after.number(number);
     } else if (option == "-blendu" || option == "-blendv" || option == "-cc" || option == "-boost" ||

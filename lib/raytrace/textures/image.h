@@ -1,7 +1,8 @@
 // Image: a picture file as a texture.
 //
 //   <image>
-//     <name>wood</name> <file>wood.jpg</file> <wrap>mirror</wrap> <uvscale x="4" y="4"/> <uvrotation>90</uvrotation>
+//     <name>wood</name> <file>wood.jpg</file> <wrap>mirror</wrap> <wrapv>clamp</wrapv>
+//     <uvscale x="4" y="4"/> <uvrotation>90</uvrotation>
 //   </image>
 //
 // (0, 0) is the picture's lower left corner and (1, 1) its upper right one, with u to the right and v upwards. The
@@ -38,6 +39,13 @@ struct Choices<Wrap> {
   static constexpr std::array<std::string_view, 4> words = {"repeat", "mirror", "clamp", "black"};
 };
 
+/// The same of what is above and below, where that is another.
+enum class WrapV { same, repeat, mirror, clamp, black };
+template <>
+struct Choices<WrapV> {
+  static constexpr std::array<std::string_view, 5> words = {"same", "repeat", "mirror", "clamp", "black"};
+};
+
 enum class TextureFilter {
   smart,    ///< between texels from near, means of them from afar
   nearest,  ///< the texel at hand
@@ -53,6 +61,7 @@ class Image {
     FileName file;
     ColorSpace colorspace = ColorSpace::automatic;
     Wrap wrap = Wrap::repeat;
+    WrapV wrapv = WrapV::same;
     TextureFilter filter = TextureFilter::smart;
     Vec2d uvscale{1, 1};    ///< how often the picture fits into one unit of u and v
     Vec2d uvoffset{0, 0};   ///< added to the place in the picture
@@ -62,10 +71,12 @@ class Image {
   };
   static constexpr std::string_view group = "images";
   static constexpr std::string_view element = "image";
+  static constexpr std::string_view wrapv_field = "wrapv";
   static Fields fields() {
     return {required("file", &Parameters::file),
             optional("colorspace", &Parameters::colorspace),
             optional("wrap", &Parameters::wrap),
+            optional(wrapv_field, &Parameters::wrapv),
             optional("filter", &Parameters::filter),
             optional("uvscale", &Parameters::uvscale),
             optional("uvoffset", &Parameters::uvoffset),
@@ -77,10 +88,17 @@ class Image {
   static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {
     using enum ParameterDiagnostic::Effect;
     if (parameters.file.path.empty()) return ParameterDiagnostic{error, "an image needs a <file>"};
-    if (is_udim(parameters.file.path) && parameters.wrap != Wrap::repeat)
+    if (is_udim(parameters.file.path) && (parameters.wrap != Wrap::repeat || wrap_v(parameters) != Wrap::repeat))
       return ParameterDiagnostic{error, "an image of UDIM tiles has no <wrap>: beyond a tile is the next one"};
     return std::nullopt;
   }
+
+  static Wrap wrap_v(const Parameters& parameters) {
+    return parameters.wrapv == WrapV::same ? parameters.wrap
+                                           : static_cast<Wrap>(static_cast<int>(parameters.wrapv) - 1);
+  }
+  /// That is always this one, whatever <wrap> is.
+  static WrapV own_wrap_v(Wrap wrap) { return static_cast<WrapV>(static_cast<int>(wrap) + 1); }
 };
 
 }  // namespace raytrace

@@ -26,7 +26,8 @@ class Kernel<Image> {
   /// texels: null of an image that has not been loaded, which is magenta.
   Kernel(const Image::Parameters& image, std::shared_ptr<const TexelImage> texels)
       : texels_(texels ? std::move(texels) : TexelImage::of_color(255, 0, 255)),
-        wrap_(image.wrap),
+        wrap_u_(image.wrap),
+        wrap_v_(Image::wrap_v(image)),
         filter_(image.filter),
         uvset_(image.uvset),
         offset_{static_cast<float>(image.uvoffset.x), static_cast<float>(image.uvoffset.y)},
@@ -35,7 +36,7 @@ class Kernel<Image> {
     const double angle = image.uvrotation * std::numbers::pi / 180, c = std::cos(angle), s = std::sin(angle);
     across_ = {static_cast<float>(c * image.uvscale.x), static_cast<float>(-s * image.uvscale.y)};
     up_ = {static_cast<float>(s * image.uvscale.x), static_cast<float>(c * image.uvscale.y)};
-    if (!texels_->tiles().empty()) wrap_ = Wrap::clamp;
+    if (!texels_->tiles().empty()) wrap_u_ = wrap_v_ = Wrap::clamp;
   }
 
   UvSet uvset() const { return uvset_; }
@@ -124,23 +125,23 @@ class Kernel<Image> {
   }
 
   /// The coordinate in [0, 1], or near it where what lies beyond has its own rule.
-  RAYTRACE_INLINE FloatN wrapped(const FloatN& u) const {
-    if (wrap_ == Wrap::repeat) return u - floor(u);
-    if (wrap_ == Wrap::mirror) return FloatN(1) - abs(u - FloatN(2) * floor(u * FloatN(0.5F)) - FloatN(1));
+  static RAYTRACE_INLINE FloatN wrapped(const FloatN& u, Wrap wrap) {
+    if (wrap == Wrap::repeat) return u - floor(u);
+    if (wrap == Wrap::mirror) return FloatN(1) - abs(u - FloatN(2) * floor(u * FloatN(0.5F)) - FloatN(1));
     return min(max(u, FloatN(-1)), FloatN(2));
   }
 
   /// u: wrapped. Whatever it is, even not a number, the texels are there.
-  RAYTRACE_INLINE Neighbours neighbours(const FloatN& u, const IntN& size) const {
+  static RAYTRACE_INLINE Neighbours neighbours(const FloatN& u, const IntN& size, Wrap wrap) {
     const FloatN x = u * to_float(size) - FloatN(0.5F), left = floor(x);
     IntN low = to_int(left), high = low + IntN(1);
     const IntN last = size - IntN(1);
     const auto is_there = [&](const IntN& i) { return float_mask<FloatN>(clamped(i, last) == i); };
     Neighbours result{low, high, x - left, MaskN(true), MaskN(true)};
-    if (wrap_ == Wrap::black) {
+    if (wrap == Wrap::black) {
       result.has_low = is_there(low);
       result.has_high = is_there(high);
-    } else if (wrap_ == Wrap::repeat) {
+    } else if (wrap == Wrap::repeat) {
       low = select_lanes(is_there(low), low, last);
       high = select_lanes(is_there(high), high, IntN(0));
     }
@@ -173,18 +174,18 @@ class Kernel<Image> {
            (x & IntN(3));
   }
 
-  bool is_usual() const {
-    return texels_->format() == TexelFormat::bytes && texels_->channels() == 4 && wrap_ != Wrap::black;
-  }
+  bool is_usual() const { return texels_->format() == TexelFormat::bytes && texels_->channels() == 4 && !has_black(); }
+  bool has_black() const { return wrap_u_ == Wrap::black || wrap_v_ == Wrap::black; }
 
   template <bool usual>
   Rgba<FloatN> between_texels(const IntN& number, const Vec2<FloatN>& uv) const {
     const Levels level = levels_of(number);
-    const Neighbours x = neighbours(wrapped(uv.x), level.width), y = neighbours(wrapped(uv.y), level.height);
+    const Neighbours x = neighbours(wrapped(uv.x, wrap_u_), level.width, wrap_u_),
+                     y = neighbours(wrapped(uv.y, wrap_v_), level.height, wrap_v_);
     const auto texel = [&](const IntN& column, const IntN& row, const MaskN& is_there) RAYTRACE_INLINE_LAMBDA {
       if constexpr (usual) return byte_texels(index(level, column, row));
       const Rgba<FloatN> found = texels(index(level, column, row));
-      if (wrap_ != Wrap::black) return found;
+      if (!has_black()) return found;
       const FloatN zero(0);
       return select(is_there, found, Rgba<FloatN>{{zero, zero, zero}, zero});
     };
@@ -196,15 +197,15 @@ class Kernel<Image> {
 
   Rgba<FloatN> nearest(const Vec2<FloatN>& uv, const LaneIndices& first) const {
     const Levels level = levels_of(first);
-    const auto column = [&](const FloatN& u, const IntN& size, MaskN& is_there) {
-      const IntN i = to_int(floor(wrapped(u) * to_float(size))), inside = clamped(i, size - IntN(1));
-      is_there = is_there & float_mask<FloatN>(i == inside);
+    const auto column = [&](const FloatN& u, const IntN& size, Wrap wrap, MaskN& is_there) {
+      const IntN i = to_int(floor(wrapped(u, wrap) * to_float(size))), inside = clamped(i, size - IntN(1));
+      if (wrap == Wrap::black) is_there = is_there & float_mask<FloatN>(i == inside);
       return inside;
     };
     MaskN is_there(true);
-    const IntN x = column(uv.x, level.width, is_there), y = column(uv.y, level.height, is_there);
+    const IntN x = column(uv.x, level.width, wrap_u_, is_there), y = column(uv.y, level.height, wrap_v_, is_there);
     const Rgba<FloatN> found = texels(index(level, x, y));
-    if (wrap_ != Wrap::black) return found;
+    if (!has_black()) return found;
     const FloatN zero(0);
     return select(is_there, found, Rgba<FloatN>{{zero, zero, zero}, zero});
   }
@@ -293,7 +294,7 @@ class Kernel<Image> {
   }
 
   std::shared_ptr<const TexelImage> texels_;
-  Wrap wrap_;
+  Wrap wrap_u_, wrap_v_;
   TextureFilter filter_;
   UvSet uvset_;
   Vec2<float> across_{}, up_{};  ///< of the place in the picture: what u and v give to its coordinates
