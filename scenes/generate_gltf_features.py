@@ -342,6 +342,18 @@ def specular(file):
         "specular": {"specularFactor": f, "specularColorFactor": list(c)}, "ior": {"ior": 1.8}}) for f, c in colors])
 
 
+def specular_glossiness(file):
+    dielectric = (0.04, 0.04, 0.04)
+    surfaces = ((CORAL, dielectric, 0.3), (CORAL, dielectric, 0.8), ((0, 0, 0), (0.95, 0.64, 0.54), 0.7), ((0, 0, 0), GOLD, 0.9))
+    materials = [file.material(extensions={"pbrSpecularGlossiness": {
+        "diffuseFactor": [*diffuse, 1], "specularFactor": list(mirrored), "glossinessFactor": glossiness}})
+        for diffuse, mirrored, glossiness in surfaces]
+    picture = {"index": file.texture(png(stripes))}
+    materials.append(file.material(extensions={"pbrSpecularGlossiness": {
+        "diffuseTexture": picture, "specularGlossinessTexture": picture, "specularFactor": list(GOLD), "glossinessFactor": 0.8}}))
+    show_row(file, materials)
+
+
 def transmission(file):
     pane = raised(rounded_box((1.7, 1.7, 0.2), 0.1), 0.85)
     before_stripes(file, [clear(file, roughness) for roughness in (0.0, 0.2, 0.4)], pane, 0.6)
@@ -360,7 +372,7 @@ def volume(file):
 FEATURES = [nodes, primitives, vertex_colors, sparse_accessors, samplers, metallic_roughness, normal_texture, alpha_modes,
             cameras, animations, skins, morph_targets, mesh_gpu_instancing, mesh_quantization, lights_punctual,
             materials_variants, texture_transform, anisotropy, clearcoat, diffuse_transmission, emissive_strength, ior, iridescence,
-            sheen, specular, transmission, unlit, volume]
+            sheen, specular, specular_glossiness, transmission, unlit, volume]
 
 
 def main(folder=os.path.join(os.path.dirname(HERE), "build", "models", "features")):

@@ -199,4 +199,44 @@ TEST_CASE("an image within a glTF file that is none is an error that names it") 
   CHECK(contains(message("\xff\xd8\xff\xe0"), "a.gltf#images[0]' cannot be used: "));
 }
 
+TEST_CASE("pictures are made of glTF's specular colour and glossiness, pixel by pixel") {
+  const TemporaryFolder folder;
+  write_text(folder.file("two by two.png"), *gltf::data_of_uri("data:image/png;base64," + made_png_base64));
+  const auto write = [&](const std::string& model) {
+    write_text(folder.file("a.gltf"), made_triangle().text(R"("scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+      "textures":[{"source":0},{"source":1}],
+      "meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1},"material":0}]}],
+      "materials":[{"extensions":{"KHR_materials_pbrSpecularGlossiness":{)" +
+                                                           model +
+                                                           R"(}}}],"images":[{"uri":"two%20by%20two.png"},
+      {"uri":"data:image/png;base64,)" + made_png_base64 + R"("}])"));
+    LoadedGltf loaded = loaded_gltf(folder, "a.gltf");
+    INFO(loaded.messages);
+    REQUIRE(loaded.fine);
+    CHECK(loaded.messages.empty());
+    return std::get<TextureItems<Image>>(loaded.scene->textures);
+  };
+  const auto near = [](const Color4& a, const Color4& b) {
+    for (std::size_t c = 0; c < 4; ++c) CHECK(a[c] == Approx(b[c]).margin(1.0 / 255));
+  };
+  // Blue and white below; red and green above. What is mirrored has no colour.
+  const auto clay = write(R"("diffuseTexture":{"index":0},"specularFactor":[0.02,0.02,0.02],"glossinessFactor":0.25)");
+  REQUIRE(clay.size() == 2);
+  near(texel_of(*clay[0].image.color, 0, 1, 1, true), {0, 1, 0, 1});
+  near(texel_of(*clay[1].image.number, 0, 1, 1, false), {0.5, 0.75, 0, 1});
+  // As blue, white, red and green metals.
+  const auto metal =
+      write(R"("diffuseFactor":[0,0,0,1],"specularGlossinessTexture":{"index":1},"specularFactor":[0.5,0.5,0.5])");
+  REQUIRE(metal.size() == 2);
+  near(texel_of(*metal[0].image.color, 0, 1, 1, true), {0, 0.5, 0, 1});
+  near(texel_of(*metal[0].image.color, 0, 1, 0, true), {0.5, 0.5, 0.5, 1});
+  near(texel_of(*metal[1].image.number, 0, 1, 0, false), {1, 0, 1, 1});
+  CHECK(metal[0].image.hash != metal[1].image.hash);
+  CHECK(metal[1].image.hash != clay[1].image.hash);
+  // The same picture for both: what it mirrors, it does not scatter.
+  const auto both = write(R"("diffuseTexture":{"index":0},"specularGlossinessTexture":{"index":1})");
+  REQUIRE(both.size() == 2);
+  near(texel_of(*both[1].image.number, 0, 0, 0, false), {1, 0, 1, 1});
+}
+
 }  // namespace raytrace::test

@@ -18,7 +18,9 @@
 #include <utility>
 #include <vector>
 
+#include "raytrace/description/made_picture.h"
 #include "raytrace/description/read_pictures.h"
+#include "raytrace/import/specular_glossiness.h"
 #include "raytrace/math/content_hash.h"
 #include "raytrace/memory/file_mapping.h"
 #include "raytrace/memory/process_status.h"
@@ -71,6 +73,27 @@ std::string file_hash(const std::filesystem::path& file) {
   return hash.digits();
 }
 
+/// Of what it follows from.
+std::string hash_of(const SpecularGlossiness& from) {
+  ContentHash hash;
+  for (const SpecularGlossiness::Source& source : {from.diffuse, from.specular}) {
+    const std::string digits = source.bytes          ? hash_of(*source.bytes)
+                               : source.file.empty() ? std::string(32, '-')
+                                                     : file_hash(source.file);
+    hash.add(digits.data(), digits.size());
+  }
+  for (const double factor :
+       {from.diffuse_factor.red, from.diffuse_factor.green, from.diffuse_factor.blue, from.specular_factor.red,
+        from.specular_factor.green, from.specular_factor.blue, from.glossiness_factor, from.is_color ? 1.0 : 0.0})
+    hash.add(&factor, sizeof factor);
+  return hash.digits();
+}
+
+std::string hash_of(const LoadedImage& image, const std::string& file) {
+  if (image.made_of) return hash_of(*image.made_of);
+  return image.bytes ? hash_of(*image.bytes) : file_hash(file);
+}
+
 /// Whether an image's use as a colour, and as a number, is sRGB.
 std::array<bool, 2> is_srgb(ColorSpace space, TexelFormat format) {
   if (space == ColorSpace::automatic) return {format == TexelFormat::bytes, false};
@@ -90,7 +113,7 @@ struct ImageTask {
   std::exception_ptr error{};
 
   /// Textures may have tiles.
-  bool has_tiles() const { return what == "texture" && !loaded->bytes && is_udim(image.file.path); }
+  bool has_tiles() const { return what == "texture" && !loaded->bytes && !loaded->made_of && is_udim(image.file.path); }
 };
 
 class ImageLoader {
@@ -105,8 +128,7 @@ class ImageLoader {
     for_each_index(static_cast<int>(tasks.size()), threads_, [&](int i) {
       ImageTask& task = tasks[static_cast<std::size_t>(i)];
       try {
-        if (!task.has_tiles())
-          task.hash = task.loaded->bytes ? hash_of(*task.loaded->bytes) : file_hash(task.image.file.path);
+        if (!task.has_tiles()) task.hash = hash_of(*task.loaded, task.image.file.path);
       } catch (...) {
         task.error = std::current_exception();
       }
@@ -138,6 +160,7 @@ class ImageLoader {
   std::uint64_t memory_ahead() const { return memory_ / 4; }
 
   static std::unique_ptr<PictureReader> open_picture_of(const ImageTask& task) {
+    if (task.loaded->made_of) return open_made_picture(*task.loaded->made_of);
     return task.loaded->bytes ? open_encoded_picture(*task.loaded->bytes) : open_picture(task.image.file.path);
   }
 

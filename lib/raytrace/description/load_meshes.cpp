@@ -12,6 +12,7 @@
 #include "raytrace/description/read_value.h"
 #include "raytrace/description/scene_description.h"
 #include "raytrace/import/read_mesh.h"
+#include "raytrace/import/specular_glossiness.h"
 #include "raytrace/text/message.h"
 
 namespace raytrace {
@@ -278,7 +279,7 @@ class MeshLoader {
     const std::string path = (folder / texture.file).string();
     const ImageUse key{
         path,           texture.scale,  texture.offset,  texture.rotation, texture.value_scale, texture.value_offset,
-        texture.edge_u, texture.edge_v, texture.nearest, texture.by_uvs2,  colorspace};
+        texture.edge_u, texture.edge_v, texture.nearest, texture.by_uvs2,  colorspace,          texture.made_of};
     const auto [known, is_new] = known_images_.try_emplace(key, images.size());
     const auto index = static_cast<std::uint32_t>(known->second);
     if (!is_new) return {index_of<Image>(Textures{}), index};
@@ -295,6 +296,12 @@ class MeshLoader {
     if (texture.nearest) image.parameters.filter = TextureFilter::nearest;
     if (texture.by_uvs2) image.parameters.uvset = UvSet::second;
     image.image.bytes = texture.bytes;
+    if (texture.made_of) {
+      auto from = std::make_shared<SpecularGlossiness>(*texture.made_of);
+      for (SpecularGlossiness::Source* const source : {&from->diffuse, &from->specular})
+        if (!source->file.empty()) source->file = (folder / source->file).string();
+      image.image.made_of = std::move(from);
+    }
     image.name = image.parameters.file.path + '#' + std::to_string(images.size());
     image.imported = true;
     return {index_of<Image>(Textures{}), index};
@@ -348,8 +355,9 @@ class MeshLoader {
   std::set<std::string> taken_names_;
   std::map<std::string, MaterialReference> own_materials_;  ///< those of the scene, by name
   std::set<std::string> unlit_;                             // files of models whose lights have been left out
-  using ImageUse = std::tuple<std::string, std::array<double, 2>, std::array<double, 2>, double, double, double,
-                              MeshTexture::Edge, MeshTexture::Edge, bool, bool, ColorSpace>;
+  using ImageUse =
+      std::tuple<std::string, std::array<double, 2>, std::array<double, 2>, double, double, double, MeshTexture::Edge,
+                 MeshTexture::Edge, bool, bool, ColorSpace, std::shared_ptr<const SpecularGlossiness>>;
   std::map<ImageUse, std::size_t> known_images_;
   MaterialReference grey_ = no_material, painted_ = no_material;
 };

@@ -4,7 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <tuple>
+
+#include "raytrace/import/specular_glossiness.h"
 
 namespace raytrace::gltf {
 namespace {
@@ -28,19 +32,21 @@ double largest(const Rgb<double>& c) { return std::max({c.red, c.green, c.blue})
 
 class MaterialReader {
  public:
-  MaterialReader(const Item& item, const std::function<MeshTexture(const Item&)>& texture)
-      : item_(item), texture_of_(texture) {}
+  MaterialReader(const Item& item, const MaterialContext& context) : item_(item), context_(context) {}
 
   MeshMaterial read() {
     const std::optional<Item> name = item_.find("name");
     material_.name = name ? name->text() : item_.place();
-    surface_ = item_.find("pbrMetallicRoughness");
-    if (const auto factor = surface_ ? surface_->numbers<4>("baseColorFactor") : std::nullopt) {
+    // In place of the other, which it may be beside.
+    const auto glossy = context_.is_converted ? std::nullopt : find("KHR_materials_pbrSpecularGlossiness");
+    surface_ = glossy ? glossy : item_.find("pbrMetallicRoughness");
+    const char* const factor_key = glossy ? "diffuseFactor" : "baseColorFactor";
+    if (const auto factor = surface_ ? surface_->numbers<4>(factor_key) : std::nullopt) {
       base_color_ = {std::clamp((*factor)[0], 0.0, 1.0), std::clamp((*factor)[1], 0.0, 1.0),
                      std::clamp((*factor)[2], 0.0, 1.0)};
       base_alpha_ = std::clamp((*factor)[3], 0.0, 1.0);
     }
-    base_texture_ = texture(surface_, "baseColorTexture");
+    base_texture_ = texture(surface_, glossy ? "diffuseTexture" : "baseColorTexture");
     read_opacity();
     if (extension(item_, "KHR_materials_unlit")) {
       add("base_weight", 0);
@@ -50,7 +56,8 @@ class MaterialReader {
       material_.thin_walled = is_double_sided();
       return std::move(material_);
     }
-    read_surface();
+    glossy ? read_specular_glossiness() : read_surface();
+    read_normals();
     read_emission();
     read_transmission();
     read_diffuse_transmission();
@@ -66,7 +73,7 @@ class MaterialReader {
 
   MeshTexture texture(const std::optional<Item>& object, const char* key) const {
     const std::optional<Item> info = object ? object->find(key) : std::nullopt;
-    return info ? texture_of_(*info) : MeshTexture{};
+    return info ? context_.texture(*info) : MeshTexture{};
   }
   void add(std::string_view name, double value, const MeshTexture& texture = {}, Channel channel = red) {
     material_.openpbr.push_back({name, {value, value, value}, texture, channel});
@@ -103,6 +110,57 @@ class MaterialReader {
     material_.map_d.value_offset = 0.5 - steep * cutoff;
   }
 
+  void read_normals() {
+    const auto info = item_.find("normalTexture");
+    if (!info) return;
+    material_.norm = context_.texture(*info);
+    material_.norm.strength = number(info, "scale", 1);
+  }
+
+  static bool is_at_same_place(const MeshTexture& a, const MeshTexture& b) {
+    const auto place = [](const MeshTexture& t) {
+      return std::tie(t.scale, t.offset, t.rotation, t.edge_u, t.edge_v, t.nearest, t.by_uvs2);
+    };
+    return a.file.empty() || b.file.empty() || place(a) == place(b);
+  }
+
+  /// As metal and dielectric. Where there are pictures, others are made of them when they are loaded.
+  void read_specular_glossiness() {
+    const MeshTexture both = texture(surface_, "specularGlossinessTexture");
+    const Rgb<double> specular = color(surface_, "specularFactor", 1, 1);
+    const double glossiness = share(surface_, "glossinessFactor", 1);
+    roughness_ = 1 - glossiness;
+    if (base_texture_.file.empty() && both.file.empty()) {
+      const MetalShare one = metal_share(base_color_, specular);
+      base_color_ = one.base_color;
+      add_base_color("base_color");
+      add("base_metalness", one.metalness);
+      add("specular_weight", one.specular_weight);
+      return add("specular_roughness", roughness_);
+    }
+    if (!is_at_same_place(base_texture_, both)) {
+      context_.warn(surface_->place(), "has its textures at different places, and is no metal anywhere");
+      add_base_color("base_color");
+      add("base_metalness", 0);
+      MeshTexture roughness = both;
+      roughness.value_scale = -glossiness;
+      roughness.value_offset = 1;
+      return add("specular_roughness", 1, roughness, alpha);
+    }
+    SpecularGlossiness from{
+        {base_texture_.file, base_texture_.bytes}, {both.file, both.bytes}, base_color_, specular, glossiness, true};
+    MeshTexture shares = both.file.empty() ? base_texture_ : both;
+    if (base_texture_.file.empty()) base_texture_ = both;
+    base_texture_.made_of = std::make_shared<const SpecularGlossiness>(from);
+    base_color_ = {1, 1, 1};
+    from.is_color = false;
+    shares.made_of = std::make_shared<const SpecularGlossiness>(from);
+    add_base_color("base_color");
+    add("base_metalness", 1, shares, blue);
+    add("specular_weight", 1, shares, red);
+    add("specular_roughness", 1, shares, green);
+  }
+
   void read_surface() {
     add_base_color("base_color");
     const MeshTexture both = texture(surface_, "metallicRoughnessTexture");
@@ -110,10 +168,6 @@ class MaterialReader {
     roughness_ = share(surface_, "roughnessFactor", 1);
     add("base_metalness", metalness_, both, blue);
     add("specular_roughness", roughness_, both, green);
-    if (const auto info = item_.find("normalTexture")) {
-      material_.norm = texture_of_(*info);
-      material_.norm.strength = number(info, "scale", 1);
-    }
     // They are of what is no metal; OpenPBR's are of metals, too.
     const bool is_metal = metalness_ == 1 && both.file.empty();
     const auto specular = is_metal ? std::nullopt : find("KHR_materials_specular");
@@ -212,7 +266,7 @@ class MaterialReader {
     add("coat_ior", coat_index);
     add("coat_darkening", 0);  // glTF's base keeps its colour
     if (const auto normals = coat->find("clearcoatNormalTexture"))
-      add("coatnormalmap", number(normals, "scale", 1), texture_of_(*normals));
+      add("coatnormalmap", number(normals, "scale", 1), context_.texture(*normals));
   }
 
   void read_sheen() {
@@ -261,7 +315,7 @@ class MaterialReader {
   }
 
   const Item& item_;
-  const std::function<MeshTexture(const Item&)>& texture_of_;
+  const MaterialContext& context_;
   MeshMaterial material_;
   std::optional<Item> surface_;
   Rgb<double> base_color_{1, 1, 1};
@@ -274,13 +328,14 @@ class MaterialReader {
 
 bool is_material_extension(std::string_view name) {
   constexpr std::string_view start = "KHR_materials_";
-  constexpr std::array<std::string_view, 12> read{"anisotropy",
+  constexpr std::array<std::string_view, 13> read{"anisotropy",
                                                   "clearcoat",
                                                   "diffuse_transmission",
                                                   "dispersion",
                                                   "emissive_strength",
                                                   "ior",
                                                   "iridescence",
+                                                  "pbrSpecularGlossiness",
                                                   "sheen",
                                                   "specular",
                                                   "transmission",
@@ -289,8 +344,8 @@ bool is_material_extension(std::string_view name) {
   return name.starts_with(start) && std::find(read.begin(), read.end(), name.substr(start.size())) != read.end();
 }
 
-MeshMaterial read_material(const Item& material, const std::function<MeshTexture(const Item&)>& texture) {
-  return MaterialReader(material, texture).read();
+MeshMaterial read_material(const Item& material, const MaterialContext& context) {
+  return MaterialReader(material, context).read();
 }
 
 std::optional<Item> extension(const Item& object, const char* name) {

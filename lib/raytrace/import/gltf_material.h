@@ -18,8 +18,15 @@ inline constexpr const char* visibility_extension = "KHR_node_visibility";
 /// Whether read_material() reads it.
 bool is_material_extension(std::string_view name);
 
-/// texture: that of a JSON object with its index.
-MeshMaterial read_material(const Item& material, const std::function<MeshTexture(const Item&)>& texture);
+/// What a material's textures are, and what is said of them.
+struct MaterialContext {
+  std::function<MeshTexture(const Item&)> texture;  ///< that of a JSON object with its index
+  std::function<void(const std::string& place, const std::string& what)> warn;
+  /// By Assimp: what it calls a specular colour is that of Phong's highlights, and not what a mirror has.
+  bool is_converted = false;
+};
+
+MeshMaterial read_material(const Item& material, const MaterialContext& context);
 
 /// What an object has of an extension.
 std::optional<Item> extension(const Item& object, const char* name);

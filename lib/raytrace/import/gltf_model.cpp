@@ -245,7 +245,10 @@ PrimitiveMaterial ModelReader::material(const Item& number) {
   if (!is_new) return known->second;
   known->second.number = static_cast<std::uint32_t>(model_.materials.size());
   textures_.begin_material();
-  model_.materials.push_back(read_material(item, [&](const Item& info) { return textures_.read(info); }));
+  model_.materials.push_back(
+      read_material(item, {[&](const Item& info) { return textures_.read(info); },
+                           [&](const std::string& place, const std::string& what) { document_.warn(place, what); },
+                           is_converted_model(document_.name())}));
   known->second.coordinates = textures_.coordinates();
   return known->second;
 }

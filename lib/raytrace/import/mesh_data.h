@@ -48,6 +48,8 @@ class MeshBuffer {
   std::size_t size_ = 0;
 };
 
+struct SpecularGlossiness;  // import/specular_glossiness.h
+
 /// An image that a material names.
 struct MeshTexture {
   enum class Edge { repeat, mirror, clamp };
@@ -64,6 +66,8 @@ struct MeshTexture {
   bool srgb = false;                                  ///< its colours are sRGB's, whatever the picture's depth
   /// The picture's file, where it is within the model's; `file` is then a name for messages.
   std::shared_ptr<const std::string> bytes{};
+  /// Pictures that it follows from, pixel by pixel; `file` is then one of them, and for messages.
+  std::shared_ptr<const SpecularGlossiness> made_of{};
 };
 
 /// A parameter of an OpenPBR material.

@@ -93,6 +93,8 @@ struct TexelImage::Tile {
   TexelImage image;
 };
 
+struct SpecularGlossiness;  // import/specular_glossiness.h
+
 /// What the file of an image texture has.
 struct LoadedImage {
   std::string hash;  ///< of its bytes; empty: it has not been loaded
@@ -100,6 +102,7 @@ struct LoadedImage {
   std::shared_ptr<const TexelImage> color, number;
   /// Until it is loaded: the bytes, where they are within another file.
   std::shared_ptr<const std::string> bytes{};
+  std::shared_ptr<const SpecularGlossiness> made_of{};  ///< what it follows from, where it is in no file
 };
 
 }  // namespace raytrace
