@@ -148,6 +148,33 @@ TEST_CASE("a scene's materials may take the place of a file's of the same names"
                  "file's, which are 'wood!'"));
 }
 
+TEST_CASE("an MTL's highlight and diffuse colour reflect together no more than comes in") {
+  ModelFolder files;
+  const auto phong = [&](const std::string& statements) {
+    write_text(files.folder().file("slab.mtl"), "newmtl wood\n" + statements);
+    const SceneDescription scene =
+        files.load("<objects><models><model><file>slab.obj</file></model></models></objects>");
+    const auto& phongs = std::get<MaterialItems<Phong>>(scene.materials);
+    REQUIRE(phongs.size() == 1);
+    return phongs[0].parameters;
+  };
+  const auto lobe = [](double ns) { return 2 * std::numbers::pi / (ns + 2); };
+  // Enough is left for it: nothing changes.
+  const Phong::Parameters usual = phong("Kd 0.8 0.5 0\nKs 1 0.5 0.25\nNs 96\n");
+  CHECK(usual.cd.red == 0.8);
+  CHECK(usual.cs.red == 1);
+  CHECK(usual.cs.blue == 0.25);
+  const Phong::Parameters wide = phong("Kd 0.5 0.25 0\nKs 1 1 1\nNs 0\n");
+  CHECK(wide.cd.red == Approx(0.5));
+  CHECK(wide.cd.green == 0.25);
+  CHECK(wide.cs.red * lobe(0) == Approx(0.5));
+  CHECK(wide.cs.green == wide.cs.red);
+  // White keeps what a smooth surface has.
+  const Phong::Parameters white = phong("Kd 1 1 1\nKs 1 1 1\nNs 10\n");
+  CHECK(white.cs.red * lobe(10) == Approx(0.04));
+  CHECK(white.cd.red == Approx(0.96));
+}
+
 TEST_CASE("the printed scene of models is the same scene, and materials keep apart") {
   ModelFolder files;
   const SceneDescription scene = files.load(

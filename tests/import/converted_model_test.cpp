@@ -14,7 +14,7 @@ namespace raytrace::test {
 namespace {
 
 /// Collada: a square in z = 2, from (0, 0) to (3, 3), whose material has this colour or texture.
-std::string square(const std::string& diffuse, const std::string& images = "") {
+std::string square(const std::string& diffuse, const std::string& images = "", const std::string& rest = "") {
   return R"(<?xml version="1.0"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
   <asset><unit meter="1"/><up_axis>Y_UP</up_axis></asset>
@@ -24,7 +24,7 @@ std::string square(const std::string& diffuse, const std::string& images = "") {
     <newparam sid="s"><surface type="2D"><init_from>i</init_from></surface></newparam>
     <newparam sid="t"><sampler2D><source>s</source></sampler2D></newparam>
     <technique sid="c"><lambert><diffuse>)" +
-         diffuse + R"(</diffuse></lambert></technique></profile_COMMON></effect></library_effects>
+         diffuse + "</diffuse>" + rest + R"(</lambert></technique></profile_COMMON></effect></library_effects>
   <library_materials><material id="m" name="paint"><instance_effect url="#e"/></material></library_materials>
   <library_geometries><geometry id="g"><mesh>
     <source id="p"><float_array id="pa" count="12">0 0 2 3 0 2 3 3 2 0 3 2</float_array><technique_common>
@@ -140,6 +140,18 @@ TEST_CASE("Collada becomes a mesh with its material") {
   CHECK(color.red == Approx(0.5));
   CHECK(color.green == Approx(0.25));
   CHECK(color.blue == Approx(0.125));
+}
+
+TEST_CASE("Collada's transparency of 0, which would show nothing, is taken as opaque") {
+  const std::string none =
+      "<transparent opaque='A_ONE'><color>1 1 1 1</color></transparent>"
+      "<transparency><float>0</float></transparency>";
+  const ReadResult read = read_bytes("square.dae", square(red, "", none));
+  REQUIRE(read.mesh.has_value());
+  CHECK(read.mesh->materials.at(0).d == 1);
+  CHECK(read.messages ==
+        "square.dae: warning: an opacity of 0, which would show nothing, is taken as opaque, of the material "
+        "'paint'\n");
 }
 
 TEST_CASE("textures are found where they are, whatever the machine was that the model was made on") {

@@ -73,6 +73,25 @@ TEST_CASE("an OBJ file's materials come from its MTL files") {
         "a.obj:9: warning: no material 'missing' in the material libraries\n");
 }
 
+TEST_CASE("an MTL's material of opacity 0 is opaque, and a warning names it") {
+  const TemporaryFolder folder;
+  write_text(folder.file("a.mtl"),
+             "newmtl lab\nKd 1 0 0\nTr 1.0\nnewmtl leaf\nd 0\nmap_d leaf.png\nnewmtl pane\nd 0.25\n"
+             "newmtl spare\nd 0\nnewmtl glass\nTr 1\nillum 4\n");
+  write_text(folder.file("a.obj"),
+             "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl pane\nf 1 2 3\nusemtl lab\nf 1 2 3\nusemtl leaf\n"
+             "f 1 2 3\nusemtl glass\nf 1 2 3\nusemtl spare\n");
+  Diagnostics diagnostics(folder.file("a.obj"));
+  const auto mesh = read_mesh(folder.file("a.obj"), {}, diagnostics);
+  REQUIRE(mesh);
+  REQUIRE(mesh->materials.size() == 5);
+  for (const MeshMaterial& material : mesh->materials)
+    CHECK(material.d.value_or(1) == (material.name == "pane" ? 0.25 : 1));
+  CHECK(printed(diagnostics, folder.path().string()) ==
+        "a.obj: warning: an opacity of 0, which would show nothing, is taken as opaque, of the materials 'lab', "
+        "'leaf'\n");
+}
+
 TEST_CASE("an MTL's metals, glass and lamps are OpenPBR's") {
   const TemporaryFolder folder;
   write_text(folder.file("a.mtl"),

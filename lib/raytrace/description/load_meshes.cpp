@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <numbers>
 #include <set>
 #include <string>
 #include <tuple>
@@ -23,6 +24,25 @@ Wrap wrap_of(MeshTexture::Edge edge) {
   return edge == MeshTexture::Edge::clamp    ? Wrap::clamp
          : edge == MeshTexture::Edge::mirror ? Wrap::mirror
                                              : Wrap::repeat;
+}
+
+/// An MTL's Phong, limited so that no channel reflects more than comes in: straight on, the lobe reflects
+/// 2 pi Ks / (Ns + 2) (GlossySpecular::rho()), which is far above 1 for the Ns 0 of many files. It keeps what Kd
+/// leaves, or, where that is less, what glass reflects straight on, 0.04; and Kd at most what the lobe leaves.
+Phong::Parameters glossy(Rgb<double> diffuse, const Rgb<double>& specular, double exponent) {
+  constexpr double of_glass = 0.04;
+  const double lobe = 2 * std::numbers::pi / (exponent + 2);
+  double factor = 1;
+  const auto limit = [&](double kd, double ks) {
+    const double most = std::max(1 - kd, of_glass);
+    if (lobe * ks > most) factor = std::min(factor, most / (lobe * ks));
+  };
+  limit(diffuse.red, specular.red);
+  limit(diffuse.green, specular.green);
+  limit(diffuse.blue, specular.blue);
+  const auto left = [&](double kd, double ks) { return std::min(kd, 1 - factor * lobe * ks); };
+  diffuse = {left(diffuse.red, specular.red), left(diffuse.green, specular.green), left(diffuse.blue, specular.blue)};
+  return {1, 1, 1, diffuse, specular * factor, exponent};
 }
 
 class MeshLoader {
@@ -224,7 +244,7 @@ class MeshLoader {
     if (!material.openpbr.empty())
       added = add_openpbr(material, folder);
     else if (is_glossy)
-      added = add<Phong>({1, 1, 1, diffuse, specular, std::max(0.0, material.ns.value_or(20))}, material.name);
+      added = add<Phong>(glossy(diffuse, specular, std::max(0.0, material.ns.value_or(20))), material.name);
     else
       added = add<Matte>({1, 1, diffuse}, material.name);
     if (material.openpbr.empty()) {

@@ -32,6 +32,27 @@ Vec3d origin_of(std::span<const T> positions) {
   return is_far ? rounded_origin(first, 1) : Vec3d(0, 0, 0);
 }
 
+/// MTL files of MeshLab say Tr 1, and Collada files of many programs transparency 0, of what is opaque. Nobody sees
+/// what has an opacity of 0: such materials become opaque, with one warning that names those that faces have.
+void make_visible(MeshData& mesh, Diagnostics& diagnostics) {
+  std::vector<bool> used(mesh.materials.size(), mesh.face_materials.empty());
+  for (const std::uint32_t material : mesh.face_materials)
+    if (material < used.size()) used[material] = true;
+  std::string names;
+  std::size_t count = 0;
+  constexpr std::size_t most_names = 10;
+  for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
+    MeshMaterial& material = mesh.materials[i];
+    if (material.d.value_or(1) > 0) continue;
+    material.d = 1;
+    if (used[i] && count++ < most_names) names += (names.empty() ? "" : ", ") + in_quotes(material.name);
+  }
+  if (count > most_names) names += " and " + std::to_string(count - most_names) + " more";
+  if (count > 0)
+    diagnostics.warning({}, "an opacity of 0, which would show nothing, is taken as opaque, of the " +
+                                std::string(count > 1 ? "materials " : "material ") + names);
+}
+
 }  // namespace
 
 bool is_mesh_file(const std::string& file) {
@@ -70,7 +91,9 @@ std::optional<MeshData> read_mesh(const std::string& name, const MeshReadSetting
     mesh = read_gltf(*file, name, settings, diagnostics);
   else
     mesh = read_obj(*file, std::filesystem::path(name).parent_path().string(), settings, diagnostics);
-  if (mesh) mesh->origin = settings.origin;
+  if (!mesh) return mesh;
+  mesh->origin = settings.origin;
+  if (type == ".obj" || is_converted_model(name)) make_visible(*mesh, diagnostics);  // glTF means what it says
   return mesh;
 }
 
