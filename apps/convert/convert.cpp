@@ -19,6 +19,8 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace {
 
@@ -94,6 +96,30 @@ void drop_third_coordinates(const aiScene& scene) {
     for (unsigned& components : scene.mMeshes[i]->mNumUVComponents) components = std::min(components, 2U);
 }
 
+/// Of a mesh without normals that does not move. Where faces share vertices, Assimp's smooth normals would be those of
+/// the last face of each: they need vertices of its own for each face, and find those of one position themselves.
+void split_faces(aiMesh& mesh) {
+  if (mesh.HasNormals() || mesh.HasBones() || mesh.mNumAnimMeshes > 0) return;
+  std::vector<unsigned> shared;  // of each new vertex
+  for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
+    const aiFace& face = mesh.mFaces[i];
+    for (unsigned k = 0; k < face.mNumIndices; ++k) {
+      shared.push_back(face.mIndices[k]);
+      face.mIndices[k] = static_cast<unsigned>(shared.size() - 1);
+    }
+  }
+  const auto split = [&]<class T>(T*& values) {
+    if (values == nullptr) return;
+    T* const own = new T[shared.size()];
+    for (std::size_t i = 0; i < shared.size(); ++i) own[i] = values[shared[i]];
+    delete[] std::exchange(values, own);
+  };
+  split(mesh.mVertices);
+  for (aiVector3D*& uvs : mesh.mTextureCoords) split(uvs);
+  for (aiColor4D*& colors : mesh.mColors) split(colors);
+  mesh.mNumVertices = static_cast<unsigned>(shared.size());
+}
+
 bool write_all(const void* data, std::size_t size) {
   return std::fwrite(data, 1, size, stdout) == size && std::fflush(stdout) == 0;
 }
@@ -108,8 +134,10 @@ int convert(const std::string& file) {
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   constexpr float sharp_edge = 40;  // degrees; of models without normals
   importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, sharp_edge);
-  const aiScene* scene = importer.ReadFile(file, static_cast<unsigned>(aiProcess_Triangulate) | aiProcess_SortByPType |
-                                                     aiProcess_GenSmoothNormals);  // the exporter joins vertices
+  const aiScene* scene = importer.ReadFile(file, static_cast<unsigned>(aiProcess_Triangulate) | aiProcess_SortByPType);
+  if (scene == nullptr) return fail(importer.GetErrorString());
+  for (unsigned i = 0; i < scene->mNumMeshes; ++i) split_faces(*scene->mMeshes[i]);
+  scene = importer.ApplyPostProcessing(aiProcess_GenSmoothNormals);  // the exporter joins vertices
   if (scene == nullptr) return fail(importer.GetErrorString());
   if (scene->mNumMeshes == 0) return fail("it has no mesh");
   aiScene& changed = *importer.GetOrphanedScene();  // nobody frees it: the process ends

@@ -1,6 +1,7 @@
 // Models of other formats: what Assimp makes of them, in a program of its own.
 #include "raytrace/import/converted_model.h"
 
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -160,6 +161,42 @@ TEST_CASE("textures are found where they are, whatever the machine was that the 
   CHECK(texture_of("C:\\work\\paint.png", "textures/paint.png") == "textures/paint.png");
   CHECK(texture_of("/home/me/paint.png", "square.fbm/Paint.png") == "square.fbm/Paint.png");
   CHECK(texture_of("elsewhere.png", "paint.png") == "elsewhere.png");
+}
+
+TEST_CASE("faces that share vertices without normals are smooth but for sharp edges") {
+  // A cube.
+  const ReadResult cube = read_bytes("cube.off",
+                                     "OFF\n8 6 12\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
+                                     "4 3 2 1 0\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n");
+  REQUIRE(cube.mesh.has_value());
+  CHECK(cube.mesh->vertex_count() == 24);
+  const auto vector = [](const MeshBuffer<float>& values, std::uint32_t i) {
+    return Vec3d(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
+  };
+  const auto each_corner = [&](const MeshData& mesh, const auto& check) {
+    REQUIRE(mesh.normals.size() == mesh.positions.size());
+    const auto corners = static_cast<std::size_t>(mesh.corners);
+    for (std::size_t face = 0; face < mesh.face_count(); ++face) {
+      const std::uint32_t* const of = &mesh.indices[corners * face];
+      const Vec3d a = vector(mesh.positions, of[0]), b = vector(mesh.positions, of[1]),
+                  c = vector(mesh.positions, of[2]), normal = normalize(cross(b - a, c - a));
+      for (std::size_t k = 0; k < corners; ++k)
+        check(normal, vector(mesh.positions, of[k]), vector(mesh.normals, of[k]));
+    }
+  };
+  each_corner(*cube.mesh, [](const Vec3d& of_face, const Vec3d&, const Vec3d& normal) {
+    CHECK(dot(of_face, normal) == Approx(1));
+  });
+  // A flat roof, whose ridge is round.
+  const ReadResult roof =
+      read_bytes("roof.off", "OFF\n6 2 7\n-1 0 0\n-1 0 -1\n0 0.1 0\n0 0.1 -1\n1 0 0\n1 0 -1\n4 0 2 3 1\n4 2 4 5 3\n");
+  REQUIRE(roof.mesh.has_value());
+  each_corner(*roof.mesh, [](const Vec3d& of_face, const Vec3d& position, const Vec3d& normal) {
+    if (position.x == 0)
+      CHECK(std::abs(normal.x) < 0.05);  // one side's diagonal ends there
+    else
+      CHECK(dot(of_face, normal) == Approx(1));
+  });
 }
 
 TEST_CASE("what is no model is refused with Assimp's reason") {
