@@ -26,6 +26,8 @@
 namespace raytrace::test {
 namespace {
 
+using namespace std::string_view_literals;
+
 using Random = std::mt19937;
 
 std::vector<std::uint8_t> random_bytes(Random& random, std::size_t count) {
@@ -209,6 +211,28 @@ TEST_CASE("pictures that end too early are errors, wherever they end") {
       std::ofstream(folder.file("cut"), std::ios::binary) << whole.substr(0, size);
       CHECK(reading_error(folder.file("cut")).find("truncated") != std::string::npos);
     }
+  }
+}
+
+TEST_CASE("BMP and TGA pictures are read from memory, where models have them") {
+  const auto number = [](unsigned value, int bytes) {
+    std::string text;
+    for (int i = 0; i < bytes; ++i) text += static_cast<char>(value >> (8U * static_cast<unsigned>(i)) & 255U);
+    return text;
+  };
+  // Two pixels, blue before green before red: red and (10, 20, 30).
+  const std::string pixels("\x00\x00\xff\x1e\x14\x0a", 6);
+  const std::string bmp = "BM" + number(62, 4) + number(0, 4) + number(54, 4) + number(40, 4) + number(2, 4) +
+                          number(1, 4) + number(1, 2) + number(24, 2) + number(0, 24) + pixels + number(0, 2);
+  const std::string tga =
+      number(0, 2) + number(2, 1) + number(0, 9) + number(2, 2) + number(1, 2) + number(24, 1) + number(0, 1) + pixels;
+  for (const std::string& bytes : {bmp, tga}) {
+    const Picture picture = open_encoded_picture(bytes)->read();
+    CHECK(picture.width == 2);
+    CHECK(picture.height == 1);
+    REQUIRE(picture.bytes() == 8);
+    const std::string_view read(reinterpret_cast<const char*>(picture.pixels.data()), 8);
+    CHECK(read == "\xff\x00\x00\xff\x0a\x14\x1e\xff"sv);
   }
 }
 

@@ -72,7 +72,7 @@ class PictureReader {
 /// OutputError if OpenImageIO is missing.
 std::unique_ptr<PictureReader> open_picture(const std::string& file);
 
-/// The same of the bytes of a PNG, JPEG or WebP file, which stay for as long as the reader does.
+/// The same of the bytes of a PNG, JPEG, WebP, TGA, BMP, TIFF or DDS file, which stay for as long as the reader does.
 std::unique_ptr<PictureReader> open_encoded_picture(std::string_view bytes);
 
 }  // namespace raytrace

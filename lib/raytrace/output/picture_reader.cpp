@@ -24,6 +24,27 @@ std::string all_bytes(std::FILE* file) {
   return bytes;
 }
 
+/// TGA files begin with nothing that is always the same. This is whether it may be one: its first 18 bytes have the
+/// kinds of its palette and pixels, and a size.
+bool is_targa(std::string_view bytes) {
+  if (bytes.size() <= 18) return false;
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
+  const unsigned palette = byte(1), kind = byte(2) & ~8U, bits = byte(16);  // 8: compressed
+  return palette <= 1 && kind >= 1 && kind <= 3 && byte(2) < 16 && (kind != 1 || palette == 1) &&
+         (byte(12) | byte(13)) > 0 && (byte(14) | byte(15)) > 0 &&
+         (bits == 8 || bits == 15 || bits == 16 || bits == 24 || bits == 32);
+}
+
+/// How OpenImageIO names a format that models of other programs have within them; empty: none.
+std::string_view name_of_format(std::string_view bytes) {
+  if (bytes.starts_with(jpeg_begin)) return "picture.jpg";
+  if (bytes.starts_with("BM")) return "picture.bmp";
+  if (bytes.starts_with("DDS ")) return "picture.dds";
+  if (bytes.starts_with(std::string_view("II*\0", 4)) || bytes.starts_with(std::string_view("MM\0*", 4)))
+    return "picture.tif";
+  return is_targa(bytes) ? "picture.tga" : "";
+}
+
 FileHandle open_bytes(std::string_view bytes) {
   FileHandle file(fmemopen(const_cast<char*>(bytes.data()), bytes.size(), "rb"));
   if (!file) throw std::bad_alloc();
@@ -48,9 +69,11 @@ std::unique_ptr<PictureReader> open_picture(const std::string& file) {
 std::unique_ptr<PictureReader> open_encoded_picture(std::string_view bytes) {
   if (bytes.starts_with(png_begin)) return make_png_reader(open_bytes(bytes));
   if (is_webp(bytes)) return make_webp_reader(std::string(bytes));
-  if (!bytes.starts_with(jpeg_begin)) throw PictureError("it is neither PNG, nor JPEG, nor WebP");
-  if (auto reader = make_jpeg_reader(open_bytes(bytes))) return reader;
-  return make_openimageio_reader("picture.jpg", bytes);
+  const std::string name(name_of_format(bytes));
+  if (name.empty()) throw PictureError("it is neither PNG, nor JPEG, nor WebP, nor TGA, BMP, TIFF or DDS");
+  if (bytes.starts_with(jpeg_begin))
+    if (auto reader = make_jpeg_reader(open_bytes(bytes))) return reader;
+  return make_openimageio_reader(name, bytes);
 }
 
 }  // namespace raytrace
