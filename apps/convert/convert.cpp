@@ -96,6 +96,20 @@ void drop_third_coordinates(const aiScene& scene) {
     for (unsigned& components : scene.mMeshes[i]->mNumUVComponents) components = std::min(components, 2U);
 }
 
+/// Whether z is up in all files of a format whose importer leaves it so, as those of 3ds and ASE do not. Where files
+/// say it, importers follow them. AMF has no such rule, as STL has none.
+bool has_z_up(const fs::path& model) {
+  const std::string type = lower(model.extension());
+  return type == ".blend" || type == ".3mf";
+}
+
+/// To glTF's axes.
+void turn_y_up(const aiScene& scene) {
+  aiMatrix4x4 turn;
+  aiMatrix4x4::RotationX(static_cast<ai_real>(-AI_MATH_HALF_PI), turn);
+  scene.mRootNode->mTransformation = turn * scene.mRootNode->mTransformation;
+}
+
 /// Of a mesh without normals that does not move. Where faces share vertices, Assimp's smooth normals would be those of
 /// the last face of each: they need vertices of its own for each face, and find those of one position themselves.
 void split_faces(aiMesh& mesh) {
@@ -143,6 +157,7 @@ int convert(const std::string& file) {
   aiScene& changed = *importer.GetOrphanedScene();  // nobody frees it: the process ends
   find_textures(changed, file);
   drop_third_coordinates(changed);
+  if (has_z_up(file)) turn_y_up(changed);
   Assimp::Exporter exporter;
   const aiExportDataBlob* blob = exporter.ExportToBlob(&changed, "glb2");
   if (blob == nullptr && changed.mNumAnimations > 0) {

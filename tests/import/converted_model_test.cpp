@@ -1,9 +1,12 @@
 // Models of other formats: what Assimp makes of them, in a program of its own.
 #include "raytrace/import/converted_model.h"
 
+#include <zlib.h>
+
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "import/support.h"
@@ -44,6 +47,23 @@ std::string square(const std::string& diffuse, const std::string& images = "", c
   <scene><instance_visual_scene url="#w"/></scene>
 </COLLADA>
 )";
+}
+
+/// A ZIP archive of files that are stored as they are.
+std::string zip(const std::vector<std::pair<std::string, std::string>>& files) {
+  const auto two = [](std::size_t value) { return bytes_of_value(static_cast<std::uint16_t>(value)); };
+  const auto four = [](std::size_t value) { return bytes_of_value(static_cast<std::uint32_t>(value)); };
+  std::string archive, list;
+  for (const auto& [name, bytes] : files) {
+    const auto sum = crc32(0, reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uInt>(bytes.size()));
+    const std::string common = two(20) + two(0) + two(0) + four(0) + four(sum) + four(bytes.size()) +
+                               four(bytes.size()) + two(name.size()) + two(0);
+    list += "PK\1\2" + two(20) + common + two(0) + two(0) + two(0) + four(0) + four(archive.size()) + name;
+    archive += "PK\3\4" + common + name + bytes;
+  }
+  const std::string end =
+      "PK\5\6" + four(0) + two(files.size()) + two(files.size()) + four(list.size()) + four(archive.size()) + two(0);
+  return archive + list + end;
 }
 
 const std::string red = "<color>0.5 0.25 0.125 1</color>";
@@ -197,6 +217,33 @@ TEST_CASE("faces that share vertices without normals are smooth but for sharp ed
     else
       CHECK(dot(of_face, normal) == Approx(1));
   });
+}
+
+TEST_CASE("3MF, whose z is up, is turned so that y is up") {
+  const std::string model =
+      R"(<?xml version="1.0"?><model unit="millimeter" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">
+      <resources><object id="1" type="model"><mesh><vertices><vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/>
+      <vertex x="0" y="2" z="0"/><vertex x="0" y="0" z="3"/></vertices><triangles><triangle v1="0" v2="2" v3="1"/>
+      <triangle v1="0" v2="1" v3="3"/><triangle v1="1" v2="2" v3="3"/><triangle v1="2" v2="0" v3="3"/></triangles></mesh>
+      </object></resources><build><item objectid="1"/></build></model>)";
+  const std::string relations =
+      R"(<?xml version="1.0"?><Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">
+      <Relationship Target="/3D/a.model" Id="r" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/>
+      </Relationships>)";
+  const ReadResult read = read_bytes("a.3mf", zip({{"_rels/.rels", relations}, {"3D/a.model", model}}));
+  INFO(read.messages);
+  REQUIRE(read.mesh.has_value());
+  Vec3d least(9, 9, 9), most(-9, -9, -9);
+  for (std::size_t i = 0; i < read.mesh->positions.size(); i += 3) {
+    const float* const p = &read.mesh->positions[i];
+    least = {std::min<double>(least.x, p[0]), std::min<double>(least.y, p[1]), std::min<double>(least.z, p[2])};
+    most = {std::max<double>(most.x, p[0]), std::max<double>(most.y, p[1]), std::max<double>(most.z, p[2])};
+  }
+  CHECK(most.x == Approx(1));
+  CHECK(most.y == Approx(3));
+  CHECK(least.z == Approx(-2));
+  CHECK(std::abs(least.y) < 1e-6);
+  CHECK(std::abs(most.z) < 1e-6);
 }
 
 TEST_CASE("what is no model is refused with Assimp's reason") {
