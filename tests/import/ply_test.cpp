@@ -1,3 +1,5 @@
+#include <filesystem>
+
 #include "import/support.h"
 #include "support/catch.h"
 #include "support/contains.h"
@@ -80,6 +82,37 @@ TEST_CASE("an ASCII PLY has normals, texture coordinates and colours of its vert
   CHECK(read.mesh->colors[0] == 1);
   CHECK(read.mesh->colors[2] == 1);
   CHECK(read.mesh->colors[6] == Approx(0.502886).epsilon(1e-5));
+}
+
+TEST_CASE("a PLY file's texture is the colour of its mesh, if it is there") {
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& texture, const std::string& uvs) {
+    write_text(folder.file("a.ply"), "ply\nformat ascii 1.0\ncomment VCGLIB generated\ncomment TextureFile " + texture +
+                                         "\ncomment TextureFile second.png\nelement vertex 3\nproperty float x\n"
+                                         "property float y\nproperty float z\nproperty float " +
+                                         uvs +
+                                         "\nproperty float t\nelement face 1\nproperty list uchar int vertex_indices\n"
+                                         "end_header\n0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n3 0 1 2\n");
+    Diagnostics diagnostics(folder.file("a.ply"));
+    ReadResult result{read_mesh(folder.file("a.ply"), {}, diagnostics), ""};
+    result.messages = printed(diagnostics, folder.path().string());
+    REQUIRE(result.mesh);
+    return result;
+  };
+  std::filesystem::create_directory(folder.file("scans"));
+  write_text(folder.file("scans/a wall.png"), "of which nobody reads a byte");
+  const ReadResult textured = read("scans\\a wall.png", "s");
+  CHECK(textured.messages.empty());
+  REQUIRE(textured.mesh->materials.size() == 1);
+  CHECK(textured.mesh->materials[0].map_kd.file == "scans/a wall.png");
+  CHECK(textured.mesh->uvs.size() == 6);
+  const ReadResult missing = read("floor.png", "s");
+  CHECK(missing.mesh->materials.empty());
+  CHECK(missing.messages == "a.ply: warning: the texture 'floor.png' is left out: there is no such file\n");
+  const ReadResult unplaced = read("scans/a wall.png", "other");
+  CHECK(unplaced.mesh->materials.empty());
+  CHECK(unplaced.messages ==
+        "a.ply: warning: the texture 'scans/a wall.png' is left out: the vertices have no texture coordinates\n");
 }
 
 TEST_CASE("quads stay quads where they are at least half of the faces") {

@@ -12,7 +12,9 @@
 
 namespace raytrace {
 
-std::optional<MeshData> read_ply(MeshFile& file, const MeshReadSettings& settings, Diagnostics& diagnostics);
+/// folder: of the PLY file, which its texture is looked for in.
+std::optional<MeshData> read_ply(MeshFile& file, const std::string& folder, const MeshReadSettings& settings,
+                                 Diagnostics& diagnostics);
 std::optional<PointCloud> read_ply_cloud(MeshFile& file, const MeshReadSettings& settings, Diagnostics& diagnostics);
 std::optional<MeshData> read_stl(MeshFile& file, const MeshReadSettings& settings, Diagnostics& diagnostics);
 

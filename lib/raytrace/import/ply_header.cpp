@@ -26,6 +26,7 @@ std::optional<Type> type_of_name(std::string_view name) {
 /// An empty text, or why the line is refused.
 std::string read_header_line(LineWords words, Header& header) {
   const std::string_view keyword = words.word();
+  if (keyword == "comment" && words.word() == "TextureFile" && header.texture.empty()) header.texture = words.rest();
   if (keyword == "comment" || keyword == "obj_info" || keyword.empty()) return {};
   if (keyword == "format") {
     const std::string_view format = words.word();

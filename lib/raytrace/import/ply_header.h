@@ -41,6 +41,7 @@ struct Header {
   enum class Format : std::uint8_t { ascii, little_endian, big_endian };
   Format format = Format::ascii;
   std::vector<Element> elements;
+  std::string texture;      ///< of the first "comment TextureFile NAME"; empty: none
   std::size_t size = 0;     ///< where the elements' values begin
   std::uint32_t lines = 0;  ///< of the head
 

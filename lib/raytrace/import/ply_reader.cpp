@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "raytrace/import/mesh_readers.h"
@@ -75,10 +77,27 @@ bool open(MeshFile& file, const MeshReadSettings& settings, Diagnostics& diagnos
   return true;
 }
 
+/// Of the texture that MeshLab and others name in a comment: a white material with it, if it can be seen.
+void add_texture(std::string name, const std::string& folder, MeshData& mesh, Diagnostics& diagnostics) {
+  if (name.empty()) return;
+  std::replace(name.begin(), name.end(), '\\', '/');
+  std::error_code unknown;
+  const auto leave_out = [&](const std::string& reason) {
+    diagnostics.warning({}, "the texture " + in_quotes(name) + " is left out: " + reason);
+  };
+  if (mesh.uvs.empty()) return leave_out("the vertices have no texture coordinates");
+  if (!std::filesystem::is_regular_file(std::filesystem::path(folder) / name, unknown))
+    return leave_out("there is no such file");
+  MeshMaterial& material = mesh.materials.emplace_back();
+  material.name = name;
+  material.map_kd.file = name;
+}
+
 }  // namespace
 }  // namespace ply
 
-std::optional<MeshData> read_ply(MeshFile& file, const MeshReadSettings& settings, Diagnostics& diagnostics) {
+std::optional<MeshData> read_ply(MeshFile& file, const std::string& folder, const MeshReadSettings& settings,
+                                 Diagnostics& diagnostics) {
   using ply::Column;
   ply::OpenFile open;
   MeshData mesh;
@@ -102,6 +121,7 @@ std::optional<MeshData> read_ply(MeshFile& file, const MeshReadSettings& setting
   if (!open.body->read_vertices(open.columns, mesh.positions.data(), faults.bad_vertices)) return std::nullopt;
   if (!open.body->read_faces(*property, mesh, faults, dented_quads)) return std::nullopt;
   if (!finish_mesh(mesh, faults, dented_quads, settings.threads, diagnostics)) return std::nullopt;
+  ply::add_texture(std::move(open.header.texture), folder, mesh, diagnostics);
   return mesh;
 }
 

@@ -72,7 +72,7 @@ std::optional<MeshData> read_mesh(const std::string& name, const MeshReadSetting
   std::optional<MeshFile> file = MeshFile::open(name, diagnostics);
   if (file && is_converted_model(name) && !file->convert(name, diagnostics)) file.reset();
   if (!file) return std::nullopt;
-  const std::string type = mesh_type(name);
+  const std::string type = mesh_type(name), folder = std::filesystem::path(name).parent_path().string();
   std::optional<MeshData> mesh;
   const bool is_gltf = type == ".gltf" || type == ".glb" || is_converted_model(name);
   if (!is_gltf && !settings.variant.empty()) {
@@ -84,13 +84,13 @@ std::optional<MeshData> read_mesh(const std::string& name, const MeshReadSetting
     return std::nullopt;
   }
   if (type == ".ply")
-    mesh = read_ply(*file, settings, diagnostics);
+    mesh = read_ply(*file, folder, settings, diagnostics);
   else if (type == ".stl")
     mesh = read_stl(*file, settings, diagnostics);
   else if (is_gltf)
     mesh = read_gltf(*file, name, settings, diagnostics);
   else
-    mesh = read_obj(*file, std::filesystem::path(name).parent_path().string(), settings, diagnostics);
+    mesh = read_obj(*file, folder, settings, diagnostics);
   if (!mesh) return mesh;
   mesh->origin = settings.origin;
   if (type == ".obj" || is_converted_model(name)) make_visible(*mesh, diagnostics);  // glTF means what it says

@@ -2,7 +2,8 @@
 //
 //   PLY  .ply: ASCII and both binary orders; any types; elements and properties that have no meaning here are skipped.
 //        `vertex`: x y z; nx ny nz; u v, s t, texture_u texture_v or texture_s texture_t; red green blue.
-//        `face`: a list vertex_indices or vertex_index.
+//        `face`: a list vertex_indices or vertex_index. `comment TextureFile NAME`: the colour of its material, white
+//        but for it, where vertices have texture coordinates.
 //   OBJ  .obj: polygons (v, vt, vn, f; negative indices; colours after a position); materials from MTL files. Groups,
 //        objects and smoothing groups are not kept; lines, points, curves and free-form surfaces are skipped.
 //   STL  .stl: ASCII and binary.
