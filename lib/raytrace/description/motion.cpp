@@ -146,11 +146,29 @@ class MotionFinder {
             SourceLocation{(items.empty() ? items_then : items).front().line, 0},
             "not every <" + std::string(T::element) + "> is there all the time while the shutter is open");
       const Fields fields = T::fields();
-      for (std::size_t i = 0; i < items.size(); ++i)
+      for (std::size_t i = 0; i < items.size(); ++i) {
+        if constexpr (requires { items[i].parameters.animation; })
+          if (items[i].parameters.time != items_then[i].parameters.time) {
+            add_at_rest({list, index_of<T>(Objects{}), i}, fields, items[i], items_then[i]);
+            continue;
+          }
         if (items[i].transform != items_then[i].transform ||
             !have_same_values(fields, &items[i].parameters, &items_then[i].parameters))
           add_place({list, index_of<T>(Objects{}), i}, fields, items[i], items_then[i]);
+      }
     });
+  }
+
+  /// A file has its form of the frame all the time, wherever it moves.
+  template <class T>
+  void add_at_rest(const Place& object, const Fields& fields, const ObjectItem<T>& item, ObjectItem<T> then) {
+    if (!item.parameters.animation.name.empty() && warned_.insert(item.line).second)
+      diagnostics_.warning(SourceLocation{item.line, 0},
+                           "the animation of this <" + std::string(T::element) +
+                               "> stands still while the shutter is open: its <time> counts at the frame");
+    then.parameters.time = item.parameters.time;
+    if (item.transform != then.transform || !have_same_values(fields, &item.parameters, &then.parameters))
+      add_place(object, fields, item, then);
   }
 
   /// Where the object that the item would be without its transform is at this moment.

@@ -1,0 +1,61 @@
+// What is found to move while the shutter is open, and what is said about it.
+#include "raytrace/description/motion.h"
+
+#include "description/reported.h"
+#include "support/catch.h"
+#include "support/contains.h"
+
+namespace raytrace::test {
+
+namespace {
+
+/// scene_with() whose shutter is open for half a frame.
+std::string open_shutter(const std::string& more) {
+  std::string text = scene_with(more);
+  return text.replace(text.find("</camera>"), 0, "<shutterclose>0.5</shutterclose>");
+}
+
+const std::string time_keys = "<time><key frame='1' value='0'/><key frame='25' value='1'/></time>";
+const std::string move_keys =
+    "<transform><translate><key frame='1' x='0' y='0' z='0'/><key frame='3' x='2' y='0' "
+    "z='0'/></translate></transform>";
+
+}  // namespace
+
+TEST_CASE("animated files stand still while the shutter is open, as they are at the frame, with a warning") {
+  for (const std::string type : {"mesh", "model"}) {
+    INFO(type);
+    const std::string objects = type == "mesh" ? "meshes" : "models";
+    const auto scene = [&](const std::string& more) {
+      return open_shutter("<objects><" + objects + "><" + type + "><file>fox.glb</file>" + more + "</" + type + "></" +
+                          objects + "></objects>");
+    };
+    const std::string warning = "s:2: warning: the animation of this <" + type +
+                                "> stands still while the shutter is open: its <time> counts at the frame\n";
+    CHECK(reported(scene("<animation>0</animation>" + time_keys)) == warning);
+    // Without an animation, the time is of nothing.
+    CHECK(reported(scene(time_keys)).empty());
+
+    const std::string moves = scene("<animation>0</animation>" + time_keys + move_keys);
+    CHECK(reported(moves) == warning);
+    const SceneDescription moving = accepted(moves);
+    REQUIRE(std::get<ObjectItems<Instance>>(moving.objects).size() == 1);
+    CHECK(std::get<ObjectItems<Instance>>(moving.objects)[0].motion.back().origin.x == 0.5);
+    REQUIRE(moving.groups.size() == 1);
+    const ObjectLists& own = moving.groups[0].objects;
+    const double time = type == "mesh" ? std::get<ObjectItems<Mesh>>(own).at(0).parameters.time
+                                       : std::get<ObjectItems<Model>>(own).at(0).parameters.time;
+    CHECK(time == 0);
+  }
+}
+
+TEST_CASE("a mesh in a group that instances move has its form of the frame") {
+  const std::string text = open_shutter(
+      "<objects><instances><instance><group>fox</group>" + move_keys + "</instance></instances></objects>" +
+      "<groups><group><name>fox</name><objects><meshes><mesh><file>fox.glb</file><animation>Run</animation>" +
+      time_keys + "</mesh></meshes></objects></group></groups>");
+  CHECK(contains(reported(text), "stands still while the shutter is open"));
+  CHECK(accepted(text).groups.size() == 1);
+}
+
+}  // namespace raytrace::test
