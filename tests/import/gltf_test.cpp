@@ -47,6 +47,19 @@ Corners corners_of(const std::string& bytes) {
   return values(read.mesh->indices);
 }
 
+TEST_CASE("what is wrong with a glTF file's text is said whole") {
+  CHECK(read_bytes("a.gltf", R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0,]}]})").messages ==
+        "a.gltf: error: is no glTF: parse error at line 1, column 50: syntax error while parsing value - unexpected "
+        "']'; expected '[', '{', or a literal\n");
+  // But for what is quoted of the file.
+  CHECK(read_bytes("a.gltf", R"({"nodes":[)" + std::string(500, '1') + "]}").messages ==
+        "a.gltf: error: is no glTF: number overflow parsing '" + std::string(40, '1') + "...'\n");
+  CHECK(read_bytes("a.gltf", R"({"asset":")" + std::string(500, 'a') + "\n\"}").messages ==
+        "a.gltf: error: is no glTF: parse error at line 2, column 0: syntax error while parsing value - invalid "
+        "string: control character U+000A (LF) must be escaped to \\u000A or \\n; last read: '\"" +
+            std::string(39, 'a') + "...'\n");
+}
+
 }  // namespace
 
 TEST_CASE("a glTF file has its buffer in a URI, in a file beside it or in a GLB file") {

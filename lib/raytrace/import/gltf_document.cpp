@@ -14,13 +14,25 @@ namespace {
 /// A sparse accessor without values of its own has at most so many for each that it changes.
 constexpr std::size_t most_zeros = 256;
 
+/// A reason of nlohmann::json whole, but for what it quotes of the file, which may be a long string or number.
+std::string with_short_quote(std::string_view reason) {
+  std::size_t first = std::string_view::npos;
+  for (const std::string_view before : {"last read: '", "overflow parsing '"})
+    if (const std::size_t found = reason.find(before); first == std::string_view::npos && found < reason.size())
+      first = found + before.size();
+  const std::size_t end = std::min(reason.rfind("'; expected "), reason.rfind('\''));
+  if (first == std::string_view::npos || end < first) return on_one_line(reason);
+  return on_one_line(reason.substr(0, first)) + printable(reason.substr(first, end - first)) +
+         on_one_line(reason.substr(end));
+}
+
 nlohmann::json parsed(std::string_view text) {
   try {
     return nlohmann::json::parse(text.begin(), text.end());
   } catch (const nlohmann::json::exception& error) {
     std::string reason = error.what();  // "[json.exception.parse_error.101] parse error at line 1, column 2: ..."
     reason.erase(0, reason.find("] ") + 2);
-    throw Error("is no glTF: " + printable(reason));
+    throw Error("is no glTF: " + with_short_quote(reason));
   }
 }
 
