@@ -51,10 +51,16 @@ TEST_CASE("numbers are read whole, with white space and a plus sign around them"
 }
 
 TEST_CASE("what is not wholly a number is refused") {
-  for (const char* text : {"",   " ", "x", "1x", "1 2",   "0x10",  "--1",   "+-1",      "-+1", "++1", "1e",
-                           "e1", ".", "+", "-",  "1_000", "1.2.3", "1e5.5", "\xd9\xa1", "1f",  "$1",  "true"}) {
+  for (const char* text : {"",  " ", "x", "1 2",   "0x10",  "--1",   "+-1",      "-+1",  "++1", "1e",  "e1",
+                           ".", "+", "-", "1_000", "1.2.3", "1e5.5", "\xd9\xa1", "1rad", "$1",  "true"}) {
     CHECK(refusal(text) == "is not a number; write one such as 1.5");
   }
+  for (const char* text : {"1x", "1 m", "1f", "1\xc2\xb0", "1\xc2\xb5m"})
+    CHECK(refusal(text) == "is not a number; write it without a unit: 1");
+  CHECK(refusal("-40.5deg") == "is not a number; write it without a unit: -40.5");
+  CHECK(refusal("80%") == "is not a number; write it as 0.8");
+  CHECK(refusal("12.5 %") == "is not a number; write it as 0.125");
+  CHECK(integer_refusal("400px") == "is not a whole number; write it without a unit: 400");
   CHECK(refusal("1,5") == "is not a number; write it with a point: 1.5");
   CHECK(refusal("1,000,000") == "is not a number; write one such as 1.5");
   for (const char* text : {"nan", "NaN", "-nan", "inf", "-inf", "Infinity", "+INF"}) {

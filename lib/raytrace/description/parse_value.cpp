@@ -30,7 +30,26 @@ Outcome convert(std::string_view text, Number& value) {
   return tiny ? Outcome::too_small : Outcome::too_large;
 }
 
+/// The number before a unit, a word of letters; empty if there is none, or if the unit says that it is of radians,
+/// which nothing takes. Number: double or int.
+template <class Number>
+std::string_view before_unit(std::string_view text) {
+  const std::size_t digits = text.find_last_of("0123456789.") + 1;
+  const std::string_view number = text.substr(0, digits), unit = xml::trimmed(text.substr(digits));
+  const bool is_unit =
+      unit != "e" && unit != "E" && unit != "rad" && std::all_of(unit.begin(), unit.end(), [](unsigned char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c >= 0x80;  // degrees and micro are no ASCII
+      });
+  Number value = 0;
+  return !unit.empty() && is_unit && convert(number, value) == Outcome::whole ? number : std::string_view();
+}
+
 std::string explain_no_number(std::string_view text) {
+  double percents = 0;
+  if (text.ends_with('%') && convert(xml::trimmed(text.substr(0, text.size() - 1)), percents) == Outcome::whole)
+    return "is not a number; write it as " + number_text(percents / 100);
+  if (const std::string_view number = before_unit<double>(text); !number.empty())
+    return "is not a number; write it without a unit: " + std::string(number);
   std::string with_point(text.substr(0, 100));
   std::replace(with_point.begin(), with_point.end(), ',', '.');
   double value = 0;
@@ -95,6 +114,8 @@ OptionalMessage parse_integer(std::string_view text, Range range, int& value) {
   switch (convert(text, integer)) {
     case Outcome::not_a_number: {
       double number = 0;
+      if (const std::string_view whole = before_unit<int>(text); !whole.empty())
+        return "is not a whole number; write it without a unit: " + std::string(whole);
       if (convert(text, number) == Outcome::not_a_number || !std::isfinite(number)) {
         return "is not a whole number; write one such as 16";
       }

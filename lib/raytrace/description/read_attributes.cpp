@@ -1,5 +1,7 @@
 // Elements whose values are in attributes, and how such an element is written, for messages.
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 
 #include "raytrace/description/read_value.h"
 
@@ -25,6 +27,23 @@ bool append_numbers(std::string_view text, std::vector<std::string>& numbers) {
   }
 }
 
+/// Of a hexadecimal colour, #4080a0 or #48a, the linear numbers that it stands for, as texts; none of other words.
+std::vector<std::string> linear_of_hexadecimal(std::string_view word) {
+  if (!word.starts_with('#') || (word.size() != 4 && word.size() != 7)) return {};
+  std::vector<std::string> numbers;
+  const std::size_t digits = word.size() / 3;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string_view code = word.substr(1 + i * digits, digits);
+    int value = 0;
+    if (std::from_chars(code.data(), code.data() + digits, value, 16).ptr != code.data() + digits || value < 0)
+      return {};
+    const double encoded = value / (digits == 1 ? 15.0 : 255.0);
+    numbers.push_back(
+        formatted("%.4g", encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4)));
+  }
+  return numbers;
+}
+
 /// What an element holds for some fields.
 class OwnNumbers {
  public:
@@ -42,12 +61,17 @@ class OwnNumbers {
 
   /// Of fields[i]; empty if it is not known.
   const std::string& operator[](std::size_t i) const { return values_[i]; }
+  /// Whether they are those of a hexadecimal colour.
+  bool of_hexadecimal() const { return of_hexadecimal_; }
 
  private:
   void take(std::string_view name, std::string_view text) {
     const std::size_t i = find_field(fields_, name);
     std::vector<std::string> numbers;
-    const bool fine = append_numbers(text, numbers);
+    if (find_field(fields_, Components<Rgb<double>>::names[0]) < fields_.size())
+      numbers = linear_of_hexadecimal(xml::trimmed(text));
+    of_hexadecimal_ |= !numbers.empty();
+    const bool fine = !numbers.empty() || append_numbers(text, numbers);
     if (i == fields_.size()) {
       others_fine_ = others_fine_ && fine;
       others_.insert(others_.end(), numbers.begin(), numbers.end());
@@ -69,7 +93,7 @@ class OwnNumbers {
 
   std::span<const AttributeField> fields_;
   std::vector<std::string> values_, others_;
-  bool others_fine_ = true;
+  bool others_fine_ = true, of_hexadecimal_ = false;
 };
 
 /// Bit i: the element has the attribute fields[i].
@@ -149,7 +173,7 @@ std::string example_of(std::string_view element, std::span<const AttributeField>
     const std::string_view any = std::holds_alternative<std::string_view*>(fields[i].target) ? "..." : "1";
     text.append(" ").append(fields[i].name).append("=\"").append(own[i].empty() ? any : own[i]).append("\"");
   }
-  return text + "/>";
+  return text + (own.of_hexadecimal() ? "/>, the linear values of that sRGB colour" : "/>");
 }
 
 }  // namespace raytrace

@@ -126,8 +126,12 @@ bool read_fields(Element element, std::span<const FieldInfo> infos, std::span<co
   for (std::size_t i = 0; i < infos.size(); ++i) {
     if (!infos[i].required || (read >> i & 1)) continue;
     diagnostics.error(element, [&] {
-      return "missing " + tag(infos[i].name) + " in " + tag(element.name()) + "; add " +
-             example_value(infos[i], targets[i], element.name());
+      // Where there is a shorthand, it is what people mean.
+      std::size_t meant = i;
+      for (std::size_t k = 0; k < infos.size(); ++k)
+        if (infos[k].in_place_of == infos[i].name) meant = k;
+      return "missing " + tag(infos[i].name) + (meant == i ? "" : " or " + tag(infos[meant].name)) + " in " +
+             tag(element.name()) + "; add " + example_value(infos[meant], targets[meant], element.name());
     });
   }
   return diagnostics.error_count() == errors_before;
