@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 
 #include "raytrace/description/scene_layout.h"
 
@@ -21,6 +22,7 @@ std::uint64_t present_fields(Element element, std::span<const FieldInfo> infos) 
 /// Names of other programs, and the field that stands for them here.
 struct Synonym {
   std::string_view name, field;
+  std::string_view note{};  ///< ", which ..."
 };
 constexpr Synonym synonyms[] = {
     {"bumpmap", "bump"},
@@ -40,14 +42,40 @@ constexpr Synonym synonyms[] = {
     {"lensshift", "shift"},
     {"shift_x", "shift"},
     {"shift_y", "shift"},
+    {"width", "hres"},
+    {"height", "vres"},
+    {"density", "meanfreepath", ", which is 1 / density"},
+    {"aperture", "lensradius"},
+    {"focusdistance", "focaldistance"},
 };
+
+const Synonym* find_synonym(std::string_view name, std::span<const FieldInfo> infos) {
+  for (const Synonym& synonym : synonyms)
+    if (synonym.name == name && find_field(infos, synonym.field) < infos.size()) return &synonym;
+  return nullptr;
+}
+
+/// "<thinlenscamera> has <lensradius>", for a camera that has not; empty if none has it.
+std::string other_camera_with(std::string_view name, std::string_view camera) {
+  std::string found;
+  bool is_camera = false;
+  for_each_type(Cameras{}, [&]<class T>(std::type_identity<T>) {
+    is_camera |= T::element == camera;
+    const Fields fields = fields_in_files<T>();
+    for (const Field& field : fields) {
+      const bool is_it =
+          field.name == name || std::any_of(std::begin(synonyms), std::end(synonyms),
+                                            [&](const auto& s) { return s.name == name && s.field == field.name; });
+      if (found.empty() && is_it) found = tag(T::element) + " has " + tag(field.name);
+    }
+  });
+  return is_camera ? found : std::string();
+}
 
 /// That of the fields which the unknown name stands for or is misspelt of; it is absent.
 std::string_view meant_field(std::span<const FieldInfo> infos, std::uint64_t present, std::string_view name) {
-  for (const Synonym& synonym : synonyms) {
-    const std::size_t i = synonym.name == name ? find_field(infos, synonym.field) : infos.size();
-    if (i < infos.size() && !(present >> i & 1)) return synonym.field;
-  }
+  if (const Synonym* const synonym = find_synonym(name, infos))
+    if (!(present >> find_field(infos, synonym->field) & 1)) return synonym->field;
   return nearest_absent(infos, present, name);
 }
 
@@ -57,7 +85,11 @@ std::string explain_unknown(Element child, Element parent, std::span<const Field
   if (std::find(steps.begin(), steps.end(), child.name()) != steps.end() &&
       find_field(infos, transform_element) < infos.size())
     return start + "put it into " + tag(transform_element);
-  if (!nearest.empty()) return start + "did you mean " + tag(nearest) + "?";
+  if (const std::string other = other_camera_with(child.name(), parent.name()); !other.empty()) return start + other;
+  if (!nearest.empty()) {
+    const Synonym* const synonym = find_synonym(child.name(), infos);
+    return start + "did you mean " + tag(nearest) + std::string(synonym != nullptr ? synonym->note : "") + "?";
+  }
   std::vector<std::string_view> names, longer;
   for (const FieldInfo& info : infos) names.push_back(info.name);
   // A name may lack its first word, as OpenPBR's "metalness", or its last one.
@@ -106,7 +138,7 @@ bool read_fields(Element element, std::span<const FieldInfo> infos, std::span<co
     std::string_view nearest;
     if (diagnostics.keeps_another(Severity::error)) {
       if (!present) present = present_fields(element, infos);
-      nearest = meant_field(infos, *present, child.name());
+      if (other_camera_with(child.name(), element.name()).empty()) nearest = meant_field(infos, *present, child.name());
     }
     diagnostics.error(child, [&] { return explain_unknown(child, element, infos, nearest); });
     // One slip, one message: a child that was only misspelt is not reported as missing too.

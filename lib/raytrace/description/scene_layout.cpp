@@ -1,6 +1,7 @@
 #include "raytrace/description/scene_layout.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "raytrace/description/include.h"
 #include "raytrace/text/message.h"
@@ -13,6 +14,30 @@ std::string_view parent_of(std::string_view element) {
   const std::vector<LayoutEntry> layout = scene_layout();
   const auto entry = std::find_if(layout.begin(), layout.end(), [&](const auto& e) { return e.element == element; });
   return entry == layout.end() ? std::string_view() : entry->parent;
+}
+
+/// Names of other programs, and the element that does it here.
+struct Synonym {
+  std::string_view name, element;
+  std::string_view note{};  ///< what else there is to know
+};
+constexpr std::string_view of_area_lights = " (a light with a size is an object of that material)";
+constexpr Synonym synonyms[] = {
+    {"sun", "directionallight", " (a <skylight> has a sun, too)"},
+    {"sunlight", "directionallight", " (a <skylight> has a sun, too)"},
+    {"distantlight", "directionallight"},
+    {"arealight", "emissive", of_area_lights},
+    {"arealights", "emissives", of_area_lights},
+    {"glass", "dielectric"},
+    {"metal", "conductor"},
+    {"principled", "openpbr"},
+    {"plastic", "openpbr"},
+};
+
+const Synonym* find_synonym(std::string_view name) {
+  const auto* const found = std::find_if(std::begin(synonyms), std::end(synonyms),
+                                         [&](const Synonym& synonym) { return synonym.name == name; });
+  return found == std::end(synonyms) ? nullptr : found;
 }
 
 }  // namespace
@@ -58,6 +83,7 @@ std::string_view meant_element(std::string_view element, std::string_view parent
     if (entry.element == element) return entry.element;
     all.push_back(entry.element);
   }
+  if (const Synonym* const synonym = find_synonym(element)) return synonym->element;
   const std::string_view nearest = nearest_name(element, elements_in(parent));
   return nearest.empty() ? nearest_name(element, all) : nearest;
 }
@@ -74,7 +100,9 @@ std::string explain_misplaced(std::string_view element, std::string_view parent)
     return tag(element) + " does not belong in " + tag(parent) + "; put it into " + tag(home);
   const std::string start = "unknown element " + tag(element) + " in " + tag(parent) + "; ";
   if (meant.empty()) return start + "it takes " + list_of_tags(elements_in(parent));
-  return start + "did you mean " + tag(meant) + (home == parent ? "?" : ", which belongs in " + tag(home) + "?");
+  const Synonym* const synonym = find_synonym(element);
+  return start + "did you mean " + tag(meant) + (home == parent ? "?" : ", which belongs in " + tag(home) + "?") +
+         std::string(synonym != nullptr ? synonym->note : "");
 }
 
 }  // namespace raytrace
