@@ -179,6 +179,13 @@ void OptionParser::parse(int argc, const char* const* argv) {
   refuse_unknown();
 }
 
+Names OptionParser::given(const std::string& group) const {
+  Names names;
+  for (const OptionEntry& entry : entries_)
+    if (entry.group == group && parser_->app.count(entry.names.back()) > 0) names.push_back(entry.names.back());
+  return names;
+}
+
 /// "-samples" would be read as "-s amples".
 void OptionParser::refuse_other_style(int argc, const char* const* argv) const {
   constexpr std::size_t least_length = 3;  // of such a word

@@ -72,6 +72,9 @@ class OptionParser {
 
   const std::vector<OptionEntry>& entries() const { return entries_; }
 
+  /// After parse(): the last names of those options of a group that were given.
+  Names given(const std::string& group) const;
+
  private:
   struct Parser;
   void refuse_other_style(int argc, const char* const* argv) const;

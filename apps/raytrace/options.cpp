@@ -57,7 +57,17 @@ void define(const std::string& text, std::map<std::string, std::string>& variabl
 /// What --stats is without a file.
 constexpr const char* statistics_as_text = "text";
 
+constexpr const char* models_group = "Models";
+
 constexpr const char* no_scene = "no scene given; for example: raytrace scene.xml -o picture.exr";
+
+/// given: those of the options for models.
+void refuse_for_scenes(const Options& options, const Names& given) {
+  for (const std::string& scene : options.scenes)
+    if (!given.empty() && !is_model(scene))
+      throw UsageError(joined(given, ", ") + (given.size() == 1 ? " is" : " are") +
+                       " for models: " + on_one_line(scene == "-" ? "<stdin>" : scene) + " has a camera and lights");
+}
 
 void refuse_incomplete(const Options& options) {
   if (options.scenes.empty()) throw UsageError(no_scene);
@@ -67,6 +77,10 @@ void refuse_incomplete(const Options& options) {
       throw UsageError("the command comes first: raytrace merge, and then its options");
     if (options.statistics == statistics_as_text && scene.ends_with(".json"))
       throw UsageError("--stats takes a file after \"=\": --stats=" + scene);
+    const bool is_word = scene != "-" && scene.find('.') == std::string::npos && !std::filesystem::exists(scene);
+    if (options.statistics == statistics_as_text && options.scenes.size() > 1 && is_word)
+      throw UsageError("there is no scene " + in_quotes(scene) +
+                       "; --stats takes a file after \"=\": --stats=FILE.json");
   }
   if (options.outputs.empty() && options.renders()) {
     const std::string& last = options.scenes.back();
@@ -132,7 +146,7 @@ void define_options(OptionParser& parser, Options& options) {
     if (!options.stage) options.stage.emplace();
     return *options.stage;
   };
-  parser.group("Models");
+  parser.group(models_group);
   parser.add("--view", "front|back|side|top|iso|A,E",
              "Look from there: A degrees from the model's front to its right, E degrees above (30,15)",
              [stage](const std::string& text) {
@@ -291,7 +305,10 @@ Options parse_options(int argc, const char* const* argv) {
   if (options.quiet && options.verbose > 0) throw UsageError("--quiet excludes --verbose");
   refuse_two_views(options.view);
   if (options.quiet && options.progress == ProgressStyle::automatic) options.progress = ProgressStyle::none;
-  if (!options.help && !options.version && options.list.empty()) refuse_incomplete(options);
+  if (!options.help && !options.version && options.list.empty()) {
+    refuse_for_scenes(options, parser.given(models_group));
+    refuse_incomplete(options);
+  }
   options.still = options.print_scene;
   options.shows_statistics = options.statistics == statistics_as_text;
   if (options.shows_statistics || !options.renders()) options.statistics.clear();

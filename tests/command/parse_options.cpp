@@ -133,6 +133,7 @@ TEST_CASE("the option --stats takes a file only after an equals sign") {
   CHECK_FALSE(with({"--stats=file.json"}).shows_statistics);
   CHECK(with({"--stats=file.json"}).statistics == "file.json");
   CHECK_REFUSED(parse({"-o", "a.exr", "scene.xml", "--stats", "a.json"}), "--stats=a.json");
+  CHECK_REFUSED(parse({"-o", "a.exr", "scene.xml", "--stats", "json"}), "'json'; --stats takes a file after \"=\"");
   const Options options = parse({"-o", "a.exr", "--stats", "scene.xml"});
   CHECK(options.shows_statistics);
   CHECK(options.scenes == std::vector<std::string>{"scene.xml"});
@@ -300,6 +301,14 @@ TEST_CASE("what is no value of an option is refused with what would be one") {
   CHECK_REFUSED(parse({"--list", "shape"}), "did you mean 'shapes'?");
   CHECK_REFUSED(with({"--float=yes"}), "--float takes no value");
   CHECK_REFUSED(with({"-q", "-v"}), "excludes");
+}
+
+TEST_CASE("options for models are refused for scenes, by their names and at once") {
+  CHECK_REFUSED(parse({"a.xml", "--turntable", "4", "-o", "x.exr"}), "--turntable is for models: a.xml has a camera");
+  CHECK_REFUSED(parse({"a.xml", "--floor", "-o", "x.exr"}), "--floor is for models: a.xml has");
+  CHECK_REFUSED(parse({"a.glb", "-", "--sun", "1,2", "--floor", "-o", "x.exr"}),
+                "--floor, --sun are for models: <stdin> has");
+  CHECK(parse({"a.glb", "b.obj", "--floor", "-o", "x.exr"}).stage->floor);
 }
 
 }  // namespace raytrace::test

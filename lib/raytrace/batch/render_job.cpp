@@ -167,12 +167,7 @@ std::optional<SceneDescription> load_picture(const RenderJob& job, RenderObserve
           load_model(job.scene, stage, frame, size.width, size.height, diagnostics, job.threads, job.textures);
       if (description) refuse_to_overwrite(*description, job);
     } else {
-      if (job.stage)
-        throw SettingsError(
-            "--view, --camera, --animation, --fps, --variant, --up, --turntable, --floor, --environment and --sun are "
-            "for "
-            "models: " +
-            job.scene_name() + " has a camera and lights");
+      if (job.stage) throw SettingsError("a stage is for models: " + job.scene_name() + " has a camera and lights");
       const SceneSettings settings{
           .frame = job.frame, .variables = job.variables, .textures = job.textures, .still = job.still};
       description = load_scene(job.scene, diagnostics, job.threads, settings);
