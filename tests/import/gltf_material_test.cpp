@@ -5,62 +5,10 @@
 #include <string>
 #include <utility>
 
-#include "import/support.h"
-#include "raytrace/import/specular_glossiness.h"
-#include "raytrace/materials/openpbr.h"
-#include "support/catch.h"
+#include "import/gltf_read_material.h"
 #include "support/contains.h"
-#include "support/gltf.h"
 
 namespace raytrace::test {
-
-namespace {
-
-/// What becomes of a material, in a file with textures 0 to 3.
-struct ReadMaterial {
-  MeshMaterial material;
-  std::string messages;
-
-  explicit ReadMaterial(const std::string& members) {
-    GltfFile file;
-    file.add(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3", 5126, 3);
-    std::string images, textures;
-    for (const char* const number : {"0", "1", "2", "3"}) {
-      images += std::string(images.empty() ? "" : ",") + R"({"uri":")" + number + R"(.png"})";
-      textures += std::string(textures.empty() ? "" : ",") + R"({"source":)" + number + "}";
-    }
-    const ReadResult read = read_bytes(
-        "a.gltf",
-        file.text(
-            R"("scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},
-            "material":0}]}],"images":[)" +
-            images + R"(],"textures":[)" + textures + R"(],"materials":[{)" + members + "}]"));
-    messages = read.messages;
-    if (read.mesh) material = read.mesh->materials.at(0);
-    // The names are those of fields.
-    const Fields fields = OpenPbr::fields();
-    for (const MeshParameter& parameter : material.openpbr)
-      CHECK(std::any_of(fields.begin(), fields.end(), [&](const Field& f) { return f.name == parameter.name; }));
-  }
-  const MeshParameter* find(std::string_view name) const {
-    for (const MeshParameter& parameter : material.openpbr)
-      if (parameter.name == name) return &parameter;
-    return nullptr;
-  }
-  const MeshParameter& at(std::string_view name) const {
-    INFO(messages << ": " << name);
-    const MeshParameter* const found = find(name);
-    REQUIRE(found);
-    return *found;
-  }
-  double number(std::string_view name) const { return at(name).value.red; }
-};
-
-std::string extended(const std::string& name, const std::string& members) {
-  return R"("extensions":{"KHR_materials_)" + name + R"(":{)" + members + "}}";
-}
-
-}  // namespace
 
 TEST_CASE("glTF: metal, roughness, base colour, normals and light") {
   const ReadMaterial plain("");
@@ -355,90 +303,6 @@ TEST_CASE("glTF: a material's textures have at most two sets of texture coordina
   CHECK(read.messages ==
         "a.gltf: warning: materials[2].emissiveTexture: has other coordinates than the material's TEXCOORD_0 and "
         "TEXCOORD_1, and is left out\n");
-}
-
-TEST_CASE("glTF: the model of specular colour and glossiness is metal and dielectric") {
-  const auto of = [](const std::string& members) { return ReadMaterial(extended("pbrSpecularGlossiness", members)); };
-  const ReadMaterial plain = of("");  // a white mirror
-  CHECK(plain.number("base_metalness") == Approx(1));
-  CHECK(plain.at("base_color").value.red == Approx(1));
-  CHECK(plain.number("specular_roughness") == 0);
-  CHECK(plain.messages.empty());
-
-  const ReadMaterial clay =
-      of(R"("diffuseFactor":[0.5,0.25,0.125,1],"specularFactor":[0.04,0.04,0.04],"glossinessFactor":0.25)");
-  CHECK(clay.number("base_metalness") == 0);
-  CHECK(clay.number("specular_weight") == Approx(1));
-  CHECK(clay.number("specular_roughness") == 0.75);
-  CHECK(clay.at("base_color").value.red == Approx(0.5));
-  CHECK(clay.at("base_color").value.blue == Approx(0.125));
-  CHECK(clay.at("base_color").of_vertices);
-  CHECK(of(R"("specularFactor":[0.01,0.01,0.01])").number("specular_weight") == Approx(0.25));
-  CHECK(of(R"("specularFactor":[0,0,0])").number("specular_weight") == 0);
-
-  const ReadMaterial gold = of(R"("diffuseFactor":[0,0,0,1],"specularFactor":[0.9,0.7,0.3])");
-  CHECK(gold.number("base_metalness") == Approx(1));
-  CHECK(gold.at("base_color").value.red == Approx(0.9));
-  CHECK(gold.at("base_color").value.blue == Approx(0.3));
-
-  // It counts in place of the other model, and its alpha, too.
-  const ReadMaterial both(
-      R"("alphaMode":"BLEND","normalTexture":{"index":3},"pbrMetallicRoughness":{"roughnessFactor":0.1,
-      "baseColorFactor":[0,1,0,1]},)" +
-      extended("pbrSpecularGlossiness", R"("diffuseFactor":[1,1,1,0.5],"glossinessFactor":0.5)"));
-  CHECK(both.number("specular_roughness") == 0.5);
-  CHECK(both.material.d == 0.5);
-  CHECK(both.material.norm.file == "3.png");
-}
-
-TEST_CASE("glTF: what is part metal reflects and scatters in all as much as its two colours say") {
-  for (const double diffuse : {0.0, 0.1, 0.4, 0.8})
-    for (const double specular : {0.04, 0.1, 0.3, 0.9}) {
-      const auto [base, metalness, weight] = metal_share({diffuse, diffuse, diffuse}, {specular, specular, specular});
-      INFO(diffuse << ", " << specular << ": " << base.red << ", " << metalness);
-      CHECK(weight == Approx(1));
-      if (base.red == 1) continue;
-      CHECK(metalness * base.red + (1 - metalness) * 0.04 == Approx(specular).margin(1e-6));
-      CHECK((1 - metalness) * base.red == Approx(diffuse * (1 - specular) / 0.96).margin(1e-6));
-    }
-}
-
-TEST_CASE("glTF: pictures of specular colour and glossiness become those of metal and roughness") {
-  const std::string members =
-      R"("diffuseFactor":[0.5,1,1,0.5],"diffuseTexture":{"index":1},"specularFactor":[1,0.5,1],"glossinessFactor":0.75,)";
-  const ReadMaterial read(R"("alphaMode":"BLEND",)" +
-                          extended("pbrSpecularGlossiness", members + R"("specularGlossinessTexture":{"index":2})"));
-  CHECK(read.messages.empty());
-  const MeshParameter &color = read.at("base_color"), &metal = read.at("base_metalness");
-  REQUIRE(color.texture.made_of);
-  CHECK(color.value.red == 1);
-  CHECK(color.texture.made_of->is_color);
-  CHECK(color.texture.made_of->diffuse.file == "1.png");
-  CHECK(color.texture.made_of->specular.file == "2.png");
-  CHECK(color.texture.made_of->diffuse_factor.red == 0.5);
-  CHECK(color.texture.made_of->specular_factor.green == 0.5);
-  CHECK(color.texture.made_of->glossiness_factor == 0.75);
-  REQUIRE(metal.texture.made_of);
-  CHECK_FALSE(metal.texture.made_of->is_color);
-  CHECK(metal.channel == 2);
-  CHECK(read.at("specular_roughness").channel == 1);
-  CHECK(read.at("specular_roughness").texture.made_of == metal.texture.made_of);
-  CHECK(read.at("specular_weight").channel == 0);
-  CHECK(read.material.map_d.file == "1.png");
-  CHECK(read.material.map_d.made_of == nullptr);
-  CHECK(read.material.d == 0.5);
-
-  const ReadMaterial apart(extended(
-      "pbrSpecularGlossiness",
-      members + R"("specularGlossinessTexture":{"index":2,"extensions":{"KHR_texture_transform":{"scale":[2,2]}}})"));
-  CHECK(contains(apart.messages, "has its textures at different places"));
-  CHECK(apart.number("base_metalness") == 0);
-  CHECK(apart.at("base_color").texture.file == "1.png");
-  CHECK(apart.at("base_color").texture.made_of == nullptr);
-  const MeshTexture& roughness = apart.at("specular_roughness").texture;
-  CHECK(roughness.file == "2.png");
-  CHECK(roughness.value_scale * 0.5 + roughness.value_offset == 1 - 0.75 * 0.5);
-  CHECK(apart.at("specular_roughness").channel == 3);
 }
 
 }  // namespace raytrace::test
