@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <vector>
 
+#include "raytrace/scene/patch_geometry.cpp"  // NOLINT(bugprone-suspicious-include)
 #include "support/catch.h"
 #include "support/chi_square.h"
 #include "support/lanes.h"
@@ -95,6 +97,59 @@ TEST_CASE("points of flat patches are drawn with their density, which integrates
     CHECK(worst_place < 1e-4);
     CHECK(chi_square_deviation(observed, expected) < 4);
   }
+}
+
+TEST_CASE("points of ellipses, with holes or without, are drawn evenly in area, with that density") {
+  constexpr std::size_t rings = 8, sectors = 16;
+  constexpr int samples = 100000;
+  const Vec3d origin{2, 1, -3}, from{2.2, 0, -2.5};
+  const Affine map{{0.8, 0.1, 0}, {0, -0.3, 0.1}, {0.3, 0.2, 1}, origin};
+  const double outer = 0.5, inner = GENERATE(0.0, 0.3);
+  const LightPatch ellipse = transformed({PatchShape::band, {}, {0, 0, 1}, {outer, inner, 0}}, map, 0).value();
+  const double area = std::numbers::pi * (outer * outer - inner * inner) * length(cross(map.x, map.y));
+  CHECK(area_of(ellipse) == Approx(area));
+  const PatchRecord<FloatN> patch{spread(ellipse.origin), spread(ellipse.a), spread(ellipse.b),
+                                  FloatN(PatchCode::of(ellipse.shape, 5, false))};
+  std::vector<double> observed(rings * sectors);
+  const std::vector<double> expected(rings * sectors, double{samples} / (rings * sectors));
+  double worst_density = 0;
+  bool all_within = true, same_pdf = true, front = true;
+  std::mt19937 random(5);
+  const auto numbers = [&] {
+    return batch_of<FloatN>([&](std::size_t) { return static_cast<double>(random() >> 8U) * 0x1p-24; });
+  };
+  const Bounds box = box_of(ellipse);
+  const Affine back = map.inverse();
+  for (int i = 0; i < samples; i += packet_lanes) {
+    const FloatN u1 = numbers(), u2 = numbers();
+    const PatchSample sample = sample_patch(patch, spread(from), u1, u2);
+    same_pdf = same_pdf && all(patch_pdf(patch, spread(from), sample.p, sample.normal) == sample.pdf);
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const Vec3d p = lane_of(sample.p, lane), on_disk = back.point(p), normal = lane_of(sample.normal, lane);
+      const Vec3d way = p - from;
+      const double per_area = double{sample.pdf.get(lane)} * std::abs(dot(way, normal)) / std::pow(length(way), 3);
+      worst_density = std::max(worst_density, std::abs(per_area * area - 1));
+      front = front && dot(normal, map.z) > 0 && std::abs(dot(normal, normalize(map.x))) < 1e-5;
+      const double place = (on_disk.x * on_disk.x + on_disk.y * on_disk.y - inner * inner) /
+                           (outer * outer - inner * inner),
+                   turn = std::atan2(on_disk.y, on_disk.x) / (2 * std::numbers::pi) + 0.5;
+      all_within = all_within && place > -1e-5 && place < 1 + 1e-5 && std::abs(on_disk.z) < 1e-5;
+      const auto has = [](float lower, double x, float upper) {
+        return x > double{lower} - 1e-5 && x < double{upper} + 1e-5;
+      };
+      all_within = all_within && has(box.lower.x, p.x, box.upper.x) && has(box.lower.y, p.y, box.upper.y) &&
+                   has(box.lower.z, p.z, box.upper.z);
+      const auto cell = [](double x, std::size_t cells) {
+        return static_cast<std::size_t>(std::clamp(x * static_cast<double>(cells), 0.0, double(cells) - 0.5));
+      };
+      ++observed[cell(place, rings) * sectors + cell(turn, sectors)];
+    }
+  }
+  CHECK(all_within);
+  CHECK(same_pdf);
+  CHECK(front);
+  CHECK(worst_density < 1e-4);
+  CHECK(chi_square_deviation(observed, expected) < 4);
 }
 
 }  // namespace raytrace::test

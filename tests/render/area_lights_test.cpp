@@ -57,6 +57,13 @@ const Lamp lamps[] = {
     {"stretched, mirrored sphere",
      "<spheres><sphere><center x='0.1' y='0' z='0'/><radius>0.3</radius>M<transform>"
      "<scale x='-0.5' y='2' z='1'/><rotate x='1' y='1' z='0.3' angle='40'/></transform></sphere></spheres>"},
+    {"elliptical disk",
+     "<disks><disk><center x='0' y='0.1' z='0'/><normal x='0.3' y='-1' z='0'/><radius>0.5</radius>M<transform>"
+     "<scale x='1.4' y='1' z='0.5'/></transform></disk></disks>"},
+    {"skewed, mirrored annulus",
+     "<annuli><annulus><center x='0' y='0.1' z='0'/><normal x='0.3' y='-1' z='0.2'/><innerradius>0.2</innerradius>"
+     "<outerradius>0.8</outerradius>M<transform><scale x='-0.7' y='0.7' z='1.2'/>"
+     "<rotate x='0.2' y='1' z='0' angle='35'/><scale x='1' y='1' z='0.8'/></transform></annulus></annuli>"},
 };
 
 /// A grey room's corner about the lamp. emissive: more of the lamp's material.
@@ -141,6 +148,31 @@ TEST_CASE("a floor far below a small lamp is lit as by a point") {
   CHECK(std::abs(mean(rendered(parsed_scene(scene))) / wanted - 1) < 1e-3);
 }
 
+TEST_CASE("a floor below an elliptical lamp gets its closed form in few samples") {
+  // On the axis of an ellipse at the distance d, pi L a b / sqrt((a^2 + d^2) (b^2 + d^2)); less that of its hole.
+  const auto form = [](double a, double b) { return a * b / std::sqrt((a * a + 1) * (b * b + 1)); };
+  const auto lit_by = [](const std::string& lamp) {
+    std::string scene = room(lamp, "", 16, "");
+    const std::string camera = "<eye x='0' y='1' z='4'/><lookat x='0' y='-0.4' z='0'/><fov>50</fov>";
+    scene.replace(scene.find(camera), camera.size(),
+                  "<eye x='0' y='-0.5' z='0.1'/><lookat x='0' y='-1' z='0'/><fov>0.1</fov>");
+    scene.replace(scene.find("<plane><point x='0' y='0' z='-1.5'"), 34, "<plane><point x='0' y='0' z='-900'");
+    scene.replace(scene.find("<maxdepth>2"), 11, "<maxdepth>1");
+    return mean(rendered(parsed_scene(scene))) / (0.6 * 2);
+  };
+  const std::string stretched = "M<transform><scale x='1.5' y='1' z='0.2'/></transform>";
+  const double disk =
+      lit_by("<disks><disk><center x='0' y='0' z='0'/><normal x='0' y='-1' z='0'/><radius>0.4</radius>" + stretched +
+             "</disk></disks>");
+  const double annulus = lit_by(
+      "<annuli><annulus><center x='0' y='0' z='0'/><normal x='0' y='-1' z='0'/><innerradius>0.2</innerradius>"
+      "<outerradius>0.4</outerradius>" +
+      stretched + "</annulus></annuli>");
+  INFO(disk << ", " << annulus);
+  CHECK(std::abs(disk / form(0.6, 0.08) - 1) < 0.003);
+  CHECK(std::abs(annulus / (form(0.6, 0.08) - form(0.3, 0.04)) - 1) < 0.003);
+}
+
 TEST_CASE("a lamp cut into many triangles is as bright as one") {
   std::string triangles = "<meshes><mesh><positions>";
   constexpr int cuts = 30;
@@ -190,7 +222,8 @@ TEST_CASE("a lamp with a texture is as bright where it is drawn as where it is m
        "M</rectangle></rectangles>"},
       {"triangle", lamps[1].objects},
       {"disk", lamps[4].objects},
-      {"mirrored box", lamps[10].objects}};
+      {"mirrored box", lamps[10].objects},
+      {"annulus, skewed and mirrored", lamps[14].objects}};
   const auto check = [&](const std::string& name, const std::string& objects) {
     const std::string sides = name == "triangle" ? "<twosided>true</twosided>" : "";
     const double drawn = bright(objects, sides, 512),
@@ -237,12 +270,14 @@ TEST_CASE("of a lamp whose texture is dark but for a spot, light is drawn from t
   CHECK(error(some) < error(even) * 0.3);
 }
 
-TEST_CASE("a stretched sphere that shines is drawn, and not left to chance") {
-  const auto with = [](const std::string& emissive, int samples) {
-    return rendered(parsed_scene(room("<spheres><sphere><center x='0' y='0' z='0'/><radius>0.05</radius>M<transform>"
-                                      "<scale x='1' y='4' z='1'/></transform></sphere></spheres>",
-                                      emissive, samples, "")),
-                    2);
+TEST_CASE("round shapes that shine are drawn, and not left to chance, where they are stretched") {
+  const std::string stretched = "</radius>M<transform><scale x='1' y='4' z='2'/></transform>";
+  const std::string lamp =
+      GENERATE_COPY("<spheres><sphere><center x='0' y='0' z='0'/><radius>0.05" + stretched + "</sphere></spheres>",
+                    "<disks><disk><center x='0' y='0' z='0'/><normal x='1' y='-1' z='1'/><radius>0.05" + stretched +
+                        "</disk></disks>");
+  const auto with = [&](const std::string& emissive, int samples) {
+    return rendered(parsed_scene(room(lamp, emissive, samples, "")), 2);
   };
   const FloatPicture many = with("", 1024);
   const auto error = [&](const FloatPicture& picture) {

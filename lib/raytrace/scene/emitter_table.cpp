@@ -28,7 +28,7 @@ LightEmission emission_of(const LightPatch& patch, float radiance, bool two_side
   LightEmission emission{box_of(patch)};
   emission.power = static_cast<float>(area_of(patch) * static_cast<double>(radiance));
   std::optional<Vec3d> axis;
-  if (is_flat(patch)) axis = cross(patch.a, patch.b);
+  if (is_flat(patch) || patch.shape == PatchShape::ellipse) axis = cross(patch.a, patch.b);
   if (patch.shape == PatchShape::band && patch.b.z == 0) axis = patch.a * (patch.b.x - patch.b.y);
   if (axis && length(*axis) > 0 && !two_sided) {
     emission.axis = Vec3f(normalize(*axis));

@@ -22,8 +22,8 @@ struct MaterialEmission {
   bool textured = false;  ///< whether textures may change it along the surface; then `radiance` is about the most
 };
 
-/// The patches of all surfaces that shine. Planes, and round shapes but spheres whose instances stretch them, are not
-/// among them: their light counts where a path meets them.
+/// The patches of all surfaces that shine. Planes, and cylinders, cones and toruses whose instances stretch them,
+/// are not among them: their light counts where a path meets them.
 ///
 /// Flat patches whose texture is not even are cut into up to 32 x 32, each with the power that its part of the texture
 /// has: the tree then draws what is bright. Round ones are drawn as if they were as bright everywhere.

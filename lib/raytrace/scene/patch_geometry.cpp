@@ -15,6 +15,23 @@ Affine ellipsoid_map(const LightPatch& patch) {
   return {{a.x, b.z, b.y}, {b.z, a.y, b.x}, {b.y, b.x, a.z}, patch.origin};
 }
 
+/// How large the hole is.
+double hole_of(const LightPatch& ellipse) { return dot(ellipse.a, ellipse.b) / dot(ellipse.a, ellipse.a); }
+
+/// A disk or an annulus becomes an ellipse.
+LightPatch stretched_ring(const LightPatch& ring, const Affine& affine) {
+  const double first = ring.b.x, last = ring.b.y, radius = std::max(first, last);
+  const Vec3d across = normalize(cross(ring.a, std::abs(ring.a.x) < 0.5 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0)));
+  // Two radii that were at right angles, turned so far that they are so again.
+  const Vec3d x = affine.vector(across) * radius, y = affine.vector(cross(ring.a, across)) * radius;
+  const double turn = 0.5 * std::atan2(2 * dot(x, y), dot(x, x) - dot(y, y));
+  const double sine = std::sin(turn), cosine = std::cos(turn);
+  const Vec3d a = x * cosine + y * sine;
+  Vec3d b = y * cosine - x * sine;
+  if (dot(cross(a, b), affine.vector(ring.a)) * (first - last) < 0) b = -b;  // its front stays
+  return {PatchShape::ellipse, affine.point(ring.origin), a, b + a * (std::min(first, last) / radius)};
+}
+
 std::optional<LightPatch> stretched_sphere(const LightPatch& sphere, const Affine& affine) {
   const double size = length(affine.x) + length(affine.y) + length(affine.z), scale = 1 / size;
   const Affine map{affine.x * scale, affine.y * scale, affine.z * scale};
@@ -51,7 +68,11 @@ std::optional<LightPatch> transformed(const LightPatch& patch, const Affine& aff
     if (affine.determinant() < 0) std::swap(result.a, result.b);  // its front stays
     return result;
   }
-  if (scale == 0) return patch.shape == PatchShape::sphere ? stretched_sphere(patch, affine) : std::nullopt;
+  if (scale == 0) {
+    if (patch.shape == PatchShape::sphere) return stretched_sphere(patch, affine);
+    if (patch.shape == PatchShape::band && patch.b.z == 0) return stretched_ring(patch, affine);
+    return std::nullopt;
+  }
   const Vec3d origin = affine.point(patch.origin);
   if (patch.shape == PatchShape::sphere) return LightPatch{patch.shape, origin, patch.a * scale, patch.b};
   return LightPatch{patch.shape, origin, normalize(affine.vector(patch.a)), patch.b * scale};
@@ -77,6 +98,10 @@ double area_of(const LightPatch& patch) {
       const Vec3d x = cross(map.y, map.z), y = cross(map.z, map.x), z = cross(map.x, map.y);
       return 4 * pi * std::sqrt((dot(x, x) + dot(y, y) + dot(z, z)) / 3);
     }
+    case PatchShape::ellipse: {
+      const double hole = hole_of(patch);
+      return pi * (1 - hole * hole) * length(cross(patch.a, patch.b));
+    }
   }
   return 0;
 }
@@ -88,6 +113,10 @@ Bounds box_of(const LightPatch& patch) {
   if (patch.shape == PatchShape::ellipsoid) {
     const Affine map = ellipsoid_map(patch);
     return bounds_around(patch.origin, {length(map.x), length(map.y), length(map.z)});
+  }
+  if (patch.shape == PatchShape::ellipse) {
+    const Vec3d other = b - a * hole_of(patch);
+    return bounds_around(patch.origin, {std::hypot(a.x, other.x), std::hypot(a.y, other.y), std::hypot(a.z, other.z)});
   }
   if (patch.shape == PatchShape::torus) return around(patch.origin, b.x + b.y);
   const auto ring = [&](double height, double radius) {

@@ -184,6 +184,19 @@ FloatN torus_density(const PatchRecord<FloatN>& torus, const Vec3<FloatN>& p) {
   return FloatN(1 / (4 * pi * pi)) / (tube * max(from_axis, tube * FloatN(1e-6F)));
 }
 
+/// An ellipse, as where a map takes the unit disk, or a ring of it.
+struct Ellipse {
+  FloatN hole;  ///< how large it is
+  Vec3<FloatN> across, other_axis;
+
+  explicit Ellipse(const PatchRecord<FloatN>& patch)
+      : hole(max(dot(patch.a, patch.b) / dot(patch.a, patch.a), FloatN(0))),
+        across(cross(patch.a, patch.b)),
+        other_axis(patch.b - patch.a * hole) {}
+  FloatN ring() const { return (FloatN(1) - hole) * (FloatN(1) + hole); }  ///< the part of the disk that it is
+  FloatN density() const { return FloatN(1 / pi) / (ring() * length(across)); }
+};
+
 void set(const MaskN& here, const Vec3<FloatN>& from, const Vec3<FloatN>& p, const Vec3<FloatN>& normal,
          const FloatN& size, PatchSample& result) {
   result.p = select(here, p, result.p);
@@ -255,6 +268,16 @@ void sample_ellipsoid(const PatchRecord<FloatN>& patch, const MaskN& here, const
   result.way = select(here & cone.outside, ellipsoid.map(point.way) * size, result.way);
 }
 
+void sample_ellipse(const PatchRecord<FloatN>& patch, const MaskN& here, const Vec3<FloatN>& from, const FloatN& u1,
+                    const FloatN& u2, PatchSample& result) {
+  const Ellipse ellipse(patch);
+  const DiskPoint<FloatN> point = on_unit_disk(u1, u2);
+  const FloatN radius2 = max(point.x * point.x + point.y * point.y, FloatN(1e-37F));
+  const FloatN outwards = sqrt(ellipse.ring() + ellipse.hole * ellipse.hole / radius2);
+  set(here, from, patch.origin + patch.a * (point.x * outwards) + ellipse.other_axis * (point.y * outwards),
+      normalize(ellipse.across), max(largest_component(patch.a), largest_component(patch.b)), result);
+}
+
 void sample_band(const PatchRecord<FloatN>& band, const MaskN& here, const Vec3<FloatN>& from, const FloatN& u1,
                  const Vec3<FloatN>& outwards, PatchSample& result) {
   const auto& [first, last, height] = band.b;
@@ -278,10 +301,11 @@ FloatN density(const PatchRecord<FloatN>& patch, const std::optional<FlatView>& 
                const Vec3<FloatN>& p, const Vec3<FloatN>& normal) {
   const MaskN sphere = is(patch, PatchShape::sphere), ellipsoid = is(patch, PatchShape::ellipsoid),
               band = is(patch, PatchShape::band), torus = is(patch, PatchShape::torus),
-              flat = !(sphere | ellipsoid | band | torus);
+              ellipse = is(patch, PatchShape::ellipse), flat = !(sphere | ellipsoid | band | torus | ellipse);
   FloatN per_area = flat_density(patch);
   if (any(band)) per_area = select(band, band_density(patch), per_area);
   if (any(torus)) per_area = select(torus, torus_density(patch, p), per_area);
+  if (any(ellipse)) per_area = select(ellipse, Ellipse(patch).density(), per_area);
   if (any(sphere)) per_area = select(sphere, sphere_density(patch), per_area);
   FloatN pdf = per_solid_angle(per_area, from, p, normal);
   if (any(sphere)) {
@@ -304,7 +328,7 @@ PatchSample sample_patch(const PatchRecord<FloatN>& patch, const Vec3<FloatN>& f
                          const FloatN& u2) {
   const MaskN sphere = is(patch, PatchShape::sphere), ellipsoid = is(patch, PatchShape::ellipsoid),
               band = is(patch, PatchShape::band), torus = is(patch, PatchShape::torus),
-              flat = !(sphere | ellipsoid | band | torus);
+              ellipse = is(patch, PatchShape::ellipse), flat = !(sphere | ellipsoid | band | torus | ellipse);
   PatchSample result{};
   std::optional<FlatView> view;
   if (any(flat)) {
@@ -313,6 +337,7 @@ PatchSample sample_patch(const PatchRecord<FloatN>& patch, const Vec3<FloatN>& f
   }
   if (any(sphere)) sample_sphere(patch, sphere, from, u1, u2, result);
   if (any(ellipsoid)) sample_ellipsoid(patch, ellipsoid, from, u1, u2, result);
+  if (any(ellipse)) sample_ellipse(patch, ellipse, from, u1, u2, result);
   if (any(band | torus)) {
     const auto [sine, cosine] = sin_cos_of_turns(u2);
     const Frame<FloatN> frame(select(band | torus, patch.a, Vec3<FloatN>(Vec3f(0, 0, 1))));

@@ -16,6 +16,8 @@ enum class PatchShape {
   ellipsoid,  ///< about `origin`, where the symmetric map of diagonal a, and b.x in its row y and column z and so on,
               ///< takes the unit sphere
   torus,      ///< about `origin` and the axis a, of swept radius b.x and tube radius b.y
+  ellipse,    ///< about `origin`, with the half axes a and b - h a, which are at right angles: h is the size of a hole
+              ///< of the same shape, over its own, or 0
 };
 
 /// The front is where a turns to b anticlockwise, and the outside of a sphere, an ellipsoid and a torus. That of a band
