@@ -59,12 +59,28 @@ std::string explain_no_number(std::string_view text) {
   return "is not a number; write one such as 1.5";
 }
 
+/// The chemical symbols that other programs have for metals.
+struct Symbol {
+  std::string_view symbol, metal;
+};
+constexpr Symbol symbols[] = {
+    {"Ag", "silver"}, {"Al", "aluminium"}, {"Au", "gold"},     {"Cr", "chromium"},     {"Cu", "copper"},
+    {"Fe", "iron"},   {"Ni", "nickel"},    {"Pt", "platinum"}, {"Ni_palik", "nickel"}, {"Ti", "titanium"},
+};
+
+/// That of the words which the text stands for or is misspelt of.
+std::string_view meant_word(std::string_view text, std::span<const std::string_view> words) {
+  for (const auto& [symbol, metal] : symbols)
+    if (symbol == text && std::find(words.begin(), words.end(), metal) != words.end()) return metal;
+  return nearest_name(text, words);
+}
+
 /// "is neither linear nor smooth; write one of them"
 std::string explain_no_choice(std::string_view text, std::span<const std::string_view> words) {
   std::string message = "is neither ";
   for (std::size_t i = 0; i < words.size(); ++i)
     message.append(i == 0 ? "" : i + 1 < words.size() ? ", " : " nor ").append(words[i]);
-  const std::string_view nearest = nearest_name(text, words);
+  const std::string_view nearest = meant_word(text, words);
   return message + (nearest.empty() ? "; write one of them" : "; did you mean " + in_quotes(nearest) + "?");
 }
 
