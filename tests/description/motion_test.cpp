@@ -58,4 +58,12 @@ TEST_CASE("a mesh in a group that instances move has its form of the frame") {
   CHECK(accepted(text).groups.size() == 1);
 }
 
+TEST_CASE("the warning that a material stands still has its name") {
+  const std::string text = open_shutter(
+      "<materials><mattes><matte><name>paint</name><ka>1</ka><kd><key frame='1' value='0'/><key frame='3' value='1'/>"
+      "</kd><cd red='1' green='1' blue='1'/></matte></mattes></materials>");
+  CHECK(reported(text) ==
+        "s:2: warning: the material 'paint' stands still while the shutter is open: its keys count at the frame\n");
+}
+
 }  // namespace raytrace::test

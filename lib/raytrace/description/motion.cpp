@@ -14,6 +14,8 @@
 #include <variant>
 #include <vector>
 
+#include "raytrace/text/message.h"
+
 namespace raytrace {
 
 namespace {
@@ -252,21 +254,23 @@ class MotionFinder {
         if (items.size() == items_then.size() &&
             have_same_values(fields, &items[i].parameters, &items_then[i].parameters))
           continue;
-        if (warned_.insert(items[i].line).second)
-          diagnostics_.warning(SourceLocation{items[i].line, 0},
-                               what + " stands still while the shutter is open: its keys count at the frame");
+        if (!warned_.insert(items[i].line).second) continue;
+        std::string which = "this " + what;
+        if constexpr (requires { items[i].name; }) which = "the " + what + " " + in_quotes(items[i].name);
+        diagnostics_.warning(SourceLocation{items[i].line, 0},
+                             which + " stands still while the shutter is open: its keys count at the frame");
       }
     };
     for_each_type(Lights{}, [&]<class T>(std::type_identity<T>) {
-      compare(std::get<LightItems<T>>(scene_.lights), std::get<LightItems<T>>(then.lights), T::fields(), "this light");
+      compare(std::get<LightItems<T>>(scene_.lights), std::get<LightItems<T>>(then.lights), T::fields(), "light");
     });
     for_each_type(Materials{}, [&]<class T>(std::type_identity<T>) {
       compare(std::get<MaterialItems<T>>(scene_.materials), std::get<MaterialItems<T>>(then.materials), T::fields(),
-              "this material");
+              "material");
     });
     for_each_type(Textures{}, [&]<class T>(std::type_identity<T>) {
       compare(std::get<TextureItems<T>>(scene_.textures), std::get<TextureItems<T>>(then.textures), T::fields(),
-              "this texture");
+              "texture");
     });
   }
 
