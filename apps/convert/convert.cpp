@@ -129,6 +129,8 @@ void split_faces(aiMesh& mesh) {
     delete[] std::exchange(values, own);
   };
   split(mesh.mVertices);
+  split(mesh.mTangents);
+  split(mesh.mBitangents);
   for (aiVector3D*& uvs : mesh.mTextureCoords) split(uvs);
   for (aiColor4D*& colors : mesh.mColors) split(colors);
   mesh.mNumVertices = static_cast<unsigned>(shared.size());

@@ -99,6 +99,16 @@ TEST_CASE("points of flat patches are drawn with their density, which integrates
   }
 }
 
+TEST_CASE("annuli that are stretched to a line are no patches, since floats lose their width") {
+  const auto is_patch = [](double inner, double width) {
+    const Affine map{{1, 0, 0}, {0, width, 0}, {0, 0, 1}, {0, 0, 0}};
+    return transformed({PatchShape::band, {}, {0, 0, 1}, {0.9, inner, 0}}, map, 0).has_value();
+  };
+  CHECK(is_patch(0.5, 1e-3));
+  CHECK_FALSE(is_patch(0.5, 1e-5));
+  CHECK(is_patch(0, 1e-5));
+}
+
 TEST_CASE("points of ellipses, with holes or without, are drawn evenly in area, with that density") {
   constexpr std::size_t rings = 8, sectors = 16;
   constexpr int samples = 100000;

@@ -148,6 +148,17 @@ TEST_CASE("where light paths go through panes, shadow rays do not bring their li
     CHECK(mean("photons", light, rectangles) == Approx(by_shadow_rays).epsilon(0.04));
   }
   CHECK(green_of(floor_below(overhead_sun, pane_at(2, "window"), "<raycast/>")).mean == 0);
+  // They do not go to what has no end.
+  const auto endless = [](const std::string& caustics) {
+    std::string text =
+        floor_below(overhead_sun, "", "<path><maxdepth>2</maxdepth><caustics>" + caustics + "</caustics></path>");
+    text.replace(
+        text.find("</planes>"), 9,
+        "<plane><point x='0' y='2' z='0'/><normal x='0' y='1' z='0'/><material>window</material></plane></planes>");
+    return green_of(text).mean;
+  };
+  CHECK(endless("light") > 0.5);
+  CHECK(endless("light") == Approx(endless("none")));
 }
 
 TEST_CASE("on a shadow catcher, a pane's shadow is what it does not let through") {

@@ -1,5 +1,6 @@
 // The parts of models in ids of objects: the nodes of a glTF file.
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -79,6 +80,18 @@ TEST_CASE("an instance is one object, whatever the parts of its models") {
   CHECK(object_names(description) == std::vector<std::string>{"copy"});
   for (const std::string& isa : usable_isas())
     CHECK(ids_in(description, isa) == std::vector<std::uint32_t>{1, 0, 1, 0, 1, 0});
+}
+
+TEST_CASE("very many nodes of few names have names of their own") {
+  SceneDescription description;
+  auto data = std::make_shared<MeshData>();
+  constexpr std::size_t count = 100'000;
+  for (std::size_t i = 0; i < count; ++i) data->parts.push_back({i % 2 == 0 ? "a" : "b", i});
+  std::get<ObjectItems<Mesh>>(description.objects).emplace_back().data = data;
+  const std::vector<std::string> names = object_names(description);
+  CHECK(names.size() == count + 1);
+  CHECK(names.at(3) == "a#2");
+  CHECK(names.back().starts_with("b#"));
 }
 
 }  // namespace raytrace::test

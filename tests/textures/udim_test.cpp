@@ -152,7 +152,7 @@ TEST_CASE("what is wrong with tiles is said in the image's line") {
   CHECK(contains(messages, "tile 1003: "));
   messages.clear();
   CHECK_FALSE(loaded_tiles(folder, messages, "<wrap>clamp</wrap>"));
-  CHECK(contains(messages, "an image of UDIM tiles has no <wrap>"));
+  CHECK(contains(messages, "an image of UDIM tiles has neither <wrap> nor <wrapv>"));
 }
 
 }  // namespace raytrace::test

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <unordered_map>
 #include <unordered_set>
 
 #include "raytrace/aovs/cryptomatte.h"
@@ -211,9 +212,13 @@ std::vector<std::string> object_names(const SceneDescription& description) {
   for (const std::string& name : names)
     if (!name.empty()) taken.insert(cryptomatte::id_of(name));
 
+  std::unordered_map<std::string, int> next_numbers;  // of names that many have
   const auto free_name = [&](const std::string& usual) {
-    std::string name = usual;
-    for (int i = 2; !taken.insert(cryptomatte::id_of(name)).second; ++i) name = usual + '#' + std::to_string(i);
+    if (taken.insert(cryptomatte::id_of(usual)).second) return usual;
+    int& next = next_numbers.try_emplace(usual, 2).first->second;
+    std::string name;
+    do name = usual + '#' + std::to_string(next++);
+    while (!taken.insert(cryptomatte::id_of(name)).second);
     return name;
   };
   auto name = names.begin();

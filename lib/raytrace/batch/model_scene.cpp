@@ -224,7 +224,8 @@ void add_studio_sky(SceneDescription& description, double radiance) {
 constexpr double studio_radiance = 0.3;
 
 /// Of the sky beside a file's lights, of any brightness: a part of what they give to a surface in the middle that faces
-/// each of them, so that shadows and metals are not black. Lights within the model count as if at its edge.
+/// each of them, in its brightest channel, so that shadows and metals are not black. Lights within the model count as
+/// if at its edge.
 double radiance_beside(const std::vector<FileLight>& lights, const Affine& affine, const SceneDescription& shown) {
   Extent extent;
   for_each_vertex(shown, [&](const Vec3d& p) { extent.add(p); });
@@ -233,7 +234,8 @@ double radiance_beside(const std::vector<FileLight>& lights, const Affine& affin
   for (const FileLight& light : lights) {
     const Vec3d way = affine.point(light.position) - extent.middle();
     const bool is_far = light.kind == FileLight::Kind::directional;
-    irradiance += light.intensity.green / (is_far ? 1 : std::max(dot(way, way), least));
+    irradiance += std::max({light.intensity.red, light.intensity.green, light.intensity.blue}) /
+                  (is_far ? 1 : std::max(dot(way, way), least));
   }
   constexpr double share = 0.08;
   return share * std::min(irradiance, 1e18) / std::numbers::pi;

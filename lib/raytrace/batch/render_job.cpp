@@ -59,7 +59,7 @@ ViewPlane requested_view_plane(const ViewPlane& viewplane, const RenderJob& job)
   return requested;
 }
 
-/// A shift counts in the picture's larger side: it stays as long as it was where that is another.
+/// A shift counts in the picture's larger side: where that changes, the shift keeps its length on the view plane.
 void keep_shift(const ViewPlane& before, const ViewPlane& now, CameraParameters& any_camera) {
   const auto side = [](const ViewPlane& picture) { return picture.pixelsize * std::max(picture.hres, picture.vres); };
   std::visit(

@@ -79,7 +79,7 @@ std::string hash_of(const SpecularGlossiness& from) {
   for (const SpecularGlossiness::Source& source : {from.diffuse, from.specular}) {
     const std::string digits = source.bytes          ? hash_of(*source.bytes)
                                : source.file.empty() ? std::string(32, '-')
-                                                     : file_hash(source.file);
+                                                     : naming(source, [&] { return file_hash(source.file); });
     hash.add(digits.data(), digits.size());
   }
   for (const double factor :

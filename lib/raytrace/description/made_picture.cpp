@@ -13,7 +13,9 @@ namespace raytrace {
 namespace {
 
 double light_of_srgb(double code) { return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4); }
-double srgb_of_light(double light) { return light <= 0.0031308 ? light * 12.92 : 1.055 * std::pow(light, 1 / 2.4) - 0.055; }
+double srgb_of_light(double light) {
+  return light <= 0.0031308 ? light * 12.92 : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
+}
 
 std::byte as_byte(double number) { return static_cast<std::byte>(std::lround(std::clamp(number, 0.0, 1.0) * 255)); }
 
@@ -85,7 +87,7 @@ class MadePicture : public PictureReader {
   }
 
   Picture read() override {
-    const SourcePicture diffuse = taken(diffuse_), specular = taken(specular_);
+    const SourcePicture diffuse = taken(diffuse_, from_.diffuse), specular = taken(specular_, from_.specular);
     Picture made{layout(), LargeArray<std::byte>::zeros(layout().bytes()), false};
     std::byte* at = made.pixels.data();
     for (int row = 0; row < made.height; ++row)
@@ -105,14 +107,13 @@ class MadePicture : public PictureReader {
 
  private:
   static std::unique_ptr<PictureReader> opened(const SpecularGlossiness::Source& source) {
-    if (source.bytes) return open_encoded_picture(*source.bytes);
-    return source.file.empty() ? nullptr : open_picture(source.file);
+    if (source.file.empty() && !source.bytes) return nullptr;
+    return naming(source,
+                  [&] { return source.bytes ? open_encoded_picture(*source.bytes) : open_picture(source.file); });
   }
-  static SourcePicture taken(std::unique_ptr<PictureReader>& reader) {
+  static SourcePicture taken(std::unique_ptr<PictureReader>& reader, const SpecularGlossiness::Source& source) {
     if (!reader) return {};
-    SourcePicture picture(reader->read());
-    reader.reset();
-    return picture;
+    return naming(source, [&] { return SourcePicture(std::exchange(reader, nullptr)->read()); });
   }
 
   const SpecularGlossiness& from_;

@@ -36,17 +36,20 @@ template <class Number>
 std::string_view before_unit(std::string_view text) {
   const std::size_t digits = text.find_last_of("0123456789.") + 1;
   const std::string_view number = text.substr(0, digits), unit = xml::trimmed(text.substr(digits));
-  const bool is_unit =
-      unit != "e" && unit != "E" && unit != "rad" && std::all_of(unit.begin(), unit.end(), [](unsigned char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c >= 0x80;  // degrees and micro are no ASCII
-      });
+  const bool is_unit = unit != "e" && unit != "E" && !unit.starts_with("rad") &&
+                       !(number == "0" && unit.starts_with('x')) &&
+                       std::all_of(unit.begin(), unit.end(), [](unsigned char c) {
+                         // Degrees and micro are no ASCII.
+                         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c >= 0x80;
+                       });
   Number value = 0;
   return !unit.empty() && is_unit && convert(number, value) == Outcome::whole ? number : std::string_view();
 }
 
 std::string explain_no_number(std::string_view text) {
   double percents = 0;
-  if (text.ends_with('%') && convert(xml::trimmed(text.substr(0, text.size() - 1)), percents) == Outcome::whole)
+  if (text.ends_with('%') && convert(xml::trimmed(text.substr(0, text.size() - 1)), percents) == Outcome::whole &&
+      std::isfinite(percents))
     return "is not a number; write it as " + number_text(percents / 100);
   if (const std::string_view number = before_unit<double>(text); !number.empty())
     return "is not a number; write it without a unit: " + std::string(number);

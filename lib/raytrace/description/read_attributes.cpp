@@ -70,7 +70,8 @@ class OwnNumbers {
     std::vector<std::string> numbers;
     if (find_field(fields_, Components<Rgb<double>>::names[0]) < fields_.size())
       numbers = linear_of_hexadecimal(xml::trimmed(text));
-    of_hexadecimal_ |= !numbers.empty();
+    takes_own_ |= i < fields_.size();
+    of_hexadecimal_ = (of_hexadecimal_ || !numbers.empty()) && !takes_own_;
     const bool fine = !numbers.empty() || append_numbers(text, numbers);
     if (i == fields_.size()) {
       others_fine_ = others_fine_ && fine;
@@ -92,8 +93,8 @@ class OwnNumbers {
   }
 
   std::span<const AttributeField> fields_;
-  std::vector<std::string> values_, others_;
-  bool others_fine_ = true, of_hexadecimal_ = false;
+  std::vector<std::string> values_, others_;  ///< by the fields' names, and by others
+  bool others_fine_ = true, takes_own_ = false, of_hexadecimal_ = false;
 };
 
 /// Bit i: the element has the attribute fields[i].

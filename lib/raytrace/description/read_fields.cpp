@@ -55,21 +55,22 @@ const Synonym* find_synonym(std::string_view name, std::span<const FieldInfo> in
   return nullptr;
 }
 
-/// "<thinlenscamera> has <lensradius>", for a camera that has not; empty if none has it.
+/// "<thinlenscamera> has <lensradius>", for a camera that has not; empty if none has it, or this one.
 std::string other_camera_with(std::string_view name, std::string_view camera) {
   std::string found;
-  bool is_camera = false;
+  bool lacks_it = false;  // what is no camera does not
   for_each_type(Cameras{}, [&]<class T>(std::type_identity<T>) {
-    is_camera |= T::element == camera;
+    if (T::element == camera) lacks_it = true;
     const Fields fields = fields_in_files<T>();
     for (const Field& field : fields) {
       const bool is_it =
           field.name == name || std::any_of(std::begin(synonyms), std::end(synonyms),
                                             [&](const auto& s) { return s.name == name && s.field == field.name; });
+      if (is_it && T::element == camera) lacks_it = false;
       if (found.empty() && is_it) found = tag(T::element) + " has " + tag(field.name);
     }
   });
-  return is_camera ? found : std::string();
+  return lacks_it ? found : std::string();
 }
 
 /// That of the fields which the unknown name stands for or is misspelt of; it is absent.

@@ -56,7 +56,10 @@ class MaterialReader {
       material_.thin_walled = is_double_sided();
       return std::move(material_);
     }
-    glossy ? read_specular_glossiness() : read_surface();
+    if (glossy)
+      read_specular_glossiness();
+    else
+      read_surface();
     read_normals();
     read_emission();
     read_transmission();
@@ -119,7 +122,7 @@ class MaterialReader {
 
   static bool is_at_same_place(const MeshTexture& a, const MeshTexture& b) {
     const auto place = [](const MeshTexture& t) {
-      return std::tie(t.scale, t.offset, t.rotation, t.edge_u, t.edge_v, t.nearest, t.by_uvs2);
+      return std::tie(t.scale, t.offset, t.rotation, t.edge_u, t.edge_v, t.by_uvs2);
     };
     return a.file.empty() || b.file.empty() || place(a) == place(b);
   }

@@ -27,8 +27,7 @@ Vec3d origin_of(std::span<const T> positions) {
   for (std::size_t i = 3; i < positions.size() && (size == 0 || is_coarse(distance, size)); i += 3)
     size = std::max(size, length(at(i) - first));
   if (size > 0 && is_coarse(distance, size)) return rounded_origin(first, size);
-  constexpr double near = 4096;  // there, a float's digits reach to 1 / 4096
-  const bool is_far = std::max({std::abs(first.x), std::abs(first.y), std::abs(first.z)}) > near;
+  const bool is_far = std::max({std::abs(first.x), std::abs(first.y), std::abs(first.z)}) > near_the_origin;
   return is_far ? rounded_origin(first, 1) : Vec3d(0, 0, 0);
 }
 

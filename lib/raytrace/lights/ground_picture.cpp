@@ -10,7 +10,7 @@ namespace raytrace {
 
 Picture picture_of_ground(double ground) {
   constexpr int width = 4, height = 256;
-  Picture result{width, height, 4, TexelFormat::floats,
+  Picture result{{width, height, 4, TexelFormat::floats},
                  LargeArray<std::byte>::unset(std::size_t{width} * height * 4 * sizeof(float))};
   std::byte* out = result.pixels.data();
   for (int row = 0; row < height; ++row) {

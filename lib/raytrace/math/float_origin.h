@@ -1,12 +1,14 @@
 // Where to put (0, 0, 0), next to which floats are precise.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 #include "raytrace/math/vec3.h"
 
 namespace raytrace {
+
+/// So near the origin, floats are precise enough for scenes of any usual size: their digits reach to 1 / 4096.
+inline constexpr double near_the_origin = 4096;
 
 /// Whether what is so large and so far away from the origin shows that its coordinates are floats: 128 sizes away they
 /// are rounded by 2^-18 of its size.

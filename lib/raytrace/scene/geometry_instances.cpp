@@ -1,6 +1,8 @@
 // Groups, and where their instances are.
+#include <algorithm>
 #include <string_view>
 #include <unordered_map>
+#include <vector>
 
 #include "raytrace/math/float_origin.h"
 #include "raytrace/scene/geometry_table.h"
@@ -38,7 +40,7 @@ std::unique_ptr<const GeometryTable> GeometryTable::of_group(const ObjectLists& 
   for (int time = 0; time < 2 && result->bounds_.lower.x <= result->bounds_.upper.x; ++time) {
     const auto [center, radius] = sphere_around(result->bounds_);
     // What is small may stand anywhere in a large group.
-    const double distance = length(center), near = std::max(radius, 4096.0);
+    const double distance = length(center), near = std::max(radius, near_the_origin);
     if (!(distance > near) && !is_coarse(distance, radius)) break;
     origin += rounded_origin(center, radius);
     result = table();

@@ -1,6 +1,7 @@
 #include "raytrace/scene/part_table.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 

@@ -11,6 +11,7 @@
 
 namespace raytrace {
 
+/// Which part of which mesh has which number.
 class PartTable {
  public:
   explicit PartTable(const SceneDescription& description);

@@ -19,7 +19,7 @@ Affine ellipsoid_map(const LightPatch& patch) {
 double hole_of(const LightPatch& ellipse) { return dot(ellipse.a, ellipse.b) / dot(ellipse.a, ellipse.a); }
 
 /// A disk or an annulus becomes an ellipse.
-LightPatch stretched_ring(const LightPatch& ring, const Affine& affine) {
+std::optional<LightPatch> stretched_ring(const LightPatch& ring, const Affine& affine) {
   const double first = ring.b.x, last = ring.b.y, radius = std::max(first, last);
   const Vec3d across = normalize(cross(ring.a, std::abs(ring.a.x) < 0.5 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0)));
   // Two radii that were at right angles, turned so far that they are so again.
@@ -28,8 +28,10 @@ LightPatch stretched_ring(const LightPatch& ring, const Affine& affine) {
   const double sine = std::sin(turn), cosine = std::cos(turn);
   const Vec3d a = x * cosine + y * sine;
   Vec3d b = y * cosine - x * sine;
+  constexpr double least = 1e-4;  // of what is added to the size of a hole, for what floats make of the sum
+  if (std::min(first, last) > 0 && !(length(b) >= least * length(a))) return std::nullopt;
   if (dot(cross(a, b), affine.vector(ring.a)) * (first - last) < 0) b = -b;  // its front stays
-  return {PatchShape::ellipse, affine.point(ring.origin), a, b + a * (std::min(first, last) / radius)};
+  return LightPatch{PatchShape::ellipse, affine.point(ring.origin), a, b + a * (std::min(first, last) / radius)};
 }
 
 std::optional<LightPatch> stretched_sphere(const LightPatch& sphere, const Affine& affine) {

@@ -36,10 +36,9 @@ IntegratorParameters default_integrator(const SceneDescription& description) {
 Vec3d origin_of(const CameraParameters& camera) {
   return std::visit(
       [](const auto& parameters) {
-        constexpr double near_origin = 4096;
         const double away = std::min(length(parameters.eye), length(parameters.lookat));
         const double view = length(parameters.lookat - parameters.eye);
-        return away > near_origin || is_coarse(away, view) ? rounded_origin(parameters.eye, view) : Vec3d(0, 0, 0);
+        return away > near_the_origin || is_coarse(away, view) ? rounded_origin(parameters.eye, view) : Vec3d(0, 0, 0);
       },
       camera);
 }
@@ -87,7 +86,6 @@ SceneTables::SceneTables(const SceneDescription& description, int threads, const
   }
   media_.set(media);
   const auto* const path = std::get_if<Path::Parameters>(&integrator_);
-  add_panes(path);
   if (path == nullptr) emissions.clear();
   emitters_.emplace(*geometry_, emissions, path == nullptr ? LightSampling::tree : path->lightsampling,
                     [&](const Hits& hits, const SurfaceInteraction<FloatN>& surface, const FloatN& radius) {
@@ -103,10 +101,10 @@ SceneTables::SceneTables(const SceneDescription& description, int threads, const
     // With two points, there is none to look them up at.
     has_photons_ = caustics_ && path->caustics == Caustics::photons && path->maxdepth > 2;
   }
+  if (path != nullptr && path->maxdepth > 1 && (!caustics_ || media_.has_fog())) add_panes();
 }
 
-void SceneTables::add_panes(const Path::Parameters* path) {
-  if (path == nullptr || path->maxdepth < 2 || (path->caustics != Caustics::none && !media_.has_fog())) return;
+void SceneTables::add_panes() {
   for (std::size_t i = 0; i < details_.size(); ++i) {
     const SurfaceDetail& detail = details_[i];
     panes_.push_back(used_materials_[i] != 0 && detail.is_pane && !detail.has_relief() && !detail.has_layers() ? 1 : 0);

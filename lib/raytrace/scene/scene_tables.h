@@ -153,7 +153,7 @@ class SceneTables {
   /// Whether that may be of a material.
   bool is_cutout(std::int32_t material) const { return details_[static_cast<std::size_t>(material)].is_cutout(); }
   /// Whether shadow rays pass panes: what is thin and clear, and bends no light. Those of surfaces do not where light
-  /// paths bring what comes through panes; they bring nothing to fog.
+  /// paths bring what comes through panes; light paths bring nothing to fog.
   bool has_panes() const { return has_panes_; }
   bool has_panes_for_surfaces() const { return has_panes_ && !caustics_; }
   bool is_pane(std::int32_t material) const { return has_panes_ && panes_[static_cast<std::size_t>(material)] != 0; }
@@ -288,7 +288,7 @@ class SceneTables {
   MeshMaterials mesh_materials(const SceneDescription& description) const;
   void add_caustics();
   /// path: the integrator's, if it is one.
-  void add_panes(const Path::Parameters* path);
+  void add_panes();
 
   /// answer(table, materials) of each material type among the lanes, each lane's of its own.
   template <class Answer>

@@ -39,7 +39,7 @@ struct Choices<Wrap> {
   static constexpr std::array<std::string_view, 4> words = {"repeat", "mirror", "clamp", "black"};
 };
 
-/// The same of what is above and below, where that is another.
+/// What is above and below; `same`: as Wrap has it for both.
 enum class WrapV { same, repeat, mirror, clamp, black };
 template <>
 struct Choices<WrapV> {
@@ -89,7 +89,8 @@ class Image {
     using enum ParameterDiagnostic::Effect;
     if (parameters.file.path.empty()) return ParameterDiagnostic{error, "an image needs a <file>"};
     if (is_udim(parameters.file.path) && (parameters.wrap != Wrap::repeat || wrap_v(parameters) != Wrap::repeat))
-      return ParameterDiagnostic{error, "an image of UDIM tiles has no <wrap>: beyond a tile is the next one"};
+      return ParameterDiagnostic{
+          error, "an image of UDIM tiles has neither <wrap> nor <wrapv>: beyond a tile is the next one"};
     return std::nullopt;
   }
 

@@ -18,8 +18,8 @@ inline Rgb<FloatN> light_of_all(std::span<const Rgb<FloatN>> groups) {
   return light;
 }
 
-/// Light of no group, which counts as the first's.
-inline void set_light(std::span<Rgb<FloatN>> groups, const Rgb<FloatN>& light) {
+/// The first group's is that light, and the others' is none.
+inline void set_light_of_no_group(std::span<Rgb<FloatN>> groups, const Rgb<FloatN>& light) {
   std::ranges::fill(groups, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
   groups.front() = light;
 }

@@ -60,6 +60,7 @@ struct PathBatch::FogPart {
 struct PathBatch::FogLight {
   MaskN lit{false}, has_shadow{false};
   Ray<FloatN> ray;
+  FloatN distance{0};                         ///< of its origin, along the part's rays
   std::uint32_t ray_number = 0;               ///< among the part's
   Rgb<FloatN> radiance{Rgb<float>(0, 0, 0)};  ///< over the density of the draw, times the phase function's value
   IntN group{0};
@@ -92,7 +93,7 @@ void PathBatch::light_fog(const PathPacket& path, const FogPart& part, FogNumber
   const SceneTables& tables = scene_.tables();
   const FloatN begin = numbers(FogDraw::light).x, begin_of_drawn = numbers(FogDraw::flights).y;
   const float share = 1 / static_cast<float>(part.rounds);
-  const PanesAhead panes{IntN(settings_.maxdepth - depth - 1) - path.fog_scatterings, {}, path.distance};
+  PanesAhead panes{IntN(settings_.maxdepth - depth - 1) - path.fog_scatterings, {}, path.distance};
   const auto add_light = [&](const FogLight& light) {
     MaskN lit = light.lit;
     if (none(lit)) return;
@@ -100,6 +101,7 @@ void PathBatch::light_fog(const PathPacket& path, const FogPart& part, FogNumber
     Rgb<FloatN> left(Rgb<float>(1, 1, 1));
     if (const MaskN may_hide = lit & light.has_shadow; any(may_hide)) {
       counts.shadow += count_lanes(may_hide);
+      panes.distance = path.distance + light.distance;
       lit = lit & !(tables.has_panes()
                         ? occluded_behind_panes(scene_, light.ray, may_hide, ids, Coherence::incoherent, panes, left)
                         : occluded_identified(scene_, light.ray, may_hide, ids, Coherence::incoherent));
@@ -156,6 +158,7 @@ PathBatch::FogLight PathBatch::choose_light(const PathPacket& path, const FogPar
       result.ray.origin = select(chosen, ray.origin, result.ray.origin);
       result.ray.direction = select(chosen, ray.direction, result.ray.direction);
       result.ray.far = select(chosen, ray.far, result.ray.far);
+      result.distance = select(chosen, distance, result.distance);
       result.radiance = select(chosen, radiance, result.radiance);
       result.group = select_lanes(chosen, IntN(tables.light_group(i)), result.group);
       result.has_shadow = (result.has_shadow & !chosen) | (chosen & MaskN(light.shadows()));
@@ -187,6 +190,7 @@ PathBatch::FogLight PathBatch::draw_light_in_fog(const PathPacket& path, const F
   if (none(light.lit)) return result;
   result.ray_number = 2;
   result.ray = light.ray;
+  result.distance = distance;
   result.has_shadow = MaskN(true);
   // Paths that are scattered there come to the light as well.
   const FloatN phase = part.phase(light.wi), density = light.pdf * part.flights.pdf(distance);

@@ -89,7 +89,7 @@ void PathBatch::scatter(PathPacket& path, const PathDeparture& from, const BsdfS
   if (tables.has_panes()) [[unlikely]] {
     onward = sample.specular & through & tables.is_pane(tables.material(from.vertex.hits)) &
              goes_straight(-surface.wo, rays.direction);
-    // Beside light paths, from fog alone.
+    // Where light paths bring what surfaces get through panes, paths from fog alone.
     const Vec3<FloatN>& n = path.from_normal;
     if (!tables.has_panes_for_surfaces()) onward = onward & (dot(n, n) == FloatN(0));
   }

@@ -166,7 +166,7 @@ class BlockRenderer {
         waiting_.push_back({block, base, left.first, left.last, wanted, result});
         if (batch_->is_full()) trace_batch();
       } else if (by_group_) [[unlikely]] {
-        if (!raycast) set_light(group_light_, result.radiance);
+        if (!raycast) set_light_of_no_group(group_light_, result.radiance);
         add_by_group(*group_sums, result, wanted, block, base);
         if (!raycast) error.add(light_of_all(group_light_), sample, wanted);
       } else {

@@ -50,8 +50,12 @@ std::uint32_t opaque(TexelFormat format) {
   return format == TexelFormat::halves ? 0x3c00U : std::bit_cast<std::uint32_t>(1.0F);
 }
 
-/// What OpenImageIO says, and no more than once.
-std::string latest_error(OIIO::ImageInput* input) { return input != nullptr ? input->geterror() : OIIO::geterror(); }
+/// The first line of what OpenImageIO says, which may have one for each row, and no more than once.
+std::string latest_error(OIIO::ImageInput* input) {
+  constexpr std::size_t most = 300;
+  const std::string error = input != nullptr ? input->geterror() : OIIO::geterror();
+  return error.substr(0, std::min(error.find('\n'), most));
+}
 
 class OpenImageIOReader final : public PictureReader {
  public:
