@@ -219,9 +219,9 @@ class Models(CommandTest):
         self.assertEqual({x for x, _ in places}, set(range(16, 48)))
         self.assertEqual({y for _, y in places}, set(range(16, 48)))
         # The lamp's 12 candela at 2 units: an irradiance of 3, of which a white matte surface sends 1 / pi on. The sky has
-        # 8 % of the green.
+        # 8 % of the brightest channel.
         red, green, blue, _ = picture[32, 32]
-        sky = 0.08 * 1.5 / math.pi
+        sky = 0.08 * 3 / math.pi
         self.assertAlmostEqual(red, 3 / math.pi + sky, delta=0.02)
         self.assertAlmostEqual(green, 1.5 / math.pi + sky, delta=0.01)
         self.assertAlmostEqual(blue, sky, delta=0.005)
