@@ -1,7 +1,6 @@
 #include "random_description.h"
 #include "reported.h"
 #include "support/catch.h"
-#include "support/contains.h"
 
 namespace raytrace::test {
 
@@ -13,7 +12,7 @@ TEST_CASE("what is printed is read back as the same scene") {
     const std::string text = print_scene(scene);
     const SceneDescription again = accepted(text);
     REQUIRE(same_scene(scene, again));
-    REQUIRE_FALSE(contains(reported(text), "error:"));  // random materials may have warnings
+    REQUIRE(reported(text) == "");
     REQUIRE(print_scene(again) == text);
     objects += std::get<ObjectItems<Sphere>>(scene.objects).size();
   }

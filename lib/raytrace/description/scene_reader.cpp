@@ -19,7 +19,6 @@
 #include "raytrace/description/include.h"
 #include "raytrace/description/read_items.h"
 #include "raytrace/description/scene_files.h"
-#include "raytrace/description/warn_of_materials.h"
 #include "raytrace/parallel/worker_count.h"
 
 namespace raytrace {
@@ -379,9 +378,7 @@ ReadScene read_scene(TextBuffer text, const std::string& file, Diagnostics& diag
   reader.read(std::move(text), file);
   // Where there are errors, not all that stands in the scene has been read.
   if (!diagnostics.has_errors()) report_unused(variables, diagnostics);
-  ReadScene read{reader.take(), variables.moment_was_asked()};
-  if (!diagnostics.has_errors()) warn_of_materials(read.scene, diagnostics);
-  return read;
+  return {reader.take(), variables.moment_was_asked()};
 }
 
 }  // namespace raytrace
