@@ -92,15 +92,15 @@ TEST_CASE("lights shine into fog through a pane as through none") {
        {"lamp", "",
         "<spheres><sphere><center x='40' y='0' z='0'/><radius>20</radius><material>lamp</material></sphere>"
         "</spheres>"}}));
-  const auto mean = [&, lights = lights, lamp = lamp](const std::string& pane, int depth) {
+  const auto mean = [&, its_lights = lights, its_lamp = lamp](const std::string& pane, int depth) {
     Fogged scene;
     scene.fog = "<color red='1' green='1' blue='1'/>";
     scene.box = "<box><min x='-1' y='-1' z='-3'/><max x='1' y='1' z='2'/><material>fog</material></box>";
     scene.materials =
         "<dielectrics><dielectric><name>pane</name><ior>1</ior><thinwalled>true</thinwalled></dielectric>"
         "</dielectrics>";
-    scene.lights = lights;
-    scene.objects = lamp + pane;
+    scene.lights = its_lights;
+    scene.objects = its_lamp + pane;
     scene.path = "<maxdepth>" + std::to_string(depth) + "</maxdepth><caustics>" + caustics + "</caustics>";
     scene.samples = 128;
     return mean_of(scene).red;
