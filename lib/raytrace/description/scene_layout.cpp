@@ -17,12 +17,12 @@ std::string_view parent_of(std::string_view element) {
 }
 
 /// Names of other programs, and the element that does it here.
-struct Synonym {
+struct ElementHint {
   std::string_view name, element;
   std::string_view note{};  ///< what else there is to know
 };
 constexpr std::string_view of_area_lights = " (a light with a size is an object of that material)";
-constexpr Synonym synonyms[] = {
+constexpr ElementHint element_hints[] = {
     {"sun", "directionallight", " (a <skylight> has a sun, too)"},
     {"sunlight", "directionallight", " (a <skylight> has a sun, too)"},
     {"distantlight", "directionallight"},
@@ -34,10 +34,10 @@ constexpr Synonym synonyms[] = {
     {"plastic", "openpbr"},
 };
 
-const Synonym* find_synonym(std::string_view name) {
-  const auto* const found = std::find_if(std::begin(synonyms), std::end(synonyms),
-                                         [&](const Synonym& synonym) { return synonym.name == name; });
-  return found == std::end(synonyms) ? nullptr : found;
+const ElementHint* find_element_hint(std::string_view name) {
+  const auto* const found = std::find_if(std::begin(element_hints), std::end(element_hints),
+                                         [&](const ElementHint& hint) { return hint.name == name; });
+  return found == std::end(element_hints) ? nullptr : found;
 }
 
 }  // namespace
@@ -83,7 +83,7 @@ std::string_view meant_element(std::string_view element, std::string_view parent
     if (entry.element == element) return entry.element;
     all.push_back(entry.element);
   }
-  if (const Synonym* const synonym = find_synonym(element)) return synonym->element;
+  if (const ElementHint* const hint = find_element_hint(element)) return hint->element;
   const std::string_view nearest = nearest_name(element, elements_in(parent));
   return nearest.empty() ? nearest_name(element, all) : nearest;
 }
@@ -100,9 +100,9 @@ std::string explain_misplaced(std::string_view element, std::string_view parent)
     return tag(element) + " does not belong in " + tag(parent) + "; put it into " + tag(home);
   const std::string start = "unknown element " + tag(element) + " in " + tag(parent) + "; ";
   if (meant.empty()) return start + "it takes " + list_of_tags(elements_in(parent));
-  const Synonym* const synonym = find_synonym(element);
+  const ElementHint* const hint = find_element_hint(element);
   return start + "did you mean " + tag(meant) + (home == parent ? "?" : ", which belongs in " + tag(home) + "?") +
-         std::string(synonym != nullptr ? synonym->note : "");
+         std::string(hint != nullptr ? hint->note : "");
 }
 
 }  // namespace raytrace

@@ -26,8 +26,8 @@ struct Instance {
 };
 
 struct Model {
-  std::unique_ptr<Document> document;  ///< what accessors point into
-  std::vector<Instance> instances;     ///< in the order of the nodes
+  std::unique_ptr<Document> document;               ///< what accessors point into
+  std::vector<Instance> instances;                  ///< in the order of the nodes
   std::map<std::uint64_t, std::string> node_names;  ///< of those with a mesh
   std::map<std::uint64_t, std::vector<Primitive>> meshes;
   std::map<std::uint64_t, std::vector<double>> weights;  ///< of a node's mesh, if it has any
