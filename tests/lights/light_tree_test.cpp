@@ -105,7 +105,8 @@ void check_draws(const LightTree& tree, std::size_t count, const Vec3d& p, const
 }
 
 /// Lights of which points that see them are found, and that are never drawn there.
-int lights_left_out(const LightTree& tree, const std::vector<LightEmission>& lights, RandomLights& random) {
+int lights_left_out(const LightTree& tree, const std::vector<LightEmission>& lights, LightTree::Reach reach,
+                    RandomLights& random) {
   int left_out = 0;
   for (int i = 0; i < 400; ++i) {
     const Vec3d p = random.in_cube(5), normal = random.direction();
@@ -120,7 +121,10 @@ int lights_left_out(const LightTree& tree, const std::vector<LightEmission>& lig
         const Vec3d to_light = x - p;
         const double cosine = static_cast<double>(light.cosine), least = 1e-4 * length(to_light);
         const Vec3d front = random.in_cone(normalize(Vec3d(light.axis)), cosine);
-        if (dot(normal, to_light) > least && -dot(front, to_light) > least) {
+        const bool reaches = reach == LightTree::Reach::hemispheres
+                                 ? -dot(front, to_light) > least
+                                 : -dot(normalize(Vec3d(light.axis)), to_light) > cosine * length(to_light) + least;
+        if (dot(normal, to_light) > least && reaches) {
           ++left_out;
           break;
         }
@@ -179,12 +183,58 @@ TEST_CASE("by power and evenly, lights are drawn in these proportions") {
   }
 }
 
+TEST_CASE("for points on no surface, lights are drawn that may light others near them") {
+  RandomLights random(16);
+  const std::vector<LightEmission> lights = random.lights(60);
+  const LightTree tree(lights, LightSampling::tree, LightTree::Reach::cone);
+  for (int i = 0; i < 40; ++i) {
+    const std::vector<double> chosen = probabilities(tree, 60, random.in_cube(5), {0, 0, 0});
+    CHECK(*std::min_element(chosen.begin(), chosen.end()) > 0);
+  }
+}
+
+TEST_CASE("leaves of several lights have each light once, and are drawn as often as they say") {
+  RandomLights random(15);
+  for (const std::size_t count : {1U, 8U, 9U, 150U}) {
+    INFO(count << " lights");
+    const std::vector<LightEmission> lights = random.lights(count);
+    const LightTree tree(lights, LightSampling::tree, LightTree::Reach::cone, 8);
+    std::vector<int> found(count, 0);
+    for (const std::uint32_t light : tree.leaves())
+      if (light != LightTree::none) ++found[light];
+    CHECK(std::count(found.begin(), found.end(), 1) == static_cast<std::ptrdiff_t>(count));
+    CHECK(tree.leaves().size() % 8 == 0);
+    for (int i = 0; i < 12; ++i) {
+      const Vec3d p = random.in_cube(6), normal = random.direction();
+      const std::vector<double> of_lights = probabilities(tree, count, p, normal);
+      int wrong = 0;
+      for (std::size_t first = 0; first < 4096; first += lanes) {
+        const LightTree::Choice choice = tree.sample(spread(p), spread(normal), batch_of<FloatN>([&](std::size_t lane) {
+                                                       return (static_cast<double>(first + lane) + 0.5) / 4096;
+                                                     }));
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+          const auto leaf = static_cast<std::size_t>(choice.light.get(lane));
+          const double wanted = of_lights[tree.leaves().at(leaf * 8)],
+                       rest = static_cast<double>(choice.rest.get(lane));
+          const double probability = static_cast<double>(choice.probability.get(lane));
+          wrong += rest < 0 || rest >= 1 || (probability > 0 && std::abs(probability - wanted) > 1e-6 * wanted) ? 1 : 0;
+        }
+      }
+      CHECK(wrong == 0);
+    }
+  }
+}
+
 TEST_CASE("no light is left out that could light a point") {
   RandomLights random(14);
   for (const std::size_t count : {1U, 2U, 9U, 60U, 300U}) {
     const std::vector<LightEmission> lights = random.lights(count);
     INFO(count << " lights");
-    CHECK(lights_left_out(LightTree(lights, LightSampling::tree), lights, random) == 0);
+    for (const LightTree::Reach reach : {LightTree::Reach::hemispheres, LightTree::Reach::cone}) {
+      INFO((reach == LightTree::Reach::cone ? "that shine in cones" : "of surfaces"));
+      for (const std::size_t leaf_size : {1U, 8U})
+        CHECK(lights_left_out(LightTree(lights, LightSampling::tree, reach, leaf_size), lights, reach, random) == 0);
+    }
   }
 }
 

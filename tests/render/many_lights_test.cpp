@@ -78,4 +78,71 @@ TEST_CASE("many lights are the sum of the pictures that each makes alone") {
   }
 }
 
+namespace {
+
+/// 30 points and spots that fall off, in groups of so many.
+SceneDescription lamps_in_groups(int size, int samples, bool in_fog = false) {
+  std::string points, spots;
+  for (int i = 0; i < 30; ++i) {
+    const double x = 4 * std::cos(i * 1.3), z = 4 * std::sin(i * 1.7), y = 0.5 + 0.1 * i;
+    const std::string rest = "<scaleradiance>" + std::to_string(0.5 + i % 4) +
+                             "</scaleradiance><color red='1' green='" + std::to_string(0.3 + 0.02 * i) +
+                             "' blue='0.4'/><falloff>inversesquare</falloff><group>g" + std::to_string(i / size) +
+                             "</group><shadows>" + (i % 6 == 5 ? "false" : "true") + "</shadows>";
+    if (i % 2 == 0)
+      points += "<pointlight>" + vector_text("location", x, y, z) + rest + "</pointlight>";
+    else
+      spots += "<spotlight>" + vector_text("location", x, y, z) + vector_text("lookat", 0.3 * x, -1, 0.3 * z) +
+               "<coneangle>70</coneangle><penumbraangle>10</penumbraangle>" + rest + "</spotlight>";
+  }
+  return parsed_scene(scene_text(
+      width, height, samples,
+      "<integrator><path><maxdepth>3</maxdepth></path></integrator><lights><pointlights>" + points +
+          "</pointlights><spotlights>" + spots +
+          "</spotlights></lights><materials><mattes><matte><name>m</name><ka>0</ka><kd>0.7</kd><cd red='0.9' "
+          "green='0.8' blue='0.7'/></matte></mattes><fogs><fog><name>fog</name><meanfreepath>8</meanfreepath>"
+          "<anisotropy>0.6</anisotropy></fog></fogs></materials><objects><planes><plane><point x='0' y='-1' z='0'/>"
+          "<normal x='0' y='1' z='0'/><material>m</material></plane></planes><spheres><sphere><center x='0' y='0.5' "
+          "z='0'/><radius>1.5</radius><material>m</material></sphere>" +
+          std::string(in_fog ? "<sphere><center x='0' y='0' z='0'/><radius>9</radius><material>fog</material></sphere>"
+                             : "") +
+          "</spheres></objects>"));
+}
+
+}  // namespace
+
+TEST_CASE("many lamps, of which some are drawn, make the picture that they make when each is asked") {
+  for (const bool in_fog : {false, true}) {
+    INFO((in_fog ? "in fog" : "in clear air"));
+    // Light groups are asked, or drawn from, each for itself: those of 6 lamps are asked.
+    const FloatPicture asked = rendered(lamps_in_groups(6, 64, in_fog)),
+                       drawn = rendered(lamps_in_groups(30, 256, in_fog));
+    double sum = 0, difference = 0, most_apart = 0;
+    int count = 0;
+    for (int i = 0; i + 8 <= width; i += 8)
+      for (int j = 0; j + 6 <= height; j += 6) {
+        double a = 0, b = 0;
+        for (int x = i; x < i + 8; ++x)
+          for (int y = j; y < j + 6; ++y) {
+            const auto at = static_cast<std::size_t>(y * width + x);
+            a += double{asked.pixels()[at].green};
+            b += double{drawn.pixels()[at].green};
+          }
+        sum += a;
+        difference += b - a;
+        most_apart = std::max(most_apart, std::abs(b - a) / a);
+        ++count;
+      }
+    REQUIRE(count == 25);
+    INFO(difference / sum << " on the mean, at most " << most_apart);
+    CHECK(std::abs(difference) < (in_fog ? 0.01 : 0.004) * sum);
+    CHECK(most_apart < (in_fog ? 0.06 : 0.02));
+  }
+}
+
+TEST_CASE("many lamps, of which some are drawn, have the same bits however the picture is cut") {
+  check_same_bits(lamps_in_groups(30, 8));
+  check_same_bits(lamps_in_groups(30, 8, true));
+}
+
 }  // namespace raytrace::test

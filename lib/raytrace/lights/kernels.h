@@ -11,6 +11,8 @@
 //   template <class F> LightSample<F> sample(const Vec3<F>& p) const;
 // and, if it can, and its Parameters have a `location`:
 //   bool falls_off() const;    with the square of the distance from there
+//   PointSource<float> source() const;    the same light as a record, if it falls off, but for its photometric_share()
+//   const PhotometricShare& photometric_share() const;
 // and, if it may be larger than a point:
 //   bool takes_samples() const;    then sample(p, u1, u2), at any place of it, and none of the two below
 //   template <class F> LightSample<F> sample(const Vec3<F>& p, const F& u1, const F& u2) const;   numbers in [0, 1)

@@ -21,6 +21,9 @@ class PhotometricShare {
   PhotometricShare(const LoadedPhotometry& photometry, const Vec3f& axis)
       : photometry_(photometry.shares), axis_(axis), right_(right_of(-axis)), ahead_(cross(-axis, right_)) {}
 
+  const Photometry* photometry() const { return photometry_.get(); }
+  const Vec3f& axis() const { return axis_; }
+
   template <class F>
   F towards(const Vec3<F>& to_light) const {
     if constexpr (std::is_same_v<F, FloatN>)

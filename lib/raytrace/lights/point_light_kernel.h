@@ -5,6 +5,7 @@
 #include "raytrace/lights/photometric_share_kernel.h"
 #include "raytrace/lights/point_light.h"
 #include "raytrace/lights/point_radiance.h"
+#include "raytrace/lights/point_source.h"
 #include "raytrace/math/kernel.h"
 
 namespace raytrace {
@@ -23,6 +24,10 @@ class Kernel<PointLight> {
   Vec3f location() const { return location_; }
   Rgb<float> largest_radiance() const { return radiance_.at_distance_1(); }
   bool falls_off() const { return radiance_.falls_off(); }
+  PointSource<float> source() const {
+    return {location_, radiance_.at_distance_1(), radiance_.largest_share(), {0, 1, 0}, -2, 0};
+  }
+  const PhotometricShare& photometric_share() const { return photometric_; }
 
   template <class F>
   RAYTRACE_INLINE LightSample<F> sample(const Vec3<F>& p) const {

@@ -7,6 +7,7 @@
 #include "raytrace/lights/light_sample.h"
 #include "raytrace/lights/photometric_share_kernel.h"
 #include "raytrace/lights/point_radiance.h"
+#include "raytrace/lights/point_source.h"
 #include "raytrace/lights/spot_light.h"
 #include "raytrace/math/kernel.h"
 #include "raytrace/math/ray.h"
@@ -34,19 +35,16 @@ class Kernel<SpotLight> {
   Vec3f location() const { return location_; }
   Rgb<float> largest_radiance() const { return radiance_.at_distance_1(); }
   bool falls_off() const { return radiance_.falls_off(); }
+  PointSource<float> source() const {
+    return {location_, radiance_.at_distance_1(), radiance_.largest_share(), towards_, edge_cosine_, inverse_width_};
+  }
+  const PhotometricShare& photometric_share() const { return photometric_; }
 
   template <class F>
   RAYTRACE_INLINE LightSample<F> sample(const Vec3<F>& p) const {
     const Vec3<F> to_light = Vec3<F>(location_) - p;
-    const F above_edge = dot(normalize(to_light), Vec3<F>(towards_)) - F(edge_cosine_);
-    F share = F(1);
-    if (inverse_width_ > 0) {
-      // As in pbrt: a cubic in the cosine, without corners at either end.
-      const F x = min(above_edge * F(inverse_width_), F(1));
-      share = x * x * (F(3) - F(2) * x);
-    }
-    share = select(above_edge >= F(0), share, F(0)) * photometric_.towards(to_light);
-    return {to_light, F(1), radiance_.at(to_light) * share};  // nothing for NaN
+    const F cone = cone_share(dot(normalize(to_light), Vec3<F>(towards_)), F(edge_cosine_), F(inverse_width_));
+    return {to_light, F(1), radiance_.at(to_light) * (cone * photometric_.towards(to_light))};
   }
 
   /// Where rays, of unit length, are in its cone: cuts begin and end to it, of rays that are not, to one distance.

@@ -7,6 +7,7 @@
 #include "raytrace/math/ray.h"
 #include "raytrace/math/simd.h"
 #include "raytrace/sampling/sampler.h"
+#include "raytrace/scene/many_lights.h"
 
 namespace raytrace {
 
@@ -24,6 +25,9 @@ class LightSource {
   virtual void cut_to_lit(const Ray<FloatN>& rays, FloatN& begin, FloatN& end) const = 0;
   /// Where it is; none: infinitely far away.
   virtual std::optional<Vec3f> location() const = 0;
+  /// Whether it is at a point, from where it falls off, and then adds it to lights that are drawn.
+  virtual bool falls_off() const = 0;
+  virtual void add_to(ManyLights& lights) const = 0;
   /// What no point gets more of; of a light that falls off, at distance 1.
   virtual Rgb<float> largest_radiance() const = 0;
 };
@@ -55,6 +59,13 @@ class LightSourceOf final : public LightSource {
   std::optional<Vec3f> location() const override {
     if constexpr (requires { light_.location(); }) return light_.location();
     return std::nullopt;
+  }
+  bool falls_off() const override {
+    if constexpr (requires { light_.falls_off(); }) return light_.falls_off();
+    return false;
+  }
+  void add_to([[maybe_unused]] ManyLights& lights) const override {
+    if constexpr (requires { light_.source(); }) lights.add(light_.source(), light_.photometric_share(), shadows());
   }
   Rgb<float> largest_radiance() const override { return light_.largest_radiance(); }
 

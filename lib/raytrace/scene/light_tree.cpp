@@ -93,9 +93,10 @@ float packed_cone(const Vec3f& axis, float cosine) {
 
 /// How much a cluster costs: its power, over how large an area and how many directions it is spread. Kulla and Conty's
 /// measure.
-float cost(const LightEmission& lights) {
+float cost(const LightEmission& lights, LightTree::Reach reach) {
   constexpr double pi = std::numbers::pi;
-  const double angle = angle_of(lights.cosine), end = std::min(angle + pi / 2, pi);
+  const double angle = angle_of(lights.cosine);
+  const double end = reach == LightTree::Reach::cone ? angle : std::min(angle + pi / 2, pi);
   const double directions =
       2 * pi * (1 - std::cos(angle)) +
       pi / 2 * (2 * end * std::sin(angle) - std::cos(angle - 2 * end) - 2 * angle * std::sin(angle) + std::cos(angle));
@@ -116,7 +117,7 @@ std::size_t halve(const std::vector<LightEmission>& lights, std::span<std::uint3
 }
 
 /// Cuts the lights in two where the halves' cost is least, and puts each half's together; the first half's number.
-std::size_t cut(const std::vector<LightEmission>& lights, std::span<std::uint32_t> order) {
+std::size_t cut(const std::vector<LightEmission>& lights, LightTree::Reach reach, std::span<std::uint32_t> order) {
   constexpr int buckets = 12;
   Bounds centers = empty_bounds;
   for (const std::uint32_t i : order) centers = join(centers, {center(lights[i].box), center(lights[i].box)});
@@ -143,7 +144,7 @@ std::size_t cut(const std::vector<LightEmission>& lights, std::span<std::uint32_
     for (std::size_t i = 0; i + 1 < buckets; ++i) {
       below = join(below, parts[i]);
       if (below.box.lower.x > below.box.upper.x || above[i + 1].box.lower.x > above[i + 1].box.upper.x) continue;
-      const float both = (cost(below) + cost(above[i + 1])) * (longest / component(size, axis));
+      const float both = (cost(below, reach) + cost(above[i + 1], reach)) * (longest / component(size, axis));
       if (both >= least) continue;
       least = both;
       best_axis = axis;
@@ -169,7 +170,9 @@ FloatN sine_of(const FloatN& cosine) { return sqrt(max(FloatN(1) - cosine * cosi
 
 }  // namespace
 
-LightTree::LightTree(const std::vector<LightEmission>& lights, LightSampling sampling) : sampling_(sampling) {
+LightTree::LightTree(const std::vector<LightEmission>& lights, LightSampling sampling, Reach reach,
+                     std::size_t leaf_size)
+    : sampling_(sampling), reach_(reach), leaf_size_(leaf_size) {
   if (lights.empty()) return;
   std::vector<std::uint32_t> order(lights.size());
   double total = 0;
@@ -191,18 +194,26 @@ void LightTree::build(const std::vector<LightEmission>& lights, std::span<std::u
   const float power =
       sampling_ == LightSampling::uniform ? static_cast<float>(order.size()) : all.power * inverse_power_;
   nodes_[node] = {all.box.lower, all.box.upper, packed_cone(all.axis, all.cosine), power, 0};
-  if (order.size() == 1) {
-    nodes_[node].child = std::bit_cast<float>(~static_cast<std::int32_t>(order[0]));
-    trails_[order[0]] = static_cast<std::int32_t>(trail);
+  if (order.size() <= leaf_size_) {
+    nodes_[node].child = std::bit_cast<float>(~leaf_of(order));
+    for (const std::uint32_t i : order) trails_[i] = static_cast<std::int32_t>(trail);
     return;
   }
   const bool has_room = depth + static_cast<int>(std::bit_width(order.size())) < most_depth;
-  const std::size_t middle = has_room ? cut(lights, order) : halve(lights, order);
+  const std::size_t middle = has_room ? cut(lights, reach_, order) : halve(lights, order);
   const std::size_t children = nodes_.size();
   nodes_[node].child = std::bit_cast<float>(static_cast<std::int32_t>(children));
   nodes_.resize(children + 2);
   build(lights, order.first(middle), children, trail, depth + 1);
   build(lights, order.subspan(middle), children + 1, trail | 1U << static_cast<unsigned>(depth), depth + 1);
+}
+
+std::int32_t LightTree::leaf_of(std::span<const std::uint32_t> lights) {
+  if (leaf_size_ == 1) return static_cast<std::int32_t>(lights[0]);
+  const std::size_t number = leaves_.size() / leaf_size_;
+  leaves_.insert(leaves_.end(), lights.begin(), lights.end());
+  leaves_.resize((number + 1) * leaf_size_, none);
+  return static_cast<std::int32_t>(number);
 }
 
 FloatN LightTree::importance(const Node<FloatN>& node, const Vec3<FloatN>& p, const Vec3<FloatN>& normal) const {
@@ -222,7 +233,13 @@ FloatN LightTree::importance(const Node<FloatN>& node, const Vec3<FloatN>& p, co
   const Angle emission = less(less({leaving, sine_of(leaving)}, {cone.cosine, sine_of(cone.cosine)}), box);
   const Angle incidence = less({arriving, sine_of(arriving)}, box);
   const FloatN facing = select(dot(normal, normal) > FloatN(0), max(incidence.cosine, FloatN(0)), FloatN(1));
-  return node.power * max(emission.cosine, FloatN(0)) * facing / max(max(squared, radius2), least);
+  FloatN shining = max(emission.cosine, FloatN(0));
+  if (reach_ == Reach::cone) {
+    // What is on no surface may stand for other points near it.
+    const FloatN outside = select(dot(normal, normal) > FloatN(0), FloatN(0), FloatN(0.1F));
+    shining = select(emission.cosine >= FloatN(1), FloatN(1), outside);
+  }
+  return node.power * shining * facing / max(max(squared, radius2), least);
 }
 
 FloatN LightTree::first_share(const IntN& children, const Vec3<FloatN>& p, const Vec3<FloatN>& normal,
@@ -255,7 +272,7 @@ LightTree::Choice LightTree::sample(const Vec3<FloatN>& p, const Vec3<FloatN>& n
     node = select_lanes(inner, select_lanes(first, child, child + IntN(1)), node);
     child = children_of(node);
   }
-  return {IntN(-1) - child, select(reached, probability, FloatN(0))};
+  return {IntN(-1) - child, select(reached, probability, FloatN(0)), u};
 }
 
 FloatN LightTree::probability(const Vec3<FloatN>& p, const Vec3<FloatN>& normal, const IntN& light) const {

@@ -17,22 +17,34 @@ namespace raytrace {
 /// Where a light is, where to it shines, and how much.
 struct LightEmission {
   Bounds box = empty_bounds;
-  Vec3f axis{0, 0, 1};  ///< unit length: the normals of its surface lie in a cone about it, and it shines to the
-                        ///< front of each
+  Vec3f axis{0, 0, 1};  ///< unit length, of a cone; which one, LightTree::Reach says
   float cosine = 1;     ///< of half the cone's angle
   float power = 0;
 };
 
 class LightTree {
  public:
+  /// What the lights' cones are.
+  enum class Reach {
+    hemispheres,  ///< that of a surface's normals: it shines to the front of each, the less the flatter
+    cone,         ///< of where the light shines, the same into all directions
+  };
+
   LightTree() = default;
-  LightTree(const std::vector<LightEmission>& lights, LightSampling sampling);
+  /// leaf_size: so many lights at most are chosen together.
+  LightTree(const std::vector<LightEmission>& lights, LightSampling sampling, Reach reach = Reach::hemispheres,
+            std::size_t leaf_size = 1);
 
   bool empty() const { return trails_.empty(); }
 
+  /// The lights of all leaves, where a leaf has several: leaf_size of each, filled up with `none`.
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
+  const std::vector<std::uint32_t>& leaves() const { return leaves_; }
+
   struct Choice {
-    IntN light;
+    IntN light;          ///< or its leaf, where that has several
     FloatN probability;  ///< 0 where no light reaches the point
+    FloatN rest;         ///< what is left of u: in [0, 1), evenly
   };
   /// Drawn out of u in [0, 1), for a point with a normal of unit length; of length 0: one that is on no surface.
   Choice sample(const Vec3<FloatN>& p, const Vec3<FloatN>& normal, FloatN u) const;
@@ -48,7 +60,7 @@ class LightTree {
     Vec3<T> lower, upper;
     T directions;  ///< the bits of a cone around those of all its lights
     T power;
-    T child;  ///< the bits of an integer: of its first child; of a leaf, ~ of its light
+    T child;  ///< the bits of an integer: of its first child; of a leaf, ~ of its light or its own number
   };
 
   /// order: the lights below the node.
@@ -57,10 +69,14 @@ class LightTree {
   IntN children_of(const IntN& node) const;
   /// How often the first of two children is chosen. Clears `reached` in lanes that neither of them lights.
   FloatN first_share(const IntN& children, const Vec3<FloatN>& p, const Vec3<FloatN>& normal, MaskN& reached) const;
+  std::int32_t leaf_of(std::span<const std::uint32_t> lights);
   FloatN importance(const Node<FloatN>& node, const Vec3<FloatN>& p, const Vec3<FloatN>& normal) const;
 
   LightSampling sampling_ = LightSampling::tree;
+  Reach reach_ = Reach::hemispheres;
   float inverse_power_ = 0;  ///< of all lights
+  std::size_t leaf_size_ = 1;
+  std::vector<std::uint32_t> leaves_;
   std::vector<Node<float>> nodes_;
   std::vector<std::int32_t> trails_;  ///< of each light: bit d is the child at depth d
 };

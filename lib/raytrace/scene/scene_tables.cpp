@@ -193,10 +193,17 @@ void SceneTables::add_lights(const SceneDescription& description, int threads) {
 }
 
 void SceneTables::sort_lights() {
+  const auto* const path = std::get_if<Path::Parameters>(&integrator_);
+  std::vector<std::size_t> falling_off(light_groups_.size(), 0);  // of each group
+  const auto group_of = [&](std::size_t light) { return static_cast<std::size_t>(groups_of_lights_[light]); };
+  for (std::size_t i = 0; i < lights_.size(); ++i) falling_off[group_of(i)] += lights_[i]->falls_off() ? 1 : 0;
+  const auto is_drawn = [&](std::size_t light) {
+    return path != nullptr && lights_[light]->falls_off() && falling_off[group_of(light)] >= ManyLights::least;
+  };
+  const auto place = [&](std::size_t light) { return std::pair(groups_of_lights_[light], is_drawn(light)); };
   std::vector<std::size_t> order(lights_.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return groups_of_lights_[a] < groups_of_lights_[b]; });
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
   const auto sorted = [&](auto& values) {
     std::remove_reference_t<decltype(values)> result;
     for (const std::size_t from : order) result.push_back(std::move(values[from]));
@@ -208,8 +215,18 @@ void SceneTables::sort_lights() {
   for (std::size_t i = 0; i < light_groups_.size(); ++i) {
     const auto [first, last] =
         std::equal_range(groups_of_lights_.begin(), groups_of_lights_.end(), static_cast<std::int32_t>(i));
-    light_groups_[i].first_light = static_cast<std::size_t>(first - groups_of_lights_.begin());
-    light_groups_[i].last_light = static_cast<std::size_t>(last - groups_of_lights_.begin());
+    LightGroup& group = light_groups_[i];
+    group.first_light = static_cast<std::size_t>(first - groups_of_lights_.begin());
+    group.last_light = static_cast<std::size_t>(last - groups_of_lights_.begin());
+    group.first_drawn = group.last_light;
+    if (group.first_light == group.last_light || !is_drawn(group.last_light - 1)) continue;
+    group.first_drawn -= falling_off[i];
+    group.drawn.emplace();
+    for (std::size_t light = group.first_drawn; light < group.last_light; ++light) {
+      lights_[light]->add_to(*group.drawn);
+      light_origins_[light].reset();
+    }
+    group.drawn->build(path->lightsampling);
   }
 }
 

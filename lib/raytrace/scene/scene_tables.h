@@ -20,6 +20,7 @@
 #include "raytrace/scene/environment.h"
 #include "raytrace/scene/geometry_table.h"
 #include "raytrace/scene/light_source.h"
+#include "raytrace/scene/many_lights.h"
 #include "raytrace/scene/material_table.h"
 #include "raytrace/scene/medium_table.h"
 #include "raytrace/scene/part_table.h"
@@ -91,6 +92,8 @@ class SceneTables {
   struct LightGroup {
     std::string name;
     std::size_t first_light = 0, last_light = 0;  ///< [first, last) of lights()
+    std::size_t first_drawn = 0;                  ///< of them; where `drawn` is none, the same as last_light
+    std::optional<ManyLights> drawn{};            ///< those from first_drawn on, for paths
     Rgb<float> ambient_radiance{0, 0, 0};         ///< the sum of all ambient lights
 
     bool is_dark() const {

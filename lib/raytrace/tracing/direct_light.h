@@ -71,13 +71,13 @@ struct ShadowNumbers {
 
 /// What of the group's lights' radiance leaves the surface along wo, in the lanes that were hit; of its ambient light,
 /// too. clock: if not null, its stages of this end here. media: if not null, what the light comes through. panes:
-/// likewise, where it comes through some.
+/// likewise, where it comes through some. draws: whether lights may be drawn, where there are many.
 RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const SceneTables::LightGroup& group,
                                          const Hits& hits, const SurfaceInteraction<FloatN>& surface,
                                          const TexturePoint<FloatN>* textures, Coherence coherence,
                                          const MaskN& counted, RayCounts& counts, const ShadowNumbers& numbers,
                                          StageClock* clock = nullptr, const PointMedia* media = nullptr,
-                                         const PanesAhead* panes = nullptr) {
+                                         const PanesAhead* panes = nullptr, bool draws = false) {
   const SceneTables& tables = scene.tables();
   std::array<IncidentLight, lights_per_run> incident;
   std::size_t count = 0;
@@ -97,31 +97,43 @@ RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const SceneTa
   shadow_rays.origin = offset_ray_origin(surface);
   shadow_rays.near = FloatN(0);
   const Sample2D middle{FloatN(0), FloatN(0)};
-  for (std::size_t number = group.first_light; number < group.last_light; ++number) {
+  const bool has_drawn = group.drawn && draws;
+  const std::size_t last_light = has_drawn ? group.first_drawn + ManyLights::draws : group.last_light;
+  for (std::size_t number = group.first_light; number < last_light; ++number) {
     // The first run has the ambient light, whatever the others reach.
     const std::size_t before = number - group.first_light;
     if (before > 0 && before % lights_per_run == 0 && (count > 0 || before == lights_per_run)) shade_run();
     const LightSource& light = *tables.lights()[number];
-    const bool shadows = light.shadows();
+    bool shadows = light.shadows();
+    MaskN has_shadow(true);                 // of those that are drawn, each lane's
     IncidentLight& here = incident[count];  // written in its array at once: it is large
-    if (tables.has_sampled_lights() && light.takes_samples()) [[unlikely]]
+    const bool is_drawn = has_drawn && number >= group.first_drawn;
+    if (is_drawn) [[unlikely]] {
+      const FloatN u = numbers.place(group.first_drawn).x + FloatN(static_cast<float>(number - group.first_drawn));
+      const FloatN share(1 / static_cast<float>(ManyLights::draws));
+      has_shadow = group.drawn->sample(shadow_rays, surface.ns, u * share, here.radiance);
+      here.radiance = here.radiance * share;
+      shadows = true;
+    } else if (tables.has_sampled_lights() && light.takes_samples()) [[unlikely]]
       light.sample(shadow_rays, numbers.place(number), here.radiance);
     else
       light.sample(shadow_rays, middle, here.radiance);
     // Of any length: the shadow rays need not wait for a square root and a quotient.
     MaskN lit = hits.hit & (dot(surface.ns, shadow_rays.direction) > FloatN(0));
-    // Where rays look for boundaries as well, those to spotlights from outside of their cones are too many.
-    if (media != nullptr) [[unlikely]]
+    // Where rays look for boundaries as well, those to spotlights from outside of their cones are too many. So are they
+    // where nothing was drawn.
+    if (media != nullptr || is_drawn) [[unlikely]]
       lit = lit & (abs(here.radiance.red) + abs(here.radiance.green) + abs(here.radiance.blue) > FloatN(0));
-    if (shadows && any(lit)) {
+    if (const MaskN may_hide = lit & has_shadow; shadows && any(may_hide)) {
       end(Stage::lights);
-      counts.shadow += count_lanes(lit & counted);
-      const MaskN occluded =
-          panes != nullptr
-              ? occluded_behind_panes(scene, shadow_rays, lit, numbers.ids(number), coherence, *panes, here.radiance)
-          : tables.identifies_rays()
-              ? occluded_identified(scene, shadow_rays, lit, numbers.ids(number), coherence)
-              : scene.accelerator().occluded(shadow_rays, lit, Coherence::coherent, scene.light_buffer(number));
+      counts.shadow += count_lanes(may_hide & counted);
+      const MaskN occluded = panes != nullptr ? occluded_behind_panes(scene, shadow_rays, may_hide, numbers.ids(number),
+                                                                      coherence, *panes, here.radiance)
+                             : tables.identifies_rays()
+                                 ? occluded_identified(scene, shadow_rays, may_hide, numbers.ids(number), coherence)
+                                 : scene.accelerator().occluded(shadow_rays, may_hide,
+                                                                is_drawn ? Coherence::incoherent : Coherence::coherent,
+                                                                scene.light_buffer(number));
       lit = lit & !occluded;
       end(Stage::trace);
     }
@@ -134,7 +146,7 @@ RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const SceneTa
       here.cosine = here.cosine * relief_shadow(surface, here.wi);
     ++count;
   }
-  if (count > 0 || group.last_light - group.first_light <= lights_per_run) shade_run();
+  if (count > 0 || last_light - group.first_light <= lights_per_run) shade_run();
   return radiance;
 }
 

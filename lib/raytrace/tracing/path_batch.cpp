@@ -290,10 +290,12 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   const PanesAhead* const panes = tables.has_panes_for_surfaces() && most_panes > 0 ? &ahead : nullptr;
   Rgb<FloatN> light = black();
   for (std::size_t group = 0; group < groups_; ++group) {
-    if (tables.light_groups()[group].is_dark()) continue;
-    light = direct_light(scene_, tables.light_groups()[group], hits, surface, point, coherence, lanes, counts,
+    const SceneTables::LightGroup& lights_of_group = tables.light_groups()[group];
+    if (lights_of_group.is_dark()) continue;
+    const bool draws = depth > 0 || lights_of_group.last_light - lights_of_group.first_drawn > ManyLights::most_asked;
+    light = direct_light(scene_, lights_of_group, hits, surface, point, coherence, lanes, counts,
                          ShadowNumbers{path.pixel, path.sample, first_key + 1}, &clock_,
-                         has_media ? &point_media : nullptr, panes);
+                         has_media ? &point_media : nullptr, panes, draws);
     if (any(on_way | on_gloss_way)) light = select(on_way | on_gloss_way, black(), light);
     if (groups_ == 1) break;  // which is added with the light that is drawn
     add_scattered(path, lanes, path.throughput * light, IntN(static_cast<std::int32_t>(group)), depth + 1);

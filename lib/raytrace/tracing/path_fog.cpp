@@ -11,16 +11,19 @@
 
 #include "raytrace/bsdfs/henyey_greenstein.h"
 #include "raytrace/sampling/ray_ids.h"
+#include "raytrace/sampling/reservoir.h"
 #include "raytrace/sampling/sampler.h"
 #include "raytrace/tracing/fog.h"
 #include "raytrace/tracing/fog_distances.h"
 #include "raytrace/tracing/path_batch.h"
-#include "raytrace/tracing/reservoir.h"
 #include "raytrace/tracing/sampled_light.h"
 
 namespace raytrace {
 
 namespace {
+
+/// Up to so many lights of a group are asked each for what they bring to a part.
+constexpr std::size_t most_asked_in_fog = 24;
 
 FloatN brightness(const Rgb<FloatN>& color) { return abs(color.red) + abs(color.green) + abs(color.blue); }
 
@@ -130,17 +133,34 @@ PathBatch::FogLight PathBatch::choose_light(const PathPacket& path, const FogPar
   result.ray_number = 1;
   result.ray = {part.rays.origin, part.rays.direction, FloatN(0), FloatN(1)};
   FloatN weight(1);
+  // What arrives along `ray`, whose origin is at that distance, which was drawn at that density.
+  const auto offer = [&](const MaskN& lanes, const FloatN& distance, const FloatN& density, const Ray<FloatN>& ray,
+                         const Rgb<FloatN>& arriving, const IntN& group, const MaskN& has_shadow) {
+    const FloatN phase = part.phase(normalize(ray.direction));
+    const Rgb<FloatN> radiance = arriving * (phase * part.left(distance) / density);
+    const FloatN its_weight = select(lanes, brightness(scattered * radiance), FloatN(0));
+    const MaskN chosen = reservoir.add(its_weight);
+    if (none(chosen)) return;
+    result.ray.origin = select(chosen, ray.origin, result.ray.origin);
+    result.ray.direction = select(chosen, ray.direction, result.ray.direction);
+    result.ray.far = select(chosen, ray.far, result.ray.far);
+    result.distance = select(chosen, distance, result.distance);
+    result.radiance = select(chosen, radiance, result.radiance);
+    result.group = select_lanes(chosen, group, result.group);
+    result.has_shadow = (result.has_shadow & !chosen) | (chosen & has_shadow);
+    weight = select(chosen, its_weight, weight);
+  };
   const Sample2D place = tables.has_sampled_lights() ? numbers(FogDraw::light_place) : Sample2D{};
   // The fewer lights, the more places.
   const std::size_t places = tables.lights().size() <= 2 ? 2 : 1;
   const FloatN share(1 / static_cast<float>(places));
-  for (std::size_t i = 0; i < tables.lights().size(); ++i) {
+  const auto ask = [&](std::size_t i) {
     const LightSource& light = *tables.lights()[i];
     const auto location = light.location();
     FloatN begin = part.begin, end = part.end;
     light.cut_to_lit(part.rays, begin, end);
     const MaskN lanes = part.lanes & (begin < end);
-    if (none(lanes)) continue;
+    if (none(lanes)) return;
     const FlightDistances flights(part.extinction, begin, end);
     std::optional<EquiangularDistances> angles;
     if (location) angles.emplace(part.rays, begin, end, Vec3<FloatN>(*location));
@@ -150,24 +170,36 @@ PathBatch::FogLight PathBatch::choose_light(const PathPacket& path, const FogPar
       Ray<FloatN> ray{part.rays.at(distance), {}, FloatN(0), FloatN(1)};
       Rgb<FloatN> arriving;
       light.sample(ray, place, arriving);
-      const FloatN phase = part.phase(normalize(ray.direction));
-      const Rgb<FloatN> radiance = arriving * (phase * part.left(distance) * share / density);
-      const FloatN its_weight = select(lanes, brightness(scattered * radiance), FloatN(0));
-      const MaskN chosen = reservoir.add(its_weight);
-      if (none(chosen)) return;
-      result.ray.origin = select(chosen, ray.origin, result.ray.origin);
-      result.ray.direction = select(chosen, ray.direction, result.ray.direction);
-      result.ray.far = select(chosen, ray.far, result.ray.far);
-      result.distance = select(chosen, distance, result.distance);
-      result.radiance = select(chosen, radiance, result.radiance);
-      result.group = select_lanes(chosen, IntN(tables.light_group(i)), result.group);
-      result.has_shadow = (result.has_shadow & !chosen) | (chosen & MaskN(light.shadows()));
-      weight = select(chosen, its_weight, weight);
+      offer(lanes, distance, density / share, ray, arriving, IntN(tables.light_group(i)), MaskN(light.shadows()));
     };
     for (std::size_t j = 0; j < places; ++j) {
       const FloatN of_place = (u + FloatN(static_cast<float>(j))) * share;
       try_at(flights.sample(of_place));
       if (angles) try_at(angles->sample(of_place));
+    }
+  };
+  const FloatN distance = part.flights.sample(u);
+  for (std::size_t group = 0; group < groups_; ++group) {
+    const SceneTables::LightGroup& lights = tables.light_groups()[group];
+    const bool draws = lights.last_light - lights.first_drawn > most_asked_in_fog;
+    for (std::size_t i = lights.first_light; i < (draws ? lights.first_drawn : lights.last_light); ++i) ask(i);
+    if (!draws) continue;
+    // Some that are together, as they matter at one of the distances.
+    const Vec3<FloatN> nowhere(Vec3f(0, 0, 0));
+    const ManyLights::Leaf leaf = lights.drawn->choose(part.rays.at(distance), nowhere, numbers(FogDraw::light).y);
+    for (std::size_t i = 0; i < leaf.size; ++i) {
+      const IntN light = leaf.first + IntN(static_cast<std::int32_t>(i));
+      const PointSource<FloatN> source = lights.drawn->source(light);
+      const EquiangularDistances angles(part.rays, part.begin, part.end, source.location);
+      const auto try_at = [&](const FloatN& at) {
+        Ray<FloatN> ray{part.rays.at(at), {}, FloatN(0), FloatN(1)};
+        const Rgb<FloatN> arriving = lights.drawn->sample(light, source, ray);
+        offer(part.lanes & (leaf.probability > FloatN(0)), at,
+              (part.flights.pdf(at) + angles.pdf(at)) * leaf.probability, ray, arriving,
+              IntN(static_cast<std::int32_t>(group)), lights.drawn->has_shadow(light));
+      };
+      try_at(distance);
+      try_at(angles.sample(u));
     }
   }
   result.lit = part.lanes & (reservoir.total() > FloatN(0));

@@ -6,9 +6,9 @@
 
 #include "raytrace/accel/surface_uv.h"
 #include "raytrace/bsdfs/direction_about.h"
+#include "raytrace/sampling/reservoir.h"
 #include "raytrace/sampling/sampler.h"
 #include "raytrace/tracing/direct_light.h"
-#include "raytrace/tracing/reservoir.h"
 #include "raytrace/tracing/sampled_light.h"
 
 namespace raytrace {
