@@ -9,13 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "raytrace/math/srgb.h"
+
 namespace raytrace {
 namespace {
-
-double light_of_srgb(double code) { return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4); }
-double srgb_of_light(double light) {
-  return light <= 0.0031308 ? light * 12.92 : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
-}
 
 std::byte as_byte(double number) { return static_cast<std::byte>(std::lround(std::clamp(number, 0.0, 1.0) * 255)); }
 
@@ -37,7 +34,7 @@ class SourcePicture {
       throw PictureError("its numbers are floating-point ones, and not sRGB's");
     light_.resize(picture_->format == TexelFormat::bytes ? 256 : 65536);
     for (std::size_t i = 0; i < light_.size(); ++i)
-      light_[i] = light_of_srgb(static_cast<double>(i) / static_cast<double>(light_.size() - 1));
+      light_[i] = linear_of_srgb(static_cast<double>(i) / static_cast<double>(light_.size() - 1));
   }
 
   /// In the middle of a pixel of a picture of that size.
@@ -98,7 +95,7 @@ class MadePicture : public PictureReader {
         const auto& [red, green, blue] = share.base_color;
         const std::array<double, 4> numbers =
             from_.is_color
-                ? std::array{srgb_of_light(red), srgb_of_light(green), srgb_of_light(blue), 1.0}
+                ? std::array{srgb_of_linear(red), srgb_of_linear(green), srgb_of_linear(blue), 1.0}
                 : std::array{share.specular_weight, 1 - mirrored.alpha * from_.glossiness_factor, share.metalness, 1.0};
         for (const double number : numbers) *at++ = as_byte(number);
       }

@@ -1,9 +1,9 @@
 // Elements whose values are in attributes, and how such an element is written, for messages.
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 
 #include "raytrace/description/read_value.h"
+#include "raytrace/math/srgb.h"
 
 namespace raytrace {
 
@@ -37,9 +37,7 @@ std::vector<std::string> linear_of_hexadecimal(std::string_view word) {
     int value = 0;
     if (std::from_chars(code.data(), code.data() + digits, value, 16).ptr != code.data() + digits || value < 0)
       return {};
-    const double encoded = value / (digits == 1 ? 15.0 : 255.0);
-    numbers.push_back(
-        formatted("%.4g", encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4)));
+    numbers.push_back(formatted("%.4g", linear_of_srgb(value / (digits == 1 ? 15.0 : 255.0))));
   }
   return numbers;
 }

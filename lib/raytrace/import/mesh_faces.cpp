@@ -4,6 +4,7 @@
 #include <string>
 
 #include "raytrace/import/unique_items.h"
+#include "raytrace/math/srgb.h"
 #include "raytrace/math/vec3.h"
 #include "raytrace/parallel/for_each_index.h"
 
@@ -162,9 +163,7 @@ std::span<const std::uint32_t> PolygonCutter::cut(std::span<const std::uint32_t>
 }
 
 float srgb_to_linear(double value, double most) {
-  const auto linear = [](double encoded) {
-    return static_cast<float>(encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4));
-  };
+  const auto linear = [](double encoded) { return static_cast<float>(linear_of_srgb(encoded)); };
   static const auto of_byte = [&] {
     std::array<float, 256> table{};
     for (std::size_t i = 0; i < table.size(); ++i) table[i] = linear(static_cast<double>(i) / 255);

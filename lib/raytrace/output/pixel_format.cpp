@@ -11,6 +11,7 @@
 #include <limits>
 #include <utility>
 
+#include "raytrace/math/srgb.h"
 #include "raytrace/output/view_transform.h"
 
 namespace raytrace {
@@ -25,7 +26,7 @@ float stored(float radiance, float factor, const PixelFormat& format, Repairs& r
     return radiance > 0 ? format.highest : format.lowest;
   }
   const float clamped = std::clamp(radiance * factor, format.lowest, format.highest);
-  if (format.for_display) return srgb_encoded(clamped);
+  if (format.for_display) return srgb_of_linear(clamped);
   if (clamped < radiance) ++repairs.clamped;
   return clamped;
 }
@@ -46,7 +47,7 @@ void view(const Pixel& pixel, float factor, const PixelFormat& format, float* va
   for (const double part : {color.red, color.green, color.blue}) {
     const double most = format.ocio ? double{std::numeric_limits<float>::max()} : 1;
     const auto value = static_cast<float>(std::clamp(part, 0.0, most));
-    *values++ = format.ocio ? value : srgb_encoded(value);
+    *values++ = format.ocio ? value : srgb_of_linear(value);
   }
 }
 
@@ -101,10 +102,6 @@ Pixel color_at(const ImageBand& band, std::size_t index) {
     return std::get<std::vector<float>>(band.planes[color])[index];
   };
   return {value(0), value(1), value(2), value(3)};
-}
-
-float srgb_encoded(float linear) {
-  return linear <= 0.0031308F ? 12.92F * linear : 1.055F * std::pow(linear, 1.0F / 2.4F) - 0.055F;
 }
 
 Repairs stored_row(const ImageBand& band, int row, const PixelFormat& format, float* values) {

@@ -9,17 +9,13 @@
 #include <type_traits>
 #include <utility>
 
+#include "raytrace/math/srgb.h"
 #include "raytrace/parallel/for_each_index.h"
 
 namespace raytrace {
 namespace {
 
 using Rgba4 = std::array<float, 4>;
-
-float from_srgb(float code) { return code <= 0.04045F ? code / 12.92F : std::pow((code + 0.055F) / 1.055F, 2.4F); }
-float to_srgb(float light) {
-  return light <= 0.0031308F ? light * 12.92F : 1.055F * std::pow(light, 1 / 2.4F) - 0.055F;
-}
 
 /// How numbers are kept, and what they mean.
 struct ByteValues {
@@ -30,14 +26,14 @@ struct ByteValues {
   explicit ByteValues(bool is_srgb) : srgb(is_srgb) {
     for (std::size_t code = 0; code < decoded.size(); ++code) {
       const float number = static_cast<float>(code) / 255;
-      decoded[code] = srgb ? from_srgb(number) : number;
+      decoded[code] = srgb ? linear_of_srgb(number) : number;
     }
   }
   float light(Stored code, std::size_t channel) const {
     return channel < 3 ? decoded[code] : static_cast<float>(code) / 255;
   }
   Stored stored(float light, std::size_t channel) const {
-    const float code = srgb && channel < 3 ? to_srgb(light) : light;
+    const float code = srgb && channel < 3 ? srgb_of_linear(light) : light;
     return static_cast<Stored>(std::lround(std::clamp(code, 0.0F, 1.0F) * 255));
   }
 };
@@ -91,7 +87,7 @@ Picture linear_floats(const Picture& picture) {
     } else {
       std::memcpy(&number, from + i * sizeof number, sizeof number);
     }
-    if (picture.channels == 1 || i % 4 < 3) number = from_srgb(number);
+    if (picture.channels == 1 || i % 4 < 3) number = linear_of_srgb(number);
     std::memcpy(result.pixels.data() + i * sizeof number, &number, sizeof number);
   }
   return result;
