@@ -1,5 +1,6 @@
 // Scenes so large that they are read in chunks, by several threads, with the same result.
 #include <algorithm>
+#include <chrono>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -148,6 +149,29 @@ TEST_CASE("what follows a group in chunks keeps its lines and columns") {
                               ": error: unexpected text 'x' in <disks>, which takes only elements\n");
   const std::string flat = without_line_ends(text);
   CHECK(contains(reported(flat), line_and_column(flat, "<discs/>") + ": error:"));
+}
+
+TEST_CASE("a scene in one line is read in about the time of one in many") {
+  const auto seconds_of = [](const char* line_end) {
+    std::string text = scene_with("");
+    std::string instances = "<objects><instances>";
+    const auto append = [&](const std::string& more) { instances += more + line_end; };
+    for (int i = 0; i < 15000; ++i)
+      append("<instance><group>g</group><transform><translate x='" + std::to_string(i) +
+             "' y='0' z='0'/></transform></instance>");
+    append("</instances></objects><groups>");
+    for (int i = 0; i < 3000; ++i)
+      append("<group><name>" + (i == 0 ? std::string("g") : "g" + std::to_string(i)) +
+             "</name><objects><spheres><sphere><center x='0' y='0' z='0'/><radius>1</radius><material>clay</material>"
+             "</sphere></spheres></objects></group>");
+    text.replace(text.rfind("</raytracer>"), 0, instances + "</groups>");
+    Diagnostics diagnostics("s");
+    const auto start = std::chrono::steady_clock::now();
+    REQUIRE(parse_scene(text, diagnostics, 1));
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  // Where each column is counted from the start of the line, it takes fifty times as long.
+  CHECK(seconds_of("") < 8 * seconds_of("\n") + 0.2);
 }
 
 }  // namespace raytrace::test

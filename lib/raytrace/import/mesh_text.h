@@ -58,8 +58,7 @@ class ChunkErrors {
 
   /// Reports those of all chunks with their lines. False if there are any.
   static bool report(const std::vector<ChunkErrors>& chunks, std::string_view text, Diagnostics& diagnostics) {
-    std::size_t offset = 0;
-    std::uint32_t line = 1;
+    LineMark mark;
     bool any = false;
     for (const ChunkErrors& chunk : chunks) {
       for (std::size_t i = 0; i < chunk.count_; ++i) {
@@ -68,9 +67,8 @@ class ChunkErrors {
           diagnostics.error({}, {});  // only counted
           continue;
         }
-        line = locate(text, chunk.kept_[i].offset, offset, line).line;
-        offset = chunk.kept_[i].offset;
-        diagnostics.error({line, 0}, chunk.kept_[i].message);
+        mark.pass(text.substr(mark.offset, chunk.kept_[i].offset - mark.offset));
+        diagnostics.error({mark.line, 0}, chunk.kept_[i].message);
       }
     }
     return !any;

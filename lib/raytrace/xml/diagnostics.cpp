@@ -5,16 +5,29 @@
 #include <tuple>
 
 #include "raytrace/text/message.h"
-#include "raytrace/xml/xml_characters.h"
 
 namespace raytrace {
 
-SourceLocation locate(std::string_view text, std::size_t offset, std::size_t from, std::uint32_t line) {
-  const std::string_view before = text.substr(0, offset);
-  const std::size_t line_end = before.rfind('\n');
-  std::size_t start = line_end == std::string_view::npos ? 0 : line_end + 1;
-  if (start == 0 && text.starts_with(byte_order_mark)) start = std::min(offset, byte_order_mark.size());
-  return {line + xml::line_ends(before.substr(from)), static_cast<std::uint32_t>(offset - start + 1)};
+void LineMark::pass(std::string_view passed) {
+  for (std::size_t at = passed.find('\n'); at != std::string_view::npos; at = passed.find('\n', at + 1)) {
+    ++line;
+    line_start = offset + at + 1;
+  }
+  offset += passed.size();
+}
+
+SourceLocation LineMark::location() const {
+  return {line, static_cast<std::uint32_t>(offset - std::min(offset, line_start) + 1)};
+}
+
+LineMark first_mark(std::string_view text, std::uint32_t line) {
+  return {0, line, text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0};
+}
+
+SourceLocation locate(std::string_view text, std::size_t offset) {
+  LineMark mark = first_mark(text);
+  mark.pass(text.substr(0, offset));
+  return mark.location();
 }
 
 Diagnostics Diagnostics::counter() {

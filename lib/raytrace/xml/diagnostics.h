@@ -30,8 +30,22 @@ struct IncludedFile {
 /// What some editors put at the start of a UTF-8 file. None of them shows it, so columns do not count it.
 inline constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
-/// Of the byte at an offset. Counts lines from the byte at `from`, not behind it, which is in line `line`.
-SourceLocation locate(std::string_view text, std::size_t offset, std::size_t from = 0, std::uint32_t line = 1);
+/// A byte of a text, from which lines may be counted on.
+struct LineMark {
+  std::size_t offset = 0;
+  std::uint32_t line = 1;      ///< that it is in
+  std::size_t line_start = 0;  ///< where that line starts, a byte order mark left out
+
+  /// Moves on over a text that starts with the byte.
+  void pass(std::string_view passed);
+  SourceLocation location() const;
+};
+
+/// The first byte, which is in that line.
+LineMark first_mark(std::string_view text, std::uint32_t line = 1);
+
+/// Of the byte at an offset.
+SourceLocation locate(std::string_view text, std::size_t offset);
 
 /// An error in a text, by the offset of its byte.
 struct TextError {

@@ -47,9 +47,9 @@ class ParsedText {
   // In the source.
   std::uint32_t line(const tinyxml2::XMLNode& node) const { return source_line(node.GetLineNum()); }
   std::size_t offset(const tinyxml2::XMLNode& node) { return source_offset(text_offset(node)); }
-  SourceLocation location(const tinyxml2::XMLNode& node) { return source_.locate(offset(node)); }
+  SourceLocation location(const tinyxml2::XMLNode& node) { return source_.locate(offset(node), located_); }
   SourceLocation location(const tinyxml2::XMLElement& element, std::string_view attribute) {
-    return source_.locate(source_offset(find_attribute(text_, text_offset(element), attribute)));
+    return source_.locate(source_offset(find_attribute(text_, text_offset(element), attribute)), located_);
   }
 
   std::string_view keep(std::string&& text) { return kept_.emplace_back(std::move(text)); }
@@ -122,6 +122,7 @@ class ParsedText {
   std::string text_;         // that of the tree
   std::vector<Part> parts_;  // of the text, in its order
   std::vector<std::size_t> offsets_;
+  LineMark located_;  // what was located last
   std::deque<std::string> kept_;
 };
 

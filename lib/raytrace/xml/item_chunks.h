@@ -16,8 +16,7 @@ namespace raytrace {
 struct TextChunk {
   std::size_t group;  ///< where the group's start tag begins
   std::size_t begin, end;
-  std::size_t items = 0;   ///< how many elements
-  std::uint32_t line = 0;  ///< of its first character; SceneText counts it
+  std::size_t items = 0;  ///< how many elements
 };
 
 /// Is called for the elements right inside of what may be a group, in the order of the text. An element is known by

@@ -146,12 +146,16 @@ std::optional<FileType> type_of(std::string_view text) {
 
 SceneText::SceneText(TextBuffer text, std::span<const std::string_view> groups, int threads, Diagnostics& diagnostics,
                      std::uint32_t first_line)
-    : text_(std::move(text)), first_line_(first_line) {
+    : text_(std::move(text)), first_line_(first_line), last_line_(first_line) {
   if (const auto error = find_xml_error(text_.text(), groups, chunks_, threads)) {
+    LineMark mark = first_mark(text_.text(), first_line);
+    mark.pass(text_.text().substr(0, error->offset));
     if (const auto type = explain_file_type(text_.text()))
       diagnostics.error({first_line, 1}, *type);
     else
-      diagnostics.error(raytrace::locate(text_.text(), error->offset, 0, first_line), error->message);
+      diagnostics.error(mark.location(), error->message);
+    mark.pass(text_.text().substr(error->offset));
+    last_line_ = mark.line;
     chunks_.clear();
     return;
   }
@@ -159,25 +163,30 @@ SceneText::SceneText(TextBuffer text, std::span<const std::string_view> groups, 
 }
 
 void SceneText::measure(int threads) {
-  const auto line_ends = [&](std::size_t begin, std::size_t end) {
-    return xml::line_ends(text_.text().substr(begin, end - begin));
-  };
+  // At the end of each chunk, as if it started in line 0.
+  std::vector<LineMark> ends(chunks_.size());
   for_each_index(static_cast<int>(chunks_.size()), threads, [&](int i) {
-    TextChunk& chunk = chunks_[static_cast<std::size_t>(i)];
-    chunk.line = line_ends(chunk.begin, chunk.end);
+    const TextChunk& chunk = chunks_[static_cast<std::size_t>(i)];
+    LineMark& end = ends[static_cast<std::size_t>(i)];
+    end = {chunk.begin, 0, 0};
+    end.pass(text_.text().substr(chunk.begin, chunk.end - chunk.begin));
   });
-  // From how many lines each has to its first.
-  Span rest{0, 0, first_line_};  // what of the skeleton stands before the chunk at hand
-  for (TextChunk& chunk : chunks_) {
-    std::uint32_t line = rest.line;
-    if (rest.begin != chunk.begin) {
-      line += line_ends(rest.begin, chunk.begin);
-      skeleton_.push_back({rest.begin, chunk.begin, rest.line});
+  const auto span_to = [](const LineMark& mark, std::size_t end) {
+    return Span{mark.offset, end, mark.line, mark.line_start};
+  };
+  LineMark mark = first_mark(text_.text(), first_line_);  // where what has no span yet begins
+  chunk_spans_.reserve(chunks_.size());
+  for (std::size_t i = 0; i < chunks_.size(); ++i) {
+    if (const std::size_t begin = chunks_[i].begin; mark.offset != begin) {
+      skeleton_.push_back(span_to(mark, begin));
+      mark.pass(text_.text().substr(mark.offset, begin - mark.offset));
     }
-    rest = {chunk.end, chunk.end, line + chunk.line};
-    chunk.line = line;
+    chunk_spans_.push_back(span_to(mark, chunks_[i].end));
+    mark = {chunks_[i].end, mark.line + ends[i].line, ends[i].line > 0 ? ends[i].line_start : mark.line_start};
   }
-  skeleton_.push_back({rest.begin, text_.text().size(), rest.line});
+  skeleton_.push_back(span_to(mark, text_.text().size()));
+  mark.pass(text_.text().substr(mark.offset));
+  last_line_ = mark.line;
 }
 
 SceneText::ChunkRange SceneText::chunks_of(std::size_t group) const {
@@ -188,11 +197,21 @@ SceneText::ChunkRange SceneText::chunks_of(std::size_t group) const {
   return {static_cast<std::size_t>(first - chunks_.begin()), static_cast<std::size_t>(last - first), items};
 }
 
-SourceLocation SceneText::locate(std::size_t offset) const {
-  const auto next = std::upper_bound(chunks_.begin(), chunks_.end(), offset,
-                                     [](std::size_t wanted, const TextChunk& chunk) { return wanted < chunk.begin; });
-  if (next == chunks_.begin()) return raytrace::locate(text_.text(), offset, 0, first_line_);
-  return raytrace::locate(text_.text(), offset, (next - 1)->begin, (next - 1)->line);
+SourceLocation SceneText::locate(std::size_t offset, LineMark& near) const {
+  // The last mark that is not behind it: of the skeleton, of the chunks, or the near one.
+  LineMark start = first_mark(text_.text(), first_line_);
+  const auto use_later = [&](const LineMark& mark) {
+    if (mark.offset <= offset && mark.offset >= start.offset) start = mark;
+  };
+  for (const std::vector<Span>* const spans : {&skeleton_, &chunk_spans_}) {
+    const auto next = std::upper_bound(spans->begin(), spans->end(), offset,
+                                       [](std::size_t wanted, const Span& span) { return wanted < span.begin; });
+    if (next != spans->begin()) use_later((next - 1)->mark());
+  }
+  if (near.offset > start.offset) use_later(near);
+  near = start;
+  near.pass(text_.text().substr(start.offset, offset - start.offset));
+  return near.location();
 }
 
 std::optional<TextBuffer> read_text_file(const std::string& file, int threads, Diagnostics& diagnostics) {

@@ -52,10 +52,13 @@ class TextBuffer {
 /// machine has.
 std::optional<TextBuffer> read_text_file(const std::string& file, int threads, Diagnostics& diagnostics);
 
-/// A part of the text; `line` is that of its first character.
+/// A part of the text; `line` is that of its first character, which starts at `line_start`.
 struct Span {
   std::size_t begin, end;
   std::uint32_t line;
+  std::size_t line_start;
+
+  LineMark mark() const { return {begin, line, line_start}; }
 };
 
 class SceneText {
@@ -73,7 +76,7 @@ class SceneText {
   /// In the order of the text.
   std::span<const Span> skeleton() const { return skeleton_; }
   std::size_t chunk_count() const { return chunks_.size(); }
-  Span chunk(std::size_t index) const { return {chunks_[index].begin, chunks_[index].end, chunks_[index].line}; }
+  Span chunk(std::size_t index) const { return chunk_spans_[index]; }
 
   struct ChunkRange {
     std::size_t first, count;
@@ -82,16 +85,18 @@ class SceneText {
   /// The chunks of the group whose start tag begins at an offset.
   ChunkRange chunks_of(std::size_t group) const;
 
-  /// For messages: it counts lines.
-  SourceLocation locate(std::size_t offset) const;
-  std::uint32_t last_line() const { return locate(text_.text().size()).line; }
+  /// near: of another byte, which becomes that of this one. Lines are counted from there, or from where the part
+  /// starts: to locate bytes in their order takes a single pass through the text, however long its lines are.
+  SourceLocation locate(std::size_t offset, LineMark& near) const;
+  std::uint32_t last_line() const { return last_line_; }
 
  private:
   void measure(int threads);
 
   TextBuffer text_;
-  std::uint32_t first_line_;
+  std::uint32_t first_line_, last_line_;
   std::vector<TextChunk> chunks_;
+  std::vector<Span> chunk_spans_;  ///< of the chunks
   std::vector<Span> skeleton_;
 };
 
