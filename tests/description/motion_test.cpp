@@ -30,7 +30,7 @@ TEST_CASE("animated files stand still while the shutter is open, as they are at 
       return open_shutter("<objects><" + objects + "><" + type + "><file>fox.glb</file>" + more + "</" + type + "></" +
                           objects + "></objects>");
     };
-    const std::string warning = "s:2: warning: the animation of this <" + type +
+    const std::string warning = "s:2:18: warning: the animation of this <" + type +
                                 "> stands still while the shutter is open: its <time> counts at the frame\n";
     CHECK(reported(scene("<animation>0</animation>" + time_keys)) == warning);
     // Without an animation, the time is of nothing.
@@ -63,7 +63,47 @@ TEST_CASE("the warning that a material stands still has its name") {
       "<materials><mattes><matte><name>paint</name><ka>1</ka><kd><key frame='1' value='0'/><key frame='3' value='1'/>"
       "</kd><cd red='1' green='1' blue='1'/></matte></mattes></materials>");
   CHECK(reported(text) ==
-        "s:2: warning: the material 'paint' stands still while the shutter is open: its keys count at the frame\n");
+        "s:2:20: warning: the material 'paint' stands still while the shutter is open: its keys count at the frame\n");
+}
+
+TEST_CASE("what is said of motion has a line and a column, also where a scene is one line") {
+  const auto told = [](const std::string& more) {
+    Diagnostics diagnostics("s");
+    parse_scene(open_shutter(more), diagnostics);
+    std::string text;
+    for (const Diagnostic& one : diagnostics.kept()) {
+      REQUIRE(one.location.line > 0);
+      REQUIRE(one.location.column > 0);
+      text += std::to_string(one.location.line) + ":" + std::to_string(one.location.column) + " " + one.message + "\n";
+    }
+    return text;
+  };
+  const std::string changing = "<key frame='1' value='1'/><key frame='2' value='2'/>";
+  const std::string light = "<pointlight><location x='0' y='0' z='0'/><scaleradiance>" + changing +
+                            "</scaleradiance><color red='1' green='1' blue='1'/></pointlight>";
+  const std::string lights = told("<lights><pointlights>" + light + light + "</pointlights></lights>");
+  const std::string stands = " this light stands still while the shutter is open: its keys count at the frame\n";
+  CHECK(lights == "2:22" + stands + "2:" + std::to_string(22 + light.size()) + stands);
+  CHECK(contains(told("<objects><spheres><sphere><center x='0' y='0' z='0'/><radius>" + changing +
+                      "</radius><material>clay</material></sphere></spheres></objects>"),
+                 "2:19 this <sphere> changes its form"));
+  CHECK(contains(told("<objects><planes><plane><point x='0' y='0' z='0'/><normal x='0' y='1' z='0'/>"
+                      "<material>clay</material>" +
+                      move_keys + "</plane></planes></objects>"),
+                 "2:18 a plane has no end"));
+  CHECK(contains(told("<objects><spheres><sphere><center x='0' y='0' z='0'/><radius>1</radius><material>clay</material>"
+                      "<transform><scale><key frame='1' x='1' y='1' z='1'/><key frame='1.1' x='0' y='1' z='1'/></scale>"
+                      "</transform></sphere></spheres></objects>"),
+                 "while the shutter is open"));
+}
+
+TEST_CASE("what is said of a camera's motion is said at the camera") {
+  std::string text = open_shutter("<integrator><path><caustics>light</caustics></path></integrator>");
+  const std::string eye = "<eye x=\"0\" y=\"0\" z=\"9\"/>";
+  const std::size_t at = text.find(eye), camera = text.find("<camera>");
+  REQUIRE(at != std::string::npos);
+  text.replace(at, eye.size(), "<eye><key frame='1' x='0' y='0' z='9'/><key frame='2' x='1' y='0' z='9'/></eye>");
+  CHECK(contains(reported(text), "s:1:" + std::to_string(camera + 1) + ": error: the camera moves while its shutter"));
 }
 
 }  // namespace raytrace::test

@@ -151,6 +151,23 @@ TEST_CASE("what follows a group in chunks keeps its lines and columns") {
   CHECK(contains(reported(flat), line_and_column(flat, "<discs/>") + ": error:"));
 }
 
+TEST_CASE("items have the lines and columns of their elements") {
+  const std::string text = large_scene();
+  for (const std::string& in :
+       {text, without_line_ends(text), std::string(byte_order_mark) + without_line_ends(text)}) {
+    Diagnostics diagnostics("s");
+    const auto scene = parse_scene(in, diagnostics, 2);
+    REQUIRE(scene);
+    LineMark mark = first_mark(in);
+    for (const auto& item : std::get<ObjectItems<Sphere>>(scene->objects)) {
+      const std::size_t next = in.find("<sphere>", mark.offset + 1);
+      mark.pass(std::string_view(in).substr(mark.offset, next - mark.offset));
+      REQUIRE(item.line == mark.location().line);
+      REQUIRE(item.column == mark.location().column);
+    }
+  }
+}
+
 TEST_CASE("a scene in one line is read in about the time of one in many") {
   const auto seconds_of = [](const char* line_end) {
     std::string text = scene_with("");

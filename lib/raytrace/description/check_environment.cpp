@@ -8,20 +8,20 @@ void check_environment(const SceneDescription& scene,
   const auto& lights = std::get<LightItems<EnvironmentLight>>(scene.lights);
   for (const auto& light : lights) {
     if (&light != lights.data())
-      report({light.line, 0}, "a second <environmentlight>; a scene has one, and it is all around");
+      report(location_of(light), "a second <environmentlight>; a scene has one, and it is all around");
     if (!skies.empty())
-      report({light.line, 0},
+      report(location_of(light),
              "an <environmentlight> beside a <skylight>; a scene has one of them, and it is all around");
     if (light.parameters.ground != 1 && !light.parameters.file.path.empty())
-      report({light.line, 0},
+      report(location_of(light),
              "the <environmentlight> has a <file>, which is its ground's light, too; take out its <ground>");
     if (!light.transform.affine().is_turn())
-      report({light.line, 0},
+      report(location_of(light),
              "the <environmentlight> has a transform that moves, scales or skews it: it is infinitely far, so it can "
              "only be turned and mirrored");
   }
   for (const auto& sky : skies)
-    if (&sky != skies.data()) report({sky.line, 0}, "a second <skylight>; a scene has one, and it is all around");
+    if (&sky != skies.data()) report(location_of(sky), "a second <skylight>; a scene has one, and it is all around");
 }
 
 }  // namespace raytrace

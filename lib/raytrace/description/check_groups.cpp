@@ -24,13 +24,18 @@ class GroupChecker {
   void check() {
     for (const Group& group : scene_.groups)
       for (const auto& plane : std::get<ObjectItems<Plane>>(group.objects))
-        report_({plane.line, 0}, "a plane has no end, so it cannot be in a group; put it into the scene's <objects>");
+        report_(location_of(plane),
+                "a plane has no end, so it cannot be in a group; put it into the scene's <objects>");
     std::uint64_t count = 0;
     for (const Group& group : scene_.groups) count_of(states_.at(group.name));
-    for (const auto& instance : std::get<ObjectItems<Instance>>(scene_.objects)) count += count_of(instance);
+    SourceLocation last;
+    for (const auto& instance : std::get<ObjectItems<Instance>>(scene_.objects)) {
+      count += count_of(instance);
+      last = location_of(instance);
+    }
     if (count > most_instances)
-      report_({}, "the scene has " + std::to_string(count) +
-                      " instances, those in groups counted each time; the most is " + std::to_string(most_instances));
+      report_(last, "the scene has " + std::to_string(count) +
+                        " instances, those in groups counted each time; the most is " + std::to_string(most_instances));
   }
 
  private:
@@ -42,8 +47,7 @@ class GroupChecker {
 
   std::uint64_t count_of(const ObjectItem<Instance>& instance) {
     const Reference& name = instance.parameters.group;
-    const SourceLocation location =
-        name.line > 0 ? SourceLocation{name.line, name.column} : SourceLocation{instance.line, 0};
+    const SourceLocation location = name.line > 0 ? location_of(name) : location_of(instance);
     const auto found = states_.find(name.name);
     if (found == states_.end()) {
       const std::string_view nearest = nearest_name(name.name, names_);

@@ -30,14 +30,14 @@ class SceneChecker {
     check_groups(scene, report);
     check_environment(scene, report);
     for (const Group& group : scene.groups) {
-      line_ = group.line;
+      location_ = location_of(group);
       item_ = {group_element, static_cast<std::size_t>(&group - scene.groups.data())};
       check_field("name", group.name, Range::any);
       for_each_type(Objects{}, [&]<class T>(std::type_identity<T>) {
         std::size_t i = 0;
         for (const auto& item : std::get<ObjectItems<T>>(group.objects)) {
           item_ = {T::element, i++};
-          line_ = item.line;
+          location_ = location_of(item);
           check_references(scene, item);
           check_parameters(element_type<T>(), &item.parameters, true);
         }
@@ -50,7 +50,7 @@ class SceneChecker {
       std::size_t i = 0;
       for (const auto& item : items_of<Section, T>(scene)) {
         item_ = {T::element, i++};
-        line_ = item.line;
+        location_ = location_of(item);
         if (T::group.empty() && i > 1) error("is a second one; a scene has one");
         check_labels<Section>(scene, item);
         if constexpr (requires {
@@ -72,7 +72,7 @@ class SceneChecker {
   template <class T>
   void check_single(const typename T::Parameters& parameters) {
     item_ = {T::element, std::nullopt};
-    line_ = 0;
+    location_ = {};
     check_parameters(element_type<T>(), &parameters, false);
   }
 
@@ -86,7 +86,7 @@ class SceneChecker {
     }  // <sphere> [2]
   };
 
-  void error(const std::string& message) { diagnostics_.error({line_, 0}, item_.text() + " " + message); }
+  void error(const std::string& message) { diagnostics_.error(location_, item_.text() + " " + message); }
 
   template <class Section, class Item>
   void check_labels(const SceneDescription& scene, const Item& item) {
@@ -126,7 +126,7 @@ class SceneChecker {
       field.visit(parameters, [&](const auto& value) { check_field(field.name, value, field.range); });
     if (diagnostics_.error_count() > errors_before) return;
     check_together(type, parameters, may_skip, [&](Severity severity, const std::string& message) {
-      diagnostics_.add(severity, {line_, 0}, item_.text() + ": " + message);
+      diagnostics_.add(severity, location_, item_.text() + ": " + message);
     });
   }
 
@@ -180,7 +180,7 @@ class SceneChecker {
 
   Diagnostics& diagnostics_;
   ItemName item_;  // at hand
-  std::uint32_t line_ = 0;
+  SourceLocation location_;
   /// Of each section, each with its bearer.
   std::map<std::string_view, std::map<std::string_view, ItemName>> names_;
 };

@@ -106,7 +106,7 @@ struct ImageTask {
   Image::Parameters image;
   std::array<bool, 2> used;  ///< as a colour, as a number
   std::string name;
-  std::uint32_t line;
+  SourceLocation location;
   LoadedImage* loaded;
 
   std::string hash{};
@@ -292,21 +292,20 @@ bool load_images(SceneDescription& scene, Diagnostics& diagnostics, int threads,
   for (TextureItem<Image>& item : std::get<TextureItems<Image>>(scene.textures)) {
     const std::string& file = item.parameters.file.path;
     const std::string name = item.imported ? std::filesystem::path(file).filename().string() : file;
-    tasks.push_back({"texture", item.parameters, uses[i++], name, item.line, &item.image});
+    tasks.push_back({"texture", item.parameters, uses[i++], name, location_of(item), &item.image});
   }
   for (LightItem<EnvironmentLight>& item : std::get<LightItems<EnvironmentLight>>(scene.lights))
     if (const FileName& file = item.parameters.file; !file.path.empty()) {
       Image::Parameters picture;
       picture.file = file;
-      tasks.push_back({"environment", picture, {true, false}, file.path, item.line, &item.image});
+      tasks.push_back({"environment", picture, {true, false}, file.path, location_of(item), &item.image});
     }
   std::erase_if(tasks, [](const ImageTask& task) { return !task.loaded->hash.empty(); });
   loader.load(tasks, [&](const ImageTask& task, const std::runtime_error& error) {
     const FileName& file = task.image.file;
     const bool warns = settings.missing == MissingTexture::warn;
     fine = fine && warns;
-    const SourceLocation location =
-        file.line > 0 ? SourceLocation{file.line, file.column} : SourceLocation{task.line, 0};
+    const SourceLocation location = file.line > 0 ? location_of(file) : task.location;
     diagnostics.add(warns ? Severity::warning : Severity::error, location,
                     "the " + std::string(task.what) + " " + in_quotes(task.name) + " cannot be used: " + error.what() +
                         (warns ? "; it is magenta" : ""));
@@ -321,8 +320,7 @@ bool load_images(SceneDescription& scene, Diagnostics& diagnostics, int threads,
           item.photometry = load_photometry(file.path);
         } catch (const std::runtime_error& error) {
           fine = false;
-          diagnostics.add(Severity::error,
-                          file.line > 0 ? SourceLocation{file.line, file.column} : SourceLocation{item.line, 0},
+          diagnostics.add(Severity::error, file.line > 0 ? location_of(file) : location_of(item),
                           "the IES file " + in_quotes(file.path) + " cannot be used: " + error.what());
         }
       }

@@ -85,13 +85,14 @@ class MeshLoader {
     mesh.material = model.material;
     mesh.line = model.line;
     mesh.shadowcatcher = model.shadowcatcher;
+    mesh.column = model.column;
     mesh.transform = std::move(model.transform);
     load(mesh);
     if (mesh.data == nullptr || mesh.data->lights.empty()) return;
     if (&objects == &scene_.objects)
       add_file_lights(mesh.data->lights, mesh.transform.affine(), scene_);
     else if (unlit_.insert(mesh.parameters.file.path).second)
-      diagnostics_.warning({mesh.parameters.file.line, mesh.parameters.file.column},
+      diagnostics_.warning(location_of(mesh.parameters.file),
                            on_one_line(mesh.parameters.file.path) +
                                ": its lights are left out, since the <model> is in a <group>, which has none");
   }
@@ -123,13 +124,13 @@ class MeshLoader {
     if (known->second == nullptr) return;
     cloud.data = known->second;
     if (cloud.data->radii.empty() && radius < smallest_size)
-      diagnostics_.error({file.line, file.column},
+      diagnostics_.error(location_of(file),
                          on_one_line(file.path) + ": has no radii; add <radius> to the <spherecloud>");
     if (!cloud.transform.affine().uniform_scale())
       diagnostics_.error(
-          {cloud.line, 0},
-          "a <spherecloud> stays one of spheres: its <transform> cannot stretch it; put it into a <group>, "
-          "and stretch an <instance> of that");
+          location_of(cloud),
+          std::string("a <spherecloud> stays one of spheres: its <transform> cannot stretch it; put it into a <group>, "
+                      "and stretch an <instance> of that"));
     const MaterialReference own = cloud.material;
     cloud.materials = {own != no_material ? own : cloud.data->colors.empty() ? grey() : painted()};
   }
@@ -141,7 +142,7 @@ class MeshLoader {
         make_mesh(values.positions.numbers, values.faces.numbers, Mesh::face_ends(values.faces),
                   values.normals.groups.numbers, values.uvs.numbers, values.uvs2.numbers, found);
     for (const Diagnostic& diagnostic : found.kept())
-      diagnostics_.add(diagnostic.severity, {mesh.line, 0}, "the mesh: " + diagnostic.message);
+      diagnostics_.add(diagnostic.severity, location_of(mesh), "the mesh: " + diagnostic.message);
     return data ? std::make_shared<const MeshData>(std::move(*data)) : nullptr;
   }
 
@@ -186,7 +187,7 @@ class MeshLoader {
     if (is_new) {
       known->second = holds_normals(known->first);
       if (!known->second)
-        diagnostics_.warning({file.line, file.column},
+        diagnostics_.warning(location_of(file),
                              on_one_line(file.path) + ": the map_Bump " + in_quotes(map.file) +
                                  " holds heights, and MTL does not say how high they are: it is left out; a <bump> of "
                                  "a material of the scene may have it, with <overridematerials>");
@@ -203,7 +204,7 @@ class MeshLoader {
       if (i < most) names += (i == 0 ? "" : ", ") + in_quotes(materials[i].name);
     }
     if (materials.size() > most) names += " and " + std::to_string(materials.size() - most) + " more";
-    diagnostics_.warning({file.line, file.column},
+    diagnostics_.warning(location_of(file),
                          on_one_line(file.path) +
                              ": <overridematerials> changes nothing: no material of the scene has a name "
                              "of the file's, which " +
@@ -228,7 +229,7 @@ class MeshLoader {
     }
     const bool is_about_all = found.kept().size() == 1 && found.kept().front().location.line == 0;
     if (!data && is_about_all && file.line > 0)
-      diagnostics_.error({file.line, file.column}, found.file() + ": " + found.kept().front().message);
+      diagnostics_.error(location_of(file), found.file() + ": " + found.kept().front().message);
     else
       diagnostics_.append(found);
     return data;

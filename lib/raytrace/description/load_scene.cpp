@@ -38,7 +38,7 @@ void report_missing_meshes(const SceneDescription& scene, Diagnostics& diagnosti
     std::error_code error;
     if (file.path.empty() || std::filesystem::status(file.path, error).type() != std::filesystem::file_type::not_found)
       return;
-    diagnostics.error({file.line, file.column},
+    diagnostics.error(location_of(file),
                       on_one_line(file.path) + ": cannot read it: " + std::generic_category().message(ENOENT));
   };
   const auto look_in = [&](const ObjectLists& objects) {

@@ -98,9 +98,9 @@ class MotionFinder {
     if (!camera_moves_) scene_.moving_camera.clear();
     const auto* const path = scene_.integrator ? std::get_if<Path::Parameters>(&*scene_.integrator) : nullptr;
     if (camera_moves_ && path != nullptr && path->caustics != Caustics::none)
-      diagnostics_.error({},
-                         "the camera moves while its shutter is open, and light paths (<caustics>) cannot reach it; "
-                         "let it stand still, or remove <caustics>");
+      diagnostics_.error(scene_.camera_location,
+                         std::string("the camera moves while its shutter is open, and light paths (<caustics>) cannot "
+                                     "reach it; let it stand still, or remove <caustics>"));
     for (const Group& group : scene_.groups) group_names_.insert(group.name);
     move_objects(0, scene_.objects);
     const std::size_t groups = scene_.groups.size();
@@ -136,7 +136,8 @@ class MotionFinder {
     const ViewFrame a(from.eye, from.lookat, from.up), b(to.eye, to.lookat, to.up);
     // A rotation has the trace 1 + 2 cos(angle): more than 1 is less than 90 degrees.
     if (dot(a.u, b.u) + dot(a.v, b.v) + dot(a.w, b.w) > 1) return;
-    diagnostics_.error({}, std::string("the camera turns too fast to be followed while the shutter is open") + slower);
+    diagnostics_.error(scene_.camera_location,
+                       std::string("the camera turns too fast to be followed while the shutter is open") + slower);
   }
 
   void compare_objects(std::size_t list, const ObjectLists& lists, const ObjectLists& then) {
@@ -145,7 +146,7 @@ class MotionFinder {
       const auto& items_then = std::get<ObjectItems<T>>(then);
       if (items.size() != items_then.size())
         return diagnostics_.error(
-            SourceLocation{(items.empty() ? items_then : items).front().line, 0},
+            location_of((items.empty() ? items_then : items).front()),
             "not every <" + std::string(T::element) + "> is there all the time while the shutter is open");
       const Fields fields = T::fields();
       for (std::size_t i = 0; i < items.size(); ++i) {
@@ -164,8 +165,8 @@ class MotionFinder {
   /// A file has its form of the frame all the time, wherever it moves.
   template <class T>
   void add_at_rest(const Place& object, const Fields& fields, const ObjectItem<T>& item, ObjectItem<T> then) {
-    if (!item.parameters.animation.name.empty() && warned_.insert(item.line).second)
-      diagnostics_.warning(SourceLocation{item.line, 0},
+    if (!item.parameters.animation.name.empty() && warned_.insert({item.line, item.column}).second)
+      diagnostics_.warning(location_of(item),
                            "the animation of this <" + std::string(T::element) +
                                "> stands still while the shutter is open: its <time> counts at the frame");
     then.parameters.time = item.parameters.time;
@@ -179,7 +180,7 @@ class MotionFinder {
     const std::optional<Vec3d> shift = shift_between(fields, &item.parameters, &then.parameters);
     if (!shift)
       return diagnostics_.error(
-          SourceLocation{item.line, 0},
+          location_of(item),
           "this <" + std::string(T::element) +
               "> changes its form while the shutter is open; let the keys of a <transform> move, turn and scale it");
     std::vector<Affine>& motion = motions_[object];
@@ -191,7 +192,7 @@ class MotionFinder {
   void check_speed(const ObjectItem<T>& item, const std::vector<Affine>& motion) {
     for (std::size_t i = 1; i < motion.size(); ++i)
       if (collapses_between(motion[i - 1], motion[i]))
-        return diagnostics_.error(SourceLocation{item.line, 0},
+        return diagnostics_.error(location_of(item),
                                   "this <" + std::string(T::element) +
                                       "> turns, or is turned inside out, too fast to be followed while the shutter "
                                       "is open" +
@@ -209,7 +210,7 @@ class MotionFinder {
         if (motion != motions_.end()) check_speed(items[i], motion->second);
         if constexpr (std::is_same_v<T, Plane>) {
           if (motion != motions_.end())
-            diagnostics_.error(SourceLocation{items[i].line, 0},
+            diagnostics_.error(location_of(items[i]),
                                std::string("a plane has no end, so it cannot move while the shutter is open"));
         } else if constexpr (std::is_same_v<T, Instance>) {
           if (motion != motions_.end()) items[i].motion = std::move(motion->second);
@@ -233,11 +234,13 @@ class MotionFinder {
     instance.parameters.group.name = free_group_name();
     instance.name = std::exchange(item.name, {});
     instance.line = item.line;
+    instance.column = item.column;
     instance.transform = std::exchange(item.transform, {});
     instance.motion = std::move(motion);
     Group group;
     group.name = instance.parameters.group.name;
     group.line = item.line;
+    group.column = item.column;
     std::get<ObjectItems<T>>(group.objects).push_back(std::move(item));
     scene_.groups.push_back(std::move(group));
     return instance;
@@ -254,10 +257,10 @@ class MotionFinder {
         if (items.size() == items_then.size() &&
             have_same_values(fields, &items[i].parameters, &items_then[i].parameters))
           continue;
-        if (!warned_.insert(items[i].line).second) continue;
+        if (!warned_.insert({items[i].line, items[i].column}).second) continue;
         std::string which = "this " + what;
         if constexpr (requires { items[i].name; }) which = "the " + what + " " + in_quotes(items[i].name);
-        diagnostics_.warning(SourceLocation{items[i].line, 0},
+        diagnostics_.warning(location_of(items[i]),
                              which + " stands still while the shutter is open: its keys count at the frame");
       }
     };
@@ -279,7 +282,7 @@ class MotionFinder {
   std::size_t moment_ = 0;
   bool camera_moves_ = false;
   std::map<Place, std::vector<Affine>> motions_;
-  std::set<std::uint32_t> warned_;  ///< lines
+  std::set<std::pair<std::uint32_t, std::uint32_t>> warned_;  ///< by line and column
   std::set<std::string> group_names_;
   int groups_made_ = 0;
 };
@@ -306,11 +309,11 @@ void add_motion(SceneDescription& scene, const std::function<SceneDescription(do
     if (of_moment.has_errors()) {
       const auto first = std::find_if(of_moment.kept().begin(), of_moment.kept().end(),
                                       [](const Diagnostic& one) { return one.severity == Severity::error; });
-      if (first->file.empty())
-        diagnostics.error(first->location, "while the shutter is open: " + first->message);
-      else
-        diagnostics.error({}, "while the shutter is open, in line " + std::to_string(first->location.line) + " of " +
-                                  first->file + ": " + first->message);
+      SourceLocation location = first->location;
+      const auto file = std::find_if(scene.included.begin(), scene.included.end(),
+                                     [&](const IncludedFile& one) { return on_one_line(one.name) == first->file; });
+      if (file != scene.included.end()) location.line += file->first_line - 1;
+      diagnostics.error(location, "while the shutter is open: " + first->message);
     } else {
       finder.add(i, then);
     }

@@ -21,18 +21,19 @@ class ChunkReader {
   void read(std::size_t chunk, Diagnostics& diagnostics) {
     items_->clear();
     number_ = 0;
-    rest_ = group_.text.chunk(chunk);
+    const Span span = group_.text.chunk(chunk);
+    here_ = span.mark();
+    end_ = span.end;
     while (true) {
       const std::uint32_t number_before = number_;
       if (pattern_) read_alike();
-      if (rest_.begin == rest_.end) return;
+      if (here_.offset == end_) return;
       // Alone, an item takes longer to parse than among others. So that must be rare, or lead to the next pattern.
       constexpr std::uint32_t many = 8;
       const std::uint32_t alike = number_ - number_before;
       const bool wants_pattern = alike == 0 && patterns_left_ > 0;
       const std::size_t length = wants_pattern || alike >= many ? first_length() : 0;
-      Span parsed = rest_;
-      if (length > 0) parsed.end = parsed.begin + length;
+      const Span parsed{here_.offset, length > 0 ? here_.offset + length : end_, here_.line, here_.line_start};
       const std::size_t reports_before = diagnostics.error_count() + diagnostics.warning_count();
       read_parsed(parsed, diagnostics);
       if (length == 0) return;
@@ -42,8 +43,7 @@ class ChunkReader {
         if (diagnostics.error_count() + diagnostics.warning_count() == reports_before)
           pattern_ = items_->pattern_of(text, document_.root().first_child().element());
       }
-      rest_.line += xml::line_ends(text);
-      rest_.begin = parsed.end;
+      here_.pass(text);
       skip_space();
     }
   }
@@ -51,12 +51,14 @@ class ChunkReader {
  private:
   /// As many as have the pattern, off the beginning of what is left.
   void read_alike() {
-    while (rest_.begin < rest_.end) {
-      const std::size_t length = items_->read_alike(*pattern_, group_.text.of(rest_), rest_.line, number_);
+    while (here_.offset < end_) {
+      const std::string_view text = rest();
+      const std::size_t length = items_->read_alike(*pattern_, text, here_.location(), number_);
       if (length == 0) return;
       ++number_;
-      rest_.line += pattern_->line_ends();
-      rest_.begin += length;
+      if (pattern_->line_ends() > 0) here_.line_start = here_.offset + text.rfind('\n', length - 1) + 1;
+      here_.line += pattern_->line_ends();
+      here_.offset += length;
       skip_space();
     }
   }
@@ -78,17 +80,19 @@ class ChunkReader {
 
   /// Of the item that comes next; 0 if there is something else.
   std::size_t first_length() const {
-    const std::string_view text = group_.text.of(rest_);
+    const std::string_view text = rest();
     return text.size() > 1 && text[0] == '<' && xml::is(text[1], xml::name_start) ? element_length(text) : 0;
   }
 
   void skip_space() {
-    for (const char c : group_.text.of(rest_)) {
-      if (!xml::is(c, xml::space)) return;
-      rest_.line += c == '\n' ? 1 : 0;
-      ++rest_.begin;
-    }
+    const std::string_view text = rest();
+    std::size_t size = 0;
+    while (size < text.size() && xml::is(text[size], xml::space)) ++size;
+    here_.pass(text.substr(0, size));
   }
+
+  /// What of the chunk has not been read.
+  std::string_view rest() const { return group_.text.of({here_.offset, end_, here_.line, here_.line_start}); }
 
   const ItemGroup& group_;
   Document document_;
@@ -96,7 +100,8 @@ class ChunkReader {
   std::optional<ItemPattern> pattern_;  // that items had lately
   int patterns_left_ = 8;               // so many may be tried: items may all differ
   std::uint32_t number_ = 0;            // of the next item
-  Span rest_{};                         // of the chunk
+  LineMark here_;                       // in the chunk
+  std::size_t end_ = 0;                 // of the chunk
 };
 
 }  // namespace

@@ -37,9 +37,9 @@ class ItemList {
   /// Appends what an element holds.
   virtual void read(Element element, std::uint32_t number, const ReadContext& context) = 0;
 
-  /// Appends the item that `text`, whose line is `line`, starts with, if it has the pattern and there is nothing to say
-  /// about it. The length of its text; 0 if it was not appended.
-  virtual std::size_t read_alike(const ItemPattern& pattern, std::string_view text, std::uint32_t line,
+  /// Appends the item that `text`, which stands at `location`, starts with, if it has the pattern and there is nothing
+  /// to say about it. The length of its text; 0 if it was not appended.
+  virtual std::size_t read_alike(const ItemPattern& pattern, std::string_view text, SourceLocation location,
                                  std::uint32_t number) = 0;
 
   /// That of an item which was read with nothing to say. (ItemPattern::of)
@@ -107,7 +107,7 @@ class TypedItemList final : public ItemList {
   void clear() override { entries_.clear(); }
 
   void read(Element element, std::uint32_t number, const ReadContext& context) override {
-    Entry& entry = append(element.line(), number);
+    Entry& entry = append(element.location(), number);
     Labels labels;
     textures_.clear();
     entry.usable = fields_.read(element, &entry.item.parameters, targets_of(labels, entry.item), context,
@@ -120,9 +120,9 @@ class TypedItemList final : public ItemList {
           labels[1], element, [&] { return element.child("material").first_child(); }, context.diagnostics);
   }
 
-  std::size_t read_alike(const ItemPattern& pattern, std::string_view text, std::uint32_t line,
+  std::size_t read_alike(const ItemPattern& pattern, std::string_view text, SourceLocation location,
                          std::uint32_t number) override {
-    Entry& entry = append(line, number);
+    Entry& entry = append(location, number);
     Labels labels;
     const std::size_t length =
         pattern.read(text, fields_.targets(&entry.item.parameters, targets_of(labels, entry.item)));
@@ -160,9 +160,10 @@ class TypedItemList final : public ItemList {
     return targets;
   }
 
-  Entry& append(std::uint32_t line, std::uint32_t number) {
+  Entry& append(SourceLocation location, std::uint32_t number) {
     Entry& entry = entries_.emplace_back();
-    entry.item.line = line;
+    entry.item.line = location.line;
+    entry.item.column = location.column;
     entry.number = number;
     return entry;
   }

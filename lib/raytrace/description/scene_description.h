@@ -30,10 +30,16 @@
 
 namespace raytrace {
 
+/// Where the scene's file has an item, a group, or the name of a file or something else.
+inline SourceLocation location_of(const auto& thing) { return {thing.line, thing.column}; }
+
+// Items have the line and the column of their elements, from 1; 0: nowhere.
+
 template <class Light>
 struct LightItem {
   typename Light::Parameters parameters;
   std::uint32_t line = 0;
+  std::uint32_t column = 0;
 };
 
 /// Those that may have an IES file.
@@ -43,6 +49,7 @@ struct LightItem<Light> {
   typename Light::Parameters parameters;
   std::uint32_t line = 0;
   LoadedPhotometry photometry{};  ///< once its file, if it has one, has been loaded (load_images.h)
+  std::uint32_t column = 0;
 };
 
 template <>
@@ -51,6 +58,7 @@ struct LightItem<EnvironmentLight> {
   std::uint32_t line = 0;
   Transform transform = {};
   LoadedImage image{};  ///< once its file, if it has one, has been loaded (load_images.h)
+  std::uint32_t column = 0;
 };
 
 /// An item by its type (the index in the Textures or Materials registry) and its index among the items of that type.
@@ -70,6 +78,7 @@ struct TextureItem {
   std::uint32_t line = 0;
   bool imported = false;  ///< from a mesh's file, which brings it again when it is read again
   LoadedImage image{};    ///< of an Image, once its file has been loaded (load_images.h)
+  std::uint32_t column = 0;
 };
 
 enum class TextureChannel {
@@ -103,6 +112,7 @@ struct MaterialItem {
   std::uint32_t line = 0;
   bool imported = false;               ///< from a mesh's file, which brings it again when it is read again
   std::vector<TextureUse> textures{};  ///< of a field no more than one
+  std::uint32_t column = 0;
 };
 
 template <class Shape>
@@ -113,6 +123,7 @@ struct ObjectItem {
   std::uint32_t line = 0;
   bool shadowcatcher = false;  ///< a transparent picture shows the shadows on it alone
   Transform transform = {};    ///< of what the parameters say
+  std::uint32_t column = 0;
 };
 
 /// No material: that of its file, or none.
@@ -132,6 +143,7 @@ struct ObjectItem<Shape> {
   // From load_meshes().
   std::shared_ptr<const typename Shape::Data> data = nullptr;
   std::vector<MaterialReference> materials = {};  ///< those of the data, at least one
+  std::uint32_t column = 0;
 };
 
 /// Instances and models.
@@ -146,6 +158,7 @@ struct ObjectItem<Object> {
   Transform transform = {};
   /// Of an instance that moves while the shutter is open: its transform at each moment (motion.h).
   std::vector<Affine> motion{};
+  std::uint32_t column = 0;
 };
 
 template <class T>
@@ -174,12 +187,14 @@ struct Group {
   std::string name;
   ObjectLists objects;
   std::uint32_t line = 0;
+  std::uint32_t column = 0;
 };
 
 struct SceneDescription {
   std::string file;  ///< as given on the command line; "-" for standard input
   ViewPlane viewplane;
   CameraParameters camera;
+  SourceLocation camera_location{};                ///< of its element
   std::vector<CameraParameters> moving_camera;     ///< at each moment while the shutter is open, if it moves (motion.h)
   std::optional<IntegratorParameters> integrator;  ///< none: the file leaves it open
   TupleOf<Lights, LightItems>::type lights;        ///< std::get<LightItems<PointLight>>(lights)

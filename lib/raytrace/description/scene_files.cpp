@@ -74,7 +74,7 @@ const SceneFile* SceneFiles::open(TextBuffer text, const std::string& file) { re
 
 const SceneFile* SceneFiles::include(const FileName& file) {
   const auto refuse = [&](const std::string& reason) {
-    diagnostics_.error({file.line, file.column}, on_one_line(file.path) + ": " + reason);
+    diagnostics_.error(location_of(file), on_one_line(file.path) + ": " + reason);
     return nullptr;
   };
   const auto is_this = [&](const std::string& other) {

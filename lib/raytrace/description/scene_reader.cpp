@@ -86,7 +86,9 @@ class SceneReader {
         read_integrator(child);
       else if (child.name() == Include::element)
         read_include(child);
-      else if (!read_one_of(Cameras{}, camera_key, child, scene_.camera))
+      else if (read_one_of(Cameras{}, camera_key, child, scene_.camera))
+        scene_.camera_location = child.location();
+      else
         refuse_unknown(child, root_element);
     }
   }
@@ -186,7 +188,9 @@ class SceneReader {
 
   void read_group_of_objects(Element element) {
     Group group;
-    group.line = element.line();
+    const SourceLocation location = element.location();
+    group.line = location.line;
+    group.column = location.column;
     refuse_attributes(element, {}, diagnostics_);
     objects_ = &group.objects;
     object_names_ = {};
@@ -209,9 +213,8 @@ class SceneReader {
       diagnostics_.error(element, [&] { return "missing <name> in <group>; add <name>...</name>"; });
     const auto [first, is_first] = group_lines_.try_emplace(group.name, group.line);
     if (!is_first && !group.name.empty())
-      diagnostics_.error({name.line, name.column},
-                         "the group name " + in_quotes(group.name) + " is taken by the <group> in " +
-                             diagnostics_.line_name(first->second, name.line) + "; choose another");
+      diagnostics_.error(location_of(name), "the group name " + in_quotes(group.name) + " is taken by the <group> in " +
+                                                diagnostics_.line_name(first->second, name.line) + "; choose another");
     scene_.groups.push_back(std::move(group));
   }
 
