@@ -1,5 +1,6 @@
 #include "raytrace/description/check_scene.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "raytrace/description/check_environment.h"
+#include "raytrace/description/check_fogs.h"
 #include "raytrace/description/check_groups.h"
 #include "raytrace/description/parse_value.h"
 #include "raytrace/description/read_fields.h"
@@ -29,6 +31,7 @@ class SceneChecker {
     const auto report = [&](SourceLocation location, const std::string& m) { diagnostics_.error(location, m); };
     check_groups(scene, report);
     check_environment(scene, report);
+    check_fogs(scene, [&](SourceLocation location, const std::string& m) { diagnostics_.warning(location, m); });
     for (const Group& group : scene.groups) {
       location_ = location_of(group);
       item_ = {group_element, static_cast<std::size_t>(&group - scene.groups.data())};
@@ -63,7 +66,12 @@ class SceneChecker {
           if (!item.parameters.iesfile.path.empty() && item.photometry.hash.empty())
             error("has an IES file that has not been loaded (load_images.h)");
         if constexpr (requires { item.textures; }) check_textured_fields(element_type<T>().fields, item.textures);
-        check_parameters(element_type<T>(), &item.parameters, Section::may_skip);
+        if (!check_parameters(element_type<T>(), &item.parameters, Section::may_skip)) continue;
+        report_warnings(
+            element_type<T>(), &item.parameters, [&](std::string_view field) { return is_textured<T>(item, field); },
+            [&](const ParameterWarning& warning) {
+              diagnostics_.warning(location_, item_.text() + ": " + warning.message);
+            });
       }
     });
   }
@@ -120,12 +128,24 @@ class SceneChecker {
       for (const TextureUse& use : item.textures) check_reference<TexturesSection>(scene, use.texture);
   }
 
-  void check_parameters(const ElementType& type, const void* parameters, bool may_skip) {
+  template <class T, class Item>
+  static bool is_textured(const Item& item, std::string_view field) {
+    if constexpr (requires { item.textures; }) {
+      const Fields& fields = element_type<T>().fields;
+      return std::any_of(item.textures.begin(), item.textures.end(), [&](const TextureUse& use) {
+        return use.field < fields.size() && fields[use.field].name == field;
+      });
+    }
+    return false;
+  }
+
+  /// Whether they are fine.
+  bool check_parameters(const ElementType& type, const void* parameters, bool may_skip) {
     const std::size_t errors_before = diagnostics_.error_count();
     for (const Field& field : type.fields)
       field.visit(parameters, [&](const auto& value) { check_field(field.name, value, field.range); });
-    if (diagnostics_.error_count() > errors_before) return;
-    check_together(type, parameters, may_skip, [&](Severity severity, const std::string& message) {
+    if (diagnostics_.error_count() > errors_before) return false;
+    return check_together(type, parameters, may_skip, [&](Severity severity, const std::string& message) {
       diagnostics_.add(severity, location_, item_.text() + ": " + message);
     });
   }

@@ -179,9 +179,19 @@ FieldsReader::FieldsReader(const ElementType& type, std::span<const FieldInfo> l
 bool FieldsReader::read(Element element, void* parameters, std::span<const FieldTarget> labels,
                         const ReadContext& context, std::vector<FieldTexture>* textures) {
   if (!read_fields(element, infos_, targets(parameters, labels), context, textures)) return false;
-  return check_together(type_, parameters, may_skip_, [&](Severity severity, const std::string& message) {
+  const bool usable = check_together(type_, parameters, may_skip_, [&](Severity severity, const std::string& message) {
     context.diagnostics.report(severity, element, [&] { return message; });
   });
+  if (!usable) return false;
+  const auto is_textured = [&](std::string_view field) {
+    return textures != nullptr && std::any_of(textures->begin(), textures->end(),
+                                              [&](const FieldTexture& use) { return infos_[use.field].name == field; });
+  };
+  report_warnings(type_, parameters, is_textured, [&](const ParameterWarning& warning) {
+    const Element child = element.child(warning.field);
+    context.diagnostics.warning(child ? child : element, [&] { return warning.message; });
+  });
+  return true;
 }
 
 std::span<const FieldTarget> FieldsReader::targets(void* parameters, std::span<const FieldTarget> labels) {

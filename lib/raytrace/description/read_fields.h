@@ -39,6 +39,14 @@ bool check_together(const ElementType& type, const void* parameters, bool may_sk
   return false;
 }
 
+/// report(ParameterWarning) for each.
+template <class Report>
+void report_warnings(const ElementType& type, const void* parameters, const IsTextured& is_textured,
+                     const Report& report) {
+  if (type.warnings == nullptr) return;
+  for (const ParameterWarning& warning : type.warnings(parameters, is_textured)) report(warning);
+}
+
 /// Reads elements of one type, one after the other. Their parameters are of that type.
 class FieldsReader {
  public:

@@ -129,6 +129,10 @@ class TypedItemList final : public ItemList {
     const auto ignore = [](Severity, const std::string&) {};
     entry.usable = length > 0 && check_together(element_type<T>(), &entry.item.parameters, true, ignore) &&
                    take_labels(labels, entry.item);
+    const auto is_textured = [](std::string_view) { return false; };  // patterns have no textures
+    if (entry.usable)
+      report_warnings(element_type<T>(), &entry.item.parameters, is_textured,
+                      [&](const ParameterWarning&) { entry.usable = false; });
     if (entry.usable) return length;
     entries_.pop_back();
     return 0;

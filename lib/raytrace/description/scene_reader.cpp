@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "raytrace/description/check_environment.h"
+#include "raytrace/description/check_fogs.h"
 #include "raytrace/description/check_groups.h"
 #include "raytrace/description/include.h"
 #include "raytrace/description/read_items.h"
@@ -47,6 +48,7 @@ class SceneReader {
     const auto report = [&](SourceLocation location, const std::string& m) { diagnostics_.error(location, m); };
     if (groups_complete_) check_groups(scene_, report);
     check_environment(scene_, report);
+    check_fogs(scene_, [&](SourceLocation location, const std::string& m) { diagnostics_.warning(location, m); });
     for (const std::string_view key : {ViewPlane::element, camera_key})
       if (!firsts_.contains(key))
         diagnostics_.error(root, [&] { return "the scene has no " + tag(key) + "; add one"; });

@@ -10,6 +10,7 @@
 #pragma once
 
 #include "raytrace/materials/metals.h"
+#include "raytrace/materials/reflectance.h"
 #include "raytrace/materials/surface_detail.h"
 
 namespace raytrace {
@@ -51,6 +52,12 @@ class Conductor {
     if (parameters.roughness > 1) return error("the conductor's <roughness> is above 1");
     if (parameters.anisotropy > 1) return error("the conductor's <anisotropy> is above 1");
     return std::nullopt;
+  }
+  static std::vector<ParameterWarning> warnings(const Parameters& parameters, const IsTextured& is_textured) {
+    std::vector<ParameterWarning> warnings;
+    warn_of_gain(warnings, is_textured, "cr", parameters.cr);
+    warn_of_gain(warnings, is_textured, "edgecolor", parameters.edgecolor);
+    return warnings;
   }
   /// As materials/kernels.h has it.
   static bool focuses(const Parameters&, const auto&) { return true; }

@@ -18,6 +18,7 @@
 #pragma once
 
 #include "raytrace/materials/dispersion.h"
+#include "raytrace/materials/reflectance.h"
 #include "raytrace/materials/surface_detail.h"
 
 namespace raytrace {
@@ -74,6 +75,12 @@ class Dielectric {
     if (!has_all_indices(parameters.ior, parameters.abbe))
       return error("the dielectric's <abbe> is so low that nothing is left of its <ior> for blue light");
     return std::nullopt;
+  }
+  static std::vector<ParameterWarning> warnings(const Parameters& parameters, const IsTextured& is_textured) {
+    std::vector<ParameterWarning> warnings;
+    warn_of_gain(warnings, is_textured, "cr", parameters.cr);
+    warn_of_gain(warnings, is_textured, "ct", parameters.ct);
+    return warnings;
   }
   /// As materials/kernels.h has it.
   static bool focuses(const Parameters& parameters, const auto&) {

@@ -3,6 +3,7 @@
 //   <matte> <name>clay</name> <ka>0.25</ka> <kd>0.75</kd> <cd red="1" green="1" blue="0"/> </matte>
 #pragma once
 
+#include "raytrace/materials/reflectance.h"
 #include "raytrace/materials/surface_detail.h"
 
 namespace raytrace {
@@ -25,6 +26,11 @@ class Matte {
     return with_surface_detail<Parameters>({required("ka", &Parameters::ka, Range::not_negative),
                                             required("kd", &Parameters::kd, Range::not_negative),
                                             required("cd", &Parameters::cd)});
+  }
+  static std::vector<ParameterWarning> warnings(const Parameters& parameters, const IsTextured& is_textured) {
+    std::vector<ParameterWarning> warnings;
+    warn_of_gain(warnings, is_textured, "cd", parameters.cd, {"kd", parameters.kd});
+    return warnings;
   }
 };
 

@@ -3,6 +3,7 @@
 //   <mirror> <name>glass</name> <cr red="0.9" green="0.95" blue="1"/> </mirror>
 #pragma once
 
+#include "raytrace/materials/reflectance.h"
 #include "raytrace/materials/surface_detail.h"
 
 namespace raytrace {
@@ -19,6 +20,11 @@ class Mirror {
   static constexpr std::string_view group = "mirrors";
   static constexpr std::string_view element = "mirror";
   static Fields fields() { return with_surface_detail<Parameters>({required("cr", &Parameters::cr)}); }
+  static std::vector<ParameterWarning> warnings(const Parameters& parameters, const IsTextured& is_textured) {
+    std::vector<ParameterWarning> warnings;
+    warn_of_gain(warnings, is_textured, "cr", parameters.cr);
+    return warnings;
+  }
   /// As materials/kernels.h has it.
   static bool focuses(const Parameters&, const auto&) { return true; }
 };

@@ -17,6 +17,7 @@
 
 #include "raytrace/bsdfs/least_alpha.h"
 #include "raytrace/materials/dispersion.h"
+#include "raytrace/materials/reflectance.h"
 #include "raytrace/materials/surface_detail.h"
 #include "raytrace/parameters/light_group.h"
 
@@ -155,6 +156,24 @@ class OpenPbr {
         return error(name, "so low that nothing is left of its <specular_ior> for blue light");
     }
     return std::nullopt;
+  }
+  static std::vector<ParameterWarning> warnings(const Parameters& parameters, const IsTextured& is_textured) {
+    std::vector<ParameterWarning> warnings;
+    // What nothing is seen of does not count.
+    const double below = (1 - parameters.transmission_weight) * (1 - parameters.subsurface_weight);
+    if (parameters.base_metalness > 0 || below > 0)
+      warn_of_gain(warnings, is_textured, "base_color", parameters.base_color, {"base_weight", parameters.base_weight});
+    if (parameters.specular_weight > 0)
+      warn_of_gain(warnings, is_textured, "specular_color", parameters.specular_color);
+    if (parameters.fuzz_weight > 0)
+      warn_of_gain(warnings, is_textured, "fuzz_color", parameters.fuzz_color, {"fuzz_weight", parameters.fuzz_weight});
+    constexpr double thickest = 20;  // none with colours is thicker
+    if (const double thickness = parameters.thin_film_thickness; thickness > thickest)
+      warnings.push_back(
+          {"thin_film_thickness", "<thin_film_thickness> is in micrometres, of which " + formatted("%.4g", thickness) +
+                                      " have no colours; of so many nanometres write <thin_film_thickness>" +
+                                      formatted("%.4g", thickness / 1000) + "</thin_film_thickness>"});
+    return warnings;
   }
   /// Abbe's number; 0: all wavelengths have the same index.
   static double abbe(const Parameters& parameters) {

@@ -6,6 +6,7 @@
 //   </phong>
 #pragma once
 
+#include "raytrace/materials/reflectance.h"
 #include "raytrace/materials/surface_detail.h"
 
 namespace raytrace {
@@ -32,6 +33,11 @@ class Phong {
         {required("ka", &Parameters::ka, Range::not_negative), required("kd", &Parameters::kd, Range::not_negative),
          required("ks", &Parameters::ks, Range::not_negative), required("cd", &Parameters::cd),
          required("cs", &Parameters::cs), optional("exp", &Parameters::exp, Range::not_negative)});
+  }
+  static std::vector<ParameterWarning> warnings(const Parameters& parameters, const IsTextured& is_textured) {
+    std::vector<ParameterWarning> warnings;
+    warn_of_gain(warnings, is_textured, "cd", parameters.cd, {"kd", parameters.kd});
+    return warnings;
   }
 };
 

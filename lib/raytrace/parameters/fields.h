@@ -14,6 +14,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -316,6 +317,15 @@ struct ParameterDiagnostic {
   std::string message;
 };
 
+/// What scenes may have but hardly mean, and what to write instead. A type that has such declares
+/// `static std::vector<ParameterWarning> warnings(const Parameters&, const IsTextured&)` for parameters without errors.
+struct ParameterWarning {
+  std::string_view field;
+  std::string message;
+};
+/// Whether the field of that name has a texture.
+using IsTextured = std::function<bool(std::string_view field)>;
+
 /// What readers, checkers and printers know of a type of elements.
 struct ElementType {
   std::string_view element;
@@ -323,6 +333,8 @@ struct ElementType {
   Fields fields_in_files;
   /// Null: any parameters go together.
   std::optional<ParameterDiagnostic> (*check)(const void* parameters) = nullptr;
+  /// Null: there are none.
+  std::vector<ParameterWarning> (*warnings)(const void* parameters, const IsTextured& is_textured) = nullptr;
 };
 
 template <class Type>
@@ -332,6 +344,10 @@ const ElementType& element_type() {
     if constexpr (requires(const typename Type::Parameters& parameters) { Type::check(parameters); })
       made.check = [](const void* parameters) {
         return Type::check(*static_cast<const typename Type::Parameters*>(parameters));
+      };
+    if constexpr (requires { &Type::warnings; })
+      made.warnings = [](const void* parameters, const IsTextured& is_textured) {
+        return Type::warnings(*static_cast<const typename Type::Parameters*>(parameters), is_textured);
       };
     return made;
   }();

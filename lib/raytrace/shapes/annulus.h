@@ -26,6 +26,8 @@ class Annulus {
             required("innerradius", &Parameters::innerradius, Range::not_negative),
             required("outerradius", &Parameters::outerradius, Range::positive)};
   }
+  /// Whether one alone has no inside.
+  static bool is_open(const Parameters&) { return true; }
 
   static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {
     if (parameters.innerradius < parameters.outerradius) return std::nullopt;

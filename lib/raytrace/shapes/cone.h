@@ -27,6 +27,8 @@ class Cone {
             required("radius", &Parameters::radius, Range::not_negative),
             optional("topradius", &Parameters::topradius, Range::not_negative), optional("caps", &Parameters::caps)};
   }
+  /// Whether one alone has no inside.
+  static bool is_open(const Parameters& parameters) { return !parameters.caps; }
 
   static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {
     if (length(parameters.top - parameters.bottom) < smallest_size)

@@ -25,6 +25,8 @@ class Cylinder {
     return {required("bottom", &Parameters::bottom, a_point), required("top", &Parameters::top, a_point),
             required("radius", &Parameters::radius, Range::positive), optional("caps", &Parameters::caps)};
   }
+  /// Whether one alone has no inside.
+  static bool is_open(const Parameters& parameters) { return !parameters.caps; }
 
   static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {
     if (length(parameters.top - parameters.bottom) >= smallest_size) return std::nullopt;

@@ -24,6 +24,8 @@ class Disk {
     return {required("center", &Parameters::center, a_point), required("normal", &Parameters::normal, Range::nonzero),
             required("radius", &Parameters::radius, Range::positive)};
   }
+  /// Whether one alone has no inside.
+  static bool is_open(const Parameters&) { return true; }
 
   static double reach(const Parameters& p, const Vec3d& along) {
     return dot(along, p.center) + reach_of_disk(p.normal, p.radius, along);

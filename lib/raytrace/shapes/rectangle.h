@@ -35,6 +35,8 @@ class Rectangle {
     return {required("corner", &Parameters::corner, a_point), required("edge1", &Parameters::edge1, Range::nonzero),
             required("edge2", &Parameters::edge2, Range::nonzero)};
   }
+  /// Whether one alone has no inside.
+  static bool is_open(const Parameters&) { return true; }
   static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {
     const double area = length(cross(parameters.edge1, parameters.edge2));
     if (area > 1e-12 * length(parameters.edge1) * length(parameters.edge2)) return std::nullopt;

@@ -34,6 +34,8 @@ class Triangle {
             required("vertexposition2", &Parameters::vertex2, a_point),
             required("vertexposition3", &Parameters::vertex3, a_point)};
   }
+  /// Whether one alone has no inside.
+  static bool is_open(const Parameters&) { return true; }
 
   /// A triangle without area is skipped with a warning.
   static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {
