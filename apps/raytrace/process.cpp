@@ -21,9 +21,6 @@
 #include "raytrace/memory/process_status.h"
 #include "raytrace/text/message.h"
 
-#if defined(__GLIBC__)
-#endif
-
 namespace raytrace {
 
 namespace {
@@ -135,7 +132,7 @@ std::optional<std::uint64_t> group_memory_limit() {
   return least;
 }
 
-std::uint64_t obeyed_limit = 0;
+std::uint64_t obeyed_limit = 0;  ///< a group's; 0: none
 
 constexpr std::size_t main_stack = std::size_t{8} << 20U;     // as Linux gives it by default
 constexpr std::size_t library_stack = std::size_t{1} << 20U;  // of which a few KiB are used
@@ -235,12 +232,19 @@ void obey_group_memory_limit(int threads, std::uint64_t untouched_to_come) {
   const std::uint64_t others = *allowed / 16;
   data.rlim_cur =
       std::min<rlim_t>(asked, *allowed - others + untouched_memory() + stacks_to_come(threads) + untouched_to_come);
-  if (setrlimit(RLIMIT_DATA, &data) == 0) obeyed_limit = *allowed;
+  if (setrlimit(RLIMIT_DATA, &data) == 0) obeyed_limit = data.rlim_cur < asked ? *allowed : 0;
 }
 
 std::string memory_limit_text() {
-  if (obeyed_limit == 0) return "";
-  return ": the control group of this process allows " + std::to_string(obeyed_limit >> 20U) + " MiB";
+  const auto allows = [](const char* what, std::uint64_t bytes) {
+    return std::string(": the ") + what + " allows " + std::to_string(bytes >> 20U) + " MiB";
+  };
+  // What was wanted counts for both, so it was the one that has less left.
+  const std::optional<MemoryLimit> space = address_space_limit(), data = data_limit();
+  if (space && (!data || space->left < data->left))
+    return allows("address-space limit of this process (ulimit -v)", space->bytes);
+  if (data && obeyed_limit > 0) return allows("control group of this process", obeyed_limit);
+  return data ? allows("data limit of this process (ulimit -d)", data->bytes) : "";
 }
 
 int run_in_prepared_process(const std::function<int()>& program) {

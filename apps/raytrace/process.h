@@ -43,7 +43,8 @@ void log_missing_threads(int wanted, int used);
 /// called again when that has changed. Does nothing without a limit.
 void obey_group_memory_limit(int threads, std::uint64_t untouched_to_come = 0);
 
-/// ": the control group of this process allows 200 MiB" if that is what is obeyed, else nothing.
+/// ": the control group of this process allows 200 MiB", or the same of its address space or its data: of the limit
+/// that leaves the least. Nothing if there is none.
 std::string memory_limit_text();
 
 /// A group's own folder, and those of the groups that it is part of up to the root; no folder if memory is not

@@ -71,7 +71,8 @@ class Failures(CommandTest):
 
         message = self.fail_with(33, "scene.xml", "-q", "-r", "16384x16384", "--sample-offset", "0", "-o", "a.exr",
                                  preexec_fn=little_memory)
-        self.assertEqual(message, "raytrace: error: out of memory\n")
+        self.assertEqual(message, "raytrace: error: out of memory: the address-space limit of this process (ulimit -v) "
+                                  "allows 1024 MiB\n")
         self.assertEqual(self.names(), ["scene.xml"])
 
 

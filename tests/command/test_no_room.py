@@ -172,7 +172,8 @@ class Pipes(SafetyTest):
 
 
 # What else may be told is the limit of a control group that the tests run in.
-OUT_OF_MEMORY = r"^raytrace: error: out of memory(: the control group of this process allows \d+ MiB)?\n$"
+OUT_OF_MEMORY = (r"^raytrace: error: out of memory: the (address-space limit of this process \(ulimit -v\)|"
+                 r"control group of this process) allows \d+ MiB\n$")
 
 
 def limited(kibibytes):
@@ -193,6 +194,18 @@ class LittleMemory(SafetyTest):
                 self.assertRegex(done.stderr, OUT_OF_MEMORY)
                 self.assertEqual(self.names(), ["a.exr", "scene.xml"])
                 self.assertEqual(self.read("a.exr"), b"old")
+
+    def test_the_limit_that_was_met_is_named(self):
+        """What is asked for counts for both; the smaller one is what it fails at."""
+        space, data = "address-space limit of this process (ulimit -v)", "data limit of this process (ulimit -d)"
+        for limits, name, mebibytes in (("-v 2000000", space, 1953), ("-v 2000000 && ulimit -d 1000000", data, 976),
+                                        ("-v 1000000 && ulimit -d 1900000", space, 976)):
+            with self.subTest(limits):
+                done = subprocess.run(["sh", "-c", f'ulimit {limits} && exec "$0" "$@"', support.PROGRAM, "scene.xml",
+                                       "-q", "-o", "a.exr", "-t", "2", "-r", "16384x16384", "--checkpoint", "c.exr"],
+                                      cwd=self.folder, capture_output=True, text=True, check=False, timeout=LIMIT)
+                self.assertEqual((done.returncode, done.stderr),
+                                 (33, f"raytrace: error: out of memory: the {name} allows {mebibytes} MiB\n"))
 
     def test_any_ulimit(self):
         """From too little to begin to enough: done, out of memory, or not even started; never a crash."""
