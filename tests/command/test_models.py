@@ -166,6 +166,20 @@ class Models(CommandTest):
         self.assertEqual(Exr(self.read("printed.exr")).pixels(), floor)
         self.assertIn("--floor", self.fail_with(2, "printed.xml", "--floor", "-o", "a.exr"))
 
+    def test_a_printed_scene_has_the_same_materials(self):
+        """Also where the file has one of the floor's name."""
+        self.write("a.mtl", "newmtl wood\nKd 0.5 0.3 0.1\nnewmtl floor\nKd 0.1 0.2 0.3\n")
+        self.write("a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl wood\nf 1 2 3\n"
+                            "usemtl floor\nf 1 3 4\n")
+        options = [*OPTIONS, "--aov", "material_id,object_id,crypto_material", "-o"]
+        self.succeed("a.obj", "--floor", *options, "model.exr")
+        self.write("printed.xml", self.succeed("a.obj", *OPTIONS, "--floor", "--print-scene").stdout)
+        self.succeed("printed.xml", *options, "printed.exr")
+        model, printed = (Exr(self.read(name)) for name in ("model.exr", "printed.exr"))
+        self.assertEqual(printed.row_bytes, model.row_bytes)
+        names = [json.loads(picture.text("raytrace:manifest/id.material"))[:3] for picture in (model, printed)]
+        self.assertEqual(names, [["floor", "wood", "floor#2"]] * 2)
+
     def test_a_transparent_picture_has_the_shadow_on_the_floor(self):
         self.succeed("slab.ply", *OPTIONS, "--transparent", "--aov", "depth,normal", "-o", "model.exr")
         self.succeed("slab.ply", *OPTIONS, "--transparent", "--aov", "depth,normal", "--floor", "-o", "shadow.exr",

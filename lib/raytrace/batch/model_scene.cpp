@@ -196,17 +196,20 @@ void add_unseen_lamps(SceneDescription& description, const Directions& to) {
   }
 }
 
-/// Of matte grey, at the lowest vertex of what is shown. A transparent picture shows only the shadows on it.
-void add_floor(SceneDescription& description, const SceneDescription& shown) {
-  Extent extent;
-  for_each_vertex(shown, [&](const Vec3d& p) { extent.add(p); });
+/// A matte grey. To be added before the model's materials, which come behind it where a printed scene is read, too: so
+/// their names and numbers are the same there.
+void add_floor_material(SceneDescription& description) {
   Matte::Parameters paint;
   paint.kd = 1;
   paint.cd = {0.5, 0.5, 0.5};
-  auto& materials = std::get<MaterialItems<Matte>>(description.materials);
-  const MaterialReference material{static_cast<std::uint32_t>(index_of<Matte>(Materials{})),
-                                   static_cast<std::uint32_t>(materials.size())};
-  materials.push_back({paint, "floor"});
+  std::get<MaterialItems<Matte>>(description.materials).push_back({paint, "floor"});
+}
+
+/// At the lowest vertex of what is shown. A transparent picture shows only the shadows on it.
+void add_floor(SceneDescription& description, const SceneDescription& shown) {
+  Extent extent;
+  for_each_vertex(shown, [&](const Vec3d& p) { extent.add(p); });
+  const MaterialReference material{static_cast<std::uint32_t>(index_of<Matte>(Materials{})), 0};
   const Vec3d middle = extent.middle();
   std::get<ObjectItems<Plane>>(description.objects)
       .push_back({{{middle.x, extent.lower.y, middle.z}, {0, 1, 0}}, "floor", material, 0, true});
@@ -305,6 +308,7 @@ std::optional<SceneDescription> load_model(const std::string& file, const ModelS
   animate(mesh.parameters, stage, frame);
   if (stage.z_is_up) mesh.transform.steps.push_back({TransformStep::rotate, {1, 0, 0, -90}});
   std::get<ObjectItems<Mesh>>(description.objects).push_back(mesh);
+  if (stage.floor) add_floor_material(description);
   if (!load_meshes(description, diagnostics, threads, textures)) return std::nullopt;
   if (!data_of(description).animation_end) {
     // So that a printed scene does not ask for what is not there.
