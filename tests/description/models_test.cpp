@@ -148,6 +148,36 @@ TEST_CASE("a scene's materials may take the place of a file's of the same names"
                  "file's, which are 'wood!'"));
 }
 
+TEST_CASE("nothing is said of materials of a file in whose place are the scene's") {
+  ModelFolder models;
+  write_text(models.folder().file("slab.mtl"), "newmtl wood\nKd 0.25 0.5 0.75\nd 0\nmap_Ks gloss.png\n");
+  const auto told = [&](const std::string& meshes) {
+    models.load("<objects><meshes>" + meshes + "</meshes></objects>");
+    return models.messages();
+  };
+  const std::string plain = "<mesh><file>slab.obj</file></mesh>";
+  const std::string covered = "<mesh><file>slab.obj</file><material>wood</material></mesh>";
+  CHECK(contains(told(plain), "'map_ks' is left out"));
+  CHECK(contains(told(plain), "an opacity of 0"));
+  CHECK(told(covered).empty());
+  CHECK(told("<mesh><file>slab.obj</file><overridematerials>true</overridematerials></mesh>").empty());
+  // Of a file that several meshes have it is said once.
+  CHECK(told(covered + plain) == told(plain));
+}
+
+TEST_CASE("a mesh has its file's materials beside one with its own") {
+  ModelFolder models;
+  const SceneDescription scene = models.load(
+      "<objects><meshes><mesh><file>slab.obj</file><material>wood</material></mesh><mesh><file>slab.obj</file></mesh>"
+      "</meshes></objects>");
+  const auto& meshes = std::get<ObjectItems<Mesh>>(scene.objects);
+  const auto& mattes = std::get<MaterialItems<Matte>>(scene.materials);
+  REQUIRE(meshes.size() == 2);
+  CHECK(mattes.at(meshes[0].materials.at(0).index).name == "wood");
+  CHECK(mattes.at(meshes[1].materials.at(0).index).name == "wood#2");
+  CHECK(meshes[0].data == meshes[1].data);
+}
+
 TEST_CASE("an MTL's highlight and diffuse colour reflect together no more than comes in") {
   ModelFolder files;
   const auto phong = [&](const std::string& statements) {

@@ -73,6 +73,34 @@ TEST_CASE("an OBJ file's materials come from its MTL files") {
         "a.obj:9: warning: no material 'missing' in the material libraries\n");
 }
 
+TEST_CASE("nothing is said of an OBJ file's materials that are overridden") {
+  const TemporaryFolder folder;
+  write_text(folder.file("a.mtl"),
+             "newmtl red\nKd 1 0 0\nd 0\nKs red\nmap_Ks gloss.png\nnewmtl blue\nd 0\nmap_Ks gloss.png\n");
+  write_text(folder.file("a.obj"),
+             "mtllib a.mtl\nmtllib b.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl red\nf 1 2 3\nusemtl blue\nf 1 2 3\n"
+             "usemtl lost\nf 1 2 3\n");
+  const auto told = [&](const std::function<bool(std::string_view)>& is_overridden) {
+    Diagnostics diagnostics(folder.file("a.obj"));
+    CHECK(read_mesh(folder.file("a.obj"), {.is_overridden = is_overridden}, diagnostics));
+    return printed(diagnostics, folder.path().string());
+  };
+  const std::string no_library = "a.obj:2: warning: 'b.mtl': ";
+  const std::string all = told(nullptr);
+  for (const std::string& part :
+       {no_library, std::string("'red', 'blue'"), std::string("'ks' needs"), std::string("'lost'")})
+    CHECK(contains(all, part));
+  const std::string of_others = told([](std::string_view name) { return name == "red" || name == "lost"; });
+  CHECK(contains(
+      of_others,
+      "a.obj: warning: an opacity of 0, which would show nothing, is taken as opaque, of the material 'blue'\n"));
+  CHECK(contains(of_others, "a.mtl:8: 'map_ks' is left out"));
+  CHECK(contains(of_others, no_library));
+  CHECK_FALSE(contains(of_others, "'ks' needs"));
+  CHECK_FALSE(contains(of_others, "'lost'"));
+  CHECK(told([](std::string_view) { return true; }).empty());
+}
+
 TEST_CASE("an MTL's material of opacity 0 is opaque, and a warning names it") {
   const TemporaryFolder folder;
   write_text(folder.file("a.mtl"),

@@ -10,6 +10,7 @@
 #include "raytrace/description/file_lights.h"
 #include "raytrace/description/holds_normals.h"
 #include "raytrace/description/load_images.h"
+#include "raytrace/description/mesh_file_key.h"
 #include "raytrace/description/read_value.h"
 #include "raytrace/description/scene_description.h"
 #include "raytrace/import/read_mesh.h"
@@ -84,8 +85,8 @@ class MeshLoader {
     mesh.name = std::move(model.name);
     mesh.material = model.material;
     mesh.line = model.line;
-    mesh.shadowcatcher = model.shadowcatcher;
     mesh.column = model.column;
+    mesh.shadowcatcher = model.shadowcatcher;
     mesh.transform = std::move(model.transform);
     load(mesh);
     if (mesh.data == nullptr || mesh.data->lights.empty()) return;
@@ -109,8 +110,8 @@ class MeshLoader {
       loaded.data = made(mesh);
     else
       loaded = from_file(mesh);
-    if (loaded.data == nullptr) return;
     mesh.data = loaded.data;
+    if (mesh.data == nullptr) return;
     mesh.materials = mesh.material == no_material ? std::move(loaded.materials) : std::vector{mesh.material};
     if (mesh.materials.empty()) mesh.materials = {mesh.data->colors.empty() ? grey() : painted()};
   }
@@ -148,26 +149,26 @@ class MeshLoader {
 
   const LoadedFile& from_file(const ObjectItem<Mesh>& mesh) {
     const FileName& file = mesh.parameters.file;
-    MeshReadSettings settings;
-    settings.animation = mesh.parameters.animation.name;
-    settings.time = mesh.parameters.time;
-    settings.variant = mesh.parameters.variant.name;
-    // The time is of an animation alone.
-    const double time = settings.animation.empty() ? 0 : settings.time;
-    const bool overrides = mesh.parameters.overridematerials;
-    const auto [known, is_new] = files_.try_emplace({file.path, settings.animation, time, settings.variant, overrides});
+    const Mesh::Parameters& values = mesh.parameters;
+    MeshReadSettings settings{.animation = values.animation.name, .time = values.time, .variant = values.variant.name};
+    const bool overrides = values.overridematerials;
+    const MeshFileKey key = key_of(mesh.parameters);
+    const auto [known, is_new] = files_.try_emplace(key);
     LoadedFile& loaded = known->second;
     if (!is_new) return loaded;
+    const bool has_shown_materials = shown_materials_.contains(key);
+    settings.is_overridden = [&](std::string_view name) {
+      return !has_shown_materials || (overrides && own_materials_.contains(std::string(name)));
+    };
     std::optional<MeshData> data = read(file, settings, read_mesh);
     if (!data) return loaded;
-    if (mesh.material == no_material) {
+    if (has_shown_materials) {
       const auto folder = std::filesystem::absolute(file.path).parent_path();
       if (overrides) warn_of_no_override(file, data->materials);
       for (MeshMaterial& material : data->materials) {
-        const auto own = own_materials_.find(material.name);
-        const bool is_overridden = overrides && own != own_materials_.end();
+        const bool is_overridden = settings.overrides(material.name);
         if (!is_overridden) take_bump_map(material, file, folder);
-        loaded.materials.push_back(is_overridden ? own->second : add(material, folder));
+        loaded.materials.push_back(is_overridden ? own_materials_.at(material.name) : add(material, folder));
         material = {};  // the textures have its pictures
       }
       // Faces without a material have the last one.
@@ -369,8 +370,8 @@ class MeshLoader {
   SceneDescription& scene_;
   Diagnostics& diagnostics_;
   int threads_;
-  /// By the file, its animation, the time, the variant, and whether materials are overridden.
-  std::map<std::tuple<std::string, std::string, double, std::string, bool>, LoadedFile> files_;
+  std::map<MeshFileKey, LoadedFile> files_;
+  const std::set<MeshFileKey> shown_materials_ = files_with_shown_materials(scene_);
   std::map<std::string, std::shared_ptr<const PointCloud>> clouds_;
   std::map<std::string, bool> normal_maps_;  ///< of pictures that may be such, whether they are
   std::set<std::string> taken_names_;

@@ -66,6 +66,9 @@ class Document {
   void warn(const std::string& place, const std::string& message) { warnings_.push_back(place + ": " + message); }
   /// Of the first place alone.
   void warn_once(const std::string& place, const std::string& message);
+  std::size_t warning_count() const { return warnings_.size(); }
+  /// But the first ones.
+  void forget_warnings(std::size_t kept) { warnings_.resize(kept); }
   void report(Diagnostics& diagnostics) const;
 
  private:

@@ -27,9 +27,10 @@ std::optional<MeshData> read_gltf(MeshFile& file, const std::string& name, const
                                   Diagnostics& diagnostics);
 
 /// Adds the materials of the MTL files that a statement names, in the line of an OBJ file in the folder: one file whose
-/// name may have spaces, or several, and their names to files. What is wrong with them are warnings of that line.
+/// name may have spaces, or several, and their names to files. What is wrong with them are warnings of that line, but
+/// for materials that are overridden.
 void read_material_libraries(std::string_view names, const std::string& folder, std::uint32_t line,
                              std::vector<MeshMaterial>& materials, std::vector<std::string>& files,
-                             Diagnostics& diagnostics);
+                             const MeshReadSettings& settings, Diagnostics& diagnostics);
 
 }  // namespace raytrace

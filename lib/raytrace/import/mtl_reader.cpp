@@ -133,8 +133,9 @@ void set_physical(MeshMaterial& material) {
   if (material.aniso.value_or(0) > 0) add("specular_roughness_anisotropy", inside(*material.aniso));
 }
 
-/// Adds the materials of a file. Calls report(line, message) for what is wrong, which is skipped.
-void read_text(std::string_view text, std::vector<MeshMaterial>& materials,
+/// Adds the materials of a file. Calls report(line, message) for what is wrong, which is skipped, but for materials
+/// that are overridden.
+void read_text(std::string_view text, std::vector<MeshMaterial>& materials, const MeshReadSettings& settings,
                const std::function<void(std::uint32_t, const std::string&)>& report) {
   const std::size_t first = materials.size();
   bool any = false;
@@ -146,7 +147,9 @@ void read_text(std::string_view text, std::vector<MeshMaterial>& materials,
     std::transform(keyword.begin(), keyword.end(), keyword.begin(),
                    [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
     if (keyword.empty()) return true;
+    const bool is_overridden = any && settings.overrides(materials.back().name);
     const auto refuse = [&](const std::string& what) {
+      if (is_overridden) return true;
       report(locate(text, static_cast<std::size_t>(start - text.data())).line, what);
       return true;
     };
@@ -159,7 +162,7 @@ void read_text(std::string_view text, std::vector<MeshMaterial>& materials,
     const auto* const color = find_field(color_fields, keyword);
     const auto* const number = find_field(number_fields, keyword);
     const auto* const texture = find_field(texture_fields, keyword);
-    if (std::find(std::begin(unread), std::end(unread), keyword) != std::end(unread) &&
+    if (!is_overridden && std::find(std::begin(unread), std::end(unread), keyword) != std::end(unread) &&
         std::find(left_out.begin(), left_out.end(), keyword) == left_out.end()) {
       left_out.push_back(keyword);
       return refuse(in_quotes(keyword) + " is left out, here and in the rest of the file");
@@ -196,7 +199,7 @@ void read_text(std::string_view text, std::vector<MeshMaterial>& materials,
 
 void read_material_libraries(std::string_view names, const std::string& folder, std::uint32_t line,
                              std::vector<MeshMaterial>& materials, std::vector<std::string>& files,
-                             Diagnostics& diagnostics) {
+                             const MeshReadSettings& settings, Diagnostics& diagnostics) {
   const auto read = [&](std::string name) {
     std::replace(name.begin(), name.end(), '\\', '/');
     const std::string path = (std::filesystem::path(folder) / name).string();
@@ -207,7 +210,7 @@ void read_material_libraries(std::string_view names, const std::string& folder, 
       return;
     }
     files.push_back(path);
-    mtl::read_text(file->text(true), materials, [&](std::uint32_t in_line, const std::string& message) {
+    mtl::read_text(file->text(true), materials, settings, [&](std::uint32_t in_line, const std::string& message) {
       diagnostics.warning({line, 0}, name + ":" + std::to_string(in_line) + ": " + message);
     });
   };

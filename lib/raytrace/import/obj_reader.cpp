@@ -351,14 +351,19 @@ void Reader::read_materials() {
     }
   }
   std::vector<MeshMaterial> defined;
+  // Of libraries whose materials are all overridden nothing is missing.
+  const bool is_any_used =
+      std::any_of(names.begin(), names.end(), [&](auto name) { return !settings_.overrides(name); });
+  Diagnostics ignored = Diagnostics::counter();
   for (const std::string_view library : libraries)
-    read_material_libraries(library, folder_, line_of(library), defined, mesh_.files, diagnostics_);
+    read_material_libraries(library, folder_, line_of(library), defined, mesh_.files, settings_,
+                            is_any_used ? diagnostics_ : ignored);
   std::map<std::string_view, const MeshMaterial*> by_name;
   for (const MeshMaterial& material : defined) by_name.try_emplace(material.name, &material);
   for (const std::string_view name : names) {
     const auto found = by_name.find(name);
     mesh_.materials.push_back(found != by_name.end() ? *found->second : named_material(name));
-    if (found == by_name.end() && diagnostics_.keeps_another(Severity::warning))
+    if (found == by_name.end() && !settings_.overrides(name) && diagnostics_.keeps_another(Severity::warning))
       diagnostics_.warning({line_of(name), 0}, "no material " + in_quotes(name) + " in the material libraries");
   }
 }

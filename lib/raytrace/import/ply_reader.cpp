@@ -78,12 +78,14 @@ bool open(MeshFile& file, const MeshReadSettings& settings, Diagnostics& diagnos
 }
 
 /// Of the texture that MeshLab and others name in a comment: a white material with it, if it can be seen.
-void add_texture(std::string name, const std::string& folder, MeshData& mesh, Diagnostics& diagnostics) {
+void add_texture(std::string name, const std::string& folder, MeshData& mesh, const MeshReadSettings& settings,
+                 Diagnostics& diagnostics) {
   if (name.empty()) return;
   std::replace(name.begin(), name.end(), '\\', '/');
   std::error_code unknown;
   const auto leave_out = [&](const std::string& reason) {
-    diagnostics.warning({}, "the texture " + in_quotes(name) + " is left out: " + reason);
+    if (!settings.overrides(name))
+      diagnostics.warning({}, "the texture " + in_quotes(name) + " is left out: " + reason);
   };
   if (mesh.uvs.empty()) return leave_out("the vertices have no texture coordinates");
   if (!std::filesystem::is_regular_file(std::filesystem::path(folder) / name, unknown))
@@ -121,7 +123,7 @@ std::optional<MeshData> read_ply(MeshFile& file, const std::string& folder, cons
   if (!open.body->read_vertices(open.columns, mesh.positions.data(), faults.bad_vertices)) return std::nullopt;
   if (!open.body->read_faces(*property, mesh, faults, dented_quads)) return std::nullopt;
   if (!finish_mesh(mesh, faults, dented_quads, settings.threads, diagnostics)) return std::nullopt;
-  ply::add_texture(std::move(open.header.texture), folder, mesh, diagnostics);
+  ply::add_texture(std::move(open.header.texture), folder, mesh, settings, diagnostics);
   return mesh;
 }
 

@@ -33,7 +33,7 @@ Vec3d origin_of(std::span<const T> positions) {
 
 /// MTL files of MeshLab say Tr 1, and Collada files of many programs transparency 0, of what is opaque. Nobody sees
 /// what has an opacity of 0: such materials become opaque, with one warning that names those that faces have.
-void make_visible(MeshData& mesh, Diagnostics& diagnostics) {
+void make_visible(MeshData& mesh, const MeshReadSettings& settings, Diagnostics& diagnostics) {
   std::vector<bool> used(mesh.materials.size(), mesh.face_materials.empty());
   for (const std::uint32_t material : mesh.face_materials)
     if (material < used.size()) used[material] = true;
@@ -44,7 +44,8 @@ void make_visible(MeshData& mesh, Diagnostics& diagnostics) {
     MeshMaterial& material = mesh.materials[i];
     if (material.d.value_or(1) > 0) continue;
     material.d = 1;
-    if (used[i] && count++ < most_names) names += (names.empty() ? "" : ", ") + in_quotes(material.name);
+    if (used[i] && !settings.overrides(material.name) && count++ < most_names)
+      names += (names.empty() ? "" : ", ") + in_quotes(material.name);
   }
   if (count > most_names) names += " and " + std::to_string(count - most_names) + " more";
   if (count > 0)
@@ -92,7 +93,8 @@ std::optional<MeshData> read_mesh(const std::string& name, const MeshReadSetting
     mesh = read_obj(*file, folder, settings, diagnostics);
   if (!mesh) return mesh;
   mesh->origin = settings.origin;
-  if (type == ".obj" || is_converted_model(name)) make_visible(*mesh, diagnostics);  // glTF means what it says
+  if (type == ".obj" || is_converted_model(name))
+    make_visible(*mesh, settings, diagnostics);  // glTF means what it says
   return mesh;
 }
 

@@ -31,9 +31,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "raytrace/import/mesh_data.h"
 #include "raytrace/math/vec3.h"
@@ -53,6 +55,11 @@ struct MeshReadSettings {
   double time = 0;          ///< of it, in seconds; beyond its ends it stands still
   std::string variant{};  ///< of the materials, by its name or number; empty: those that primitives have by themselves
   int threads = 0;        ///< at most; 0: all that the machine has
+  /// Whether faces have another material in place of the file's of that name, which nothing need be said of then.
+  /// Null: none have.
+  std::function<bool(std::string_view material)> is_overridden{};
+
+  bool overrides(std::string_view material) const { return is_overridden && is_overridden(material); }
 };
 
 /// No value, and errors, if the file cannot be read or is not what it should be. Errors have the line, or name the byte
