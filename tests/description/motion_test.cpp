@@ -97,6 +97,21 @@ TEST_CASE("what is said of motion has a line and a column, also where a scene is
                  "while the shutter is open"));
 }
 
+TEST_CASE("that a scene stands still is said at the camera, which has the shutter") {
+  const std::string text = open_shutter(
+      "<objects><spheres><sphere><center><key frame='1' x='0' y='0' z='0'/>"
+      "<key frame='2' x='1' y='0' z='0'/></center><radius>1</radius>"
+      "<material>clay</material></sphere></spheres></objects>");
+  SceneSettings settings;
+  settings.still = true;
+  Diagnostics diagnostics("s");
+  CHECK(parse_scene(text, diagnostics, 1, settings));
+  REQUIRE(diagnostics.kept().size() == 1);
+  CHECK(diagnostics.kept()[0].severity == Severity::warning);
+  CHECK(diagnostics.kept()[0].location.line == 1);
+  CHECK(diagnostics.kept()[0].location.column == text.find("<camera>") + 1);
+}
+
 TEST_CASE("what is said of a camera's motion is said at the camera") {
   std::string text = open_shutter("<integrator><path><caustics>light</caustics></path></integrator>");
   const std::string eye = "<eye x=\"0\" y=\"0\" z=\"9\"/>";

@@ -325,8 +325,9 @@ void add_motion(SceneDescription& scene, const std::function<SceneDescription(do
 void warn_of_motion(const SceneDescription& scene, Diagnostics& diagnostics) {
   const auto [opens, closes] = shutter_of(scene);
   if (closes > opens)
-    diagnostics.warning({},
-                        "the scene is as it stands at the frame: what moves while the shutter is open is not in it");
+    diagnostics.warning(
+        scene.camera_location,
+        std::string("the scene is as it stands at the frame: what moves while the shutter is open is not in it"));
 }
 
 }  // namespace raytrace
