@@ -180,6 +180,37 @@ class Models(CommandTest):
         names = [json.loads(picture.text("raytrace:manifest/id.material"))[:3] for picture in (model, printed)]
         self.assertEqual(names, [["floor", "wood", "floor#2"]] * 2)
 
+    def test_copies_of_a_mesh_stand_on_the_floor_and_are_in_view(self):
+        """A disk of 64 triangles, 8,192 times, turned by 45 degrees, so that boxes around copies reach below it."""
+        def data(*values):
+            return struct.pack(f"<{len(values)}f", *values)
+
+        circle = [(math.cos(k * math.pi / 32), math.sin(k * math.pi / 32), 0) for k in range(65)]
+        places = [(i % 128 / 16, 3, i // 128 / 8) for i in range(8192)]
+        turns = (0, 0, math.sin(math.pi / 8), math.cos(math.pi / 8)) * 8192
+        parts = [data(0, 0, 0, *(x for point in circle for x in point)), data(*(x for p in places for x in p)),
+                 data(*turns)]
+        offsets = [sum(map(len, parts[:i])) for i in range(3)]
+        uri = "data:application/octet-stream;base64," + base64.b64encode(b"".join(parts)).decode()
+        self.write("disks.gltf", json.dumps({
+            "asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}],
+            "nodes": [{"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {
+                "TRANSLATION": 1, "ROTATION": 2}}}}],
+            "meshes": [{"primitives": [{"mode": 6, "attributes": {"POSITION": 0}}]}],
+            "buffers": [{"uri": uri, "byteLength": sum(map(len, parts))}],
+            "bufferViews": [{"buffer": 0, "byteOffset": offsets[i], "byteLength": len(parts[i])} for i in range(3)],
+            "accessors": [{"bufferView": i, "componentType": 5126, "type": kind, "count": count}
+                          for i, (kind, count) in enumerate([("VEC3", 66), ("VEC3", 8192), ("VEC4", 8192)])]}))
+        printed = self.succeed("disks.gltf", *OPTIONS, "--floor", "--print-scene").stdout
+        height = float(printed.split('<point x="')[1].split('y="')[1].split('"')[0])
+        self.assertAlmostEqual(height, 2, delta=1e-6)
+        self.succeed("disks.gltf", *OPTIONS, "--transparent", "--view", "front", "-o", "disks.exr")
+        shown = [place for place, pixel in Exr(self.read("disks.exr")).pixels().items() if pixel[3] > 0]
+        columns = [x for x, _ in shown]
+        self.assertGreater(min(columns), 0)
+        self.assertLess(max(columns), 95)
+        self.assertGreater((max(columns) - min(columns)) / 96, 0.6)
+
     def test_a_transparent_picture_has_the_shadow_on_the_floor(self):
         self.succeed("slab.ply", *OPTIONS, "--transparent", "--aov", "depth,normal", "-o", "model.exr")
         self.succeed("slab.ply", *OPTIONS, "--transparent", "--aov", "depth,normal", "--floor", "-o", "shadow.exr",

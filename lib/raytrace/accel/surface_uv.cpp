@@ -175,6 +175,9 @@ SpacePoint<FloatN> in_object(const GeometryTable& world, const Hits& hits, Space
         set(point, lanes, mapped(map_of_all(cloud.object_from_world), point));
       });
   });
+  if (hits.in_instances && world.instances().has_places_in_files())
+    set(point, in_instance,
+        mapped(world.instances().file_from_object(select_lanes(in_instance, hits.instance, UintN(0u))), point));
   return point;
 }
 

@@ -69,8 +69,9 @@ class Measurer {
     return reaches;
   }
   static SightLines before(const Transform& transform, const SightLines& directions) {
-    if (transform.empty()) return directions;
-    const Affine map = transform.affine();
+    return transform.empty() ? directions : before(transform.affine(), directions);
+  }
+  static SightLines before(const Affine& map, const SightLines& directions) {
     SightLines result;
     for (std::size_t i = 0; i < 6; ++i) result[i] = directions[i].before(map);
     return result;
@@ -98,6 +99,14 @@ class Measurer {
     const MeshData& data = *item.data;
     add_if_farther(box_of(&data, [&](Reaches& box) { add_vertices(data, along_axes, box); }), directions, reaches,
                    [&] { add_vertices(data, directions, reaches); });
+    for (const MeshCopies& copies : data.copies) {
+      const MeshData& copied = *copies.mesh;
+      const Reaches& box = box_of(&copied, [&](Reaches& to) { add_vertices(copied, along_axes, to); });
+      for (const MeshCopies::Place& place : copies.places) {
+        const SightLines here = before(place.affine, directions);
+        add_if_farther(box, here, reaches, [&] { add_vertices(copied, here, reaches); });
+      }
+    }
   }
   void add_item(const ObjectItem<SphereCloud>& item, bool, const SightLines& directions, Reaches& reaches) {
     const auto add = [&](const SightLines& in, Reaches& to) { add_spheres(item, in, to); };
@@ -169,6 +178,12 @@ Reaches measured(const SceneDescription& scene, const SightLines& directions) {
 }
 
 }  // namespace
+
+double reach_along(const SceneDescription& scene, const Vec3d& along) {
+  SightLines directions;
+  directions.fill({along});
+  return measured(scene, directions).front();
+}
 
 void fit_camera(const SceneDescription& shown, SceneDescription& scene) {
   if (!scene.moving_camera.empty())

@@ -35,4 +35,8 @@ struct Reach {
 /// to be in view, or if the camera sees all around, or moves while its shutter is open.
 void fit_camera(const SceneDescription& shown, SceneDescription& scene);
 
+/// How far a scene's objects reach: the largest dot(p, along). What counts is as for fit_camera(), and so is what is
+/// thrown.
+double reach_along(const SceneDescription& scene, const Vec3d& along);
+
 }  // namespace raytrace

@@ -39,17 +39,6 @@ struct Directions {
   Vec3d of(const Vec3d& p) const { return {dot(p, right), dot(p, up), dot(p, back)}; }
 };
 
-/// f(vertex), as its transform has it.
-template <class Function>
-void for_each_vertex(const SceneDescription& description, const Function& f) {
-  for (const auto& mesh : std::get<ObjectItems<Mesh>>(description.objects)) {
-    const Affine affine = mesh.transform.affine();
-    const float* const p = mesh.data->positions.data();
-    for (std::size_t i = 0; i < mesh.data->vertex_count(); ++i)
-      f(affine.point(Vec3d{double{p[3 * i]}, double{p[3 * i + 1]}, double{p[3 * i + 2]}} + mesh.data->origin));
-  }
-}
-
 /// What a picture shows of a model, in its directions.
 struct Extent {
   Vec3d lower{1e300, 1e300, 1e300}, upper{-1e300, -1e300, -1e300};
@@ -61,6 +50,30 @@ struct Extent {
   Vec3d middle() const { return (lower + upper) * 0.5; }
   double radius() const { return length(upper - lower) / 2; }
 };
+
+template <class Function>
+void for_each_vertex(const MeshData& mesh, const Function& f) {
+  const float* const p = mesh.positions.data();
+  for (std::size_t i = 0; i < mesh.vertex_count(); ++i)
+    f(Vec3d{double{p[3 * i]}, double{p[3 * i + 1]}, double{p[3 * i + 2]}} + mesh.origin);
+}
+
+/// f(vertex), as its transform has it. Of each copy the corners of a box around it, since copies may be very many.
+template <class Function>
+void for_each_vertex(const SceneDescription& description, const Function& f) {
+  for (const auto& mesh : std::get<ObjectItems<Mesh>>(description.objects)) {
+    const Affine affine = mesh.transform.affine();
+    for_each_vertex(*mesh.data, [&](const Vec3d& p) { f(affine.point(p)); });
+    for (const MeshCopies& copies : mesh.data->copies) {
+      Extent box;
+      for_each_vertex(*copies.mesh, [&](const Vec3d& p) { box.add(p); });
+      for (const MeshCopies::Place& place : copies.places)
+        for (const double x : {box.lower.x, box.upper.x})
+          for (const double y : {box.lower.y, box.upper.y})
+            for (const double z : {box.lower.z, box.upper.z}) f(affine.point(place.affine.point({x, y, z})));
+    }
+  }
+}
 
 /// points: all that is to be in view.
 template <class Points>
@@ -211,8 +224,9 @@ void add_floor(SceneDescription& description, const SceneDescription& shown) {
   for_each_vertex(shown, [&](const Vec3d& p) { extent.add(p); });
   const MaterialReference material{static_cast<std::uint32_t>(index_of<Matte>(Materials{})), 0};
   const Vec3d middle = extent.middle();
+  const double lowest = -reach_along(shown, {0, -1, 0});
   std::get<ObjectItems<Plane>>(description.objects)
-      .push_back({{{middle.x, extent.lower.y, middle.z}, {0, 1, 0}}, "floor", material, 0, true});
+      .push_back({{{middle.x, lowest, middle.z}, {0, 1, 0}}, "floor", material, 0, true});
 }
 
 /// Brighter above than below, so that metal and glass, which show nothing but what is around, have a shape. radiance:

@@ -26,7 +26,11 @@ class GroupChecker {
       for (const auto& plane : std::get<ObjectItems<Plane>>(group.objects))
         report_(location_of(plane),
                 "a plane has no end, so it cannot be in a group; put it into the scene's <objects>");
-    std::uint64_t count = 0;
+    check_count();
+  }
+
+  void check_count() {
+    std::uint64_t count = copies_in(scene_.objects);
     for (const Group& group : scene_.groups) count_of(states_.at(group.name));
     SourceLocation last;
     for (const auto& instance : std::get<ObjectItems<Instance>>(scene_.objects)) {
@@ -36,6 +40,15 @@ class GroupChecker {
     if (count > most_instances)
       report_(last, "the scene has " + std::to_string(count) +
                         " instances, those in groups counted each time; the most is " + std::to_string(most_instances));
+  }
+
+  /// Of meshes that have been read.
+  static std::uint64_t copies_in(const ObjectLists& objects) {
+    std::uint64_t count = 0;
+    for (const auto& mesh : std::get<ObjectItems<Mesh>>(objects))
+      if (mesh.data != nullptr)
+        for (const MeshCopies& copies : mesh.data->copies) count += copies.places.size();
+    return count;
   }
 
  private:
@@ -66,7 +79,7 @@ class GroupChecker {
   std::uint64_t count_of(State& state) {
     if (state.progress != State::unknown) return state.count;
     state.progress = State::at_hand;
-    std::uint64_t count = 1;
+    std::uint64_t count = 1 + copies_in(state.group->objects);
     for_each_type(Shapes{}, [&]<class Shape>(std::type_identity<Shape>) {
       for (const auto& item : std::get<ObjectItems<Shape>>(state.group->objects))
         count += item.transform.empty() ? 0 : 1;
@@ -89,6 +102,16 @@ class GroupChecker {
 void check_groups(const SceneDescription& scene,
                   const std::function<void(SourceLocation, const std::string&)>& report) {
   GroupChecker(scene, report).check();
+}
+
+std::optional<std::string> too_many_copies(const SceneDescription& scene) {
+  std::uint64_t copies = GroupChecker::copies_in(scene.objects);
+  for (const Group& group : scene.groups) copies += GroupChecker::copies_in(group.objects);
+  if (copies == 0) return std::nullopt;
+  std::optional<std::string> error;
+  const GroupChecker::Report report = [&](SourceLocation, const std::string& message) { error = message; };
+  GroupChecker(scene, report).check_count();
+  return error;
 }
 
 }  // namespace raytrace

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "raytrace/description/scene_description.h"
@@ -12,6 +13,9 @@ namespace raytrace {
 /// instance that would have its own group in it, and if there would be more instances than a scene may have, those in
 /// groups counted each time.
 void check_groups(const SceneDescription& scene, const std::function<void(SourceLocation, const std::string&)>& report);
+
+/// Once meshes have been read: what is wrong if there are more instances than a scene may have, with meshes' copies.
+std::optional<std::string> too_many_copies(const SceneDescription& scene);
 
 inline constexpr std::uint64_t most_instances = std::uint64_t{1} << 24U;
 

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "raytrace/description/check_groups.h"
 #include "raytrace/description/file_lights.h"
 #include "raytrace/description/holds_normals.h"
 #include "raytrace/description/load_images.h"
@@ -44,6 +45,10 @@ Phong::Parameters glossy(Rgb<double> diffuse, const Rgb<double>& specular, doubl
   const auto left = [&](double kd, double ks) { return std::min(kd, 1 - factor * lobe * ks); };
   diffuse = {left(diffuse.red, specular.red), left(diffuse.green, specular.green), left(diffuse.blue, specular.blue)};
   return {1, 1, 1, diffuse, specular * factor, exponent};
+}
+
+bool has_faces_without(const MeshData& mesh) {
+  return std::ranges::find(mesh.face_materials, MeshData::no_material) != mesh.face_materials.end();
 }
 
 class MeshLoader {
@@ -110,8 +115,8 @@ class MeshLoader {
       loaded.data = made(mesh);
     else
       loaded = from_file(mesh);
+    if (loaded.data == nullptr) return;
     mesh.data = loaded.data;
-    if (mesh.data == nullptr) return;
     mesh.materials = mesh.material == no_material ? std::move(loaded.materials) : std::vector{mesh.material};
     if (mesh.materials.empty()) mesh.materials = {mesh.data->colors.empty() ? grey() : painted()};
   }
@@ -172,9 +177,9 @@ class MeshLoader {
         material = {};  // the textures have its pictures
       }
       // Faces without a material have the last one.
-      const auto& faces = data->face_materials;
-      if (std::find(faces.begin(), faces.end(), MeshData::no_material) != faces.end())
-        loaded.materials.push_back(data->colors.empty() ? grey() : painted());
+      bool lacks_any = has_faces_without(*data);
+      for (const MeshCopies& copies : data->copies) lacks_any = lacks_any || has_faces_without(*copies.mesh);
+      if (lacks_any) loaded.materials.push_back(data->colors.empty() ? grey() : painted());
     }
     loaded.data = std::make_shared<const MeshData>(std::move(*data));
     return loaded;
@@ -392,6 +397,7 @@ bool load_meshes(SceneDescription& description, Diagnostics& diagnostics, int th
   const std::size_t errors_before = diagnostics.error_count();
   const std::size_t images_before = std::get<TextureItems<Image>>(description.textures).size();
   MeshLoader(description, diagnostics, threads).load();
+  if (const auto error = too_many_copies(description)) diagnostics.error({}, *error);
   if (std::get<TextureItems<Image>>(description.textures).size() > images_before)
     load_images(description, diagnostics, threads, textures);
   return diagnostics.error_count() == errors_before;

@@ -96,8 +96,7 @@ class SceneHash {
           }
         }
         if constexpr (requires { item.motion; })
-          for (const Affine& map : item.motion)
-            for (const Vec3d& column : {map.x, map.y, map.z, map.origin}) hash.add(column);
+          for (const Affine& map : item.motion) hash.add(map);
         // Scenes without any keep the hashes that they had before there were shadow catchers.
         if constexpr (requires { item.shadowcatcher; })
           if (item.shadowcatcher) hash.add(shadowcatcher_element);
@@ -193,6 +192,18 @@ class SceneHash {
     add_values(data.colors);
     add_values(data.face_materials);
     if (!data.tangents.empty()) add_values(data.tangents);
+    for (const MeshCopies& copies : data.copies) {
+      add(*copies.mesh);
+      add(static_cast<std::uint64_t>(copies.places.size()));
+      for (const MeshCopies::Place& place : copies.places) {
+        add(place.affine);
+        add(place.part);
+      }
+    }
+  }
+
+  void add(const Affine& map) {
+    for (const Vec3d& column : {map.x, map.y, map.z, map.origin}) add(column);
   }
 
   void add(const PointCloud& data) {

@@ -25,6 +25,13 @@ struct Instance {
   std::uint64_t node = 0;              ///< its number in Model::node_names
 };
 
+inline bool has_skin(const Primitive& primitive, const Instance& instance) {
+  return instance.skin != nullptr && !primitive.joint_sets.empty();
+}
+inline bool is_deformed(const Primitive& primitive, const Instance& instance) {
+  return has_skin(primitive, instance) || is_morphed(primitive, *instance.weights);
+}
+
 struct Model {
   std::unique_ptr<Document> document;               ///< what accessors point into
   std::vector<Instance> instances;                  ///< in the order of the nodes

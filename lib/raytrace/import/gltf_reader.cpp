@@ -1,7 +1,9 @@
-// glTF and GLB: gltf_model.h reads what the file says; this joins its primitives into one mesh in world space.
+// glTF and GLB: gltf_model.h reads what the file says; this joins its primitives into one mesh in world space, but for
+// what is there very often.
 #include <algorithm>
 #include <cmath>
 
+#include "raytrace/import/gltf_copies.h"
 #include "raytrace/import/gltf_model.h"
 #include "raytrace/import/mesh_faces.h"
 #include "raytrace/import/mesh_readers.h"
@@ -12,93 +14,12 @@ namespace raytrace {
 namespace gltf {
 namespace {
 
-class MeshWriter {
- public:
-  MeshWriter(const Model& model, const MeshReadSettings& settings, Diagnostics& diagnostics)
-      : model_(model), settings_(settings), diagnostics_(diagnostics) {}
-
-  /// file_size: of all that the model was read from.
-  std::optional<MeshData> write(std::size_t file_size) {
-    if (!allocate(file_size)) return std::nullopt;
-    for (const Instance& instance : model_.instances) {
-      begin_part(model_.node_names.at(instance.node));
-      std::vector<std::size_t> first_vertices;
-      for (const Primitive& primitive : *instance.mesh) {
-        const bool is_new = primitive.vertices_of == first_vertices.size();
-        first_vertices.push_back(is_new ? next_vertex_ : first_vertices[primitive.vertices_of]);
-        if (is_new) write_vertices(primitive, instance);
-        write_faces(primitive, first_vertices.back(), is_mirrored(primitive, instance));
-      }
-    }
-    MeshFaults faults;
-    faults.too_small_polygons = incomplete_;
-    const auto sum = [&](std::size_t count, const auto& of_chunk) {
-      std::vector<std::size_t> counts(chunk_count(count));
-      for_each_chunk(count, settings_.threads, [&](std::size_t chunk, std::size_t first, std::size_t last) {
-        counts[chunk] = of_chunk(first, last);
-      });
-      std::size_t all = 0;
-      for (const std::size_t of_one : counts) all += of_one;
-      return all;
-    };
-    faults.bad_vertices = sum(mesh_.vertex_count(), [&](std::size_t first, std::size_t last) {
-      return mark_bad_positions(mesh_.positions.data() + 3 * first, last - first);
-    });
-    faults.degenerate_faces = sum(mesh_.face_count(), [&](std::size_t first, std::size_t last) {
-      std::size_t degenerate = 0;
-      for (std::size_t i = first; i < last; ++i) degenerate += is_degenerate(&mesh_.indices[3 * i], 3) ? 1U : 0U;
-      return degenerate;
-    });
-    mesh_.materials = model_.materials;
-    mesh_.cameras = model_.cameras;
-    mesh_.lights = model_.lights;
-    mesh_.animation_end = model_.animation_end;
-    for (MeshMaterial& material : mesh_.materials) material.vertex_colors = !mesh_.colors.empty();
-    if (mesh_.parts.size() == 1) mesh_.parts.clear();
-    if (!finish_mesh(mesh_, faults, false, settings_.threads, diagnostics_)) return std::nullopt;
-    return std::move(mesh_);
-  }
-
- private:
-  bool allocate(std::size_t file_size);
-  static bool has_skin(const Primitive& primitive, const Instance& instance) {
-    return instance.skin != nullptr && !primitive.joint_sets.empty();
-  }
-  static bool is_deformed(const Primitive& primitive, const Instance& instance) {
-    return has_skin(primitive, instance) || is_morphed(primitive, *instance.weights);
-  }
-  /// A skin mirrors as its first joint does.
-  static bool is_mirrored(const Primitive& primitive, const Instance& instance) {
-    const Affine& affine = has_skin(primitive, instance) ? instance.skin->joints.front() : instance.transform;
-    return affine.determinant() < 0;
-  }
-  /// Nodes of one name are one part where they follow each other, as instances of a node do.
-  void begin_part(const std::string& name) {
-    if (mesh_.parts.empty() || mesh_.parts.back().name != name) mesh_.parts.push_back({name, next_face_});
-  }
-  void write_vertices(const Primitive& primitive, const Instance& instance);
-  void write_tangents(const Primitive& primitive, const Instance& instance, std::size_t first_vertex);
-  void write_faces(const Primitive& primitive, std::size_t first_vertex, bool mirrored);
-
-  const Model& model_;
-  const MeshReadSettings& settings_;
-  Diagnostics& diagnostics_;
-  MeshData mesh_;
-  std::size_t next_vertex_ = 0, next_face_ = 0, incomplete_ = 0;
-};
-
-bool MeshWriter::allocate(std::size_t file_size) {
+/// Which arrays the meshes of a model have: all of them the same.
+struct Arrays {
   bool normals = false, tangents = false, uvs = false, uvs2 = false, colors = false, materials = false;
-  std::size_t vertices = 0;
-  FaceCounts faces;
-  std::size_t deformed_at_once = 0;
-  for (const Instance& instance : model_.instances)
+
+  void add(const Instance& instance) {
     for (const Primitive& primitive : *instance.mesh) {
-      if (primitive.vertices_of == static_cast<std::size_t>(&primitive - instance.mesh->data()))
-        vertices += primitive.positions.elements.count;
-      if (is_deformed(primitive, instance))
-        deformed_at_once = std::max(deformed_at_once, primitive.positions.elements.count);
-      faces.triangles += primitive.faces();
       normals = normals || primitive.normals;
       tangents = tangents || (primitive.tangents && !is_deformed(primitive, instance));
       uvs = uvs || primitive.uvs;
@@ -106,29 +27,107 @@ bool MeshWriter::allocate(std::size_t file_size) {
       colors = colors || primitive.colors;
       materials = materials || primitive.material != 0;
     }
-  // What each node has for itself is some times as large as in the file.
-  constexpr std::size_t bytes_of_face = 4 * sizeof(std::uint32_t);
-  const std::size_t bytes_of_vertex = (11 + (uvs2 ? 2 : 0) + (tangents ? 4 : 0)) * sizeof(float);
-  const std::size_t bytes =
-      vertices * bytes_of_vertex + faces.triangles * bytes_of_face + deformed_at_once * bytes_of_deformed_vertex;
-  if (bytes / 64 > file_size && bytes > available_memory() / 4) {
-    diagnostics_.error({}, "its nodes have " + std::to_string(faces.triangles) +
-                               " faces, more than fit into a quarter of the memory that is available");
-    return false;
   }
+};
+
+/// What a mesh is made of.
+struct Size {
+  std::size_t vertices = 0;
+  FaceCounts faces;
+  std::size_t deformed_at_once = 0;
+
+  void add(const Instance& instance) {
+    for (const Primitive& primitive : *instance.mesh) {
+      if (primitive.vertices_of == static_cast<std::size_t>(&primitive - instance.mesh->data()))
+        vertices += primitive.positions.elements.count;
+      if (is_deformed(primitive, instance))
+        deformed_at_once = std::max(deformed_at_once, primitive.positions.elements.count);
+      faces.triangles += primitive.faces();
+    }
+  }
+  std::size_t bytes(const Arrays& arrays) const {
+    constexpr std::size_t bytes_of_face = 4 * sizeof(std::uint32_t);
+    const std::size_t bytes_of_vertex = (11 + (arrays.uvs2 ? 2 : 0) + (arrays.tangents ? 4 : 0)) * sizeof(float);
+    return vertices * bytes_of_vertex + faces.triangles * bytes_of_face + deformed_at_once * bytes_of_deformed_vertex;
+  }
+};
+
+/// A skin mirrors as its first joint does.
+bool is_mirrored(const Primitive& primitive, const Instance& instance) {
+  const Affine& affine = has_skin(primitive, instance) ? instance.skin->joints.front() : instance.transform;
+  return affine.determinant() < 0;
+}
+
+/// Joins instances into one mesh.
+class MeshWriter {
+ public:
+  /// origin: subtracted from the positions.
+  MeshWriter(const Vec3d& origin, int threads) : origin_(origin), threads_(threads) {}
+
+  bool allocate(const Size& size, const Arrays& arrays, Diagnostics& diagnostics);
+  std::size_t next_face() const { return next_face_; }
+  void add(const Instance& instance) {
+    std::vector<std::size_t> first_vertices;
+    for (const Primitive& primitive : *instance.mesh) {
+      const bool is_new = primitive.vertices_of == first_vertices.size();
+      first_vertices.push_back(is_new ? next_vertex_ : first_vertices[primitive.vertices_of]);
+      if (is_new) write_vertices(primitive, instance);
+      write_faces(primitive, first_vertices.back(), is_mirrored(primitive, instance));
+    }
+  }
+  /// What is wrong with it. Bad vertices are marked, and nothing is left out yet.
+  MeshFaults faults();
+  MeshData& mesh() { return mesh_; }
+
+ private:
+  void write_vertices(const Primitive& primitive, const Instance& instance);
+  void write_tangents(const Primitive& primitive, const Instance& instance, std::size_t first_vertex);
+  void write_faces(const Primitive& primitive, std::size_t first_vertex, bool mirrored);
+
+  Vec3d origin_;
+  int threads_;
+  MeshData mesh_;
+  std::size_t next_vertex_ = 0, next_face_ = 0, incomplete_ = 0;
+};
+
+bool MeshWriter::allocate(const Size& size, const Arrays& arrays, Diagnostics& diagnostics) {
+  const std::size_t vertices = size.vertices;
   if (vertices >= no_index) {
-    diagnostics_.error({}, "has more than 4294967294 vertices");
+    diagnostics.error({}, "has more than 4294967294 vertices");
     return false;
   }
-  if (!make_faces(faces, mesh_, diagnostics_)) return false;
+  if (!make_faces(size.faces, mesh_, diagnostics)) return false;
   mesh_.positions = MeshBuffer<float>(3 * vertices);
-  if (normals) mesh_.normals = MeshBuffer<float>(3 * vertices);
-  if (tangents) mesh_.tangents = MeshBuffer<float>(4 * vertices);
-  if (uvs) mesh_.uvs = MeshBuffer<float>(2 * vertices);
-  if (uvs2) mesh_.uvs2 = MeshBuffer<float>(2 * vertices);
-  if (colors) mesh_.colors = MeshBuffer<float>(3 * vertices);
-  if (materials && !model_.materials.empty()) mesh_.face_materials = MeshBuffer<std::uint32_t>(faces.triangles);
+  if (arrays.normals) mesh_.normals = MeshBuffer<float>(3 * vertices);
+  if (arrays.tangents) mesh_.tangents = MeshBuffer<float>(4 * vertices);
+  if (arrays.uvs) mesh_.uvs = MeshBuffer<float>(2 * vertices);
+  if (arrays.uvs2) mesh_.uvs2 = MeshBuffer<float>(2 * vertices);
+  if (arrays.colors) mesh_.colors = MeshBuffer<float>(3 * vertices);
+  if (arrays.materials) mesh_.face_materials = MeshBuffer<std::uint32_t>(size.faces.triangles);
   return true;
+}
+
+MeshFaults MeshWriter::faults() {
+  MeshFaults faults;
+  faults.too_small_polygons = incomplete_;
+  const auto sum = [&](std::size_t count, const auto& of_chunk) {
+    std::vector<std::size_t> counts(chunk_count(count));
+    for_each_chunk(count, threads_, [&](std::size_t chunk, std::size_t first, std::size_t last) {
+      counts[chunk] = of_chunk(first, last);
+    });
+    std::size_t all = 0;
+    for (const std::size_t of_one : counts) all += of_one;
+    return all;
+  };
+  faults.bad_vertices = sum(mesh_.vertex_count(), [&](std::size_t first, std::size_t last) {
+    return mark_bad_positions(mesh_.positions.data() + 3 * first, last - first);
+  });
+  faults.degenerate_faces = sum(mesh_.face_count(), [&](std::size_t first, std::size_t last) {
+    std::size_t degenerate = 0;
+    for (std::size_t i = first; i < last; ++i) degenerate += is_degenerate(&mesh_.indices[3 * i], 3) ? 1U : 0U;
+    return degenerate;
+  });
+  return faults;
 }
 
 void MeshWriter::write_vertices(const Primitive& primitive, const Instance& instance) {
@@ -145,12 +144,12 @@ void MeshWriter::write_vertices(const Primitive& primitive, const Instance& inst
     if (buffer.empty()) return;
     float* const out = buffer.data() + numbers * first;
     if (!accessor) return void(std::fill_n(out, numbers * count, otherwise));
-    for_each_element(*accessor, settings_.threads, [&](std::size_t i, const Values& values) {
+    for_each_element(*accessor, threads_, [&](std::size_t i, const Values& values) {
       put(out + numbers * i, numbers, converted(Vec3d{values[0], values[1], values[2]}));
     });
   };
   const auto put_position = [&](std::size_t i, const Vec3d& local) {
-    const Vec3d position = transform.point(local) - settings_.origin;
+    const Vec3d position = transform.point(local) - origin_;
     for (std::size_t k = 0; k < 3; ++k)
       mesh_.positions[3 * (first + i) + k] = rounded(component(position, static_cast<int>(k)));
   };
@@ -160,8 +159,8 @@ void MeshWriter::write_vertices(const Primitive& primitive, const Instance& inst
   };
   if (is_deformed(primitive, instance)) {
     const Skin* const skin = has_skin(primitive, instance) ? instance.skin : nullptr;
-    const Vertices vertices = deformed(primitive, *instance.weights, skin, settings_.threads);
-    for_each_chunk(count, settings_.threads, [&](std::size_t, std::size_t begin, std::size_t end) {
+    const Vertices vertices = deformed(primitive, *instance.weights, skin, threads_);
+    for_each_chunk(count, threads_, [&](std::size_t, std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         put_position(i, vertices.positions[i]);
         if (mesh_.normals.empty()) continue;
@@ -170,7 +169,7 @@ void MeshWriter::write_vertices(const Primitive& primitive, const Instance& inst
       }
     });
   } else {
-    for_each_element(primitive.positions, settings_.threads,
+    for_each_element(primitive.positions, threads_,
                      [&](std::size_t i, const Values& values) { put_position(i, {values[0], values[1], values[2]}); });
     write(mesh_.normals, 3, primitive.normals, 0, placed_normal);
   }
@@ -188,7 +187,7 @@ void MeshWriter::write_tangents(const Primitive& primitive, const Instance& inst
   std::fill_n(out, 4 * primitive.positions.elements.count, 0.0F);
   if (!primitive.tangents || is_deformed(primitive, instance)) return;
   const double mirror = is_mirrored(primitive, instance) ? -1 : 1;
-  for_each_element(*primitive.tangents, settings_.threads, [&](std::size_t i, const auto& values) {
+  for_each_element(*primitive.tangents, threads_, [&](std::size_t i, const auto& values) {
     const Vec3d tangent = instance.transform.vector({values[0], values[1], values[2]});
     const double size = length(tangent);
     const bool is_there = size > 0 && std::isfinite(size);
@@ -203,14 +202,14 @@ void MeshWriter::write_faces(const Primitive& primitive, std::size_t first_verte
   MeshBuffer<std::uint32_t> corners;
   if (primitive.indices) {
     corners = MeshBuffer<std::uint32_t>(primitive.corners());
-    for_each_element(*primitive.indices, settings_.threads,
+    for_each_element(*primitive.indices, threads_,
                      [&](std::size_t i, const auto& values) { corners[i] = static_cast<std::uint32_t>(values[0]); });
     if (const std::uint32_t largest = *std::max_element(corners.begin(), corners.end()); largest >= vertices)
       throw Error(primitive.indices->place + ": has the index " + std::to_string(largest) + ", and there are " +
                   std::to_string(vertices) + " vertices");
   }
   std::uint32_t* const out = mesh_.indices.data() + 3 * next_face_;
-  for_each_chunk(faces, settings_.threads, [&](std::size_t, std::size_t first, std::size_t last) {
+  for_each_chunk(faces, threads_, [&](std::size_t, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       std::array<std::size_t, 3> face{3 * i, 3 * i + 1, 3 * i + 2};
       if (primitive.mode == Mode::strip)
@@ -228,6 +227,146 @@ void MeshWriter::write_faces(const Primitive& primitive, std::size_t first_verte
   if (primitive.mode == Mode::triangles && primitive.corners() % 3 != 0) ++incomplete_;
 }
 
+/// All of a model, as one mesh and copies of others.
+class ModelWriter {
+ public:
+  ModelWriter(const Model& model, const MeshReadSettings& settings, Diagnostics& diagnostics)
+      : model_(model),
+        settings_(settings),
+        diagnostics_(diagnostics),
+        plan_(plan_copies(model)),
+        joined_(settings.origin, settings.threads),
+        first_copies_(plan_.meshes) {}
+
+  std::optional<MeshData> write() {
+    if (!allocate()) return std::nullopt;
+    std::vector<MeshCopies> copies(plan_.meshes);
+    MeshFaults faults = write_places(copies);
+    const std::size_t errors_before = diagnostics_.error_count();
+    faults += write_copied(copies);
+    if (diagnostics_.error_count() > errors_before) return std::nullopt;
+    MeshData& mesh = joined_.mesh();
+    if (mesh.face_count() == 0) faults += join_first(copies);
+    std::erase_if(copies, [](const MeshCopies& of_one) { return of_one.mesh == nullptr || of_one.places.empty(); });
+    mesh.copies = std::move(copies);
+    mesh.materials = model_.materials;
+    mesh.cameras = model_.cameras;
+    mesh.lights = model_.lights;
+    mesh.animation_end = model_.animation_end;
+    for (MeshMaterial& material : mesh.materials) material.vertex_colors = !mesh.colors.empty();
+    if (mesh.parts.size() == 1) mesh.parts.clear();
+    report_faults(faults, diagnostics_);
+    if (mesh.face_count() > 0) return std::move(mesh);
+    diagnostics_.error({}, has_faces_ ? "has no faces that can be rendered" : "has no faces");
+    return std::nullopt;
+  }
+
+ private:
+  static constexpr std::uint32_t joined = CopyPlan::joined, unseen = CopyPlan::unseen;
+
+  bool allocate();
+  /// The joined mesh, and where the copies are.
+  MeshFaults write_places(std::vector<MeshCopies>& copies);
+  /// The meshes that are copied; null where nothing of one is left.
+  MeshFaults write_copied(std::vector<MeshCopies>& copies);
+  /// A mesh has a face: the first copy of the smallest of the copied ones is then no copy.
+  MeshFaults join_first(std::vector<MeshCopies>& copies);
+  MeshFaults finish(MeshWriter& writer) const {
+    MeshFaults faults = writer.faults();
+    leave_out_faults(writer.mesh(), faults);
+    return faults;
+  }
+
+  const Model& model_;
+  const MeshReadSettings& settings_;
+  Diagnostics& diagnostics_;
+  CopyPlan plan_;
+  Arrays arrays_;
+  MeshWriter joined_;
+  std::vector<const Instance*> first_copies_;  ///< of each mesh that is copied
+  bool has_faces_ = false;
+};
+
+bool ModelWriter::allocate() {
+  Size joined_size;
+  for (std::size_t i = 0; i < model_.instances.size(); ++i) {
+    const Instance& instance = model_.instances[i];
+    const std::uint32_t number = plan_.of_instances[i];
+    arrays_.add(instance);
+    if (number == joined) joined_size.add(instance);
+    if (number < plan_.meshes && first_copies_[number] == nullptr) first_copies_[number] = &instance;
+  }
+  arrays_.materials = arrays_.materials && !model_.materials.empty();
+  std::size_t bytes = joined_size.bytes(arrays_), faces = joined_size.faces.triangles;
+  for (const Instance* const instance : first_copies_) {
+    Size size;
+    size.add(*instance);
+    bytes += size.bytes(arrays_);
+    faces += size.faces.triangles;
+  }
+  has_faces_ = faces > 0;
+  // What each node has for itself is some times as large as in the file.
+  if (bytes / 64 > model_.document->size() && bytes > available_memory() / 4) {
+    diagnostics_.error({}, "its nodes have " + std::to_string(faces) +
+                               " faces, more than fit into a quarter of the memory that is available");
+    return false;
+  }
+  return joined_.allocate(joined_size, arrays_, diagnostics_);
+}
+
+MeshFaults ModelWriter::write_places(std::vector<MeshCopies>& copies) {
+  std::vector<MeshPart>& parts = joined_.mesh().parts;
+  for (std::size_t i = 0; i < model_.instances.size(); ++i) {
+    const Instance& instance = model_.instances[i];
+    const std::uint32_t number = plan_.of_instances[i];
+    if (number == unseen) continue;
+    // Nodes of one name are one part where they follow each other, as instances of a node do.
+    const std::string& name = model_.node_names.at(instance.node);
+    if (parts.empty() || parts.back().name != name) parts.push_back({name, joined_.next_face()});
+    if (number == joined)
+      joined_.add(instance);
+    else
+      copies[number].places.push_back({instance.transform, static_cast<std::uint32_t>(parts.size() - 1)});
+  }
+  return finish(joined_);
+}
+
+MeshFaults ModelWriter::write_copied(std::vector<MeshCopies>& copies) {
+  MeshFaults faults;
+  for (std::size_t i = 0; i < copies.size(); ++i) {
+    Instance instance = *first_copies_[i];
+    instance.transform = {};
+    MeshWriter writer({0, 0, 0}, settings_.threads);
+    Size size;
+    size.add(instance);
+    if (!writer.allocate(size, arrays_, diagnostics_)) continue;
+    writer.add(instance);
+    faults += finish(writer);
+    if (writer.mesh().face_count() > 0) copies[i].mesh = std::make_shared<const MeshData>(std::move(writer.mesh()));
+  }
+  return faults;
+}
+
+MeshFaults ModelWriter::join_first(std::vector<MeshCopies>& copies) {
+  std::size_t smallest = copies.size();
+  const auto faces = [&](std::size_t i) { return copies[i].mesh->face_count(); };
+  for (std::size_t i = 0; i < copies.size(); ++i)
+    if (copies[i].mesh != nullptr && (smallest == copies.size() || faces(i) < faces(smallest))) smallest = i;
+  if (smallest == copies.size()) return {};
+  std::vector<MeshPart> parts = std::move(joined_.mesh().parts);
+  joined_ = MeshWriter(settings_.origin, settings_.threads);
+  Size size;
+  size.add(*first_copies_[smallest]);
+  if (!joined_.allocate(size, arrays_, diagnostics_)) return {};
+  joined_.add(*first_copies_[smallest]);
+  std::vector<MeshCopies::Place>& places = copies[smallest].places;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    parts[i].first_face = i > places.front().part ? joined_.next_face() : 0;
+  joined_.mesh().parts = std::move(parts);
+  places.erase(places.begin());
+  return finish(joined_);
+}
+
 }  // namespace
 }  // namespace gltf
 
@@ -240,7 +379,7 @@ std::optional<MeshData> read_gltf(MeshFile& file, const std::string& name, const
       diagnostics.warning({}, counted(model.other_primitives, "primitive") +
                                   " of points or lines, or without "
                                   "positions, are left out");
-    std::optional<MeshData> mesh = gltf::MeshWriter(model, settings, diagnostics).write(model.document->size());
+    std::optional<MeshData> mesh = gltf::ModelWriter(model, settings, diagnostics).write();
     if (mesh) mesh->files = model.document->files();
     return mesh;
   } catch (const gltf::Error& error) {

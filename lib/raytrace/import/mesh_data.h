@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "raytrace/math/affine.h"
 #include "raytrace/math/color.h"
 #include "raytrace/math/vec3.h"
 #include "raytrace/memory/large_array.h"
@@ -117,6 +118,20 @@ struct MeshPart {
   std::size_t first_face;
 };
 
+struct MeshData;
+
+/// Faces that a file has at many places, kept once.
+struct MeshCopies {
+  struct Place {
+    Affine affine;           ///< to the file's space
+    std::uint32_t part = 0;  ///< of those of the mesh that the copies are of, if it has any
+  };
+
+  /// In a space of its own, and with faces. It has no materials, parts or copies: those of the other mesh are meant.
+  std::shared_ptr<const MeshData> mesh;
+  std::vector<Place> places;
+};
+
 struct MeshData {
   static constexpr std::uint32_t no_material = 0xffffffff;
 
@@ -142,6 +157,8 @@ struct MeshData {
   std::vector<MeshMaterial> materials;
   /// In the order of their faces, of which the first is 0. Empty: the file does not have two or more.
   std::vector<MeshPart> parts;
+  /// Beside its own faces, of which there is at least one.
+  std::vector<MeshCopies> copies;
 
   // In the order of the file's nodes; not part of the mesh.
   std::vector<FileCamera> cameras;

@@ -187,51 +187,59 @@ std::size_t mark_bad_positions(float* positions, std::size_t count) {
   return bad;
 }
 
-bool finish_mesh(MeshData& mesh, const MeshFaults& faults, bool dented_quads, int threads, Diagnostics& diagnostics) {
+void leave_out_faults(MeshData& mesh, MeshFaults& faults) {
+  if (faults.bad_vertices == 0 && faults.degenerate_faces == 0) return;
   const auto corners = static_cast<std::size_t>(mesh.corners);
-  if (dented_quads && corners == 4) {
+  const std::size_t all = mesh.face_count();
+  std::size_t kept = 0;
+  faults.degenerate_faces = 0;
+  auto next_part = mesh.parts.begin();
+  for (std::size_t i = 0; i < all; ++i) {
+    for (; next_part != mesh.parts.end() && next_part->first_face == i; ++next_part) next_part->first_face = kept;
+    const std::uint32_t* const face = &mesh.indices[corners * i];
+    if (is_degenerate(face, mesh.corners)) {
+      ++faults.degenerate_faces;
+      continue;
+    }
+    if (std::any_of(face, face + corners,
+                    [&](std::uint32_t v) { return std::isnan(mesh.positions[3 * std::size_t{v}]); }))
+      continue;
+    std::copy(face, face + corners, &mesh.indices[corners * kept]);
+    if (!mesh.face_materials.empty()) mesh.face_materials[kept] = mesh.face_materials[i];
+    ++kept;
+  }
+  for (; next_part != mesh.parts.end(); ++next_part) next_part->first_face = kept;
+  mesh.indices.shorten_to(corners * kept);
+  if (!mesh.face_materials.empty()) mesh.face_materials.shorten_to(kept);
+  if (faults.bad_vertices > 0)
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+      if (std::isnan(mesh.positions[i])) mesh.positions[i] = 0;
+  faults.faces_at_bad_vertices = all - kept - faults.degenerate_faces;
+}
+
+void report_faults(const MeshFaults& faults, Diagnostics& diagnostics) {
+  const auto warn = [&](std::size_t count, const std::string& what) {
+    if (count > 0) diagnostics.warning({}, std::to_string(count) + what);
+  };
+  warn(faults.bad_vertices, " vertices are not finite or beyond 1e18; " + std::to_string(faults.faces_at_bad_vertices) +
+                                " faces at them are left out");
+  warn(faults.degenerate_faces + faults.too_small_polygons,
+       " faces have less than three different corners and are left out");
+}
+
+bool finish_mesh(MeshData& mesh, MeshFaults faults, bool dented_quads, int threads, Diagnostics& diagnostics) {
+  if (dented_quads && mesh.corners == 4) {
     for_each_chunk(mesh.face_count(), threads, [&](std::size_t, std::size_t first, std::size_t last) {
       PolygonCutter cutter(mesh.positions.data(), 4);
       for (std::uint32_t* face = &mesh.indices[4 * first]; face != &mesh.indices[4 * last]; face += 4)
         if (face[2] != face[3] && cutter.cut({face, 4})[0] == 1) std::rotate(face, face + 1, face + 4);
     });
   }
-
-  const auto warn = [&](std::size_t count, const std::string& what) {
-    if (count > 0) diagnostics.warning({}, std::to_string(count) + what);
-  };
-  const std::size_t all = mesh.face_count();
-  std::size_t kept = 0, degenerate = 0;
-  if (faults.bad_vertices > 0 || faults.degenerate_faces > 0) {
-    auto next_part = mesh.parts.begin();
-    for (std::size_t i = 0; i < all; ++i) {
-      for (; next_part != mesh.parts.end() && next_part->first_face == i; ++next_part) next_part->first_face = kept;
-      const std::uint32_t* const face = &mesh.indices[corners * i];
-      if (is_degenerate(face, mesh.corners)) {
-        ++degenerate;
-        continue;
-      }
-      if (std::any_of(face, face + corners,
-                      [&](std::uint32_t v) { return std::isnan(mesh.positions[3 * std::size_t{v}]); }))
-        continue;
-      std::copy(face, face + corners, &mesh.indices[corners * kept]);
-      if (!mesh.face_materials.empty()) mesh.face_materials[kept] = mesh.face_materials[i];
-      ++kept;
-    }
-    mesh.indices.shorten_to(corners * kept);
-    if (!mesh.face_materials.empty()) mesh.face_materials.shorten_to(kept);
-    if (faults.bad_vertices > 0)
-      for (std::size_t i = 0; i < mesh.positions.size(); ++i)
-        if (std::isnan(mesh.positions[i])) mesh.positions[i] = 0;
-  } else {
-    kept = all;
-  }
-  const std::size_t at_bad_vertices = all - kept - degenerate;
-  warn(faults.bad_vertices,
-       " vertices are not finite or beyond 1e18; " + std::to_string(at_bad_vertices) + " faces at them are left out");
-  warn(degenerate + faults.too_small_polygons, " faces have less than three different corners and are left out");
-  if (kept == 0) diagnostics.error({}, all == 0 ? "has no faces" : "has no faces that can be rendered");
-  return kept > 0;
+  const bool has_faces = mesh.face_count() > 0;
+  leave_out_faults(mesh, faults);
+  report_faults(faults, diagnostics);
+  if (mesh.face_count() == 0) diagnostics.error({}, has_faces ? "has no faces that can be rendered" : "has no faces");
+  return mesh.face_count() > 0;
 }
 
 }  // namespace raytrace

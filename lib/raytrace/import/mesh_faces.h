@@ -140,7 +140,21 @@ struct MeshFaults {
 };
 
 /// Leaves out what read_mesh.h says, with warnings, and moves bad vertices to the origin. dented_quads: whether quads
+  std::size_t faces_at_bad_vertices = 0;
+
+  MeshFaults& operator+=(const MeshFaults& other) {
+    bad_vertices += other.bad_vertices;
+    degenerate_faces += other.degenerate_faces;
+    too_small_polygons += other.too_small_polygons;
+    faces_at_bad_vertices += other.faces_at_bad_vertices;
+    return *this;
+  }
 /// may still have to start with another corner. False, and an error, if no face is left.
-bool finish_mesh(MeshData& mesh, const MeshFaults& faults, bool dented_quads, int threads, Diagnostics& diagnostics);
+bool finish_mesh(MeshData& mesh, MeshFaults faults, bool dented_quads, int threads, Diagnostics& diagnostics);
+/// Leaves out the faces that are degenerate or at bad vertices, counts them, and moves those vertices to the origin.
+void leave_out_faults(MeshData& mesh, MeshFaults& faults);
+/// As warnings.
+void report_faults(const MeshFaults& faults, Diagnostics& diagnostics);
+
 
 }  // namespace raytrace

@@ -48,6 +48,19 @@ std::unique_ptr<const GeometryTable> GeometryTable::of_group(const ObjectLists& 
   return result;
 }
 
+void GeometryTable::add_copied_meshes(const ObjectLists& objects, const MeshMaterials& materials, int threads) {
+  first_copied_.push_back(groups_.size());
+  for (const auto& item : std::get<ObjectItems<Mesh>>(objects))
+    for (const MeshCopies& copies : item.data->copies) {
+      ObjectLists alone;
+      ObjectItem<Mesh>& mesh = std::get<ObjectItems<Mesh>>(alone).emplace_back();
+      mesh.parameters.normals = item.parameters.normals;
+      mesh.data = copies.mesh;
+      mesh.materials = item.materials;
+      groups_.push_back(of_group(alone, materials, has_object_space_, threads));
+    }
+}
+
 void GeometryTable::add_instances(const SceneDescription& description, const Vec3d& origin,
                                   std::span<const std::int32_t> first_materials) {
   std::unordered_map<std::string_view, std::size_t> numbers;
@@ -66,6 +79,24 @@ void GeometryTable::add_instances(const SceneDescription& description, const Vec
     else
       instances_.add_moving(target, maps, box, object, material);
   };
+  // Copies of meshes in the world, or in a group, are as the mesh's own faces. object: of each mesh.
+  const auto add_copies = [&](const ObjectLists& objects, std::size_t first, const Maps& outer, const auto& object,
+                              std::int32_t material, bool catches) {
+    std::size_t number = 0;
+    for (const auto& item : std::get<ObjectItems<Mesh>>(objects)) {
+      for (const MeshCopies& copies : item.data->copies) {
+        const GeometryTable& mesh = *groups_[first];
+        for (const MeshCopies::Place& place : copies.places) {
+          add({static_cast<std::int32_t>(first)},
+              from_origin(composed(outer, {item.transform.affine() * place.affine}), mesh.origin_), mesh.bounds_,
+              object(number), material, catches || item.shadowcatcher);
+          if (has_object_space_) instances_.set_place_in_file(place.affine);
+        }
+        ++first;
+      }
+      ++number;
+    }
+  };
   const auto add_group = [&](const auto& self, const ObjectItem<Instance>& item, const Maps& outer, std::int32_t object,
                              std::int32_t outer_material, bool outer_catches) -> void {
     const std::size_t number = numbers.at(item.parameters.group.name);
@@ -81,10 +112,17 @@ void GeometryTable::add_instances(const SceneDescription& description, const Vec
       target.group = static_cast<std::int32_t>(number);
       add(target, composed(maps, {shape.affine}), shape.bounds, object, material, catches);
     }
+    add_copies(
+        description.groups[number].objects, first_copied_[number + 1], maps, [&](std::size_t) { return object; },
+        material, catches);
     for (const auto& inner : std::get<ObjectItems<Instance>>(description.groups[number].objects))
       self(self, inner, maps, object, material, catches);
   };
   const Maps to_origin{Affine{.origin = Vec3d(0, 0, 0) - origin}};
+  // First, as the table of parts counts them.
+  add_copies(
+      description.objects, first_copied_.front(), to_origin,
+      [&](std::size_t mesh) { return geometries_[Shapes::size + mesh].first_object; }, -1, false);
   for (const auto& item : std::get<ObjectItems<Instance>>(description.objects)) {
     add_group(add_group, item, to_origin, static_cast<std::int32_t>(object_materials_.size()), -1, false);
     object_materials_.push_back(std::max(0, material_number(item, -1)));

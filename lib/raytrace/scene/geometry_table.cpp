@@ -43,6 +43,8 @@ GeometryTable::GeometryTable(const SceneDescription& description, const Vec3d& o
   add_objects(description.objects, origin, materials, threads);
   for (const Group& group : description.groups)
     groups_.push_back(of_group(group.objects, materials, has_object_space, threads));
+  add_copied_meshes(description.objects, materials, threads);
+  for (const Group& group : description.groups) add_copied_meshes(group.objects, materials, threads);
   add_instances(description, origin, materials.first);
   for (const auto& group : groups_) has_catchers_ = has_catchers_ || group->has_catchers_;
 }

@@ -60,7 +60,7 @@ class GeometryTable {
   const ShapeTable<Shape>& table() const {
     return std::get<ShapeTable<Shape>>(tables_);
   }
-  /// Only of the world.
+  /// Only of the world. Meshes that others have copies of count as groups.
   const std::vector<std::unique_ptr<const GeometryTable>>& groups() const { return groups_; }
   const InstanceTable& instances() const { return instances_; }
 
@@ -111,6 +111,8 @@ class GeometryTable {
     Bounds bounds;  ///< before it
   };
 
+  /// Tables of the meshes that those of the world or a group have copies of, which follow the groups' tables.
+  void add_copied_meshes(const ObjectLists& objects, const MeshMaterials& materials, int threads);
   /// Those of a group that lies far from the origin of its space are moved next to it.
   static std::unique_ptr<const GeometryTable> of_group(const ObjectLists& objects, const MeshMaterials& materials,
                                                        bool has_object_space, int threads);
@@ -149,8 +151,9 @@ class GeometryTable {
   std::vector<bool> instances_catch_;           ///< whether all of an instance is one
   bool has_catchers_ = false;
   std::vector<TransformedShape> transformed_;
-  Bounds bounds_ = empty_bounds;  ///< of all that is not an instance
-  std::vector<std::unique_ptr<const GeometryTable>> groups_;
+  Bounds bounds_ = empty_bounds;                              ///< of all that is not an instance
+  std::vector<std::unique_ptr<const GeometryTable>> groups_;  ///< and behind them the meshes that are copied
+  std::vector<std::size_t> first_copied_;                     ///< of the world, and of each group, the first of those
   InstanceTable instances_;
 };
 

@@ -18,6 +18,12 @@ void InstanceTable::add(const InstanceTarget& target, const Affine& world_from_o
   objects_.push_back(object);
   materials_.push_back(material);
   first_moments_.push_back(-1);
+  if (has_places_in_files()) file_from_object_.push_back(to_float(Affine()));
+}
+
+void InstanceTable::set_place_in_file(const Affine& file_from_object) {
+  file_from_object_.resize(size(), to_float(Affine()));
+  file_from_object_.back() = to_float(file_from_object);
 }
 
 void InstanceTable::add_moving(const InstanceTarget& target, std::span<const Affine> world_from_object,

@@ -63,6 +63,10 @@ class InstanceTable {
   void add_moving(const InstanceTarget& target, std::span<const Affine> world_from_object, const Bounds& box,
                   std::int32_t object, std::int32_t material);
 
+  /// Of the last one: that its objects are a copy of a mesh, and to where in its file's space it is. Only where
+  /// textures ask for that space.
+  void set_place_in_file(const Affine& file_from_object);
+
   bool empty() const { return targets_.empty(); }
   std::size_t size() const { return targets_.size(); }
 
@@ -101,6 +105,11 @@ class InstanceTable {
       return moving_map(number, time, &Maps::object_from_world);
     return gather_records<AffineRecord, FloatN>(object_from_world_.data(), LaneIndices(index(number)));
   }
+  /// Whether any has a place in a file, and where that is; of the others, that map leaves all as it is.
+  bool has_places_in_files() const { return !file_from_object_.empty(); }
+  AffineRecord<FloatN> file_from_object(const UintN& number) const {
+    return gather_records<AffineRecord, FloatN>(file_from_object_.data(), LaneIndices(index(number)));
+  }
   AffineRecord<FloatN> world_from_object(const UintN& number, const FloatN& time) const {
     if (!moving_.empty()) [[unlikely]]
       return moving_map(number, time, &Maps::world_from_object);
@@ -117,6 +126,7 @@ class InstanceTable {
 
   std::vector<InstanceTarget> targets_;
   std::vector<AffineRecord<float>> object_from_world_, world_from_object_;
+  std::vector<AffineRecord<float>> file_from_object_;  ///< empty: none has a place in a file
   std::vector<Bounds> bounds_;
   std::vector<float> scales_;
   std::vector<std::int32_t> groups_, objects_, materials_;

@@ -28,6 +28,9 @@ class PartTable {
   };
 
   std::vector<Parts> meshes_;  ///< those that have any, in the order of their numbers
+  /// Of all copies of meshes in the world, the part among its mesh's. Their instances come first, in this order
+  /// (GeometryTable::add_instances()).
+  std::vector<std::uint32_t> parts_of_copies_;
 };
 
 }  // namespace raytrace
