@@ -31,8 +31,10 @@ class GroupChecker {
 
   void check_count() {
     std::uint64_t count = copies_in(scene_.objects);
-    for (const Group& group : scene_.groups) count_of(states_.at(group.name));
+    // Where it is said: at the last that has any.
     SourceLocation last;
+    for (const auto& mesh : std::get<ObjectItems<Mesh>>(scene_.objects)) last = location_of(mesh);
+    for (const Group& group : scene_.groups) count_of(states_.at(group.name));
     for (const auto& instance : std::get<ObjectItems<Instance>>(scene_.objects)) {
       count += count_of(instance);
       last = location_of(instance);

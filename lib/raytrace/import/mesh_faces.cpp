@@ -1,6 +1,7 @@
 #include "raytrace/import/mesh_faces.h"
 
 #include <algorithm>
+#include <bit>
 #include <string>
 
 #include "raytrace/import/unique_items.h"
@@ -24,6 +25,21 @@ double signed_area(const std::array<double, 2>& a, const std::array<double, 2>& 
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
+/// Of each vertex, what its first corner has.
+void gather_values(const UniqueItems& vertices, std::size_t numbers, const MeshBuffer<std::uint32_t>& of_corners,
+                   int threads, MeshBuffer<float>& values) {
+  if (values.empty()) return;
+  MeshBuffer<float> gathered(numbers * vertices.first.size());
+  for_each_chunk(vertices.first.size(), threads, [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const std::uint32_t from = of_corners[vertices.first[i]];
+      for (std::size_t k = 0; k < numbers; ++k)
+        gathered[numbers * i + k] = from == no_index ? 0 : values[numbers * std::size_t{from} + k];
+    }
+  });
+  values = std::move(gathered);
+}
+
 }  // namespace
 
 void join_vertices(MeshData& mesh, const MeshBuffer<std::uint32_t>& uvs, const MeshBuffer<std::uint32_t>& normals,
@@ -41,21 +57,28 @@ void join_vertices(MeshData& mesh, const MeshBuffer<std::uint32_t>& uvs, const M
                index(normals, i) == index(normals, j);
       });
   const auto gather = [&](MeshBuffer<float>& values, std::size_t numbers, const MeshBuffer<std::uint32_t>& of_corners) {
-    if (values.empty()) return;
-    MeshBuffer<float> gathered(numbers * vertices.first.size());
-    for_each_chunk(vertices.first.size(), threads, [&](std::size_t, std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) {
-        const std::uint32_t from = of_corners[vertices.first[i]];
-        for (std::size_t k = 0; k < numbers; ++k)
-          gathered[numbers * i + k] = from == no_index ? 0 : values[numbers * std::size_t{from} + k];
-      }
-    });
-    values = std::move(gathered);
+    gather_values(vertices, numbers, of_corners, threads, values);
   };
   gather(mesh.positions, 3, mesh.indices);
   gather(mesh.colors, 3, mesh.indices);
   gather(mesh.uvs, 2, uvs);
   gather(mesh.normals, 3, normals);
+  mesh.indices = std::move(vertices.number);
+}
+
+void join_vertices(MeshData& mesh, const MeshBuffer<float>& uvs, int threads) {
+  const auto bits = [&](std::size_t i) {
+    return std::uint64_t{std::bit_cast<std::uint32_t>(uvs[2 * i])} << 32U |
+           std::bit_cast<std::uint32_t>(uvs[2 * i + 1]);
+  };
+  UniqueItems vertices = unique_items(
+      mesh.indices.size(), threads, [&](std::size_t i) { return mixed_bits(bits(i) + mixed_bits(mesh.indices[i])); },
+      [&](std::size_t i, std::size_t j) { return mesh.indices[i] == mesh.indices[j] && bits(i) == bits(j); });
+  for (MeshBuffer<float>* const values : {&mesh.positions, &mesh.colors, &mesh.normals})
+    gather_values(vertices, 3, mesh.indices, threads, *values);
+  mesh.uvs = MeshBuffer<float>(2 * vertices.first.size());
+  for (std::size_t i = 0; i < vertices.first.size(); ++i)
+    for (std::size_t k = 0; k < 2; ++k) mesh.uvs[2 * i + k] = uvs[2 * std::size_t{vertices.first[i]} + k];
   mesh.indices = std::move(vertices.number);
 }
 

@@ -51,6 +51,9 @@ inline constexpr std::uint32_t no_index = 0xffffffff;
 void join_vertices(MeshData& mesh, const MeshBuffer<std::uint32_t>& uvs, const MeshBuffer<std::uint32_t>& normals,
                    int threads);
 
+/// The same of a mesh whose corners have u and v of their own, instead of its vertices.
+void join_vertices(MeshData& mesh, const MeshBuffer<float>& uvs, int threads);
+
 /// Allocates the faces of a mesh. False, and an error, if they are more than Embree numbers, 2^32 - 1.
 bool make_faces(const FaceCounts& counts, MeshData& mesh, Diagnostics& diagnostics);
 
@@ -137,9 +140,6 @@ struct MeshFaults {
   std::size_t bad_vertices = 0;  ///< of which x is NaN
   std::size_t degenerate_faces = 0;
   std::size_t too_small_polygons = 0;
-};
-
-/// Leaves out what read_mesh.h says, with warnings, and moves bad vertices to the origin. dented_quads: whether quads
   std::size_t faces_at_bad_vertices = 0;
 
   MeshFaults& operator+=(const MeshFaults& other) {
@@ -149,12 +149,15 @@ struct MeshFaults {
     faces_at_bad_vertices += other.faces_at_bad_vertices;
     return *this;
   }
-/// may still have to start with another corner. False, and an error, if no face is left.
-bool finish_mesh(MeshData& mesh, MeshFaults faults, bool dented_quads, int threads, Diagnostics& diagnostics);
+};
+
 /// Leaves out the faces that are degenerate or at bad vertices, counts them, and moves those vertices to the origin.
 void leave_out_faults(MeshData& mesh, MeshFaults& faults);
 /// As warnings.
 void report_faults(const MeshFaults& faults, Diagnostics& diagnostics);
 
+/// Leaves out what read_mesh.h says, with warnings, and moves bad vertices to the origin. dented_quads: whether quads
+/// may still have to start with another corner. False, and an error, if no face is left.
+bool finish_mesh(MeshData& mesh, MeshFaults faults, bool dented_quads, int threads, Diagnostics& diagnostics);
 
 }  // namespace raytrace

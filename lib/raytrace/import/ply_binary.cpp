@@ -19,14 +19,7 @@ namespace {
 constexpr std::size_t block_bytes = std::size_t{1} << 18U;  // stays in a processor's cache
 constexpr std::size_t block_rows = 4096;
 
-/// An element's rows, all of one length.
-struct FixedRows {
-  std::size_t start = 0, count = 0, length = 0;
-  std::vector<std::size_t> offsets;       ///< of properties in a row, of a list's count
-  std::vector<std::int64_t> list_counts;  ///< of each property; 0 where it is no list
-
-  std::size_t rows_a_block() const { return std::max<std::size_t>(1, block_bytes / length); }
-};
+std::size_t rows_a_block(const FixedRows& rows) { return std::max<std::size_t>(1, block_bytes / rows.length); }
 
 /// Where up to block_rows rows begin, and what faces are in them.
 struct RowBlock {
@@ -53,7 +46,8 @@ class BinaryBody final : public Body {
 
   bool find_vertices() override { return start_of(header_.find("vertex") + 1).has_value(); }
   bool read_vertices(std::span<const Column> columns, float* positions, std::size_t& bad) override;
-  bool read_faces(std::size_t property, MeshData& mesh, MeshFaults& faults, bool& dented_quads) override;
+  bool read_faces(const FaceColumns& columns, MeshData& mesh, FaceValues& values, MeshFaults& faults,
+                  bool& dented_quads) override;
 
  private:
   bool refuse(std::size_t offset, const std::string& message) {
@@ -82,7 +76,6 @@ class BinaryBody final : public Body {
                    std::vector<RowBlock>& blocks, std::size_t& end);
   /// Rows as long as the first one; no value if the file is too short for so many.
   std::optional<FixedRows> fixed_rows(const Element& element, std::size_t start) const;
-  bool has_fixed_lists(const Element& element, const FixedRows& rows, const char* first, std::size_t count) const;
 
   /// Calls on_scalar(property, address) and on_list(property, count, address of the first) for the row at `at`. The
   /// address behind it; null if it ends beyond `end` or a list has a negative count.
@@ -92,10 +85,10 @@ class BinaryBody final : public Body {
 
   enum class Outcome : std::uint8_t { done, failed, other_lengths };
   template <std::size_t corners>
-  Outcome read_fixed_faces(const Element& element, const FixedRows& rows, std::size_t property, MeshData& mesh,
-                           MeshFaults& faults);
-  bool read_face_blocks(const Element& element, std::size_t start, std::size_t property, MeshData& mesh,
-                        MeshFaults& faults);
+  Outcome read_fixed_faces(const Element& element, const FixedRows& rows, const FaceColumns& columns, MeshData& mesh,
+                           FaceValues& values, MeshFaults& faults);
+  bool read_face_blocks(const Element& element, std::size_t start, const FaceColumns& columns, MeshData& mesh,
+                        FaceValues& values, MeshFaults& faults);
 
   MeshFile& file_;
   const Header& header_;
@@ -156,22 +149,6 @@ std::optional<FixedRows> BinaryBody::fixed_rows(const Element& element, std::siz
   }
   if (rows.length > 0 && (file_.size() - start) / rows.length < element.count) return std::nullopt;
   return rows;
-}
-
-bool BinaryBody::has_fixed_lists(const Element& element, const FixedRows& rows, const char* first,
-                                 std::size_t count) const {
-  for (std::size_t i = 0; i < element.properties.size(); ++i) {
-    if (!element.properties[i].count_type) continue;
-    const bool same = with_loader(*element.properties[i].count_type, big_endian_, [&](auto load) {
-      std::size_t others = 0;
-      const char* at = first + rows.offsets[i];
-      for (std::size_t row = 0; row < count; ++row, at += rows.length)
-        others += static_cast<std::int64_t>(load(at)) == rows.list_counts[i] ? 0U : 1U;
-      return others == 0;
-    });
-    if (!same) return false;
-  }
-  return true;
 }
 
 bool BinaryBody::find_blocks(const Element& element, std::size_t start, std::optional<std::size_t> list,
@@ -244,7 +221,7 @@ bool BinaryBody::read_vertices(std::span<const Column> columns, float* positions
       bad_ones += mark_bad_positions(positions + 3 * first, last - first);
     });
   } else if (const std::optional<FixedRows> rows = fixed_rows(element, starts_[number]); rows && rows->length > 0) {
-    const std::size_t block = rows->rows_a_block();
+    const std::size_t block = rows_a_block(*rows);
     for_each_index(static_cast<int>((rows->count + block - 1) / block), threads_, [&](int index) {
       thread_local MeshFile::Scratch scratch;
       const std::size_t first = static_cast<std::size_t>(index) * block, count = std::min(block, rows->count - first);
@@ -272,15 +249,20 @@ bool BinaryBody::read_vertices(std::span<const Column> columns, float* positions
 }
 
 template <std::size_t corners>
-BinaryBody::Outcome BinaryBody::read_fixed_faces(const Element& element, const FixedRows& rows, std::size_t property,
-                                                 MeshData& mesh, MeshFaults& faults) {
+BinaryBody::Outcome BinaryBody::read_fixed_faces(const Element& element, const FixedRows& rows,
+                                                 const FaceColumns& columns, MeshData& mesh, FaceValues& values,
+                                                 MeshFaults& faults) {
   FaceCounts all;
   (corners == 3 ? all.triangles : all.quads) = rows.count;
   if (!make_faces(all, mesh, diagnostics_)) return Outcome::failed;
-  const Property& list = element.properties[property];
-  const std::size_t offset = rows.offsets[property] + size_of(*list.count_type), block = rows.rows_a_block();
+  values.allocate(columns, mesh);
+  if (columns.uvs && static_cast<std::size_t>(rows.list_counts[*columns.uvs]) != 2 * corners)
+    values.other_counts = rows.count;
+  const Property& list = element.properties[columns.vertices];
+  const std::size_t offset = rows.offsets[columns.vertices] + size_of(*list.count_type), block = rows_a_block(rows);
   const std::size_t blocks = (rows.count + block - 1) / block;
   std::atomic<std::size_t> degenerate{0};
+  const FixedFaces fixed_faces{element, rows, columns, big_endian_};
   std::atomic<bool> readable{true}, fixed{true};
   Faults wrong(blocks);
   for_each_index(static_cast<int>(blocks), threads_, [&](int index) {
@@ -291,7 +273,7 @@ BinaryBody::Outcome BinaryBody::read_fixed_faces(const Element& element, const F
     const char* const bytes = file_.bytes(start, count * rows.length, scratch);
     if (bytes == nullptr) {
       readable = false;
-    } else if (!has_fixed_lists(element, rows, bytes, count)) {
+    } else if (!have_same_lists(fixed_faces, bytes, count)) {
       fixed = false;
     } else {
       with_loader(list.type, big_endian_, [&](auto load) {
@@ -309,6 +291,7 @@ BinaryBody::Outcome BinaryBody::read_fixed_faces(const Element& element, const F
           flat += is_degenerate(face, corners) ? 1U : 0U;
         }
         degenerate += flat;
+        read_fixed_values(fixed_faces, bytes, first, count, values);
         if (largest < mesh.vertex_count()) return;
         face = mesh.indices.data() + corners * first;
         std::size_t corner = 0;
@@ -324,64 +307,85 @@ BinaryBody::Outcome BinaryBody::read_fixed_faces(const Element& element, const F
   return report(wrong, readable) ? Outcome::done : Outcome::failed;
 }
 
-bool BinaryBody::read_face_blocks(const Element& element, std::size_t start, std::size_t property, MeshData& mesh,
-                                  MeshFaults& faults) {
+bool BinaryBody::read_face_blocks(const Element& element, std::size_t start, const FaceColumns& columns, MeshData& mesh,
+                                  FaceValues& values, MeshFaults& faults) {
   std::vector<RowBlock> blocks;
   std::size_t end = 0;
-  if (!find_blocks(element, start, property, blocks, end)) return false;
+  if (!find_blocks(element, start, columns.vertices, blocks, end)) return false;
   std::vector<FaceCounts> counts;
   for (const RowBlock& block : blocks) counts.push_back(block.faces);
   counts = sums_before(counts);
   if (!make_faces(counts.back(), mesh, diagnostics_)) return false;
+  values.allocate(columns, mesh);
+  values.other_counts = 0;
 
   const std::string_view all = file_.text(false);
-  const Type type = element.properties[property].type;
   Faults wrong(blocks.size());
-  std::atomic<std::size_t> degenerate{0};
+  std::atomic<std::size_t> degenerate{0}, other_counts{0};
   for_each_index(static_cast<int>(blocks.size()), threads_, [&](int index) {
     const auto block = static_cast<std::size_t>(index);
-    FaceWriter faces(mesh, counts[block].faces(mesh.corners));
-    std::vector<std::uint32_t> polygon;
+    FaceValuesWriter face(mesh, counts[block].faces(mesh.corners), values);
+    const auto on_scalar = [&](std::size_t which, const char* from) {
+      if (which == columns.texture)
+        face.texture = with_loader(element.properties[which].type, big_endian_,
+                                   [&](auto load) { return static_cast<double>(load(from)); });
+    };
     const auto on_list = [&](std::size_t which, std::size_t count, const char* from) {
-      if (which != property || wrong[block]) return;
-      polygon.resize(count);
-      with_loader(type, big_endian_, [&](auto load) {
-        for (std::uint32_t& corner : polygon) {
-          corner = static_cast<std::uint32_t>(static_cast<std::int64_t>(load(from)));
-          if (corner >= mesh.vertex_count() && !wrong[block])
-            wrong[block] = wrong_index(from, all.data(), 0, mesh.vertex_count());
-          from += size_of(type);
-        }
-      });
-      if (!wrong[block]) faces.add(polygon);
+      const auto with_values = [&](const auto& f) { with_loader(element.properties[which].type, big_endian_, f); };
+      const std::size_t step = size_of(element.properties[which].type);
+      if (which == columns.vertices) {
+        face.polygon.resize(count);
+        with_values([&](auto load) {
+          for (std::uint32_t& corner : face.polygon) {
+            corner = static_cast<std::uint32_t>(static_cast<std::int64_t>(load(from)));
+            if (corner >= mesh.vertex_count() && !wrong[block])
+              wrong[block] = wrong_index(from, all.data(), 0, mesh.vertex_count());
+            from += step;
+          }
+        });
+      } else if (which == columns.uvs) {
+        face.uvs.resize(count);
+        with_values([&](auto load) {
+          for (float& value : face.uvs) {
+            value = finite_or_zero(rounded(static_cast<double>(load(from))));
+            from += step;
+          }
+        });
+      }
     };
     const char* at = all.data() + blocks[block].start;
     const std::size_t last = std::min((block + 1) * block_rows, element.count);
-    for (std::size_t row = block * block_rows; row < last; ++row)
-      at = walk(element, at, all.data() + all.size(), [](std::size_t, const char*) {}, on_list);
-    degenerate += faces.degenerate();
+    for (std::size_t row = block * block_rows; row < last && !wrong[block]; ++row) {
+      face.clear();
+      at = walk(element, at, all.data() + all.size(), on_scalar, on_list);
+      if (!wrong[block]) face.add();
+    }
+    degenerate += face.degenerate();
+    other_counts += face.other_counts();
   });
+  values.other_counts = other_counts;
   faults.degenerate_faces = degenerate;
   faults.too_small_polygons = counts.back().too_small;
   return report(wrong, true);
 }
 
-bool BinaryBody::read_faces(std::size_t property, MeshData& mesh, MeshFaults& faults, bool& dented_quads) {
+bool BinaryBody::read_faces(const FaceColumns& columns, MeshData& mesh, FaceValues& values, MeshFaults& faults,
+                            bool& dented_quads) {
   const std::size_t number = header_.find("face");
   const Element& element = header_.elements[number];
   const std::optional<std::size_t> start = start_of(number);
   if (!start) return false;
   if (element.count == 0) return make_faces({}, mesh, diagnostics_);
   if (const std::optional<FixedRows> rows = fixed_rows(element, *start)) {
-    const std::int64_t corners = rows->list_counts[property];
+    const std::int64_t corners = rows->list_counts[columns.vertices];
     Outcome outcome = Outcome::other_lengths;
-    if (corners == 3) outcome = read_fixed_faces<3>(element, *rows, property, mesh, faults);
-    if (corners == 4) outcome = read_fixed_faces<4>(element, *rows, property, mesh, faults);
+    if (corners == 3) outcome = read_fixed_faces<3>(element, *rows, columns, mesh, values, faults);
+    if (corners == 4) outcome = read_fixed_faces<4>(element, *rows, columns, mesh, values, faults);
     dented_quads = corners == 4;
     if (outcome != Outcome::other_lengths) return outcome == Outcome::done;
   }
   dented_quads = false;
-  return read_face_blocks(element, *start, property, mesh, faults);
+  return read_face_blocks(element, *start, columns, mesh, values, faults);
 }
 
 }  // namespace

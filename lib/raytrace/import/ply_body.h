@@ -11,8 +11,8 @@
 #include <span>
 #include <vector>
 
-#include "raytrace/import/mesh_faces.h"
 #include "raytrace/import/mesh_file.h"
+#include "raytrace/import/ply_faces.h"
 #include "raytrace/import/ply_header.h"
 
 namespace raytrace::ply {
@@ -93,8 +93,9 @@ class Body {
   virtual bool find_vertices() = 0;
   /// positions: where x, y and z go; bad: how many are (mark_bad_positions).
   virtual bool read_vertices(std::span<const Column> columns, float* positions, std::size_t& bad) = 0;
-  /// property: the list of vertices in `face`. mesh: has its positions. dented_quads: as finish_mesh() has it.
-  virtual bool read_faces(std::size_t property, MeshData& mesh, MeshFaults& faults, bool& dented_quads) = 0;
+  /// mesh: has its positions. dented_quads: as finish_mesh() has it.
+  virtual bool read_faces(const FaceColumns& columns, MeshData& mesh, FaceValues& values, MeshFaults& faults,
+                          bool& dented_quads) = 0;
 };
 
 std::unique_ptr<Body> binary_body(MeshFile& file, const Header& header, int threads, Diagnostics& diagnostics);

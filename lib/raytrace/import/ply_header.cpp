@@ -10,7 +10,7 @@
 namespace raytrace::ply {
 namespace {
 
-constexpr std::size_t most_elements = 256;
+constexpr std::size_t most_elements = 256, most_textures = 4096;
 
 std::optional<Type> type_of_name(std::string_view name) {
   static constexpr std::pair<std::string_view, Type> types[] = {
@@ -26,7 +26,8 @@ std::optional<Type> type_of_name(std::string_view name) {
 /// An empty text, or why the line is refused.
 std::string read_header_line(LineWords words, Header& header) {
   const std::string_view keyword = words.word();
-  if (keyword == "comment" && words.word() == "TextureFile" && header.texture.empty()) header.texture = words.rest();
+  if (keyword == "comment" && words.word() == "TextureFile" && header.textures.size() < most_textures)
+    if (const std::string_view name = words.rest(); !name.empty()) header.textures.emplace_back(name);
   if (keyword == "comment" || keyword == "obj_info" || keyword.empty()) return {};
   if (keyword == "format") {
     const std::string_view format = words.word();

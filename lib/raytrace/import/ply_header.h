@@ -41,9 +41,9 @@ struct Header {
   enum class Format : std::uint8_t { ascii, little_endian, big_endian };
   Format format = Format::ascii;
   std::vector<Element> elements;
-  std::string texture;      ///< of the first "comment TextureFile NAME"; empty: none
-  std::size_t size = 0;     ///< where the elements' values begin
-  std::uint32_t lines = 0;  ///< of the head
+  std::vector<std::string> textures;  ///< of "comment TextureFile NAME"
+  std::size_t size = 0;               ///< where the elements' values begin
+  std::uint32_t lines = 0;            ///< of the head
 
   /// elements.size() if there is none.
   std::size_t find(std::string_view element) const;

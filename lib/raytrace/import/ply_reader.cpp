@@ -77,22 +77,44 @@ bool open(MeshFile& file, const MeshReadSettings& settings, Diagnostics& diagnos
   return true;
 }
 
-/// Of the texture that MeshLab and others name in a comment: a white material with it, if it can be seen.
-void add_texture(std::string name, const std::string& folder, MeshData& mesh, const MeshReadSettings& settings,
-                 Diagnostics& diagnostics) {
-  if (name.empty()) return;
-  std::replace(name.begin(), name.end(), '\\', '/');
-  std::error_code unknown;
-  const auto leave_out = [&](const std::string& reason) {
-    if (!settings.overrides(name))
-      diagnostics.warning({}, "the texture " + in_quotes(name) + " is left out: " + reason);
-  };
-  if (mesh.uvs.empty()) return leave_out("the vertices have no texture coordinates");
-  if (!std::filesystem::is_regular_file(std::filesystem::path(folder) / name, unknown))
-    return leave_out("there is no such file");
-  MeshMaterial& material = mesh.materials.emplace_back();
-  material.name = name;
-  material.map_kd.file = name;
+/// Of the textures that MeshLab and others name in comments: white materials with them, if they can be seen, of the
+/// faces that have their numbers, or of all.
+void add_textures(std::vector<std::string> names, const std::string& folder, MeshData& mesh,
+                  MeshBuffer<std::uint32_t> of_faces, const MeshReadSettings& settings,
+                  Diagnostics& diagnostics) {
+  if (names.empty()) return;
+  if (names.size() > 1 && of_faces.empty()) {
+    diagnostics.warning({}, "names " + std::to_string(names.size()) +
+                                " textures, and faces do not say which they have: all have the first");
+    names.resize(1);
+  }
+  bool any = false;
+  for (std::string& name : names) {
+    std::replace(name.begin(), name.end(), '\\', '/');
+    MeshMaterial& material = mesh.materials.emplace_back();
+    material.name = name;
+    std::error_code unknown;
+    std::string reason;
+    if (mesh.uvs.empty())
+      reason = "there are no texture coordinates";
+    else if (!std::filesystem::is_regular_file(std::filesystem::path(folder) / name, unknown))
+      reason = "there is no such file";
+    if (reason.empty()) {
+      material.map_kd.file = name;
+      any = true;
+    } else {
+      material.kd = Rgb<double>(0.5, 0.5, 0.5);
+      if (!settings.overrides(name))
+        diagnostics.warning({}, "the texture " + in_quotes(name) + " is left out: " + reason);
+    }
+  }
+  if (!any) return mesh.materials.clear();
+  const auto count = static_cast<std::uint32_t>(names.size());
+  const auto is_first = [&](std::uint32_t texture) { return texture == 0; };
+  if (std::all_of(of_faces.begin(), of_faces.end(), is_first)) return;
+  for (std::size_t i = 0; i < of_faces.size(); ++i)
+    if (of_faces[i] >= count) of_faces[i] = MeshData::no_material;
+  mesh.face_materials = std::move(of_faces);
 }
 
 }  // namespace
@@ -114,16 +136,37 @@ std::optional<MeshData> read_ply(MeshFile& file, const std::string& folder, cons
     return std::nullopt;
   }
   mesh.normals = open.add({{"nx"}, {"ny"}, {"nz"}}, Column::Use::number);
-  mesh.uvs =
-      open.add({{"u", "s", "texture_u", "texture_s"}, {"v", "t", "texture_v", "texture_t"}}, Column::Use::number);
   mesh.colors = open.add_colors();
+
+  // Those of corners are closer to what is seen.
+  ply::FaceColumns columns{*property};
+  const ply::Element& face = open.header.elements[faces];
+  if (const auto uvs = face.find({"texcoord"}); uvs && face.properties[*uvs].count_type) columns.uvs = uvs;
+  if (const auto number = face.find({"texnumber"}); number && !face.properties[*number].count_type)
+    columns.texture = number;
+  if (!columns.uvs)
+    mesh.uvs =
+        open.add({{"u", "s", "texture_u", "texture_s"}, {"v", "t", "texture_v", "texture_t"}}, Column::Use::number);
+  ply::FaceValues values;
 
   MeshFaults faults;
   bool dented_quads = false;
   if (!open.body->read_vertices(open.columns, mesh.positions.data(), faults.bad_vertices)) return std::nullopt;
-  if (!open.body->read_faces(*property, mesh, faults, dented_quads)) return std::nullopt;
+  if (!open.body->read_faces(columns, mesh, values, faults, dented_quads)) return std::nullopt;
+  if (columns.uvs) {
+    constexpr std::size_t most_corners = std::size_t{1} << 31U;
+    if (mesh.indices.size() >= most_corners) {
+      diagnostics.error({}, "has faces of more than 2147483647 corners");
+      return std::nullopt;
+    }
+    join_vertices(mesh, values.uvs, settings.threads);
+    if (values.other_counts > 0)
+      diagnostics.warning({}, std::to_string(values.other_counts) +
+                                  " faces have not two numbers 'texcoord' for each corner, which are 0 0 then");
+  }
+  // Before faces are left out, with them.
+  ply::add_textures(std::move(open.header.textures), folder, mesh, std::move(values.textures), settings, diagnostics);
   if (!finish_mesh(mesh, faults, dented_quads, settings.threads, diagnostics)) return std::nullopt;
-  ply::add_texture(std::move(open.header.texture), folder, mesh, settings, diagnostics);
   return mesh;
 }
 

@@ -18,7 +18,8 @@ class TextBody final : public Body {
 
   bool find_vertices() override { return count_rows() && find_rows(header_.find("vertex")); }
   bool read_vertices(std::span<const Column> columns, float* positions, std::size_t& bad) override;
-  bool read_faces(std::size_t property, MeshData& mesh, MeshFaults& faults, bool& dented_quads) override;
+  bool read_faces(const FaceColumns& columns, MeshData& mesh, FaceValues& values, MeshFaults& faults,
+                  bool& dented_quads) override;
 
  private:
   bool count_rows();
@@ -153,7 +154,8 @@ bool TextBody::read_vertices(std::span<const Column> columns, float* positions, 
   return true;
 }
 
-bool TextBody::read_faces(std::size_t property, MeshData& mesh, MeshFaults& faults, bool& dented_quads) {
+bool TextBody::read_faces(const FaceColumns& columns, MeshData& mesh, FaceValues& values, MeshFaults& faults,
+                          bool& dented_quads) {
   const std::size_t number = header_.find("face");
   if (!find_rows(number)) return false;
   dented_quads = false;
@@ -162,7 +164,7 @@ bool TextBody::read_faces(std::size_t property, MeshData& mesh, MeshFaults& faul
   std::vector<FaceCounts> counts(chunks());
   for_rows([&](std::size_t chunk, std::size_t, LineWords& words) {
     const auto longest = static_cast<std::size_t>(words.end() - words.at());
-    for (std::size_t i = 0; i < property; ++i) {
+    for (std::size_t i = 0; i < columns.vertices; ++i) {
       const std::optional<std::size_t> count = element.properties[i].count_type ? list_count(words) : 1;
       if (!count || !skip_list(words, *count)) return;
     }
@@ -172,24 +174,36 @@ bool TextBody::read_faces(std::size_t property, MeshData& mesh, MeshFaults& faul
   });
   counts = sums_before(counts);
   if (!make_faces(counts.back(), mesh, diagnostics_)) return false;
+  values.allocate(columns, mesh);
 
   std::vector<ChunkErrors> errors(chunks());
-  std::vector<FaceWriter> writers;
-  for (std::size_t i = 0; i < chunks(); ++i) writers.emplace_back(mesh, counts[i].faces(mesh.corners));
+  std::vector<FaceValuesWriter> writers;
+  for (std::size_t i = 0; i < chunks(); ++i) writers.emplace_back(mesh, counts[i].faces(mesh.corners), values);
   for_rows([&](std::size_t chunk, std::size_t, LineWords& words) {
-    thread_local std::vector<std::uint32_t> polygon;
+    FaceValuesWriter& face = writers[chunk];
     const std::size_t start = offset_of(words);
     bool in_range = true;
-    polygon.clear();
+    face.clear();
     const std::string fault = walk(
-        element, words, [](std::size_t, double) {},
-        [&](std::size_t which, std::size_t count, LineWords& values) {
-          if (which != property) return skip_list(values, count);
+        element, words,
+        [&](std::size_t which, double value) {
+          if (which == columns.texture) face.texture = value;
+        },
+        [&](std::size_t which, std::size_t count, LineWords& list) {
+          if (which == columns.uvs) {
+            for (; count > 0; --count) {
+              double value = 0;
+              if (!list.number(value)) return false;
+              face.uvs.push_back(finite_or_zero(rounded(value)));
+            }
+            return true;
+          }
+          if (which != columns.vertices) return skip_list(list, count);
           for (; count > 0; --count) {
             std::int64_t vertex = 0;
-            if (!values.skip_space() || !values.integer(vertex) || !values.at_word_end()) return false;
+            if (!list.skip_space() || !list.integer(vertex) || !list.at_word_end()) return false;
             in_range = in_range && vertex >= 0 && static_cast<std::size_t>(vertex) < mesh.vertex_count();
-            polygon.push_back(static_cast<std::uint32_t>(vertex));
+            face.polygon.push_back(static_cast<std::uint32_t>(vertex));
           }
           return true;
         });
@@ -199,10 +213,13 @@ bool TextBody::read_faces(std::size_t property, MeshData& mesh, MeshFaults& faul
       errors[chunk].add(start,
                         "an index is not that of one of the " + std::to_string(mesh.vertex_count()) + " vertices");
     } else {
-      writers[chunk].add(polygon);
+      face.add();
     }
   });
-  for (const FaceWriter& writer : writers) faults.degenerate_faces += writer.degenerate();
+  for (const FaceValuesWriter& writer : writers) {
+    faults.degenerate_faces += writer.degenerate();
+    values.other_counts += writer.other_counts();
+  }
   faults.too_small_polygons = counts.back().too_small;
   return ChunkErrors::report(errors, file_.text(false), diagnostics_);
 }

@@ -2,10 +2,11 @@
 //
 //   PLY  .ply: ASCII and both binary orders; any types; elements and properties that have no meaning here are skipped.
 //        `vertex`: x y z; nx ny nz; u v, s t, texture_u texture_v or texture_s texture_t; red green blue.
-//        `face`: a list vertex_indices or vertex_index. `comment TextureFile NAME`: the colour of its material, white
-//        but for it, where vertices have texture coordinates.
-//   OBJ  .obj: polygons (v, vt, vn, f; negative indices; colours after a position); materials from MTL files. Groups,
-//        objects and smoothing groups are not kept; lines, points, curves and free-form surfaces are skipped.
+//        `face`: a list vertex_indices or vertex_index; a list texcoord of u v for each corner, in place of the
+//        vertices' texture coordinates; texnumber. `comment TextureFile NAME`: the colour of a material, white but for
+//        it, where there are texture coordinates; that of the faces with its texnumber, counted from 0, or of all.
+//   OBJ  .obj: polygons (v, vt, vn, f; negative indices; colours after a position); materials from MTL files; objects
+//        are parts. Groups and smoothing groups are not kept; lines, points, curves and free-form surfaces are skipped.
 //   STL  .stl: ASCII and binary.
 //   glTF .gltf, .glb: 2.0, the meshes of the default scene's nodes, in world space, morphed and skinned, as an
 //   animation
