@@ -182,3 +182,44 @@ TEST_CASE("what is wrong in an OBJ file is an error in its line") {
   CHECK(contains(read_bytes("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2\nf 1 2 3\n").messages,
                  "a.obj:4: warning: 1 statements are skipped, the first of which is 'l'"));
 }
+
+TEST_CASE("what an OBJ file has as objects are parts of the mesh") {
+  const std::string vertices = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+  const auto parts = [&](const std::string& text, int corners) {
+    const ReadResult read = read_bytes("a.obj", vertices + text);
+    INFO(read.messages);
+    REQUIRE(read.mesh);
+    CHECK(read.mesh->corners == corners);
+    std::string found;
+    for (const MeshPart& part : read.mesh->parts) found += part.name + ":" + std::to_string(part.first_face) + " ";
+    return found;
+  };
+  // Objects without faces are none, those of one name that follow each other are one, and groups are none.
+  const std::string triangle = "f 1 2 3\n", quad = "f 1 2 3 4\n";
+  CHECK(parts(triangle + "o  a wheel \n" + triangle + "g left\n" + quad + "o curve\nl 1 2\no door\n" + triangle +
+                  "s off\no door\ng x\n" + triangle + "o a wheel\n" + triangle,
+              3) == "default:0 a wheel:1 door:4 a wheel:6 ");
+  CHECK(parts("o a\n" + quad + quad + "o b\n" + quad + triangle + "o\n" + quad, 4) == "a:0 b:2 default:4 ");
+  CHECK(parts("o a\n" + quad + "g b\n" + quad, 4).empty());
+  CHECK(parts("g a\n" + quad + "g b\n" + quad, 4).empty());
+  // Faces that are left out move the parts behind them.
+  CHECK(parts("o a\nf 1 2 2\n" + triangle + "o b\nf 1 1 2\n" + triangle + triangle, 3) == "a:0 b:1 ");
+}
+
+TEST_CASE("the parts of an OBJ file of many chunks begin where its objects do") {
+  std::string text = "v 0 0 0\nv 1 0 0\nv 1 1 0\n";
+  constexpr std::size_t objects = 3000, faces = 40;
+  for (std::size_t i = 0; i < objects; ++i) {
+    text += "o part " + std::to_string(i) + "\ng group " + std::to_string(i) + "\n";
+    for (std::size_t k = 0; k < faces; ++k) text += "f 1 2 3\n";
+  }
+  const ReadResult read = read_bytes("a.obj", text);
+  REQUIRE(read.mesh);
+  REQUIRE(read.mesh->parts.size() == objects);
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < objects; ++i) {
+    const MeshPart& part = read.mesh->parts[i];
+    wrong += part.name != "part " + std::to_string(i) || part.first_face != faces * i ? 1 : 0;
+  }
+  CHECK(wrong == 0);
+}

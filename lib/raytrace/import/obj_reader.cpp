@@ -9,6 +9,7 @@
 #include "raytrace/import/mesh_faces.h"
 #include "raytrace/import/mesh_readers.h"
 #include "raytrace/import/mesh_text.h"
+#include "raytrace/import/obj_statements.h"
 #include "raytrace/parallel/for_each_index.h"
 #include "raytrace/text/message.h"
 
@@ -19,55 +20,11 @@ namespace {
 constexpr std::uint32_t none = no_index;
 constexpr std::size_t most_indices = std::size_t{1} << 31U;
 
-enum class Statement : std::uint8_t { empty, position, uv, normal, face, other };
-
-/// Moves behind the keyword, unless that is one of the others.
-Statement read_keyword(LineWords& words) {
-  if (!words.skip_space()) return Statement::empty;
-  LineWords after = words;
-  after.advance();
-  Statement statement = *words.at() == 'v'   ? Statement::position
-                        : *words.at() == 'f' ? Statement::face
-                                             : Statement::other;
-  if (statement == Statement::position && !after.at_word_end()) {
-    statement = *after.at() == 't' ? Statement::uv : *after.at() == 'n' ? Statement::normal : Statement::other;
-    after.advance();
-  }
-  if (statement == Statement::other || !after.at_word_end()) return Statement::other;
-  words = after;
-  return statement;
-}
-
-/// How many there are in a part of the file, of v, vt and vn by number.
-struct Counts {
-  std::array<std::size_t, 3> values{};
-  FaceCounts faces;
-
-  Counts& operator+=(const Counts& more) {
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] += more.values[i];
-    faces += more.faces;
-    return *this;
-  }
-};
-
-struct Name {
-  std::string_view text;
-  std::uint32_t material = none;  ///< of a usemtl
-};
-
 MeshMaterial named_material(std::string_view name) {
   MeshMaterial material;
   material.name = name;
   return material;
 }
-
-struct Chunk {
-  Counts counts;
-  std::vector<Name> libraries, materials;  ///< mtllib and usemtl statements
-  bool has_colors = false;
-  std::size_t skipped = 0;
-  std::string_view first_skipped;
-};
 
 class Reader {
  public:
@@ -116,6 +73,7 @@ class Reader {
   std::uint32_t resolved(std::int64_t index, std::size_t seen, std::size_t which) const;
   void read_materials();
   bool join_indices();
+  void set_parts();
 
   std::string_view text_;
   std::string folder_;
@@ -132,13 +90,15 @@ class Reader {
 };
 
 void Reader::count_other(Chunk& chunk, LineWords words) {
-  static constexpr std::string_view ignored[] = {"g",        "o",        "s",          "mg",        "lod",    "bevel",
-                                                 "c_interp", "d_interp", "shadow_obj", "trace_obj", "usemap", "maplib"};
+  static constexpr std::string_view ignored[] = {"g",        "s",          "mg",        "lod",    "bevel", "c_interp",
+                                                 "d_interp", "shadow_obj", "trace_obj", "usemap", "maplib"};
   const std::string_view keyword = words.word();
   if (keyword == "mtllib") {
     chunk.libraries.push_back({words.rest()});
   } else if (keyword == "usemtl") {
     chunk.materials.push_back({words.rest()});
+  } else if (keyword == "o") {
+    chunk.objects.push_back({words.rest(), chunk.counts.faces});
   } else if (std::find(std::begin(ignored), std::end(ignored), keyword) == std::end(ignored)) {
     if (chunk.skipped++ == 0) chunk.first_skipped = keyword;
   }
@@ -368,10 +328,31 @@ void Reader::read_materials() {
   }
 }
 
+/// Objects that have faces. Those that follow each other with the same name are one.
+void Reader::set_parts() {
+  std::vector<MeshPart>& parts = mesh_.parts;
+  std::string_view name = "default";  // as the format has it of groups
+  std::size_t first = 0;
+  const auto end_object = [&](std::size_t end) {
+    if (end > first && (parts.empty() || parts.back().name != name)) parts.push_back({std::string(name), first});
+    first = end;
+  };
+  for (std::size_t i = 0; i < chunks_.size(); ++i)
+    for (const Object& object : chunks_[i].objects) {
+      FaceCounts before = before_[i].faces;
+      before += object.before;
+      end_object(before.faces(mesh_.corners));
+      name = object.name.empty() ? "default" : object.name;
+    }
+  end_object(mesh_.face_count());
+  if (parts.size() == 1) parts.clear();
+}
+
 std::optional<MeshData> Reader::read() {
   count();
   read_materials();
   if (!read_values() || !read_faces() || !join_indices()) return std::nullopt;
+  set_parts();
   std::size_t skipped = 0;
   std::string_view first;
   for (const Chunk& chunk : chunks_) {
