@@ -134,6 +134,31 @@ TEST_CASE("extensions that a glTF file uses are one warning") {
   CHECK(read.messages == "a.gltf: warning: uses extensions that are not read: 'KHR_materials_subsurface', 'B'\n");
 }
 
+TEST_CASE("what to do with KTX2 images in a glTF file is said where they are met") {
+  const std::string used = R"("KHR_texture_basisu"])", hint =
+                                                           "'KHR_texture_basisu' (its KTX2 images become PNG by: "
+                                                           "gltf-transform ktxdecompress model.glb decoded.glb)";
+  const std::string texture = R"("scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":
+      {"POSITION":0},"indices":1,"material":0}]}],"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0},
+      "metallicRoughnessTexture":{"index":0}}}],"images":[{"uri":"a.ktx2"},{"uri":"a.png"}],"textures":[{"extensions":
+      {"KHR_texture_basisu":{"source":0}}}])";
+  const ReadResult required = read_bytes(
+      "a.gltf", square().text(texture + R"(,"extensionsRequired":[)" + used + R"(,"extensionsUsed":[)" + used));
+  CHECK_FALSE(required.mesh);
+  CHECK(required.messages == "a.gltf: error: requires extensions that are not read: " + hint + '\n');
+  const ReadResult alone = read_bytes("a.gltf", square().text(texture + R"(,"extensionsUsed":[)" + used));
+  CHECK(alone.mesh);
+  CHECK(alone.messages == "a.gltf: warning: uses extensions that are not read: " + hint +
+                              "\na.gltf: warning: textures[0]: has no image but that of an extension that is not read, "
+                              "and is left out\n");
+  // There is another image beside it.
+  const ReadResult beside =
+      read_bytes("a.gltf", square().text(replaced(texture, R"([{"extensions":)", R"([{"source":1,"extensions":)") +
+                                         R"(,"extensionsUsed":[)" + used));
+  REQUIRE(beside.mesh);
+  CHECK(beside.messages == "a.gltf: warning: uses extensions that are not read: " + hint + '\n');
+}
+
 TEST_CASE("damaged glTF files are read or refused") {
   GltfFile file = square();
   file.add(Numbers{0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3", float_type, 4);

@@ -85,6 +85,8 @@ void ModelReader::check_extensions(Diagnostics& diagnostics) const {
            (name == draco_extension && can_read_draco()) || (is_meshopt_extension(name) && can_read_meshopt());
   };
   const auto without = [](std::string_view name) -> std::string {
+    if (name == basisu_extension)
+      return " (its KTX2 images become PNG by: gltf-transform ktxdecompress model.glb decoded.glb)";
     if (name == draco_extension) return " (this program was built without the library Draco)";
     return is_meshopt_extension(name) ? " (this program was built without the library meshoptimizer)" : "";
   };

@@ -25,7 +25,11 @@ MeshTexture TextureReader::read(const Item& info) {
   std::optional<Item> source = item.find("source");
   // Which a file may have in place of the other, or as well, for those that do not read it.
   if (const auto webp = extension(item, webp_extension)) source = webp->find("source");
-  if (!source) return texture;  // that of another extension
+  if (!source) {
+    if (item.find("extensions"))
+      document_.warn_once(item.place(), "has no image but that of an extension that is not read, and is left out");
+    return texture;
+  }
   std::uint64_t coordinates = info.whole("texCoord", 0);
   if (const auto transform = extension(info, "KHR_texture_transform")) {
     coordinates = transform->whole("texCoord", coordinates);

@@ -13,6 +13,7 @@
 namespace raytrace::gltf {
 
 inline constexpr const char* webp_extension = "EXT_texture_webp";
+inline constexpr const char* basisu_extension = "KHR_texture_basisu";  // which is not read
 
 class TextureReader {
  public:
