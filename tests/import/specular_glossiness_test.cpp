@@ -83,12 +83,19 @@ TEST_CASE("glTF: pictures of specular colour and glossiness become those of meta
       members + R"("specularGlossinessTexture":{"index":2,"extensions":{"KHR_texture_transform":{"scale":[2,2]}}})"));
   CHECK(contains(apart.messages, "has its textures at different places"));
   CHECK(apart.number("base_metalness") == 0);
+  CHECK(apart.number("specular_weight") == 1);
   CHECK(apart.at("base_color").texture.file == "1.png");
   CHECK(apart.at("base_color").texture.made_of == nullptr);
   const MeshTexture& roughness = apart.at("specular_roughness").texture;
   CHECK(roughness.file == "2.png");
   CHECK(roughness.value_scale * 0.5 + roughness.value_offset == 1 - 0.75 * 0.5);
   CHECK(apart.at("specular_roughness").channel == 3);
+
+  const ReadMaterial dull(extended(
+      "pbrSpecularGlossiness",
+      R"("diffuseTexture":{"index":1},"specularFactor":[0.01,0.01,0.01],"specularGlossinessTexture":{"index":2,)"
+      R"("extensions":{"KHR_texture_transform":{"scale":[2,2]}}})"));
+  CHECK(std::abs(dull.number("specular_weight") - 0.25) < 1e-9);
 }
 
 }  // namespace raytrace::test

@@ -18,11 +18,13 @@ struct InMemory {
 
 class CountedReader final : public PictureReader {
  public:
-  CountedReader(int width, int height, InMemory& memory) : memory_(memory) {
+  /// made_of: bytes of what it is made of.
+  CountedReader(int width, int height, InMemory& memory, std::size_t made_of = 0) : memory_(memory), made_of_(made_of) {
     set_layout({width, height, 1, TexelFormat::bytes});
   }
+  std::uint64_t bytes_while_read() const override { return layout().bytes() + made_of_; }
   Picture read() override {
-    const std::size_t bytes = memory_.bytes += layout().bytes();
+    const std::size_t bytes = memory_.bytes += layout().bytes() + made_of_;
     std::size_t most = memory_.most;
     while (most < bytes && !memory_.most.compare_exchange_weak(most, bytes)) {
     }
@@ -34,6 +36,7 @@ class CountedReader final : public PictureReader {
 
  private:
   InMemory& memory_;
+  std::size_t made_of_;
 };
 
 }  // namespace
@@ -43,7 +46,7 @@ TEST_CASE("pictures are used in their order, each once, with their errors, withi
   for (int round = 0; round < 20; ++round) {
     std::vector<int> heights(random() % 200);  // 0: not wanted; below 0: it cannot be opened
     for (int& height : heights) height = static_cast<int>(random() % 40) - 2;
-    const std::size_t memory = random() % 20000;
+    const std::size_t memory = random() % 20000, made_of = round % 2 == 0 ? 0 : 500;
     InMemory in_memory;
     std::size_t next = 0;
     read_pictures(
@@ -51,7 +54,7 @@ TEST_CASE("pictures are used in their order, each once, with their errors, withi
         [&](std::size_t i) -> std::unique_ptr<PictureReader> {
           if (heights[i] < 0) throw PictureError("closed");
           if (heights[i] == 0) return nullptr;
-          return std::make_unique<CountedReader>(100, heights[i], in_memory);
+          return std::make_unique<CountedReader>(100, heights[i], in_memory, made_of);
         },
         [&](std::size_t i, const PictureResult& result) {
           CHECK(i == next++);
@@ -66,10 +69,10 @@ TEST_CASE("pictures are used in their order, each once, with their errors, withi
             REQUIRE(result.get() != nullptr);
             CHECK(result.get()->height == height);
           }
-          if (height > 0) in_memory.bytes -= static_cast<std::size_t>(height) * 100;
+          if (height > 0) in_memory.bytes -= static_cast<std::size_t>(height) * 100 + made_of;
         });
     CHECK(next == heights.size());
-    CHECK(in_memory.most <= std::max<std::size_t>(memory, 37 * 100));
+    CHECK(in_memory.most <= std::max<std::size_t>(memory, 37 * 100 + made_of));
   }
 }
 

@@ -83,6 +83,13 @@ class MadePicture : public PictureReader {
     set_layout(layout);
   }
 
+  std::uint64_t bytes_while_read() const override {
+    std::uint64_t bytes = layout().bytes();
+    for (const auto* reader : {&diffuse_, &specular_})
+      if (*reader) bytes += (*reader)->bytes_while_read();
+    return bytes;
+  }
+
   Picture read() override {
     const SourcePicture diffuse = taken(diffuse_, from_.diffuse), specular = taken(specular_, from_.specular);
     Picture made{layout(), LargeArray<std::byte>::zeros(layout().bytes()), false};

@@ -12,7 +12,7 @@ struct OpenedPicture {
   std::unique_ptr<PictureReader> reader;
   PictureResult result;
 
-  std::uint64_t bytes() const { return reader ? reader->layout().bytes() : 0; }
+  std::uint64_t bytes() const { return reader ? reader->bytes_while_read() : 0; }
   void read() {
     if (!reader) return;
     try {

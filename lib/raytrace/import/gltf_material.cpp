@@ -145,6 +145,7 @@ class MaterialReader {
       context_.warn(surface_->place(), "has its textures at different places, and is no metal anywhere");
       add_base_color("base_color");
       add("base_metalness", 0);
+      add("specular_weight", metal_share(base_color_, specular).specular_weight);
       MeshTexture roughness = both;
       roughness.value_scale = -glossiness;
       roughness.value_offset = 1;

@@ -57,6 +57,8 @@ class PictureReader {
   virtual ~PictureReader() = default;
 
   const PictureLayout& layout() const { return layout_; }
+  /// Of all that is in memory at once while it is read: what it is made of as well.
+  virtual std::uint64_t bytes_while_read() const { return layout_.bytes(); }
   /// All of it; to be called once. Throws PictureError or std::bad_alloc.
   virtual Picture read() = 0;
 
