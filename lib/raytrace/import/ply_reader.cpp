@@ -80,8 +80,7 @@ bool open(MeshFile& file, const MeshReadSettings& settings, Diagnostics& diagnos
 /// Of the textures that MeshLab and others name in comments: white materials with them, if they can be seen, of the
 /// faces that have their numbers, or of all.
 void add_textures(std::vector<std::string> names, const std::string& folder, MeshData& mesh,
-                  MeshBuffer<std::uint32_t> of_faces, const MeshReadSettings& settings,
-                  Diagnostics& diagnostics) {
+                  MeshBuffer<std::uint32_t> of_faces, const MeshReadSettings& settings, Diagnostics& diagnostics) {
   if (names.empty()) return;
   if (names.size() > 1 && of_faces.empty()) {
     diagnostics.warning({}, "names " + std::to_string(names.size()) +
