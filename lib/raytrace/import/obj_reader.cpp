@@ -312,12 +312,10 @@ void Reader::read_materials() {
   }
   std::vector<MeshMaterial> defined;
   // Of libraries whose materials are all overridden nothing is missing.
-  const bool is_any_used =
-      std::any_of(names.begin(), names.end(), [&](auto name) { return !settings_.overrides(name); });
-  Diagnostics ignored = Diagnostics::counter();
+  const bool is_any_used = std::ranges::any_of(names, [&](auto name) { return !settings_.overrides(name); });
+  Diagnostics ignored = Diagnostics::counter(), &told = is_any_used ? diagnostics_ : ignored;
   for (const std::string_view library : libraries)
-    read_material_libraries(library, folder_, line_of(library), defined, mesh_.files, settings_,
-                            is_any_used ? diagnostics_ : ignored);
+    read_material_libraries(library, folder_, line_of(library), defined, mesh_.files, settings_, told);
   std::map<std::string_view, const MeshMaterial*> by_name;
   for (const MeshMaterial& material : defined) by_name.try_emplace(material.name, &material);
   for (const std::string_view name : names) {
