@@ -14,8 +14,11 @@ struct LayeredBsdf {
   PbrBsdf bsdf;
   Vec3d base, coat;
   MaskN lanes{true};
+  Vec3d diffuse = base;
 
-  LayerFrames<FloatN> frames(const Vec3<FloatN>& wo) const { return {{lanes, spread(base), spread(coat)}, wo}; }
+  LayerFrames<FloatN> frames(const Vec3<FloatN>& wo) const {
+    return {{lanes, spread(diffuse), spread(base), spread(coat)}, wo};
+  }
   BsdfSample<FloatN> sample(const Vec3<FloatN>& wo, const FloatN& u, const FloatN& u1, const FloatN& u2) const {
     const LayerFrames<FloatN> of_wo = frames(wo);
     return bsdf.sample(bsdf.lobes(wo, &of_wo), u, u1, u2);
@@ -51,7 +54,7 @@ TEST_CASE("layers with normals of their own: what is reflected follows its pdf")
   for (const double roughness : {0.45, 0.8})
     for (const auto& [name, parameters] : white_materials(roughness))
       for (const auto& [base, coat] : layer_normals) {
-        const Above<LayeredBsdf> above{{{bsdf_of(parameters), base, coat}}};
+        const Above<LayeredBsdf> above{{{bsdf_of(parameters), base, coat, MaskN(true), at_angle(base, 15, 4)}}};
         const Outcome outcome = judge(above, at_angle(up, 50, 2), up, Cells(up, 1), true);
         INFO(name << ", roughness " << roughness << ", base " << base.x << " " << base.y << ", coat " << coat.x << " "
                   << coat.y);
@@ -68,7 +71,8 @@ TEST_CASE("layers with normals of their own send on no more light than they get,
         INFO(name << ", roughness " << roughness << ", wo at " << angle);
         const Vec3d wo = at_angle(up, angle, 2);
         for (const auto& [base, coat] : layer_normals)
-          CHECK(sent_on(LayeredBsdf{bsdf_of(parameters), base, coat}, wo) < 1.02);
+          for (const Vec3d& diffuse : {base, at_angle(base, 15, 4)})
+            CHECK(sent_on(LayeredBsdf{bsdf_of(parameters), base, coat, MaskN(true), diffuse}, wo) < 1.02);
         if (angle > 50) continue;
         CHECK(sent_on(LayeredBsdf{bsdf_of(parameters), tilted(8, 1), tilted(8, 4)}, wo) > 0.93);
       }
@@ -80,7 +84,7 @@ TEST_CASE("layers with normals of their own: f and pdf of a sample are those of 
   int compared = 0;
   for (const auto& material : white_materials(0.4))
     for (const auto& [base, coat] : layer_normals) {
-      const LayeredBsdf bsdf{bsdf_of(material.second), base, coat};
+      const LayeredBsdf bsdf{bsdf_of(material.second), base, coat, MaskN(true), at_angle(base, 15, 4)};
       for (int i = 0; i < 100; ++i) {
         const Vec3<FloatN> wo = spread(at_angle(up, 80 * random.unit(), 6 * random.unit()));
         const auto number = [&] { return FloatN(static_cast<float>(random.unit())); };

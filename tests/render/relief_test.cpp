@@ -1,6 +1,7 @@
 // Normal maps and bumps turn shading normals as their textures say.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "raytrace/description/load_images.h"
@@ -78,6 +79,26 @@ TEST_CASE("a normal map's x is along u, its y along v") {
   const Vec3d half(s / 2, 0, c);
   check_normal(rendered(relief_scene(to_u, "<normalmap texture='t' strength='0.5'/>", panel)),
                half * (1 / length(half)));
+}
+
+TEST_CASE("however steep its relief, what is diffuse has the light that the map's normals say") {
+  // Seen straight on, a mirror would show the inside where slopes are above 45 degrees.
+  const Vec3d to_light = normalize(Vec3d(1, 0.5, 1));
+  for (const double angle : {0.3, 0.9, 1.2})
+    for (const int side : {-1, 1}) {
+      const double s = side * std::sin(angle), c = std::cos(angle);
+      std::string scene = relief_scene(constant(0.5 + s / 2, 0.5, 0.5 + c / 2), "", panel, "<path/>");
+      const auto matte = scene.find("<mattes>"), end = scene.find("</mattes>") + 9;
+      scene.replace(matte, end - matte,
+                    "<openpbrs><openpbr><name>m</name><base_color red='1' green='1' blue='1'/><specular_weight>0"
+                    "</specular_weight><normalmap texture='t'/></openpbr></openpbrs>");
+      const FloatPicture picture = rendered(scene);
+      const double relief_cosine = std::max(s * to_light.x + c * to_light.z, 0.0);
+      const double g = relief_cosine > 0 ? std::min(to_light.z / (relief_cosine * c), 1.0) : 0;
+      INFO("slope " << angle << ", side " << side);
+      CHECK(double{picture.pixels()[0].green} ==
+            Approx(3 / std::numbers::pi * relief_cosine * ((1 - g) * g + 1) * g).margin(2e-3));
+    }
 }
 
 TEST_CASE("from behind, hills of a relief are hollows") {

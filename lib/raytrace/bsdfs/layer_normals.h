@@ -1,4 +1,5 @@
-// Surfaces whose layers have normals of their own, as a smooth coat over a base with relief.
+// Surfaces whose layers have normals of their own, as a smooth coat over a base with relief, or a diffuse base under a
+// gloss that is bent.
 //
 // Each layer reflects about its own normal, in its own frame. Whoever shades the surface counts the light that comes to
 // it about the surface's normal, which is that of the shape and belongs to no layer: so a layer's f is multiplied by
@@ -24,11 +25,15 @@ RAYTRACE_INLINE T relief_shadow(const T& cosine, const T& relief_cosine, const T
 /// T: a batch.
 template <class T>
 struct LayerNormals {
-  Mask<T> lanes;       ///< in which layers have normals of their own; in the others all have the surface's
-  Vec3<T> base, coat;  ///< of unit length
+  Mask<T> lanes;  ///< in which layers have normals of their own; in the others all have the surface's
+  /// Of unit length. What is diffuse of the base has its relief as it is; what mirrors is bent so far that it mirrors
+  /// nothing from inside.
+  Vec3<T> diffuse, base, coat;
 
   /// In the frame about the surface's normal.
-  LayerNormals to_local(const Frame<T>& frame) const { return {lanes, frame.to_local(base), frame.to_local(coat)}; }
+  LayerNormals to_local(const Frame<T>& frame) const {
+    return {lanes, frame.to_local(diffuse), frame.to_local(base), frame.to_local(coat)};
+  }
 };
 
 /// A layer about its own normal, for light that leaves in one direction. All are in the surface's local frame but what
@@ -78,11 +83,13 @@ class LayerFrame {
 
 template <class T>
 struct LayerFrames {
-  LayerFrame<T> base, coat;
+  LayerFrame<T> diffuse, base, coat;
 
   /// normals, wo: in the surface's local frame.
   LayerFrames(const LayerNormals<T>& normals, const Vec3<T>& wo)
-      : base(normals.lanes, normals.base, wo), coat(normals.lanes, normals.coat, wo) {}
+      : diffuse(normals.lanes, normals.diffuse, wo),
+        base(normals.lanes, normals.base, wo),
+        coat(normals.lanes, normals.coat, wo) {}
 };
 
 }  // namespace raytrace

@@ -113,31 +113,35 @@ struct OpenPbrBsdf {
   };
   /// Of what is not smooth; wi: above the surface, else it is 0.
   Value value(const Lobes& layers, const Vec3<T>& wi) const {
-    if (layers.frames == nullptr) return value(layers, wi, wi, wi);
-    return value(layers, wi, layers.frames->base.to_own(wi), layers.frames->coat.to_own(wi));
+    const LayerFrames<T>* const frames = layers.frames;
+    if (frames == nullptr) return value(layers, wi, wi, wi, wi);
+    return value(layers, wi, frames->diffuse.to_own(wi), frames->base.to_own(wi), frames->coat.to_own(wi));
   }
-  /// base_wi, coat_wi: wi to them.
-  [[gnu::noinline]] Value value(const Lobes& layers, const Vec3<T>& wi, const Vec3<T>& base_wi,
-                                const Vec3<T>& coat_wi) const {
+  /// diffuse_wi, base_wi, coat_wi: wi to them.
+  [[gnu::noinline]] Value value(const Lobes& layers, const Vec3<T>& wi, const Vec3<T>& diffuse_wi,
+                                const Vec3<T>& base_wi, const Vec3<T>& coat_wi) const {
     const LayerFrames<T>* const frames = layers.frames;
     const Mask<T> is_above = wi.z > T(1e-6F);
     const T even = T(1) - layers.fuzz_choice - layers.coat_choice - layers.facet_choice - layers.inside_choice;
     const T diffuse = (T(1) - metalness) * (T(1) - transmission) * (T(1) - layers.base_reflection) * base_weight;
-    Value result{OrenNayar<T>{base, diffuse_roughness}.f(layers.from, base_wi) * diffuse,
-                 max(even, T(0)) * base_wi.z * T(std::numbers::inv_pi_v<float>)};
+    const Vec3<T>& diffuse_from = frames != nullptr ? frames->diffuse.own_wo() : layers.from;
+    const Rgb<T> even_f = OrenNayar<T>{base, diffuse_roughness}.f(diffuse_from, diffuse_wi);
+    Value result{even_f * diffuse, max(even, T(0)) * diffuse_wi.z * T(std::numbers::inv_pi_v<float>)};
     if (const Mask<T> filmed = film.weight > T(0); any(filmed)) {
       const T share = (T(1) - metalness) * (T(1) - transmission) * base_weight;
-      const Rgb<T> under_film = OrenNayar<T>{base, diffuse_roughness}.f(layers.from, base_wi) * share;
-      result.f = select(filmed, under_film * layers.under_film, result.f);
+      result.f = select(filmed, even_f * share * layers.under_film, result.f);
     }
-    if (frames != nullptr) result.f = result.f * frames->base.softness(wi, base_wi);
+    if (frames != nullptr) {
+      result.f = result.f * frames->diffuse.softness(wi, diffuse_wi);
+      frames->diffuse.count_about_surface(wi, diffuse_wi, result.f, result.pdf);
+    }
     if (const Mask<T> rough = ggx().is_rough(); any(rough)) {
-      const Value facets = by_facets(layers, base_wi);
+      Value facets = by_facets(layers, base_wi);
+      if (frames != nullptr) frames->base.count_about_surface(wi, base_wi, facets.f, facets.pdf);
       result.f += select(rough, facets.f, black());
       result.pdf = result.pdf + select(rough, facets.pdf, T(0));
     }
     result.f = result.f * under_coat(layers, coat_wi.z);
-    if (frames != nullptr) frames->base.count_about_surface(wi, base_wi, result.f, result.pdf);
     if (const Mask<T> rough = coat_ggx().is_rough() & (coat > T(0)); any(rough)) {
       const Value facets = by_coat(layers, wi, coat_wi);
       result.f += select(rough, facets.f, black());
@@ -196,9 +200,12 @@ struct OpenPbrBsdf {
     T share(1), coat_cosine = wi.z;
     if (frames != nullptr) [[unlikely]] {
       const Vec3<T> own = wi;
-      wi = select(coated, frames->coat.from_own(own), frames->base.from_own(own));
+      const auto of_layer = [&](const auto& f) {
+        return select(coated, f(frames->coat), select(is_diffuse, f(frames->diffuse), f(frames->base)));
+      };
+      wi = of_layer([&](const LayerFrame<T>& layer) { return layer.from_own(own); });
       coat_cosine = frames->coat.to_own(wi).z;
-      share = select(coated, frames->coat.share(wi, own), frames->base.share(wi, own));
+      share = of_layer([&](const LayerFrame<T>& layer) { return layer.share(wi, own); });
     }
     Value above = value(layers, wi);
     // What the layer that drew it does not reflect is nothing to the others either.

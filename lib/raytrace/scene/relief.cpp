@@ -113,16 +113,21 @@ void SceneTables::add_relief(const Hits& hits, const TexturePoint<FloatN>& at,
           side, textures_->uvset(*bump.texture), point, normal);
     // What refracts has the same normal for light from all sides: paths from lights meet that of paths to them.
     const bool bends = !detail.is_even && !detail.refracts;
-    if (detail.has_relief()) normal = bends ? reflecting(below_wo(normal)) : below_wo(normal);
-    if (detail.has_layers()) [[unlikely]] {
-      const Vec3<FloatN> coat =
-          detail.coatnormalmap.texture ? reflecting(below_wo(mapped(detail.coatnormalmap, surface.ns))) : surface.ns;
-      if (!surface.has_layers) surface.layers = {MaskN(false), normal, coat};
-      surface.layers = {surface.layers.lanes | here, select(here, normal, surface.layers.base),
-                        select(here, coat, surface.layers.coat)};
-      surface.has_layers = true;
-      return;
+    Vec3<FloatN> diffuse = normal;
+    if (detail.has_relief()) {
+      diffuse = below_wo(normal);
+      normal = bends ? reflecting(diffuse) : diffuse;
     }
+    const auto set_layers = [&](const MaskN& lanes, const Vec3<FloatN>& coat) {
+      if (!surface.has_layers) surface.layers = {MaskN(false), diffuse, normal, coat};
+      surface.layers = {surface.layers.lanes | lanes, select(lanes, diffuse, surface.layers.diffuse),
+                        select(lanes, normal, surface.layers.base), select(lanes, coat, surface.layers.coat)};
+      surface.has_layers = true;
+    };
+    if (detail.has_layers()) [[unlikely]]
+      return set_layers(here, detail.coatnormalmap.texture
+                                  ? reflecting(below_wo(mapped(detail.coatnormalmap, surface.ns)))
+                                  : surface.ns);
     surface.ns = select(here, normal, surface.ns);
     const MaskN ends_softly = here & MaskN(detail.is_even);
     surface.relief = surface.has_relief ? surface.relief | ends_softly : ends_softly;

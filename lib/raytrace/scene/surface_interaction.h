@@ -45,8 +45,8 @@ struct SurfaceInteraction {
     return select(abs(far.x) + abs(far.y) + abs(far.z) > F(0), has_relief ? ns_without_relief : ns, ng);
   }
 
-  /// ns, or what it is of the base.
-  Vec3<F> base_normal() const { return has_layers ? select(layers.lanes, layers.base, ns) : ns; }
+  /// ns, or what it is of what is diffuse of the base.
+  Vec3<F> base_normal() const { return has_layers ? select(layers.lanes, layers.diffuse, ns) : ns; }
 };
 
 /// The share of the light from wi, of unit length, that reaches the surface. Of those that have relief.
