@@ -171,8 +171,9 @@ void define_options(OptionParser& parser, Options& options) {
   parser.add("--turntable", "N", "Render a full turn in N frames, or those of --frames",
              [stage](const std::string& text) { stage().turntable = integer(text, 1, 100'000); });
   parser.add_switch("--floor", options.floor, "Stand the model on an endless grey floor");
-  parser.add("--environment", "FILE|sky",
-             "Light by a picture of all that is around (.exr, .hdr), or by a sky with its sun",
+  parser.add("--environment", "FILE|sky|none",
+             "Light by a picture of all that is around (.exr, .hdr), by a sky with its sun, or by nothing but the "
+             "model's own lights and what of it shines",
              [stage](const std::string& text) {
                if (text.empty()) throw UsageError("the file name is empty");
                stage().environment = text;

@@ -273,6 +273,10 @@ class Models(CommandTest):
         self.assertEqual({x for x, _ in shown("--camera", "plan")[1]}, set(range(24, 40)))
         self.assertGreater(len(shown("--view", "front")[1]), 32 * 32)
         self.assertGreater(shown("--environment", "sky")[0][32, 32][2], 2 * sky)
+        red, green, blue, _ = shown("--environment", "none")[0][32, 32]
+        self.assertAlmostEqual(red, 3 / math.pi, delta=0.02)
+        self.assertAlmostEqual(green, 1.5 / math.pi, delta=0.01)
+        self.assertEqual(blue, 0)
         for camera in ("near", "plan"):
             self.succeed(*options, "--camera", camera, "-o", "model.exr")
             self.write("printed.xml", self.succeed(*options, "--camera", camera, "--print-scene").stdout)

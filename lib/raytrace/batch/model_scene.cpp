@@ -229,6 +229,8 @@ void add_floor(SceneDescription& description, const SceneDescription& shown) {
       .push_back({{{middle.x, lowest, middle.z}, {0, 1, 0}}, "floor", material, 0, true});
 }
 
+constexpr std::string_view sky_environment = "sky", no_environment = "none";
+
 /// Brighter above than below, so that metal and glass, which show nothing but what is around, have a shape. radiance:
 /// its mean, in green.
 void add_studio_sky(SceneDescription& description, double radiance) {
@@ -262,7 +264,7 @@ double radiance_beside(const std::vector<FileLight>& lights, const Affine& affin
 void add_daylight(SceneDescription& description, const ModelStage& stage) {
   const auto [azimuth, elevation] = stage.sun.value_or(std::array{-40.0, 40.0});
   const Vec3d sun = towards(azimuth, elevation);
-  if (stage.environment == "sky") {
+  if (stage.environment == sky_environment) {
     SkyLight::Parameters sky;
     sky.sundirection = sun;
     std::get<LightItems<SkyLight>>(description.lights).push_back({sky});
@@ -270,7 +272,7 @@ void add_daylight(SceneDescription& description, const ModelStage& stage) {
   }
   if (stage.environment.empty()) {
     add_studio_sky(description, studio_radiance);
-  } else {
+  } else if (stage.environment != no_environment) {
     LightItem<EnvironmentLight> picture;
     picture.parameters.file.path = stage.environment;
     std::get<LightItems<EnvironmentLight>>(description.lights).push_back(picture);
@@ -361,12 +363,12 @@ std::optional<SceneDescription> load_model(const std::string& file, const ModelS
     if (stage.fit) fit_camera(shown, description);
   }
   if (stage.floor) add_floor(description, shown);
-  if (stage.environment.empty() && !stage.sun && !data_of(description).lights.empty()) {
+  const bool is_dark = stage.environment == no_environment;
+  if ((stage.environment.empty() || is_dark) && !stage.sun && !data_of(description).lights.empty()) {
     const Affine affine = std::get<ObjectItems<Mesh>>(description.objects).front().transform.affine();
     const std::vector<FileLight>& lights = data_of(description).lights;
     add_file_lights(lights, affine, description);
-    add_studio_sky(description, radiance_beside(lights, affine, shown));
-    description.viewplane.autoexposure = true;
+    if (!is_dark) add_studio_sky(description, radiance_beside(lights, affine, shown));
   } else if (stage.environment.empty() && !stage.sun) {
     if (camera != nullptr)
       add_unseen_lamps(description, to);
@@ -377,6 +379,9 @@ std::optional<SceneDescription> load_model(const std::string& file, const ModelS
     add_daylight(description, stage);
     if (!load_images(description, diagnostics, threads, textures)) return std::nullopt;
   }
+  // Lights of files are of any brightness, and so is what shines in the dark.
+  description.viewplane.autoexposure =
+      !stage.sun && (is_dark || (stage.environment.empty() && !data_of(description).lights.empty()));
   return description;
 }
 

@@ -27,7 +27,7 @@ struct ModelStage {
   bool floor = false;  ///< an endless one, which the model stands on
 
   // In place of the studio, or of the file's lights.
-  std::string environment;                   ///< "sky", or the file of a picture; empty: none
+  std::string environment;                   ///< "sky", the file of a picture, or "none": the model's own lights alone
   std::optional<std::array<double, 2>> sun;  ///< where it is, by its angles
 };
 
