@@ -2,6 +2,7 @@
 #include <cmath>
 #include <string>
 
+#include "raytrace/description/load_images.h"
 #include "render/scenes.h"
 #include "support/catch.h"
 #include "support/temporary_folder.h"
@@ -137,6 +138,61 @@ TEST_CASE("a shadow ray's chance has nothing to do with the camera ray's, nor wi
   const double lit = (lights == "one" ? 1 : 2) / 3.14159265358979;
   const double share = mean(rendered(scene)) / lit;
   CHECK(std::abs(share - 0.25) < tolerance(0.25));
+}
+
+TEST_CASE("the shadows of meshes have the holes of an opacity's image, where their texture coordinates have them") {
+  const TemporaryFolder folder;
+  write_text(folder.path() / "holes.pgm", std::string("P5 4 1 255\n") + '\0' + "\xff\xff" + '\0');
+  const std::string positions = "<positions>-1 -1 6, 1 -1 6, 1 1 6, -1 1 6</positions>", upright = "0 0, 1 0, 1 1, 0 1",
+                    turned = "0 0, 0 1, 1 1, 1 0", half = "0 0, 0.5 0, 0.5 1, 0 1";
+  struct Case {
+    const char* name;
+    std::string mesh;
+    bool by_second;
+    std::string lit;  ///< whether each quarter is, from left to right
+  };
+  const std::string quad = "<faces>0 1 2 3</faces>", two = "<faces>0 1 2, 0 2 3</faces>";
+  const auto uvs = [](const std::string& first, const std::string& second = "") {
+    return "<uvs>" + first + "</uvs>" + (second.empty() ? "" : "<uvs2>" + second + "</uvs2>");
+  };
+  const std::string mirror = "<transform><scale x='-1' y='1' z='1'/></transform>";
+  for (const Case& c : {Case{"a quad", positions + quad + uvs(upright), false, "1001"},
+                        {"triangles", positions + two + uvs(upright), false, "1001"},
+                        {"half of the image", positions + two + uvs(half), false, "1100"},
+                        {"mirrored", positions + two + uvs(half) + mirror, false, "0011"},
+                        {"a mirrored quad", positions + quad + uvs(half) + mirror, false, "0011"},
+                        {"the second set", positions + two + uvs(turned, half), true, "1100"},
+                        {"no coordinates, a quad's own", positions + quad, false, "1001"}}) {
+    INFO(c.name);
+    const std::string textures = "<textures><images><image><name>t</name><file>" + folder.file("holes.pgm") +
+                                 "</file><filter>nearest</filter>" + (c.by_second ? "<uvset>2</uvset>" : "") +
+                                 "</image></images></textures>";
+    const std::string mesh = "<mesh>" + c.mesh + "<material>veil</material></mesh>";
+    for (const bool in_group : {false, true}) {
+      INFO((in_group ? "in an instance" : "in the world"));
+      const std::string group =
+          "<groups><group><name>g</name><objects><meshes>" + mesh + "</meshes></objects></group></groups>";
+      SceneDescription scene = parsed_scene(
+          "<raytracer><viewplane><hres>16</hres><vres>4</vres><pixelsize>0.125</pixelsize><samples>16</samples>"
+          "</viewplane><orthographiccamera><eye x='0' y='0' z='5'/><lookat x='0' y='0' z='0'/></orthographiccamera>"
+          "<lights>" +
+          light_from_camera + "</lights>" + textures + "<materials><mattes>" +
+          material("veil", "<opacity texture='t' channel='red'>1</opacity>") + material("floor", "", 1) +
+          "</mattes></materials>" + (in_group ? group : "") +
+          "<objects><planes><plane><point x='0' y='0' z='0'/><normal x='0' y='0' z='1'/><material>floor</material>"
+          "</plane></planes>" +
+          (in_group ? "<instances><instance><group>g</group></instance></instances>"
+                    : "<meshes>" + mesh + "</meshes>") +
+          "</objects></raytracer>");
+      Diagnostics diagnostics("s");
+      REQUIRE(load_images(scene, diagnostics, 1, {}));
+      const FloatPicture picture = rendered(scene);
+      for (std::size_t i = 0; i < 16; ++i) {
+        INFO("column " << i);
+        CHECK((picture.pixels()[i].red > 0.1F) == (c.lit[i / 4] == '1'));
+      }
+    }
+  }
 }
 
 TEST_CASE("what rays pass does not depend on threads, samples at once, or how the picture is cut") {

@@ -59,6 +59,8 @@ std::uint32_t passing_rays(const RayIdentity& query, unsigned first, std::uint32
   hits.find_first();
   const SceneTables& scene = query.scene;
   const FloatN opacity = scene.opacity(material, [&] {
+    if (const auto set = scene.opacity_uvset(material); set && query.camera == nullptr)
+      if (const auto point = texture_point_of_coordinates(scene, hits, *set)) return *point;
     Ray<FloatN> rays = query.rays;
     rays.far = FloatN::load_aligned(far.data());
     FloatN width(0);

@@ -250,4 +250,18 @@ TexturePoint<FloatN> texture_point(const SceneTables& scene, const FloatN& radiu
   return point;
 }
 
+std::optional<TexturePoint<FloatN>> texture_point_of_coordinates(const SceneTables& scene, const Hits& hits,
+                                                                 UvSet set) {
+  std::optional<TexturePoint<FloatN>> result;
+  scene.geometry().for_each_geometry(hits, [&](const GeometryTable& table, std::uint32_t geometry, const MaskN& here) {
+    const MeshTable* const mesh = table.geometry(geometry).mesh;
+    if (mesh == nullptr || !mesh->has_coordinates(set)) return;
+    const Vec2<FloatN> nothing{FloatN(0), FloatN(0)};
+    UvPoint<FloatN>& point = result.emplace().by(set);
+    point.uv_across = point.uv_along = nothing;
+    point.uv = mesh->coordinates(mesh->triangles(follow_first(here, hits.primitive), hits), set);
+  });
+  return result;
+}
+
 }  // namespace raytrace

@@ -181,6 +181,11 @@ Vec3<FloatN> MeshTable::normal(const IntN& vertex) const {
   return select(squared_length > FloatN(0), scaled * (FloatN(1) / sqrt(squared_length)), Vec3<FloatN>(Vec3f(0, 0, 0)));
 }
 
+Vec2<FloatN> MeshTable::coordinates(const LaneTriangles& triangles, UvSet set) const {
+  const auto [u1, v1, du2, dv2, du3, dv3] = uv_edges(uvs_of(set).data(), triangles);
+  return {u1 + du2 * triangles.u + du3 * triangles.v, v1 + dv2 * triangles.u + dv3 * triangles.v};
+}
+
 SurfaceUv<FloatN> MeshTable::uv(const LaneTriangles& triangles, UvSet set) const {
   const auto corners = records(triangles);
   const SurfaceUv<FloatN> barycentric = Kernel<Triangle>::uv(corners, triangles.u, triangles.v);

@@ -73,6 +73,10 @@ class MeshTable {
   /// By the coordinates at vertices of that set; without a second one by the first, and without any barycentric.
   SurfaceUv<FloatN> uv(const LaneTriangles& triangles, UvSet set) const;
 
+  /// Its u and v alone, as uv() has them, where vertices have such coordinates.
+  Vec2<FloatN> coordinates(const LaneTriangles& triangles, UvSet set) const;
+  bool has_coordinates(UvSet set) const { return !uvs_of(set).empty(); }
+
   /// Whether it has tangents at vertices: if it is smooth and has that set, and its materials ask for them.
   bool has_tangents(UvSet set) const { return !tangents_[set == UvSet::first ? 0 : 1].empty(); }
   /// Between those of the lanes' triangles: where u grows and where v does, not across any normal and of any length; 0

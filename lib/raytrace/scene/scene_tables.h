@@ -176,6 +176,12 @@ class SceneTables {
     return FloatN(opacity.value) * textures_->number_at(*opacity.texture, point());
   }
 
+  /// By which texture coordinates it is looked up, where it is by nothing else.
+  std::optional<UvSet> opacity_uvset(std::int32_t material) const {
+    const auto& texture = details_[static_cast<std::size_t>(material)].opacity.texture;
+    return texture && textures_->is_image(*texture) ? std::optional(textures_->uvset(*texture)) : std::nullopt;
+  }
+
   /// The shining surfaces that paths draw light from. Those that rays may pass are not among them.
   const EmitterTable& emitters() const { return *emitters_; }
   /// The radiance that leaves samples of them; surfaces: theirs, with the sides that it leaves from. point(hits): what

@@ -41,6 +41,9 @@ class TextureTable {
                        [](const AnyTexture& texture) { return uvset_of(texture) == UvSet::second; });
   }
 
+  /// Whether a texture that a field which is a number names is looked up by texture coordinates alone.
+  bool is_image(const TextureUse& use) const { return use.texture.type == index_of<Image>(Textures{}); }
+
   /// Whether any is fixed to objects.
   bool has_object_space() const {
     return std::any_of(textures_.begin(), textures_.end(), [](const AnyTexture& any) {
