@@ -1,4 +1,7 @@
 // glTF and GLB files as meshes.
+#include <numbers>
+#include <utility>
+
 #include "import/gltf_square.h"
 #include "support/contains.h"
 
@@ -163,10 +166,70 @@ TEST_CASE("glTF's cameras and lights stand where their nodes are") {
   CHECK(contains(message("\"orthographic\",\"ortho", "\"fisheye\",\"ortho"), "is neither 'perspective' nor"));
   CHECK(contains(message("\"camera\":1", "\"camera\":2"), "there is no cameras[2]"));
   CHECK(contains(message("\"light\":2", "\"light\":3"), "there is no such light"));
-  CHECK(contains(message("\"intensity\":8", "\"intensity\":-8"), "is negative or too large"));
   CHECK(contains(message("\"innerConeAngle\":0.25", "\"innerConeAngle\":0.75"), "its cone's angles"));
   CHECK(contains(message("\"directional\"", "\"area\""), "is none of 'directional'"));
   CHECK(contains(message("[2,2,2]", "[0,0,0]"), "leaves it no direction"));
+}
+
+namespace {
+
+/// What is read of a file with a point, a spot and a sun, and then a sun, at nodes of that scale; by that exporter.
+ReadResult lamps(const std::string& scale, const std::string& intensity, const std::string& cone,
+                 const std::string& generator = "tests") {
+  const std::string text =
+      square_with(R"("extensionsUsed":["KHR_lights_punctual"],"extensions":{"KHR_lights_punctual":{"lights":[)"
+                  R"({"type":"point","intensity":)" +
+                  intensity + R"(},{"type":"spot","spot":{)" + cone +
+                  R"(}},{"type":"directional"}]}},"scenes":[{"nodes":[0,1,2,3,4]}],"nodes":[{"mesh":0},)"
+                  R"({"extensions":{"KHR_lights_punctual":{"light":0}},"scale":)" +
+                  scale + R"(},{"extensions":{"KHR_lights_punctual":{"light":1}},"scale":)" + scale +
+                  R"(},{"extensions":{"KHR_lights_punctual":{"light":2}},"scale":)" + scale +
+                  R"(},{"extensions":{"KHR_lights_punctual":{"light":2}}}])");
+  return read_bytes("a.gltf",
+                    replaced(text, R"("version":"2.0")", R"("version":"2.0","generator":")" + generator + '"'));
+}
+
+}  // namespace
+
+TEST_CASE("a glTF lamp that is not one is left out, and the file is read") {
+  const std::string cone = R"("innerConeAngle":0.25,"outerConeAngle":0.5)";
+  const auto kinds = [](const ReadResult& read) {
+    std::vector<FileLight::Kind> result;
+    REQUIRE(read.mesh);
+    for (const FileLight& light : read.mesh->lights) result.push_back(light.kind);
+    return result;
+  };
+  using enum FileLight::Kind;
+  using Kinds = std::vector<FileLight::Kind>;
+  const ReadResult all = lamps("[1,1,1]", "8", cone), negative = lamps("[1,1,1]", "-8", cone),
+                   flat = lamps("[0,0,0]", "8", cone);
+  CHECK(kinds(all) == Kinds{point, spot, directional, directional});
+  CHECK(all.messages.empty());
+  CHECK(kinds(negative) == Kinds{spot, directional, directional});
+  CHECK(negative.messages ==
+        "a.gltf: warning: extensions.KHR_lights_punctual.lights[0]: its colour or intensity is negative or too large: "
+        "it is left out\n");
+  CHECK(kinds(flat) == Kinds{point, directional});
+  CHECK(flat.messages ==
+        "a.gltf: warning: extensions.KHR_lights_punctual.lights[1]: its node's transform leaves it no direction: it is "
+        "left out\n"
+        "a.gltf: warning: extensions.KHR_lights_punctual.lights[2]: its node's transform leaves it no direction: it is "
+        "left out\n");
+}
+
+TEST_CASE("a glTF spot of 180 degrees is one, although its float is above pi / 2") {
+  const auto angles = [](const std::string& cone) {
+    const ReadResult read = lamps("[1,1,1]", "8", cone);
+    INFO(read.messages);
+    REQUIRE(read.mesh);
+    const FileLight& spot = read.mesh->lights.at(1);
+    return std::pair(spot.inner_angle, spot.outer_angle);
+  };
+  constexpr double right = std::numbers::pi / 2;
+  CHECK(angles(R"("innerConeAngle":1.25,"outerConeAngle":1.5707963705062866)") == std::pair(1.25, right));
+  CHECK(angles(R"("innerConeAngle":1.5707963705062866,"outerConeAngle":1.5707963705062866)") ==
+        std::pair(right, right));
+  CHECK(contains(lamps("[1,1,1]", "8", R"("outerConeAngle":1.572)").messages, "its cone's angles"));
 }
 
 TEST_CASE("glTF's primitives are one mesh with a material for each face") {

@@ -228,7 +228,7 @@ const Skin& ModelReader::skin(const Item& number) {
 void ModelReader::add_light(const Item& number, const Affine& transform) {
   const std::optional<Item> lights = extension_list(root_, lights_extension, "lights");
   if (!lights || number.whole() >= lights->size()) number.fail("there is no such light");
-  model_.lights.push_back(read_light((*lights)[number.whole()], transform));
+  if (const auto light = read_light((*lights)[number.whole()], transform, document_)) model_.lights.push_back(*light);
 }
 
 const std::vector<Primitive>& ModelReader::mesh(const Item& number) {

@@ -1,17 +1,35 @@
 #include "raytrace/import/gltf_view.h"
 
+#include <cmath>
 #include <numbers>
 
 namespace raytrace::gltf {
 
 namespace {
 
-/// Of unit length.
-Vec3d direction(const Affine& transform, const Vec3d& local, const Item& item) {
+constexpr const char* no_direction = "its node's transform leaves it no direction";
+
+/// Of unit length, if there is one.
+std::optional<Vec3d> placed_direction(const Affine& transform, const Vec3d& local) {
   const Vec3d result = transform.vector(local);
   const double size = length(result);
-  if (!(size > 1e-17 && size < 1e17)) item.fail("its node's transform leaves it no direction");
+  if (!(size > 1e-17 && size < 1e17)) return std::nullopt;
   return result * (1 / size);
+}
+
+Vec3d direction(const Affine& transform, const Vec3d& local, const Item& item) {
+  const std::optional<Vec3d> placed = placed_direction(transform, local);
+  if (!placed) item.fail(no_direction);
+  return *placed;
+}
+
+void read_cone(const Item& cone, FileLight& light) {
+  // Half a turn in floats, as files have it, is above pi.
+  constexpr double rounding = 1e-6, right = std::numbers::pi / 2;
+  light.inner_angle = cone.number("innerConeAngle", 0);
+  light.outer_angle = cone.number("outerConeAngle", std::numbers::pi / 4);
+  if (light.outer_angle > right && light.outer_angle <= right + rounding) light.outer_angle = right;
+  if (light.inner_angle > right && light.inner_angle <= right + rounding) light.inner_angle = right;
 }
 
 }  // namespace
@@ -37,16 +55,19 @@ FileCamera read_camera(const Item& camera, const Affine& transform) {
   return result;
 }
 
-FileLight read_light(const Item& light, const Affine& transform) {
+std::optional<FileLight> read_light(const Item& light, const Affine& transform, Document& document) {
+  const auto leave_out = [&](const std::string& why) {
+    document.warn(light.place(), why + ": it is left out");
+    return std::nullopt;
+  };
   FileLight result;
   result.name = light.name();
   result.position = transform.origin;
-  result.direction = direction(transform, {0, 0, -1}, light);
   const auto [red, green, blue] = light.numbers<3>("color").value_or(std::array<double, 3>{1, 1, 1});
   const double intensity = light.number("intensity", 1);
   result.intensity = Rgb<double>(red, green, blue) * intensity;
   for (const double channel : {result.intensity.red, result.intensity.green, result.intensity.blue})
-    if (!(channel >= 0 && channel < 1e15)) light.fail("its colour or intensity is negative or too large");
+    if (!(channel >= 0 && channel < 1e15)) return leave_out("its colour or intensity is negative or too large");
   const Item type = light["type"];
   if (type.text() == "directional") {
     result.kind = FileLight::Kind::directional;
@@ -54,15 +75,17 @@ FileLight read_light(const Item& light, const Affine& transform) {
     result.kind = FileLight::Kind::point;
   } else if (type.text() == "spot") {
     result.kind = FileLight::Kind::spot;
-    const std::optional<Item> cone = light.find("spot");
-    if (cone) result.inner_angle = cone->number("innerConeAngle", 0);
-    if (cone) result.outer_angle = cone->number("outerConeAngle", std::numbers::pi / 4);
+    if (const std::optional<Item> cone = light.find("spot")) read_cone(*cone, result);
     if (!(result.inner_angle >= 0 && result.inner_angle <= result.outer_angle && result.outer_angle > 1e-6 &&
           result.outer_angle <= std::numbers::pi / 2))
       light.fail("its cone's angles are not 0 <= inner <= outer <= pi / 2");
   } else {
     type.fail("is none of 'directional', 'point' and 'spot'");
   }
+  if (result.kind == FileLight::Kind::point) return result;
+  const std::optional<Vec3d> shone_into = placed_direction(transform, {0, 0, -1});
+  if (!shone_into) return leave_out(no_direction);
+  result.direction = *shone_into;
   return result;
 }
 
