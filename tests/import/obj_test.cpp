@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "import/support.h"
@@ -105,16 +106,16 @@ TEST_CASE("an MTL's material of opacity 0 is opaque, and a warning names it") {
   const TemporaryFolder folder;
   write_text(folder.file("a.mtl"),
              "newmtl lab\nKd 1 0 0\nTr 1.0\nnewmtl leaf\nd 0\nmap_d leaf.png\nnewmtl pane\nd 0.25\n"
-             "newmtl spare\nd 0\nnewmtl glass\nTr 1\nillum 4\n");
+             "newmtl spare\nd 0\nnewmtl glass\nTr 1\nillum 4\nnewmtl hidden\nd 0\nillum 9\n");
   write_text(folder.file("a.obj"),
              "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl pane\nf 1 2 3\nusemtl lab\nf 1 2 3\nusemtl leaf\n"
-             "f 1 2 3\nusemtl glass\nf 1 2 3\nusemtl spare\n");
+             "f 1 2 3\nusemtl glass\nf 1 2 3\nusemtl spare\nusemtl hidden\nf 1 2 3\n");
   Diagnostics diagnostics(folder.file("a.obj"));
   const auto mesh = read_mesh(folder.file("a.obj"), {}, diagnostics);
   REQUIRE(mesh);
-  REQUIRE(mesh->materials.size() == 5);
+  REQUIRE(mesh->materials.size() == 6);
   for (const MeshMaterial& material : mesh->materials)
-    CHECK(material.d.value_or(1) == (material.name == "pane" ? 0.25 : 1));
+    CHECK(material.d.value_or(1) == (material.name == "pane" ? 0.25 : material.name == "hidden" ? 0 : 1));
   CHECK(printed(diagnostics, folder.path().string()) ==
         "a.obj: warning: an opacity of 0, which would show nothing, is taken as opaque, of the materials 'lab', "
         "'leaf'\n");
@@ -167,6 +168,36 @@ TEST_CASE("an MTL's metals, glass and lamps are OpenPBR's") {
   CHECK(number("lamp", "specular_weight") == 0);
   CHECK(parameter("screen", "emission_color").texture.file == "film.png");
   CHECK(number("screen", "specular_roughness") == Approx(std::pow(0.02, 0.25)));
+}
+
+TEST_CASE("an MTL's alpha is no glass, whatever its illum says, unless it says what passes") {
+  const auto material = [](const std::string& statements) {
+    const TemporaryFolder folder;
+    write_text(folder.file("a.mtl"), "newmtl a\nKd 0.9 0.4 0.1\nKs 0.5 0.5 0.5\nNi 1.5\n" + statements);
+    write_text(folder.file("a.obj"), "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl a\nf 1 2 3\n");
+    Diagnostics diagnostics(folder.file("a.obj"));
+    const auto mesh = read_mesh(folder.file("a.obj"), {}, diagnostics);
+    REQUIRE(mesh);
+    CHECK(diagnostics.kept().empty());
+    return mesh->materials.at(0);
+  };
+  const auto is_glass = [](const MeshMaterial& of) {
+    return std::any_of(of.openpbr.begin(), of.openpbr.end(),
+                       [](const MeshParameter& parameter) { return parameter.name == "transmission_weight"; });
+  };
+  for (const std::string illum : {"4", "6", "7", "9"}) {
+    INFO(illum);
+    const MeshMaterial veil = material("d 0.4\nillum " + illum + '\n'),
+                       leaf = material("map_d leaf.png\nd 1\nillum " + illum + '\n'),
+                       glass = material("d 1\nillum " + illum + '\n'),
+                       tinted = material("d 0.4\nTf 1 1 1\nillum " + illum + '\n');
+    CHECK_FALSE(is_glass(veil));
+    CHECK(veil.d == 0.4);
+    CHECK_FALSE(is_glass(leaf));
+    CHECK(is_glass(glass));
+    CHECK(is_glass(tinted));
+    CHECK_FALSE(tinted.d);
+  }
 }
 
 TEST_CASE("what is wrong in an OBJ file is an error in its line") {

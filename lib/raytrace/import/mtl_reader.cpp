@@ -81,7 +81,9 @@ MeshTexture read_texture(LineWords& words) {
 }
 
 /// In OpenPBR's terms, what no Lambertian and Phong's highlight can show: metals, glass, lamps, and what says how rough
-/// it is. Which materials are glass is said by illum (4, 6, 7 and 9), and mirrors (3, 5 and 8).
+/// it is. Which materials are glass is said by illum (4, 6, 7 and 9), and mirrors (3, 5 and 8). An opacity without a Tf
+/// is an opacity all the same, as Blender writes it with illum 6 and 9; but d 0, which shows nothing, is glass for all
+/// illums that others write.
 void set_physical(MeshMaterial& material) {
   const Rgb<double> black(0, 0, 0), white(1, 1, 1);
   const auto largest = [](const Rgb<double>& c) { return std::max({c.red, c.green, c.blue}); };
@@ -92,9 +94,12 @@ void set_physical(MeshMaterial& material) {
   const int illum = material.illum.value_or(2);
   const Rgb<double> diffuse = material.kd.value_or(white), specular = material.ks.value_or(black);
   const Rgb<double> emitted = material.ke.value_or(material.map_ke.file.empty() ? black : white);
-  const bool is_lamp = largest(emitted) > 0,
-             is_glass =
-                 (illum == 4 || illum == 6 || illum == 7 || illum == 9) && largest(material.tf.value_or(white)) > 0,
+  const double opacity = material.d.value_or(1);
+  const bool is_see_through =
+                 !material.tf && ((opacity < 1 && (opacity > 0 || illum == 9)) || !material.map_d.file.empty()),
+             is_lamp = largest(emitted) > 0,
+             is_glass = (illum == 4 || illum == 6 || illum == 7 || illum == 9) && !is_see_through &&
+                        largest(material.tf.value_or(white)) > 0,
              is_mirror = (illum == 3 || illum == 5 || illum == 8) && largest(specular) > 0 && largest(diffuse) == 0,
              is_rough = material.pr || material.pm || !material.map_pr.file.empty() || !material.map_pm.file.empty();
   if (!is_lamp && !is_glass && !is_mirror && !is_rough) return;

@@ -32,7 +32,8 @@ Vec3d origin_of(std::span<const T> positions) {
 }
 
 /// MTL files of MeshLab say Tr 1, and Collada files of many programs transparency 0, of what is opaque. Nobody sees
-/// what has an opacity of 0: such materials become opaque, with one warning that names those that faces have.
+/// what has an opacity of 0: such materials become opaque, with one warning that names those that faces have. But with
+/// MTL's illum 9 it is meant, as Blender writes an Alpha of 0.
 void make_visible(MeshData& mesh, const MeshReadSettings& settings, Diagnostics& diagnostics) {
   std::vector<bool> used(mesh.materials.size(), mesh.face_materials.empty());
   for (const std::uint32_t material : mesh.face_materials)
@@ -42,7 +43,7 @@ void make_visible(MeshData& mesh, const MeshReadSettings& settings, Diagnostics&
   constexpr std::size_t most_names = 10;
   for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
     MeshMaterial& material = mesh.materials[i];
-    if (material.d.value_or(1) > 0) continue;
+    if (material.d.value_or(1) > 0 || material.illum == 9) continue;
     material.d = 1;
     if (used[i] && !settings.overrides(material.name) && count++ < most_names)
       names += (names.empty() ? "" : ", ") + in_quotes(material.name);
