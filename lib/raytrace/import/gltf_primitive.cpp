@@ -100,6 +100,18 @@ class VertexReader {
   std::vector<std::uint64_t> numbers_;  ///< counted from 1; 0: none
 };
 
+/// Where the alpha of vertex colours would count, which a mesh has no place for.
+void warn_of_alpha(const Primitive& primitive, const Item& material, Document& document) {
+  const std::optional<Item> mode = material.find("alphaMode");
+  if (!mode || mode->text() == "OPAQUE" || !primitive.colors || primitive.colors->elements.components < 4) return;
+  bool is_opaque = true;
+  for_each_element(*primitive.colors, 1, [&](std::size_t, const auto& values) { is_opaque &= values[3] >= 1; });
+  if (is_opaque) return;
+  const std::string name = material.name();
+  document.warn_once(material.place(),
+                     (name.empty() ? "" : in_quotes(name) + ": ") + "the alpha of its vertex colours is not used");
+}
+
 /// That of the variant, if it has one.
 std::optional<Item> material_of(const Item& primitive, std::optional<std::uint64_t> variant) {
   const std::optional<Item> variants = variant ? extension(primitive, variants_extension) : std::nullopt;
@@ -154,6 +166,7 @@ std::vector<Primitive> read_primitives(Document& document, DracoReader& draco, c
     const std::optional<Item> number = material_of(item, variant);
     const PrimitiveMaterial of_model = number ? material(*number) : PrimitiveMaterial();
     primitive.material = of_model.number;
+    if (number) warn_of_alpha(primitive, document.listed("materials", *number), document);
     const auto coordinates = [&](std::uint64_t set) {
       return vertices.attribute("TEXCOORD_" + std::to_string(set), 2, 2);
     };
