@@ -200,6 +200,26 @@ TEST_CASE("an MTL's alpha is no glass, whatever its illum says, unless it says w
   }
 }
 
+TEST_CASE("the colours of an OBJ's vertices are those of its materials without a texture") {
+  const TemporaryFolder folder;
+  write_text(folder.file("a.mtl"),
+             "newmtl plain\nKd 1 1 1\nnewmtl rough\nPr 0.5\nnewmtl painted\nmap_Kd a.png\nPr 0.5\n");
+  const auto read = [&](const std::string& color) {
+    write_text(folder.file("a.obj"), "mtllib a.mtl\nv 0 0 0" + color + "\nv 1 0 0\nv 1 1 0\nusemtl plain\nf 1 2 3\n" +
+                                         "usemtl rough\nf 1 2 3\nusemtl painted\nf 1 2 3\n");
+    Diagnostics diagnostics(folder.file("a.obj"));
+    return read_mesh(folder.file("a.obj"), {}, diagnostics)->materials;
+  };
+  const std::vector<MeshMaterial> colored = read(" 1 0.5 0"), plain = read("");
+  REQUIRE(colored.size() == 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(colored[i].vertex_colors);
+    CHECK_FALSE(plain[i].vertex_colors);
+  }
+  CHECK(colored[1].openpbr.at(0).of_vertices);
+  CHECK_FALSE(colored[2].openpbr.at(0).of_vertices);
+}
+
 TEST_CASE("what is wrong in an OBJ file is an error in its line") {
   CHECK(read_bytes("a.obj", "v 0 0 0\nv 1 0\nv 1 x 0\nvt\nf 1 2 3\n").messages ==
         "a.obj:2: error: needs at least 3 numbers\na.obj:3: error: 'x' is no number\n"

@@ -112,7 +112,7 @@ void set_physical(MeshMaterial& material) {
   };
   material.openpbr.push_back(
       {"base_color", inside_color(is_mirror ? specular : diffuse), is_mirror ? MeshTexture{} : material.map_kd});
-  material.openpbr.back().of_vertices = true;
+  material.openpbr.back().of_vertices = !is_mirror && material.map_kd.file.empty();
   add("base_metalness", inside(is_mirror ? 1 : number(material.pm, material.map_pm, 0)), material.map_pm);
   // The alpha of facets that reflect about as Phong's lobe does (Walter and others, 2007).
   const double of_highlight =

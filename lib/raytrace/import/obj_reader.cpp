@@ -351,6 +351,7 @@ std::optional<MeshData> Reader::read() {
   read_materials();
   if (!read_values() || !read_faces() || !join_indices()) return std::nullopt;
   set_parts();
+  for (MeshMaterial& material : mesh_.materials) material.vertex_colors = !mesh_.colors.empty();
   std::size_t skipped = 0;
   std::string_view first;
   for (const Chunk& chunk : chunks_) {
