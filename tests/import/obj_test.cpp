@@ -198,6 +198,15 @@ TEST_CASE("an MTL's alpha is no glass, whatever its illum says, unless it says w
     CHECK(is_glass(tinted));
     CHECK_FALSE(tinted.d);
   }
+  // As glTF's.
+  const MeshMaterial coated = material("Pr 0.5\nPc 0.5\n");
+  const auto number = [&](std::string_view name) {
+    for (const MeshParameter& parameter : coated.openpbr)
+      if (parameter.name == name) return parameter.value.red;
+    return -1.0;
+  };
+  CHECK(number("coat_ior") == 1.5);
+  CHECK(number("coat_darkening") == 0);
 }
 
 TEST_CASE("the colours of an OBJ's vertices are those of its materials without a texture") {

@@ -134,6 +134,8 @@ void set_physical(MeshMaterial& material) {
   if (material.pc.value_or(0) > 0) {
     add("coat_weight", inside(*material.pc));
     add("coat_roughness", inside(material.pcr.value_or(0)));
+    add("coat_ior", 1.5);  // as glTF's, whose base keeps its colour
+    add("coat_darkening", 0);
   }
   if (material.aniso.value_or(0) > 0) add("specular_roughness_anisotropy", inside(*material.aniso));
 }
