@@ -91,9 +91,9 @@ std::string texture_of(const std::string& name_in_file, const std::string& file)
 }
 
 /// What is said of a program with these commands, in the place of raytrace-convert.
-std::string refusal_by(const std::string& commands) {
+std::string refusal_by(const std::string& commands, const std::string& name = "a.fbx") {
   const TemporaryFolder folder;
-  const std::string program = folder.file("program"), file = folder.file("a.fbx");
+  const std::string program = folder.file("program"), file = folder.file(name);
   write_text(program, "#!/bin/sh\n" + commands + "\n");
   std::filesystem::permissions(program, std::filesystem::perms::owner_all);
   write_text(file, "a model");
@@ -120,6 +120,9 @@ TEST_CASE("a program that fails, crashes or says nothing is an error of the file
             .starts_with("a.fbx: error: cannot be converted to glTF: Assimp ended by signal 11 ("));
   CHECK(refusal_by("printf '\\033[1mbold\\n' >&2; exit 3") ==
         "a.fbx: error: cannot be converted to glTF: \\x1b[1mbold\n");
+  CHECK(refusal_by("echo 'no magic bytes' >&2; exit 1", "a.blend") ==
+        "a.blend: error: cannot be converted to glTF: no magic bytes; only files of Blender before 2.8 can be: in "
+        "Blender, export as glTF 2.0 (.glb)\n");
   const TemporaryFolder folder;
   Diagnostics diagnostics(folder.file("a.fbx"));
   CHECK_FALSE(convert_model_by(folder.file("none"), folder.file("a.fbx"), diagnostics).has_value());

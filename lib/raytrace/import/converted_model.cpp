@@ -112,7 +112,10 @@ std::optional<ConvertedModel> convert_model_by(const std::string& program, const
     return refuse("Assimp ended by signal " + std::to_string(WTERMSIG(status)) + " (" + strsignal(WTERMSIG(status)) +
                   "); the file may be damaged, or too large");
   if (const std::string reason = first_line(errors); WEXITSTATUS(status) != 0 || output.size() == 0)
-    return refuse(reason.empty() ? "Assimp does not say why" : reason);
+    return refuse((reason.empty() ? "Assimp does not say why" : reason) +
+                  (mesh_type(file) == ".blend"
+                       ? "; only files of Blender before 2.8 can be: in Blender, export as glTF 2.0 (.glb)"
+                       : ""));
   ConvertedModel model{LargeArray<char>::unset(output.size() + 1), output.size()};
   if (output.read(model.glb.data(), model.size) != model.size) return refuse("the result cannot be read");
   return model;
