@@ -46,8 +46,9 @@ FileCamera read_camera(const Item& camera, const Affine& transform) {
     result.angle = angle.number();
     if (!(result.angle > 1e-6 && result.angle < std::numbers::pi - 1e-6)) angle.fail("is not between 0 and pi");
   } else if (type.text() == "orthographic") {
+    // Its size is its own, whatever the scale of its node, as Blender and glTF's viewers have it.
     const Item half = camera["orthographic"]["ymag"];
-    result.height = 2 * std::abs(half.number()) * length(transform.vector({0, 1, 0}));
+    result.height = 2 * std::abs(half.number());
     if (!(result.height > 1e-15 && result.height < 1e15)) half.fail("is 0, or too large or small");
   } else {
     type.fail("is neither 'perspective' nor 'orthographic'");
