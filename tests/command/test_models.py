@@ -282,8 +282,40 @@ class Models(CommandTest):
             self.write("printed.xml", self.succeed(*options, "--camera", camera, "--print-scene").stdout)
             self.succeed("printed.xml", "-q", "--transparent", "-o", "printed.exr")
             self.assertEqual(Exr(self.read("model.exr")).row_bytes, Exr(self.read("printed.exr")).row_bytes)
+        # Of several, the first, as one line says.
+        said = "2 cameras; looks by 'near'; --camera NAME chooses"
+        plain = ["square.gltf", "-r", "8x8", "-s", "1", "-o", "c.exr"]
+        self.assertEqual(self.succeed(*plain).stderr.count(said), 1)
+        self.assertNotIn("cameras;", self.succeed(*plain, "--camera", "plan").stderr)
+        self.assertNotIn("cameras;", self.succeed(*plain, "--view", "top").stderr)
         message = self.fail_with(1, *options, "--camera", "far", "-o", "b.exr")
         self.assertIn("has no camera 'far'; there are 'near', 'plan'", message)
+
+    def test_the_shape_of_a_picture_is_the_cameras(self):
+        self.write_gltf([{"type": "perspective", "name": "tall",
+                          "perspective": {"yfov": 1, "znear": 1, "aspectRatio": 0.5625}},
+                         {"type": "orthographic", "name": "plan",
+                          "orthographic": {"xmag": 4, "ymag": 3, "znear": 0, "zfar": 9}},
+                         {"type": "perspective", "name": "any", "perspective": {"yfov": 1, "znear": 1}},
+                         {"type": "perspective", "name": "thread",
+                          "perspective": {"yfov": 1, "znear": 1, "aspectRatio": 1e-30}}], [],
+                        [{"camera": camera, "translation": [0, 0, 4]} for camera in range(4)])
+
+        def size(*options):
+            text = self.succeed("square.gltf", *options, "--print-scene").stdout
+            return [int(text.split(f"<{name}>")[1].split("<")[0]) for name in ("hres", "vres")]
+
+        self.assertEqual(size(), [720, 1280])
+        self.assertEqual(size("--camera", "plan"), [1108, 832])
+        self.assertEqual(size("--camera", "any"), [1280, 720])
+        self.assertEqual(size("--camera", "thread"), [240, 3840])
+        self.assertEqual(size("--view", "front"), [1280, 720])
+        self.assertEqual(size("-r", "96x54"), [96, 54])
+        self.assertEqual(size("--scale", "0.5"), [360, 640])
+        # All that the camera sees is in it: 2 x 4 tan(yfov / 2) units of its height.
+        self.succeed("square.gltf", "-q", "--scale", "0.1", "-s", "4", "--transparent", "-o", "tall.exr")
+        rows = {place[1] for place, pixel in Exr(self.read("tall.exr")).pixels().items() if pixel[3] > 0.5}
+        self.assertAlmostEqual(len(rows), 128 * 2 / (8 * math.tan(0.5)), delta=1)
 
     def test_fit_moves_cameras_of_files_and_scenes(self):
         self.write_gltf([{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}], [],

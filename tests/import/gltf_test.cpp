@@ -169,6 +169,17 @@ TEST_CASE("glTF's cameras and lights stand where their nodes are") {
   CHECK(contains(message("\"innerConeAngle\":0.25", "\"innerConeAngle\":0.75"), "its cone's angles"));
   CHECK(contains(message("\"directional\"", "\"area\""), "is none of 'directional'"));
   CHECK(contains(message("[2,2,2]", "[0,0,0]"), "leaves it no direction"));
+
+  CHECK(wide.aspect == 0);
+  CHECK(flat.aspect == 1.5);
+  const auto aspect = [&](const std::string& members) {
+    const ReadResult of =
+        read_bytes("a.gltf", square_with(replaced(lights + cameras + nodes, "\"yfov\":1.2", members)));
+    REQUIRE(of.mesh);
+    return of.mesh->cameras[0].aspect;
+  };
+  CHECK(aspect("\"yfov\":1.2,\"aspectRatio\":0.5625") == 0.5625);
+  CHECK(aspect("\"yfov\":1.2,\"aspectRatio\":-1") == 0);
 }
 
 namespace {

@@ -135,7 +135,14 @@ SceneDescription moving(const SceneDescription& description, int threads) {
 const FileCamera* choose_camera(const SceneDescription& description, const ModelStage& stage,
                                 Diagnostics& diagnostics) {
   const std::vector<FileCamera>& cameras = data_of(description).cameras;
-  if (stage.camera.empty()) return cameras.empty() || stage.view || stage.turntable > 0 ? nullptr : &cameras.front();
+  if (stage.camera.empty()) {
+    if (cameras.empty() || stage.view || stage.turntable > 0) return nullptr;
+    if (cameras.size() > 1)
+      diagnostics.warning({}, std::to_string(cameras.size()) + " cameras; looks by " +
+                                  (cameras.front().name.empty() ? "the first" : in_quotes(cameras.front().name)) +
+                                  "; --camera NAME chooses");
+    return &cameras.front();
+  }
   std::vector<std::string> names;
   for (const FileCamera& camera : cameras) {
     if (camera.name == stage.camera) return &camera;
@@ -162,6 +169,15 @@ void add_file_camera(SceneDescription& description, const FileCamera& camera) {
   parameters.up = up;
   parameters.viewdistance = picture.pixelsize * picture.vres / (2 * std::tan(camera.angle / 2));
   description.camera = parameters;
+}
+
+/// The size of a picture of as many pixels as that, of the camera's shape. It is even, as video has it.
+void set_shape(ViewPlane& picture, double aspect) {
+  constexpr double most = 16;  // of one side by the other
+  const double shape = std::clamp(aspect, 1 / most, most), pixels = double{1} * picture.hres * picture.vres;
+  const auto even = [](double size) { return 2 * static_cast<int>(std::round(size / 2)); };
+  picture.hres = even(std::sqrt(pixels * shape));
+  picture.vres = even(std::sqrt(pixels / shape));
 }
 
 /// A rectangle that faces the model, `distance` radii away in a direction of the picture, of that size in radii.
@@ -309,12 +325,13 @@ void for_each_turned_vertex(const SceneDescription& description, const Function&
 bool is_model(const std::string& file) { return is_mesh_file(file); }
 
 std::optional<SceneDescription> load_model(const std::string& file, const ModelStage& stage, std::optional<int> frame,
-                                           int width, int height, Diagnostics& diagnostics, int threads,
-                                           const TextureSettings& textures) {
+                                           std::optional<std::array<int, 2>> size, Diagnostics& diagnostics,
+                                           int threads, const TextureSettings& textures) {
+  constexpr std::array usual_size{1280, 720};
   SceneDescription description;
   description.file = file;
-  description.viewplane.hres = width;
-  description.viewplane.vres = height;
+  description.viewplane.hres = size.value_or(usual_size)[0];
+  description.viewplane.vres = size.value_or(usual_size)[1];
   description.viewplane.samples = 128;
   description.viewplane.viewtransform = ViewTransform::khronos_neutral;
   description.integrator = Path::Parameters{};
@@ -335,6 +352,7 @@ std::optional<SceneDescription> load_model(const std::string& file, const ModelS
   const std::size_t errors_before = diagnostics.error_count();
   const FileCamera* const camera = choose_camera(description, stage, diagnostics);
   if (diagnostics.error_count() > errors_before) return std::nullopt;
+  if (!size && camera != nullptr && camera->aspect > 0) set_shape(description.viewplane, camera->aspect);
   const double turned = stage.turntable > 0 ? 360.0 * (frame.value_or(1) - 1) / stage.turntable : 0;
   auto [azimuth, elevation] = stage.view.value_or(usual_view);
   if (camera != nullptr) {

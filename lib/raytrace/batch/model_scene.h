@@ -37,13 +37,14 @@ bool is_model(const std::string& file);
 
 /// The model in the file's lights and a sky that is dim beside them, exposed by its own brightness since they may be of
 /// any; where there are none in a studio, a large soft lamp from the left, a strip behind on the right, and a dim sky,
-/// darker below; or in the stage's own light; width x height pixels, 128 samples, shown through the Khronos PBR Neutral
-/// Tone Mapper. On a turntable, the studio stays before the camera; a file's camera does not see its lamps. frame: of
-/// the film, from 1 on; without one, the model is at rest, or at the beginning of an animation that is asked for. The
-/// camera and the studio are the same for all frames. None if it cannot be read, which the diagnostics say. threads: as
-/// load_scene()'s.
+/// darker below; or in the stage's own light; with 128 samples, shown through the Khronos PBR Neutral
+/// Tone Mapper. size: width and height; none: 1280 x 720, or as many pixels in the shape that the file's camera has, if
+/// it is the picture's. On a turntable, the studio stays before the camera; a file's camera does not see its lamps.
+/// frame: of the film, from 1 on; without one, the model is at rest, or at the beginning of an animation that is asked
+/// for. The camera and the studio are the same for all frames. None if it cannot be read, which the diagnostics say.
+/// threads: as load_scene()'s.
 std::optional<SceneDescription> load_model(const std::string& file, const ModelStage& stage, std::optional<int> frame,
-                                           int width, int height, Diagnostics& diagnostics, int threads,
-                                           const TextureSettings& textures);
+                                           std::optional<std::array<int, 2>> size, Diagnostics& diagnostics,
+                                           int threads, const TextureSettings& textures);
 
 }  // namespace raytrace

@@ -1,6 +1,7 @@
 #include "raytrace/batch/render_job.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -159,12 +160,12 @@ std::optional<SceneDescription> load_picture(const RenderJob& job, RenderObserve
     const PhaseTimer timer(phase);
     if (is_model(job.scene)) {
       if (!job.variables.empty()) throw SettingsError("--define: " + job.scene + " is a model, which has no variables");
-      const Resolution size = job.resolution.value_or(Resolution{1280, 720});
+      const auto size =
+          job.resolution ? std::optional(std::array{job.resolution->width, job.resolution->height}) : std::nullopt;
       const std::optional<int> frame = job.is_one_of_frames ? std::optional(job.frame) : std::nullopt;
       ModelStage stage = job.stage.value_or(ModelStage());
       stage.fit = job.fit;
-      description =
-          load_model(job.scene, stage, frame, size.width, size.height, diagnostics, job.threads, job.textures);
+      description = load_model(job.scene, stage, frame, size, diagnostics, job.threads, job.textures);
       if (description) refuse_to_overwrite(*description, job);
     } else {
       if (job.stage) throw SettingsError("a stage is for models: " + job.scene_name() + " has a camera and lights");

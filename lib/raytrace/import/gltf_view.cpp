@@ -23,6 +23,8 @@ Vec3d direction(const Affine& transform, const Vec3d& local, const Item& item) {
   return *placed;
 }
 
+double aspect_of(double aspect) { return aspect > 0 && std::isfinite(aspect) ? aspect : 0; }
+
 void read_cone(const Item& cone, FileLight& light) {
   // Half a turn in floats, as files have it, is above pi.
   constexpr double rounding = 1e-6, right = std::numbers::pi / 2;
@@ -44,12 +46,14 @@ FileCamera read_camera(const Item& camera, const Affine& transform) {
   if (type.text() == "perspective") {
     const Item angle = camera["perspective"]["yfov"];
     result.angle = angle.number();
+    result.aspect = aspect_of(camera["perspective"].number("aspectRatio", 0));
     if (!(result.angle > 1e-6 && result.angle < std::numbers::pi - 1e-6)) angle.fail("is not between 0 and pi");
   } else if (type.text() == "orthographic") {
     // Its size is its own, whatever the scale of its node, as Blender and glTF's viewers have it.
     const Item half = camera["orthographic"]["ymag"];
     result.height = 2 * std::abs(half.number());
     if (!(result.height > 1e-15 && result.height < 1e15)) half.fail("is 0, or too large or small");
+    result.aspect = aspect_of(2 * std::abs(camera["orthographic"].number("xmag", 0)) / result.height);
   } else {
     type.fail("is neither 'perspective' nor 'orthographic'");
   }

@@ -100,6 +100,7 @@ struct FileCamera {
   Vec3d eye{}, forward{0, 0, -1}, up{0, 1, 0};
   double angle = 0;   ///< of view, upright, in radians; 0: it is orthographic,
   double height = 0;  ///< and shows so much from the picture's lower edge to its upper one
+  double aspect = 0;  ///< the picture's width by its height; 0: the file does not say
 };
 
 /// A light that it has.
