@@ -243,6 +243,24 @@ TEST_CASE("a glTF spot of 180 degrees is one, although its float is above pi / 2
   CHECK(contains(lamps("[1,1,1]", "8", R"("outerConeAngle":1.572)").messages, "its cone's angles"));
 }
 
+TEST_CASE("a glTF spot of Blender's has Blender's penumbra") {
+  // Size 30 degrees, Blend 0.3: the numbers of docs/from-blender.md.
+  const double half = 15 * std::numbers::pi / 180;
+  const std::string cone =
+      "\"innerConeAngle\":" + std::to_string(0.7 * half) + ",\"outerConeAngle\":" + std::to_string(half);
+  const auto penumbra = [&](const std::string& of, const std::string& generator) {
+    const ReadResult read = lamps("[1,1,1]", "8", of, generator);
+    REQUIRE(read.mesh);
+    const FileLight& spot = read.mesh->lights.at(1);
+    return (spot.outer_angle - spot.inner_angle) * 180 / std::numbers::pi;
+  };
+  const std::string blender = "Khronos glTF Blender I/O v5.0.21";
+  CHECK(penumbra(cone, blender) == Approx(2.461).epsilon(1e-3));
+  CHECK(penumbra(cone, "tests") == Approx(4.5).epsilon(1e-3));
+  CHECK(penumbra(R"("innerConeAngle":0.5,"outerConeAngle":0.5)", blender) == 0);
+  CHECK(penumbra(R"("innerConeAngle":0,"outerConeAngle":0.5)", blender) == Approx(0.5 * 180 / std::numbers::pi));
+}
+
 TEST_CASE("a warning names a glTF material that would need the alpha of vertex colours") {
   const auto messages = [](const std::string& alpha_mode, std::uint8_t alpha) {
     GltfFile file = square();

@@ -1,5 +1,6 @@
 #include "raytrace/import/gltf_view.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -25,6 +26,12 @@ Vec3d direction(const Affine& transform, const Vec3d& local, const Item& item) {
 
 double aspect_of(double aspect) { return aspect > 0 && std::isfinite(aspect) ? aspect : 0; }
 
+/// Of a spot that Blender's exporter has written.
+bool is_of_blender(const Document& document) {
+  const std::optional<Item> generator = document.root()["asset"].find("generator");
+  return generator && generator->text().starts_with("Khronos glTF Blender I/O");
+}
+
 void read_cone(const Item& cone, FileLight& light) {
   // Half a turn in floats, as files have it, is above pi.
   constexpr double rounding = 1e-6, right = std::numbers::pi / 2;
@@ -32,6 +39,14 @@ void read_cone(const Item& cone, FileLight& light) {
   light.outer_angle = cone.number("outerConeAngle", std::numbers::pi / 4);
   if (light.outer_angle > right && light.outer_angle <= right + rounding) light.outer_angle = right;
   if (light.inner_angle > right && light.inner_angle <= right + rounding) light.inner_angle = right;
+}
+
+/// Blender's exporter writes an inner angle of (1 - Blend) times the outer one. Blender's penumbra is of that share of
+/// cosines.
+double inner_angle_of_blender(const FileLight& light) {
+  if (light.inner_angle == light.outer_angle) return light.outer_angle;
+  const double edge = std::cos(light.outer_angle), blend = 1 - light.inner_angle / light.outer_angle;
+  return std::min(std::acos(edge + (1 - edge) * blend), light.outer_angle);
 }
 
 }  // namespace
@@ -84,6 +99,7 @@ std::optional<FileLight> read_light(const Item& light, const Affine& transform, 
     if (!(result.inner_angle >= 0 && result.inner_angle <= result.outer_angle && result.outer_angle > 1e-6 &&
           result.outer_angle <= std::numbers::pi / 2))
       light.fail("its cone's angles are not 0 <= inner <= outer <= pi / 2");
+    if (is_of_blender(document)) result.inner_angle = inner_angle_of_blender(result);
   } else {
     type.fail("is none of 'directional', 'point' and 'spot'");
   }
