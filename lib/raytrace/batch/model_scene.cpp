@@ -8,7 +8,8 @@
 #include <utility>
 
 #include "raytrace/batch/fit_camera.h"
-#include "raytrace/description/file_lights.h"
+#include "raytrace/batch/model_extent.h"
+#include "raytrace/batch/model_lights.h"
 #include "raytrace/description/load_images.h"
 #include "raytrace/import/read_mesh.h"
 #include "raytrace/text/message.h"
@@ -17,63 +18,7 @@ namespace raytrace {
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr std::array<double, 2> usual_view{30, 15};
-
-/// From the model towards that place.
-Vec3d towards(double azimuth, double elevation) {
-  const double turn = azimuth * degree, rise = elevation * degree;
-  return {std::sin(turn) * std::cos(rise), std::sin(rise), std::cos(turn) * std::cos(rise)};
-}
-
-/// The directions of a picture: to the right, upwards, and towards the viewer.
-struct Directions {
-  Vec3d right, up, back;
-
-  Directions(double azimuth, double elevation)
-      : right(std::cos(azimuth * degree), 0, -std::sin(azimuth * degree)),
-        up(0, 0, 0),
-        back(towards(azimuth, elevation)) {
-    up = cross(back, right);
-  }
-  Vec3d of(const Vec3d& p) const { return {dot(p, right), dot(p, up), dot(p, back)}; }
-};
-
-/// What a picture shows of a model, in its directions.
-struct Extent {
-  Vec3d lower{1e300, 1e300, 1e300}, upper{-1e300, -1e300, -1e300};
-
-  void add(const Vec3d& p) {
-    lower = {std::min(lower.x, p.x), std::min(lower.y, p.y), std::min(lower.z, p.z)};
-    upper = {std::max(upper.x, p.x), std::max(upper.y, p.y), std::max(upper.z, p.z)};
-  }
-  Vec3d middle() const { return (lower + upper) * 0.5; }
-  double radius() const { return length(upper - lower) / 2; }
-};
-
-template <class Function>
-void for_each_vertex(const MeshData& mesh, const Function& f) {
-  const float* const p = mesh.positions.data();
-  for (std::size_t i = 0; i < mesh.vertex_count(); ++i)
-    f(Vec3d{double{p[3 * i]}, double{p[3 * i + 1]}, double{p[3 * i + 2]}} + mesh.origin);
-}
-
-/// f(vertex), as its transform has it. Of each copy the corners of a box around it, since copies may be very many.
-template <class Function>
-void for_each_vertex(const SceneDescription& description, const Function& f) {
-  for (const auto& mesh : std::get<ObjectItems<Mesh>>(description.objects)) {
-    const Affine affine = mesh.transform.affine();
-    for_each_vertex(*mesh.data, [&](const Vec3d& p) { f(affine.point(p)); });
-    for (const MeshCopies& copies : mesh.data->copies) {
-      Extent box;
-      for_each_vertex(*copies.mesh, [&](const Vec3d& p) { box.add(p); });
-      for (const MeshCopies::Place& place : copies.places)
-        for (const double x : {box.lower.x, box.upper.x})
-          for (const double y : {box.lower.y, box.upper.y})
-            for (const double z : {box.lower.z, box.upper.z}) f(affine.point(place.affine.point({x, y, z})));
-    }
-  }
-}
 
 /// points: all that is to be in view.
 template <class Points>
@@ -96,10 +41,6 @@ void add_camera(SceneDescription& description, const Directions& to, const Exten
   camera.up = to.up;
   camera.viewdistance = picture.pixelsize * longer / (2 * half_angle);
   description.camera = camera;
-}
-
-const MeshData& data_of(const SceneDescription& description) {
-  return *std::get<ObjectItems<Mesh>>(description.objects).front().data;
 }
 
 void animate(Mesh::Parameters& mesh, const ModelStage& stage, std::optional<int> frame) {
@@ -180,53 +121,6 @@ void set_shape(ViewPlane& picture, double aspect) {
   picture.vres = even(std::sqrt(pixels / shape));
 }
 
-/// A rectangle that faces the model, `distance` radii away in a direction of the picture, of that size in radii.
-struct Lamp {
-  const char* name;
-  Vec3d direction;
-  double distance, width, height;
-  Rgb<double> radiance;
-};
-constexpr std::array<Lamp, 2> lamps{{{"key light", {-0.8, 0.75, 0.75}, 4, 2.6, 2.6, {5, 4.8, 4.5}},
-                                     {"rim light", {0.85, 0.6, -0.8}, 4, 0.7, 3, {5.2, 5.6, 6}}}};
-
-void add_lamps(SceneDescription& description, const Directions& to, const Extent& extent) {
-  const Vec3d middle = extent.middle();
-  const Vec3d center = to.right * middle.x + to.up * middle.y + to.back * middle.z;
-  const double radius = extent.radius() > 0 ? extent.radius() : 1;
-  auto& materials = std::get<MaterialItems<Emissive>>(description.materials);
-  for (const Lamp& lamp : lamps) {
-    Emissive::Parameters emission;
-    emission.ce = lamp.radiance;
-    const MaterialReference material{static_cast<std::uint32_t>(index_of<Emissive>(Materials{})),
-                                     static_cast<std::uint32_t>(materials.size())};
-    materials.push_back({emission, lamp.name});
-    const Vec3d& d = lamp.direction;
-    const Vec3d outwards = normalize(to.right * d.x + to.up * d.y + to.back * d.z);
-    const Vec3d across = normalize(cross(outwards, to.up)) * (lamp.width * radius);
-    const Vec3d upwards = normalize(cross(across, outwards)) * (lamp.height * radius);
-    // edge1 turns to edge2 anticlockwise as the model has it in view.
-    const Vec3d corner = center + outwards * (lamp.distance * radius) - (across + upwards) * 0.5;
-    std::get<ObjectItems<Rectangle>>(description.objects).push_back({{corner, across, upwards}, lamp.name, material});
-  }
-}
-
-/// In place of lamps that a file's camera might see: as much light as from disks of their areas, infinitely far.
-void add_unseen_lamps(SceneDescription& description, const Directions& to) {
-  for (const Lamp& lamp : lamps) {
-    const Vec3d& d = lamp.direction;
-    const double half_angle = std::atan(std::sqrt(lamp.width * lamp.height / std::numbers::pi) / lamp.distance);
-    const double solid_angle = 2 * std::numbers::pi * (1 - std::cos(half_angle));
-    DirectionalLight::Parameters light;
-    light.direction = to.right * d.x + to.up * d.y + to.back * d.z;
-    light.color = lamp.radiance * solid_angle;
-    light.angle = 2 * half_angle / degree;
-    std::get<LightItems<DirectionalLight>>(description.lights).push_back({light});
-  }
-}
-
-/// A matte grey. To be added before the model's materials, which come behind it where a printed scene is read, too: so
-/// their names and numbers are the same there.
 void add_floor_material(SceneDescription& description) {
   Matte::Parameters paint;
   paint.kd = 1;
@@ -243,63 +137,6 @@ void add_floor(SceneDescription& description, const SceneDescription& shown) {
   const double lowest = -reach_along(shown, {0, -1, 0});
   std::get<ObjectItems<Plane>>(description.objects)
       .push_back({{{middle.x, lowest, middle.z}, {0, 1, 0}}, "floor", material, 0, true});
-}
-
-constexpr std::string_view sky_environment = "sky", no_environment = "none";
-
-/// Brighter above than below, so that metal and glass, which show nothing but what is around, have a shape. radiance:
-/// its mean, in green.
-void add_studio_sky(SceneDescription& description, double radiance) {
-  LightItem<EnvironmentLight> sky;
-  sky.parameters.ground = 0.2;
-  const double above = 2 * radiance / (1 + sky.parameters.ground);
-  sky.parameters.color = {0.986 * above, above, 1.028 * above};
-  std::get<LightItems<EnvironmentLight>>(description.lights).push_back(sky);
-}
-constexpr double studio_radiance = 0.3;
-
-/// Of the sky beside a file's lights, of any brightness: a part of what they give to a surface in the middle that faces
-/// each of them, in its brightest channel, so that shadows and metals are not black. Lights within the model count as
-/// if at its edge.
-double radiance_beside(const std::vector<FileLight>& lights, const Affine& affine, const SceneDescription& shown) {
-  Extent extent;
-  for_each_vertex(shown, [&](const Vec3d& p) { extent.add(p); });
-  const double least = std::max(extent.radius() * extent.radius(), 1e-300);
-  double irradiance = 0;
-  for (const FileLight& light : lights) {
-    const Vec3d way = affine.point(light.position) - extent.middle();
-    const bool is_far = light.kind == FileLight::Kind::directional;
-    irradiance += std::max({light.intensity.red, light.intensity.green, light.intensity.blue}) /
-                  (is_far ? 1 : std::max(dot(way, way), least));
-  }
-  constexpr double share = 0.08;
-  return share * std::min(irradiance, 1e18) / std::numbers::pi;
-}
-
-/// The stage's own, in place of the studio.
-void add_daylight(SceneDescription& description, const ModelStage& stage) {
-  const auto [azimuth, elevation] = stage.sun.value_or(std::array{-40.0, 40.0});
-  const Vec3d sun = towards(azimuth, elevation);
-  if (stage.environment == sky_environment) {
-    SkyLight::Parameters sky;
-    sky.sundirection = sun;
-    std::get<LightItems<SkyLight>>(description.lights).push_back({sky});
-    return;
-  }
-  if (stage.environment.empty()) {
-    add_studio_sky(description, studio_radiance);
-  } else if (stage.environment != no_environment) {
-    LightItem<EnvironmentLight> picture;
-    picture.parameters.file.path = stage.environment;
-    std::get<LightItems<EnvironmentLight>>(description.lights).push_back(picture);
-  }
-  if (!stage.sun) return;
-  DirectionalLight::Parameters light;
-  light.direction = sun;
-  light.scaleradiance = 2.5;
-  light.color = {1, 0.95, 0.88};
-  light.angle = 0.53;
-  std::get<LightItems<DirectionalLight>>(description.lights).push_back({light});
 }
 
 /// f(point) of circles about the axis upwards through the middle of all vertices: the ways of each on a turntable.
@@ -381,25 +218,8 @@ std::optional<SceneDescription> load_model(const std::string& file, const ModelS
     if (stage.fit) fit_camera(shown, description);
   }
   if (stage.floor) add_floor(description, shown);
-  const bool is_dark = stage.environment == no_environment;
-  if ((stage.environment.empty() || is_dark) && !stage.sun && !data_of(description).lights.empty()) {
-    const Affine affine = std::get<ObjectItems<Mesh>>(description.objects).front().transform.affine();
-    const std::vector<FileLight>& lights = data_of(description).lights;
-    add_file_lights(lights, affine, description);
-    if (!is_dark) add_studio_sky(description, radiance_beside(lights, affine, shown));
-  } else if (stage.environment.empty() && !stage.sun) {
-    if (camera != nullptr)
-      add_unseen_lamps(description, to);
-    else
-      add_lamps(description, to, extent);
-    add_studio_sky(description, studio_radiance);
-  } else {
-    add_daylight(description, stage);
-    if (!load_images(description, diagnostics, threads, textures)) return std::nullopt;
-  }
-  // Lights of files are of any brightness, and so is what shines in the dark.
-  description.viewplane.autoexposure =
-      !stage.sun && (is_dark || (stage.environment.empty() && !data_of(description).lights.empty()));
+  add_model_lights(description, shown, stage, to, camera == nullptr ? std::optional(extent) : std::nullopt);
+  if (!stage.environment.empty() && !load_images(description, diagnostics, threads, textures)) return std::nullopt;
   return description;
 }
 

@@ -1,51 +1,24 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
-#include <numbers>
 #include <set>
 #include <string>
-#include <tuple>
 #include <utility>
 
 #include "raytrace/description/check_groups.h"
 #include "raytrace/description/file_lights.h"
+#include "raytrace/description/file_materials.h"
 #include "raytrace/description/holds_normals.h"
 #include "raytrace/description/load_images.h"
 #include "raytrace/description/mesh_file_key.h"
 #include "raytrace/description/read_value.h"
 #include "raytrace/description/scene_description.h"
 #include "raytrace/import/read_mesh.h"
-#include "raytrace/import/specular_glossiness.h"
 #include "raytrace/text/message.h"
 
 namespace raytrace {
 
 namespace {
-
-Wrap wrap_of(MeshTexture::Edge edge) {
-  return edge == MeshTexture::Edge::clamp    ? Wrap::clamp
-         : edge == MeshTexture::Edge::mirror ? Wrap::mirror
-                                             : Wrap::repeat;
-}
-
-/// An MTL's Phong, limited so that no channel reflects more than comes in: straight on, the lobe reflects
-/// 2 pi Ks / (Ns + 2) (GlossySpecular::rho()), which is far above 1 for the Ns 0 of many files. It keeps what Kd
-/// leaves, or, where that is less, what glass reflects straight on, 0.04; and Kd at most what the lobe leaves.
-Phong::Parameters glossy(Rgb<double> diffuse, const Rgb<double>& specular, double exponent) {
-  constexpr double of_glass = 0.04;
-  const double lobe = 2 * std::numbers::pi / (exponent + 2);
-  double factor = 1;
-  const auto limit = [&](double kd, double ks) {
-    const double most = std::max(1 - kd, of_glass);
-    if (lobe * ks > most) factor = std::min(factor, most / (lobe * ks));
-  };
-  limit(diffuse.red, specular.red);
-  limit(diffuse.green, specular.green);
-  limit(diffuse.blue, specular.blue);
-  const auto left = [&](double kd, double ks) { return std::min(kd, 1 - factor * lobe * ks); };
-  diffuse = {left(diffuse.red, specular.red), left(diffuse.green, specular.green), left(diffuse.blue, specular.blue)};
-  return {1, 1, 1, diffuse, specular * factor, exponent};
-}
 
 bool has_faces_without(const MeshData& mesh) {
   return std::ranges::find(mesh.face_materials, MeshData::no_material) != mesh.face_materials.end();
@@ -54,15 +27,13 @@ bool has_faces_without(const MeshData& mesh) {
 class MeshLoader {
  public:
   MeshLoader(SceneDescription& scene, Diagnostics& diagnostics, int threads)
-      : scene_(scene), diagnostics_(diagnostics), threads_(threads) {
+      : scene_(scene), diagnostics_(diagnostics), threads_(threads), added_(scene) {
     for_each_type(Materials{}, [&]<class Material>(std::type_identity<Material>) {
       const auto& items = std::get<MaterialItems<Material>>(scene.materials);
-      for (std::size_t i = 0; i < items.size(); ++i) {
-        taken_names_.insert(items[i].name);
+      for (std::size_t i = 0; i < items.size(); ++i)
         own_materials_.try_emplace(items[i].name,
                                    MaterialReference{static_cast<std::uint32_t>(index_of<Material>(Materials{})),
                                                      static_cast<std::uint32_t>(i)});
-      }
     });
   }
 
@@ -118,7 +89,7 @@ class MeshLoader {
     if (loaded.data == nullptr) return;
     mesh.data = loaded.data;
     mesh.materials = mesh.material == no_material ? std::move(loaded.materials) : std::vector{mesh.material};
-    if (mesh.materials.empty()) mesh.materials = {mesh.data->colors.empty() ? grey() : painted()};
+    if (mesh.materials.empty()) mesh.materials = {mesh.data->colors.empty() ? added_.grey() : added_.painted()};
   }
 
   void load(ObjectItem<SphereCloud>& cloud) {
@@ -138,7 +109,7 @@ class MeshLoader {
           std::string("a <spherecloud> stays one of spheres: its <transform> cannot stretch it; put it into a <group>, "
                       "and stretch an <instance> of that"));
     const MaterialReference own = cloud.material;
-    cloud.materials = {own != no_material ? own : cloud.data->colors.empty() ? grey() : painted()};
+    cloud.materials = {own != no_material ? own : cloud.data->colors.empty() ? added_.grey() : added_.painted()};
   }
 
   std::shared_ptr<const MeshData> made(const ObjectItem<Mesh>& mesh) {
@@ -173,13 +144,13 @@ class MeshLoader {
       for (MeshMaterial& material : data->materials) {
         const bool is_overridden = settings.overrides(material.name);
         if (!is_overridden) take_bump_map(material, file, folder);
-        loaded.materials.push_back(is_overridden ? own_materials_.at(material.name) : add(material, folder));
+        loaded.materials.push_back(is_overridden ? own_materials_.at(material.name) : added_.add(material, folder));
         material = {};  // the textures have its pictures
       }
       // Faces without a material have the last one.
       bool lacks_any = has_faces_without(*data);
       for (const MeshCopies& copies : data->copies) lacks_any = lacks_any || has_faces_without(*copies.mesh);
-      if (lacks_any) loaded.materials.push_back(data->colors.empty() ? grey() : painted());
+      if (lacks_any) loaded.materials.push_back(data->colors.empty() ? added_.grey() : added_.painted());
     }
     loaded.data = std::make_shared<const MeshData>(std::move(*data));
     return loaded;
@@ -241,152 +212,16 @@ class MeshLoader {
     return data;
   }
 
-  /// A material of a file as the scene may have it. It keeps its name, if that is free.
-  MaterialReference add(const MeshMaterial& material, const std::filesystem::path& folder) {
-    const Rgb<double> black(0, 0, 0), white(1, 1, 1);
-    const Rgb<double> diffuse = material.kd.value_or(white), specular = material.ks.value_or(black);
-    const bool is_glossy =
-        material.illum.value_or(2) >= 2 && std::max({specular.red, specular.green, specular.blue}) > 0;
-    MaterialReference added{};
-    if (!material.openpbr.empty())
-      added = add_openpbr(material, folder);
-    else if (is_glossy)
-      added = add<Phong>(glossy(diffuse, specular, std::max(0.0, material.ns.value_or(20))), material.name);
-    else
-      added = add<Matte>({1, 1, diffuse}, material.name);
-    if (material.openpbr.empty()) {
-      if (!material.map_kd.file.empty())
-        set_texture(added, "cd", image(material.map_kd, folder));
-      else if (material.vertex_colors)
-        set_texture(added, "cd", vertex_colors());
-    }
-    if (!material.map_d.file.empty())
-      set_texture(added, opacity_field, image(material.map_d, folder),
-                  material.map_d.alpha ? TextureChannel::alpha : TextureChannel::automatic);
-    if (!material.norm.file.empty()) set_texture(added, normalmap_field, image(material.norm, folder));
-    with_type(Materials{}, added.type, [&]<class Material>(std::type_identity<Material>) {
-      auto& parameters = std::get<MaterialItems<Material>>(scene_.materials)[added.index].parameters;
-      if constexpr (requires { parameters.opacity; }) {
-        parameters.opacity = std::max(0.0, material.d.value_or(1));
-        parameters.normalmap = material.norm.strength;
-      }
-    });
-    return added;
-  }
-
-  MaterialReference add_openpbr(const MeshMaterial& material, const std::filesystem::path& folder) {
-    OpenPbr::Parameters parameters;
-    parameters.geometry_thin_walled = material.thin_walled;
-    const Fields& fields = element_type<OpenPbr>().fields;
-    for (const MeshParameter& parameter : material.openpbr) {
-      const Field& field = fields[find_field(fields, parameter.name)];
-      if (field.is<double>())
-        field.get<double>(&parameters) = parameter.value.red;
-      else
-        field.get<Rgb<double>>(&parameters) = parameter.value;
-    }
-    const MaterialReference added = add<OpenPbr>(parameters, material.name);
-    constexpr std::array channels{TextureChannel::red, TextureChannel::green, TextureChannel::blue,
-                                  TextureChannel::alpha};
-    for (const MeshParameter& parameter : material.openpbr) {
-      const bool is_srgb = parameter.texture.srgb && fields[find_field(fields, parameter.name)].is<Rgb<double>>();
-      if (!parameter.texture.file.empty())
-        set_texture(added, parameter.name,
-                    image(parameter.texture, folder, is_srgb ? ColorSpace::srgb : ColorSpace::automatic),
-                    channels[static_cast<std::size_t>(parameter.channel)]);
-      if (parameter.of_vertices && material.vertex_colors) set_texture(added, parameter.name, vertex_colors());
-    }
-    return added;
-  }
-
-  /// The same one for what uses an image in the same way.
-  TextureReference image(const MeshTexture& texture, const std::filesystem::path& folder,
-                         ColorSpace colorspace = ColorSpace::automatic) {
-    auto& images = std::get<TextureItems<Image>>(scene_.textures);
-    const std::string path = (folder / texture.file).string();
-    const ImageUse key{
-        path,           texture.scale,  texture.offset,  texture.rotation, texture.value_scale, texture.value_offset,
-        texture.edge_u, texture.edge_v, texture.nearest, texture.by_uvs2,  colorspace,          texture.made_of};
-    const auto [known, is_new] = known_images_.try_emplace(key, images.size());
-    const auto index = static_cast<std::uint32_t>(known->second);
-    if (!is_new) return {index_of<Image>(Textures{}), index};
-    TextureItem<Image>& image = images.emplace_back();
-    image.parameters.file.path = path;
-    image.parameters.colorspace = colorspace;
-    image.parameters.uvscale = {texture.scale[0], texture.scale[1]};
-    image.parameters.uvoffset = {texture.offset[0], texture.offset[1]};
-    image.parameters.uvrotation = texture.rotation;
-    image.parameters.valuescale = texture.value_scale;
-    image.parameters.valueoffset = texture.value_offset;
-    image.parameters.wrap = wrap_of(texture.edge_u);
-    if (texture.edge_v != texture.edge_u) image.parameters.wrapv = Image::own_wrap_v(wrap_of(texture.edge_v));
-    if (texture.nearest) image.parameters.filter = TextureFilter::nearest;
-    if (texture.by_uvs2) image.parameters.uvset = UvSet::second;
-    image.image.bytes = texture.bytes;
-    if (texture.made_of) {
-      auto from = std::make_shared<SpecularGlossiness>(*texture.made_of);
-      for (SpecularGlossiness::Source* const source : {&from->diffuse, &from->specular})
-        if (!source->file.empty()) source->file = (folder / source->file).string();
-      image.image.made_of = std::move(from);
-    }
-    image.name = image.parameters.file.path + '#' + std::to_string(images.size());
-    image.imported = true;
-    return {index_of<Image>(Textures{}), index};
-  }
-
-  TextureReference vertex_colors() {
-    auto& textures = std::get<TextureItems<VertexColor>>(scene_.textures);
-    if (textures.empty()) textures.push_back({{}, "vertex colors", 0, true});
-    return {index_of<VertexColor>(Textures{}), 0};
-  }
-
-  void set_texture(const MaterialReference& material, std::string_view field, const TextureReference& texture,
-                   TextureChannel channel = TextureChannel::automatic) {
-    with_type(Materials{}, material.type, [&]<class Material>(std::type_identity<Material>) {
-      auto& item = std::get<MaterialItems<Material>>(scene_.materials)[material.index];
-      const Fields& fields = element_type<Material>().fields;
-      const std::size_t number = find_field(fields, field);
-      item.textures.push_back({static_cast<std::uint32_t>(number), texture, channel_of(fields[number], channel)});
-    });
-  }
-
-  MaterialReference grey() {
-    if (grey_ == no_material) grey_ = add<Matte>({1, 1, {0.5, 0.5, 0.5}}, "grey");
-    return grey_;
-  }
-
-  /// White, times the colours at vertices.
-  MaterialReference painted() {
-    if (painted_ != no_material) return painted_;
-    painted_ = add<Matte>({1, 1, {1, 1, 1}}, "painted");
-    set_texture(painted_, "cd", vertex_colors());
-    return painted_;
-  }
-
-  template <class Material>
-  MaterialReference add(const typename Material::Parameters& parameters, const std::string& usual_name) {
-    std::string name = usual_name;
-    for (int i = 2; !taken_names_.insert(name).second; ++i) name = usual_name + '#' + std::to_string(i);
-    auto& items = std::get<MaterialItems<Material>>(scene_.materials);
-    items.push_back({parameters, name, 0, true});
-    return {static_cast<std::uint32_t>(index_of<Material>(Materials{})), static_cast<std::uint32_t>(items.size() - 1)};
-  }
-
   SceneDescription& scene_;
   Diagnostics& diagnostics_;
   int threads_;
+  FileMaterials added_;
   std::map<MeshFileKey, LoadedFile> files_;
   const std::set<MeshFileKey> shown_materials_ = files_with_shown_materials(scene_);
   std::map<std::string, std::shared_ptr<const PointCloud>> clouds_;
-  std::map<std::string, bool> normal_maps_;  ///< of pictures that may be such, whether they are
-  std::set<std::string> taken_names_;
+  std::map<std::string, bool> normal_maps_;                 ///< of pictures that may be such, whether they are
   std::map<std::string, MaterialReference> own_materials_;  ///< those of the scene, by name
   std::set<std::string> unlit_;                             // files of models whose lights have been left out
-  using ImageUse =
-      std::tuple<std::string, std::array<double, 2>, std::array<double, 2>, double, double, double, MeshTexture::Edge,
-                 MeshTexture::Edge, bool, bool, ColorSpace, std::shared_ptr<const SpecularGlossiness>>;
-  std::map<ImageUse, std::size_t> known_images_;
-  MaterialReference grey_ = no_material, painted_ = no_material;
 };
 
 }  // namespace
