@@ -279,6 +279,23 @@ TEST_CASE("what is wrong with a model is said where its file is named") {
   CHECK(contains(with_model("<file>lamp.gltf</file><positions>0 0 0</positions>"), "unknown element <positions>"));
 }
 
+TEST_CASE("the names of a file's nodes, of which ids are, count in the hash where there are several") {
+  ModelFolder files;
+  const auto hash = [&](const std::string& nodes, const std::string& roots) {
+    GltfFile file;
+    file.add(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3", 5126, 3);
+    write_text(files.folder().file("nodes.gltf"),
+               file.text("\"scenes\":[{\"nodes\":" + roots + "}],\"nodes\":[" + nodes +
+                         "],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}]"));
+    return scene_hash(files.load("<objects><models><model><file>nodes.gltf</file></model></models></objects>"));
+  };
+  const std::string left = R"({"mesh":0,"name":"left"})", right = R"({"mesh":0,"name":"right"})";
+  const std::string two = hash(left + ',' + right, "[0,1]");
+  CHECK(hash(left + ',' + right, "[0,1]") == two);
+  CHECK(hash(R"({"mesh":0,"name":"LEFT"},)" + right, "[0,1]") != two);
+  CHECK(hash(right, "[0]") == hash(left, "[0]"));
+}
+
 TEST_CASE("a model that has not been loaded is refused, and counts in the hash") {
   SceneDescription scene;
   const std::string without = scene_hash(scene);

@@ -192,6 +192,11 @@ class SceneHash {
     add_values(data.colors);
     add_values(data.face_materials);
     if (!data.tangents.empty()) add_values(data.tangents);
+    // Cryptomatte's ids are of their names. Meshes without any keep the hashes that they had before these counted.
+    for (const MeshPart& part : data.parts) {
+      add(part.name);
+      add(static_cast<std::uint64_t>(part.first_face));
+    }
     for (const MeshCopies& copies : data.copies) {
       add(*copies.mesh);
       add(static_cast<std::uint64_t>(copies.places.size()));
