@@ -209,7 +209,7 @@ TEST_CASE("the schema refuses most of the bad scenes, the program all", "[schema
                    "dielectric_without_distance", "openpbr_film_of_nothing", "openpbr_that_shines", "openpbr_too_dense",
                    "openpbr_too_dispersive", "openpbr_too_rough"});
   // Nor what may be in a file that is included.
-  expected.insert({"missing_camera", "missing_viewplane"});
+  expected.insert({"missing_camera", "missing_viewplane", "missing_viewplane_fov"});
   // What it cannot say since numbers and vectors may have keys, and values variables.
   expected.insert({"degenerate_triangle_without_material",
                    "dollar_without_name",

@@ -148,8 +148,9 @@ class SceneReader {
         [&]<class Parameters>(Parameters& camera) {
           if constexpr (requires { camera.fov; }) {
             if (camera.fov == 0) return;
-            if (const Element plane = firsts_[ViewPlane::element])
-              if (const Element pixelsize = plane.child("pixelsize"))
+            const auto plane = firsts_.find(ViewPlane::element);  // an entry would say that the scene has one
+            if (plane != firsts_.end() && plane->second)
+              if (const Element pixelsize = plane->second.child("pixelsize"))
                 diagnostics_.error(pixelsize, [&] {
                   return tag(pixelsize.name()) +
                          " beside the camera's <fov>, which says how large pixels are; remove one of them";
