@@ -58,6 +58,20 @@ TEST_CASE("a mesh in a group that instances move has its form of the frame") {
   CHECK(accepted(text).groups.size() == 1);
 }
 
+TEST_CASE("at one moment animations and materials are as at the frame, with a warning") {
+  std::string text = scene_with("<objects><meshes><mesh><file>fox.glb</file><animation>0</animation>" + time_keys +
+                                move_keys + "</mesh></meshes></objects>");
+  text.replace(text.find("</camera>"), 0, "<shutteropen>0.5</shutteropen><shutterclose>0.5</shutterclose>");
+  CHECK(reported(text) ==
+        "s:2: warning: the animation of this <mesh> stands still while the shutter is open: its <time> counts at the "
+        "frame\n");
+  const SceneDescription scene = accepted(text);
+  const auto& mesh = std::get<ObjectItems<Mesh>>(scene.objects).at(0);
+  CHECK(mesh.parameters.time == 0);
+  CHECK(mesh.transform.affine().origin.x == 0.5);
+  CHECK(scene.groups.empty());
+}
+
 TEST_CASE("the warning that a material stands still has its name") {
   const std::string text = open_shutter(
       "<materials><mattes><matte><name>paint</name><ka>1</ka><kd><key frame='1' value='0'/><key frame='3' value='1'/>"

@@ -176,6 +176,32 @@ TEST_CASE("a scene in which nothing moves is the same with an open shutter") {
         scene_hash(parsed_scene(motion_scene(moving_ball, still_eye, 4))));
 }
 
+TEST_CASE("a shutter that opens and closes at one moment shows what stands still then") {
+  const std::string objects = moving_ball + turning_box + moving_instance;
+  const auto scene = [&](const std::string& eye, const std::string& shutter) {
+    return motion_scene(objects, eye + shutter, 4, mesh_group);
+  };
+  const std::string instant = "<shutteropen>0.5</shutteropen><shutterclose>0.5</shutterclose>";
+  for (const std::string& eye : {still_eye, moving_eye}) {
+    const SceneDescription then = parsed_scene(scene(eye, instant));
+    CHECK(then.moving_camera.empty());
+    const FloatPicture picture = rendered(then);
+    CHECK(identical(picture, rendered(at_moment(scene(eye, ""), 0.5))));
+    CHECK_FALSE(identical(picture, rendered(parsed_scene(scene(eye, "")))));
+    CHECK(scene_hash(then) == scene_hash(at_moment(scene(eye, ""), 0.5)));
+    CHECK(scene_hash(then) != scene_hash(parsed_scene(scene(eye, ""))));
+  }
+  const std::string at_frame = "<shutteropen>0</shutteropen><shutterclose>0</shutterclose>";
+  CHECK(identical(rendered(parsed_scene(scene(moving_eye, at_frame))), rendered(parsed_scene(scene(moving_eye, "")))));
+  // A form that changes is that of the moment.
+  const std::string growing =
+      "<spheres><sphere><center x='0' y='0' z='0'/><radius><key frame='1' value='1'/><key frame='2' "
+      "value='2'/></radius>"
+      "<material>red</material></sphere></spheres>";
+  const SceneDescription grown = parsed_scene(motion_scene(growing, still_eye + instant, 1));
+  CHECK(std::get<ObjectItems<Sphere>>(grown.objects).at(0).parameters.radius == 1.5);
+}
+
 TEST_CASE("a lamp that moves lights what it passes") {
   const std::string lamp = "<spheres><sphere>" + keys("center", "x='-4' y='1' z='0'", "x='4' y='1' z='0'") +
                            "<radius>1.5</radius><material>lamp</material></sphere></spheres>";

@@ -15,11 +15,12 @@
 namespace raytrace {
 namespace {
 
-/// The text is read again at other moments, if something of the scene may move while its shutter is open.
+/// The text is read again at other moments, if something of the scene may move while its shutter is open, or before
+/// it is.
 SceneDescription with_motion(ReadScene read, std::string_view text, Diagnostics& diagnostics, int threads,
                              const SceneSettings& settings) {
   if (!read.has_keys || diagnostics.has_errors()) return std::move(read.scene);
-  if (settings.still) {
+  if (settings.still && !is_open_for_an_instant(read.scene)) {
     warn_of_motion(read.scene, diagnostics);
     return std::move(read.scene);
   }

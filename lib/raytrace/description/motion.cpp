@@ -93,6 +93,18 @@ class MotionFinder {
     warn_of_others(then);
   }
 
+  /// All stands still as it is at the only moment; what has keys that count at the frame, as it is there.
+  void move_to(SceneDescription then) {
+    warn_of_others(then);
+    scene_.camera = then.camera;
+    keep_animations(scene_.objects, then.objects);
+    scene_.objects = std::move(then.objects);
+    for (std::size_t group = 0; group < scene_.groups.size(); ++group) {
+      keep_animations(scene_.groups[group].objects, then.groups[group].objects);
+      scene_.groups[group].objects = std::move(then.groups[group].objects);
+    }
+  }
+
   /// After the last moment.
   void finish() {
     if (!camera_moves_) scene_.moving_camera.clear();
@@ -162,14 +174,29 @@ class MotionFinder {
     });
   }
 
-  /// A file has its form of the frame all the time, wherever it moves.
   template <class T>
-  void add_at_rest(const Place& object, const Fields& fields, const ObjectItem<T>& item, ObjectItem<T> then) {
+  void keep_animation(const ObjectItem<T>& item, ObjectItem<T>& then) {
     if (!item.parameters.animation.name.empty() && warned_.insert({item.line, item.column}).second)
       diagnostics_.warning(location_of(item),
                            "the animation of this <" + std::string(T::element) +
                                "> stands still while the shutter is open: its <time> counts at the frame");
     then.parameters.time = item.parameters.time;
+  }
+
+  void keep_animations(const ObjectLists& lists, ObjectLists& then) {
+    for_each_type(Objects{}, [&]<class T>(std::type_identity<T>) {
+      const auto& items = std::get<ObjectItems<T>>(lists);
+      auto& items_then = std::get<ObjectItems<T>>(then);
+      if constexpr (requires { items[0].parameters.animation; })
+        for (std::size_t i = 0; i < std::min(items.size(), items_then.size()); ++i)
+          if (items[i].parameters.time != items_then[i].parameters.time) keep_animation<T>(items[i], items_then[i]);
+    });
+  }
+
+  /// A file has its form of the frame all the time, wherever it moves.
+  template <class T>
+  void add_at_rest(const Place& object, const Fields& fields, const ObjectItem<T>& item, ObjectItem<T> then) {
+    keep_animation<T>(item, then);
     if (item.transform != then.transform || !have_same_values(fields, &item.parameters, &then.parameters))
       add_place(object, fields, item, then);
   }
@@ -295,25 +322,37 @@ Shutter shutter_of(const SceneDescription& scene) {
   return std::visit([](const auto& camera) { return Shutter{camera.shutteropen, camera.shutterclose}; }, scene.camera);
 }
 
+/// What is wrong at a moment that is not the frame's.
+void report_first_error(const SceneDescription& scene, const Diagnostics& of_moment, Diagnostics& diagnostics) {
+  const auto first = std::find_if(of_moment.kept().begin(), of_moment.kept().end(),
+                                  [](const Diagnostic& one) { return one.severity == Severity::error; });
+  SourceLocation location = first->location;
+  const auto file = std::find_if(scene.included.begin(), scene.included.end(),
+                                 [&](const IncludedFile& one) { return on_one_line(one.name) == first->file; });
+  if (file != scene.included.end()) location.line += file->first_line - 1;
+  diagnostics.error(location, "while the shutter is open: " + first->message);
+}
+
 }  // namespace
+
+bool is_open_for_an_instant(const SceneDescription& scene) {
+  const auto [opens, closes] = shutter_of(scene);
+  return opens == closes && opens != 0;
+}
 
 void add_motion(SceneDescription& scene, const std::function<SceneDescription(double, Diagnostics&)>& read,
                 Diagnostics& diagnostics) {
   const auto [opens, closes] = shutter_of(scene);
-  if (!(closes > opens)) return;
+  const bool at_one_moment = is_open_for_an_instant(scene);
+  if (!(closes > opens) && !at_one_moment) return;
   MotionFinder finder(scene, diagnostics);
-  for (std::size_t i = 0; i < shutter_moments; ++i) {
+  for (std::size_t i = 0; i < (at_one_moment ? 1 : shutter_moments); ++i) {
     Diagnostics of_moment(diagnostics.file());
-    const SceneDescription then =
-        read(opens + (closes - opens) * static_cast<double>(i) / (shutter_moments - 1), of_moment);
+    SceneDescription then = read(opens + (closes - opens) * static_cast<double>(i) / (shutter_moments - 1), of_moment);
     if (of_moment.has_errors()) {
-      const auto first = std::find_if(of_moment.kept().begin(), of_moment.kept().end(),
-                                      [](const Diagnostic& one) { return one.severity == Severity::error; });
-      SourceLocation location = first->location;
-      const auto file = std::find_if(scene.included.begin(), scene.included.end(),
-                                     [&](const IncludedFile& one) { return on_one_line(one.name) == first->file; });
-      if (file != scene.included.end()) location.line += file->first_line - 1;
-      diagnostics.error(location, "while the shutter is open: " + first->message);
+      report_first_error(scene, of_moment, diagnostics);
+    } else if (at_one_moment) {
+      return finder.move_to(std::move(then));
     } else {
       finder.add(i, then);
     }
