@@ -68,7 +68,7 @@ int run_reporting_errors(const std::function<int()>& action) {
     return log_misuse(error, error.more_lines());
   } catch (const SettingsError& error) {
     return log_misuse(error, {});
-  } catch (const SizeError& error) {  // what was asked for cannot be, and nothing was rendered for it
+  } catch (const FormatError& error) {  // what was asked for cannot be, and nothing was rendered for it
     log_new_error(error.what());
     return exit_code::usage;
   } catch (const std::bad_alloc&) {

@@ -28,12 +28,13 @@ class Failures(CommandTest):
         self.write("kept.exr", "old")
         os.chmod(self.path("kept.exr"), 0o444)
         before = self.names()
-        for name, reason in [("missing/a.exr", "no folder"), ("folder.exr", "it is a folder"),
-                             ("kept.exr", "read-only"), ("a.exrr", "did you mean '.exr'?"), ("a", "no extension")]:
-            message = self.fail_with(1, "scene.xml", "-o", name)
+        for code, name, reason in [(1, "missing/a.exr", "no folder"), (1, "folder.exr", "it is a folder"),
+                                   (1, "kept.exr", "read-only"), (2, "a.exrr", "did you mean '.exr'?"),
+                                   (2, "a", "no extension")]:
+            message = self.fail_with(code, "scene.xml", "-o", name)
             self.assertTrue(message.startswith(f"raytrace: error: cannot write {name}: "), message)
             self.assertIn(reason, message)
-        self.assertIn("8 bits", self.fail_with(1, "scene.xml", "-o", "a.jpg", "--bit-depth", "16"))
+        self.assertIn("8 bits", self.fail_with(2, "scene.xml", "-o", "a.jpg", "--bit-depth", "16"))
         self.assertEqual(self.names(), before)
         self.assertEqual(self.read("kept.exr"), b"old")
 

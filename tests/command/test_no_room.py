@@ -156,7 +156,7 @@ class Pipes(SafetyTest):
             message = self.fail_with(1, "scene.xml", *support.ENDLESS, "-q", "-o", name, timeout=LIMIT)
             self.assertIn(f"cannot write {name}: it is not a regular file, which alone appears whole or not at all; "
                           "write to one, and copy it", message)
-        self.assertIn("cannot write /dev/stdout: ", self.fail_with(1, "scene.xml", "-q", "-o", "/dev/stdout"))
+        self.assertIn("cannot write /dev/stdout: ", self.fail_with(2, "scene.xml", "-q", "-o", "/dev/stdout"))
 
     def test_messages_into_a_slow_pipe(self):
         """Nobody reads what the program tells until it has filled the pipe: it waits, and loses nothing."""

@@ -31,10 +31,10 @@ class Usage(CommandTest):
 
     def test_outputs_that_are_no_files(self):
         for name in ("/dev/stdout", "/dev/stderr", "/dev/fd/1", "-"):
-            message = self.fail_with(1, "scene.xml", "-o", name)
+            message = self.fail_with(2, "scene.xml", "-o", name)
             self.assertIn("write to a file, and cat it", message)
             self.assertNotIn("extension", message)
-        self.assertIn("it is a folder; name a file in it", self.fail_with(1, "scene.xml", "-o", "/"))
+        self.assertIn("it is a folder; name a file in it", self.fail_with(2, "scene.xml", "-o", "/"))
 
     def test_crops_outside_the_picture(self):
         for text in ["0,0,161,60", "0,0,80,121", "-81,0,5,5", "0,-61,5,5", "-2147483648,0,2147483647,1"]:

@@ -22,10 +22,16 @@ class OutputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A picture that is too large, or too small, for the format that its file's name asks for.
-class SizeError : public OutputError {
+/// A picture that cannot be in a file of its name: that says no format, or one that lacks what is asked for.
+class FormatError : public OutputError {
  public:
   using OutputError::OutputError;
+};
+
+/// A picture that is too large, or too small, for the format that its file's name asks for.
+class SizeError : public FormatError {
+ public:
+  using FormatError::FormatError;
 };
 
 struct CloseFile {

@@ -53,7 +53,7 @@ class ImageEncoder {
 /// ".exr", in lower case; empty if the name has none.
 std::string lower_extension(const std::string& file);
 
-/// For the format that the extension of `file` names; the name itself is only for messages. Throws OutputError if there
+/// For the format that the extension of `file` names; the name itself is only for messages. Throws FormatError if there
 /// is none, or if it cannot hold what the settings ask for.
 std::unique_ptr<ImageEncoder> make_image_encoder(const std::string& file, const ImageFileSettings& settings);
 

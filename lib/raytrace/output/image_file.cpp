@@ -30,12 +30,12 @@ std::unique_ptr<ImageEncoder> make_image_encoder(const std::string& file, const 
   const std::string extension = lower_extension(file);
   if (extension.size() < 2) {
     if (is_stream(file))
-      throw OutputError("cannot write " + file +
+      throw FormatError("cannot write " + file +
                         ": pictures appear whole or not at all, and so in files only; write to a file, and cat it");
     if (std::filesystem::is_directory(file))
-      throw OutputError("cannot write " + file + ": it is a folder; name a file in it, such as " +
+      throw FormatError("cannot write " + file + ": it is a folder; name a file in it, such as " +
                         (std::filesystem::path(file) / "picture.exr").string());
-    throw OutputError("cannot write " + file +
+    throw FormatError("cannot write " + file +
                       ": the name has no extension that says which format it is; .exr and .png are usual");
   }
   if (extension == ".exr") return make_exr_encoder(file, settings);

@@ -83,12 +83,12 @@ struct ImageFormat {
   bool halves() const { return data && !floats; }
 };
 
-/// Of files of this name with these settings. Throws OutputError if the extension is unknown.
+/// Of files of this name with these settings. Throws FormatError if the extension is unknown.
 ImageFormat image_format(const std::string& file, const ImageFileSettings& settings = {});
 
-/// Throws OutputError if files of this name cannot be written for their format: no known extension, a bit depth that
-/// the format lacks. To be called before the render, so that hours of work do not end in an error that was there
-/// before.
+/// Throws FormatError if files of this name cannot be written for their format: no known extension, a bit depth that
+/// the format lacks. To be called before the render, so that hours of work do not end in an error that was
+/// there before.
 void check_format(const std::string& file, const ImageFileSettings& settings);
 
 /// Throws SizeError if files of this name cannot hold a picture of the region's size. To be called before the render,

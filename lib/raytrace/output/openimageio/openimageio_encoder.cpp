@@ -157,9 +157,10 @@ class OpenImageIOEncoder final : public ImageEncoder {
   OpenImageIOEncoder(const std::string& file, const std::string& extension, const ImageFileSettings& settings)
       : ImageEncoder(file, settings), extension_(extension), writer_(create_writer(extension)) {
     if (!writer_) {
-      fail((is_known(extension) ? in_quotes(extension) + " is a format that can be read but not written"
-                                : "no picture format has the extension " + in_quotes(extension)) +
-           suggestion(extension));
+      throw FormatError("cannot write " + file + ": " +
+                        (is_known(extension) ? in_quotes(extension) + " is a format that can be read but not written"
+                                             : "no picture format has the extension " + in_quotes(extension)) +
+                        suggestion(extension));
     }
     choose_pixels(extension);
     // A pool of the whole process; where it cannot be started, the process crashes at its end. TIFF alone has work for
@@ -200,8 +201,9 @@ class OpenImageIOEncoder final : public ImageEncoder {
     guard([&] {
       check(writer_->open(name, spec));
       if (writer_->spec().format.size() < type_.size()) {
-        fail("this format holds " + std::to_string(8 * writer_->spec().format.size()) + " bits a channel, not " +
-             std::to_string(8 * type_.size()));
+        throw FormatError("cannot write " + file_ + ": this format holds " +
+                          std::to_string(8 * writer_->spec().format.size()) + " bits a channel, not " +
+                          std::to_string(8 * type_.size()));
       }
     });
   }
