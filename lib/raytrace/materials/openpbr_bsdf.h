@@ -311,21 +311,7 @@ struct OpenPbrBsdf {
     if (none(metalness > T(0))) return black();
     return film.on_metal(cosine, metal, specular_color);
   }
-  [[gnu::noinline]] void set_film(Lobes& layers, const T& cosine) const {
-    const Mask<T> rough = ggx().is_rough();
-    const auto reflectance = [&](const T& at_facet) { return film.on_dielectric(at_facet, eta); };
-    layers.film_share = white();
-    layers.film_reflection = reflectance(cosine);
-    if (any(rough)) {
-      const auto changes = ggx_share_changes(cosine, ggx().even_roughness(), eta, reflectance);
-      const Rgb<T> all = white() * layers.dielectric_share + changes.all;
-      const Rgb<T> reflected = white() * (layers.dielectric_share * layers.base_reflection) + changes.reflected;
-      layers.film_share = select(rough, all, white());
-      layers.film_reflection = select(rough, reflected / all, layers.film_reflection);
-    }
-    layers.under_film = white() + layers.film_reflection * T(-1);
-    layers.base_reflection = select(film.weight > T(0), mean(layers.film_reflection), layers.base_reflection);
-  }
+  void set_film(Lobes& layers, const T& cosine) const;
   /// As at_facet() and at_facet_of().
   [[gnu::noinline]] Rgb<T> at_film(const Lobes& layers, const T& cosine) const {
     const Rgb<T> reflected = film.on_dielectric(cosine, eta) / layers.film_share;

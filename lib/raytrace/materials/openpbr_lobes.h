@@ -79,6 +79,23 @@ template <class T>
 }
 
 template <class T>
+[[gnu::noinline]] void OpenPbrBsdf<T>::set_film(Lobes& layers, const T& cosine) const {
+  const Mask<T> rough = ggx().is_rough();
+  const auto reflectance = [&](const T& at_facet) { return film.on_dielectric(at_facet, eta); };
+  layers.film_share = white();
+  layers.film_reflection = reflectance(cosine);
+  if (any(rough)) {
+    const auto changes = ggx_share_changes(cosine, ggx().even_roughness(), eta, reflectance);
+    const Rgb<T> all = white() * layers.dielectric_share + changes.all;
+    const Rgb<T> reflected = white() * (layers.dielectric_share * layers.base_reflection) + changes.reflected;
+    layers.film_share = select(rough, all, white());
+    layers.film_reflection = select(rough, reflected / all, layers.film_reflection);
+  }
+  layers.under_film = white() + layers.film_reflection * T(-1);
+  layers.base_reflection = select(film.weight > T(0), mean(layers.film_reflection), layers.base_reflection);
+}
+
+template <class T>
 [[gnu::noinline]] Rgb<T> OpenPbrBsdf<T>::gloss(const Lobes& layers, const Vec3<T>& wi) const {
   const LayerFrames<T>* const frames = layers.frames;
   const Vec3<T> base_wi = frames == nullptr ? wi : frames->base.to_own(wi),
