@@ -62,9 +62,10 @@ TEST_CASE("at one moment animations and materials are as at the frame, with a wa
   std::string text = scene_with("<objects><meshes><mesh><file>fox.glb</file><animation>0</animation>" + time_keys +
                                 move_keys + "</mesh></meshes></objects>");
   text.replace(text.find("</camera>"), 0, "<shutteropen>0.5</shutteropen><shutterclose>0.5</shutterclose>");
-  CHECK(reported(text) ==
-        "s:2: warning: the animation of this <mesh> stands still while the shutter is open: its <time> counts at the "
-        "frame\n");
+  CHECK(
+      reported(text) ==
+      "s:2:18: warning: the animation of this <mesh> stands still while the shutter is open: its <time> counts at the "
+      "frame\n");
   const SceneDescription scene = accepted(text);
   const auto& mesh = std::get<ObjectItems<Mesh>>(scene.objects).at(0);
   CHECK(mesh.parameters.time == 0);
