@@ -80,10 +80,12 @@ TEST_CASE("many lights are the sum of the pictures that each makes alone") {
 
 namespace {
 
-/// 30 points and spots that fall off, in groups of so many.
-SceneDescription lamps_in_groups(int size, int samples, bool in_fog = false) {
-  std::string points, spots;
-  for (int i = 0; i < 30; ++i) {
+enum class Around { air, fog, balls };
+
+/// So many points and spots that fall off, in groups of so many.
+SceneDescription lamps_in_groups(int count, int size, int samples, Around around) {
+  std::string points, spots, balls;
+  for (int i = 0; i < count; ++i) {
     const double x = 4 * std::cos(i * 1.3), z = 4 * std::sin(i * 1.7), y = 0.5 + 0.1 * i;
     const std::string rest = "<scaleradiance>" + std::to_string(0.5 + i % 4) +
                              "</scaleradiance><color red='1' green='" + std::to_string(0.3 + 0.02 * i) +
@@ -95,6 +97,9 @@ SceneDescription lamps_in_groups(int size, int samples, bool in_fog = false) {
       spots += "<spotlight>" + vector_text("location", x, y, z) + vector_text("lookat", 0.3 * x, -1, 0.3 * z) +
                "<coneangle>70</coneangle><penumbraangle>10</penumbraangle>" + rest + "</spotlight>";
   }
+  for (int i = 0; around == Around::balls && i < 150; ++i)
+    balls += "<sphere>" + vector_text("center", i % 15 - 7, -0.8, i / 15 - 5) +
+             "<radius>0.3</radius><material>m</material></sphere>";
   return parsed_scene(scene_text(
       width, height, samples,
       "<integrator><path><maxdepth>3</maxdepth></path></integrator><lights><pointlights>" + points +
@@ -104,19 +109,29 @@ SceneDescription lamps_in_groups(int size, int samples, bool in_fog = false) {
           "<anisotropy>0.6</anisotropy></fog></fogs></materials><objects><planes><plane><point x='0' y='-1' z='0'/>"
           "<normal x='0' y='1' z='0'/><material>m</material></plane></planes><spheres><sphere><center x='0' y='0.5' "
           "z='0'/><radius>1.5</radius><material>m</material></sphere>" +
-          std::string(in_fog ? "<sphere><center x='0' y='0' z='0'/><radius>9</radius><material>fog</material></sphere>"
-                             : "") +
-          "</spheres></objects>"));
+          std::string(around == Around::fog
+                          ? "<sphere><center x='0' y='0' z='0'/><radius>9</radius><material>fog</material></sphere>"
+                          : "") +
+          balls + "</spheres></objects>"));
 }
 
 }  // namespace
 
 TEST_CASE("many lamps, of which some are drawn, make the picture that they make when each is asked") {
-  for (const bool in_fog : {false, true}) {
-    INFO((in_fog ? "in fog" : "in clear air"));
+  struct Case {
+    const char* name;
+    int lamps;  ///< up to 16 are asked at the first point
+    Around around;
+    double most_on_the_mean, most_apart;
+  };
+  for (const auto& [name, lamps, around, most_on_the_mean, most_of_a_part] :
+       {Case{"in clear air", 30, Around::air, 0.004, 0.02},
+        {"in fog", 30, Around::fog, 0.01, 0.06},
+        {"among many balls", 12, Around::balls, 0.004, 0.02}}) {
+    INFO(name);
     // Light groups are asked, or drawn from, each for itself: those of 6 lamps are asked.
-    const FloatPicture asked = rendered(lamps_in_groups(6, 64, in_fog)),
-                       drawn = rendered(lamps_in_groups(30, 256, in_fog));
+    const FloatPicture asked = rendered(lamps_in_groups(lamps, 6, 64, around)),
+                       drawn = rendered(lamps_in_groups(lamps, lamps, 256, around));
     double sum = 0, difference = 0, most_apart = 0;
     int count = 0;
     for (int i = 0; i + 8 <= width; i += 8)
@@ -135,14 +150,13 @@ TEST_CASE("many lamps, of which some are drawn, make the picture that they make 
       }
     REQUIRE(count == 25);
     INFO(difference / sum << " on the mean, at most " << most_apart);
-    CHECK(std::abs(difference) < (in_fog ? 0.01 : 0.004) * sum);
-    CHECK(most_apart < (in_fog ? 0.06 : 0.02));
+    CHECK(std::abs(difference) < most_on_the_mean * sum);
+    CHECK(most_apart < most_of_a_part);
   }
 }
 
 TEST_CASE("many lamps, of which some are drawn, have the same bits however the picture is cut") {
-  check_same_bits(lamps_in_groups(30, 8));
-  check_same_bits(lamps_in_groups(30, 8, true));
+  for (const Around around : {Around::air, Around::fog}) check_same_bits(lamps_in_groups(30, 30, 8, around));
 }
 
 }  // namespace raytrace::test

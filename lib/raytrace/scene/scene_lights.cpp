@@ -112,7 +112,7 @@ void SceneTables::sort_lights() {
     group.drawn.emplace();
     for (std::size_t light = group.first_drawn; light < group.last_light; ++light) {
       lights_[light]->add_to(*group.drawn);
-      light_origins_[light].reset();
+      if (falling_off[i] > ManyLights::most_asked) light_origins_[light].reset();
     }
     group.drawn->build(path->lightsampling);
   }

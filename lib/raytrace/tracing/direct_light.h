@@ -127,13 +127,13 @@ RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const SceneTa
     if (const MaskN may_hide = lit & has_shadow; shadows && any(may_hide)) {
       end(Stage::lights);
       counts.shadow += count_lanes(may_hide & counted);
-      const MaskN occluded = panes != nullptr ? occluded_behind_panes(scene, shadow_rays, may_hide, numbers.ids(number),
-                                                                      coherence, *panes, here.radiance)
-                             : tables.identifies_rays()
-                                 ? occluded_identified(scene, shadow_rays, may_hide, numbers.ids(number), coherence)
-                                 : scene.accelerator().occluded(shadow_rays, may_hide,
-                                                                is_drawn ? Coherence::incoherent : Coherence::coherent,
-                                                                scene.light_buffer(number));
+      const MaskN occluded =
+          panes != nullptr ? occluded_behind_panes(scene, shadow_rays, may_hide, numbers.ids(number), coherence, *panes,
+                                                   here.radiance)
+          : tables.identifies_rays() ? occluded_identified(scene, shadow_rays, may_hide, numbers.ids(number), coherence)
+          : is_drawn
+              ? scene.accelerator().occluded(shadow_rays, may_hide, Coherence::incoherent)
+              : scene.accelerator().occluded(shadow_rays, may_hide, Coherence::coherent, scene.light_buffer(number));
       lit = lit & !occluded;
       end(Stage::trace);
     }
