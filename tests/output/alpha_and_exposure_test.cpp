@@ -4,6 +4,7 @@
 
 #include "pictures.h"
 #include "raytrace/film/film_means.h"
+#include "raytrace/math/srgb.h"
 #include "raytrace/output/pixel_format.h"
 #include "support/catch.h"
 #include "support/contains.h"
@@ -17,7 +18,7 @@ namespace {
 long code(float value, int bits) { return std::lround(static_cast<double>(value) * (bits == 8 ? 255 : 65535)); }
 
 long encoded(double linear, int bits) {
-  return code(srgb_encoded(static_cast<float>(std::clamp(linear, 0.0, 1.0))), bits);
+  return code(srgb_of_linear(static_cast<float>(std::clamp(linear, 0.0, 1.0))), bits);
 }
 
 /// Straight alpha as it is stored; OpenImageIO would multiply the colour by it.

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "pictures.h"
+#include "raytrace/math/srgb.h"
 #include "raytrace/output/auto_exposure.h"
 #include "raytrace/output/pixel_format.h"
 #include "support/catch.h"
@@ -180,7 +181,7 @@ TEST_CASE("files for display hold the exposed, transformed and encoded colour of
     const Triple shown = transformed(settings.view_transform, color);
     for (int k = 0; k < 3; ++k) {
       INFO(name << " " << x << " " << k);
-      const double wanted = double{srgb_encoded(static_cast<float>(shown[static_cast<std::size_t>(k)]))} * most;
+      const double wanted = double{srgb_of_linear(static_cast<float>(shown[static_cast<std::size_t>(k)]))} * most;
       CHECK(std::abs(double{picture.value(x, 0, k)} * most - wanted) < 0.51);
     }
     CHECK(std::abs(picture.value(x, 0, 3) - pixel.alpha) < 0.01F);

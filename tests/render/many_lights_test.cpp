@@ -155,6 +155,18 @@ TEST_CASE("many lamps, of which some are drawn, make the picture that they make 
   }
 }
 
+TEST_CASE("many lamps that are all dark light nothing") {
+  for (const Around around : {Around::air, Around::fog}) {
+    SceneDescription scene = lamps_in_groups(30, 30, 1, around);
+    for (auto& light : std::get<LightItems<PointLight>>(scene.lights)) light.parameters.scaleradiance = 0;
+    for (auto& light : std::get<LightItems<SpotLight>>(scene.lights)) light.parameters.scaleradiance = 0;
+    const FloatPicture picture = rendered(scene);
+    const Pixel& middle = picture.pixels()[static_cast<std::size_t>(height / 2 * width + width / 2)];
+    CHECK(middle.green == 0);
+    CHECK(std::isfinite(picture.pixels()[0].green));
+  }
+}
+
 TEST_CASE("many lamps, of which some are drawn, have the same bits however the picture is cut") {
   for (const Around around : {Around::air, Around::fog}) check_same_bits(lamps_in_groups(30, 30, 8, around));
 }

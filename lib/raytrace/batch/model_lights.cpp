@@ -58,8 +58,6 @@ void add_unseen_lamps(SceneDescription& description, const Directions& to) {
   }
 }
 
-/// A matte grey. To be added before the model's materials, which come behind it where a printed scene is read, too: so
-/// their names and numbers are the same there.
 constexpr std::string_view sky_environment = "sky", no_environment = "none";
 
 /// Brighter above than below, so that metal and glass, which show nothing but what is around, have a shape. radiance:

@@ -121,6 +121,8 @@ void set_shape(ViewPlane& picture, double aspect) {
   picture.vres = even(std::sqrt(pixels / shape));
 }
 
+/// A matte grey. To be added before the model's materials, which come behind it where a printed scene is read, too: so
+/// their names and numbers are the same there.
 void add_floor_material(SceneDescription& description) {
   Matte::Parameters paint;
   paint.kd = 1;

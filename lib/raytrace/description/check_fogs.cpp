@@ -38,15 +38,15 @@ void add_to_fog(FogObjects& objects, const ObjectItem<T>& item) {
 void check_fogs(const SceneDescription& scene, const std::function<void(SourceLocation, const std::string&)>& warn) {
   std::vector<FogObjects> fogs(std::get<MaterialItems<Fog>>(scene.materials).size());
   if (fogs.empty()) return;
-  const auto add = [&](const ObjectLists& lists) {
+  const auto add = [&](const ObjectLists& lists, bool in_group) {
     for_each_type(Objects{}, [&]<class T>(std::type_identity<T>) {
       for (const auto& item : std::get<ObjectItems<T>>(lists))
         if (item.material.type == index_of<Fog>(Materials{}) && item.material.index < fogs.size())
-          add_to_fog(fogs[item.material.index], item);
+          for (int i = 0; i < (in_group ? 2 : 1); ++i) add_to_fog(fogs[item.material.index], item);
     });
   };
-  add(scene.objects);
-  for (const Group& group : scene.groups) add(group.objects);
+  add(scene.objects, false);
+  for (const Group& group : scene.groups) add(group.objects, true);  // which may have several instances
   for (const FogObjects& objects : fogs)
     if (objects.count == 1 && objects.is_open) warn(objects.location, objects.advice);
 }

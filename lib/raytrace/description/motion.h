@@ -20,10 +20,10 @@ inline constexpr int shutter_moments = 17;
 bool is_open_for_an_instant(const SceneDescription& scene);
 
 /// Adds what moves to the scene, if its camera's shutter is open for some time; for an instant, camera and objects are
-/// as they are then. read(after_frame, diagnostics): what
-/// the scene's file says so many frames after the scene's. An object that moves by its own numbers must keep its form
-/// and size, or it is an error, as are objects that are not there all the time. Keys of other things than the camera
-/// and objects are a warning: those stay as they are at the frame; so do the animations of files.
+/// as they are then. read(after_frame, diagnostics): what the scene's file says so many frames after the scene's. An
+/// object that moves by its own numbers must keep its form and size, or it is an error, as are objects that are not
+/// there all the time. Keys of other things than the camera and objects are a warning: those stay as they are at the
+/// frame; so do the animations of files.
 void add_motion(SceneDescription& scene,
                 const std::function<SceneDescription(double after_frame, Diagnostics& diagnostics)>& read,
                 Diagnostics& diagnostics);

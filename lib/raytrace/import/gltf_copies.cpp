@@ -27,7 +27,8 @@ bool is_deformed(const Instance& instance) {
 bool is_invertible(const Affine& affine) {
   constexpr double largest = 1e12, smallest = 1e-12;
   const double x = length(affine.x), y = length(affine.y), z = length(affine.z), at = length(affine.origin);
-  return std::max({x, y, z, at}) < largest && std::min({x, y, z}) > smallest &&
+  // What is not a number is none.
+  return std::max({x, y, z}) < largest && at < largest && std::min({x, y, z}) > smallest &&
          std::abs(affine.determinant()) > 1e-9 * x * y * z;
 }
 

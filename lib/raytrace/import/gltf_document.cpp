@@ -204,7 +204,7 @@ void Document::expand(std::size_t bytes, const Item& place) {
 }
 
 void Document::warn_once(const std::string& place, const std::string& message) {
-  if (warned_.insert(message).second) warn(place, message);
+  if (!is_quiet_ && warned_.insert(message).second) warn(place, message);
 }
 
 void Document::report(Diagnostics& diagnostics) const {

@@ -63,13 +63,15 @@ class Document {
   /// same numbers again and again take no endless time.
   void spend(std::size_t values, const Item& place);
 
-  void warn(const std::string& place, const std::string& message) { warnings_.push_back(place + ": " + message); }
+  void warn(const std::string& place, const std::string& message) {
+    if (!is_quiet_) warnings_.push_back(place + ": " + message);
+  }
   /// Of the first place alone.
   void warn_once(const std::string& place, const std::string& message);
-  std::size_t warning_count() const { return warnings_.size(); }
-  /// But the first ones.
-  void forget_warnings(std::size_t kept) { warnings_.resize(kept); }
+  /// Nothing is said while it is quiet.
+  void be_quiet(bool quiet) { is_quiet_ = quiet; }
   void report(Diagnostics& diagnostics) const;
+  std::size_t looked_at_for_warnings = 0;  ///< so many values
 
  private:
   /// The path of a file of that name.
@@ -91,6 +93,7 @@ class Document {
   std::size_t size_, decoded_bytes_ = 0, spent_ = 0, expanded_ = 0;
   std::vector<std::string> warnings_;
   std::set<std::string> warned_;
+  bool is_quiet_ = false;
 };
 
 /// Of a URI, with '/' between folders.

@@ -47,6 +47,8 @@ class Item {
     return keys;
   }
 
+  bool is_text() const { return value_->is_string(); }
+
   std::size_t size() const {
     if (!value_->is_array()) fail("must be a JSON array");
     return value_->size();

@@ -247,12 +247,13 @@ PrimitiveMaterial ModelReader::material(const Item& number) {
   if (!is_new) return known->second;
   known->second.number = static_cast<std::uint32_t>(model_.materials.size());
   textures_.begin_material();
-  const std::size_t warnings_before = document_.warning_count();
+  known->second.is_overridden = settings_.overrides(item.name());
+  document_.be_quiet(known->second.is_overridden);
   model_.materials.push_back(
       read_material(item, {[&](const Item& info) { return textures_.read(info); },
                            [&](const std::string& place, const std::string& what) { document_.warn(place, what); },
                            is_converted_model(document_.name())}));
-  if (settings_.overrides(model_.materials.back().name)) document_.forget_warnings(warnings_before);
+  document_.be_quiet(false);
   known->second.coordinates = textures_.coordinates();
   return known->second;
 }

@@ -45,6 +45,7 @@ struct PrimitiveMaterial {
   std::uint32_t number = MeshData::no_material;  ///< in the model
   /// Its textures are placed by TEXCOORD_n of these numbers, of which there are at most two.
   std::vector<std::uint64_t> coordinates{};
+  bool is_overridden = false;  ///< nothing is said of it
 };
 
 /// Those of a mesh that have faces. material: what the model has for that of the file. other_primitives

@@ -29,7 +29,7 @@ double aspect_of(double aspect) { return aspect > 0 && std::isfinite(aspect) ? a
 /// Of a spot that Blender's exporter has written.
 bool is_of_blender(const Document& document) {
   const std::optional<Item> generator = document.root()["asset"].find("generator");
-  return generator && generator->text().starts_with("Khronos glTF Blender I/O");
+  return generator && generator->is_text() && generator->text().starts_with("Khronos glTF Blender I/O");
 }
 
 void read_cone(const Item& cone, FileLight& light) {

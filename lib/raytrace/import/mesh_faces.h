@@ -20,6 +20,7 @@ struct FaceCounts {
   std::size_t cut = 0;        ///< triangles that polygons of more corners are cut into
   std::size_t too_small = 0;  ///< polygons of less than three corners
 
+  bool operator==(const FaceCounts&) const = default;
   void add(std::size_t corners) {
     if (corners == 3) {
       ++triangles;

@@ -98,6 +98,8 @@ void Reader::count_other(Chunk& chunk, LineWords words) {
   } else if (keyword == "usemtl") {
     chunk.materials.push_back({words.rest()});
   } else if (keyword == "o") {
+    // Those without faces are none.
+    if (!chunk.objects.empty() && chunk.objects.back().before == chunk.counts.faces) chunk.objects.pop_back();
     chunk.objects.push_back({words.rest(), chunk.counts.faces});
   } else if (std::find(std::begin(ignored), std::end(ignored), keyword) == std::end(ignored)) {
     if (chunk.skipped++ == 0) chunk.first_skipped = keyword;

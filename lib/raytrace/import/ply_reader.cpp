@@ -107,7 +107,8 @@ void add_textures(std::vector<std::string> names, const std::string& folder, Mes
         diagnostics.warning({}, "the texture " + in_quotes(name) + " is left out: " + reason);
     }
   }
-  if (!any) return mesh.materials.clear();
+  const auto is_overridden = [&](const MeshMaterial& material) { return settings.overrides(material.name); };
+  if (!any && std::none_of(mesh.materials.begin(), mesh.materials.end(), is_overridden)) return mesh.materials.clear();
   const auto count = static_cast<std::uint32_t>(names.size());
   const auto is_first = [&](std::uint32_t texture) { return texture == 0; };
   if (std::all_of(of_faces.begin(), of_faces.end(), is_first)) return;

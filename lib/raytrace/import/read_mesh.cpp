@@ -36,14 +36,18 @@ Vec3d origin_of(std::span<const T> positions) {
 /// MTL's illum 9 it is meant, as Blender writes an Alpha of 0.
 void make_visible(MeshData& mesh, const MeshReadSettings& settings, Diagnostics& diagnostics) {
   std::vector<bool> used(mesh.materials.size(), mesh.face_materials.empty());
-  for (const std::uint32_t material : mesh.face_materials)
-    if (material < used.size()) used[material] = true;
+  const auto use = [&](const MeshData& part) {
+    for (const std::uint32_t material : part.face_materials)
+      if (material < used.size()) used[material] = true;
+  };
+  use(mesh);
+  for (const MeshCopies& copies : mesh.copies) use(*copies.mesh);
   std::string names;
   std::size_t count = 0;
   constexpr std::size_t most_names = 10;
   for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
     MeshMaterial& material = mesh.materials[i];
-    if (material.d.value_or(1) > 0 || material.illum == 9) continue;
+    if (material.d.value_or(1) > 0 || (material.illum == 9 && !material.tf)) continue;
     material.d = 1;
     if (used[i] && !settings.overrides(material.name) && count++ < most_names)
       names += (names.empty() ? "" : ", ") + in_quotes(material.name);

@@ -44,9 +44,6 @@ std::vector<ImageAttribute> view_attributes(const ImageFileSettings& settings);
 /// The colour of a pixel, which `index` counts from the band's left upper one, row by row.
 Pixel color_at(const ImageBand& band, std::size_t index);
 
-/// OpenImageIO's linear_to_sRGB(), bit for bit.
-float srgb_encoded(float linear);
-
 /// Row `row` of the band, from its top, pixel by pixel; values: channels() for each pixel. Returns what was changed.
 Repairs stored_row(const ImageBand& band, int row, const PixelFormat& format, float* values);
 

@@ -236,8 +236,8 @@ FloatN LightTree::importance(const Node<FloatN>& node, const Vec3<FloatN>& p, co
   FloatN shining = max(emission.cosine, FloatN(0));
   if (reach_ == Reach::cone) {
     // What is on no surface may stand for other points near it.
-    const FloatN outside = select(dot(normal, normal) > FloatN(0), FloatN(0), FloatN(0.1F));
-    shining = select(emission.cosine >= FloatN(1), FloatN(1), outside);
+    const FloatN elsewhere = select(dot(normal, normal) > FloatN(0), FloatN(0), FloatN(0.1F));
+    shining = select(emission.cosine >= FloatN(1), FloatN(1), elsewhere);
   }
   return node.power * shining * facing / max(max(squared, radius2), least);
 }

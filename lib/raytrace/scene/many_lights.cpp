@@ -136,7 +136,7 @@ MaskN ManyLights::sample(Ray<FloatN>& shadow_rays, const Vec3<FloatN>& normal, c
   shadow_rays.direction = direction;
   shadow_rays.far = FloatN(1);
   const MaskN reached = (leaf.probability > FloatN(0)) & (reservoir.total() > FloatN(0));
-  const FloatN over_probability = reservoir.total() / (weight * leaf.probability);
+  const FloatN over_probability = reservoir.total() / weight / leaf.probability;
   radiance = select(reached, radiance * over_probability, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
   return has_shadow(chosen_light);
 }

@@ -28,6 +28,8 @@ class ManyLights {
   void add(const PointSource<float>& source, const PhotometricShare& photometry, bool shadows);
   /// After the last of them.
   void build(LightSampling sampling);
+  /// Whether all are dark; then nothing can be drawn.
+  bool empty() const { return tree_.empty(); }
 
   /// Leads rays, whose origins are set, to lights, where they end. radiance: receives what arrives along them, over the
   /// probability of the draw; nothing in lanes that no light reaches. normal: at the origin, of unit length; of length

@@ -86,7 +86,8 @@ void SceneTables::sort_lights() {
   const auto group_of = [&](std::size_t light) { return static_cast<std::size_t>(groups_of_lights_[light]); };
   for (std::size_t i = 0; i < lights_.size(); ++i) falling_off[group_of(i)] += lights_[i]->falls_off() ? 1 : 0;
   const auto is_drawn = [&](std::size_t light) {
-    return path != nullptr && lights_[light]->falls_off() && falling_off[group_of(light)] >= ManyLights::least;
+    return path != nullptr && path->maxdepth > 1 && lights_[light]->falls_off() &&
+           falling_off[group_of(light)] >= ManyLights::least;
   };
   const auto place = [&](std::size_t light) { return std::pair(groups_of_lights_[light], is_drawn(light)); };
   std::vector<std::size_t> order(lights_.size());
@@ -115,6 +116,9 @@ void SceneTables::sort_lights() {
       if (falling_off[i] > ManyLights::most_asked) light_origins_[light].reset();
     }
     group.drawn->build(path->lightsampling);
+    if (!group.drawn->empty()) continue;
+    group.drawn.reset();
+    group.last_light = group.first_drawn;
   }
 }
 
