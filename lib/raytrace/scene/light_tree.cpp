@@ -242,51 +242,45 @@ FloatN LightTree::importance(const Node<FloatN>& node, const Vec3<FloatN>& p, co
   return node.power * shining * facing / max(max(squared, radius2), least);
 }
 
-FloatN LightTree::first_share(const IntN& children, const Vec3<FloatN>& p, const Vec3<FloatN>& normal,
-                              MaskN& reached) const {
-  const FloatN first = importance(gather_records<Node, FloatN>(nodes_.data(), LaneIndices(children)), p, normal);
-  const FloatN second =
-      importance(gather_records<Node, FloatN>(nodes_.data(), LaneIndices(children + IntN(1))), p, normal);
+LightTree::Pair LightTree::pair(const IntN& children, const Vec3<FloatN>& p, const Vec3<FloatN>& normal,
+                                MaskN& reached) const {
+  const auto one = gather_records<Node, FloatN>(nodes_.data(), LaneIndices(children));
+  const auto two = gather_records<Node, FloatN>(nodes_.data(), LaneIndices(children + IntN(1)));
+  const FloatN first = importance(one, p, normal), second = importance(two, p, normal);
   reached = reached & (first + second > FloatN(0));
-  return first / max(first + second, FloatN(1e-38F));
-}
-
-IntN LightTree::children_of(const IntN& node) const {
-  constexpr auto fields = static_cast<std::int32_t>(sizeof(Node<float>) / sizeof(float));
-  return same_bits<IntN>(gather(&nodes_.data()->child, node * IntN(fields)));
+  return {first / max(first + second, FloatN(1e-38F)), same_bits<IntN>(one.child), same_bits<IntN>(two.child)};
 }
 
 LightTree::Choice LightTree::sample(const Vec3<FloatN>& p, const Vec3<FloatN>& normal, FloatN u) const {
-  IntN node(0), child = children_of(node);
+  IntN child(std::bit_cast<std::int32_t>(nodes_[0].child));
   FloatN probability(1);
   MaskN reached(true);
   for (MaskN inner = float_mask<FloatN>(child >= IntN(0)); any(inner); inner = float_mask<FloatN>(child >= IntN(0))) {
     MaskN reaches = reached;
-    const FloatN share = first_share(select_lanes(inner, child, IntN(1)), p, normal, reaches);
+    const Pair both = pair(select_lanes(inner, child, IntN(1)), p, normal, reaches);
     reached = reaches | (reached & !inner);
-    const MaskN first = u < share;
-    const FloatN taken = select(first, share, FloatN(1) - share);
-    const FloatN rest = select(first, u, u - share) / taken;
+    const MaskN first = u < both.first_share;
+    const FloatN taken = select(first, both.first_share, FloatN(1) - both.first_share);
+    const FloatN rest = select(first, u, u - both.first_share) / taken;
     u = select(inner, min(rest, FloatN(0x1.fffffep-1F)), u);
     probability = select(inner, probability * taken, probability);
-    node = select_lanes(inner, select_lanes(first, child, child + IntN(1)), node);
-    child = children_of(node);
+    child = select_lanes(inner, select_lanes(first, both.first_child, both.second_child), child);
   }
   return {IntN(-1) - child, select(reached, probability, FloatN(0)), u};
 }
 
 FloatN LightTree::probability(const Vec3<FloatN>& p, const Vec3<FloatN>& normal, const IntN& light) const {
-  IntN child = children_of(IntN(0)), trail = gather(trails_.data(), light);
+  IntN child(std::bit_cast<std::int32_t>(nodes_[0].child)), trail = gather(trails_.data(), light);
   FloatN probability(1);
   MaskN reached(true);
   for (MaskN inner = float_mask<FloatN>(child >= IntN(0)); any(inner); inner = float_mask<FloatN>(child >= IntN(0))) {
     MaskN reaches = reached;
-    const IntN pair = select_lanes(inner, child, IntN(1));
-    const FloatN share = first_share(pair, p, normal, reaches);
+    const Pair both = pair(select_lanes(inner, child, IntN(1)), p, normal, reaches);
     reached = reaches | (reached & !inner);
     const MaskN second = float_mask<FloatN>((trail & IntN(1)) != IntN(0));
-    probability = select(inner, probability * select(second, FloatN(1) - share, share), probability);
-    child = select_lanes(inner, children_of(select_lanes(second, pair + IntN(1), pair)), child);
+    const FloatN taken = select(second, FloatN(1) - both.first_share, both.first_share);
+    probability = select(inner, probability * taken, probability);
+    child = select_lanes(inner, select_lanes(second, both.second_child, both.first_child), child);
     trail = trail >> 1;
   }
   return select(reached, probability, FloatN(0));

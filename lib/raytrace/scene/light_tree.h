@@ -66,9 +66,13 @@ class LightTree {
   /// order: the lights below the node.
   void build(const std::vector<LightEmission>& lights, std::span<std::uint32_t> order, std::size_t node,
              std::uint32_t trail, int depth);
-  IntN children_of(const IntN& node) const;
-  /// How often the first of two children is chosen. Clears `reached` in lanes that neither of them lights.
-  FloatN first_share(const IntN& children, const Vec3<FloatN>& p, const Vec3<FloatN>& normal, MaskN& reached) const;
+  /// Two children that lie beside each other: how often the first is chosen, and what they have as `child`.
+  struct Pair {
+    FloatN first_share;
+    IntN first_child, second_child;
+  };
+  /// children: the number of the first. Clears `reached` in lanes that neither of them lights.
+  Pair pair(const IntN& children, const Vec3<FloatN>& p, const Vec3<FloatN>& normal, MaskN& reached) const;
   std::int32_t leaf_of(std::span<const std::uint32_t> lights);
   FloatN importance(const Node<FloatN>& node, const Vec3<FloatN>& p, const Vec3<FloatN>& normal) const;
 
