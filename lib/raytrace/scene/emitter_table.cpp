@@ -12,6 +12,7 @@
 
 #include "raytrace/scene/patch_geometry.h"
 #include "raytrace/scene/patch_pieces.h"
+#include "raytrace/scene/patch_shares.h"
 
 namespace raytrace {
 
@@ -23,6 +24,9 @@ constexpr std::size_t most_patches = std::size_t{1} << 24;
 /// About as many pieces at most are textured patches cut into, and about as often is a texture looked up for them; but
 /// at least once for each.
 constexpr std::size_t most_pieces = std::size_t{1} << 16, most_look_ups = std::size_t{1} << 20;
+/// Of a face and of a piece, each way: a longer way in the tree costs more than cells do, but cells know nothing of how
+/// near they are.
+constexpr int most_cuts = 4, most_cells = 64;
 
 LightEmission emission_of(const LightPatch& patch, float radiance, bool two_sided) {
   LightEmission emission{box_of(patch)};
@@ -83,8 +87,10 @@ EmitterTable::EmitterTable(const GeometryTable& world, std::span<const MaterialE
       const double each = std::sqrt(static_cast<double>(all) / static_cast<double>(std::max(textured, std::size_t{1})));
       return std::clamp(static_cast<int>(each), 1, most);
     };
-    making.cuts = each_way(most_pieces, 32);
-    making.points = each_way(most_look_ups, std::max(64, 4 * making.cuts)) / making.cuts;
+    making.cuts = each_way(most_pieces, most_cuts);
+    const int cells = each_way(most_look_ups, most_cuts * most_cells) / making.cuts;
+    making.cells = static_cast<std::int32_t>(std::bit_floor(static_cast<unsigned>(std::clamp(cells, 1, most_cells))));
+    shares_ = PatchShares(making.cells);
   }
   has_own_radiances_ = making.cuts > 0;
   if (!has_own_radiances_)
@@ -166,6 +172,7 @@ void EmitterTable::add_geometry(const GeometryTable& table, std::uint32_t geomet
     }
     faces.radiances.assign(patches.size(), material.radiance);
     faces.cuts = 1;
+    faces.cells.clear();
     if (making.cuts > 0 && material.textured && std::all_of(patches.begin(), patches.end(), is_flat))
       weigh(faces, range, primitive, material, making);
     // Primitives of one geometry have equally many, but for caps and textures: ranges are of equals.
@@ -183,7 +190,11 @@ void EmitterTable::add_geometry(const GeometryTable& table, std::uint32_t geomet
       const LightPatch& patch = patches[i];
       patches_.push_back({Vec3f(patch.origin), Vec3f(patch.a), Vec3f(patch.b),
                           PatchCode::of(patch.shape, number, setting.instance != 0)});
-      if (has_own_radiances_) radiances_.push_back(faces.radiances[i]);
+      if (has_own_radiances_) {
+        radiances_.push_back(faces.radiances[i]);
+        const std::size_t cells = faces.cells.size() / patches.size();
+        shares_.add(std::span(faces.cells).subspan(i * cells, cells));
+      }
       making.emissions.push_back(emission_of(patch, faces.radiances[i], material.two_sided));
     }
   };
@@ -194,8 +205,7 @@ void EmitterTable::add_geometry(const GeometryTable& table, std::uint32_t geomet
 EmitterTable::Sample EmitterTable::sample(const Vec3<FloatN>& p, const Vec3<FloatN>& normal, const FloatN& u,
                                           const FloatN& u1, const FloatN& u2) const {
   const LightTree::Choice choice = tree_.sample(p, normal, u);
-  const auto patch = gather_records<PatchRecord, FloatN>(patches_.data(), LaneIndices(choice.light));
-  Sample sample{sample_patch(patch, p, u1, u2), PatchCode::material_of(patch.code), choice.light};
+  Sample sample = this->sample(choice.light, p, u1, u2);
   sample.point.pdf = sample.point.pdf * choice.probability;
   return sample;
 }
@@ -255,7 +265,9 @@ double EmitterTable::area(std::size_t number) const {
 EmitterTable::Sample EmitterTable::sample(const IntN& patch, const Vec3<FloatN>& from, const FloatN& u1,
                                           const FloatN& u2) const {
   const auto record = gather_records<PatchRecord, FloatN>(patches_.data(), LaneIndices(patch));
-  return {sample_patch(record, from, u1, u2), PatchCode::material_of(record.code), patch};
+  const PatchTextures textures{shares_, patch};
+  return {sample_patch(record, from, u1, u2, shares_.empty() ? nullptr : &textures),
+          PatchCode::material_of(record.code), patch};
 }
 
 MaskN EmitterTable::has_patch(const Hits& hits, const MaskN& lanes, const Vec3<FloatN>& p) const {
@@ -279,8 +291,9 @@ FloatN EmitterTable::pdf(const Vec3<FloatN>& from, const Vec3<FloatN>& from_norm
   if (none(drawn)) return FloatN(0);
   const IntN existing = select_lanes(drawn, patch, IntN(0));
   const auto record = gather_records<PatchRecord, FloatN>(patches_.data(), LaneIndices(existing));
-  const FloatN density =
-      tree_.probability(from, from_normal, existing) * patch_pdf(record, from, surface.p, surface.ng);
+  const PatchTextures textures{shares_, existing};
+  const FloatN density = tree_.probability(from, from_normal, existing) *
+                         patch_pdf(record, from, surface.p, surface.ng, shares_.empty() ? nullptr : &textures);
   return select(drawn, density, FloatN(0));
 }
 

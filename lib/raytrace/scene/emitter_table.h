@@ -25,8 +25,9 @@ struct MaterialEmission {
 /// The patches of all surfaces that shine. Planes, and cylinders, cones and toruses whose instances stretch them,
 /// are not among them: their light counts where a path meets them.
 ///
-/// Flat patches whose texture is not even are cut into up to 32 x 32, each with the power that its part of the texture
-/// has: the tree then draws what is bright. Round ones are drawn as if they were as bright everywhere.
+/// Flat patches whose texture is not even are cut into up to 4 x 4, each with the power that its part of the texture
+/// has, so that the tree draws what is bright and near; on each, points are drawn by what its cells, up to 64 x 64,
+/// send out. Round ones are drawn as if they were as bright everywhere.
 class EmitterTable {
  public:
   /// What lanes of `hits` send out, as MaterialEmission has it, on the mean of a circle of that radius.
@@ -102,8 +103,8 @@ class EmitterTable {
   struct Making {
     std::span<const MaterialEmission> materials;
     const RadianceAt& radiance_at;
-    std::int32_t cuts = 1;    ///< of faces whose texture is not even; 0: textures do not count
-    std::int32_t points = 1;  ///< each way, at which a piece's texture is looked up
+    std::int32_t cuts = 1;   ///< of faces whose texture is not even; 0: textures do not count
+    std::int32_t cells = 1;  ///< of each piece, each way
     std::vector<LightEmission> emissions = {};
   };
   /// A primitive's patches before they are added.
@@ -111,6 +112,7 @@ class EmitterTable {
     std::vector<LightPatch> patches;
     std::vector<float> radiances;
     std::int32_t cuts = 1;
+    std::vector<float> cells = {};  ///< their radiances, patch by patch, if it is cut
   };
 
   /// f(table, geometry, primitives, setting) of all that may shine.
@@ -124,7 +126,7 @@ class EmitterTable {
   /// Cuts them where the texture is not even, and sets radiances by it. range: of the primitive.
   static void weigh(Faces& faces, const Range& range, std::int32_t primitive, const MaterialEmission& material,
                     const Making& making);
-  /// The texture's part in a face's pieces.
+  /// Of the cells of a face's pieces, piece by piece.
   static std::vector<float> radiances_of(const LightPatch& face, bool is_second, const Range& range,
                                          std::int32_t primitive, const Making& making);
   /// The number of the patch that each lane's ray hit; -1: none.
@@ -138,6 +140,7 @@ class EmitterTable {
   std::vector<PatchRecord<float>> patches_;
   std::vector<float> radiances_;  ///< of patches, if textures count; else of materials
   bool has_own_radiances_ = false;
+  PatchShares shares_;         ///< of patches, if any is cut
   std::vector<Range> ranges_;  ///< by instance and geometry
   LightTree tree_;
 };

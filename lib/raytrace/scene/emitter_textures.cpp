@@ -1,7 +1,9 @@
 // What textures make of the surfaces that light is drawn from.
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <numeric>
 
 #include "raytrace/scene/emitter_table.h"
 #include "raytrace/scene/patch_pieces.h"
@@ -10,9 +12,8 @@ namespace raytrace {
 
 std::vector<float> EmitterTable::radiances_of(const LightPatch& face, bool is_second, const Range& range,
                                               std::int32_t primitive, const Making& making) {
-  const std::int32_t points = making.points * making.points, all = making.cuts * making.cuts * points;
-  const float middle = face.shape == PatchShape::triangle ? 1.0F / 3 : 0.5F;
-  const double radius = std::max(length(face.a), length(face.b)) / (making.cuts * making.points);
+  const std::int32_t cells = making.cells * making.cells, all = making.cuts * making.cuts * cells;
+  const double radius = std::max(length(face.a), length(face.b)) / (making.cuts * making.cells);
   SurfaceInteraction<FloatN> surface{};
   surface.ng = surface.ns = surface.wo = Vec3<FloatN>(Vec3f(normalize(cross(face.a, face.b))));
   surface.front = MaskN(true);
@@ -20,20 +21,26 @@ std::vector<float> EmitterTable::radiances_of(const LightPatch& face, bool is_se
   hits.instance = UintN(range.instance);
   hits.geometry = UintN(range.geometry);
   hits.primitive = IntN(primitive);
-  std::vector<double> sums(static_cast<std::size_t>(making.cuts * making.cuts));
+  std::vector<float> result;
   for (std::int32_t first = 0; first < all; first += packet_lanes) {
     const std::int32_t lanes = std::min<std::int32_t>(packet_lanes, all - first);
     alignas(64) std::array<float, packet_lanes> x{}, y{}, u{}, v{}, radiances{};
+    const auto middle = [&](const IntN& cell) {
+      return (to_float(cell) + FloatN(0.5F)) * FloatN(1 / static_cast<float>(making.cells));
+    };
+    const IntN cell = (IntN(first) + lane_numbers<IntN>()) & IntN(cells - 1), row = cell & IntN(making.cells - 1);
+    const Vec2<FloatN> in_piece =
+        flat_point(MaskN(face.shape == PatchShape::triangle),
+                   middle((cell - row) >> std::countr_zero(static_cast<unsigned>(making.cells))), middle(row));
     for (std::int32_t lane = 0; lane < lanes; ++lane) {
-      const std::int32_t number = first + lane;
-      const Vec2<float> place = in_whole(face.shape, making.cuts, number / points,
-                                         in_whole(face.shape, making.points, number % points, {middle, middle}));
+      const auto i = static_cast<std::size_t>(lane);
+      const Vec2<float> place =
+          in_whole(face.shape, making.cuts, (first + lane) / cells, {in_piece.x.get(i), in_piece.y.get(i)});
       const Vec2<float> uv = range.turned(place, is_second);
-      const auto at = static_cast<std::size_t>(lane);
-      x[at] = place.x;
-      y[at] = place.y;
-      u[at] = uv.x;
-      v[at] = uv.y;
+      x[i] = place.x;
+      y[i] = place.y;
+      u[i] = uv.x;
+      v[i] = uv.y;
     }
     hits.hit = first_lanes<FloatN>(lanes);
     hits.u = FloatN::load_aligned(u.data());
@@ -42,11 +49,8 @@ std::vector<float> EmitterTable::radiances_of(const LightPatch& face, bool is_se
     surface.p = Vec3<FloatN>(Vec3f(face.origin)) + Vec3<FloatN>(Vec3f(face.a)) * FloatN::load_aligned(x.data()) +
                 Vec3<FloatN>(Vec3f(face.b)) * FloatN::load_aligned(y.data());
     making.radiance_at(hits, surface, FloatN(static_cast<float>(radius))).store_aligned(radiances.data());
-    for (std::int32_t lane = 0; lane < lanes; ++lane)
-      sums[static_cast<std::size_t>((first + lane) / points)] += double{radiances[static_cast<std::size_t>(lane)]};
+    result.insert(result.end(), radiances.begin(), radiances.begin() + lanes);
   }
-  std::vector<float> result;
-  for (const double sum : sums) result.push_back(static_cast<float>(sum / points));
   return result;
 }
 
@@ -54,8 +58,8 @@ void EmitterTable::weigh(Faces& faces, const Range& range, std::int32_t primitiv
                          const Making& making) {
   // What look-ups miss may shine all the same: nothing is left out.
   constexpr float least_of_mean = 0.1F, least_of_most = 1e-4F;
-  constexpr float uneven = 2;  // the brightest piece to the dimmest: less is not worth the longer way in the tree
-  std::vector<float> pieces, wholes;
+  constexpr float uneven = 2;  // the brightest cell to the dimmest: less is not worth the longer way in the tree
+  std::vector<float> cells, wholes;
   bool is_even = true;
   for (std::size_t i = 0; i < faces.patches.size(); ++i) {
     std::vector<float> face = radiances_of(faces.patches[i], range.is_mesh && i > 0, range, primitive, making);
@@ -70,7 +74,7 @@ void EmitterTable::weigh(Faces& faces, const Range& range, std::int32_t primitiv
     // Textures that its emission has none of leave a material as it is.
     const bool is_whole = std::abs(mean - material.radiance) <= material.radiance * 1e-4F;
     wholes.push_back(is_whole ? material.radiance : std::max(mean, least));
-    pieces.insert(pieces.end(), face.begin(), face.end());
+    cells.insert(cells.end(), face.begin(), face.end());
   }
   if (is_even) {
     faces.radiances = std::move(wholes);
@@ -79,7 +83,11 @@ void EmitterTable::weigh(Faces& faces, const Range& range, std::int32_t primitiv
   std::vector<LightPatch> patches;
   for (const LightPatch& face : faces.patches)
     for (std::int32_t i = 0; i < making.cuts * making.cuts; ++i) patches.push_back(piece_of(face, making.cuts, i));
-  faces = {std::move(patches), std::move(pieces), making.cuts};
+  std::vector<float> pieces;
+  const std::ptrdiff_t each = making.cells * making.cells;
+  for (auto cell = cells.begin(); cell != cells.end(); cell += each)
+    pieces.push_back(static_cast<float>(std::accumulate(cell, cell + each, 0.0) / static_cast<double>(each)));
+  faces = {std::move(patches), std::move(pieces), making.cuts, std::move(cells)};
 }
 
 }  // namespace raytrace

@@ -15,6 +15,8 @@ namespace raytrace {
 namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
+/// Where patches are near, by the tangent of half the solid angle: even ones, and such whose textures are not.
+constexpr float near_even = 0x1p-8F, near_uneven = 0.1F;
 
 MaskN is(const PatchRecord<FloatN>& patch, PatchShape shape) {
   const IntN shapes = same_bits<IntN>(patch.code) & IntN((1 << PatchCode::shape_bits) - 1);
@@ -108,10 +110,10 @@ struct SphericalTriangle {
   FloatN volume;       ///< of the three vectors
   FloatN denominator;  ///< volume / denominator is the tangent of half the solid angle
 
-  MaskN is_near() const {
+  MaskN is_near(const FloatN& least) const {
     // Lines from the apex to its opposite would go anywhere.
     const FloatN from_opposite = FloatN(1) + min(dot(apex, first), dot(apex, last));
-    return (volume > FloatN(0x1p-8F) * abs(denominator)) & (from_opposite > FloatN(0x1p-10F));
+    return (volume > least * abs(denominator)) & (from_opposite > FloatN(0x1p-10F));
   }
   FloatN half_turns() const { return turns(volume, denominator); }  ///< half the solid angle over 2 pi
 
@@ -135,8 +137,16 @@ struct FlatView {
   std::array<SphericalTriangle, 2> triangles;  ///< a triangle is the first
   MaskN near;
   std::array<FloatN, 2> half_turns{};  ///< of solid angle, where any lane is near
+  MaskN uneven{false};                 ///< whether textures are
+  FloatN share;                        ///< where they are: how dense points drawn evenly in light are, on the mean 1
 
-  FlatView(const PatchRecord<FloatN>& patch, const Vec3<FloatN>& from) : to_origin(patch.origin - from) {
+  FlatView(const PatchRecord<FloatN>& patch, const Vec3<FloatN>& from, const PatchTextures* textures)
+      : to_origin(patch.origin - from) {
+    FloatN least(near_even);
+    if (textures != nullptr) {
+      uneven = textures->shares.uneven(textures->patch);
+      least = select(uneven, FloatN(near_uneven), least);
+    }
     const MaskN is_triangle = is(patch, PatchShape::triangle);
     const FloatN height = abs(dot(to_origin, cross(patch.a, patch.b)));
     const Vec3<FloatN> second = to_origin + patch.a, fourth = to_origin + patch.b;
@@ -148,10 +158,14 @@ struct FlatView {
     const FloatN volume = height * inverse1 * inverse3, diagonal = FloatN(1) + dot(apex, w3);
     triangles = {{{w2, apex, w3, volume * inverse2, diagonal + dot(w2, apex + w3)},
                   {w3, apex, w4, volume * inverse4, diagonal + dot(w4, apex + w3)}}};
-    near = triangles[0].is_near() & (is_triangle | triangles[1].is_near());
+    near = triangles[0].is_near(least) & (is_triangle | triangles[1].is_near(least));
     if (any(near)) half_turns = {triangles[0].half_turns(), select(is_triangle, FloatN(0), triangles[1].half_turns())};
   }
-  FloatN pdf() const { return FloatN(1 / (4 * pi)) / (half_turns[0] + half_turns[1]); }
+  /// by_area: the density where points are drawn by area.
+  FloatN pdf(const FloatN& by_area) const {
+    const FloatN by_angle = FloatN(1 / (4 * pi)) / (half_turns[0] + half_turns[1]);
+    return select(uneven, (by_area + by_angle) * FloatN(0.5F), by_angle);
+  }
 
   /// How far along a and b the drawn point is.
   std::array<FloatN, 2> sample(const PatchRecord<FloatN>& patch, const FloatN& u1, const FloatN& u2) const {
@@ -205,17 +219,38 @@ void set(const MaskN& here, const Vec3<FloatN>& from, const Vec3<FloatN>& p, con
   result.error = select(here, rounding_error(p, size), result.error);
 }
 
-void sample_flat(const PatchRecord<FloatN>& patch, const MaskN& here, const Vec3<FloatN>& from, const FlatView& view,
-                 const FloatN& u1, const FloatN& u2, PatchSample& result) {
-  // Triangles by halves of the square: Heitz, "A Low-Distortion Map Between Triangle and Square", 2019.
-  const MaskN triangle = is(patch, PatchShape::triangle), below = u1 < u2;
-  const FloatN half1 = u1 * FloatN(0.5F), half2 = u2 * FloatN(0.5F);
-  result.u = select(triangle, select(below, half1, u1 - half2), u1);
-  result.v = select(triangle, select(below, u2 - half1, half2), u2);
-  if (any(view.near)) {
-    const auto [u, v] = view.sample(patch, u1, u2);
-    result.u = select(view.near, u, result.u);
-    result.v = select(view.near, v, result.v);
+/// How far along a and b of a flat patch, and the way back.
+Vec2<FloatN> square_of(const MaskN& triangle, const Vec2<FloatN>& point) {
+  const FloatN &u = point.x, &v = point.y, both = u + v;
+  const MaskN below = u < v;
+  return {select(triangle, select(below, u + u, both), u), select(triangle, select(below, both, v + v), v)};
+}
+
+/// view: its share is set.
+void sample_flat(const PatchRecord<FloatN>& patch, const MaskN& here, const Vec3<FloatN>& from,
+                 const PatchTextures* textures, const FloatN& u1, const FloatN& u2, FlatView& view,
+                 PatchSample& result) {
+  const MaskN triangle = is(patch, PatchShape::triangle);
+  MaskN by_angle = view.near;
+  FloatN first = u1;
+  Vec2<FloatN> square{u1, u2};
+  if (any(view.uneven)) {
+    const MaskN lower = u1 < FloatN(0.5F);
+    by_angle = view.near & (lower | !view.uneven);
+    first = select(view.near & view.uneven, u1 + u1 - select(lower, FloatN(0), FloatN(1)), u1);
+    const PatchShares::Draw drawn = textures->shares.draw(textures->patch, first, u2);
+    square = {select(view.uneven, drawn.square.x, u1), select(view.uneven, drawn.square.y, u2)};
+    view.share = drawn.density;
+  }
+  const Vec2<FloatN> point = flat_point(triangle, square.x, square.y);
+  result.u = point.x;
+  result.v = point.y;
+  if (any(by_angle)) {
+    const auto [u, v] = view.sample(patch, first, u2);
+    result.u = select(by_angle, u, result.u);
+    result.v = select(by_angle, v, result.v);
+    if (any(by_angle & view.uneven))
+      view.share = select(by_angle, textures->shares.density(textures->patch, square_of(triangle, {u, v})), view.share);
   }
   const Vec3<FloatN> across = cross(patch.a, patch.b);
   set(here, from, patch.origin + patch.a * result.u + patch.b * result.v, across * (FloatN(1) / length(across)),
@@ -303,6 +338,7 @@ FloatN density(const PatchRecord<FloatN>& patch, const std::optional<FlatView>& 
               band = is(patch, PatchShape::band), torus = is(patch, PatchShape::torus),
               ellipse = is(patch, PatchShape::ellipse), flat = !(sphere | ellipsoid | band | torus | ellipse);
   FloatN per_area = flat_density(patch);
+  if (view && any(view->uneven)) per_area = select(view->uneven, per_area * view->share, per_area);
   if (any(band)) per_area = select(band, band_density(patch), per_area);
   if (any(torus)) per_area = select(torus, torus_density(patch, p), per_area);
   if (any(ellipse)) per_area = select(ellipse, Ellipse(patch).density(), per_area);
@@ -318,22 +354,29 @@ FloatN density(const PatchRecord<FloatN>& patch, const std::optional<FlatView>& 
     const FloatN inside = per_solid_angle(one.density(normal), from, p, normal);
     pdf = select(ellipsoid, select(cone.outside, one.cone_pdf(cone, p - from), inside), pdf);
   }
-  if (view && any(view->near)) pdf = select(flat & view->near, view->pdf(), pdf);
+  if (view && any(view->near)) pdf = select(flat & view->near, view->pdf(pdf), pdf);
   return pdf;
 }
 
 }  // namespace
 
-PatchSample sample_patch(const PatchRecord<FloatN>& patch, const Vec3<FloatN>& from, const FloatN& u1,
-                         const FloatN& u2) {
+Vec2<FloatN> flat_point(const MaskN& triangle, const FloatN& u1, const FloatN& u2) {
+  const MaskN below = u1 < u2;
+  const FloatN half1 = u1 * FloatN(0.5F), half2 = u2 * FloatN(0.5F);
+  return {select(triangle, select(below, half1, u1 - half2), u1),
+          select(triangle, select(below, u2 - half1, half2), u2)};
+}
+
+PatchSample sample_patch(const PatchRecord<FloatN>& patch, const Vec3<FloatN>& from, const FloatN& u1, const FloatN& u2,
+                         const PatchTextures* textures) {
   const MaskN sphere = is(patch, PatchShape::sphere), ellipsoid = is(patch, PatchShape::ellipsoid),
               band = is(patch, PatchShape::band), torus = is(patch, PatchShape::torus),
               ellipse = is(patch, PatchShape::ellipse), flat = !(sphere | ellipsoid | band | torus | ellipse);
   PatchSample result{};
   std::optional<FlatView> view;
   if (any(flat)) {
-    view.emplace(patch, from);
-    sample_flat(patch, flat, from, *view, u1, u2, result);
+    view.emplace(patch, from, textures);
+    sample_flat(patch, flat, from, textures, u1, u2, *view, result);
   }
   if (any(sphere)) sample_sphere(patch, sphere, from, u1, u2, result);
   if (any(ellipsoid)) sample_ellipsoid(patch, ellipsoid, from, u1, u2, result);
@@ -351,9 +394,18 @@ PatchSample sample_patch(const PatchRecord<FloatN>& patch, const Vec3<FloatN>& f
 }
 
 FloatN patch_pdf(const PatchRecord<FloatN>& patch, const Vec3<FloatN>& from, const Vec3<FloatN>& p,
-                 const Vec3<FloatN>& normal) {
+                 const Vec3<FloatN>& normal, const PatchTextures* textures) {
   std::optional<FlatView> view;
-  if (any(is(patch, PatchShape::parallelogram) | is(patch, PatchShape::triangle))) view.emplace(patch, from);
+  if (const MaskN triangle = is(patch, PatchShape::triangle); any(triangle | is(patch, PatchShape::parallelogram))) {
+    view.emplace(patch, from, textures);
+    if (any(view->uneven)) {
+      const Vec3<FloatN> way = p - patch.origin, across = cross(patch.a, patch.b);
+      const FloatN scale = FloatN(1) / dot(across, across);
+      view->share = textures->shares.density(
+          textures->patch,
+          square_of(triangle, {dot(cross(way, patch.b), across) * scale, dot(cross(patch.a, way), across) * scale}));
+    }
+  }
   return density(patch, view, from, p, normal);
 }
 

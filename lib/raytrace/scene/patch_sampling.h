@@ -5,7 +5,9 @@
 #include <cstdint>
 
 #include "raytrace/math/simd.h"
+#include "raytrace/math/vec2.h"
 #include "raytrace/math/vec3.h"
+#include "raytrace/scene/patch_shares.h"
 #include "raytrace/shapes/light_patch.h"
 
 namespace raytrace {
@@ -33,6 +35,12 @@ struct PatchCode {
   static IntN material_of(const FloatN& code) { return same_bits<IntN>(code) >> material_shift; }
 };
 
+/// The shares of patches, and the lanes' patches among them.
+struct PatchTextures {
+  const PatchShares& shares;
+  IntN patch;
+};
+
 /// Points of patches, one a lane.
 struct PatchSample {
   Vec3<FloatN> p, normal;  ///< the normal has unit length, on the front
@@ -50,11 +58,17 @@ struct PatchSample {
 /// Flat patches: Peters, "BRDF Importance Sampling for Polygonal Lights", 2021, section 3. Near are those that cover
 /// more than about 0.01 of solid angle, from points that are not about in their planes: for others floats do not
 /// tell directions apart well enough, and either way is as good.
-PatchSample sample_patch(const PatchRecord<FloatN>& patch, const Vec3<FloatN>& from, const FloatN& u1,
-                         const FloatN& u2);
+///
+/// Those of flat patches whose textures are uneven are drawn evenly in light, or, where they are so near that they
+/// cover more than about 0.2, by half evenly in solid angle: there what sends out little may bring as much.
+PatchSample sample_patch(const PatchRecord<FloatN>& patch, const Vec3<FloatN>& from, const FloatN& u1, const FloatN& u2,
+                         const PatchTextures* textures = nullptr);
 
 /// The density, per solid angle, at which sample_patch() draws p, where the normal is that.
 FloatN patch_pdf(const PatchRecord<FloatN>& patch, const Vec3<FloatN>& from, const Vec3<FloatN>& p,
-                 const Vec3<FloatN>& normal);
+                 const Vec3<FloatN>& normal, const PatchTextures* textures = nullptr);
 
+/// How far along a and b of a flat patch the point is that sample_patch() draws, evenly in area, out of u1 and u2.
+/// Triangles by halves of the square: Heitz, "A Low-Distortion Map Between Triangle and Square", 2019.
+Vec2<FloatN> flat_point(const MaskN& triangle, const FloatN& u1, const FloatN& u2);
 }  // namespace raytrace
