@@ -1,7 +1,6 @@
 // Ambient occlusion.
 #pragma once
 
-#include <bit>
 #include <variant>
 
 #include "raytrace/integrators/ambient_occlusion.h"
@@ -9,6 +8,7 @@
 #include "raytrace/math/kernel.h"
 #include "raytrace/math/turns.h"
 #include "raytrace/tracing/first_surface.h"
+#include "raytrace/tracing/identified_rays.h"
 
 namespace raytrace {
 
@@ -35,11 +35,8 @@ class Kernel<AmbientOcclusion> {
       // Below the true surface there is the thing itself.
       const MaskN upwards = met.hits.hit & (dot(rays.direction, surface.true_normal()) > FloatN(0));
       counts.shadow += count_lanes(upwards & counted);
-      const MaskN occluded =
-          scene.tables().identifies_rays()
-              ? occluded_identified(scene, rays, upwards, {camera.pixel, camera.sample, 1}, Coherence::incoherent)
-              : scene.accelerator().occluded(rays, upwards, Coherence::incoherent);
-      const FloatN white = select(upwards & !occluded, FloatN(1), FloatN(0));
+      const MaskN hidden = occluded(scene, rays, upwards, {camera.pixel, camera.sample, 1}, Coherence::incoherent);
+      const FloatN white = select(upwards & !hidden, FloatN(1), FloatN(0));
       return Rgb<FloatN>{white, white, white};
     });
   }

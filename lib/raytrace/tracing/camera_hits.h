@@ -2,23 +2,18 @@
 #pragma once
 
 #include "raytrace/accel/traced_scene.h"
+#include "raytrace/tracing/identified_rays.h"
 #include "raytrace/tracing/shadow_catcher.h"
 
 namespace raytrace {
-
-/// In scenes that identify their rays.
-[[gnu::noinline]] inline Hits intersect_identified(const TracedScene& scene, const CameraRays& camera,
-                                                   Ray<FloatN>& rays, const MaskN& active) {
-  const RayIdentity identity(scene.tables(), scene.accelerator(), rays, {camera.pixel, camera.sample, 0}, &camera);
-  return scene.accelerator().intersect(rays, active, Coherence::coherent, nullptr, &identity);
-}
 
 /// Ends the rays at their nearest hits. Those of a camera that is far away start anew from the eye where they hit
 /// something that is closer to it than to where they started: floats are more precise there.
 RAYTRACE_INLINE Hits nearest_camera_hits(const TracedScene& scene, CameraRays& camera, const MaskN& active) {
   Ray<FloatN>& rays = camera.rays;
   const auto intersect = [&](Ray<FloatN>& some, const MaskN& lanes, const DirectionBuffer* buffer) {
-    return scene.tables().identifies_rays() ? intersect_identified(scene, camera, some, lanes)
+    return scene.tables().identifies_rays() ? intersect_identified(scene, some, lanes, {camera.pixel, camera.sample, 0},
+                                                                   Coherence::coherent, &camera)
                                             : scene.accelerator().intersect(some, lanes, Coherence::coherent, buffer);
   };
   Hits hits = intersect(rays, active, scene.camera_buffer());

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <optional>
 
 #include "raytrace/accel/surface_uv.h"
 #include "raytrace/accel/traced_scene.h"
 #include "raytrace/tracing/fog.h"
+#include "raytrace/tracing/identified_rays.h"
 #include "raytrace/tracing/panes.h"
 #include "raytrace/tracing/render_report.h"
 #include "raytrace/tracing/stage_times.h"
@@ -31,14 +31,7 @@ RAYTRACE_INLINE std::optional<TexturePoint<FloatN>> add_textures(const SceneTabl
   return point;
 }
 
-/// In scenes that identify their rays.
-[[gnu::noinline]] inline MaskN occluded_identified(const TracedScene& scene, const Ray<FloatN>& rays,
-                                                   const MaskN& active, const RayIds& ids, Coherence coherence) {
-  const RayIdentity identity(scene.tables(), scene.accelerator(), rays, ids);
-  return scene.accelerator().occluded(rays, active, coherence, nullptr, &identity);
-}
-
-/// The same of all but panes. light: of what is not occluded, panes take their part.
+/// As occluded_identified(), by all but panes. light: of what is not occluded, panes take their part.
 [[gnu::noinline]] inline MaskN occluded_behind_panes(const TracedScene& scene, const Ray<FloatN>& rays,
                                                      const MaskN& active, const RayIds& ids, Coherence coherence,
                                                      const PanesAhead& panes, Rgb<FloatN>& light) {

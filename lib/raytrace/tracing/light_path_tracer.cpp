@@ -9,6 +9,7 @@
 #include "raytrace/sampling/sampler.h"
 #include "raytrace/tracing/direct_light.h"
 #include "raytrace/tracing/fog.h"
+#include "raytrace/tracing/identified_rays.h"
 #include "raytrace/tracing/media.h"
 #include "raytrace/tracing/sampled_light.h"
 
@@ -28,10 +29,8 @@ Hits LightPathTracer::intersect(LightPathPacket& path, MediumStack& media, int d
                                 const MaskN& lanes, RayCounts& counts) const {
   counts.indirect += count_lanes(lanes);
   rays.far = infinity<FloatN>();
-  if (!tables_.identifies_rays()) return scene_.accelerator().intersect(rays, lanes, Coherence::incoherent);
   const RayIds ids = ray_ids(path, static_cast<std::uint32_t>(depth) * 2);
-  const RayIdentity identity(tables_, scene_.accelerator(), rays, ids);
-  const Hits hits = scene_.accelerator().intersect(rays, lanes, Coherence::incoherent, nullptr, &identity);
+  const Hits hits = raytrace::intersect(scene_, rays, lanes, ids, Coherence::incoherent);
   if (tables_.media().has_fog() && any(hits.hit)) [[unlikely]] {
     const Rgb<FloatN> left = fog_transmittance(scene_, rays, hits.hit, ids, media);
     path.flux = select(hits.hit, path.flux * left, path.flux);
@@ -151,9 +150,7 @@ MaskN LightPathTracer::arrive_first(LightPathPacket& path, const Vec3<FloatN>& f
   const MaskN far = starts(LightPathStart::far_away);
   if (none(far)) return lanes;
   const Ray<FloatN> back{from, -path.rays.direction, FloatN(0), infinity<FloatN>()};
-  const MaskN hidden = tables_.identifies_rays()
-                           ? occluded_identified(scene_, back, far, ray_ids(path, ~0U >> 2U), Coherence::incoherent)
-                           : scene_.accelerator().occluded(back, far, Coherence::incoherent);
+  const MaskN hidden = occluded(scene_, back, far, ray_ids(path, ~0U >> 2U), Coherence::incoherent);
   return lanes & !hidden;
 }
 

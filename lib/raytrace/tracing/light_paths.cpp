@@ -12,6 +12,7 @@
 #include "raytrace/sampling/sampler.h"
 #include "raytrace/tracing/direct_light.h"
 #include "raytrace/tracing/fog.h"
+#include "raytrace/tracing/identified_rays.h"
 #include "raytrace/tracing/light_layers.h"
 #include "raytrace/tracing/sampled_light.h"
 
@@ -123,16 +124,11 @@ void LightPaths::arrive(const LightPathPoint& at, const MaskN& scattered) {
   ray.near = FloatN(0);
   ray.far = FloatN(1);
   report_->rays.shadow += count_lanes(arrives);
-  const MaskN hidden =
-      tables_.identifies_rays()
-          ? occluded_identified(scene_, ray, arrives, ray_ids(path, static_cast<std::uint32_t>(depth) * 2 + 1),
-                                Coherence::incoherent)
-          : scene_.accelerator().occluded(ray, arrives, Coherence::incoherent);
+  const RayIds ids = ray_ids(path, static_cast<std::uint32_t>(depth) * 2 + 1);
+  const MaskN hidden = occluded(scene_, ray, arrives, ids, Coherence::incoherent);
   arrives = arrives & !hidden;
-  if (has_fog && any(arrives)) [[unlikely]] {
-    const RayIds ids = ray_ids(path, static_cast<std::uint32_t>(depth) * 2 + 1);
+  if (has_fog && any(arrives)) [[unlikely]]
     radiance = radiance * light_through(scene_, ray, arrives, ids, {media, boundary.current});
-  }
   for (std::uint32_t left = bits_of<FloatN>(arrives); left != 0; left &= left - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(left));
     splat(at, lane, points[lane], radiance);

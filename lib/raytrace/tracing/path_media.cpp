@@ -1,7 +1,7 @@
 // The ways of paths through media, and below surfaces.
-#include <bit>
 #include <utility>
 
+#include "raytrace/tracing/identified_rays.h"
 #include "raytrace/tracing/media.h"
 #include "raytrace/tracing/path_batch.h"
 #include "raytrace/tracing/random_walk.h"
@@ -40,11 +40,8 @@ MediumBoundary PathBatch::find_boundary(PathPacket& path, MediumStack& media, Hi
       return any(walks) ? select(walks, walked, next) : next;
     }
     counts.indirect += count_lanes(lanes);
-    const RayIdentity identity(
-        tables, scene_.accelerator(), rays,
-        {path.pixel, path.sample, 0x20000000U | static_cast<std::uint32_t>(depth) << 8U | (passes++ & 0xFFU)});
-    const Hits next = scene_.accelerator().intersect(rays, lanes, Coherence::incoherent, nullptr,
-                                                     tables.identifies_rays() ? &identity : nullptr);
+    const std::uint32_t id = 0x20000000U | static_cast<std::uint32_t>(depth) << 8U | (passes++ & 0xFFU);
+    const Hits next = raytrace::intersect(scene_, rays, lanes, {path.pixel, path.sample, id}, Coherence::incoherent);
     if (const MaskN escaped = lanes & !next.hit; any(escaped)) {
       const Ray<FloatN> last = path.rays;
       path.rays = rays;

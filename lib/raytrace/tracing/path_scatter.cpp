@@ -1,5 +1,6 @@
 // From one point of a path to the next.
 #include "raytrace/sampling/sampler.h"
+#include "raytrace/tracing/identified_rays.h"
 #include "raytrace/tracing/panes.h"
 #include "raytrace/tracing/path_batch.h"
 
@@ -135,13 +136,7 @@ void PathBatch::scatter(PathPacket& path, const PathDeparture& from, const BsdfS
     return clock_.end(Stage::trace);
   }
   counts.indirect += count_lanes(alive);
-  Hits hits;
-  if (tables.identifies_rays()) {
-    const RayIdentity identity(tables, scene_.accelerator(), rays, {path.pixel, path.sample, from.next_key});
-    hits = scene_.accelerator().intersect(rays, alive, Coherence::incoherent, nullptr, &identity);
-  } else {
-    hits = scene_.accelerator().intersect(rays, alive, Coherence::incoherent);
-  }
+  const Hits hits = intersect(scene_, rays, alive, {path.pixel, path.sample, from.next_key}, Coherence::incoherent);
   clock_.end(Stage::trace);
   if (const MaskN escaped = alive & !hits.hit; any(escaped)) add_escaped(path, escaped, depth + 1);
   clock_.end(Stage::lights);

@@ -1,9 +1,8 @@
 #include "raytrace/tracing/random_walk.h"
 
-#include <bit>
-
 #include "raytrace/bsdfs/henyey_greenstein.h"
 #include "raytrace/sampling/ray_ids.h"
+#include "raytrace/tracing/identified_rays.h"
 
 namespace raytrace {
 
@@ -49,14 +48,8 @@ void walk(const TracedScene& scene, const Scatterers& scatterers, MaskN walks, c
     const FloatN length = -log(FloatN(1) - number(step, 1)) / chosen(number(step, 0), light, scatterers.extinction);
     rays.far = select(walks, min(length, FloatN(1e17F)), rays.far);
     counts.indirect += count_lanes(walks);
-    Hits hits;
-    if (tables.identifies_rays()) [[unlikely]] {
-      const std::uint32_t id = 0x80000000U | ids.walk << 14U | static_cast<std::uint32_t>(step);
-      const RayIdentity identity(tables, scene.accelerator(), rays, {ids.pixel, ids.sample, id});
-      hits = scene.accelerator().intersect(rays, walks, Coherence::incoherent, nullptr, &identity);
-    } else {
-      hits = scene.accelerator().intersect(rays, walks, Coherence::incoherent);
-    }
+    const std::uint32_t id = 0x80000000U | ids.walk << 14U | static_cast<std::uint32_t>(step);
+    Hits hits = intersect(scene, rays, walks, {ids.pixel, ids.sample, id}, Coherence::incoherent);
     const Rgb<FloatN> left = exp_of(scatterers.extinction * -rays.far);
     const Rgb<FloatN> density = select(hits.hit, left, scatterers.extinction * left);
     const FloatN mean_density = sum(light * density) / sum(light);

@@ -2,12 +2,11 @@
 // multiple importance sampling (Veach 1997, chapter 9; pbrt-v4, section 13.4).
 #pragma once
 
-#include <bit>
-
 #include "raytrace/math/frame.h"
 #include "raytrace/sampling/sampler.h"
 #include "raytrace/tracing/direct_light.h"
 #include "raytrace/tracing/fog.h"
+#include "raytrace/tracing/identified_rays.h"
 #include "raytrace/tracing/stage_times.h"
 
 namespace raytrace {
@@ -135,11 +134,9 @@ inline Rgb<FloatN> arriving_light(const TracedScene& scene, const PathVertex& ve
   if (none(lit)) return black;
   counts.shadow += count_lanes(lit);
   clock.end(Stage::lights);
-  const MaskN occluded = panes != nullptr
-                             ? occluded_behind_panes(scene, light.ray, lit, ids, coherence, *panes, radiance)
-                         : tables.identifies_rays() ? occluded_identified(scene, light.ray, lit, ids, coherence)
-                                                    : scene.accelerator().occluded(light.ray, lit, coherence);
-  const MaskN arrives = lit & !occluded;
+  const MaskN hidden = panes != nullptr ? occluded_behind_panes(scene, light.ray, lit, ids, coherence, *panes, radiance)
+                                        : occluded(scene, light.ray, lit, ids, coherence);
+  const MaskN arrives = lit & !hidden;
   clock.end(Stage::trace);
   if (media == nullptr) [[likely]]
     return select(arrives, radiance, black);

@@ -1,6 +1,5 @@
 #include "raytrace/tracing/shadow_catcher.h"
 
-#include <bit>
 #include <numbers>
 #include <variant>
 
@@ -9,6 +8,7 @@
 #include "raytrace/sampling/reservoir.h"
 #include "raytrace/sampling/sampler.h"
 #include "raytrace/tracing/direct_light.h"
+#include "raytrace/tracing/identified_rays.h"
 #include "raytrace/tracing/sampled_light.h"
 
 namespace raytrace {
@@ -164,9 +164,7 @@ Hits catch_shadows(const TracedScene& scene, const CameraRays& camera, const Hit
   caught.shadow_rays = count_lanes(lit & caught.counted);
   const RayIds ids{camera.pixel, camera.sample, 0x10000000U};
   if (!tables.has_panes_for_surfaces()) [[likely]] {
-    caught.shadowed =
-        lit & (tables.identifies_rays() ? occluded_identified(scene, choice.ray, lit, ids, Coherence::coherent)
-                                        : scene.accelerator().occluded(choice.ray, lit, Coherence::coherent));
+    caught.shadowed = lit & occluded(scene, choice.ray, lit, ids, Coherence::coherent);
     return others;
   }
   // Panes hide as much as they do not let through.
