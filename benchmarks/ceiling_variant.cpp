@@ -130,9 +130,9 @@ class CeilingOfVariant final : public Ceiling {
       embree::store(rays.far, [&](int i) { return packet.rays[i].ray.tfar; });
     }
     embree::Query query(true);
-    embree::load<FloatN>([&](int i) { return packet.rays[i].ray.tfar; }).store_aligned(query.nearest.distance);
-    UintN(embree::NearestHits::none).store_aligned(query.nearest.geometry);
-    UintN(0u).store_aligned(query.nearest.instance);
+    embree::load<FloatN>([&](int i) { return packet.rays[i].ray.tfar; }).store_aligned(query.distance);
+    UintN(embree::Query::none).store_aligned(query.geometry);
+    UintN(0u).store_aligned(query.instance);
     const embree::ValidLanes valid(packet.valid);
     embree::for_each_packet(packet.valid, [&](int i) {
       embree::RegisterPacket::intersect(valid.lanes[i], embree_scene(), query, packet.rays[i]);
@@ -144,7 +144,7 @@ class CeilingOfVariant final : public Ceiling {
     if (bare_ == BareLoop::parts)
       left = left & !scene_.accelerator().occluded_unbounded(embree::load_rays(packet.ray()), left);
     embree::Query query(true);
-    embree::load<FloatN>([&](int i) { return packet.rays[i].tfar; }).store_aligned(query.nearest.distance);
+    embree::load<FloatN>([&](int i) { return packet.rays[i].tfar; }).store_aligned(query.distance);
     const embree::ValidLanes valid(left);
     embree::for_each_packet(
         left, [&](int i) { embree::RegisterPacket::occluded(valid.lanes[i], embree_scene(), query, packet.rays[i]); });

@@ -16,20 +16,6 @@ namespace {
 
 // ---- Shapes: Embree's query on a scene of one object, so its callback and as little else as there can be.
 
-/// The query of one packet size.
-template <int size>
-struct Queries : embree::Packet<size> {};
-template <>
-struct Queries<1> {
-  using RayHit = RTCRayHit;
-  static void intersect(const int*, RTCScene scene, embree::Query& query, RTCRayHit& ray) {
-    embree::intersect1(scene, query, ray);
-  }
-  static void occluded(const int*, RTCScene scene, embree::Query& query, RTCRay& ray) {
-    embree::occluded1(scene, query, ray);
-  }
-};
-
 // A field of one lane: Embree's packets hold arrays, its single rays plain numbers.
 template <class T>
 T& lane_of(T& field, std::size_t) {
@@ -47,7 +33,7 @@ constexpr int picture_edge = 32;  ///< few enough rays to stay in the second lev
 template <int size>
 class RayPackets {
  public:
-  using RayHit = typename Queries<size>::RayHit;
+  using RayHit = typename embree::Packet<size>::RayHit;
 
   explicit RayPackets(const Accelerator& accelerator) : scene_(accelerator.embree_scene()), query_(size > 1) {
     constexpr int block_width = size >= 8 ? 4 : size == 4 ? 2 : 1;
@@ -68,11 +54,10 @@ class RayPackets {
       for (std::size_t lane = 0; lane < size; ++lane) {
         lane_of(packet.ray.tfar, lane) = std::numeric_limits<float>::infinity();
         lane_of(packet.hit.geomID, lane) = RTC_INVALID_GEOMETRY_ID;
-        query_.nearest.start(static_cast<unsigned>(lane), std::numeric_limits<float>::infinity());
+        query_.start(static_cast<unsigned>(lane), std::numeric_limits<float>::infinity());
       }
-      Queries<size>::intersect(valid_, scene_, query_, packet);
-      for (std::size_t lane = 0; lane < size; ++lane)
-        hits += query_.nearest.geometry[lane] != embree::NearestHits::none ? 1 : 0;
+      embree::Packet<size>::intersect(valid_, scene_, query_, packet);
+      for (std::size_t lane = 0; lane < size; ++lane) hits += query_.geometry[lane] != embree::Query::none ? 1 : 0;
     }
     return static_cast<float>(hits);
   }
@@ -83,9 +68,9 @@ class RayPackets {
     for (RayHit& packet : packets_) {
       for (std::size_t lane = 0; lane < size; ++lane) {
         lane_of(packet.ray.tfar, lane) = std::numeric_limits<float>::infinity();
-        query_.nearest.start(static_cast<unsigned>(lane), std::numeric_limits<float>::infinity());
+        query_.start(static_cast<unsigned>(lane), std::numeric_limits<float>::infinity());
       }
-      Queries<size>::occluded(valid_, scene_, query_, packet.ray);
+      embree::Packet<size>::occluded(valid_, scene_, query_, packet.ray);
       for (std::size_t lane = 0; lane < size; ++lane) hits += lane_of(packet.ray.tfar, lane) < 0 ? 1 : 0;
     }
     return static_cast<float>(hits);

@@ -44,15 +44,15 @@ class EmbreePackets {
       alignas(64) typename Packet::RayHit packet{};
       alignas(64) std::array<int, size> valid{};
       for (std::size_t i = 0; i < size; ++i) packet.hit.geomID[i] = packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-      load(rays, first, packet.ray, valid, query.nearest);
+      load(rays, first, packet.ray, valid, query);
       Packet::intersect(valid.data(), scene, query, packet);
       for (std::size_t i = 0; i < size && first + i < rays.size(); ++i)
-        if (query.nearest.geometry[i] != embree::NearestHits::none) {
+        if (query.geometry[i] != embree::Query::none) {
           ProbeHit& hit = result[first + i];
           hit.hit = true;
-          hit.distance = query.nearest.distance[i];
-          hit.kind = query.nearest.geometry[i];
-          hit.index = query.nearest.primitive[i];
+          hit.distance = query.distance[i];
+          hit.kind = query.geometry[i];
+          hit.index = query.primitive[i];
         }
     }
     return result;
@@ -64,7 +64,7 @@ class EmbreePackets {
     for (std::size_t first = 0; first < rays.size(); first += size) {
       alignas(64) typename Packet::Ray packet{};
       alignas(64) std::array<int, size> valid{};
-      load(rays, first, packet, valid, query.nearest);
+      load(rays, first, packet, valid, query);
       Packet::occluded(valid.data(), scene, query, packet);
       for (std::size_t i = 0; i < size && first + i < rays.size(); ++i) result[first + i] = packet.tfar[i] < 0;
     }
@@ -74,7 +74,7 @@ class EmbreePackets {
  private:
   template <class Rays>
   static void load(std::span<const ProbeRay> all, std::size_t first, Rays& packet, std::array<int, size>& valid,
-                   embree::NearestHits& nearest) {
+                   embree::Query& query) {
     for (std::size_t i = 0; i < size && first + i < all.size(); ++i) {
       const ProbeRay& ray = all[first + i];
       packet.org_x[i] = ray.origin.x;
@@ -87,7 +87,7 @@ class EmbreePackets {
       packet.tfar[i] = ray.far;
       packet.mask[i] = 0xffffffffu;
       packet.id[i] = static_cast<unsigned>(i);
-      nearest.start(static_cast<unsigned>(i), ray.far);
+      query.start(static_cast<unsigned>(i), ray.far);
       valid[i] = -1;
     }
   }

@@ -68,7 +68,7 @@ class Accelerator {
   std::string embree_version() const;
 
   /// The two parts of a query, for tests and benchmarks that put their own to Embree: the shapes without end, and the
-  /// scene that holds all others, whose rays need NearestHits. `active`: lanes that Embree can take.
+  /// scene that holds all others, whose rays need embree::Query. `active`: lanes that Embree can take.
   Hits intersect_unbounded(Ray<FloatN>& rays, const MaskN& active, const RayIdentity* identity = nullptr) const;
   MaskN occluded_unbounded(const Ray<FloatN>& rays, const MaskN& active, const RayIdentity* identity = nullptr) const;
   /// For them as well: from now on rays that scatter go to Embree, however few objects there are.

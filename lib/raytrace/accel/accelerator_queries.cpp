@@ -180,12 +180,11 @@ void Accelerator::intersect_bvh(const Ray<FloatN>& rays, const MaskN& active, Co
   embree::store(UintN(RTC_INVALID_GEOMETRY_ID), [&](int i) { return packets[i].hit.instID[0]; });
   embree::store(hits.u, [&](int i) { return packets[i].hit.u; });
   embree::store(hits.v, [&](int i) { return packets[i].hit.v; });
-  embree::NearestHits& nearest = query.nearest;
-  nearest.cutouts = cutouts_of(identity);
-  distance.store_aligned(nearest.distance);
-  hits.geometry.store_aligned(nearest.geometry);
-  same_bits<UintN>(hits.primitive).store_aligned(nearest.primitive);
-  hits.instance.store_aligned(nearest.instance);
+  query.cutouts = cutouts_of(identity);
+  distance.store_aligned(query.distance);
+  hits.geometry.store_aligned(query.geometry);
+  same_bits<UintN>(hits.primitive).store_aligned(query.primitive);
+  hits.instance.store_aligned(query.instance);
   if (coherence == Coherence::coherent) {
     const embree::ValidLanes valid(active);
     embree::for_each_packet(
@@ -198,16 +197,16 @@ void Accelerator::intersect_bvh(const Ray<FloatN>& rays, const MaskN& active, Co
       single.hit.geomID = single.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
       single.hit.u = packet.hit.u[lane];
       single.hit.v = packet.hit.v[lane];
-      embree::intersect1(scene, query, single);
+      embree::Packet<1>::intersect(nullptr, scene, query, single);
       packet.hit.u[lane] = single.hit.u;
       packet.hit.v[lane] = single.hit.v;
     });
   }
-  distance = FloatN::load_aligned(nearest.distance);
-  hits.geometry = UintN::load_aligned(nearest.geometry);
-  hits.primitive = same_bits<IntN>(UintN::load_aligned(nearest.primitive));
-  hits.instance = UintN::load_aligned(nearest.instance);
-  hits.hit = hits.hit | (active & float_mask<FloatN>(hits.geometry != UintN(embree::NearestHits::none)));
+  distance = FloatN::load_aligned(query.distance);
+  hits.geometry = UintN::load_aligned(query.geometry);
+  hits.primitive = same_bits<IntN>(UintN::load_aligned(query.primitive));
+  hits.instance = UintN::load_aligned(query.instance);
+  hits.hit = hits.hit | (active & float_mask<FloatN>(hits.geometry != UintN(embree::Query::none)));
   hits.u = embree::load<FloatN>([&](int i) { return packets[i].hit.u; });
   hits.v = embree::load<FloatN>([&](int i) { return packets[i].hit.v; });
 }
@@ -228,8 +227,8 @@ MaskN Accelerator::occluded(const Ray<FloatN>& rays, const MaskN& active, Cohere
   alignas(64) embree::RegisterPacket::Ray packets[embree::packets];
   const Ray<FloatN> followed{rays.origin, rays.direction, max(rays.near, FloatN(0)), behind(rays.far)};
   embree::store_rays(followed, times_of(identity), [&](int i) -> auto& { return packets[i]; });
-  rays.far.store_aligned(query.nearest.distance);
-  query.nearest.cutouts = cutouts_of(identity);
+  rays.far.store_aligned(query.distance);
+  query.cutouts = cutouts_of(identity);
   if (coherence == Coherence::coherent) {
     const embree::ValidLanes valid(valid_lanes);
     embree::for_each_packet(valid_lanes,
@@ -237,7 +236,7 @@ MaskN Accelerator::occluded(const Ray<FloatN>& rays, const MaskN& active, Cohere
   } else {
     embree::for_each_lane(valid_lanes, [&](int i, int lane) {
       RTCRay single = single_ray(packets[i], lane);
-      embree::occluded1(scene, query, single);
+      embree::Packet<1>::occluded(nullptr, scene, query, single);
       packets[i].tfar[lane] = single.tfar;
     });
   }

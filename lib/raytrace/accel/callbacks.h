@@ -7,7 +7,7 @@
 // processor in their last bits, and between packets and single rays.
 //
 // Of hits at equal distances, the first by geometry and primitive counts, in whatever order Embree visits them: it goes
-// on to behind(distance), and NearestHits holds the distance itself.
+// on to behind(distance), and Query holds the distance itself.
 // https://github.com/RenderKit/embree, doc/src/api/rtcSetGeometryIntersectFunction.md and
 // rtcSetGeometryIntersectFilterFunction.md
 #pragma once
@@ -52,7 +52,7 @@ RAYTRACE_INLINE Mask<F> comes_first(const F& t, const HitIds<std::uint32_t>& ids
   const Uints<F> instance((ids.instance & InstanceTable::shape_of_world) != 0 ? 0 : ids.instance);
   const Mask<F> is_shape = float_mask<F>(same_bits<Ints<F>>(other.instance) < Ints<F>(0));
   const auto other_instance = same_bits<Uints<F>>(select(is_shape, F(0), same_bits<F>(other.instance)));
-  const Uints<F> g(ids.geometry), p(ids.primitive), nothing(embree::NearestHits::none);
+  const Uints<F> g(ids.geometry), p(ids.primitive), nothing(embree::Query::none);
   const auto first =
       (instance < other_instance) |
       ((instance == other_instance) & ((g < other.geometry) | ((g == other.geometry) & (p < other.primitive))));
@@ -128,7 +128,7 @@ template <class F>
 struct CallbackRays {
   int count;
   Mask<F> active;
-  embree::NearestHits& nearest;
+  embree::Query& nearest;
   unsigned id;  ///< of the first ray
   Ray<F> rays;
 
@@ -136,7 +136,7 @@ struct CallbackRays {
   CallbackRays(const Arguments* arguments, RTCRayN* all, unsigned first)
       : count(static_cast<int>(arguments->N - first)),
         active(load_mask<F>(arguments->valid + first, count)),
-        nearest(*reinterpret_cast<embree::NearestHits*>(arguments->context)),
+        nearest(embree::Query::of(arguments)),
         id(RTCRayN_id(all, arguments->N, first)),
         rays(load_rays<F>(all, arguments->N, first, count)) {}
 

@@ -115,121 +115,101 @@ void transform_rays(const InstanceTable& instances, std::uint32_t instance, RTCR
 /// instance's number.
 class InInstance {
  public:
-  InInstance(embree::NearestHits& nearest, std::uint32_t number) : nearest_(nearest) {
-    nearest.current_instance = number;
-  }
-  ~InInstance() { nearest_.current_instance = 0; }
+  InInstance(embree::Query& query, std::uint32_t number) : query_(query) { query.current_instance = number; }
+  ~InInstance() { query_.current_instance = 0; }
   InInstance(const InInstance&) = delete;
   InInstance& operator=(const InInstance&) = delete;
 
  private:
-  embree::NearestHits& nearest_;
+  embree::Query& query_;
 };
 
-template <int size>
-void intersect_instance(const RTCIntersectFunctionNArguments* arguments) {
+/// Puts the rays of a callback's arguments, `rays` their member, to what is instanced: `packet`, a copy of them,
+/// becomes its own. ask_shape: the shape's callback, ask_group: the query of a group's scene. Returns the instance's
+/// number.
+template <int size, class Arguments, class Rays, class Packet, class AskGroup>
+std::uint32_t ask_instance(const Arguments* arguments, Rays* Arguments::* rays, Packet& packet,
+                           void (*InstanceCallbacks::Shape::*ask_shape)(const Arguments*), const AskGroup& ask_group) {
   const auto& geometry = *static_cast<const InstanceGeometry*>(arguments->geometryUserPtr);
   const InstanceCallbacks& callbacks = *geometry.callbacks;
   const std::uint32_t instance = geometry.instance(arguments->primID);
-  auto& nearest = *reinterpret_cast<embree::NearestHits*>(arguments->context);
   const InstanceTarget& target = callbacks.instances->target(instance);
-  typename embree::AnyPacket<size>::RayHit packet;
-  std::memcpy(&packet, arguments->rayhit, sizeof packet);
+  std::memcpy(&packet, arguments->*rays, sizeof packet);
   alignas(64) int valid[size];
   std::copy_n(arguments->valid, size, valid);
-  auto* const rays = reinterpret_cast<RTCRayN*>(&packet);
-  transform_rays<size>(*callbacks.instances, instance, rays, valid);
+  transform_rays<size>(*callbacks.instances, instance, reinterpret_cast<RTCRayN*>(&packet), valid);
   const std::uint32_t number = callbacks.instances->number(instance);
-  {
-    const InInstance here(nearest, number);
-    if (target.is_shape) {
-      const InstanceCallbacks::Shape& shape = callbacks.shape(target);
-      RTCIntersectFunctionNArguments inner = *arguments;
-      inner.valid = valid;
-      inner.geometryUserPtr = shape.table;
-      inner.geomID = target.shape_type;
-      inner.primID = target.primitive;
-      inner.rayhit = reinterpret_cast<RTCRayHitN*>(&packet);
-      shape.intersect(&inner);
-    } else if (size > 1 || valid[0] != 0) {
-      embree::AnyPacket<size>::intersect(valid, callbacks.groups[static_cast<std::size_t>(target.group)],
-                                         arguments->context, packet);
-    }
+  embree::Query& query = embree::Query::of(arguments);
+  const InInstance here(query, number);
+  if (target.is_shape) {
+    const InstanceCallbacks::Shape& shape = callbacks.shape(target);
+    Arguments inner = *arguments;
+    inner.valid = valid;
+    inner.geometryUserPtr = shape.table;
+    inner.geomID = target.shape_type;
+    inner.primID = target.primitive;
+    inner.*rays = reinterpret_cast<Rays*>(&packet);
+    (shape.*ask_shape)(&inner);
+  } else if (size > 1 || valid[0] != 0) {
+    ask_group(valid, callbacks.groups[static_cast<std::size_t>(target.group)], query, packet);
   }
-  RTCRayN* const outer = RTCRayHitN_RayN(arguments->rayhit, size);
-  RTCHitN* const outer_hit = RTCRayHitN_HitN(arguments->rayhit, size);
-  RTCHitN* const inner_hit = RTCRayHitN_HitN(reinterpret_cast<RTCRayHitN*>(&packet), size);
-  for (int lane = 0; lane < size; ++lane) {
-    const auto i = static_cast<unsigned>(lane);
-    const unsigned id = RTCRayN_id(outer, size, i);
-    const bool hit = arguments->valid[lane] != 0 && nearest.instance[id] == number;
-    if (hit) {
-      RTCRayN_tfar(outer, size, i) = behind(nearest.distance[id]);
-      RTCHitN_u(outer_hit, size, i) = RTCHitN_u(inner_hit, size, i);
-      RTCHitN_v(outer_hit, size, i) = RTCHitN_v(inner_hit, size, i);
-    }
-    if (embree::callback_reports_hits) arguments->valid[lane] = hit ? -1 : 0;
-  }
+  return number;
 }
 
-template <int size>
-void occlude_instance(const RTCOccludedFunctionNArguments* arguments) {
-  const auto& geometry = *static_cast<const InstanceGeometry*>(arguments->geometryUserPtr);
-  const InstanceCallbacks& callbacks = *geometry.callbacks;
-  const std::uint32_t instance = geometry.instance(arguments->primID);
-  auto& nearest = *reinterpret_cast<embree::NearestHits*>(arguments->context);
-  const InstanceTarget& target = callbacks.instances->target(instance);
-  typename embree::AnyPacket<size>::Ray packet;
-  std::memcpy(&packet, arguments->ray, sizeof packet);
-  alignas(64) int valid[size];
-  std::copy_n(arguments->valid, size, valid);
-  auto* const rays = reinterpret_cast<RTCRayN*>(&packet);
-  transform_rays<size>(*callbacks.instances, instance, rays, valid);
-  {
-    const InInstance here(nearest, callbacks.instances->number(instance));
-    if (target.is_shape) {
-      const InstanceCallbacks::Shape& shape = callbacks.shape(target);
-      RTCOccludedFunctionNArguments inner = *arguments;
-      inner.valid = valid;
-      inner.geometryUserPtr = shape.table;
-      inner.geomID = target.shape_type;
-      inner.primID = target.primitive;
-      inner.ray = rays;
-      shape.occluded(&inner);
-    } else if (size > 1 || valid[0] != 0) {
-      embree::AnyPacket<size>::occluded(valid, callbacks.groups[static_cast<std::size_t>(target.group)],
-                                        arguments->context, packet);
+struct IntersectInstance {
+  using Arguments = RTCIntersectFunctionNArguments;
+
+  template <int size>
+  static void call(const Arguments* arguments) {
+    typename embree::Packet<size>::RayHit packet;
+    const std::uint32_t number = ask_instance<size>(
+        arguments, &Arguments::rayhit, packet, &InstanceCallbacks::Shape::intersect, embree::Packet<size>::intersect);
+    const embree::Query& query = embree::Query::of(arguments);
+    RTCRayN* const outer = RTCRayHitN_RayN(arguments->rayhit, size);
+    RTCHitN* const outer_hit = RTCRayHitN_HitN(arguments->rayhit, size);
+    RTCHitN* const inner_hit = RTCRayHitN_HitN(reinterpret_cast<RTCRayHitN*>(&packet), size);
+    for (int lane = 0; lane < size; ++lane) {
+      const auto i = static_cast<unsigned>(lane);
+      const unsigned id = RTCRayN_id(outer, size, i);
+      const bool hit = arguments->valid[lane] != 0 && query.instance[id] == number;
+      if (hit) {
+        RTCRayN_tfar(outer, size, i) = behind(query.distance[id]);
+        RTCHitN_u(outer_hit, size, i) = RTCHitN_u(inner_hit, size, i);
+        RTCHitN_v(outer_hit, size, i) = RTCHitN_v(inner_hit, size, i);
+      }
+      if (embree::callback_reports_hits) arguments->valid[lane] = hit ? -1 : 0;
     }
   }
-  for (int lane = 0; lane < size; ++lane) {
-    const bool hit = arguments->valid[lane] != 0 && RTCRayN_tfar(rays, size, static_cast<unsigned>(lane)) < 0;
-    if (hit) RTCRayN_tfar(arguments->ray, size, static_cast<unsigned>(lane)) = -infinity<float>();
-    if (embree::callback_reports_hits) arguments->valid[lane] = hit ? -1 : 0;
-  }
-}
+};
 
-inline void intersect_instances(const RTCIntersectFunctionNArguments* arguments) {
-  switch (arguments->N) {
-    case 16:
-      return intersect_instance<16>(arguments);
-    case 8:
-      return intersect_instance<8>(arguments);
-    case 4:
-      return intersect_instance<4>(arguments);
-    default:
-      return intersect_instance<1>(arguments);
+struct OccludeInstance {
+  using Arguments = RTCOccludedFunctionNArguments;
+
+  template <int size>
+  static void call(const Arguments* arguments) {
+    typename embree::Packet<size>::Ray packet;
+    ask_instance<size>(arguments, &Arguments::ray, packet, &InstanceCallbacks::Shape::occluded,
+                       embree::Packet<size>::occluded);
+    auto* const rays = reinterpret_cast<RTCRayN*>(&packet);
+    for (int lane = 0; lane < size; ++lane) {
+      const bool hit = arguments->valid[lane] != 0 && RTCRayN_tfar(rays, size, static_cast<unsigned>(lane)) < 0;
+      if (hit) RTCRayN_tfar(arguments->ray, size, static_cast<unsigned>(lane)) = -infinity<float>();
+      if (embree::callback_reports_hits) arguments->valid[lane] = hit ? -1 : 0;
+    }
   }
-}
-inline void occlude_instances(const RTCOccludedFunctionNArguments* arguments) {
+};
+
+template <class Callback>
+void instance_callback(const typename Callback::Arguments* arguments) {
   switch (arguments->N) {
     case 16:
-      return occlude_instance<16>(arguments);
+      return Callback::template call<16>(arguments);
     case 8:
-      return occlude_instance<8>(arguments);
+      return Callback::template call<8>(arguments);
     case 4:
-      return occlude_instance<4>(arguments);
+      return Callback::template call<4>(arguments);
     default:
-      return occlude_instance<1>(arguments);
+      return Callback::template call<1>(arguments);
   }
 }
 
@@ -253,8 +233,8 @@ inline void set_callbacks(RTCGeometry geometry, InstanceGeometry& instances) {
                                    static_cast<unsigned>(instances.moves ? table.moving().size() : table.size()));
   if (instances.moves) rtcSetGeometryTimeStepCount(geometry, shutter_moments);
   rtcSetGeometryBoundsFunction(geometry, &detail::instance_bounds, nullptr);
-  rtcSetGeometryIntersectFunction(geometry, &detail::intersect_instances);
-  rtcSetGeometryOccludedFunction(geometry, &detail::occlude_instances);
+  rtcSetGeometryIntersectFunction(geometry, &detail::instance_callback<detail::IntersectInstance>);
+  rtcSetGeometryOccludedFunction(geometry, &detail::instance_callback<detail::OccludeInstance>);
 }
 
 /// A shape's callbacks for InstanceCallbacks, with its table.
