@@ -1,8 +1,8 @@
 // What lies where rays hit: Accelerator's surfaces.
-#include <bit>
 
 #include "raytrace/accel/accelerator.h"
 #include "raytrace/math/gather.h"
+#include "raytrace/math/lanes.h"
 
 namespace raytrace {
 
@@ -36,16 +36,12 @@ void set_surface(const ShapeTable<Shape>& table, const LaneIndices& primitive, c
   if constexpr (SurfaceOfOne<Shape>) {
     set(Kernel<Shape>::surface(table.records[primitive.first()], rays, rays.far));
     if (primitive.all_same()) return;
-    MaskN left = float_mask<FloatN>(primitive.lanes() != IntN(static_cast<std::int32_t>(primitive.first())));
-    while (any(left)) {
-      const std::int32_t next =
-          primitive.lanes().get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(left))));
-      const MaskN here = left & float_mask<FloatN>(primitive.lanes() == IntN(next));
+    const MaskN others = float_mask<FloatN>(primitive.lanes() != IntN(static_cast<std::int32_t>(primitive.first())));
+    for_each_value(primitive.lanes(), others, [&](std::int32_t next, const MaskN& here) {
       const auto& record = table.records[static_cast<std::size_t>(next)];
       set(select(here, Kernel<Shape>::surface(record, rays, rays.far),
                  SurfacePoint<FloatN>{result.p, result.ng, result.error}));
-      left = left & !here;
-    }
+    });
   } else {
     constexpr bool in_float =
         std::is_same_v<typename ShapeTable<Shape>::Record, typename Kernel<Shape>::template Record<float>>;
@@ -125,7 +121,7 @@ SurfaceInteraction<FloatN> Accelerator::surface(const Ray<FloatN>& rays, const H
     if (hits.in_instances) local_rays = in_instances(rays, hits);
     table_.for_each_geometry(hits, [&](const GeometryTable& table, std::uint32_t geometry, const MaskN& here) {
       // The other lanes follow the first of these, so that they read a record that exists, and no further ones.
-      const auto first = static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(here)));
+      const std::size_t first = first_lane(here);
       const IntN primitive = select_lanes(here, hits.primitive, IntN(hits.primitive.get(first)));
       other.is_smooth = false;
       set(table, geometry, primitive, local_rays, other);

@@ -9,6 +9,7 @@
 
 #include "raytrace/accel/cell_entry.h"
 #include "raytrace/accel/cell_grid.h"
+#include "raytrace/math/lanes.h"
 #include "raytrace/parallel/for_each_index.h"
 #include "raytrace/parallel/radix_sort.h"
 
@@ -236,8 +237,8 @@ class ListsMaker {
       for_each_listing(band, [&](const CellEntry& entry, const EdgePlanes*) {
         for (std::size_t row = entry.bottom; row <= entry.top; ++row)
           for (std::size_t column = entry.left; column <= entry.right; column += CellFloats::size)
-            for (std::uint32_t lanes = *seen++; lanes != 0; lanes &= lanes - 1) {
-              const std::size_t cell = row * columns + column + static_cast<std::size_t>(std::countr_zero(lanes));
+            for (const std::size_t lane : SetLanes(*seen++)) {
+              const std::size_t cell = row * columns + column + lane;
               if ((cells[cell] & DirectionBuffer::crowded) == 0) candidates[next[cell]++] = entry.object;
             }
       });

@@ -1,10 +1,10 @@
 // A packet of ours in as many of Embree's as it has registers: wider packets than those Embree takes apart.
 #pragma once
 
-#include <bit>
 #include <cstdint>
 
 #include "raytrace/accel/embree.h"
+#include "raytrace/math/lanes.h"
 #include "raytrace/math/ray.h"
 #include "raytrace/math/simd.h"
 
@@ -66,10 +66,8 @@ Ray<FloatN> load_rays(const EmbreeRay& ray) {
 /// Calls f(packet, lane) for each of the packet's lanes that are set, Embree's packet and the lane in it.
 template <class Function>
 void for_each_lane(const MaskN& mask, const Function& f) {
-  for (std::uint32_t lanes = bits_of<FloatN>(mask); lanes != 0; lanes &= lanes - 1) {
-    const int lane = std::countr_zero(lanes);
-    f(lane / register_lanes, lane % register_lanes);
-  }
+  for (const std::size_t lane : SetLanes(mask))
+    f(static_cast<int>(lane) / register_lanes, static_cast<int>(lane) % register_lanes);
 }
 
 /// Calls f(packet) for each of Embree's packets that has a lane in the mask.

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <type_traits>
 
 #include "raytrace/accel/intersect_object.h"
 #include "raytrace/math/gather.h"
+#include "raytrace/math/lanes.h"
 
 namespace raytrace {
 
@@ -103,9 +103,9 @@ class Pairs {
     };
     std::size_t count = 0;
     for (std::size_t i = 0; i < objects.size(); ++i) {
-      for (std::uint32_t bits = bits_of<FloatN>(meets(i)); bits != 0; bits &= bits - 1, ++count) {
-        lanes_[count] = std::countr_zero(bits);
-        objects_[count] = static_cast<std::int32_t>(i);
+      for (const std::size_t lane : SetLanes(meets(i))) {
+        lanes_[count] = static_cast<std::int32_t>(lane);
+        objects_[count++] = static_cast<std::int32_t>(i);
       }
       if (count < packet_lanes) continue;
       test_first(packet_lanes);
@@ -231,17 +231,15 @@ void FewObjects::intersect(Ray<FloatN>& rays, const MaskN& active, FloatN& dista
   Pairs pairs(rays);
   NearestOfLanes nearest(distance, hits);
   const auto keep = [&](const FloatN& t, const FloatN& u, const FloatN& v, std::size_t first_id) {
-    std::uint32_t bits = bits_of<FloatN>(t < infinity<FloatN>());
-    if (bits == 0) return;
+    const MaskN hit = t < infinity<FloatN>();
+    if (none(hit)) return;
     alignas(64) std::array<float, packet_lanes> ts, us, vs;
     t.store_aligned(ts.data());
     u.store_aligned(us.data());
     v.store_aligned(vs.data());
-    for (; bits != 0; bits &= bits - 1) {
-      const auto i = static_cast<std::size_t>(std::countr_zero(bits));
+    for (const std::size_t i : SetLanes(hit))
       if (nearest.keep(pairs.lane(i), ts[i], us[i], vs[i], ids_[first_id + pairs.object(i)]))
         pairs.set_far(pairs.lane(i), behind(ts[i]));
-    }
   };
   pairs.for_each_packet(spheres_, meets, [&](const Ray<FloatN>& some, const auto& spheres, const MaskN& valid) {
     keep(Kernel<Sphere>::intersect<FloatN>(spheres, some, valid), FloatN(0), FloatN(0), 0);
@@ -272,8 +270,7 @@ MaskN FewObjects::occluded(const Ray<FloatN>& rays, const MaskN& active) const {
   Pairs pairs(followed);
   alignas(64) std::array<std::uint32_t, packet_lanes> hidden{};
   const auto hide = [&](const MaskN& hit) {
-    for (std::uint32_t bits = bits_of<FloatN>(hit); bits != 0; bits &= bits - 1)
-      hidden[pairs.lane(static_cast<std::size_t>(std::countr_zero(bits)))] = 1;
+    for (const std::size_t i : SetLanes(hit)) hidden[pairs.lane(i)] = 1;
     open = open & float_mask<FloatN>(UintN::load_aligned(hidden.data()) == UintN(0u));
   };
   pairs.for_each_packet(spheres_, meets, [&](const Ray<FloatN>& some, const auto& spheres, const MaskN& valid) {

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
 #include "raytrace/accel/direction_buffer.h"
+#include "raytrace/math/lanes.h"
 #include "raytrace/math/simd.h"
 
 namespace raytrace {
@@ -28,8 +28,8 @@ RAYTRACE_INLINE void for_each_cell(const DirectionBuffer& buffer, const Vec3<Flo
   // others, and so on.
   MaskN left = active;
   while (any(left)) {
-    const auto lane = static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(left)));
-    const Vec3f first(direction.x.get(lane), direction.y.get(lane), direction.z.get(lane));
+    const std::size_t lane = first_lane(left);
+    const Vec3f first = in_lane(direction, lane);
     const float x = std::abs(first.x), y = std::abs(first.y), z = std::abs(first.z);
     const int axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
     const bool negative = component(first, axis) < 0;
@@ -48,16 +48,13 @@ RAYTRACE_INLINE void for_each_cell(const DirectionBuffer& buffer, const Vec3<Flo
     const IntN column = to_int((across * inverse_size - FloatN(grid.left)) * FloatN(grid.columns_per_unit));
     const IntN row = to_int((up * inverse_size - FloatN(grid.bottom)) * FloatN(grid.rows_per_unit));
     // What is less than 0 is a large number here.
-    MaskN inside = here &
-                   float_mask<FloatN>(same_bits<UintN>(column) < UintN(static_cast<std::uint32_t>(grid.columns))) &
-                   float_mask<FloatN>(same_bits<UintN>(row) < UintN(static_cast<std::uint32_t>(grid.rows)));
+    const MaskN inside =
+        here & float_mask<FloatN>(same_bits<UintN>(column) < UintN(static_cast<std::uint32_t>(grid.columns))) &
+        float_mask<FloatN>(same_bits<UintN>(row) < UintN(static_cast<std::uint32_t>(grid.rows)));
     const IntN cell = row * IntN(grid.columns) + column;
-    while (any(inside)) {
-      const std::int32_t number = cell.get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(inside))));
-      const MaskN same = inside & float_mask<FloatN>(cell == IntN(number));
-      inside = inside & !same;
+    for_each_value(cell, inside, [&](std::int32_t number, const MaskN& same) RAYTRACE_INLINE_LAMBDA {
       f(grid.first_cell + static_cast<std::size_t>(number), same);
-    }
+    });
   }
 }
 

@@ -1,10 +1,10 @@
 #include "raytrace/accel/surface_uv.h"
 
-#include <bit>
 #include <type_traits>
 
 #include "raytrace/math/doubles.h"
 #include "raytrace/math/gather.h"
+#include "raytrace/math/lanes.h"
 
 namespace raytrace {
 
@@ -30,7 +30,7 @@ void move_derivatives(const AffineRecord<FloatN>& world_from_object, const MaskN
 
 /// index, in the lanes of `here`; the others have that of the first of these, so that they read a record that exists.
 IntN follow_first(const MaskN& here, const IntN& index) {
-  return select_lanes(here, index, IntN(index.get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(here))))));
+  return select_lanes(here, index, IntN(index.get(first_lane(here))));
 }
 
 /// Sets those of the lanes of `here`, which hit records of one shape.

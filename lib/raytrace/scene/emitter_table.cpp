@@ -10,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include "raytrace/math/lanes.h"
 #include "raytrace/scene/patch_geometry.h"
 #include "raytrace/scene/patch_pieces.h"
 #include "raytrace/scene/patch_shares.h"
@@ -277,10 +278,7 @@ MaskN EmitterTable::has_patch(const Hits& hits, const MaskN& lanes, const Vec3<F
 IntN EmitterTable::patches_of(const Hits& hits, const MaskN& lanes, const Vec3<FloatN>& p) const {
   alignas(64) std::array<std::int32_t, packet_lanes> patches;
   patches.fill(-1);
-  for (std::uint32_t left = bits_of<FloatN>(lanes); left != 0; left &= left - 1) {
-    const auto lane = static_cast<std::size_t>(std::countr_zero(left));
-    patches[lane] = patch_of(hits, lane, {p.x.get(lane), p.y.get(lane), p.z.get(lane)});
-  }
+  for (const std::size_t lane : SetLanes(lanes)) patches[lane] = patch_of(hits, lane, in_lane(p, lane));
   return IntN::load_aligned(patches.data());
 }
 
@@ -303,8 +301,7 @@ Hits EmitterTable::hits(const Sample& sample, const MaskN& lanes) const {
   alignas(64) std::array<float, packet_lanes> u{}, v{};
   sample.point.u.store_aligned(u.data());
   sample.point.v.store_aligned(v.data());
-  for (std::uint32_t left = bits_of<FloatN>(lanes); left != 0; left &= left - 1) {
-    const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+  for (const std::size_t lane : SetLanes(lanes)) {
     const std::int32_t patch = sample.patch.get(lane);
     const Range& range =
         *std::prev(std::upper_bound(ranges_.begin(), ranges_.end(), patch,

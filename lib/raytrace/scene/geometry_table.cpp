@@ -1,9 +1,9 @@
 #include "raytrace/scene/geometry_table.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "raytrace/math/float_origin.h"
+#include "raytrace/math/lanes.h"
 #include "raytrace/memory/large_array.h"
 #include "raytrace/parallel/for_each_index.h"
 #include "raytrace/parameters/transformed.h"
@@ -314,7 +314,7 @@ IntN GeometryTable::material(const Hits& hits) const {
   if (objects_have_one_material_ && !hits.in_instances) return gather(object_materials_.data(), object(hits));
   IntN material(0);
   for_each_geometry(hits, [&](const GeometryTable& table, std::uint32_t index, const MaskN& here) {
-    const auto first = static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(here)));
+    const std::size_t first = first_lane(here);
     const IntN primitive = select_lanes(here, hits.primitive, IntN(hits.primitive.get(first)));
     const Geometry& geometry = table.geometries_[index];
     const IntN of_geometry = geometry.mesh != nullptr

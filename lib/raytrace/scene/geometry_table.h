@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 #include <deque>
 #include <iterator>
@@ -14,6 +13,7 @@
 
 #include "raytrace/description/scene_description.h"
 #include "raytrace/math/gather.h"
+#include "raytrace/math/lanes.h"
 #include "raytrace/math/simd.h"
 #include "raytrace/scene/hits.h"
 #include "raytrace/scene/instance_table.h"
@@ -165,7 +165,7 @@ void GeometryTable::for_each_geometry(const Hits& hits, const Function& f) const
                                    : select_lanes(float_mask<FloatN>(hits.instance == UintN(0u)), none,
                                                   instances_.group(hits.instance));
   for (MaskN left = hits.hit; any(left);) {
-    const auto first = static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(left)));
+    const std::size_t first = first_lane(left);
     const std::uint32_t geometry = hits.geometry.get(first);
     MaskN here = left & float_mask<FloatN>(hits.geometry == UintN(geometry));
     const GeometryTable* table = this;
@@ -182,7 +182,7 @@ template <class Function>
 void GeometryTable::for_each_cloud(const IntN& sphere, const MaskN& lanes, const Function& f) const {
   if (clouds_.empty()) return;
   for (MaskN left = lanes & float_mask<FloatN>(sphere >= IntN(clouds_.front().first)); any(left);) {
-    const std::int32_t first = sphere.get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(left))));
+    const std::int32_t first = sphere.get(first_lane(left));
     const CloudSpheres& cloud =
         *std::prev(std::upper_bound(clouds_.begin(), clouds_.end(), first,
                                     [](std::int32_t i, const CloudSpheres& other) { return i < other.first; }));

@@ -1,10 +1,10 @@
 // What packets of rays hit.
 #pragma once
 
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 
+#include "raytrace/math/lanes.h"
 #include "raytrace/math/simd.h"
 
 namespace raytrace {
@@ -28,10 +28,9 @@ struct Hits {
 
   /// Sets what is of the first lane with a hit, if there is one.
   RAYTRACE_INLINE void find_first() {
-    const std::uint32_t lanes = bits_of<FloatN>(hit);
     in_instances = false;
-    if (lanes == 0) return;
-    const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+    if (none(hit)) return;
+    const std::size_t lane = first_lane(hit);
     first_geometry = geometry.get(lane);
     first_primitive = primitive.get(lane);
     in_instances = any(hit & float_mask<FloatN>(instance != UintN(0u)));

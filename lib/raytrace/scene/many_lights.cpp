@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -10,6 +9,7 @@
 #include <utility>
 
 #include "raytrace/math/gather.h"
+#include "raytrace/math/lanes.h"
 #include "raytrace/sampling/reservoir.h"
 
 namespace raytrace {
@@ -84,12 +84,9 @@ void ManyLights::build(LightSampling sampling) {
 FloatN ManyLights::photometric_share(const IntN& light, const Vec3<FloatN>& to_light) const {
   const IntN number = gather(photometry_of_.data(), light);
   FloatN share(1);
-  for (MaskN left = float_mask<FloatN>(number >= IntN(0)); any(left);) {
-    const std::int32_t first = number.get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(left))));
-    const MaskN here = left & float_mask<FloatN>(number == IntN(first));
-    share = select(here, photometry_[static_cast<std::size_t>(first)].towards(to_light), share);
-    left = left & !here;
-  }
+  for_each_value(number, float_mask<FloatN>(number >= IntN(0)), [&](std::int32_t one, const MaskN& here) {
+    share = select(here, photometry_[static_cast<std::size_t>(one)].towards(to_light), share);
+  });
   return share;
 }
 

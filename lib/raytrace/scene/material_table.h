@@ -19,6 +19,7 @@
 #include "raytrace/math/color.h"
 #include "raytrace/math/frame.h"
 #include "raytrace/math/gather.h"
+#include "raytrace/math/lanes.h"
 #include "raytrace/math/simd.h"
 #include "raytrace/math/vec3.h"
 #include "raytrace/scene/texture_table.h"
@@ -291,14 +292,10 @@ class MaterialTableOf final : public MaterialTable {
   [[gnu::noinline]] void set_textured(typename MaterialKernel::template Bsdf<FloatN>& bsdfs,
                                       const LaneIndices& materials, const TexturePoint<FloatN>& point) const {
     using Values = typename Material::template Values<FloatN>;
-    for (MaskN left(true); any(left);) {
-      const std::int32_t index =
-          materials.lanes().get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(left))));
-      const MaskN here = left & float_mask<FloatN>(materials.lanes() == IntN(index));
-      left = left & !here;
+    for_each_value(materials.lanes(), MaskN(true), [&](std::int32_t index, const MaskN& here) {
       const auto found = std::lower_bound(textured_.begin(), textured_.end(), index,
                                           [](const auto& material, std::int32_t i) { return material.index < i; });
-      if (found == textured_.end() || found->index != index) continue;
+      if (found == textured_.end() || found->index != index) return;
       auto values = gather_records<Material::template Values, FloatN>(&found->values, LaneIndices(0));
       static_assert(sizeof(Values) % sizeof(FloatN) == 0);
       textures_->multiply(reinterpret_cast<FloatN*>(&values), found->factors, point);
@@ -306,7 +303,7 @@ class MaterialTableOf final : public MaterialTable {
       const auto* const from = reinterpret_cast<const FloatN*>(&own);
       auto* const to = reinterpret_cast<FloatN*>(&bsdfs);
       for (std::size_t i = 0; i < sizeof own / sizeof(FloatN); ++i) to[i] = select(here, from[i], to[i]);
-    }
+    });
   }
 
   std::vector<Bsdf> bsdfs_;

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstddef>
+
+#include "raytrace/math/lanes.h"
 
 namespace raytrace {
 
@@ -27,8 +28,7 @@ IntN PartTable::part_or_object(const Hits& hits, const IntN& object) const {
   if (meshes_.empty()) return object;
   alignas(64) std::array<std::int32_t, packet_lanes> numbers;
   object.store_aligned(numbers.data());
-  for (std::uint32_t left = bits_of<FloatN>(hits.hit); left != 0; left &= left - 1) {
-    const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+  for (const std::size_t lane : SetLanes(hits.hit)) {
     const auto found = std::ranges::lower_bound(meshes_, numbers[lane], {}, &Parts::object);
     if (found == meshes_.end() || found->object != numbers[lane]) continue;
     if (const std::uint32_t instance = hits.in_instances ? hits.instance.get(lane) : 0; instance != 0) {

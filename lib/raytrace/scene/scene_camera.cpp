@@ -1,8 +1,8 @@
 // The camera of SceneTables.
-#include <bit>
 #include <variant>
 
 #include "raytrace/description/motion.h"
+#include "raytrace/math/lanes.h"
 #include "raytrace/sampling/ray_ids.h"
 #include "raytrace/scene/scene_tables.h"
 
@@ -83,8 +83,7 @@ Ray<F> SceneTables::rays_of(const CameraKernel& camera, const FloatN& x, const F
   const F part(place - to_float(before));
   Ray<F> result = generate<F>(camera, F(x), F(y), lens);
   for (MaskN left(true); any(left);) {
-    const auto moment =
-        static_cast<std::size_t>(before.get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(left)))));
+    const auto moment = static_cast<std::size_t>(before.get(first_lane(left)));
     const FloatN number(static_cast<float>(moment));
     const F whole(to_float(before));
     const auto here = (whole > F(number - FloatN(0.5F))) & (whole < F(number + FloatN(0.5F)));

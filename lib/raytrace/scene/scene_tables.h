@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <memory>
 #include <optional>
 #include <span>
@@ -12,6 +11,7 @@
 #include "raytrace/description/scene_description.h"
 #include "raytrace/lights/kernels.h"
 #include "raytrace/materials/kernels.h"
+#include "raytrace/math/lanes.h"
 #include "raytrace/sampling/pixel_filter.h"
 #include "raytrace/sampling/sampler.h"
 #include "raytrace/scene/camera.h"
@@ -360,13 +360,8 @@ Rgb<FloatN> SceneTables::emitted(const EmitterTable::Sample& samples, const Mask
 
 template <class Function>
 void SceneTables::for_each_detail(const Hits& hits, const Function& f) const {
-  const IntN materials = material(hits);
-  for (MaskN left = hits.hit; any(left);) {
-    const std::int32_t number = materials.get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(left))));
-    const MaskN here = left & float_mask<FloatN>(materials == IntN(number));
-    left = left & !here;
-    f(details_[static_cast<std::size_t>(number)], here);
-  }
+  for_each_value(material(hits), hits.hit,
+                 [&](std::int32_t number, const MaskN& here) { f(details_[static_cast<std::size_t>(number)], here); });
 }
 
 }  // namespace raytrace

@@ -1,10 +1,10 @@
 // What surfaces do with light: SceneTables' answers by the materials of what was hit.
 #include <algorithm>
-#include <bit>
 #include <optional>
 
 #include "raytrace/bsdfs/lambertian.h"
 #include "raytrace/math/gather.h"
+#include "raytrace/math/lanes.h"
 #include "raytrace/scene/scene_tables.h"
 
 namespace raytrace {
@@ -51,12 +51,10 @@ auto SceneTables::by_material(const Hits& hits, const Answer& answer) const {
   for (std::size_t type = 0; type < materials_.size(); ++type) {
     const IntN first(first_material_[type]), end(first_material_[type + 1]);
     const MaskN here = float_mask<FloatN>(number >= first) & float_mask<FloatN>(number < end);
-    const std::uint32_t lanes = bits_of<FloatN>(here);
-    if (lanes == 0) continue;
+    if (none(here)) continue;
     const IntN index = number - first;
     // The other lanes follow the first of these, so that they read a material that exists.
-    const LaneIndices indices =
-        select_lanes(here, index, IntN(index.get(static_cast<std::size_t>(std::countr_zero(lanes)))));
+    const LaneIndices indices = select_lanes(here, index, IntN(index.get(first_lane(here))));
     result = select(here, answer(*materials_[type], indices), result);
   }
   return result;

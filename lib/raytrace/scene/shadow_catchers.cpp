@@ -1,8 +1,8 @@
 // Which objects are shadow catchers.
 #include <algorithm>
 #include <array>
-#include <bit>
 
+#include "raytrace/math/lanes.h"
 #include "raytrace/parallel/for_each_index.h"
 #include "raytrace/scene/geometry_table.h"
 
@@ -41,8 +41,7 @@ bool GeometryTable::is_shadow_catcher(std::uint32_t instance, std::uint32_t geom
 
 MaskN GeometryTable::shadow_catchers(const Hits& hits) const {
   alignas(64) std::array<std::uint32_t, packet_lanes> catches{};
-  for (std::uint32_t lanes = bits_of<FloatN>(hits.hit); lanes != 0; lanes &= lanes - 1) {
-    const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+  for (const std::size_t lane : SetLanes(hits.hit)) {
     const auto primitive = static_cast<std::uint32_t>(hits.primitive.get(lane));
     catches[lane] = is_shadow_catcher(hits.instance.get(lane), hits.geometry.get(lane), primitive) ? 1 : 0;
     if (hits.one_primitive) return hits.hit & MaskN(catches[lane] != 0);

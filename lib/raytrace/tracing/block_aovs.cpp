@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "raytrace/math/lanes.h"
+
 namespace raytrace {
 
 void BlockAovs::prepare() {
@@ -76,8 +78,7 @@ void BlockAovs::add_values(const AovInputs& seen, const MaskN& hit, const MaskN&
 void BlockAovs::count(std::size_t coverage, const IntN& things) {
   Run& run = runs_[coverage];
   const MaskN same = float_mask<FloatN>(things == run.thing);
-  for (std::uint32_t lanes = bits_of<FloatN>(!same); lanes != 0; lanes &= lanes - 1)
-    end_run(coverage, static_cast<std::size_t>(std::countr_zero(lanes)));
+  for (const std::size_t lane : SetLanes(!same)) end_run(coverage, lane);
   run.samples = select_lanes(same, run.samples + IntN(1), IntN(1));
   run.thing = things;
 }
@@ -92,15 +93,12 @@ void BlockAovs::end_run(std::size_t coverage, std::size_t lane) {
 
 void BlockAovs::finish() {
   const AovSettings& settings = film_.settings();
-  const auto for_each_lane = [](std::uint32_t lanes, const auto& f) {
-    for (; lanes != 0; lanes &= lanes - 1) f(static_cast<std::size_t>(std::countr_zero(lanes)));
-  };
   for (std::size_t coverage = 0; coverage < settings.coverages; ++coverage)
-    for_each_lane(lanes_, [&](std::size_t lane) { end_run(coverage, lane); });
+    for (const std::size_t lane : SetLanes(lanes_)) end_run(coverage, lane);
 
   for (std::size_t i = 0; i < settings.mean_units.size(); ++i) {
     const auto sums = means_[i].sum.sums();
-    for_each_lane(lanes_, [&](std::size_t lane) { film_.add_mean(x_[lane], y_[lane], i, sums[lane]); });
+    for (const std::size_t lane : SetLanes(lanes_)) film_.add_mean(x_[lane], y_[lane], i, sums[lane]);
   }
 
   if (settings.nearest_values == 0) return;
@@ -112,10 +110,10 @@ void BlockAovs::finish() {
   }
   depth_.store_aligned(lanes.data());
   const std::uint32_t met = bits_of<FloatN>(depth_ < infinity<FloatN>());
-  for_each_lane(lanes_ & met, [&](std::size_t lane) {
+  for (const std::size_t lane : SetLanes(lanes_ & met)) {
     const auto sample = static_cast<std::uint32_t>(sample_.get(lane));
     film_.add_nearest(x_[lane], y_[lane], lanes[lane], sample, values[lane].data());
-  });
+  }
 }
 
 }  // namespace raytrace

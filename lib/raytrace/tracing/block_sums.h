@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -12,6 +11,7 @@
 #include "raytrace/film/film_means.h"
 #include "raytrace/film/radiance_layer.h"
 #include "raytrace/math/fixed_point_sums.h"
+#include "raytrace/math/lanes.h"
 #include "raytrace/math/limbs.h"
 #include "raytrace/tracing/lane_counts.h"
 #include "raytrace/tracing/ray_result.h"
@@ -55,8 +55,7 @@ class LargeSums {
   [[gnu::noinline, gnu::cold]] std::uint32_t add(const Rgb<FloatN>& radiance, std::uint32_t lanes,
                                                  const SumScale& scale) {
     std::uint32_t refused = 0;
-    for (; lanes != 0; lanes &= lanes - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+    for (const std::size_t lane : SetLanes(lanes)) {
       const std::array<float, 3> terms{radiance.red.get(lane), radiance.green.get(lane), radiance.blue.get(lane)};
       if (!std::all_of(terms.begin(), terms.end(), [&](float term) { return std::abs(term) <= scale.most; })) {
         refused |= std::uint32_t{1} << lane;

@@ -1,12 +1,12 @@
 #include "raytrace/tracing/light_path_start.h"
 
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <numbers>
 
 #include "raytrace/accel/surface_uv.h"
 #include "raytrace/math/frame.h"
+#include "raytrace/math/lanes.h"
 #include "raytrace/math/turns.h"
 #include "raytrace/math/unit_disk.h"
 #include "raytrace/sampling/sampler.h"
@@ -152,12 +152,8 @@ MaskN start_light_paths(const SceneTables& scene, LightPathPacket& path) {
       FloatN::load_aligned(radii.data())};
   const auto lights = static_cast<std::int32_t>(scene.lights().size());
   const auto patches = static_cast<std::int32_t>(scene.emitters().size());
-  for (MaskN left = float_mask<FloatN>(source < IntN(lights)); any(left);) {
-    const std::int32_t number = source_numbers[static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(left)))];
-    const MaskN here = left & float_mask<FloatN>(source == IntN(number));
-    start_at_source(scene, path, targets, number, here);
-    left = left & !here;
-  }
+  for_each_value(source, float_mask<FloatN>(source < IntN(lights)),
+                 [&](std::int32_t number, const MaskN& here) { start_at_source(scene, path, targets, number, here); });
   const MaskN at_patch =
       float_mask<FloatN>(source >= IntN(lights)) & float_mask<FloatN>(source < IntN(lights + patches));
   if (any(at_patch)) start_at_patches(scene, path, targets, at_patch);

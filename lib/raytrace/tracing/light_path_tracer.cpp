@@ -1,11 +1,11 @@
 #include "raytrace/tracing/light_path_tracer.h"
 
-#include <bit>
 #include <cstddef>
 #include <utility>
 #include <variant>
 
 #include "raytrace/math/frame.h"
+#include "raytrace/math/lanes.h"
 #include "raytrace/sampling/sampler.h"
 #include "raytrace/tracing/direct_light.h"
 #include "raytrace/tracing/fog.h"
@@ -135,17 +135,14 @@ MaskN LightPathTracer::arrive_first(LightPathPacket& path, const Vec3<FloatN>& f
   const auto starts = [&](LightPathStart start) {
     return lanes & float_mask<FloatN>(path.start == IntN(static_cast<std::int32_t>(start)));
   };
-  for (MaskN left = starts(LightPathStart::at_point); any(left);) {
-    const std::int32_t number = path.source.get(static_cast<std::size_t>(std::countr_zero(bits_of<FloatN>(left))));
-    const MaskN here = left & float_mask<FloatN>(path.source == IntN(number));
+  for_each_value(path.source, starts(LightPathStart::at_point), [&](std::int32_t number, const MaskN& here) {
     Ray<FloatN> ray;
     ray.origin = surface.p;
     Rgb<FloatN> irradiance;
     tables_.lights()[static_cast<std::size_t>(number)]->sample(ray, {FloatN(0), FloatN(0)}, irradiance);
     const Vec3<FloatN> way = surface.p - from;
     path.flux = select(here, path.flux * irradiance * dot(way, way), path.flux);
-    left = left & !here;
-  }
+  });
   // What came from far away has not met planes beyond all else.
   const MaskN far = starts(LightPathStart::far_away);
   if (none(far)) return lanes;

@@ -1,11 +1,11 @@
 #include "raytrace/tracing/light_paths.h"
 
-#include <bit>
 #include <cmath>
 #include <optional>
 #include <variant>
 
 #include "raytrace/math/frame.h"
+#include "raytrace/math/lanes.h"
 #include "raytrace/sampling/footprint.h"
 #include "raytrace/sampling/hash.h"
 #include "raytrace/sampling/pixel_sampler.h"
@@ -34,8 +34,7 @@ void LightPaths::begin(const Pixels& pixels, const UintN& samples, const MaskN& 
   std::uint32_t left = bits_of<FloatN>(wanted);
   for (std::uint64_t i = 0; left != 0; ++i) {
     alignas(64) std::array<std::int32_t, packet_lanes> columns{}, rows{}, lanes{};
-    for (std::uint32_t those = left; those != 0; those &= those - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(those));
+    for (const std::size_t lane : SetLanes(left)) {
       const int x = pixels.x[lane], y = pixels.y[lane];
       if (i >= splats.paths_per_sample(x, y)) {
         left &= ~(std::uint32_t{1} << lane);
@@ -71,9 +70,8 @@ void LightPaths::arrive(const LightPathPoint& at, const MaskN& scattered) {
   std::array<FilmPoint, packet_lanes> points;
   alignas(64) std::array<float, packet_lanes> x{}, y{}, z{}, areas{};
   std::uint32_t shown = 0;
-  for (std::uint32_t left = bits_of<FloatN>(lanes); left != 0; left &= left - 1) {
-    const auto lane = static_cast<std::size_t>(std::countr_zero(left));
-    const Vec3d p{double{surface.p.x.get(lane)}, double{surface.p.y.get(lane)}, double{surface.p.z.get(lane)}};
+  for (const std::size_t lane : SetLanes(lanes)) {
+    const Vec3d p(in_lane(surface.p, lane));
     const std::optional<FilmPoint> point = tables_.project(p, lens, lane);
     if (!point) continue;
     points[lane] = *point;
@@ -129,10 +127,7 @@ void LightPaths::arrive(const LightPathPoint& at, const MaskN& scattered) {
   arrives = arrives & !hidden;
   if (has_fog && any(arrives)) [[unlikely]]
     radiance = radiance * light_through(scene_, ray, arrives, ids, {media, boundary.current});
-  for (std::uint32_t left = bits_of<FloatN>(arrives); left != 0; left &= left - 1) {
-    const auto lane = static_cast<std::size_t>(std::countr_zero(left));
-    splat(at, lane, points[lane], radiance);
-  }
+  for (const std::size_t lane : SetLanes(arrives)) splat(at, lane, points[lane], radiance);
 }
 
 void LightPaths::splat(const LightPathPoint& at, std::size_t lane, const FilmPoint& point,
@@ -141,7 +136,7 @@ void LightPaths::splat(const LightPathPoint& at, std::size_t lane, const FilmPoi
   const PictureExtent& extent = film_.settings().extent;
   const FilterTable& filter = tables_.pixel_filter();
   const double pixels = static_cast<double>(extent.full_width) * static_cast<double>(extent.full_height);
-  const Rgb<float> brought(radiance.red.get(lane), radiance.green.get(lane), radiance.blue.get(lane));
+  const Rgb<float> brought = in_lane(radiance, lane);
   // From the picture's upper left corner.
   const double x = point.x + extent.full_width / 2.0, y = extent.full_height / 2.0 - point.y, reach = filter.reach();
   const Region& region = film_.region();

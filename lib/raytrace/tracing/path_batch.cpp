@@ -1,11 +1,11 @@
 #include "raytrace/tracing/path_batch.h"
 
 #include <algorithm>
-#include <bit>
 #include <optional>
 #include <utility>
 #include <variant>
 
+#include "raytrace/math/lanes.h"
 #include "raytrace/sampling/sampler.h"
 #include "raytrace/tracing/camera_hits.h"
 #include "raytrace/tracing/direct_light.h"
@@ -122,8 +122,7 @@ void PathBatch::trace(RayCounts& counts) {
 
 void PathBatch::add(std::vector<Sums>& sums, const IntN& slot, const MaskN& lanes, const Rgb<FloatN>& radiance,
                     const IntN& group) const {
-  std::uint32_t bits = bits_of<FloatN>(lanes);
-  if (bits == 0) return;
+  if (none(lanes)) return;
   alignas(64) std::array<std::int32_t, packet_lanes> slots, groups;
   slot.store_aligned(slots.data());
   group.store_aligned(groups.data());
@@ -131,8 +130,7 @@ void PathBatch::add(std::vector<Sums>& sums, const IntN& slot, const MaskN& lane
   radiance.red.store_aligned(terms[0].data());
   radiance.green.store_aligned(terms[1].data());
   radiance.blue.store_aligned(terms[2].data());
-  for (; bits != 0; bits &= bits - 1) {
-    const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+  for (const std::size_t lane : SetLanes(lanes)) {
     const auto to = static_cast<std::size_t>(slots[lane]);
     Sums& sum = sums[to / packet_lanes * groups_ + static_cast<std::size_t>(groups[lane])];
     for (std::size_t channel = 0; channel < 3; ++channel) sum[channel][to % packet_lanes] += terms[channel][lane];

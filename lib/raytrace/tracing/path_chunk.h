@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "raytrace/math/gather.h"
+#include "raytrace/math/lanes.h"
 #include "raytrace/math/ray.h"
 #include "raytrace/scene/hits.h"
 
@@ -71,13 +71,11 @@ class PathChunk {
 
   /// Adds those lanes. bucket: from 0 to 255 each; paths of one are worth being together.
   void append(const Packet& packet, const MaskN& mask, const IntN& bucket) {
-    std::uint32_t lanes = bits_of<FloatN>(mask);
-    if (lanes == 0) return;
+    if (none(mask)) return;
     alignas(64) std::array<std::int32_t, packet_lanes> buckets, offsets;
     bucket.store_aligned(buckets.data());
     offsets.fill(unused_);
-    for (; lanes != 0; lanes &= lanes - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+    for (const std::size_t lane : SetLanes(mask)) {
       offsets[lane] = static_cast<std::int32_t>(stride_ * size());
       buckets_.push_back(static_cast<std::uint8_t>(buckets[lane]));
       ++ends_[static_cast<std::size_t>(buckets[lane])];

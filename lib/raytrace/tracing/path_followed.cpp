@@ -1,8 +1,8 @@
 // What paths meet behind mirrors and glass, for AOVs.
 #include <array>
-#include <bit>
 #include <cstddef>
 
+#include "raytrace/math/lanes.h"
 #include "raytrace/tracing/path_batch.h"
 
 namespace raytrace {
@@ -14,8 +14,7 @@ template <class Function>
 void for_each_slot(const IntN& slot, std::size_t strands, const MaskN& lanes, const Function& f) {
   alignas(64) std::array<std::int32_t, packet_lanes> slots;
   slot.store_aligned(slots.data());
-  for (std::uint32_t bits = bits_of<FloatN>(lanes); bits != 0; bits &= bits - 1) {
-    const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+  for (const std::size_t lane : SetLanes(lanes)) {
     const auto to = static_cast<std::size_t>(slots[lane]);
     if (to / packet_lanes % strands > 1) continue;
     f(to / packet_lanes / strands, to % packet_lanes, lane);

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <numbers>
 
+#include "raytrace/math/lanes.h"
 #include "raytrace/parallel/for_each_index.h"
 #include "raytrace/parallel/radix_sort.h"
 #include "raytrace/sampling/hash.h"
@@ -125,10 +125,7 @@ void PhotonMap::choose_from(std::uint32_t first, std::uint32_t last, const Vec3f
     if (none(counts)) continue;
     const FloatN weight = load(places_.power) * (FloatN(1) - distance2 / radius2) * FloatN(static_cast<float>(step));
     counts = counts & (weight > FloatN(0));
-    for (std::uint32_t left = bits_of<FloatN>(counts); left != 0; left &= left - 1) {
-      const int lane = std::countr_zero(left);
-      choice.add(i + static_cast<std::uint32_t>(lane), weight.get(static_cast<std::size_t>(lane)));
-    }
+    for (const std::size_t lane : SetLanes(counts)) choice.add(i + static_cast<std::uint32_t>(lane), weight.get(lane));
   }
 }
 
@@ -163,12 +160,9 @@ PhotonMap::Light PhotonMap::choose(const Vec3<FloatN>& p, const Vec3<FloatN>& no
   alignas(64) std::array<std::uint32_t, packet_lanes> found{}, met{};
   // Of Epanechnikov's kernel, 1 - (distance / radius)^2.
   const auto per_area = static_cast<float>(2 / (std::numbers::pi * double{radius_} * double{radius_}));
-  for (std::uint32_t left = bits_of<FloatN>(lanes); left != 0; left &= left - 1) {
-    const auto lane = static_cast<std::size_t>(std::countr_zero(left));
-    const Vec3f at{p.x.get(lane), p.y.get(lane), p.z.get(lane)};
-    const Vec3f its_normal{normal.x.get(lane), normal.y.get(lane), normal.z.get(lane)};
+  for (const std::size_t lane : SetLanes(lanes)) {
     Choice choice{u.get(lane)};
-    choose_around(at, its_normal, most_points, choice);
+    choose_around(in_lane(p, lane), in_lane(normal, lane), most_points, choice);
     if (!(choice.sum > 0)) continue;
     const Photon& photon = photons_[choice.photon];
     const float share = choice.sum / places_.power[choice.photon] * per_area;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "raytrace/film/photons.h"
+#include "raytrace/math/lanes.h"
 #include "raytrace/parallel/for_each_index.h"
 #include "raytrace/sampling/pixel_sampler.h"
 #include "raytrace/tracing/light_path_tracer.h"
@@ -56,18 +57,13 @@ class PhotonTracer final : private LightPathTracer {
   void arrive(const LightPathPoint& at, const MaskN& lanes) override {
     const LightPathPacket& path = at.path;
     const SurfaceInteraction<FloatN>& surface = at.surface;
-    const auto lane_of = [](const Vec3<FloatN>& v, std::size_t lane) {
-      return Vec3f{v.x.get(lane), v.y.get(lane), v.z.get(lane)};
-    };
     const auto lights = static_cast<std::int32_t>(tables_.lights().size());
     const MaskN lit = lanes & (dot(surface.ng, surface.wo) > FloatN(0)) & (largest(path.flux) < infinity<FloatN>());
-    for (std::uint32_t left = bits_of<FloatN>(lit); left != 0; left &= left - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+    for (const std::size_t lane : SetLanes(lit)) {
       photons_.push_back(
           {path.sample.get(lane),
-           {lane_of(surface.p, lane), lane_of(surface.ng, lane), lane_of(surface.wo, lane),
-            Rgb<float>(path.flux.red.get(lane), path.flux.green.get(lane), path.flux.blue.get(lane)) * share_,
-            path.group.get(lane), path.source.get(lane) >= lights, at.depth}});
+           {in_lane(surface.p, lane), in_lane(surface.ng, lane), in_lane(surface.wo, lane),
+            in_lane(path.flux, lane) * share_, path.group.get(lane), path.source.get(lane) >= lights, at.depth}});
     }
   }
 
