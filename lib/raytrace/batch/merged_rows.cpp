@@ -22,10 +22,8 @@ void copy_rows(const ImageBand& from, ImageBand& to) {
         [&](const auto& source) {
           auto& target = std::get<std::decay_t<decltype(source)>>(to.planes[plane]);
           for (int y = from.region.y0; y < from.region.y1; ++y) {
-            const auto row = static_cast<std::size_t>(y - from.region.y0) * width;
-            const auto target_row =
-                static_cast<std::size_t>(y - to.region.y0) * static_cast<std::size_t>(to.region.width()) +
-                static_cast<std::size_t>(from.region.x0 - to.region.x0);
+            const std::size_t row = from.region.index(from.region.x0, y);
+            const std::size_t target_row = to.region.index(from.region.x0, y);
             std::copy_n(source.begin() + static_cast<std::ptrdiff_t>(row), width,
                         target.begin() + static_cast<std::ptrdiff_t>(target_row));
           }

@@ -75,18 +75,11 @@ struct DisplayClient::Shared {
         warn(std::move(warning)) {}
 
   void copy(const Film& film, const Region& part) {
-    const auto width = static_cast<std::size_t>(extent.region.width());
-    pixels.resize(width * static_cast<std::size_t>(extent.region.height()));
+    pixels.resize(extent.region.pixels());
     for (int y = part.y0; y < part.y1; ++y) {
-      Pixel* to = &pixels[index(part.x0, y)];
+      Pixel* to = &pixels[extent.region.index(part.x0, y)];
       for (int x = part.x0; x < part.x1; ++x) *to++ = film.pixel(x, y);
     }
-  }
-
-  std::size_t index(int x, int y) const {
-    const Region& region = extent.region;
-    return static_cast<std::size_t>(y - region.y0) * static_cast<std::size_t>(region.width()) +
-           static_cast<std::size_t>(x - region.x0);
   }
 
   /// In the viewer's image, whose origin is the picture's, or that of what is rendered beyond it.
@@ -94,7 +87,7 @@ struct DisplayClient::Shared {
     const Region shifted{rectangle.x0 - view.x0, rectangle.y0 - view.y0, rectangle.x1 - view.x0,
                          rectangle.y1 - view.y0};
     const std::lock_guard lock(mutex);
-    return update_image_packet(image_name, shifted, &pixels[index(rectangle.x0, rectangle.y0)],
+    return update_image_packet(image_name, shifted, &pixels[extent.region.index(rectangle.x0, rectangle.y0)],
                                static_cast<std::size_t>(extent.region.width()));
   }
 

@@ -8,7 +8,7 @@
 namespace raytrace {
 
 AovFilm::AovFilm(const Region& region, const AovSettings& settings) : region_(region), settings_(settings) {
-  const auto pixels = static_cast<std::size_t>(region_.width()) * static_cast<std::size_t>(region_.height());
+  const std::size_t pixels = region_.pixels();
   nearest_.resize(pixels * nearest_words(settings_));
   sums_.resize(pixels * means());
   coverages_.resize(pixels * settings_.coverages);
@@ -20,7 +20,7 @@ std::size_t AovFilm::pixel_bytes(const AovSettings& settings) {
 }
 
 void AovFilm::add_nearest(int x, int y, float depth, std::uint32_t sample, const std::uint32_t* values) {
-  std::uint32_t* const words = nearest_.data() + pixel(x, y) * nearest_words(settings_);
+  std::uint32_t* const words = nearest_.data() + region_.index(x, y) * nearest_words(settings_);
   const std::uint32_t index = sample + 1;
   if (words[index_word] != 0) {
     const float before = std::bit_cast<float>(words[depth_word]);
@@ -32,13 +32,13 @@ void AovFilm::add_nearest(int x, int y, float depth, std::uint32_t sample, const
 }
 
 AovFilm::Nearest AovFilm::nearest(int x, int y) const {
-  const std::uint32_t* const words = nearest_.data() + pixel(x, y) * nearest_words(settings_);
+  const std::uint32_t* const words = nearest_.data() + region_.index(x, y) * nearest_words(settings_);
   if (words[index_word] == 0) return {};
   return {words[index_word] - 1, std::bit_cast<float>(words[depth_word]), words + key_words};
 }
 
 void AovFilm::add_coverage(int x, int y, std::size_t coverage, const IdCount& more) {
-  Coverage& here = coverages_[pixel(x, y) * settings_.coverages + coverage];
+  Coverage& here = coverages_[region_.index(x, y) * settings_.coverages + coverage];
   if (here.first.count == 0) here.first.id = more.id;
   if (here.first.id == more.id) {
     here.first.count += more.count;
@@ -55,7 +55,7 @@ void AovFilm::add_coverage(int x, int y, std::size_t coverage, const IdCount& mo
 }
 
 std::vector<IdCount> AovFilm::ranked(int x, int y, std::size_t coverage) const {
-  const Coverage& here = coverages_[pixel(x, y) * settings_.coverages + coverage];
+  const Coverage& here = coverages_[region_.index(x, y) * settings_.coverages + coverage];
   std::vector<IdCount> all;
   if (here.first.count != 0) all.push_back(here.first);
   if (here.others) all.insert(all.end(), here.others->begin(), here.others->end());

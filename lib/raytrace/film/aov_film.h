@@ -40,7 +40,7 @@ class AovFilm {
   void add_nearest(int x, int y, float depth, std::uint32_t sample, const std::uint32_t* values);
   /// Whether the sum has room for it.
   bool add_mean(int x, int y, std::size_t mean, std::int64_t units) {
-    std::int64_t& sum = sums_[pixel(x, y) * means() + mean];
+    std::int64_t& sum = sums_[region_.index(x, y) * means() + mean];
     return !__builtin_add_overflow(sum, units, &sum);
   }
   void add_coverage(int x, int y, std::size_t coverage, const IdCount& more);
@@ -51,7 +51,7 @@ class AovFilm {
     const std::uint32_t* values = nullptr;  ///< null if no sample met a surface
   };
   Nearest nearest(int x, int y) const;
-  std::int64_t sum(int x, int y, std::size_t mean) const { return sums_[pixel(x, y) * means() + mean]; }
+  std::int64_t sum(int x, int y, std::size_t mean) const { return sums_[region_.index(x, y) * means() + mean]; }
   /// All that was gathered; it does not depend on the order in which it was.
   void add_to(ContentHash& hash) const;
 
@@ -69,10 +69,6 @@ class AovFilm {
   static constexpr std::size_t depth_word = 1;
   static constexpr std::size_t key_words = 2;
 
-  std::size_t pixel(int x, int y) const {
-    return static_cast<std::size_t>(y - region_.y0) * static_cast<std::size_t>(region_.width()) +
-           static_cast<std::size_t>(x - region_.x0);
-  }
   static std::size_t nearest_words(const AovSettings& settings) {
     return settings.nearest_values == 0 ? 0 : key_words + settings.nearest_values;
   }

@@ -82,7 +82,7 @@ Film::Film(const FilmSettings& settings, FilmContent content)
     : settings_(settings), content_(content), unit_(std::ldexp(1.0, settings.unit_exponent)) {
   switch (content_) {
     case FilmContent::sums:
-      sums_ = LargeArray<PixelSum>::zeros(count());
+      sums_ = LargeArray<PixelSum>::zeros(region().pixels());
       if (settings.light_paths_of)
         splats_ = std::make_unique<SplatLayer>(region(), static_cast<std::uint64_t>(settings.extent.full_width) *
                                                              static_cast<std::uint64_t>(settings.extent.full_height));
@@ -92,10 +92,10 @@ Film::Film(const FilmSettings& settings, FilmContent content)
       if (settings.aovs.gather()) aovs_ = std::make_unique<AovFilm>(region(), settings.aovs);
       break;
     case FilmContent::means:
-      means_ = LargeArray<Pixel>::zeros(count());
+      means_ = LargeArray<Pixel>::zeros(region().pixels());
       break;
     case FilmContent::half_means:
-      half_means_ = LargeArray<HalfPixel>::zeros(count());
+      half_means_ = LargeArray<HalfPixel>::zeros(region().pixels());
       break;
   }
 }
@@ -128,14 +128,14 @@ Pixel Film::light_pixel(const LightLayer& light, int x, int y) const {
 void Film::add(int x, int y, const PixelSum& more, const PixelSumHigh& more_high) {
   add(x, y, more);
   if (more_high == PixelSumHigh()) return;
-  PixelSumHigh& high = highs_.make(count())[index(x, y)];
+  PixelSumHigh& high = highs_.make(region().pixels())[index(x, y)];
   high.red += more_high.red;
   high.green += more_high.green;
   high.blue += more_high.blue;
 }
 
 void Film::carry(int x, int y, const PixelSum& before, const PixelSum& more) {
-  PixelSumHigh& high = highs_.make(count())[index(x, y)];
+  PixelSumHigh& high = highs_.make(region().pixels())[index(x, y)];
   const auto carried = [](std::int64_t a, std::int64_t b) {
     std::int64_t sum = 0;
     return !__builtin_add_overflow(a, b, &sum) ? 0 : a < 0 ? -1 : 1;
@@ -148,12 +148,12 @@ void Film::carry(int x, int y, const PixelSum& before, const PixelSum& more) {
 bool Film::has_high() const {
   const PixelSumHigh* const highs = highs_.data();
   return highs != nullptr &&
-         std::any_of(highs, highs + count(), [](const PixelSumHigh& high) { return high != PixelSumHigh(); });
+         std::any_of(highs, highs + region().pixels(), [](const PixelSumHigh& high) { return high != PixelSumHigh(); });
 }
 
 void Film::add_to(ContentHash& hash) const {
   hash.add(sums_.data(), sums().size_bytes());
-  if (has_high()) hash.add(highs_.data(), count() * sizeof(PixelSumHigh));
+  if (has_high()) hash.add(highs_.data(), region().pixels() * sizeof(PixelSumHigh));
   if (splats_) splats_->add_to(hash);
   for (const LightLayer& light : lights_) {
     light.samples->add_to(hash);
@@ -164,7 +164,7 @@ void Film::add_to(ContentHash& hash) const {
 
 std::vector<Pixel> Film::pixels() const {
   std::vector<Pixel> all;
-  all.reserve(count());
+  all.reserve(region().pixels());
   for (int y = region().y0; y < region().y1; ++y)
     for (int x = region().x0; x < region().x1; ++x) all.push_back(pixel(x, y));
   return all;
@@ -175,7 +175,7 @@ std::uint32_t Film::fewest_samples() const {
   const Region rendered = settings_.rendered();
   for (int y = rendered.y0; y < rendered.y1; ++y)
     for (int x = rendered.x0; x < rendered.x1; ++x) fewest = std::min(fewest, sum(x, y).samples);
-  return count() == 0 || content_ != FilmContent::sums ? 0 : fewest;
+  return region().pixels() == 0 || content_ != FilmContent::sums ? 0 : fewest;
 }
 
 }  // namespace raytrace

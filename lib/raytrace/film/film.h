@@ -173,7 +173,7 @@ class Film {
 
   PixelSum& sum(int x, int y) { return sums_[index(x, y)]; }
   const PixelSum& sum(int x, int y) const { return sums_[index(x, y)]; }
-  std::span<const PixelSum> sums() const { return {sums_.data(), content_ == FilmContent::sums ? count() : 0}; }
+  std::span<const PixelSum> sums() const { return {sums_.data(), content_ == FilmContent::sums ? region().pixels() : 0}; }
 
   PixelSumHigh high(int x, int y) const {
     return highs_.data() == nullptr ? PixelSumHigh() : highs_.data()[index(x, y)];
@@ -215,13 +215,7 @@ class Film {
   const HalfPixel& half_mean(int x, int y) const { return half_means_[index(x, y)]; }
 
  private:
-  std::size_t count() const {
-    return static_cast<std::size_t>(region().width()) * static_cast<std::size_t>(region().height());
-  }
-  std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y - region().y0) * static_cast<std::size_t>(region().width()) +
-           static_cast<std::size_t>(x - region().x0);
-  }
+  std::size_t index(int x, int y) const { return region().index(x, y); }
   void carry(int x, int y, const PixelSum& before, const PixelSum& more);
 
   FilmSettings settings_;

@@ -6,10 +6,10 @@
 
 namespace raytrace {
 
-RadianceLayer::RadianceLayer(const Region& region) : region_(region), sums_(LargeArray<Low>::zeros(pixels())) {}
+RadianceLayer::RadianceLayer(const Region& region) : region_(region), sums_(LargeArray<Low>::zeros(region.pixels())) {}
 
 void RadianceLayer::add(int x, int y, const RadianceSum& units) {
-  const std::uint64_t at = number(x, y);
+  const std::uint64_t at = region_.index(x, y);
   for (std::size_t channel = 0; channel < units.size(); ++channel) {
     const Limbs limbs = limbs_of(units[channel]);
     const std::int64_t before =
@@ -18,12 +18,12 @@ void RadianceLayer::add(int x, int y, const RadianceSum& units) {
     std::int64_t sum = 0, carried = limbs.high;
     if (__builtin_add_overflow(before, limbs.low, &sum)) carried += before < 0 ? -1 : 1;
     if (carried != 0) [[unlikely]]
-      std::atomic_ref(highs_.make(pixels())[at][channel]).fetch_add(carried, std::memory_order_relaxed);
+      std::atomic_ref(highs_.make(region_.pixels())[at][channel]).fetch_add(carried, std::memory_order_relaxed);
   }
 }
 
 RadianceSum RadianceLayer::sum(int x, int y) const {
-  const std::uint64_t at = number(x, y);
+  const std::uint64_t at = region_.index(x, y);
   const Low& low = sums_[at];
   const Low high = highs_.data() == nullptr ? Low{} : highs_.data()[at];
   RadianceSum sum;
@@ -34,12 +34,13 @@ RadianceSum RadianceLayer::sum(int x, int y) const {
 
 bool RadianceLayer::has_high() const {
   const Low* const highs = highs_.data();
-  return highs != nullptr && std::any_of(highs, highs + pixels(), [](const Low& high) { return high != Low{}; });
+  return highs != nullptr &&
+         std::any_of(highs, highs + region_.pixels(), [](const Low& high) { return high != Low{}; });
 }
 
 void RadianceLayer::add_to(ContentHash& hash) const {
-  hash.add(sums_.data(), pixels() * sizeof(Low));
-  if (has_high()) hash.add(highs_.data(), pixels() * sizeof(Low));
+  hash.add(sums_.data(), region_.pixels() * sizeof(Low));
+  if (has_high()) hash.add(highs_.data(), region_.pixels() * sizeof(Low));
 }
 
 }  // namespace raytrace

@@ -32,14 +32,6 @@ class RadianceLayer {
   void add_to(ContentHash& hash) const;
 
   const Region& region() const { return region_; }
-  std::uint64_t pixels() const {
-    return static_cast<std::uint64_t>(region_.width()) * static_cast<std::uint64_t>(region_.height());
-  }
-  /// The pixel's number, row by row.
-  std::uint64_t number(int x, int y) const {
-    return static_cast<std::uint64_t>(y - region_.y0) * static_cast<std::uint64_t>(region_.width()) +
-           static_cast<std::uint64_t>(x - region_.x0);
-  }
 
  private:
   using Low = std::array<std::int64_t, 3>;

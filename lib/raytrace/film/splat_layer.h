@@ -19,11 +19,11 @@ class SplatLayer : public RadianceLayer {
   /// row, has those of the picture's pixels k, k + n, k + 2 n..., one for each of its samples. How many of them: in
   /// most films one.
   std::uint64_t paths_per_sample(int x, int y) const {
-    const std::uint64_t first = number(x, y);
-    return first < picture_pixels_ ? (picture_pixels_ - first - 1) / pixels() + 1 : 0;
+    const std::uint64_t first = region().index(x, y);
+    return first < picture_pixels_ ? (picture_pixels_ - first - 1) / region().pixels() + 1 : 0;
   }
   /// The picture's pixel, counted row by row, that path i of those belongs to.
-  std::uint64_t path_pixel(int x, int y, std::uint64_t i) const { return number(x, y) + i * pixels(); }
+  std::uint64_t path_pixel(int x, int y, std::uint64_t i) const { return region().index(x, y) + i * region().pixels(); }
 
   /// Counts light paths, each with all that it brought.
   void add_paths(std::uint64_t paths) { paths_.fetch_add(paths, std::memory_order_relaxed); }

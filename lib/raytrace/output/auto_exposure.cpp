@@ -28,8 +28,7 @@ void AutoExposure::add(const Pixel& pixel) {
 }
 
 void AutoExposure::add(const ImageBand& band) {
-  const auto pixels = static_cast<std::size_t>(band.region.width()) * static_cast<std::size_t>(band.region.height());
-  for (std::size_t i = 0; i < pixels; ++i) add(color_at(band, i));
+  for (std::size_t i = 0; i < band.region.pixels(); ++i) add(color_at(band, i));
 }
 
 double AutoExposure::stops() const {

@@ -32,16 +32,13 @@ DenoisedPicture::DenoisedPicture(const Region& region, const std::vector<Channel
       normal_(plane_of(channels, std::string(denoiser_aovs[1]) + ".X")) {
   picture_.width = region.width();
   picture_.height = region.height();
-  const std::size_t numbers =
-      colors * static_cast<std::size_t>(region.width()) * static_cast<std::size_t>(region.height());
+  const std::size_t numbers = colors * region.pixels();
   for (std::vector<float>* const pixels : {&picture_.color, &picture_.albedo, &picture_.normal})
     pixels->resize(numbers);
   if (transparent) picture_.alpha.resize(numbers);
 }
 
-std::size_t DenoisedPicture::begin_of(const ImageBand& band) const {
-  return static_cast<std::size_t>(band.region.y0 - region_.y0) * static_cast<std::size_t>(region_.width());
-}
+std::size_t DenoisedPicture::begin_of(const ImageBand& band) const { return region_.index(region_.x0, band.region.y0); }
 
 void DenoisedPicture::copy(const ImageBand& band, std::size_t plane, std::size_t channel,
                            std::vector<float>& pixels) const {

@@ -53,7 +53,7 @@ void refuse_impossible(const Imf::Header& header, const Region& region, std::uin
     pixel_bytes += bytes_of(layout.type);
   }
   constexpr std::uint64_t most_bytes_of_a_byte = 1032;  // that zip makes
-  const std::uint64_t pixels = static_cast<std::uint64_t>(region.width()) * static_cast<std::uint64_t>(region.height());
+  const std::uint64_t pixels = region.pixels();
   if (pixels * pixel_bytes > file_size * (compressed ? most_bytes_of_a_byte : 1))
     throw InputError("it is not whole, or damaged: it is too small for its " + std::to_string(pixels) + " pixels");
 }

@@ -232,7 +232,7 @@ std::vector<Channel> color_channels(bool full_float) {
 }
 
 void make_planes(ImageBand& band, std::size_t first_plane, const std::vector<Channel>& channels) {
-  const auto pixels = static_cast<std::size_t>(band.region.width()) * static_cast<std::size_t>(band.region.height());
+  const std::size_t pixels = band.region.pixels();
   band.planes.resize(std::max(band.planes.size(), first_plane + channels.size()));
   for (std::size_t i = 0; i < channels.size(); ++i) {
     if (channels[i].type == ChannelType::uint32) {
@@ -260,7 +260,7 @@ void fill_color(ImageBand& band, const Film& film, int y0, int y1, int threads) 
   for (std::size_t i = 0; i < ImageBand::colors; ++i) {
     if (!std::holds_alternative<std::vector<float>>(band.planes[i])) band.planes[i] = std::vector<float>();
     auto& plane = std::get<std::vector<float>>(band.planes[i]);
-    plane.resize(width * static_cast<std::size_t>(band.region.height()));
+    plane.resize(band.region.pixels());
     planes[i] = plane.data();
   }
   for_each_index(band.region.height(), threads, [&](int row) {
