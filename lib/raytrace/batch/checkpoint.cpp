@@ -69,24 +69,19 @@ FileIdentity write_checkpoint(const std::string& file, const Film& film, const P
 }
 
 ErrorOfPasses::Sums read_checkpoint(const std::string& file, const PieceIdentity& identity, Film& film) {
+  const auto refuse = [&](const std::string& why) { throw InputError("cannot resume from " + file + ": " + why); };
   ExrReader reader(file);
   const PieceIdentity got = identity_of(reader);
-  if (const auto other = difference(identity, got))
-    throw InputError("cannot resume from " + file + ": it differs in " + *other);
-  if (got.film.extent.region != film.region()) {
-    throw InputError("cannot resume from " + file + ": it holds the crop " + text_of(got.film.extent.region) +
-                     ", not " + text_of(film.region()));
-  }
-  if (got.film.rendered() != film.settings().rendered()) {
-    throw InputError("cannot resume from " + file + ": it is of the tile " + text_of(got.film.rendered()) + ", not " +
-                     text_of(film.settings().rendered()));
-  }
-  if (got.film.samples.first != film.settings().samples.first) {
-    throw InputError("cannot resume from " + file + ": its samples begin at " + std::to_string(got.film.samples.first) +
-                     ", not " + std::to_string(film.settings().samples.first));
-  }
+  if (const auto other = difference(identity, got)) refuse("it differs in " + *other);
+  if (got.film.extent.region != film.region())
+    refuse("it holds the crop " + text_of(got.film.extent.region) + ", not " + text_of(film.region()));
+  if (got.film.rendered() != film.settings().rendered())
+    refuse("it is of the tile " + text_of(got.film.rendered()) + ", not " + text_of(film.settings().rendered()));
+  if (got.film.samples.first != film.settings().samples.first)
+    refuse("its samples begin at " + std::to_string(got.film.samples.first) + ", not " +
+           std::to_string(film.settings().samples.first));
   if (std::none_of(reader.channels().begin(), reader.channels().end(), is_sum))
-    throw InputError("cannot resume from " + file + ": it is a picture without the sums of its samples");
+    refuse("it is a picture without the sums of its samples");
   const std::vector<Channel> sums = sum_channels(got.film, reader.channels());
   std::vector<Channel> channels = color_channels(false);
   channels.insert(channels.end(), sums.begin(), sums.end());
@@ -94,14 +89,12 @@ ErrorOfPasses::Sums read_checkpoint(const std::string& file, const PieceIdentity
   const Region& region = film.region();
   for (int y = region.y0; y < region.y1;) {
     const int end = std::min(y + band_rows(region.width(), sums.size()), region.y1);
-    if (!add_sums(reader.read(sums, y, end), sums, got.film.samples, film))
-      throw InputError("cannot resume from " + file + ": it is damaged");
+    if (!add_sums(reader.read(sums, y, end), sums, got.film.samples, film)) refuse("it is damaged");
     y = end;
   }
-  if (reader.attribute<std::string>(hash_name) != hash_of(film))
-    throw InputError("cannot resume from " + file + ": it is damaged");
+  if (reader.attribute<std::string>(hash_name) != hash_of(film)) refuse("it is damaged");
   if (samples_done(film).most > film.settings().samples.count)
-    throw InputError("cannot resume from " + file + ": it has more samples per pixel than are asked for");
+    refuse("it has more samples per pixel than are asked for");
   return error_sums(reader.attribute<std::string>(error_name).value_or(""));
 }
 
