@@ -193,6 +193,12 @@ void Document::spend(std::size_t values, const Item& place) {
   if (spent_ > 4 * size() + most_of_small_file) place.fail("asks for more numbers than the file can have");
 }
 
+bool Document::may_look_at(std::size_t values) {
+  constexpr std::size_t most = 100'000'000;
+  looked_at_ += values;
+  return looked_at_ <= most;
+}
+
 void Document::expand(std::size_t bytes, const Item& place) {
   // A flat grid of a million triangles is written by Draco in an eighth of a byte for each, which takes this decoder a
   // thousand times as much; meshoptimizer writes 256 equal bytes as two bits.

@@ -62,6 +62,9 @@ class Document {
   /// Counts values that are read to evaluate an animation, of which a file has only so many: parts of it that say the
   /// same numbers again and again take no endless time.
   void spend(std::size_t values, const Item& place);
+  /// Counts values that are looked at for a warning alone. Whether they may be: files of usual sizes have no more, but
+  /// parts of others say the same ones again and again.
+  bool may_look_at(std::size_t values);
 
   void warn(const std::string& place, const std::string& message) {
     if (!is_quiet_) warnings_.push_back(place + ": " + message);
@@ -71,7 +74,6 @@ class Document {
   /// Nothing is said while it is quiet.
   void be_quiet(bool quiet) { is_quiet_ = quiet; }
   void report(Diagnostics& diagnostics) const;
-  std::size_t looked_at_for_warnings = 0;  ///< so many values
 
  private:
   /// The path of a file of that name.
@@ -90,7 +92,7 @@ class Document {
   std::map<std::uint64_t, std::string> data_;  ///< of the buffers that the file has as URIs
   std::deque<std::string> decoded_;
   std::map<std::string, std::string_view> decoded_views_;  ///< by their places
-  std::size_t size_, decoded_bytes_ = 0, spent_ = 0, expanded_ = 0;
+  std::size_t size_, decoded_bytes_ = 0, spent_ = 0, looked_at_ = 0, expanded_ = 0;
   std::vector<std::string> warnings_;
   std::set<std::string> warned_;
   bool is_quiet_ = false;

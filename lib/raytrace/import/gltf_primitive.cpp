@@ -101,13 +101,10 @@ class VertexReader {
 };
 
 /// Where the alpha of vertex colours would count, which a mesh has no place for.
-/// Looked for in what files of usual sizes have: primitives may have the same colours again and again.
-void warn_of_alpha(const Primitive& primitive, const Item& material, Document& document, std::size_t& looked_at) {
+void warn_of_alpha(const Primitive& primitive, const Item& material, Document& document) {
   const std::optional<Item> mode = material.find("alphaMode");
   if (!mode || mode->text() == "OPAQUE" || !primitive.colors || primitive.colors->elements.components < 4) return;
-  constexpr std::size_t most = 100'000'000;
-  looked_at += primitive.colors->elements.count;
-  if (looked_at > most) return;
+  if (!document.may_look_at(primitive.colors->elements.count)) return;
   bool is_opaque = true;
   for_each_element(*primitive.colors, 1, [&](std::size_t, const auto& values) { is_opaque &= values[3] >= 1; });
   if (is_opaque) return;
@@ -170,8 +167,7 @@ std::vector<Primitive> read_primitives(Document& document, DracoReader& draco, c
     const std::optional<Item> number = material_of(item, variant);
     const PrimitiveMaterial of_model = number ? material(*number) : PrimitiveMaterial();
     primitive.material = of_model.number;
-    if (number && !of_model.is_overridden)
-      warn_of_alpha(primitive, document.listed("materials", *number), document, document.looked_at_for_warnings);
+    if (number && !of_model.is_overridden) warn_of_alpha(primitive, document.listed("materials", *number), document);
     const auto coordinates = [&](std::uint64_t set) {
       return vertices.attribute("TEXCOORD_" + std::to_string(set), 2, 2);
     };
