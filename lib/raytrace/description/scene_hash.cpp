@@ -8,10 +8,8 @@
 
 #include "raytrace/description/scene_description.h"
 #include "raytrace/description/scene_layout.h"
-#include "raytrace/materials/surface_detail.h"
 #include "raytrace/math/content_hash.h"
 #include "raytrace/parallel/for_each_index.h"
-#include "raytrace/textures/uv_set.h"
 
 namespace raytrace {
 
@@ -27,42 +25,37 @@ class SceneHash {
       if constexpr (std::is_same_v<T, ViewPlane>) {
         add_parameters(element_type<T>().fields, &parameters, {"samples", "viewtransform", "exposure", "autoexposure"});
       } else {
-        // What moves counts, not when the shutter opens and closes.
         add(T::element);
-        add_parameters(element_type<T>().fields, &parameters,
-                       {"shutteropen", "shutterclose", unused_shift(parameters)});
+        add_camera<T>(parameters);
       }
     });
     for (const CameraParameters& moment : scene.moving_camera)
       for_each_type(Cameras{}, [&]<class T>(std::type_identity<T>) {
-        if (const auto* parameters = std::get_if<typename T::Parameters>(&moment))
-          add_parameters(element_type<T>().fields, parameters,
-                         {"shutteropen", "shutterclose", unused_shift(*parameters)});
+        if (const auto* parameters = std::get_if<typename T::Parameters>(&moment)) add_camera<T>(*parameters);
       });
     for_each_item_type([&]<class Section, class T>(std::type_identity<Section>, std::type_identity<T>) {
-      add_type<T>(items_of<Section, T>(scene));
+      add_items<T>(items_of<Section, T>(scene));
     });
     for (const Group& group : scene.groups) {
       add(group_element);
       add(group.name);
       for_each_type(Objects{},
-                    [&]<class T>(std::type_identity<T>) { add_type<T>(std::get<ObjectItems<T>>(group.objects)); });
+                    [&]<class T>(std::type_identity<T>) { add_items<T>(std::get<ObjectItems<T>>(group.objects)); });
     }
     return hash_.digits();
   }
 
  private:
-  template <class T, class Item>
-  void add_type(const std::vector<Item>& items) {
-    // What has been made of models counts; scenes without any keep the hashes that they had before there were models.
-    if (std::is_same_v<T, Model> && items.empty()) return;
-    add(T::element);
-    add_items<T>(items);
+  template <class T>
+  void add_camera(const typename T::Parameters& parameters) {
+    // What moves counts, not when the shutter opens and closes.
+    add_parameters(element_type<T>().fields, &parameters, {"shutteropen", "shutterclose"});
   }
 
   /// Hashes of chunks that do not depend on the threads: one of a million objects would take as long as some renders.
   template <class T, class Item>
   void add_items(const std::vector<Item>& items) {
+    add(T::element);
     add(static_cast<std::uint64_t>(items.size()));
     const Fields& fields = element_type<T>().fields;
     std::vector<std::string> hashes(chunk_count(items.size()));
@@ -73,20 +66,13 @@ class SceneHash {
         if constexpr (requires { item.data; }) {
           hash.add_loaded(fields, item);
         } else if constexpr (requires { item.image; }) {
-          hash.add_parameters(fields, &item.parameters,
-                              {item.image.hash.empty() ? "" : "file", unused_field(item.parameters),
-                               unused_space(item.parameters), unused_wrap(item.parameters)});
+          hash.add_parameters(fields, &item.parameters, {item.image.hash.empty() ? "" : "file"});
           hash.add(item.image.hash);
         } else if constexpr (requires { item.photometry; }) {
           hash.add_parameters(fields, &item.parameters, {item.photometry.hash.empty() ? "" : "iesfile"});
           hash.add(item.photometry.hash);
         } else {
-          // A map of tangents is a texture alone, and has no number. Scenes without coats' normals keep the hashes that
-          // they had before there were any.
-          std::string_view unused_map = "";
-          if constexpr (requires { item.parameters.coatnormalmap; })
-            if (item.parameters.coatnormalmap == 1) unused_map = coatnormalmap_field;
-          hash.add_parameters(fields, &item.parameters, {unused_field(item.parameters), tangentmap_field, unused_map});
+          hash.add_parameters(fields, &item.parameters);
         }
         if constexpr (requires { item.transform; }) {
           hash.add(static_cast<std::uint64_t>(item.transform.steps.size()));
@@ -97,9 +83,7 @@ class SceneHash {
         }
         if constexpr (requires { item.motion; })
           for (const Affine& map : item.motion) hash.add(map);
-        // Scenes without any keep the hashes that they had before there were shadow catchers.
-        if constexpr (requires { item.shadowcatcher; })
-          if (item.shadowcatcher) hash.add(shadowcatcher_element);
+        if constexpr (requires { item.shadowcatcher; }) hash.add(item.shadowcatcher);
         if constexpr (requires { item.name; }) hash.add(item.name);
         if constexpr (requires { item.material; }) hash.add_reference(item.material);
         if constexpr (requires { item.textures; }) {
@@ -129,54 +113,11 @@ class SceneHash {
         field.visit(parameters, [&](const auto& value) { add(value); });
   }
 
-  /// The field that is newer than others, if it is not used: scenes without it keep the hashes that they had before.
-  template <class Parameters>
-  static std::string_view unused_field(const Parameters& parameters) {
-    if constexpr (requires { parameters.uvset; })
-      if (parameters.uvset == UvSet::first) return "uvset";
-    if constexpr (requires { parameters.uvs2; })
-      if (parameters.uvs2.empty()) return "uvs2";
-    if constexpr (requires { parameters.tangentrotation; })
-      if (parameters.tangentrotation == 0) return tangentrotation_field;
-    if constexpr (requires { parameters.ground; })
-      if (parameters.ground == 1) return "ground";
-    return "";
-  }
-
-  template <class Parameters>
-  static std::string_view unused_shift(const Parameters& camera) {
-    if constexpr (requires { camera.shift; })
-      if (camera.shift.x == 0 && camera.shift.y == 0) return "shift";
-    return "";
-  }
-
-  template <class Parameters>
-  static std::string_view unused_override(const Parameters& parameters) {
-    if constexpr (requires { parameters.overridematerials; })
-      if (!parameters.overridematerials) return "overridematerials";
-    return "";
-  }
-
-  template <class Parameters>
-  static std::string_view unused_wrap(const Parameters& parameters) {
-    if constexpr (requires { parameters.wrapv; })
-      if (parameters.wrapv == WrapV::same) return Image::wrapv_field;
-    return "";
-  }
-
-  template <class Parameters>
-  static std::string_view unused_space(const Parameters& parameters) {
-    if constexpr (requires { parameters.space; })
-      if (parameters.space == TextureSpace::world) return "space";
-    return "";
-  }
-
   /// By what it was read from a file, if it was.
   template <class Item>
   void add_loaded(const Fields& fields, const Item& item) {
     const bool from_file = item.data != nullptr && !item.parameters.file.path.empty();
-    add_parameters(fields, &item.parameters,
-                   {from_file ? "file" : "", unused_field(item.parameters), unused_override(item.parameters)});
+    add_parameters(fields, &item.parameters, {from_file ? "file" : ""});
     if (!from_file) return;
     add(item.data->origin);
     add(*item.data);
@@ -188,11 +129,11 @@ class SceneHash {
     add_values(data.indices);
     add_values(data.normals);
     add_values(data.uvs);
-    if (!data.uvs2.empty()) add_values(data.uvs2);
+    add_values(data.uvs2);
     add_values(data.colors);
     add_values(data.face_materials);
-    if (!data.tangents.empty()) add_values(data.tangents);
-    // Cryptomatte's ids are of their names. Meshes without any keep the hashes that they had before these counted.
+    add_values(data.tangents);
+    // Cryptomatte's ids are of their names.
     for (const MeshPart& part : data.parts) {
       add(part.name);
       add(static_cast<std::uint64_t>(part.first_face));
