@@ -133,13 +133,9 @@ class KeysReader {
 
   void read_key(Element element) {
     KeyElement read{{}, element};
-    bool has_content = false;
-    for (Node node = element.first_child(); node; node = node.next()) {
-      if (!node.element() && node.text().empty()) continue;
-      has_content = true;
-      refuse(node, [&] { return "unexpected content of " + tag(key_element) + "; write it as " + example(element); });
-    }
-    fine_ &= read_attributes(element, fields(read.key), has_content, context_);
+    fine_ &= read_attributes_alone(element, fields(read.key), context_, [&](Node) {
+      return "unexpected content of " + tag(key_element) + "; write it as " + example(element);
+    });
     keys_.push_back(read);
   }
 

@@ -32,15 +32,9 @@ bool read_attributes_of_step(Element element, TransformStep& step, const ReadCon
   if (has_keys(element)) return read_keys(element, names, values, Range::any, context);
   std::vector<AttributeField> fields;
   for (std::size_t i = 0; i < names.size(); ++i) fields.push_back({names[i], values[i]});
-  bool fine = true;
-  for (Node node = element.first_child(); node; node = node.next()) {
-    if (!node.element() && node.text().empty()) continue;
-    fine = false;
-    context.diagnostics.error(node, [&] {
-      return "unexpected content of " + tag(element.name()) + "; write " + example_of(element.name(), fields, element);
-    });
-  }
-  return read_attributes(element, fields, !fine, context) && fine;
+  return read_attributes_alone(element, fields, context, [&](Node) {
+    return "unexpected content of " + tag(element.name()) + "; write " + example_of(element.name(), fields, element);
+  });
 }
 
 }  // namespace

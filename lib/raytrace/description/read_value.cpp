@@ -121,16 +121,10 @@ class ValueReader {
     auto fields = texture_fields(texture_ != nullptr ? *texture_ : none, !info_.whole_color);
     const std::string_view number = info_.number_attribute;
     if (!number.empty()) fields.push_back({number, &value, info_.range, false});
-    bool fine = true;
-    for (Node node = element_.first_child(); node; node = node.next()) {
-      if (!node.element() && node.text().empty()) continue;
-      fine = false;
-      context_.diagnostics.error(node, [&] {
-        return "unexpected content of " + tag(info_.name) + "; write it as <" + std::string(info_.name) +
-               " texture=\"...\"" + (number.empty() ? "" : " " + std::string(number) + "=\"1\"") + "/>";
-      });
-    }
-    return read_attributes(element_, fields, !fine, context_) && fine;
+    return read_attributes_alone(element_, fields, context_, [&](Node) {
+      return "unexpected content of " + tag(info_.name) + "; write it as <" + std::string(info_.name) +
+             " texture=\"...\"" + (number.empty() ? "" : " " + std::string(number) + "=\"1\"") + "/>";
+    });
   }
 
   /// node: single_text(). parse: text -> OptionalMessage
@@ -201,18 +195,11 @@ class ValueReader {
         }
       }
     }
-    bool fine = true;
-    for (Node node = element_.first_child(); node; node = node.next()) {
-      if (!node.element() && node.text().empty()) continue;
-      fine = false;
-      context_.diagnostics.error(node, [&] {
-        return (node.element() ? "unexpected element " + tag(node.element().name())
-                               : "unexpected text " + in_quotes(node.text())) +
-               " in " + tag(info_.name) +
-               "; its value goes into attributes: " + example_of(info_.name, fields, element_);
-      });
-    }
-    return read_attributes(element_, fields, !fine, context_) && fine;
+    return read_attributes_alone(element_, fields, context_, [&](Node node) {
+      return (node.element() ? "unexpected element " + tag(node.element().name())
+                             : "unexpected text " + in_quotes(node.text())) +
+             " in " + tag(info_.name) + "; its value goes into attributes: " + example_of(info_.name, fields, element_);
+    });
   }
 
   void refuse_zero() const {

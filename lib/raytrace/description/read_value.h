@@ -91,6 +91,19 @@ struct AttributeField {
 bool read_attributes(Element element, std::span<const AttributeField> fields, bool example_shown,
                      const ReadContext& context);
 
+/// The same of an element that has nothing else. refusal(node): what is wrong with its content.
+template <class Refusal>
+bool read_attributes_alone(Element element, std::span<const AttributeField> fields, const ReadContext& context,
+                           const Refusal& refusal) {
+  bool fine = true;
+  for (Node node = element.first_child(); node; node = node.next()) {
+    if (!node.element() && node.text().empty()) continue;
+    fine = false;
+    context.diagnostics.error(node, [&] { return refusal(node); });
+  }
+  return read_attributes(element, fields, !fine, context) && fine;
+}
+
 /// The texture that an element such as <cd texture="wood"/> or <ka texture="dirt" channel="alpha">0.5</ka> names.
 struct TextureAttributes {
   std::string_view texture;                            ///< empty: none
