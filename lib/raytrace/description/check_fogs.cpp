@@ -35,7 +35,7 @@ void add_to_fog(FogObjects& objects, const ObjectItem<T>& item) {
 
 }  // namespace
 
-void check_fogs(const SceneDescription& scene, const std::function<void(SourceLocation, const std::string&)>& warn) {
+void check_fogs(const SceneDescription& scene, Diagnostics& diagnostics) {
   std::vector<FogObjects> fogs(std::get<MaterialItems<Fog>>(scene.materials).size());
   if (fogs.empty()) return;
   const auto add = [&](const ObjectLists& lists, bool in_group) {
@@ -48,7 +48,7 @@ void check_fogs(const SceneDescription& scene, const std::function<void(SourceLo
   add(scene.objects, false);
   for (const Group& group : scene.groups) add(group.objects, true);  // which may have several instances
   for (const FogObjects& objects : fogs)
-    if (objects.count == 1 && objects.is_open) warn(objects.location, objects.advice);
+    if (objects.count == 1 && objects.is_open) diagnostics.warning(objects.location, objects.advice);
 }
 
 }  // namespace raytrace

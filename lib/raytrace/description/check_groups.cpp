@@ -12,9 +12,7 @@ namespace {
 
 class GroupChecker {
  public:
-  using Report = std::function<void(SourceLocation, const std::string&)>;
-
-  GroupChecker(const SceneDescription& scene, const Report& report) : scene_(scene), report_(report) {
+  GroupChecker(const SceneDescription& scene, Diagnostics& diagnostics) : scene_(scene), diagnostics_(diagnostics) {
     for (const Group& group : scene.groups) {
       names_.push_back(group.name);
       states_.try_emplace(group.name, State{&group});
@@ -24,8 +22,9 @@ class GroupChecker {
   void check() {
     for (const Group& group : scene_.groups)
       for (const auto& plane : std::get<ObjectItems<Plane>>(group.objects))
-        report_(location_of(plane),
-                "a plane has no end, so it cannot be in a group; put it into the scene's <objects>");
+        diagnostics_.error(
+            location_of(plane),
+            std::string("a plane has no end, so it cannot be in a group; put it into the scene's <objects>"));
     check_count();
   }
 
@@ -40,8 +39,9 @@ class GroupChecker {
       last = location_of(instance);
     }
     if (count > most_instances)
-      report_(last, "the scene has " + std::to_string(count) +
-                        " instances, those in groups counted each time; the most is " + std::to_string(most_instances));
+      diagnostics_.error(last, "the scene has " + std::to_string(count) +
+                                   " instances, those in groups counted each time; the most is " +
+                                   std::to_string(most_instances));
   }
 
   /// Of meshes that have been read.
@@ -66,13 +66,13 @@ class GroupChecker {
     const auto found = states_.find(name.name);
     if (found == states_.end()) {
       const std::string_view nearest = nearest_name(name.name, names_);
-      report_(location,
-              "unknown group " + in_quotes(name.name) + " in <instance>; " +
-                  (nearest.empty() ? "add one of that name to <groups>" : "did you mean " + in_quotes(nearest) + "?"));
+      diagnostics_.error(location, "unknown group " + in_quotes(name.name) + " in <instance>; " +
+                                       (nearest.empty() ? "add one of that name to <groups>"
+                                                        : "did you mean " + in_quotes(nearest) + "?"));
       return 0;
     }
     if (found->second.progress == State::at_hand) {
-      report_(location, "the group " + in_quotes(name.name) + " would have itself in it");
+      diagnostics_.error(location, "the group " + in_quotes(name.name) + " would have itself in it");
       return 0;
     }
     return count_of(found->second);
@@ -94,26 +94,23 @@ class GroupChecker {
   }
 
   const SceneDescription& scene_;
-  const Report& report_;
+  Diagnostics& diagnostics_;
   std::vector<std::string_view> names_;
   std::map<std::string_view, State> states_;
 };
 
 }  // namespace
 
-void check_groups(const SceneDescription& scene,
-                  const std::function<void(SourceLocation, const std::string&)>& report) {
-  GroupChecker(scene, report).check();
-}
+void check_groups(const SceneDescription& scene, Diagnostics& diagnostics) { GroupChecker(scene, diagnostics).check(); }
 
 std::optional<std::string> too_many_copies(const SceneDescription& scene) {
   std::uint64_t copies = GroupChecker::copies_in(scene.objects);
   for (const Group& group : scene.groups) copies += GroupChecker::copies_in(group.objects);
   if (copies == 0) return std::nullopt;
-  std::optional<std::string> error;
-  const GroupChecker::Report report = [&](SourceLocation, const std::string& message) { error = message; };
-  GroupChecker(scene, report).check_count();
-  return error;
+  Diagnostics found("");
+  GroupChecker(scene, found).check_count();
+  if (!found.has_errors()) return std::nullopt;
+  return found.kept().back().message;
 }
 
 }  // namespace raytrace

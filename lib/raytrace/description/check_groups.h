@@ -1,18 +1,17 @@
 // What groups and their instances must keep.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 
 #include "raytrace/description/scene_description.h"
+#include "raytrace/xml/diagnostics.h"
 
 namespace raytrace {
 
-/// Calls report(line and column, message) for each instance of a group that is not there, each plane in a group, each
-/// instance that would have its own group in it, and if there would be more instances than a scene may have, those in
-/// groups counted each time.
-void check_groups(const SceneDescription& scene, const std::function<void(SourceLocation, const std::string&)>& report);
+/// Reports each instance of a group that is not there, each plane in a group, each instance that would have its own
+/// group in it, and if there would be more instances than a scene may have, those in groups counted each time.
+void check_groups(const SceneDescription& scene, Diagnostics& diagnostics);
 
 /// Once meshes have been read: what is wrong if there are more instances than a scene may have, with meshes' copies.
 std::optional<std::string> too_many_copies(const SceneDescription& scene);

@@ -28,10 +28,9 @@ class SceneChecker {
   explicit SceneChecker(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
   void check(const SceneDescription& scene) {
-    const auto report = [&](SourceLocation location, const std::string& m) { diagnostics_.error(location, m); };
-    check_groups(scene, report);
-    check_environment(scene, report);
-    check_fogs(scene, [&](SourceLocation location, const std::string& m) { diagnostics_.warning(location, m); });
+    check_groups(scene, diagnostics_);
+    check_environment(scene, diagnostics_);
+    check_fogs(scene, diagnostics_);
     for (const Group& group : scene.groups) {
       location_ = location_of(group);
       item_ = {group_element, static_cast<std::size_t>(&group - scene.groups.data())};

@@ -45,10 +45,9 @@ class SceneReader {
     read_all(object_sections_, [&](Element section) { read_section<ObjectsSection>(section); });
     report_taken(ObjectsSection::item, object_names_);
     read_all(group_sections_, [&](Element section) { read_groups(section); });
-    const auto report = [&](SourceLocation location, const std::string& m) { diagnostics_.error(location, m); };
-    if (groups_complete_) check_groups(scene_, report);
-    check_environment(scene_, report);
-    check_fogs(scene_, [&](SourceLocation location, const std::string& m) { diagnostics_.warning(location, m); });
+    if (groups_complete_) check_groups(scene_, diagnostics_);
+    check_environment(scene_, diagnostics_);
+    check_fogs(scene_, diagnostics_);
     for (const std::string_view key : {ViewPlane::element, camera_key})
       if (!firsts_.contains(key))
         diagnostics_.error(root, [&] { return "the scene has no " + tag(key) + "; add one"; });
