@@ -84,12 +84,6 @@ std::string room(std::string objects, const std::string& emissive, int samples, 
          objects + "</objects></raytracer>";
 }
 
-double mean(const FloatPicture& picture) {
-  double sum = 0;
-  for (const Pixel& pixel : picture.pixels()) sum += double{pixel.green};
-  return sum / static_cast<double>(picture.pixels().size());
-}
-
 }  // namespace
 
 TEST_CASE("drawn light is as bright as light that paths meet by chance") {
@@ -101,11 +95,11 @@ TEST_CASE("drawn light is as bright as light that paths meet by chance") {
     const std::string sides = two_sided ? "<twosided>true</twosided>" : "";
     // Rays pass a surface of some opacity, so no light is drawn from it: of one in so many millions.
     const double by_chance =
-        mean(rendered(parsed_scene(room(lamp.objects, sides + "<opacity>0.9999999</opacity>", samples, "")), 2));
+        mean_green(rendered(parsed_scene(room(lamp.objects, sides + "<opacity>0.9999999</opacity>", samples, "")), 2));
     for (const std::string sampling : {"tree", "uniform"}) {
-      const double drawn = mean(rendered(parsed_scene(room(lamp.objects, sides, is_sanitized ? 64 : 256,
-                                                           "<lightsampling>" + sampling + "</lightsampling>")),
-                                         2));
+      const double drawn = mean_green(rendered(parsed_scene(room(lamp.objects, sides, is_sanitized ? 64 : 256,
+                                                                 "<lightsampling>" + sampling + "</lightsampling>")),
+                                               2));
       INFO(lamp.name << ", " << sampling << ": " << drawn << ", by chance " << by_chance);
       CHECK(by_chance > 0.01);
       CHECK(std::abs(drawn / by_chance - 1) < bound);
@@ -127,7 +121,7 @@ TEST_CASE("a lamp in the middle of a sphere gives its closed form") {
       "<center x='0' y='0' z='0'/><radius>0.25</radius><material>lamp</material></sphere></spheres></objects>"
       "</raytracer>";
   for (const std::string& isa : usable_isas()) {
-    const double drawn = mean(rendered(parsed_scene(scene), 2, isa));
+    const double drawn = mean_green(rendered(parsed_scene(scene), 2, isa));
     INFO(isa << " " << drawn << " for " << wanted);
     CHECK(std::abs(drawn / wanted - 1) < 0.005);
   }
@@ -145,7 +139,7 @@ TEST_CASE("a floor far below a small lamp is lit as by a point") {
                 "<eye x='0' y='0' z='0.1'/><lookat x='0' y='-1' z='0'/><fov>2</fov>");
   scene.replace(scene.find("<maxdepth>2"), 11, "<maxdepth>1");
   const double wanted = 0.6 / pi * 2 * pi * radius * radius / (distance * distance);
-  CHECK(std::abs(mean(rendered(parsed_scene(scene))) / wanted - 1) < 1e-3);
+  CHECK(std::abs(mean_green(rendered(parsed_scene(scene))) / wanted - 1) < 1e-3);
 }
 
 TEST_CASE("a floor below an elliptical lamp gets its closed form in few samples") {
@@ -158,7 +152,7 @@ TEST_CASE("a floor below an elliptical lamp gets its closed form in few samples"
                   "<eye x='0' y='-0.5' z='0.1'/><lookat x='0' y='-1' z='0'/><fov>0.1</fov>");
     scene.replace(scene.find("<plane><point x='0' y='0' z='-1.5'"), 34, "<plane><point x='0' y='0' z='-900'");
     scene.replace(scene.find("<maxdepth>2"), 11, "<maxdepth>1");
-    return mean(rendered(parsed_scene(scene))) / (0.6 * 2);
+    return mean_green(rendered(parsed_scene(scene))) / (0.6 * 2);
   };
   const std::string stretched = "M<transform><scale x='1.5' y='1' z='0.2'/></transform>";
   const double disk =
@@ -186,14 +180,14 @@ TEST_CASE("a lamp cut into many triangles is as bright as one") {
       triangles += vertex(x, y) + vertex(x + 1, y) + vertex(x, y + 1) + "\n" + vertex(x + 1, y) + vertex(x + 1, y + 1) +
                    vertex(x, y + 1) + "\n";
   triangles += "</faces>M</mesh></meshes>";
-  const double one = mean(
+  const double one = mean_green(
       rendered(parsed_scene(room("<rectangles><rectangle><corner x='-0.5' y='0.3' z='-0.5'/><edge1 x='1' y='0' z='0'/>"
                                  "<edge2 x='0' y='0' z='1'/>M</rectangle></rectangles>",
                                  "", 256, "")),
                2));
   for (const std::string sampling : {"tree", "power", "uniform"}) {
-    const double many =
-        mean(rendered(parsed_scene(room(triangles, "", 256, "<lightsampling>" + sampling + "</lightsampling>")), 2));
+    const double many = mean_green(
+        rendered(parsed_scene(room(triangles, "", 256, "<lightsampling>" + sampling + "</lightsampling>")), 2));
     INFO(sampling << ": " << many << ", one: " << one);
     CHECK(std::abs(many / one - 1) < 0.01);
   }
@@ -209,7 +203,7 @@ TEST_CASE("a lamp with a texture is as bright where it is drawn as where it is m
                 "<color2 red='0' green='0' blue='0'/><uvscale x='3' y='2'/></checker></checkers></textures>");
     text.replace(text.find(color), color.size(), "<ce red='1' green='1' blue='1' texture='squares'/>");
     text.replace(text.find("<fov>50"), 7, "<fov>6");  // small pixels, which see the squares
-    return mean(rendered(parsed_scene(text), 2));
+    return mean_green(rendered(parsed_scene(text), 2));
   };
   const std::string mirrored =
       "<transform><scale x='-1' y='1' z='0.5'/><rotate x='0' y='0' z='1' angle='20'/></transform>";
@@ -264,9 +258,9 @@ TEST_CASE("of a lamp whose texture is dark but for a spot, light is drawn from t
     double apart = 0;
     for (std::size_t i = 0; i < picture.pixels().size(); ++i)
       apart += std::abs(double{picture.pixels()[i].green} - double{many.pixels()[i].green});
-    return apart / static_cast<double>(picture.pixels().size()) / mean(many);
+    return apart / static_cast<double>(picture.pixels().size()) / mean_green(many);
   };
-  INFO(error(some) << ", drawn evenly " << error(even) << "; " << mean(many) << ", " << mean(even));
+  INFO(error(some) << ", drawn evenly " << error(even) << "; " << mean_green(many) << ", " << mean_green(even));
   CHECK(error(some) < error(even) * 0.3);
 }
 
@@ -284,7 +278,7 @@ TEST_CASE("round shapes that shine are drawn, and not left to chance, where they
     double apart = 0;
     for (std::size_t i = 0; i < picture.pixels().size(); ++i)
       apart += std::abs(double{picture.pixels()[i].green} - double{many.pixels()[i].green});
-    return apart / static_cast<double>(picture.pixels().size()) / mean(many);
+    return apart / static_cast<double>(picture.pixels().size()) / mean_green(many);
   };
   const double drawn = error(with("", 64)), met = error(with("<opacity>0.9999999</opacity>", 64));
   INFO(drawn << ", by chance " << met);
@@ -303,7 +297,7 @@ TEST_CASE("lamps in instances are drawn as lamps that stand there themselves") {
       objects.replace(at, 1, instead);
     return objects;
   };
-  const double single = mean(rendered(parsed_scene(room(with(transform), "", 512, "")), 2));
+  const double single = mean_green(rendered(parsed_scene(room(with(transform), "", 512, "")), 2));
   std::string text = room("", "", 512, "");
   std::string group = "<groups><group><name>g</name><objects>" + with("") + "</objects></group></groups>";
   for (std::size_t at = 0; (at = group.find('M', at)) != std::string::npos;)
@@ -311,7 +305,7 @@ TEST_CASE("lamps in instances are drawn as lamps that stand there themselves") {
   text.insert(text.find("<objects>"), group);
   text.insert(text.rfind("</objects>"),
               "<instances><instance><group>g</group>" + transform + "</instance></instances>");
-  const double instanced = mean(rendered(parsed_scene(text), 2));
+  const double instanced = mean_green(rendered(parsed_scene(text), 2));
   INFO(instanced << ", single " << single);
   CHECK(single > 0.01);
   CHECK(std::abs(instanced / single - 1) < 0.02);
@@ -321,7 +315,7 @@ TEST_CASE("lamps in instances are as bright far from the origin as at it") {
   // Since the camera looks at a point far behind them, the scene's origin stays where it is.
   const auto mean_at = [](double x) {
     const std::string at = "<translate x='" + std::to_string(x) + "' y='0' z='0'/>", from = std::to_string(x);
-    return mean(rendered(parsed_scene(
+    return mean_green(rendered(parsed_scene(
         "<raytracer><viewplane><hres>16</hres><vres>16</vres><samples>64</samples></viewplane><camera><eye x='" + from +
         "' y='0.25' z='0.6'/><lookat x='" + from +
         "' y='-28.75' z='-59.4'/><fov>45</fov></camera><integrator><path><maxdepth>1</maxdepth></path></integrator>"
@@ -340,7 +334,7 @@ TEST_CASE("lamps in instances are as bright far from the origin as at it") {
 }
 
 TEST_CASE("a floor close below a huge sphere that shines gets all the light of its hemisphere") {
-  const double lit = mean(rendered(parsed_scene(
+  const double lit = mean_green(rendered(parsed_scene(
       "<raytracer><viewplane><hres>8</hres><vres>8</vres><samples>64</samples></viewplane><camera>"
       "<eye x='0.5' y='0.4' z='0'/><lookat x='0' y='0' z='0'/><fov>0.2</fov></camera><integrator><path>"
       "<maxdepth>1</maxdepth></path></integrator><materials><mattes><matte><name>floor</name><ka>0</ka><kd>0.8</kd>"
@@ -354,7 +348,7 @@ TEST_CASE("a floor close below a huge sphere that shines gets all the light of i
 }
 
 TEST_CASE("the inside of a sphere that shines is lit by itself") {
-  const double lit = mean(rendered(parsed_scene(
+  const double lit = mean_green(rendered(parsed_scene(
       "<raytracer><viewplane><hres>8</hres><vres>8</vres><samples>256</samples></viewplane><camera>"
       "<eye x='0.5' y='0.4' z='0'/><lookat x='0' y='0' z='0'/><fov>90</fov></camera><integrator><path>"
       "<maxdepth>40</maxdepth></path></integrator><materials><openpbrs><openpbr><name>lamp</name>"

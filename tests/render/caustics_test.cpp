@@ -79,13 +79,6 @@ std::string scene_of(const Stage& stage, const std::string& caustics, int sample
       stage.viewplane);
 }
 
-double mean_green(const std::string& text, std::uint64_t seed) {
-  const FloatPicture picture = rendered(parsed_scene(text), 2, {}, seed);
-  double sum = 0;
-  for (const Pixel& pixel : picture.pixels()) sum += double{pixel.green};
-  return sum / static_cast<double>(picture.pixels().size());
-}
-
 struct Estimate {
   double mean = 0, error = 0;
 };
@@ -95,7 +88,7 @@ Estimate estimate(const std::string& text) {
   constexpr int renders = 10;
   double sum = 0, squares = 0;
   for (int seed = 0; seed < renders; ++seed) {
-    const double mean = mean_green(text, static_cast<std::uint64_t>(seed));
+    const double mean = mean_green(rendered(parsed_scene(text), 2, {}, static_cast<std::uint64_t>(seed)));
     sum += mean;
     squares += mean * mean;
   }
@@ -294,10 +287,7 @@ TEST_CASE("a sun that a mirror sends to the floor") {
   const std::string mirror =
       "<rectangles><rectangle><corner x='-1' y='0.5' z='-1'/><edge1 x='2' y='2' z='0'/><edge2 x='0' y='0' z='2'/>"
       "<material>mirror</material></rectangle></rectangles>";
-  const FloatPicture picture = rendered(parsed_scene(floor_under(sun, mirror)), 2);
-  double sum = 0;
-  for (const Pixel& pixel : picture.pixels()) sum += double{pixel.green};
-  const double mean = sum / static_cast<double>(picture.pixels().size());
+  const double mean = mean_green(rendered(parsed_scene(floor_under(sun, mirror)), 2));
   // No light comes straight to a floor along which it goes.
   CHECK(std::abs(mean * std::numbers::pi / 0.8 - 1) < 0.02);
 }
@@ -339,15 +329,10 @@ TEST_CASE("while samples are missing, light paths count for as many as there are
   const SceneDescription description = parsed_scene(scene_of({"a glass ball"}, "light", 64));
   const auto scene = build_scene(description, {2, {}});
   Film film = film_of(*scene, description, whole(description), whole(description));
-  const auto mean = [&] {
-    double sum = 0;
-    for (const Pixel& pixel : film.pixels()) sum += double{pixel.green};
-    return sum / (16 * 24);
-  };
   render(*scene, film, 16, 2);
-  const double early = mean();
+  const double early = mean_green(film);
   render(*scene, film, 64, 2);
-  CHECK(std::abs(early / mean() - 1) < 0.1);
+  CHECK(std::abs(early / mean_green(film) - 1) < 0.1);
 }
 
 }  // namespace raytrace::test

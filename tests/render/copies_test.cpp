@@ -2,12 +2,8 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
-#include <variant>
 #include <vector>
 
-#include "raytrace/aovs/aov_selection.h"
-#include "raytrace/film/aov_film.h"
-#include "raytrace/output/image_band.h"
 #include "render/scenes.h"
 #include "support/catch.h"
 #include "support/contains.h"
@@ -88,37 +84,21 @@ TEST_CASE("copies are parts of their mesh in ids of objects, and one object with
   write_text(folder.file("a.gltf"),
              copies.text(1, R"(,{"name":"other","mesh":0,"translation":[4,0,0],"scale":[0.03125,1,1]})", 1));
   const std::string mesh = "<meshes><mesh><file>" + folder.file("a.gltf") + "</file></mesh></meshes>";
-  const auto scene = [&](const std::string& objects) {
-    return parsed_scene(
-        "<raytracer><viewplane><hres>6</hres><vres>1</vres><samples>1</samples></viewplane><orthographiccamera>"
-        "<eye x='3' y='0.5' z='9'/><lookat x='3' y='0.5' "
-        "z='0'/></orthographiccamera><lights/><materials><mattes><matte>"
-        "<name>m</name><ka>0</ka><kd>1</kd><cd red='1' green='1' blue='1'/></matte></mattes></materials>" +
-        objects + "</raytracer>");
-  };
-  const auto ids = [](const SceneDescription& description, const std::string& isa) {
-    RenderSettings settings;
-    settings.region = whole(description);
-    settings.aovs = aov_set({"object_id"});
-    RayCounts rays;
-    const auto built = build_scene(description, {1, isa});
-    ImageBand band{settings.region, {}};
-    fill_aovs(band, 0, render(*built, description, settings, rays));
-    return std::get<std::vector<std::uint32_t>>(band.planes.at(0));
-  };
   using Ids = std::vector<std::uint32_t>;
-  const SceneDescription alone = scene(
-      "<objects>" + mesh +
-      "<spheres><sphere><name>ball</name><center x='0.5' y='0.5' z='0'/><radius>0.4</radius><material>m</material>"
-      "</sphere></spheres></objects>");
+  const SceneDescription alone = parsed_scene(row_of_pixels(
+      6,
+      mesh +
+          "<spheres><sphere><name>ball</name><center x='0.5' y='0.5' z='0'/><radius>0.4</radius><material>m</material>"
+          "</sphere></spheres>"));
   CHECK(object_names(alone) == std::vector<std::string>{"ball", "mesh#1", "strips", "other"});
   const SceneDescription grouped =
-      scene("<groups><group><name>g</name><objects>" + mesh +
-            "</objects></group></groups><objects><instances><instance><name>copy</name><group>g</group><transform>"
-            "<translate x='-1' y='0' z='0'/></transform></instance></instances></objects>");
+      parsed_scene(row_of_pixels(6,
+                                 "<instances><instance><name>copy</name><group>g</group><transform>"
+                                 "<translate x='-1' y='0' z='0'/></transform></instance></instances>",
+                                 "<groups><group><name>g</name><objects>" + mesh + "</objects></group></groups>"));
   for (const std::string& isa : usable_isas()) {
-    CHECK(ids(alone, isa) == Ids{1, 0, 3, 0, 4, 0});
-    CHECK(ids(grouped, isa) == Ids{0, 1, 0, 1, 0, 0});
+    CHECK(object_ids(alone, isa) == Ids{1, 0, 3, 0, 4, 0});
+    CHECK(object_ids(grouped, isa) == Ids{0, 1, 0, 1, 0, 0});
   }
 }
 

@@ -72,10 +72,7 @@ TEST_CASE("a white matte sphere in an even environment cannot be seen") {
 TEST_CASE("of an environment that is bright on one side, a floor gets half") {
   SceneDescription scene = parsed_scene(in_environment(scene_text(8, 8, 256, white_floor, from_above)));
   set_picture(scene, 16, 8, [](int x, int) { return x < 8 ? 1 : 0; });
-  const FloatPicture picture = rendered(scene);
-  double mean = 0;
-  for (const Pixel& pixel : picture.pixels()) mean += double{pixel.green} / 64;
-  CHECK(std::abs(mean - 0.5) < 0.005);
+  CHECK(std::abs(mean_green(rendered(scene)) - 0.5) < 0.005);
 }
 
 TEST_CASE("an environment with a ground is even with height") {

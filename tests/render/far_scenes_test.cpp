@@ -44,12 +44,7 @@ std::string far_scene(const std::string& objects, const Vec3d& place, const std:
       beside("eye", place, 0.5, 1, 5) + beside("lookat", place, 0, 0, 0) + shutter);
 }
 
-double mean_light(const std::string& scene) {
-  const FloatPicture picture = rendered(scene);
-  double sum = 0;
-  for (const Pixel& pixel : picture.pixels()) sum += double{pixel.green};
-  return sum / static_cast<double>(picture.pixels().size());
-}
+double mean_light(const std::string& scene) { return mean_green(rendered(scene)); }
 
 /// A camera that looks somewhere, at a point that is so far away.
 std::string view(double x, double length) {

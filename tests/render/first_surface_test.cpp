@@ -23,12 +23,7 @@ std::string above_floor(const std::string& integrator, const std::string& object
          objects + "</objects></raytracer>";
 }
 
-double mean_white(const std::string& text) {
-  const FloatPicture picture = rendered(text);
-  double mean = 0;
-  for (const Pixel& pixel : picture.pixels()) mean += double{pixel.green} / 64;
-  return mean;
-}
+double mean_white(const std::string& text) { return mean_green(rendered(text)); }
 
 const std::string roof_disk =
     "<disks><disk><center x='0' y='1' z='0'/><normal x='0' y='1' z='0'/><radius>0.75</radius><material>m</material>"

@@ -8,8 +8,6 @@
 #include <variant>
 #include <vector>
 
-#include "raytrace/aovs/aov_selection.h"
-#include "raytrace/output/image_band.h"
 #include "render/scenes.h"
 #include "support/catch.h"
 
@@ -29,15 +27,7 @@ Features features_of(const std::string& integrator, int samples, const std::stri
                    "<pixelsize>0.001</pixelsize><samples>" + std::to_string(samples) + "</samples></viewplane>" +
                    "<orthographiccamera><eye x='0' y='0' z='5'/><lookat x='0' y='0' z='0'/></orthographiccamera>" +
                    more + "<materials>" + materials + "</materials><objects>" + objects + "</objects></raytracer>");
-  const auto scene = build_scene(description, {1, {}});
-  RenderSettings settings;
-  settings.threads = 1;
-  settings.region = whole(description);
-  settings.aovs = aov_set({"denoise_albedo", "denoise_normal"});
-  RayCounts rays;
-  const Film film = render(*scene, description, settings, rays);
-  ImageBand band{settings.region, {}};
-  fill_aovs(band, 0, film);
+  const ImageBand band = picture_aovs(description, {"denoise_albedo", "denoise_normal"});
   Features features;
   for (std::size_t i = 0; i < 3; ++i) {
     features.albedo[i] = std::get<std::vector<float>>(band.planes[i])[0];

@@ -38,9 +38,7 @@ double reflected(const std::string& dielectrics, const std::string& boxes, const
                    "</rectangles><boxes>" +
                    boxes + "</boxes></objects></raytracer>"),
       2, isa);
-  double sum = 0;
-  for (const Pixel& pixel : picture.pixels()) sum += double{pixel.green};
-  return sum / static_cast<double>(picture.pixels().size());
+  return mean_green(picture);
 }
 
 double fresnel(double ratio) { return (ratio - 1) * (ratio - 1) / ((ratio + 1) * (ratio + 1)); }

@@ -2,12 +2,8 @@
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <variant>
 #include <vector>
 
-#include "raytrace/aovs/aov_selection.h"
-#include "raytrace/film/aov_film.h"
-#include "raytrace/output/image_band.h"
 #include "render/scenes.h"
 #include "support/catch.h"
 #include "support/gltf.h"
@@ -30,27 +26,6 @@ std::string three_squares() {
       R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}])");
 }
 
-/// The ids of the objects in a row of pixels, whose centers are at x 0.5, 1.5, ...
-std::vector<std::uint32_t> ids_in(const SceneDescription& description, const std::string& isa) {
-  RenderSettings settings;
-  settings.region = whole(description);
-  settings.aovs = aov_set({"object_id"});
-  RayCounts rays;
-  const auto scene = build_scene(description, {1, isa});
-  ImageBand band{settings.region, {}};
-  fill_aovs(band, 0, render(*scene, description, settings, rays));
-  return std::get<std::vector<std::uint32_t>>(band.planes.at(0));
-}
-
-std::string row_of_pixels(int pixels, const std::string& objects, const std::string& groups = {}) {
-  return "<raytracer><viewplane><hres>" + std::to_string(pixels) +
-         "</hres><vres>1</vres><samples>1</samples></viewplane><orthographiccamera><eye x='" +
-         std::to_string(pixels / 2.0) + "' y='0.5' z='9'/><lookat x='" + std::to_string(pixels / 2.0) +
-         "' y='0.5' z='0'/></orthographiccamera><lights/><materials><mattes><matte><name>m</name>"
-         "<ka>0</ka><kd>1</kd><cd red='1' green='1' blue='1'/></matte></mattes></materials>" +
-         groups + "<objects>" + objects + "</objects></raytracer>";
-}
-
 }  // namespace
 
 TEST_CASE("what a glTF file has as nodes has ids of its own behind those of objects") {
@@ -67,7 +42,7 @@ TEST_CASE("what a glTF file has as nodes has ids of its own behind those of obje
   CHECK(object_names(description) ==
         std::vector<std::string>{"left", "mesh#1", "other", "right", "left#2", "other/right", "other/left"});
   for (const std::string& isa : usable_isas())
-    CHECK(ids_in(description, isa) == std::vector<std::uint32_t>{5, 1, 4, 0, 4, 0, 7, 0, 6, 0, 6, 0});
+    CHECK(object_ids(description, isa) == std::vector<std::uint32_t>{5, 1, 4, 0, 4, 0, 7, 0, 6, 0, 6, 0});
 }
 
 TEST_CASE("an instance is one object, whatever the parts of its models") {
@@ -79,7 +54,7 @@ TEST_CASE("an instance is one object, whatever the parts of its models") {
                                      "</file></mesh></meshes></objects></group></groups>"));
   CHECK(object_names(description) == std::vector<std::string>{"copy"});
   for (const std::string& isa : usable_isas())
-    CHECK(ids_in(description, isa) == std::vector<std::uint32_t>{1, 0, 1, 0, 1, 0});
+    CHECK(object_ids(description, isa) == std::vector<std::uint32_t>{1, 0, 1, 0, 1, 0});
 }
 
 TEST_CASE("very many nodes of few names have names of their own") {

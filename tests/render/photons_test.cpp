@@ -39,12 +39,6 @@ std::string floor_in_mirror(const std::string& path, const std::string& lights) 
                        "</rectangles></objects>");
 }
 
-double mean_green(const FloatPicture& picture) {
-  double sum = 0;
-  for (const Pixel& pixel : picture.pixels()) sum += double{pixel.green};
-  return sum / static_cast<double>(picture.pixels().size());
-}
-
 /// A box of glass on a floor, with a ball in it, and a lamp above.
 std::string ball_in_glass(const std::string& path, int samples, const std::string& ball_material,
                           const std::string& lights = "") {

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <random>
 
+#include "raytrace/aovs/aov_selection.h"
 #include "support/catch.h"
 #include "support/usable_isas.h"
 
@@ -80,6 +81,52 @@ void check_same_bits(const SceneDescription& description, bool transparent) {
       for (int x = part.x0; x < part.x1; ++x) wrong += !identical(cut.at(x, y), picture.at(x, y));
     CHECK(wrong == 0);
   }
+}
+
+void check_same_bits_of_balls(const std::string& materials, const std::vector<std::string>& names,
+                              const std::string& checks, const std::string& more_objects) {
+  std::string balls;
+  for (std::size_t i = 0; i < 18; ++i)
+    balls += "<sphere>" +
+             vector_text("center", static_cast<double>(i % 6) * 1.1 - 2.7, static_cast<double>(i / 6) * 1.1 - 1,
+                         static_cast<double>(i % 4) * 0.5) +
+             "<radius>0.55</radius><material>" + names[i % names.size()] + "</material></sphere>";
+  check_same_bits(parsed_scene(scene_text(
+      53, 41, 8,
+      "<lights><pointlights><pointlight><location x='5' y='7' z='9'/></pointlight></pointlights></lights><textures>"
+      "<checkers><checker><name>checks</name>" +
+          checks + "<scale>0.4</scale></checker></checkers></textures><materials>" + materials +
+          "</materials><objects><spheres>" + balls + "</spheres>" + more_objects + "</objects>",
+      "<eye x='0' y='2' z='9'/><lookat x='0' y='0' z='0'/>")));
+}
+
+std::string row_of_pixels(int pixels, const std::string& objects, const std::string& groups) {
+  return "<raytracer><viewplane><hres>" + std::to_string(pixels) +
+         "</hres><vres>1</vres><samples>1</samples></viewplane><orthographiccamera><eye x='" +
+         std::to_string(pixels / 2.0) + "' y='0.5' z='9'/><lookat x='" + std::to_string(pixels / 2.0) +
+         "' y='0.5' z='0'/></orthographiccamera><lights/><materials><mattes><matte><name>m</name>"
+         "<ka>0</ka><kd>1</kd><cd red='1' green='1' blue='1'/></matte></mattes></materials>" +
+         groups + "<objects>" + objects + "</objects></raytracer>";
+}
+
+ImageBand picture_aovs(const SceneDescription& description, const std::vector<std::string>& aovs,
+                       const std::string& isa) {
+  RenderSettings settings{1, 0, whole(description)};
+  settings.aovs = aov_set(aovs);
+  RayCounts rays;
+  ImageBand band{settings.region, {}};
+  fill_aovs(band, 0, render(*build_scene(description, {1, isa}), description, settings, rays));
+  return band;
+}
+
+std::vector<std::uint32_t> object_ids(const SceneDescription& description, const std::string& isa) {
+  return std::get<std::vector<std::uint32_t>>(picture_aovs(description, {"object_id"}, isa).planes.at(0));
+}
+
+double mean_green(const FloatPicture& picture) {
+  double sum = 0;
+  for (const Pixel& pixel : picture.pixels()) sum += double{pixel.green};
+  return sum / static_cast<double>(picture.pixels().size());
 }
 
 double difference(const Pixel& a, const Pixel& b) {

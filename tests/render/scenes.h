@@ -1,9 +1,11 @@
 // Scenes as texts, and renders of them, for the tests of what must not change a picture.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
+#include "raytrace/output/image_band.h"
 #include "raytrace/render/renderer.h"
 #include "support/float_picture.h"
 #include "support/parsed_scene.h"
@@ -47,6 +49,27 @@ bool identical(const FloatPicture& a, const FloatPicture& b);
 /// Fails where the picture depends on threads, on the passes in which its samples are traced, whose packets have
 /// several shapes, or on which part of it is rendered; with each instruction set.
 void check_same_bits(const SceneDescription& description, bool transparent = false);
+
+/// The same for 18 balls of those materials in turn, under a point light. checks: the colours of a texture of that
+/// name.
+void check_same_bits_of_balls(const std::string& materials, const std::vector<std::string>& names,
+                              const std::string& checks =
+                                  "<color1 red='1' green='1' blue='1'/>"
+                                  "<color2 red='0.3' green='0.6' blue='0.2'/>",
+                              const std::string& more_objects = {});
+
+/// A row of so many pixels, whose centers are at x 0.5, 1.5, ..., y 0.5, seen from z 9. Their objects may be of `m`.
+std::string row_of_pixels(int pixels, const std::string& objects, const std::string& groups = {});
+
+/// These AOVs of the whole picture.
+ImageBand picture_aovs(const SceneDescription& description, const std::vector<std::string>& aovs,
+                       const std::string& isa = {});
+
+/// The ids of the objects in the picture's pixels.
+std::vector<std::uint32_t> object_ids(const SceneDescription& description, const std::string& isa);
+
+/// The mean of its pixels' green: of all channels, where a scene is grey.
+double mean_green(const FloatPicture& picture);
 
 /// The largest difference of their channels.
 double difference(const Pixel& a, const Pixel& b);

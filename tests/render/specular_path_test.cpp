@@ -170,33 +170,19 @@ TEST_CASE("two mirrors show what a camera sees from where they move it to") {
 }
 
 TEST_CASE("paths by mirrors, metals and glass do not depend on threads, samples at once, or cuts") {
-  const std::string balls = [] {
-    std::string text;
-    const char* const materials[] = {"m", "gold", "brushed", "glass", "frost", "pane"};
-    for (int i = 0; i < 18; ++i)
-      text += "<sphere>" + vector_text("center", i % 6 * 1.1 - 2.7, i / 6 * 1.1 - 1, i % 4 * 0.5) +
-              "<radius>0.55</radius><material>" + materials[i % 6] + "</material></sphere>";
-    return "<spheres>" + text + "</spheres>";
-  }();
-  const std::string text = scene_text(
-      53, 41, 8,
-      "<lights><pointlights><pointlight><location x='5' y='7' z='9'/></pointlight></pointlights></lights><textures>"
-      "<checkers><checker><name>checks</name><color1 red='1' green='1' blue='1'/><color2 red='0.3' green='0.6' "
-      "blue='0.2'/><scale>0.4</scale></checker></checkers></textures><materials><mattes><matte><name>floor</name>"
-      "<ka>0</ka><kd>0.7</kd><cd red='1' green='1' blue='1'/></matte></mattes><mirrors><mirror><name>m</name>"
-      "<cr texture='checks'/></mirror></mirrors><conductors><conductor><name>gold</name><metal>gold</metal><bump "
-      "texture='checks' height='0.02'/></conductor>"
+  check_same_bits_of_balls(
+      "<mattes><matte><name>floor</name><ka>0</ka><kd>0.7</kd><cd red='1' green='1' blue='1'/></matte></mattes>"
+      "<mirrors><mirror><name>m</name><cr texture='checks'/></mirror></mirrors><conductors><conductor><name>gold</name>"
+      "<metal>gold</metal><bump texture='checks' height='0.02'/></conductor>"
       "<conductor><name>brushed</name><metal>silver</metal><roughness texture='checks'/></conductor></conductors>"
       "<dielectrics><dielectric><name>glass</name><attenuationcolor red='0.2' green='0.8' blue='0.5'/>"
       "<attenuationdistance>1</attenuationdistance></dielectric><dielectric><name>frost</name>"
       "<roughness texture='checks'/><ct texture='checks'/></dielectric><dielectric><name>pane</name>"
-      "<thinwalled>true</thinwalled><roughness>0.2</roughness></dielectric></dielectrics></materials><objects>" +
-          balls +
-          "<planes><plane><point x='0' y='-2' z='0'/><normal x='0' y='1' z='0'/><material>floor</material></plane>"
-          "</planes></objects>",
-      "<eye x='0' y='2' z='9'/><lookat x='0' y='0' z='0'/>");
-  const SceneDescription description = parsed_scene(text);
-  check_same_bits(description);
+      "<thinwalled>true</thinwalled><roughness>0.2</roughness></dielectric></dielectrics>",
+      {"m", "gold", "brushed", "glass", "frost", "pane"},
+      "<color1 red='1' green='1' blue='1'/><color2 red='0.3' green='0.6' blue='0.2'/>",
+      "<planes><plane><point x='0' y='-2' z='0'/><normal x='0' y='1' "
+      "z='0'/><material>floor</material></plane></planes>");
 }
 
 TEST_CASE("a narrow highlight does not coarsen the film's unit") {

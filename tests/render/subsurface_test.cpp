@@ -300,28 +300,13 @@ TEST_CASE("without paths, what would go below the surface is diffuse") {
 }
 
 TEST_CASE("walks below surfaces do not depend on threads, samples at once, or cuts") {
-  std::string balls;
-  for (int i = 0; i < 12; ++i)
-    balls += "<sphere>" + vector_text("center", i % 4 * 1.5 - 2.2, i / 4 * 1.4 - 1, 0) +
-             "<radius>0.8</radius><material>" +
-             std::string(i % 3 == 0   ? "sheet"
-                         : i % 3 == 1 ? "milk"
-                                      : "wax") +
-             "</material></sphere>";
-  check_same_bits(parsed_scene(scene_text(
-      53, 41, 8,
-      "<lights><pointlights><pointlight><location x='5' y='7' z='9'/></pointlight></pointlights></lights><textures>"
-      "<checkers><checker><name>checks</name><color1 red='1' green='1' blue='1'/><color2 red='0.3' green='0.6' "
-      "blue='0.2'/><scale>0.4</scale></checker></checkers></textures><materials><openpbrs>"
-      "<openpbr><name>wax</name><subsurface_weight texture='checks'/><subsurface_color texture='checks'/>"
+  check_same_bits_of_balls(
+      "<openpbrs><openpbr><name>wax</name><subsurface_weight texture='checks'/><subsurface_color texture='checks'/>"
       "<subsurface_radius>0.2</subsurface_radius><opacity>0.9</opacity></openpbr><openpbr><name>sheet</name>"
       "<subsurface_weight>0.8</subsurface_weight><geometry_thin_walled>true</geometry_thin_walled></openpbr>"
       "<openpbr><name>milk</name><transmission_weight>1</transmission_weight><transmission_depth>0.3</"
-      "transmission_depth>"
-      "<transmission_scatter red='1' green='0.8' blue='0.5'/></openpbr>"
-      "</openpbrs></materials><objects><spheres>" +
-          balls + "</spheres></objects>",
-      "<eye x='0' y='2' z='9'/><lookat x='0' y='0' z='0'/>")));
+      "transmission_depth><transmission_scatter red='1' green='0.8' blue='0.5'/></openpbr></openpbrs>",
+      {"sheet", "milk", "wax"});
 }
 
 }  // namespace raytrace::test

@@ -32,14 +32,6 @@ std::string sunlit_floor(const std::string& direction, double angle, double x, c
          above + "</objects></raytracer>";
 }
 
-double mean_green(const std::string& text) {
-  const FloatPicture picture = rendered(parsed_scene(text));
-  double mean = 0;
-  for (const Pixel& pixel : picture.pixels())
-    mean += double{pixel.green} / static_cast<double>(picture.pixels().size());
-  return mean;
-}
-
 const std::string overhead = "<direction x='0' y='1' z='0'/>";
 
 }  // namespace
@@ -47,10 +39,10 @@ const std::string overhead = "<direction x='0' y='1' z='0'/>";
 TEST_CASE("a floor is as bright under a sun as under a light without a size") {
   for (const double angle : {0.0, 0.53, 40.0, 180.0}) {
     INFO(angle);
-    CHECK(std::abs(mean_green(sunlit_floor(overhead, angle, 0)) - 1) < 0.002);
+    CHECK(std::abs(mean_green(rendered(sunlit_floor(overhead, angle, 0))) - 1) < 0.002);
   }
   // Aslant, it is the cosine of the disk's middle, as long as all of the disk is above the horizon.
-  CHECK(std::abs(mean_green(sunlit_floor("<direction x='3' y='4' z='0'/>", 40, 0)) - 0.8) < 0.002);
+  CHECK(std::abs(mean_green(rendered(sunlit_floor("<direction x='3' y='4' z='0'/>", 40, 0))) - 0.8) < 0.002);
 }
 
 TEST_CASE("in a sun's penumbra arrives what the part of the disk sends that is in view") {
@@ -59,7 +51,7 @@ TEST_CASE("in a sun's penumbra arrives what the part of the disk sends that is i
       "<rectangles><rectangle><corner x='-100' y='10' z='-100'/><edge1 x='100' y='0' z='0'/><edge2 x='0' y='0' "
       "z='200'/><material>m</material></rectangle></rectangles>";
   const double reach = 10 * std::tan(pi / 180);
-  const auto seen_at = [&](double part) { return mean_green(sunlit_floor(overhead, 2, part * reach, roof)); };
+  const auto seen_at = [&](double part) { return mean_green(rendered(sunlit_floor(overhead, 2, part * reach, roof))); };
   const auto share = [](double part) { return 0.5 + (std::asin(part) + part * std::sqrt(1 - part * part)) / pi; };
   CHECK(seen_at(-1.05) == 0);
   CHECK(std::abs(seen_at(1.05) - 1) < 0.001);
@@ -107,7 +99,7 @@ TEST_CASE("a floor under a skylight is as bright as the ground that the sky's pi
   const Picture sky = SkyModel({.sundirection = {1, 1, 0.5}, .groundalbedo = {1, 1, 1}}, 1).picture();
   float green = 0;
   std::memcpy(&green, sky.pixels.data() + (std::size_t{4} * 1024 * 512 - 3) * sizeof green, sizeof green);
-  const double floor = mean_green(text);
+  const double floor = mean_green(rendered(text));
   INFO(floor << " for " << green);
   CHECK(std::abs(floor / double{green} - 1) < 0.01);
 }

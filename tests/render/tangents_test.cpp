@@ -138,19 +138,13 @@ TEST_CASE("the tangent is along u of the texture coordinates of its map, or of t
 }
 
 TEST_CASE("paths by turned tangents do not depend on threads, samples at once, or cuts") {
-  check_same_bits(parsed_scene(scene_text(
-      40, 30, 4,
-      "<lights><pointlights><pointlight><location x='5' y='7' z='9'/></pointlight></pointlights></lights><textures>"
-      "<checkers><checker><name>checks</name><color1 red='1' green='0.4' blue='1'/><color2 red='0.3' green='0.6' "
-      "blue='0.2'/><scale>0.4</scale></checker></checkers></textures><materials><conductors><conductor><name>gold"
-      "</name><metal>gold</metal><roughness>0.3</roughness><anisotropy>0.7</anisotropy><tangentrotation "
-      "texture='checks'>70</tangentrotation></conductor></conductors><openpbrs><openpbr><name>steel</name>"
-      "<base_metalness>1</base_metalness><specular_roughness_anisotropy>0.8</specular_roughness_anisotropy>"
-      "<tangentmap texture='checks'/></openpbr></openpbrs></materials><objects><spheres>"
-      "<sphere><center x='-1' y='0' z='0'/><radius>1.5</radius><material>gold</material></sphere>"
-      "<sphere><center x='1' y='0.5' z='1'/><radius>1</radius><material>steel</material></sphere>"
-      "</spheres></objects>",
-      "<eye x='0' y='2' z='9'/><lookat x='0' y='0' z='0'/>")));
+  check_same_bits_of_balls(
+      "<conductors><conductor><name>gold</name><metal>gold</metal><roughness>0.3</roughness><anisotropy>0.7</"
+      "anisotropy>"
+      "<tangentrotation texture='checks'>70</tangentrotation></conductor></conductors><openpbrs><openpbr><name>steel"
+      "</name><base_metalness>1</base_metalness><specular_roughness_anisotropy>0.8</specular_roughness_anisotropy>"
+      "<tangentmap texture='checks'/></openpbr></openpbrs>",
+      {"gold", "steel"}, "<color1 red='1' green='0.4' blue='1'/><color2 red='0.3' green='0.6' blue='0.2'/>");
 }
 
 }  // namespace raytrace::test
