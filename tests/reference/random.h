@@ -8,24 +8,30 @@
 
 namespace reference {
 
-class Random {
+template <class Number>
+class RandomNumbers {
  public:
-  explicit Random(unsigned seed) : bits_(seed) {}
-  Real between(Real low, Real high) { return low + (high - low) * (static_cast<Real>(bits_()) / 4294967296.0L); }
-  Real log_between(Real low, Real high) { return std::exp(between(std::log(low), std::log(high))); }
-  int below(int n) { return static_cast<int>(between(0, n)); }
-  bool chance(Real p) { return between(0, 1) < p; }
+  explicit RandomNumbers(unsigned seed) : bits_(seed) {}
+  Number unit() { return static_cast<Number>(bits_()) / 4294967296.0; }
+  Number between(Number low, Number high) { return low + (high - low) * unit(); }
+  Number log_between(Number low, Number high) { return std::exp(between(std::log(low), std::log(high))); }
+  int below(int n) { return static_cast<int>(unit() * static_cast<Number>(n)); }
+  bool chance(Number p) { return unit() < p; }
+  Number sign() { return chance(static_cast<Number>(0.5)) ? 1 : -1; }
   Vector color() { return {between(0, 1), between(0, 1), between(0, 1)}; }
-  Vector in_cube(Real half) { return {between(-half, half), between(-half, half), between(-half, half)}; }
+  Vector in_cube(Number half) { return {between(-half, half), between(-half, half), between(-half, half)}; }
+  /// Uniform on the unit sphere.
   Vector direction() {
     Vector v;
     do v = in_cube(1);
     while (length(v) > 1 || length(v) < 0.01L);
-    return unit(v);
+    return reference::unit(v);
   }
 
  private:
   std::mt19937 bits_;
 };
+
+using Random = RandomNumbers<Real>;
 
 }  // namespace reference
