@@ -80,6 +80,51 @@ TEST_CASE("OpenPBR: what absorbs nothing sends all light on, of whatever index i
         }
 }
 
+namespace {
+
+/// What an opaque one without fuzz sends on, by the directions that each of its lobes is drawn by.
+double sent_on_by_lobes(const PbrBsdf& bsdf, const Vec3d& wo) {
+  constexpr int count = 4096;
+  const auto lobes = bsdf.lobes(spread(wo));
+  const double coat = lobes.coat_choice.get(0), all = coat + double{lobes.facet_choice.get(0)};
+  double sum = 0;
+  for (const auto& [from, to] : {std::pair(0.0, coat), std::pair(coat, all), std::pair(all, 1.0)}) {
+    if (to - from < 1e-6) continue;
+    const FloatN u(static_cast<float>((from + to) / 2));
+    for (int i = 0; i < count; i += packet_lanes) {
+      const auto numbers = [&](double step) {
+        return batch_of<FloatN>([&](std::size_t lane) { return std::fmod((i + double(lane) + 0.5) * step, 1); });
+      };
+      const FloatN u1 = numbers(0.75487766624669276), u2 = numbers(0.56984029099805327);
+      const BsdfSample<FloatN> sample = bsdf.sample(lobes, u, u1, u2);
+      for (std::size_t lane = 0; lane < lanes; ++lane)
+        if (sample.pdf.get(lane) > 0) sum += weight_of(sample, lane) * (to - from) / count;
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("OpenPBR: what absorbs nothing sends all light on about the angle of total reflection") {
+  for (const std::string kind : {"base", "coat", "film"})
+    for (const double ior : {0.4, 0.7, 0.9, 0.97})
+      for (const double roughness : {0.04, 0.1, 0.3, 0.6, 1.0}) {
+        OpenPbr::Parameters parameters = white(roughness);
+        parameters.coat_weight = kind == "coat" ? 1 : 0;
+        parameters.thin_film_weight = kind == "film" ? 1 : 0;
+        parameters.coat_roughness = roughness;
+        (kind == "coat" ? parameters.coat_ior : parameters.specular_ior) = ior;
+        const PbrBsdf bsdf = bsdf_of(parameters);
+        const double critical = std::sqrt(1 - ior * ior);
+        for (const double step : {-1.0, -0.3, -0.1, 0.0, 0.1, 0.3, 1.0}) {
+          const double cosine = std::clamp(critical + step * roughness * roughness, 0.03, 0.999);
+          INFO(kind << " of " << ior << ", roughness " << roughness << ", wo at a cosine of " << cosine);
+          CHECK(sent_on_by_lobes(bsdf, {std::sqrt(1 - cosine * cosine), 0, cosine}) == Approx(1).epsilon(0.005));
+        }
+      }
+}
+
 TEST_CASE("OpenPBR: rough diffuse reflection beside light that goes in loses nothing") {
   for (const double weight : {0.5, 1.0})
     for (const std::string kind : {"walks", "no walks", "thin"})

@@ -59,6 +59,12 @@ class ShareAxes {
   static IntN cell(const FloatN& x) { return to_int(min(max(x, FloatN(0)), FloatN(steps - 1.001F))); }
 };
 
+inline float sum_of_lanes(const FloatN& numbers) {
+  float sum = 0;
+  for (std::size_t lane = 0; lane < packet_lanes; ++lane) sum += numbers.get(lane);
+  return sum;
+}
+
 /// The mean of scattered(wo, facet) over the facets that are visible from wo. circle: the part of it that has all: a
 /// half where both sides of the plane of wo and the normal are alike, else 1.
 template <int heights, class Facets, class Scattered>
@@ -73,9 +79,7 @@ float mean_over_facets(const Vec3<FloatN>& wo, const Facets& ggx, float circle, 
     const FloatN root = (height + FloatN(0.5F)) * FloatN(1.0F / heights);
     sum += scattered(wo, ggx.sample_facet(wo, turn, FloatN(1) - root * root)) * root;
   }
-  float total = 0;
-  for (std::size_t lane = 0; lane < packet_lanes; ++lane) total += sum.get(lane);
-  return total * 2 / (turns * heights);
+  return sum_of_lanes(sum) * 2 / (turns * heights);
 }
 
 template <class Scattered>
@@ -109,6 +113,29 @@ inline FloatN ggx_reflected_share(const FloatN& cosine, const FloatN& roughness)
 
 namespace detail {
 
+/// Tables of `size` numbers one behind the other, each made when it is wanted first, since scenes have few.
+template <int layers, int size>
+class LazyLayers {
+ public:
+  const float* data() const { return numbers_.data(); }
+
+  /// fill(layer, numbers): what makes it.
+  template <class Fill>
+  void make(int layer, const Fill& fill) {
+    const auto index = static_cast<std::size_t>(layer);
+    if (is_made_[index].load(std::memory_order_acquire)) return;
+    const std::lock_guard lock(making_);
+    if (is_made_[index].load(std::memory_order_relaxed)) return;
+    fill(layer, &numbers_[index * size]);
+    is_made_[index].store(true, std::memory_order_release);
+  }
+
+ private:
+  std::mutex making_;
+  std::array<std::atomic<bool>, std::size_t{layers}> is_made_{};
+  std::array<float, std::size_t{layers} * size> numbers_{};
+};
+
 /// Of facets between two clear media, for steps of eta: each made when it is wanted first, since scenes have few.
 /// reflection: of what they reflect alone.
 template <bool reflection>
@@ -120,17 +147,16 @@ class DielectricShares {
   static constexpr float unit_root = 0.67F;
 
   /// From the layer's first number on.
-  const float* shares() const { return shares_.data(); }
+  const float* shares() const { return layers_.data(); }
 
-  void make(int layer) {
-    const auto index = static_cast<std::size_t>(layer);
-    if (is_made_[index].load(std::memory_order_acquire)) return;
-    const std::lock_guard lock(making_);
-    if (is_made_[index].load(std::memory_order_relaxed)) return;
+  void make(int layer) { layers_.make(layer, fill); }
+
+ private:
+  static void fill(int layer, float* shares) {
     const float step = static_cast<float>(layer - most) / unit * unit_root;
     const float x = std::clamp(step * std::abs(step), -0.99999F, 0.99999F);
     const FloatN eta((1 + x) / (1 - x));
-    ShareAxes::fill(&shares_[index * ShareAxes::size], [&](float cosine, float roughness) {
+    ShareAxes::fill(shares, [&](float cosine, float roughness) {
       const Ggx<FloatN> ggx{FloatN(roughness * roughness)};
       return mean_over_facets(cosine, ggx, [&](const Vec3<FloatN>& wo, const Vec3<FloatN>& facet) {
         const FloatN c = min(max(dot(wo, facet), FloatN(0)), FloatN(1));
@@ -143,13 +169,9 @@ class DielectricShares {
                (FloatN(1) - fresnel.reflectance) * refracted;
       });
     });
-    is_made_[index].store(true, std::memory_order_release);
   }
 
- private:
-  std::mutex making_;
-  std::array<std::atomic<bool>, layers> is_made_{};
-  std::array<float, std::size_t{layers} * ShareAxes::size> shares_{};
+  LazyLayers<layers, ShareAxes::size> layers_;
 };
 
 }  // namespace detail
@@ -181,20 +203,39 @@ struct GgxShares {
   Rgb<FloatN> all, reflected;
 };
 
+/// Points of the unit square, the first number of each that of turns and the second that of heights.
+class FacetGrid {
+ public:
+  static constexpr int count = 20;
+  static float turn(int i) { return (static_cast<float>(i / heights) + 0.5F) * (static_cast<float>(heights) / count); }
+  static float height(int i) { return (static_cast<float>(i % heights) + 0.5F) / heights; }
+
+ private:
+  static constexpr int heights = 5;
+};
+/// More of them, no two of one height, for what changes suddenly.
+class FacetLattice {
+ public:
+  static constexpr int count = 233;
+  static float turn(int i) {
+    const float step = (static_cast<float>(i) + 0.5F) * 0.61803399F;
+    return step - std::floor(step);
+  }
+  static float height(int i) { return (static_cast<float>(i) + 0.5F) / count; }
+};
+
 /// How much of that changes where each facet's reflectance is another than fresnel_reflection() has, by few facets.
 /// reflectance(cosine): of one.
-template <class Reflectance>
+template <class Points = FacetGrid, class Reflectance>
 GgxShares ggx_share_changes(const FloatN& cosine, const FloatN& roughness, const FloatN& eta,
                             const Reflectance& reflectance) {
-  constexpr int turns = 4, heights = 5;
   const Ggx<FloatN> ggx{roughness * roughness};
   const Vec3<FloatN> wo{sqrt(max(FloatN(1) - cosine * cosine, FloatN(0))), FloatN(0), max(cosine, FloatN(1e-4F))};
   const FloatN lambda_o = ggx.lambda(wo.z), zero(0), one(1), least(1e-6F);
   GgxShares sum{{zero, zero, zero}, {zero, zero, zero}};
-  for (int i = 0; i < turns * heights; ++i) {
-    const float root = (static_cast<float>(i % heights) + 0.5F) / heights;
-    const int ring = i / heights;
-    const FloatN turn((static_cast<float>(ring) + 0.5F) * 0.5F / turns), weight(root * 2 / (turns * heights));
+  for (int i = 0; i < Points::count; ++i) {
+    const float root = Points::height(i);
+    const FloatN turn(Points::turn(i) * 0.5F), weight(root * 2 / Points::count);
     const Vec3<FloatN> facet = ggx.sample_facet(wo, turn, FloatN(1 - root * root));
     const FloatN c = min(max(dot(wo, facet), zero), one);
     const FresnelReflection<FloatN> bare = fresnel_reflection(c, eta);

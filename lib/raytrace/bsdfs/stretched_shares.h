@@ -84,4 +84,22 @@ inline FloatN stretched_reflected_share(const StretchedGgx<FloatN>& ggx, const V
   return table.look_up(ggx, wo);
 }
 
+/// What they reflect alone where each does as a boundary of that eta, by a few of them.
+inline FloatN stretched_dielectric_reflection(const StretchedGgx<FloatN>& ggx, const Vec3<FloatN>& wo,
+                                              const FloatN& eta) {
+  const FloatN lambda_o = ggx.lambda(wo), least(1e-6F);
+  FloatN sum(0);
+  for (int i = 0; i < FacetLattice::count; ++i) {
+    const float root = FacetLattice::height(i);
+    const Vec3<FloatN> facet = ggx.sample_facet(wo, FloatN(FacetLattice::turn(i)), FloatN(1 - root * root));
+    const FloatN c = dot(wo, facet);
+    const Vec3<FloatN> wi = facet * (FloatN(2) * c) - wo;
+    const FloatN lambda_i = ggx.lambda({wi.x, wi.y, max(wi.z, least)});
+    const FloatN reflected = fresnel_reflection(min(max(c, FloatN(0)), FloatN(1)), eta).reflectance *
+                             (FloatN(1) + lambda_o) / (FloatN(1) + lambda_o + lambda_i);
+    sum += select(wi.z > FloatN(0), reflected, FloatN(0)) * FloatN(root * 2 / FacetLattice::count);
+  }
+  return sum;
+}
+
 }  // namespace raytrace

@@ -19,6 +19,7 @@
 #include "raytrace/bsdfs/oren_nayar.h"
 #include "raytrace/bsdfs/stretched_shares.h"
 #include "raytrace/bsdfs/thin_film.h"
+#include "raytrace/bsdfs/total_reflection.h"
 #include "raytrace/materials/medium.h"
 #include "raytrace/materials/subsurface.h"
 #include "raytrace/math/kernel.h"
@@ -293,6 +294,9 @@ struct OpenPbrBsdf {
             channel(metal.blue, specular_color.blue)};
   }
 
+  /// Whether it matters what its boundary reflects at angles at which that is all: else all that it does not comes
+  /// through.
+  auto reflects_totally() const { return (eta < T(1)) & (transmission < T(1)); }
   auto lets_through() const { return transmission * (T(1) - metalness) > T(0); }
   /// How often sample() reflects light of a facet at an angle of that cosine, which reflects so much, and lets the rest
   /// through otherwise.
@@ -312,6 +316,8 @@ struct OpenPbrBsdf {
     return film.on_metal(cosine, metal, specular_color);
   }
   void set_film(Lobes& layers, const T& cosine) const;
+  /// What facets reflect of which each reflects all at angles beyond the critical one. index: of the boundary, below 1.
+  static T reflection_about_total(const StretchedGgx<T>& facets, const Vec3<T>& from, const T& index);
   /// As at_facet() and at_facet_of().
   [[gnu::noinline]] Rgb<T> at_film(const Lobes& layers, const T& cosine) const {
     const Rgb<T> reflected = film.on_dielectric(cosine, eta) / layers.film_share;

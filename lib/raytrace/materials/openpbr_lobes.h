@@ -24,6 +24,10 @@ template <class T>
     layers.dielectric_share = select(rough, ggx_dielectric_share(cosine, even, eta), one);
     layers.base_reflection =
         select(rough, ggx_dielectric_share<true>(cosine, even, eta) / layers.dielectric_share, layers.base_reflection);
+    if (const Mask<T> total = rough & reflects_totally(); any(total)) {
+      const T reflected = reflection_about_total(ggx(), layers.from, eta);
+      layers.base_reflection = select(total, reflected / layers.dielectric_share, layers.base_reflection);
+    }
   }
   if (any(film.weight > T(0))) set_film(layers, cosine);
   layers.under_fuzz = one;
@@ -44,6 +48,10 @@ template <class T>
       layers.coat_share = select(rough_coat, ggx_dielectric_share(coat_cosine, even, coat_eta), one);
       const T reflected = ggx_dielectric_share<true>(coat_cosine, even, coat_eta) / layers.coat_share;
       layers.coat_albedo = select(rough_coat, reflected, smooth);
+      if (const Mask<T> total = rough_coat & (coat_eta < T(1)); any(total)) {
+        const T of_total = reflection_about_total(coat_ggx(), coat_from(layers), coat_eta) / layers.coat_share;
+        layers.coat_albedo = select(total, of_total, layers.coat_albedo);
+      }
     }
     layers.coat_albedo = layers.coat_albedo * coat;
     // What comes from below is reflected by the coat's inside again and again.
@@ -79,13 +87,28 @@ template <class T>
 }
 
 template <class T>
+[[gnu::noinline]] T OpenPbrBsdf<T>::reflection_about_total(const StretchedGgx<T>& facets, const Vec3<T>& from,
+                                                           const T& index) {
+  const T cosine = min(from.z, T(1)), even = facets.even_roughness();
+  const T reflected = total_reflection(cosine, even, index) * ggx_reflected_share(cosine, even);
+  const Mask<T> stretched = facets.alpha_y < facets.alpha_x;
+  if (none(stretched)) return reflected;
+  return select(stretched, stretched_dielectric_reflection(facets, from, index), reflected);
+}
+
+template <class T>
 [[gnu::noinline]] void OpenPbrBsdf<T>::set_film(Lobes& layers, const T& cosine) const {
   const Mask<T> rough = ggx().is_rough();
   const auto reflectance = [&](const T& at_facet) { return film.on_dielectric(at_facet, eta); };
   layers.film_share = white();
   layers.film_reflection = reflectance(cosine);
   if (any(rough)) {
-    const auto changes = ggx_share_changes(cosine, ggx().even_roughness(), eta, reflectance);
+    const T even = ggx().even_roughness();
+    GgxShares changes = ggx_share_changes(cosine, even, eta, reflectance);
+    if (const Mask<T> total = rough & reflects_totally(); any(total)) {
+      const auto better = ggx_share_changes<FacetLattice>(cosine, even, eta, reflectance);
+      changes = {select(total, better.all, changes.all), select(total, better.reflected, changes.reflected)};
+    }
     const Rgb<T> all = white() * layers.dielectric_share + changes.all;
     const Rgb<T> reflected = white() * (layers.dielectric_share * layers.base_reflection) + changes.reflected;
     layers.film_share = select(rough, all, white());
