@@ -6,6 +6,24 @@
 
 namespace raytrace {
 
+namespace {
+
+/// The mean square of the parts at which the filter lies that are not within `least`.
+double mean_square_beyond(PixelFilter filter, double least) {
+  constexpr int steps = 4096;
+  double sum = 0, below = filter_share(filter, least);
+  const double all = 1 - below;
+  for (int i = 1; i <= steps; ++i) {
+    const double step = (1 - least) / steps, part = least + step * (i - 0.5);
+    const double above = filter_share(filter, least + step * i);
+    sum += part * part * (above - below);
+    below = above;
+  }
+  return sum / all;
+}
+
+}  // namespace
+
 double filter_share(PixelFilter filter, double part) {
   using std::numbers::pi;
   switch (filter) {
@@ -38,6 +56,13 @@ FilterTable::FilterTable(const ViewPlane& viewplane)
     }
     least = low;
     distances_[i] = static_cast<float>((i == 0 ? 0 : high) * filter_width(viewplane) / 2);
+    // This one's end is so thin that a straight line to it would be too wide: it stops where its mean square is right.
+    if (i + 1 == intervals && viewplane.filter == PixelFilter::blackman_harris) {
+      const double square = 3 * mean_square_beyond(viewplane.filter, high);
+      const double last = (std::sqrt(4 * square - 3 * high * high) - high) / 2;
+      distances_[intervals] = static_cast<float>(last * filter_width(viewplane) / 2);
+      return;
+    }
   }
 }
 
