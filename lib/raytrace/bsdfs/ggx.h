@@ -62,6 +62,10 @@ struct Ggx {
     T f;       ///< of facets that reflect all light, without the cosine; 0 where wi is below the surface
     T pdf;     ///< of wi, if it is wo's mirror image in a facet that sample_facet() gave
     T cosine;  ///< of wo and that facet
+
+    friend Reflection select(const Mask<T>& mask, const Reflection& a, const Reflection& b) {
+      return {select(mask, a.f, b.f), select(mask, a.pdf, b.pdf), select(mask, a.cosine, b.cosine)};
+    }
   };
   /// wo: as from above_surface(); directions of unit length, in any frame.
   Reflection reflection(const Vec3<T>& wo, const Vec3<T>& wi, const Vec3<T>& normal) const {

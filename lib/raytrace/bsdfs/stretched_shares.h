@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "raytrace/bsdfs/ggx_shares.h"
 #include "raytrace/bsdfs/stretched_ggx.h"
@@ -12,17 +13,27 @@ namespace raytrace {
 namespace detail {
 
 /// A table by the cosine, the roughness, where wo is between the grooves and the way across them, and the anisotropy.
+/// It has the four corners of each cell in the cosine and in that place beside each other: a look-up is four loads a
+/// lane.
 class StretchedShares {
  public:
   StretchedShares() {
+    std::vector<float> shares(sizes[0] * sizes[1] * sizes[2] * sizes[3]);
     std::size_t i = 0;
     std::array<float, axes> step{};
-    for (float& share : shares_) {
+    for (float& share : shares) {
       std::size_t rest = i++;
       for (std::size_t axis = 0; axis < axes; rest /= sizes[axis++])
         step[axis] = static_cast<float>(rest % sizes[axis]) / static_cast<float>(sizes[axis] - 1);
       share = share_at(step);
     }
+    i = 0;
+    for (std::size_t row = 0; row < sizes[2] * sizes[3]; ++row)
+      for (std::size_t place = 0; place + 1 < sizes[1]; ++place)
+        for (std::size_t cosine = 0; cosine + 1 < sizes[0]; ++cosine, ++i) {
+          const float* const corner = &shares[(row * sizes[1] + place) * sizes[0] + cosine];
+          corners_[i] = {corner[0], corner[1], corner[sizes[0]], corner[sizes[0] + 1]};
+        }
   }
 
   FloatN look_up(const StretchedGgx<FloatN>& ggx, const Vec3<FloatN>& wo) const {
@@ -30,8 +41,8 @@ class StretchedShares {
     const FloatN roughness = sqrt(sqrt((x * x + y * y) * FloatN(0.5F))), root = sqrt(wo.z);
     const FloatN slope = sqrt((wo.x * wo.x * x * x + wo.y * wo.y * y * y) / max(sine2, FloatN(1e-12F)));
     const std::array<FloatN, axes> places = {
-        ((FloatN(1) + roughness) / (root + roughness) + FloatN(1)) * root * FloatN(0.5F), roughness,
-        sqrt(max(slope - y, FloatN(0)) / max(x - y, FloatN(1e-6F))), FloatN(1) - y / x};
+        ((FloatN(1) + roughness) / (root + roughness) + FloatN(1)) * root * FloatN(0.5F),
+        sqrt(max(slope - y, FloatN(0)) / max(x - y, FloatN(1e-6F))), roughness, FloatN(1) - y / x};
     std::array<IntN, axes> cells;
     std::array<FloatN, axes> parts;
     for (std::size_t axis = 0; axis < axes; ++axis) {
@@ -40,29 +51,33 @@ class StretchedShares {
       cells[axis] = to_int(min(place, FloatN(last - 0.001F)));
       parts[axis] = place - to_float(cells[axis]);
     }
-    FloatN share(0);
-    for (unsigned corner = 0; corner < 1U << axes; ++corner) {
-      FloatN weight(1);
-      IntN index(0);
-      for (std::size_t axis = axes; axis-- > 0;) {
-        const bool above = (corner >> axis & 1U) != 0;
-        weight = weight * (above ? parts[axis] : FloatN(1) - parts[axis]);
-        index = index * IntN(static_cast<std::int32_t>(sizes[axis])) + cells[axis] + IntN(above ? 1 : 0);
-      }
-      share += weight * gather(shares_.data(), index);
-    }
-    return share;
+    const auto between = [](const FloatN& low, const FloatN& high, const FloatN& part) {
+      return low + (high - low) * part;
+    };
+    const auto times = [](const IntN& a, std::size_t b) { return a * IntN(static_cast<std::int32_t>(b)); };
+    const IntN row = times(cells[3], sizes[2]) + cells[2];
+    const IntN first = times(times(row, sizes[1] - 1) + cells[1], sizes[0] - 1) + cells[0];
+    const auto share = [&](std::size_t rows_above) {
+      constexpr std::size_t cells_of_row = (sizes[0] - 1) * (sizes[1] - 1);
+      alignas(64) std::array<std::int32_t, packet_lanes> offsets;
+      (times(first, 4)).store_aligned(offsets.data());
+      std::array<FloatN, 4> corner;
+      gather_four(corners_[rows_above * cells_of_row].data(), offsets.data(), corner.data());
+      return between(between(corner[0], corner[1], parts[0]), between(corner[2], corner[3], parts[0]), parts[1]);
+    };
+    return between(between(share(0), share(1), parts[2]), between(share(sizes[2]), share(sizes[2] + 1), parts[2]),
+                   parts[3]);
   }
 
  private:
   static constexpr std::size_t axes = 4;
-  static constexpr std::array<std::size_t, axes> sizes = {16, 16, 6, 11};
+  static constexpr std::array<std::size_t, axes> sizes = {16, 6, 16, 11};
 
   static float share_at(const std::array<float, axes>& step) {
-    const float roughness = std::max(step[1], 0.03F), anisotropy = step[3];
+    const float roughness = std::max(step[2], 0.03F), anisotropy = step[3];
     const auto ggx = StretchedGgx<FloatN>::of(FloatN(roughness), FloatN(anisotropy));
-    const float x = ggx.alpha_x.get(0), y = ggx.alpha_y.get(0), slope = y + (x - y) * step[2] * step[2];
-    const float across = x > y ? (slope * slope - y * y) / (x * x - y * y) : step[2];  // of the sine, squared
+    const float x = ggx.alpha_x.get(0), y = ggx.alpha_y.get(0), slope = y + (x - y) * step[1] * step[1];
+    const float across = x > y ? (slope * slope - y * y) / (x * x - y * y) : step[1];  // of the sine, squared
     const float b = 0.5F + roughness - step[0], root = std::sqrt(b * b + 2 * step[0] * roughness) - b;
     const float cosine = std::clamp(root * root, 1e-4F, 1.0F), sine = std::sqrt(1 - cosine * cosine);
     const Vec3<FloatN> wo(Vec3f{sine * std::sqrt(across), sine * std::sqrt(1 - across), cosine});
@@ -73,7 +88,7 @@ class StretchedShares {
     });
   }
 
-  std::array<float, sizes[0] * sizes[1] * sizes[2] * sizes[3]> shares_;
+  std::array<std::array<float, 4>, (sizes[0] - 1) * (sizes[1] - 1) * sizes[2] * sizes[3]> corners_;
 };
 
 }  // namespace detail

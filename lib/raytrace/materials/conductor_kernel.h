@@ -23,56 +23,82 @@ class Kernel<Conductor> {
 
     Rgb<T> ambient_radiance(const Rgb<T>&) const { return black(); }
     Rgb<T> albedo() const { return normal; }
-    Rgb<T> evaluate(const Vec3<T>& wo, const Vec3<T>& wi, const Vec3<T>& surface_normal) const {
-      const Mask<T> rough = ggx().is_rough();
-      if (none(rough)) return black();
-      const Vec3<T> from = above_surface(wo, surface_normal);
-      return select(rough, f(reflection(from, wi, surface_normal), from, dot(from, surface_normal)), black());
+    /// What all directions of light have in common for one wo, in the local frame.
+    struct Lobes {
+      Vec3<T> from;
+      StretchedGgx<T> stretched;
+      Rgb<T> gain;
+    };
+    struct Value {
+      Rgb<T> f;
+      T pdf;
+    };
+    Lobes lobes(const Vec3<T>& wo) const {
+      Lobes lobes{above_surface(wo, local_normal<T>()), {T(1), T(1)}, black()};
+      if (any(is_stretched())) lobes.stretched = StretchedGgx<T>::of(roughness, anisotropy);
+      if (any(ggx().is_rough()))
+        lobes.gain = gain(by_kind([&] { return ggx_reflected_share(min(lobes.from.z, T(1)), roughness); },
+                                  [&] { return stretched_reflected_share(lobes.stretched, lobes.from); }));
+      return lobes;
     }
-    BsdfSample<T> sample(const Vec3<T>& wo, const T&, const T& u1, const T& u2) const {
-      const Vec3<T> from = above_surface(wo, local_normal<T>());
+    BsdfSample<T> sample(const Lobes& lobes, const T&, const T& u1, const T& u2) const {
+      const Vec3<T>& from = lobes.from;
       const BsdfSample<T> mirrored{
           {-from.x, -from.y, from.z}, reflectance(min(from.z, T(1))) * (T(1) / from.z), T(1), T(1), Mask<T>(true)};
       const Mask<T> rough = ggx().is_rough();
       if (none(rough)) return mirrored;
-      Vec3<T> facet = ggx().sample_facet(from, u1, u2);
-      if (any(is_stretched())) facet = select(is_stretched(), stretched().sample_facet(from, u1, u2), facet);
+      const Vec3<T> facet = by_kind([&] { return ggx().sample_facet(from, u1, u2); },
+                                    [&] { return lobes.stretched.sample_facet(from, u1, u2); });
       const Vec3<T> wi = normalize(facet * (T(2) * dot(from, facet)) - from);
-      const auto reflected = reflection(from, wi, local_normal<T>());
-      return select(rough, BsdfSample<T>{wi, f(reflected, from, from.z), reflected.pdf}, mirrored);
+      const Value reflected = value_of_rough(lobes, wi);
+      return select(rough, BsdfSample<T>{wi, reflected.f, reflected.pdf}, mirrored);
     }
-    T pdf(const Vec3<T>& wo, const Vec3<T>& wi) const {
-      const Vec3<T> normal_here = local_normal<T>();
-      return select(ggx().is_rough(), reflection(above_surface(wo, normal_here), wi, normal_here).pdf, T(0));
+    BsdfSample<T> sample(const Vec3<T>& wo, const T& u, const T& u1, const T& u2) const {
+      return sample(lobes(wo), u, u1, u2);
     }
+    Value value(const Lobes& lobes, const Vec3<T>& wi) const {
+      const Mask<T> rough = ggx().is_rough();
+      if (none(rough)) return {black(), T(0)};
+      const Value reflected = value_of_rough(lobes, wi);
+      return {select(rough, reflected.f, black()), select(rough, reflected.pdf, T(0))};
+    }
+    Rgb<T> evaluate(const Vec3<T>& wo, const Vec3<T>& wi, const Vec3<T>& surface_normal) const {
+      if (any(is_stretched())) return value(lobes(wo), wi).f;
+      const Mask<T> rough = ggx().is_rough();
+      if (none(rough)) return black();
+      const Vec3<T> from = above_surface(wo, surface_normal);
+      const T share = ggx_reflected_share(min(dot(from, surface_normal), T(1)), roughness);
+      return select(rough, f(ggx().reflection(from, wi, surface_normal), gain(share)), black());
+    }
+    T pdf(const Vec3<T>& wo, const Vec3<T>& wi) const { return value(lobes(wo), wi).pdf; }
     /// What a highlight is expected to have, of lights' radiance: little of a picture is in the middle of a narrow one.
     Rgb<T> usual_f() const { return select(ggx().is_rough(), normal, black()); }
 
    private:
     static Rgb<T> black() { return Rgb<T>(T(0), T(0), T(0)); }
     Ggx<T> ggx() const { return {roughness * roughness}; }
-    StretchedGgx<T> stretched() const { return StretchedGgx<T>::of(roughness, anisotropy); }
     auto is_stretched() const { return anisotropy > T(0); }
-    typename Ggx<T>::Reflection reflection(const Vec3<T>& wo, const Vec3<T>& wi, const Vec3<T>& surface_normal) const {
-      auto result = ggx().reflection(wo, wi, surface_normal);
-      if (any(is_stretched())) {
-        const auto own = stretched().reflection(wo, wi);
-        result.f = select(is_stretched(), own.f, result.f);
-        result.pdf = select(is_stretched(), own.pdf, result.pdf);
-      }
-      return result;
+    /// Lane by lane: of facets that are not stretched, and of those that are.
+    template <class Even, class Stretched>
+    auto by_kind(const Even& even, const Stretched& stretched) const {
+      if (none(is_stretched())) return even();
+      if (none(!is_stretched())) return stretched();
+      return select(is_stretched(), stretched(), even());
     }
 
     Rgb<T> reflectance(const T& cosine) const {
       const T rest = T(1) - cosine, square = rest * rest, fifth = square * square * rest;
       return normal + rise * fifth + dip * (-cosine * fifth * rest);
     }
-    Rgb<T> f(const typename Ggx<T>::Reflection& reflection, const Vec3<T>& wo, const T& cosine_o) const {
-      // What is lost at one facet meets others: the paler the metal, the more of it comes out.
-      T share = ggx_reflected_share(min(cosine_o, T(1)), roughness);
-      if (any(is_stretched())) share = select(is_stretched(), stretched_reflected_share(stretched(), wo), share);
-      const T lost = (T(1) - share) / share;
-      return reflectance(reflection.cosine) * (Rgb<T>(T(1), T(1), T(1)) + normal * lost) * reflection.f;
+    /// What is lost at one facet meets others: the paler the metal, the more of it comes out. share: that is not lost.
+    Rgb<T> gain(const T& share) const { return Rgb<T>(T(1), T(1), T(1)) + normal * ((T(1) - share) / share); }
+    Rgb<T> f(const typename Ggx<T>::Reflection& reflection, const Rgb<T>& gain) const {
+      return reflectance(reflection.cosine) * gain * reflection.f;
+    }
+    Value value_of_rough(const Lobes& lobes, const Vec3<T>& wi) const {
+      const auto reflection = by_kind([&] { return ggx().reflection(lobes.from, wi, local_normal<T>()); },
+                                      [&] { return lobes.stretched.reflection(lobes.from, wi); });
+      return {f(reflection, lobes.gain), reflection.pdf};
     }
   };
 

@@ -13,8 +13,8 @@
 // parallel faces with no distance between them, between which light goes to and fro, and what comes through is not
 // bent. A rough one scatters what comes through as it does what it reflects, but to the other side (Burley, "Extending
 // the Disney BRDF to a BSDF", SIGGRAPH course 2015). With an Abbe number, light of each wavelength is bent by an index
-// of its own (materials/dispersion.h). Shadow rays do not come through: lights are seen through it only by paths that
-// meet them.
+// of its own (materials/dispersion.h). Shadow rays do not come through all of it: where light leaves a rough one, it is
+// drawn as where it is reflected; lights behind smooth ones are seen by paths alone that meet them.
 #pragma once
 
 #include "raytrace/materials/dispersion.h"
@@ -87,6 +87,10 @@ class Dielectric {
     return parameters.roughness * parameters.roughness < 1e-3;  // Ggx's least alpha
   }
   static bool refracts(const Parameters&) { return true; }
+  /// As materials/kernels.h has it. Shadow rays know nothing of what textures make of the way inside.
+  static bool scatters_through(const Parameters& parameters, const auto& is_textured) {
+    return !focuses(parameters, is_textured) && !is_textured("attenuationcolor") && !is_textured("attenuationdistance");
+  }
   static bool is_pane(const Parameters& parameters, const auto& is_textured) {
     return parameters.thinwalled && focuses(parameters, is_textured) && !is_textured("roughness");
   }

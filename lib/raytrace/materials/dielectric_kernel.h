@@ -36,15 +36,23 @@ class Kernel<Dielectric> {
       const T f = fresnel(reflection.cosine).reflectance * reflection.f / share(dot(from, normal));
       return select(rough, reflected * f, black());
     }
-    T pdf(const Vec3<T>& wo, const Vec3<T>& wi) const {
-      const Vec3<T> normal = local_normal<T>();
-      const auto reflection = ggx().reflection(above_surface(wo, normal), wi, normal);
-      const T choice = reflection_choice(fresnel(reflection.cosine).reflectance);
-      return select(ggx().is_rough(), choice * reflection.pdf, T(0));
-    }
+    T pdf(const Vec3<T>& wo, const Vec3<T>& wi) const { return value(lobes(wo), wi).pdf; }
 
-    BsdfSample<T> sample(const Vec3<T>& wo, const T& u, const T& u1, const T& u2) const {
+    /// What all directions of light have in common for one wo, in the local frame.
+    struct Lobes {
+      Vec3<T> from;
+      T share;
+    };
+    struct Value {
+      Rgb<T> f;
+      T pdf;
+    };
+    Lobes lobes(const Vec3<T>& wo) const {
       const Vec3<T> from = above_surface(wo, local_normal<T>());
+      return {from, any(ggx().is_rough()) ? share(from.z) : T(1)};
+    }
+    BsdfSample<T> sample(const Lobes& lobes, const T& u, const T& u1, const T& u2) const {
+      const Vec3<T>& from = lobes.from;
       const Mask<T> rough = ggx().is_rough();
       Vec3<T> facet = local_normal<T>();
       if (any(rough)) facet = select(rough, ggx().sample_facet(from, u1, u2), facet);
@@ -64,15 +72,30 @@ class Kernel<Dielectric> {
       const T cosine_i = select(reflects, wi.z, -wi.z);
       T shape = T(1), density = select(reflects, choice, T(1) - choice);
       if (any(rough)) {
-        const T lambda_o = ggx().lambda(from.z), lambda_i = ggx().lambda(max(cosine_i, T(1e-6F)));
-        const T across = max(abs(cosine - eta * below_cosine), T(1e-6F));
-        const T spread = select(bends, eta * eta * below_cosine / (across * across), T(0.25F) / cosine);
-        const T facets = ggx().density(facet.x * facet.x + facet.y * facet.y) * cosine / (from.z * (T(1) + lambda_o));
-        shape = select(rough, ggx().unshadowed(lambda_o, lambda_i) / share(from.z), shape);
-        density = select(rough, density * facets * spread, density);
+        shape = select(rough, unshadowed(from, cosine_i) / lobes.share, shape);
+        density =
+            select(rough, density * facet_density(from, facet, cosine) * spread(bends, cosine, below_cosine), density);
       }
       const T f = select(cosine_i > T(1e-6F), shape * density / max(cosine_i, T(1e-6F)), T(0));
       return {wi, part * f, density, eta2, !rough};
+    }
+    BsdfSample<T> sample(const Vec3<T>& wo, const T& u, const T& u1, const T& u2) const {
+      return sample(lobes(wo), u, u1, u2);
+    }
+    Value value(const Lobes& lobes, const Vec3<T>& wi) const {
+      const Mask<T> rough = ggx().is_rough();
+      Value result{black(), T(0)};
+      if (none(rough)) return result;
+      const auto reflection = ggx().reflection(lobes.from, wi, local_normal<T>());
+      const T reflectance = fresnel(reflection.cosine).reflectance;
+      result.f = select(rough, reflected * (reflectance * reflection.f / lobes.share), result.f);
+      result.pdf = select(rough, reflection_choice(reflectance) * reflection.pdf, result.pdf);
+      if (const Mask<T> through = rough & (wi.z < T(-1e-6F)); any(through)) {
+        const Value from_behind = through_facet(lobes, wi);
+        result.f = select(through, from_behind.f, result.f);
+        result.pdf = select(through, from_behind.pdf, result.pdf);
+      }
+      return result;
     }
 
     /// Of a smooth one that is thin.
@@ -92,6 +115,37 @@ class Kernel<Dielectric> {
     static T largest(const Rgb<T>& color) { return max(max(abs(color.red), abs(color.green)), abs(color.blue)); }
     Ggx<T> ggx() const { return {roughness * roughness}; }
     auto is_thin() const { return thin > T(0); }
+
+    T unshadowed(const Vec3<T>& from, const T& cosine_i) const {
+      return ggx().unshadowed(ggx().lambda(from.z), ggx().lambda(max(cosine_i, T(1e-6F))));
+    }
+    /// Of the facets that sample() draws.
+    T facet_density(const Vec3<T>& from, const Vec3<T>& facet, const T& cosine) const {
+      const T lambda_o = ggx().lambda(from.z);
+      return ggx().density(facet.x * facet.x + facet.y * facet.y) * cosine / (from.z * (T(1) + lambda_o));
+    }
+    /// The density of directions for a facet over that of facets.
+    T spread(const auto& bends, const T& cosine, const T& below_cosine) const {
+      const T across = max(abs(cosine - eta * below_cosine), T(1e-6F));
+      return select(bends, eta * eta * below_cosine / (across * across), T(0.25F) / cosine);
+    }
+    /// Where wi is below the surface, and that is rough.
+    Value through_facet(const Lobes& lobes, const Vec3<T>& wi) const {
+      const Vec3<T>& from = lobes.from;
+      const Mask<T> bends = !is_thin();
+      const Vec3<T> sum = from + select(bends, wi * eta, Vec3<T>{wi.x, wi.y, -wi.z});
+      const T length = sqrt(max(dot(sum, sum), T(1e-12F)));
+      const Vec3<T> facet = sum * (T(1) / select(sum.z < T(0), -length, length));
+      const T cosine = min(dot(from, facet), T(1));
+      const auto [reflectance, below_cosine] = fresnel(max(cosine, T(1e-6F)));
+      const T choice = reflection_choice(reflectance);
+      const Mask<T> is_there = (cosine > T(1e-6F)) & (choice < T(1)) & (is_thin() | (dot(wi, facet) < T(0)));
+      const T pdf = (T(1) - choice) * facet_density(from, facet, cosine) * spread(bends, cosine, below_cosine);
+      const T eta2 = select(bends, eta * eta, T(1));
+      const T part = (T(1) - reflectance) / ((T(1) - choice) * eta2);
+      const T f = part * unshadowed(from, -wi.z) / lobes.share * pdf / max(-wi.z, T(1e-6F));
+      return {select(is_there, transmitted * f, black()), select(is_there, pdf, T(0))};
+    }
 
     FresnelReflection<T> fresnel(const T& cosine) const {
       FresnelReflection<T> result = fresnel_reflection(cosine, eta);

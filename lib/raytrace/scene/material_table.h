@@ -172,7 +172,7 @@ class MaterialTableOf final : public MaterialTable {
                      const TexturePoint<FloatN>* point) const override {
     const auto bsdfs = gathered(materials, front, point, media);
     const Rgb<FloatN> black(Rgb<float>(0, 0, 0));
-    if constexpr (has_layers) {
+    if constexpr (has_lobes) {
       const auto result_of = [&](const auto& lobes) {
         Scattering result{bsdfs.sample(lobes, u, u1, u2), {black, FloatN(0)}};
         if (none(lit)) return result;
@@ -180,10 +180,12 @@ class MaterialTableOf final : public MaterialTable {
         result.towards = {value.f, value.pdf};
         return result;
       };
-      if (layers == nullptr) [[likely]]
-        return result_of(bsdfs.lobes(wo));
-      const LayerFrames<FloatN> frames(*layers, wo);
-      return result_of(bsdfs.lobes(wo, &frames));
+      if constexpr (has_layers)
+        if (layers != nullptr) [[unlikely]] {
+          const LayerFrames<FloatN> frames(*layers, wo);
+          return result_of(bsdfs.lobes(wo, &frames));
+        }
+      return result_of(bsdfs.lobes(wo));
     } else {
       Scattering result{bsdfs.sample(wo, u, u1, u2), {black, FloatN(0)}};
       if (any(lit)) result.towards = {bsdfs.evaluate(wo, wi, local_normal<FloatN>()), bsdfs.pdf(wo, wi)};
@@ -268,6 +270,7 @@ class MaterialTableOf final : public MaterialTable {
   using Bsdf = typename MaterialKernel::template Bsdf<float>;
   using BsdfN = typename MaterialKernel::template Bsdf<FloatN>;
   /// Whether its BSDFs have them.
+  static constexpr bool has_lobes = requires(BsdfN bsdf, Vec3<FloatN> wo) { bsdf.lobes(wo); };
   static constexpr bool has_layers =
       requires(BsdfN bsdf, Vec3<FloatN> wo, const LayerFrames<FloatN>* frames) { bsdf.lobes(wo, frames); };
   static constexpr bool shines = requires(BsdfN bsdf) { bsdf.emitted(); };

@@ -99,6 +99,7 @@ SceneTables::SceneTables(const SceneDescription& description, int threads, const
     has_photons_ = caustics_ && path->caustics == Caustics::photons && path->maxdepth > 2;
   }
   if (path != nullptr && path->maxdepth > 1 && (!caustics_ || media_.has_fog())) add_panes();
+  if (path != nullptr) add_scattering_through();
 }
 
 void SceneTables::add_panes() {
@@ -108,6 +109,19 @@ void SceneTables::add_panes() {
     has_panes_ |= panes_.back() != 0;
   }
   has_cutouts_ |= has_panes_;
+}
+
+void SceneTables::add_scattering_through() {
+  if (has_panes_ || media_.scatters()) return;
+  std::vector<std::int32_t> scattering;
+  for (std::size_t i = 0; i < details_.size(); ++i)
+    scattering.push_back(used_materials_[i] != 0 && details_[i].scatters_through ? 1 : 0);
+  if (std::find(scattering.begin(), scattering.end(), 1) != scattering.end())
+    scattering_through_ = std::move(scattering);
+}
+
+MaskN SceneTables::scatters_through(const Hits& hits) const {
+  return hits.hit & float_mask<FloatN>(gather(scattering_through_.data(), material(hits)) != IntN(0));
 }
 
 MaskN SceneTables::is_pane(const IntN& material) const {
@@ -161,6 +175,8 @@ SceneTables::SurfaceDetail SceneTables::surface_detail(const MaterialItem<Materi
   };
   if constexpr (requires { Material::focuses(item.parameters, is_textured); })
     detail.focuses = Material::focuses(item.parameters, is_textured);
+  if constexpr (requires { Material::scatters_through(item.parameters, is_textured); })
+    detail.scatters_through = Material::scatters_through(item.parameters, is_textured);
   if constexpr (requires { Material::is_pane(item.parameters, is_textured); })
     detail.is_pane = Material::is_pane(item.parameters, is_textured);
   for (const TextureUse& use : item.textures) {

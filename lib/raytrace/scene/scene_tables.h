@@ -161,6 +161,10 @@ class SceneTables {
   bool has_panes_for_surfaces() const { return has_panes_ && !caustics_; }
   bool is_pane(std::int32_t material) const { return has_panes_ && panes_[static_cast<std::size_t>(material)] != 0; }
   MaskN is_pane(const IntN& material) const;
+  /// Whether some surfaces send on light that is drawn behind them, and which. Not in scenes where shadow rays behind
+  /// them would have to know more: of panes, or of light that is scattered inside.
+  bool has_scattering_through() const { return !scattering_through_.empty(); }
+  MaskN scatters_through(const Hits& hits) const;
   /// 1 for materials that are fogs, else 0; empty if no object has one.
   std::vector<std::uint8_t> fogs() const;
   /// Whether it has no surface: rays pass it, but paths know its boundary.
@@ -255,7 +259,7 @@ class SceneTables {
     bool is_anisotropic = false, focuses = false, is_pane = false, has_coat = false, has_subsurface = false;
     bool is_layered = false;  ///< a coat's normals may differ from those of the base below it
     bool is_even = false;     ///< it reflects light to all sides, and nothing like a mirror
-    bool refracts = false;
+    bool refracts = false, scatters_through = false;
 
     bool is_cutout() const { return opacity.value < 1 || opacity.texture; }
     bool has_relief() const { return normalmap.texture || bump.texture; }
@@ -298,6 +302,7 @@ class SceneTables {
   void add_caustics();
   /// path: the integrator's, if it is one.
   void add_panes();
+  void add_scattering_through();
 
   /// answer(table, materials) of each material type among the lanes, each lane's of its own.
   template <class Answer>
@@ -335,10 +340,11 @@ class SceneTables {
   bool has_cutouts_ = false, has_relief_ = false, has_emission_ = false, has_second_uvset_ = false,
        has_turned_tangents_ = false, has_subsurface_ = false, has_photons_ = false, has_panes_ = false,
        has_vertex_tangents_ = false, has_object_space_ = false;
-  std::vector<std::int32_t> shining_sides_;  ///< of all materials: 0, 1 for the front, 2 for both
-  std::vector<std::int32_t> panes_;          ///< 1 for those that are panes, else 0; empty where none are passed
-  std::vector<std::int32_t> textured_;       ///< 1 for materials with textures, else 0; empty if there are none
-  std::vector<std::int32_t> anisotropic_;    ///< likewise: those whose reflection differs along the surface
+  std::vector<std::int32_t> shining_sides_;       ///< of all materials: 0, 1 for the front, 2 for both
+  std::vector<std::int32_t> panes_;               ///< 1 for those that are panes, else 0; empty where none are passed
+  std::vector<std::int32_t> scattering_through_;  ///< likewise: those that send on light from behind
+  std::vector<std::int32_t> textured_;            ///< 1 for materials with textures, else 0; empty if there are none
+  std::vector<std::int32_t> anisotropic_;         ///< likewise: those whose reflection differs along the surface
   RayCone ray_cone_;
   std::vector<std::uint8_t> used_materials_;  ///< 1 for those that objects have, else 0
 };

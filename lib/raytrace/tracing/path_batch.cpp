@@ -299,12 +299,16 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
     add_scattered(path, lanes, path.throughput * light, IntN(static_cast<std::int32_t>(group)), depth + 1);
     light = black();
   }
-  const PathVertex vertex{hits, surface, point, tables.shading_frame(hits, surface, point), path.distance};
+  const PathVertex vertex{
+      hits,          surface,
+      point,         tables.shading_frame(hits, surface, point),
+      path.distance, tables.has_scattering_through() ? tables.scatters_through(hits) : MaskN(false)};
   const Vec3<FloatN> wo = vertex.frame.to_local(surface.wo);
-  DrawnLight drawn;
-  if (tables.environment() != nullptr || !tables.emitters().empty())
-    drawn = draw_light(tables, vertex, has_one_light_ ? Sample2D{FloatN(0), FloatN(0)} : draw(PathDraw::light),
-                       draw(PathDraw::light_point));
+  const bool draws_light = tables.environment() != nullptr || !tables.emitters().empty();
+  DrawnLight drawn =
+      draws_light ? draw_light(tables, vertex, has_one_light_ ? Sample2D{FloatN(0), FloatN(0)} : draw(PathDraw::light),
+                               draw(PathDraw::light_point))
+                  : DrawnLight{};
   drawn.lit = drawn.lit & !(on_way & (dot(drawn.wi, surface.ng) > FloatN(0)));
   clock_.end(Stage::lights);
   // The last direction is for what shines alone.
@@ -317,8 +321,15 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   if (any(drawn.lit)) {
     // Rays to one light are neighbours as the camera's are, those to many are not.
     const Coherence to_lights = has_one_light_ ? coherence : Coherence::incoherent;
+    MediumStack media_there = media;
+    IntN medium_there = boundary.current;
+    if (has_media && any(drawn.through)) {
+      boundary.cross(media_there, drawn.through, surface.front);
+      medium_there = select_lanes(drawn.through, media_there.current(tables.media()), medium_there);
+    }
+    const PointMedia media_of_light{media_there, medium_there};
     light += arriving_light(scene_, vertex, drawn, scattering.towards, to_lights, ids(lights + 1), counts, clock_,
-                            has_media ? &point_media : nullptr, panes);
+                            has_media ? &media_of_light : nullptr, panes);
   }
   add_scattered(path, lanes, path.throughput * light, groups_ > 1 ? group_of(drawn) : IntN(0), depth + 1);
   if (photons_ != nullptr)

@@ -90,9 +90,10 @@ class PathChunk {
     alignas(64) std::array<std::int32_t, packet_lanes> offsets;
     for (std::size_t lane = 0; lane < packet_lanes; ++lane)
       offsets[lane] = order[first + (lane < lanes ? lane : 0)] * static_cast<std::int32_t>(stride_);
-    Packet packet;
-    gather_fields(numbers_.data(), offsets.data(), fields_, reinterpret_cast<FloatN*>(&packet));
-    return {packet, first_lanes<FloatN>(static_cast<int>(lanes))};
+    std::pair<Packet, MaskN> result;  // which is not copied: it is large
+    gather_fields(numbers_.data(), offsets.data(), fields_, reinterpret_cast<FloatN*>(&result.first));
+    result.second = first_lanes<FloatN>(static_cast<int>(lanes));
+    return result;
   }
 
   /// Sets the order in which paths are by bucket, each bucket's as they came. clear() ends it.

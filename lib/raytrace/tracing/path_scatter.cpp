@@ -94,9 +94,10 @@ void PathBatch::scatter(PathPacket& path, const PathDeparture& from, const BsdfS
     const Vec3<FloatN>& n = path.from_normal;
     if (!tables.has_panes_for_surfaces()) onward = onward & (dot(n, n) == FloatN(0));
   }
-  path.pdf = select(onward, path.pdf, select(sample.specular | through, infinity<FloatN>(), sample.pdf));
+  path.pdf = select(onward, path.pdf,
+                    select(sample.specular | (through & !from.vertex.both_sides), infinity<FloatN>(), sample.pdf));
   path.from = select(onward, path.from, surface.p);
-  path.from_normal = select(onward, path.from_normal, surface.ns);
+  path.from_normal = select(onward, path.from_normal, from.vertex.side());
   rays.origin = offset_ray_origin(surface, through & alive);
   if (const MaskN enters = alive & sample.enters; any(enters)) [[unlikely]] {
     clock_.end(Stage::shade);

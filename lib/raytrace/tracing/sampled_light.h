@@ -28,6 +28,12 @@ struct PathVertex {
   const TexturePoint<FloatN>* textures;
   Frame<FloatN> frame;  ///< about surface.ns
   FloatN distance;      ///< that the path came to it
+  MaskN both_sides;     ///< light is drawn for it from behind as well
+
+  /// The normal by which it is drawn.
+  Vec3<FloatN> side() const {
+    return any(both_sides) ? select(both_sides, Vec3<FloatN>(Vec3f(0, 0, 0)), surface.ns) : surface.ns;
+  }
 };
 
 /// How often light is drawn from the environment, and not from a shining surface.
@@ -42,6 +48,7 @@ struct DrawnLight {
   Ray<FloatN> ray;                     ///< from the vertex to the light
   Vec3<FloatN> wi, local_wi;           ///< its direction, of unit length; and in the vertex's frame
   FloatN pdf;                          ///< per solid angle
+  MaskN through{false};                ///< where it arrives from behind the surface
   MaskN is_sky;                        ///< whether it is the environment's; else it is of a surface
   EmitterTable::Sample sample;         ///< of a surface
   SurfaceInteraction<FloatN> surface;  ///< where it leaves from
@@ -49,8 +56,9 @@ struct DrawnLight {
 };
 
 inline void draw_from_surfaces(const SceneTables& tables, const SurfaceInteraction<FloatN>& surface,
-                               const FloatN& choice, const Sample2D& point, DrawnLight& result) {
-  result.sample = tables.emitters().sample(surface.p, surface.ns, choice, point.x, point.y);
+                               const Vec3<FloatN>& normal, const FloatN& choice, const Sample2D& point,
+                               DrawnLight& result) {
+  result.sample = tables.emitters().sample(surface.p, normal, choice, point.x, point.y);
   const PatchSample& drawn = result.sample.point;
   SurfaceInteraction<FloatN>& light = result.surface;
   light = {};
@@ -69,16 +77,17 @@ inline void draw_from_surfaces(const SceneTables& tables, const SurfaceInteracti
 }
 
 /// Drawn from a surface or the environment, for points on surfaces, or in media, where ns and ng have the length 0.
-/// local_wi is not set, and `lit` says of all lanes whether there is light.
+/// normal: by which it is drawn, of length 0 if all sides count. local_wi is not set, and `lit` says of all lanes
+/// whether there is light.
 inline DrawnLight draw_light(const SceneTables& tables, const SurfaceInteraction<FloatN>& surface,
-                             const Sample2D& choice, const Sample2D& point) {
+                             const Vec3<FloatN>& normal, const Sample2D& choice, const Sample2D& point) {
   const float environment_share = environment_share_of(tables);
   DrawnLight light;
   light.is_sky = choice.y < FloatN(environment_share);
   light.ray.origin = offset_ray_origin(surface);
   light.ray.near = FloatN(0);
   if (environment_share < 1) {
-    draw_from_surfaces(tables, surface, choice.x, point, light);
+    draw_from_surfaces(tables, surface, normal, choice.x, point, light);
     light.pdf = light.pdf * FloatN(1 - environment_share);
   }
   if (environment_share > 0) {
@@ -99,10 +108,19 @@ inline DrawnLight draw_light(const SceneTables& tables, const SurfaceInteraction
 /// For a vertex.
 inline DrawnLight draw_light(const SceneTables& tables, const PathVertex& vertex, const Sample2D& choice,
                              const Sample2D& point) {
-  DrawnLight light = draw_light(tables, vertex.surface, choice, point);
+  const SurfaceInteraction<FloatN>& surface = vertex.surface;
+  DrawnLight light = draw_light(tables, surface, vertex.side(), choice, point);
   light.local_wi = vertex.frame.to_local(light.wi);
-  light.lit = vertex.hits.hit & light.lit & (light.local_wi.z > FloatN(0)) &
-              (dot(light.wi, vertex.surface.true_normal()) > FloatN(0));
+  MaskN faces = (light.local_wi.z > FloatN(0)) & (dot(light.wi, surface.true_normal()) > FloatN(0));
+  if (any(vertex.both_sides)) {
+    light.through = vertex.both_sides & (light.local_wi.z < FloatN(0)) & (dot(light.wi, surface.ng) < FloatN(0));
+    const Vec3<FloatN> origin = offset_ray_origin(surface, light.through);
+    light.ray.direction =
+        select(light.through & !light.is_sky, light.ray.direction + (light.ray.origin - origin), light.ray.direction);
+    light.ray.origin = origin;
+    faces = faces | light.through;
+  }
+  light.lit = vertex.hits.hit & light.lit & faces;
   return light;
 }
 
@@ -126,8 +144,9 @@ inline Rgb<FloatN> arriving_light(const TracedScene& scene, const PathVertex& ve
                                   const BsdfValue& bsdf, Coherence coherence, const RayIds& ids, RayCounts& counts,
                                   StageClock& clock, const PointMedia* media, const PanesAhead* panes) {
   const SceneTables& tables = scene.tables();
-  FloatN weight = light.local_wi.z / light.pdf * power_heuristic(light.pdf, bsdf.pdf);
-  if (vertex.surface.has_relief) weight = weight * relief_shadow(vertex.surface, light.wi);
+  FloatN weight = abs(light.local_wi.z) / light.pdf * power_heuristic(light.pdf, bsdf.pdf);
+  if (vertex.surface.has_relief)
+    weight = select(light.through, weight, weight * relief_shadow(vertex.surface, light.wi));
   const Rgb<FloatN> black(Rgb<float>(0, 0, 0));
   Rgb<FloatN> radiance = bsdf.f * radiance_of(tables, light, vertex.distance) * weight;
   const MaskN lit = light.lit & (largest(radiance) > FloatN(0));
