@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "raytrace/scene/emitter_table.h"
+#include "raytrace/scene/flat_view.h"
 #include "raytrace/scene/patch_pieces.h"
 
 namespace raytrace {

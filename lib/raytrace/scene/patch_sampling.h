@@ -68,7 +68,4 @@ PatchSample sample_patch(const PatchRecord<FloatN>& patch, const Vec3<FloatN>& f
 FloatN patch_pdf(const PatchRecord<FloatN>& patch, const Vec3<FloatN>& from, const Vec3<FloatN>& p,
                  const Vec3<FloatN>& normal, const PatchTextures* textures = nullptr);
 
-/// How far along a and b of a flat patch the point is that sample_patch() draws, evenly in area, out of u1 and u2.
-/// Triangles by halves of the square: Heitz, "A Low-Distortion Map Between Triangle and Square", 2019.
-Vec2<FloatN> flat_point(const MaskN& triangle, const FloatN& u1, const FloatN& u2);
 }  // namespace raytrace
