@@ -56,9 +56,13 @@ function(raytrace_add_variants target)
     target_link_libraries(${objects} PRIVATE raytrace_options ${arg_LIBRARIES})
     # As one translation unit, so that the compiler sees through the calls between accelerator, scene and integrator; and the
     # headers, which are most of it, are read once.
-    set_target_properties(${objects} PROPERTIES RAYTRACE_WIDE ON UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
+    # Without optimization at link time, whatever flags say: it would merge the variants' functions by their names again,
+    # since their objects have no code of their own yet when they are joined.
+    set_target_properties(${objects} PROPERTIES RAYTRACE_WIDE ON UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0
+      INTERPROCEDURAL_OPTIMIZATION OFF)
     target_compile_definitions(${objects} PRIVATE RAYTRACE_VARIANT=${variant} RAYTRACE_ISA="${isa}")
     target_compile_options(${objects} PRIVATE
+      -fno-lto
       $<$<NOT:$<STREQUAL:${isa},generic>>:-march=${isa}>
       # Rays are traced here, whatever the rest is built with (the preset "run": -O1).
       $<$<AND:$<CONFIG:Release>,$<NOT:$<IN_LIST:${isa},${RAYTRACE_QUICKLY_BUILT_ISAS}>>>:-O3>
