@@ -6,7 +6,9 @@
 #include <limits>
 #include <sstream>
 #include <string>
+#include <vector>
 
+#include "raytrace/description/motion.h"
 #include "reported.h"
 #include "support/catch.h"
 #include "support/contains.h"
@@ -102,6 +104,36 @@ TEST_CASE("each rule of the format holds for a description that a program has ma
       "<directionallight> [0] has a <direction> of length 0"));
   CHECK(errors_of([](Scene& s) { first_sphere(s).line = 7, first_sphere(s).parameters.radius = 0; }) ==
         "s:7: error: <sphere> [0] has '0' as <radius>, which must be greater than 0\n");
+}
+
+TEST_CASE("what the steps of a transform make together is held against the rules, too") {
+  using Scene = SceneDescription;
+  const auto scaled = [](double by, std::size_t times) {
+    return errors_of(
+        [&](Scene& s) { first_sphere(s).transform.steps.assign(times, {TransformStep::scale, {by, by, by}}); });
+  };
+  CHECK(scaled(1e8, 2) == "");
+  for (const auto& all : {scaled(1e10, 2), scaled(1e16, 20)})
+    CHECK(contains(all, "<sphere> [0] has a transform that makes, with all its steps, a matrix with a number beyond"));
+  CHECK(contains(scaled(1e-5, 2), "<sphere> [0] has a transform that flattens the object"));
+  const auto with_instance = [](const Affine& outer) {
+    return errors_of([&](Scene& s) {
+      s.groups = {{"a", {}, 0, 0}, {"b", {}, 0, 0}};
+      std::get<ObjectItems<Sphere>>(s.groups[0].objects).push_back(first_sphere(s));
+      ObjectItem<Instance> instance;
+      instance.parameters.group.name = "a";
+      instance.transform.steps = {{TransformStep::scale, {1e10, 1e10, 1e10}}};
+      std::get<ObjectItems<Instance>>(s.groups[1].objects).push_back(instance);
+      instance.parameters.group.name = "b";
+      instance.transform.steps = {{TransformStep::scale, {outer.x.x, outer.y.y, outer.z.z}}};
+      instance.motion.assign(shutter_moments, outer);
+      std::get<ObjectItems<Instance>>(s.objects).push_back(instance);
+    });
+  };
+  CHECK(with_instance({}) == "");
+  CHECK(contains(with_instance({{1e10, 0, 0}, {0, 1e10, 0}, {0, 0, 1e10}, {}}),
+                 "the <instance>, with those in its group 'b', makes objects too large"));
+  CHECK(contains(with_instance({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {nan, 0, 0}}), "<instance> [0] has a motion that"));
 }
 
 TEST_CASE("all errors are reported at once, and warnings alone are none") {

@@ -181,17 +181,25 @@ void reset_unused(MaterialItem<Material>& item) {
 
 Transform random_transform(Random& random) {
   Transform transform;
-  for (std::size_t i = below(random, 3); i > 0; --i) {
-    TransformStep step;
-    do {
-      step = {static_cast<TransformStep::Type>(below(random, 4)), {}};
-      for (std::size_t k = 0; k < step.value_count(); ++k) step.values[k] = random_number(random, Range::any);
-      if (step.type == TransformStep::matrix)
-        step.values = {2, 0, 0, step.values[3], 0, 3, 0, 0, 0, 0, 4, 0, 0, 0, 0, 1};
-    } while (check_step(step));
-    transform.steps.push_back(step);
-  }
+  do {
+    transform.steps.clear();
+    for (std::size_t i = below(random, 3); i > 0; --i) {
+      TransformStep step;
+      do {
+        step = {static_cast<TransformStep::Type>(below(random, 4)), {}};
+        for (std::size_t k = 0; k < step.value_count(); ++k) step.values[k] = random_number(random, Range::any);
+        if (step.type == TransformStep::matrix)
+          step.values = {2, 0, 0, step.values[3], 0, 3, 0, 0, 0, 0, 4, 0, 0, 0, 0, 1};
+      } while (check_step(step));
+      transform.steps.push_back(step);
+    }
+  } while (check_affine(transform.affine()));
   return transform;
+}
+
+/// Whether several such, within each other, keep to what a scene may have.
+bool is_moderate(const Affine& affine) {
+  return std::max({length(affine.x), length(affine.y), length(affine.z), length(affine.origin)}) < 1000;
 }
 
 /// Instances are of groups that the scene has.
@@ -208,6 +216,7 @@ ObjectLists random_objects(Random& random, const SceneDescription& scene,
       if constexpr (std::is_same_v<T, Instance>) {
         if (scene.groups.empty()) continue;
         item.parameters.group.name = scene.groups[below(random, scene.groups.size())].name;
+        while (!is_moderate(item.transform.affine())) item.transform = random_transform(random);
       }
       if constexpr (std::is_same_v<T, SphereCloud> || std::is_same_v<T, Model>)
         item.parameters.file.path = random_name(random);

@@ -141,7 +141,7 @@ std::optional<ProjectedBounds> CubeProjection::view(const BoundedObject& object)
   view.center = center_of(object) - place_;
   view.distance = length(view.center);
   const double radius = object.radius + slack_;
-  if (radius > 0.9 * view.distance) return std::nullopt;
+  if (!(radius <= 0.9 * view.distance)) return std::nullopt;  // nor where one of them is no number
   view.in_cone = true;
   view.sine = radius / view.distance;
   view.cosine = std::sqrt(1 - view.sine * view.sine);

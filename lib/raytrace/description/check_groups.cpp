@@ -1,14 +1,19 @@
 #include "raytrace/description/check_groups.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <string_view>
 
+#include "raytrace/description/parse_value.h"
 #include "raytrace/text/message.h"
 
 namespace raytrace {
 
 namespace {
+
+/// As far as any number of a scene, and as much more as reaches are overestimated.
+constexpr double most_reach = 10 * largest_number;
 
 class GroupChecker {
  public:
@@ -34,8 +39,9 @@ class GroupChecker {
     SourceLocation last;
     for (const auto& mesh : std::get<ObjectItems<Mesh>>(scene_.objects)) last = location_of(mesh);
     for (const Group& group : scene_.groups) count_of(states_.at(group.name));
+    Reach reach;
     for (const auto& instance : std::get<ObjectItems<Instance>>(scene_.objects)) {
-      count += count_of(instance);
+      count += count_of(instance, reach);
       last = location_of(instance);
     }
     if (count > most_instances)
@@ -54,13 +60,20 @@ class GroupChecker {
   }
 
  private:
+  /// What instances within each other make of a point near (0, 0, 0): how far it gets at most.
+  struct Reach {
+    double scale = 1;   ///< by which lengths grow
+    double origin = 0;  ///< the distance of where (0, 0, 0) goes
+  };
+
   struct State {
     const Group* group;
     enum { unknown, at_hand, known } progress = unknown;
     std::uint64_t count = 0;  ///< of instances that one of the group is
+    Reach reach{};
   };
 
-  std::uint64_t count_of(const ObjectItem<Instance>& instance) {
+  std::uint64_t count_of(const ObjectItem<Instance>& instance, Reach& reach) {
     const Reference& name = instance.parameters.group;
     const SourceLocation location = name.line > 0 ? location_of(name) : location_of(instance);
     const auto found = states_.find(name.name);
@@ -75,7 +88,28 @@ class GroupChecker {
       diagnostics_.error(location, "the group " + in_quotes(name.name) + " would have itself in it");
       return 0;
     }
-    return count_of(found->second);
+    const std::uint64_t count = count_of(found->second);
+    add_reach(instance, found->second.reach, reach);
+    return count;
+  }
+
+  /// Of an instance of what has the reach `inner`, to that of what it is in.
+  void add_reach(const ObjectItem<Instance>& instance, const Reach& inner, Reach& reach) {
+    const Affine affine = instance.transform.affine();
+    // No less than by what any length grows, and more by the factor 3 at most, which is little here.
+    const double scale = length(Vec3d(length(affine.x), length(affine.y), length(affine.z)));
+    const Reach outer{scale * inner.scale, scale * inner.origin + length(affine.origin)};
+    if (!std::isfinite(outer.scale + outer.origin)) return;  // no good transform by itself, which others say
+    // What is wrong is said once, not at all that it is in.
+    if (std::max(outer.scale, outer.origin) <= most_reach) {
+      reach = {std::max(reach.scale, outer.scale), std::max(reach.origin, outer.origin)};
+    } else {
+      diagnostics_.error(location_of(instance),
+                         "the <instance>, with those in its group " + in_quotes(instance.parameters.group.name) +
+                             ", makes objects too large, or moves them too far: beyond the largest "
+                             "number that a scene may have, " +
+                             number_text(largest_number));
+    }
   }
 
   std::uint64_t count_of(State& state) {
@@ -87,7 +121,7 @@ class GroupChecker {
         count += item.transform.empty() ? 0 : 1;
     });
     for (const auto& inner : std::get<ObjectItems<Instance>>(state.group->objects))
-      count = std::min(count + count_of(inner), std::uint64_t{1} << 40U);
+      count = std::min(count + count_of(inner, state.reach), std::uint64_t{1} << 40U);
     state.count = count;
     state.progress = State::known;
     return count;

@@ -106,12 +106,25 @@ class SceneChecker {
     check_references(scene, item);
   }
 
+  void check_transform(const Transform& transform) {
+    bool fine = true;
+    for (const TransformStep& step : transform.steps) {
+      if (const OptionalMessage message = check_step(step)) {
+        fine = false;
+        error("has a transform whose " + tag(TransformStep::elements[step.type]) + " " + *message);
+      }
+    }
+    if (!fine || transform.empty()) return;
+    if (const OptionalMessage message = check_affine(transform.affine())) error("has a transform that " + *message);
+  }
+
   template <class Item>
   void check_references(const SceneDescription& scene, const Item& item) {
-    if constexpr (requires { item.transform; })
-      for (const TransformStep& step : item.transform.steps)
-        if (const OptionalMessage message = check_step(step))
-          error("has a transform whose " + tag(TransformStep::elements[step.type]) + " " + *message);
+    if constexpr (requires { item.transform; }) check_transform(item.transform);
+    if constexpr (requires { item.motion; }) {
+      for (const Affine& affine : item.motion)
+        if (const OptionalMessage message = check_affine(affine)) error("has a motion that " + *message);
+    }
     if constexpr (requires { item.materials; }) {
       if (item.material != no_material) check_reference<MaterialsSection>(scene, item.material);
       if (item.data == nullptr || item.materials.empty()) return error("has not been loaded (load_meshes())");

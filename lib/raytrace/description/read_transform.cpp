@@ -37,6 +37,12 @@ bool read_attributes_of_step(Element element, TransformStep& step, const ReadCon
   });
 }
 
+/// Whether it leaves objects their depth.
+bool keeps_depth(const Affine& affine) {
+  const double sizes = length(affine.x) * length(affine.y) * length(affine.z);
+  return std::abs(affine.determinant()) > 1e-9 * sizes && sizes > smallest_size;
+}
+
 }  // namespace
 
 std::span<const std::string_view> step_attributes(TransformStep::Type type) {
@@ -61,11 +67,19 @@ OptionalMessage check_step(const TransformStep& step) {
     case TransformStep::scale:
       break;
   }
-  const Affine affine = step.affine();
-  const double sizes = length(affine.x) * length(affine.y) * length(affine.z);
-  if (std::abs(affine.determinant()) > 1e-9 * sizes && sizes > smallest_size) return std::nullopt;
+  if (keeps_depth(step.affine())) return std::nullopt;
   return step.type == TransformStep::scale ? "must not be 0: it would leave nothing of the object's depth"
                                            : "flattens the object: its determinant is 0";
+}
+
+OptionalMessage check_affine(const Affine& affine) {
+  for (const Vec3d& column : {affine.x, affine.y, affine.z, affine.origin})
+    for (const double number : {column.x, column.y, column.z})
+      if (!(std::abs(number) <= largest_number))
+        return "makes, with all its steps, a matrix with a number beyond the largest that a scene may have, " +
+               number_text(largest_number);
+  if (keeps_depth(affine)) return std::nullopt;
+  return "flattens the object, or makes it too small: with all its steps, it leaves nothing of its depth";
 }
 
 bool read_transform(Element element, Transform& transform, const ReadContext& context) {
@@ -93,6 +107,9 @@ bool read_transform(Element element, Transform& transform, const ReadContext& co
       diagnostics.error(child, [&] { return tag(child.name()) + " " + *message; });
     transform.steps.push_back(step);
   }
+  if (transform.steps.size() > 1 && diagnostics.error_count() == errors_before)
+    if (const OptionalMessage message = check_affine(transform.affine()))
+      diagnostics.error(element, [&] { return tag(element.name()) + " " + *message; });
   return diagnostics.error_count() == errors_before;
 }
 
