@@ -1,14 +1,16 @@
 #include "raytrace/batch/checkpoint.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
+#include <string_view>
 #include <utility>
 
 #include "raytrace/film/samples_done.h"
 #include "raytrace/math/content_hash.h"
 #include "raytrace/output/image_band.h"
 #include "raytrace/output/image_encoder.h"
+#include "raytrace/text/message.h"
 
 namespace raytrace {
 
@@ -24,16 +26,23 @@ std::string hash_of(const Film& film) {
 }
 
 /// With all their bits.
-std::string text_of(const ErrorOfPasses::Sums& error) {
-  char text[80];
-  std::snprintf(text, sizeof text, "%a %a", error.variance, error.samples);
-  return text;
+std::string text_of(const ErrorOfPasses::Sums& error) { return formatted("%a %a", error.variance, error.samples); }
+
+/// Takes a number as text_of() writes it from the text's start.
+bool take_number(std::string_view& text, double& number) {
+  if (!text.starts_with("0x")) return false;
+  text.remove_prefix(2);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number, std::chars_format::hex);
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  return error == std::errc();
 }
 
 /// Nothing where the text is none of text_of().
-ErrorOfPasses::Sums error_sums(const std::string& text) {
+ErrorOfPasses::Sums error_sums(std::string_view text) {
   ErrorOfPasses::Sums error;
-  if (std::sscanf(text.c_str(), "%la %la", &error.variance, &error.samples) != 2) return {};
+  if (!take_number(text, error.variance) || !text.starts_with(' ')) return {};
+  text.remove_prefix(1);
+  if (!take_number(text, error.samples) || !text.empty()) return {};
   const auto is_good = [](double sum) { return std::isfinite(sum) && sum >= 0; };
   return is_good(error.variance) && is_good(error.samples) ? error : ErrorOfPasses::Sums();
 }

@@ -1,6 +1,6 @@
 #include "raytrace/batch/error_limit.h"
 
-#include <cstdio>
+#include "raytrace/text/message.h"
 
 namespace raytrace {
 
@@ -21,10 +21,7 @@ std::optional<std::string> ErrorLimit::warning(const ErrorOfPasses& error) const
   if (!most_) return std::nullopt;
   const std::optional<double> estimate = error.estimate();
   if (!estimate) return "the error limit has no effect: of this picture's error nothing is known";
-  char text[100];
-  std::snprintf(text, sizeof text, "the error is %.3g %% after all samples, above the limit of %.3g %%",
-                100 * *estimate, 100 * *most_);
-  return text;
+  return formatted("the error is %.3g %% after all samples, above the limit of %.3g %%", 100 * *estimate, 100 * *most_);
 }
 
 }  // namespace raytrace

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <mutex>
 #include <vector>
 
@@ -13,6 +12,7 @@
 #include "raytrace/film/photons.h"
 #include "raytrace/parallel/for_each_index.h"
 #include "raytrace/parallel/worker_count.h"
+#include "raytrace/text/message.h"
 
 namespace raytrace {
 
@@ -170,9 +170,7 @@ FilmSettings film_settings(const Scene& scene, const SceneDescription& descripti
 
 std::optional<std::string> rounding_warning(const Scene& scene, const FilmSettings& film) {
   if (is_fine_for_dimmest(scene.radiance_range(), film.unit_exponent)) return std::nullopt;
-  char unit[32];
-  std::snprintf(unit, sizeof unit, "%.2g", std::ldexp(1.0, film.unit_exponent));
-  return std::string("radiance is rounded to multiples of ") + unit +
+  return "radiance is rounded to multiples of " + formatted("%.2g", std::ldexp(1.0, film.unit_exponent)) +
          ": the scene's brightest light outshines its dimmest by more than sums can hold";
 }
 

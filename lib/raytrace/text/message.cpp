@@ -1,5 +1,7 @@
 #include "raytrace/text/message.h"
 
+#include <locale.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdarg>
@@ -108,10 +110,14 @@ std::string_view nearest_name(std::string_view name, std::span<const std::string
 
 std::string formatted(const char* format, ...) {
   char text[128];
+  // With a point, whatever locale a program that embeds the library has set: of this thread alone, and for this alone.
+  static const locale_t c = newlocale(LC_ALL_MASK, "C", nullptr);
+  const locale_t before = uselocale(c);
   std::va_list values;
   va_start(values, format);
   std::vsnprintf(text, sizeof text, format, values);
   va_end(values);
+  uselocale(before);
   return text;
 }
 
