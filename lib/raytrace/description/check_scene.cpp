@@ -13,6 +13,7 @@
 #include "raytrace/description/check_environment.h"
 #include "raytrace/description/check_fogs.h"
 #include "raytrace/description/check_groups.h"
+#include "raytrace/description/check_mesh_data.h"
 #include "raytrace/description/parse_value.h"
 #include "raytrace/description/read_fields.h"
 #include "raytrace/description/read_transform.h"
@@ -118,6 +119,17 @@ class SceneChecker {
     if (const OptionalMessage message = check_affine(transform.affine())) error("has a transform that " + *message);
   }
 
+  void check_data(const ObjectItem<Mesh>& mesh) {
+    if (const OptionalMessage message = check_mesh_data(*mesh.data, mesh.materials.size()))
+      error("has data that " + *message);
+  }
+
+  void check_data(const ObjectItem<SphereCloud>& cloud) {
+    if (const OptionalMessage message = check_point_cloud(*cloud.data)) return error("has data that " + *message);
+    if (cloud.data->radii.empty() && cloud.parameters.radius < smallest_size)
+      error("has data without radii; set its <radius>");
+  }
+
   template <class Item>
   void check_references(const SceneDescription& scene, const Item& item) {
     if constexpr (requires { item.transform; }) check_transform(item.transform);
@@ -129,6 +141,7 @@ class SceneChecker {
       if (item.material != no_material) check_reference<MaterialsSection>(scene, item.material);
       if (item.data == nullptr || item.materials.empty()) return error("has not been loaded (load_meshes())");
       for (const MaterialReference& material : item.materials) check_reference<MaterialsSection>(scene, material);
+      check_data(item);
     } else if constexpr (std::is_same_v<Item, ObjectItem<Model>>) {
       error("has not been loaded (load_meshes())");
     } else if constexpr (std::is_same_v<Item, ObjectItem<Instance>>) {

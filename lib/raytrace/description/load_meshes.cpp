@@ -11,6 +11,7 @@
 #include "raytrace/description/holds_normals.h"
 #include "raytrace/description/load_images.h"
 #include "raytrace/description/mesh_file_key.h"
+#include "raytrace/description/parse_value.h"
 #include "raytrace/description/read_value.h"
 #include "raytrace/description/scene_description.h"
 #include "raytrace/import/read_mesh.h"
@@ -82,7 +83,9 @@ class MeshLoader {
 
   void load(ObjectItem<Mesh>& mesh) {
     LoadedFile loaded;
-    if (mesh.parameters.file.path.empty())
+    if (mesh.data != nullptr && mesh.parameters.file.path.empty() && mesh.parameters.positions.empty())
+      loaded = {mesh.data, mesh.materials};  // a program has made them
+    else if (mesh.parameters.file.path.empty())
       loaded.data = made(mesh);
     else
       loaded = from_file(mesh);
@@ -112,8 +115,22 @@ class MeshLoader {
     cloud.materials = {own != no_material ? own : cloud.data->colors.empty() ? added_.grey() : added_.painted()};
   }
 
+  /// Of values that stand in a mesh; those of a file have none.
+  static OptionalMessage fault_of(const Mesh::Parameters& values) {
+    for (const auto& [name, groups] :
+         {std::pair("positions", &values.positions), std::pair("faces", &values.faces),
+          std::pair("normals", &values.normals.groups), std::pair("uvs", &values.uvs), std::pair("uvs2", &values.uvs2)})
+      if (const OptionalMessage message = check_value(*groups, Range::any)) return tag(name) + " " + *message;
+    if (const auto fault = Mesh::check(values)) return fault->message;
+    return std::nullopt;
+  }
+
   std::shared_ptr<const MeshData> made(const ObjectItem<Mesh>& mesh) {
     const auto& values = mesh.parameters;
+    if (const OptionalMessage message = fault_of(values)) {
+      diagnostics_.error(location_of(mesh), "the mesh: " + *message);
+      return nullptr;
+    }
     Diagnostics found(diagnostics_.file());
     std::optional<MeshData> data =
         make_mesh(values.positions.numbers, values.faces.numbers, Mesh::face_ends(values.faces),
