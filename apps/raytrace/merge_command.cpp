@@ -61,7 +61,7 @@ std::vector<std::string> with_lists_read(const std::vector<std::string>& names) 
   return all;
 }
 
-/// names: as they were given, with the lists.
+/// names: as they were given, with the lists, which merge_pieces() does not know.
 void refuse_clashes(const std::vector<std::string>& names, const MergeSettings& settings) {
   UsedFiles files;
   for (const std::string& name : names)

@@ -8,6 +8,7 @@
 #include "manual.h"
 #include "option_parser.h"
 #include "raytrace/aovs/aov_selection.h"
+#include "raytrace/batch/check_job.h"
 #include "raytrace/batch/frames.h"
 #include "raytrace/description/variables.h"
 #include "raytrace/integrators/registry.h"
@@ -89,13 +90,7 @@ void refuse_incomplete(const Options& options) {
     throw UsageError("no output given; for example: raytrace " + options.scenes.front() + " -o " +
                      (is_picture ? last : "picture.exr"));
   }
-  if (options.resume && options.checkpoint.empty()) {
-    throw UsageError("--resume goes on from a checkpoint: say which with --checkpoint FILE");
-  }
-  if (options.error_limit && (options.tile || options.sample_offset)) {
-    throw UsageError(std::string("--error-limit is for whole pictures and crops: with ") +
-                     (options.tile ? "--tile" : "--sample-offset") + " each piece would end at a number of its own");
-  }
+  require_good_job(options);
   if (options.print_scene && (options.scenes.size() > 1 || options.frames.size() > 1)) {
     throw UsageError(
         "--print-scene prints one scene; give one" +

@@ -11,6 +11,7 @@
 #include "raytrace/batch/picture_metadata.h"
 #include "raytrace/batch/piece_layout.h"
 #include "raytrace/batch/provenance.h"
+#include "raytrace/batch/settings_error.h"
 #include "raytrace/output/auto_exposure.h"
 #include "raytrace/output/image_band.h"
 #include "raytrace/text/message.h"
@@ -73,6 +74,15 @@ std::optional<std::string> misfit(const Piece& first, const Piece& piece) {
   std::string text;
   for (const std::string& problem : problems) text += (text.empty() ? "" : "\n") + on_one_line(problem);
   throw MergeError(text);
+}
+
+/// Throws for what no merge can be meant by.
+void require_good_merge(const MergeSettings& settings) {
+  if (settings.pieces.empty()) refuse({"no pieces are given"});
+  if (settings.outputs.empty()) refuse({"--output: none is given; a picture needs a file"});
+  UsedFiles files;
+  for (const std::string& piece : settings.pieces) files.add_or_refuse({"the piece", piece, false});
+  for (const std::string& output : settings.outputs) files.add_or_refuse({"--output", output, true});
 }
 
 struct Stopped {};
@@ -374,6 +384,7 @@ class Merger {
 }  // namespace
 
 MergeReport merge_pieces(const MergeSettings& settings, const std::function<bool()>& stop) {
+  require_good_merge(settings);
   try {
     return Merger(settings, stop).merge();
   } catch (const Stopped&) {

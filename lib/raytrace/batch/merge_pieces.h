@@ -41,7 +41,8 @@ class MergeError : public std::runtime_error {
 /// Checks that the pieces are of one scene, with the same settings, version and instruction set, and cover the
 /// picture once, without a gap; then writes it, bit for bit as one render of the whole would have. A band of rows is in
 /// memory at a time, and a piece is open only while it is read. Ends early, and leaves all files as they were, once
-/// `stop` says so, which is asked before each piece and band. Throws MergeError, InputError or OutputError.
+/// `stop` says so, which is asked before each piece and band. Throws MergeError, InputError or OutputError;
+/// SettingsError if an output is one of the pieces, or another output.
 MergeReport merge_pieces(const MergeSettings& settings, const std::function<bool()>& stop = {});
 
 }  // namespace raytrace

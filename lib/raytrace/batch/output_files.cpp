@@ -39,6 +39,7 @@ void check_output_settings(const RenderJob& job) {
 }
 
 void check_outputs(const RenderJob& job) {
+  if (job.outputs.empty()) throw SettingsError("--output: none is given; a picture needs a file");
   check_output_settings(job);
   if (is_denoised(job)) denoiser_name();  // throws if there is no denoiser
   for (const std::string& file : job.files()) {

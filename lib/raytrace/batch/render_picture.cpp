@@ -10,6 +10,7 @@
 
 #include "raytrace/aovs/aov_selection.h"
 #include "raytrace/batch/bands.h"
+#include "raytrace/batch/check_job.h"
 #include "raytrace/batch/checkpoint.h"
 #include "raytrace/batch/denoise.h"
 #include "raytrace/batch/error_limit.h"
@@ -381,11 +382,13 @@ class PictureRender {
 }  // namespace
 
 RenderResult render_picture(const RenderJob& job, RenderObserver& observer, RenderControl& control) {
+  require_good_job(job);
   return PictureRender(job, observer, control, std::nullopt).run();
 }
 
 RenderResult render_picture(const RenderJob& job, SceneDescription description, RenderObserver& observer,
                             RenderControl& control) {
+  require_good_job(job);
   require_good_scene(description);
   apply_job(job, description);
   return PictureRender(job, observer, control, std::move(description)).run();
