@@ -144,7 +144,7 @@ AovSet aovs(const std::string& text) {
   Names wanted;
   for (const std::string_view name : split(text, ','))
     wanted.push_back(light_group_of(name) ? std::string(name) : one_of(std::string(name), aov_choices()));
-  if (std::find(wanted.begin(), wanted.end(), "all") == wanted.end()) return aov_set(wanted);
+  if (std::erase(wanted, "all") == 0) return aov_set(wanted);
   const Names all = aov_names();
   wanted.insert(wanted.end(), all.begin(), all.end());
   AovSet set = aov_set(wanted);

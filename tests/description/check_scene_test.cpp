@@ -5,9 +5,11 @@
 #include <functional>
 #include <limits>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "raytrace/aovs/aov_selection.h"
 #include "raytrace/description/motion.h"
 #include "reported.h"
 #include "support/catch.h"
@@ -104,6 +106,27 @@ TEST_CASE("each rule of the format holds for a description that a program has ma
       "<directionallight> [0] has a <direction> of length 0"));
   CHECK(errors_of([](Scene& s) { first_sphere(s).line = 7, first_sphere(s).parameters.radius = 0; }) ==
         "s:7: error: <sphere> [0] has '0' as <radius>, which must be greater than 0\n");
+}
+
+TEST_CASE("what moves by hand has all moments of one type") {
+  using Scene = SceneDescription;
+  const auto moves = [](Scene& s, std::size_t moments) { s.moving_camera.assign(moments, s.camera); };
+  CHECK(errors_of([&](Scene& s) { moves(s, shutter_moments); }) == "");
+  CHECK(errors_of([&](Scene& s) { moves(s, 1); }) ==
+        "s: error: <camera> moves, with 1 moments; it takes 17 (motion.h), or none\n");
+  CHECK(errors_of([&](Scene& s) {
+          moves(s, shutter_moments), s.moving_camera[3] = OrthographicCamera::Parameters{};
+        }) == "s: error: <camera> is of another type at a moment of its motion than at rest\n");
+  CHECK(contains(errors_of([&](Scene& s) {
+                   moves(s, shutter_moments);
+                   std::get<PinholeCamera::Parameters>(s.moving_camera[3]).viewdistance = 0;
+                 }),
+                 "must be greater than 0"));
+}
+
+TEST_CASE("AOVs that there are not are refused") {
+  CHECK(aov_names(aov_set({"depth", "light_key"})) == std::vector<std::string>{"depth", "light_key"});
+  CHECK_THROWS_AS(aov_set({"depth", "nonsense"}), std::invalid_argument);
 }
 
 TEST_CASE("what the steps of a transform make together is held against the rules, too") {

@@ -85,8 +85,14 @@ AovSet aov_set(const std::vector<std::string>& names) {
   AovSet set;
   for (std::size_t i = 0; i < std::size(aov_table); ++i)
     if (std::find(names.begin(), names.end(), aov_table[i].name) != names.end()) set.add(i);
-  for (const std::string& name : names)
-    if (const auto group = light_group_of(name)) set.add_light_group(*group);
+  for (const std::string& name : names) {
+    const auto is_of_table = [&](const Aov& aov) { return aov.name == name; };
+    if (const auto group = light_group_of(name))
+      set.add_light_group(*group);
+    else if (std::none_of(std::begin(aov_table), std::end(aov_table), is_of_table))
+      throw std::invalid_argument("there is no AOV " + in_quotes(name) + "; there are " + joined(aov_names(), ", ") +
+                                  ", and light_NAME");
+  }
   return set;
 }
 

@@ -20,7 +20,8 @@ namespace raytrace {
 std::vector<std::string> aov_names();
 std::vector<std::string> aov_names(const AovSet& aovs);
 
-/// names: all of them in aov_names(), or of light groups.
+/// names: all of them in aov_names(), or of light groups. Throws std::invalid_argument for another, with those there
+/// are.
 AovSet aov_set(const std::vector<std::string>& names);
 
 /// "light_key" -> "key": none if that is no name of an AOV of a light group.

@@ -14,6 +14,7 @@
 #include "raytrace/description/check_fogs.h"
 #include "raytrace/description/check_groups.h"
 #include "raytrace/description/check_mesh_data.h"
+#include "raytrace/description/motion.h"
 #include "raytrace/description/parse_value.h"
 #include "raytrace/description/read_fields.h"
 #include "raytrace/description/read_transform.h"
@@ -47,6 +48,7 @@ class SceneChecker {
       });
     }
 
+    check_moments(scene);
     for_each_single(scene,
                     [&]<class T>(std::type_identity<T>, const auto& parameters) { check_single<T>(parameters); });
     for_each_item_type([&]<class Section, class T>(std::type_identity<Section>, std::type_identity<T>) {
@@ -107,6 +109,27 @@ class SceneChecker {
     check_references(scene, item);
   }
 
+  void check_moment_count(std::size_t moments) {
+    if (moments != 0 && moments != shutter_moments)
+      error("moves, with " + std::to_string(moments) + " moments; it takes " + std::to_string(shutter_moments) +
+            " (motion.h), or none");
+  }
+
+  /// Of a camera that moves while the shutter is open.
+  void check_moments(const SceneDescription& scene) {
+    item_ = {"camera", std::nullopt};
+    location_ = scene.camera_location;
+    check_moment_count(scene.moving_camera.size());
+    for (const CameraParameters& moment : scene.moving_camera) {
+      if (moment.index() != scene.camera.index())
+        return error("is of another type at a moment of its motion than at rest");
+      visit_one_of(Cameras{}, moment, [&]<class T>(std::type_identity<T>, const auto& parameters) {
+        item_ = {T::element, std::nullopt};
+        check_parameters(element_type<T>(), &parameters, false);
+      });
+    }
+  }
+
   void check_transform(const Transform& transform) {
     bool fine = true;
     for (const TransformStep& step : transform.steps) {
@@ -134,6 +157,7 @@ class SceneChecker {
   void check_references(const SceneDescription& scene, const Item& item) {
     if constexpr (requires { item.transform; }) check_transform(item.transform);
     if constexpr (requires { item.motion; }) {
+      check_moment_count(item.motion.size());
       for (const Affine& affine : item.motion)
         if (const OptionalMessage message = check_affine(affine)) error("has a motion that " + *message);
     }
