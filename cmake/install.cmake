@@ -13,19 +13,15 @@ install(TARGETS raytrace EXPORT raytraceTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 
-# What is compiled for each instruction set is the inside of the library: users go through raytrace/raytrace.h.
-install(DIRECTORY lib/raytrace DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-  FILES_MATCHING PATTERN "*.h"
-  PATTERN accel EXCLUDE
-  PATTERN scene EXCLUDE
-  PATTERN tracing EXCLUDE
-  PATTERN "*kernel*.h" EXCLUDE)
-install(FILES lib/raytrace/scene/scene.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/raytrace/scene)
-install(FILES lib/raytrace/tracing/render_report.h lib/raytrace/tracing/stage_times.h lib/raytrace/tracing/error_estimate.h
-  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/raytrace/tracing)
+install(CODE "
+  set(SOURCE \"${PROJECT_SOURCE_DIR}/lib\")
+  get_filename_component(FOLDER \"${CMAKE_INSTALL_INCLUDEDIR}\" ABSOLUTE BASE_DIR \"\${CMAKE_INSTALL_PREFIX}\")
+  include(\"${PROJECT_SOURCE_DIR}/cmake/install_headers.cmake\")")
 
+# With the small files that they name. Those in models/ are of models that are fetched into the build.
 install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/raytrace
-  FILES_MATCHING PATTERN "*.xml" PATTERN "*.xsd")
+  FILES_MATCHING PATTERN "*.xml" PATTERN "*.xsd" PATTERN "*.png" PATTERN "*.ply" PATTERN "*.gltf" PATTERN "*.ies"
+  REGEX "/scenes/models/[^/]*[.]xml$" EXCLUDE)
 install(FILES ${PROJECT_BINARY_DIR}/share/man/man1/raytrace.1 ${PROJECT_BINARY_DIR}/share/man/man1/raytrace-merge.1
   DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(DIRECTORY share/openjd share/slurm DESTINATION ${CMAKE_INSTALL_DATADIR}/raytrace)

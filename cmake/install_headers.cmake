@@ -1,0 +1,21 @@
+# Installs the headers that users include, raytrace/raytrace.h, and what they include in turn. All others are the inside
+# of the library, some of which would not even compile elsewhere. Run by cmake --install, with SOURCE, the folder lib,
+# and FOLDER, where headers go.
+cmake_policy(VERSION 3.24)
+set(headers raytrace/raytrace.h)
+set(next ${headers})
+while(next)
+  list(POP_FRONT next header)
+  file(STRINGS ${SOURCE}/${header} includes REGEX "^#include \"raytrace/")
+  foreach(include IN LISTS includes)
+    string(REGEX REPLACE "^#include \"(.*)\".*" "\\1" include "${include}")
+    if(NOT include IN_LIST headers)
+      list(APPEND headers ${include})
+      list(APPEND next ${include})
+    endif()
+  endforeach()
+endwhile()
+foreach(header IN LISTS headers)
+  get_filename_component(folder ${header} DIRECTORY)
+  file(INSTALL ${SOURCE}/${header} DESTINATION ${FOLDER}/${folder})
+endforeach()
