@@ -71,7 +71,7 @@ constexpr Synonyms synonyms[] = {
     {"--bit-depth", " bits depth bpp bitdepth bitsperchannel "},
     {"--float", " full float32 fullfloat fp32 singleprecision half "},
     {"--transparent", " alpha nobackground background transparentbackground filmtransparent nosky "},
-    {"--exposure", " ev gain brightness expose stops "},
+    {"--exposure", " ev gain brightness expose stops exposurevalue exposurecompensation noautoexposure fixedexposure "},
     {"--view-transform", " tonemap tonemapping tonemapper toneoperator viewtransform agx filmic colormanagement look "},
     {"--auto-exposure", " autoexpose autobrightness autogain "},
     {"--ocio", " ocioconfig opencolorio colorconfig "},

@@ -28,10 +28,10 @@ void define_view_options(OptionParser& parser, ViewOptions& view) {
       target = text;
     });
   };
-  parser.add(
-      "--exposure", "EV",
-      "Multiply the colour by 2^EV in PNG, JPEG and other sRGB-encoded files (0); EXR and floats stay as they are",
-      view.exposure, exposure);
+  parser.add("--exposure", "EV",
+             "Multiply the colour by 2^EV in PNG, JPEG and other sRGB-encoded files, whatever the scene says; 0 leaves "
+             "it as it is. EXR and floats stay as they are",
+             view.exposure, exposure);
   parser.add_switch("--auto-exposure", view.auto_exposure,
                     "Expose these files as the picture's own brightness asks for: its logarithmic mean becomes 0.18; "
                     "--exposure is added");

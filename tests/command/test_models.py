@@ -291,6 +291,23 @@ class Models(CommandTest):
         message = self.fail_with(1, *options, "--camera", "far", "-o", "b.exr")
         self.assertIn("has no camera 'far'; there are 'near', 'plan'", message)
 
+    def test_an_exposure_is_that_of_lamps_of_the_file(self):
+        """It is exposed by its own brightness, unless it is said how."""
+        options = ["square.gltf", "-q", "-r", "32x32", "-s", "4", "--view", "front", "--view-transform", "srgb"]
+        seen = {}
+        for intensity in (1, 64):
+            self.write_gltf([], [{"type": "point", "intensity": intensity}],
+                            [{"extensions": {"KHR_lights_punctual": {"light": 0}}, "translation": [0, 0, 2]}])
+            for exposure in ([], ["--exposure", "0"], ["--exposure", "-6"], ["--exposure", "-6", "--auto-exposure"]):
+                self.succeed(*options, *exposure, "-o", "a.png")
+                png = Png(self.read("a.png"))
+                self.assertEqual("raytrace:autoExposure" in png.text, exposure in ([], ["--exposure", "-6", "--auto-exposure"]))
+                seen[intensity, *exposure] = png.rows
+        self.assertEqual(seen[1, ], seen[64, ])
+        self.assertEqual(seen[1, "--exposure", "0"], seen[64, "--exposure", "-6"])
+        self.assertNotEqual(seen[64, "--exposure", "0"], seen[64, "--exposure", "-6"])
+        self.assertEqual(seen[1, "--exposure", "-6", "--auto-exposure"], seen[64, "--exposure", "-6", "--auto-exposure"])
+
     def test_the_shape_of_a_picture_is_the_cameras(self):
         self.write_gltf([{"type": "perspective", "name": "tall",
                           "perspective": {"yfov": 1, "znear": 1, "aspectRatio": 0.5625}},

@@ -116,9 +116,11 @@ class View(CommandTest):
             self.assertEqual(printed_exr.row_bytes, exr.row_bytes)
             for name in ("viewTransform", "exposure", "autoExposure"):
                 self.assertEqual(printed.text.get("raytrace:" + name), png.text.get("raytrace:" + name))
-            # The options' values take the place of the scene's.
+            # The options' values take the place of the scene's, and an exposure that of its automatic one as well.
             self.assertEqual(self.rendered("--exposure", "0", "--view-transform", "srgb", scene="printed.xml")[1].rows,
-                             self.rendered(*(["--auto-exposure"] if "--auto-exposure" in options else []))[1].rows)
+                             self.rendered()[1].rows)
+            self.assertEqual(self.rendered("--exposure", "0", "--auto-exposure", "--view-transform", "srgb",
+                                           scene="printed.xml")[1].rows, self.rendered("--auto-exposure")[1].rows)
 
     def test_models_are_shown_through_khronos_neutral(self):
         small = ["-r", "48x27", "-s", "2"]
@@ -159,6 +161,26 @@ class View(CommandTest):
         self.assertEqual(float(other.text["raytrace:exposure"]), found - 1)
         self.assertEqual(other.rows, png.rows)
 
+    def test_an_exposure_takes_the_place_of_a_scenes_automatic_one(self):
+        self.write("auto.xml", support.SCENE.replace("<hres>", "<autoexposure>true</autoexposure> <exposure>0.5</exposure> <hres>"))
+        found = float(self.rendered(scene="auto.xml")[1].text["raytrace:exposure"])
+        said = self.succeed("auto.xml", "-v", "--progress=none", "-o", "a.exr", "-o", "a.png").stderr
+        self.assertIn(f"exposed by its own brightness, as by --exposure {found:g}\n", said)
+        self.assertNotIn("brightness", self.succeed("auto.xml", "-v", "--progress=none", "-o", "a.exr").stderr)
+        exr, png = self.rendered(f"--exposure={found:g}", scene="auto.xml")
+        self.check(exr, png, lambda color: map(srgb, color), found)
+        self.assertNotIn("raytrace:autoExposure", png.text)
+        self.assertEqual(self.rendered("--exposure", "0", scene="auto.xml")[1].rows, self.rendered()[1].rows)
+        self.assertEqual(self.rendered("--exposure", "1", scene="auto.xml")[1].rows, self.rendered("--exposure", "1")[1].rows)
+        added = self.rendered("--exposure", "2", "--auto-exposure", scene="auto.xml")[1]
+        self.assertAlmostEqual(float(added.text["raytrace:exposure"]), found + 1.5)
+        # A tile can be exposed so, and what is skipped knows that it is another picture.
+        self.succeed("auto.xml", "-q", "--tile", "0/2", "--exposure", "0", "-o", "tile.png")
+        self.succeed("auto.xml", "-q", "-o", "kept.png")
+        for option, skipped in (("--exposure=0", False), ("--exposure=0", True), ("-q", False)):
+            self.assertEqual("kept.png" in self.succeed("auto.xml", "--skip-existing", "--progress=none", option, "-o", "kept.png").stderr,
+                             skipped)
+
     def test_pieces_become_the_whole_picture(self):
         for options in (["--view-transform", "agx", "--auto-exposure"], ["--exposure", "1", "--transparent"],
                         ["--view-transform", "khronos-neutral", "--auto-exposure", "--transparent"]):
@@ -179,7 +201,7 @@ class View(CommandTest):
             # Or as the options say.
             self.succeed("merge", "-q", *names, "-o", "merged.png", "--view-transform", "khronos-neutral",
                          "--exposure", "0.5")
-            kept = [option for option in options if option in ("--auto-exposure", "--transparent")]
+            kept = [option for option in options if option == "--transparent"]
             self.assertEqual(Png(self.read("merged.png")).rows,
                              self.rendered(*kept, "--view-transform", "khronos-neutral", "--exposure", "0.5")[1].rows)
             self.succeed("merge", "-q", "--partial", *names[1:], "-o", "partial.png")
@@ -194,7 +216,8 @@ class View(CommandTest):
         self.assertEqual(Png(self.read("a.png")).rows, self.rendered("--view-transform", "agx")[1].rows)
 
     def test_a_tile_is_not_exposed_by_itself(self):
-        self.assertIn("--tile: a.png: the whole picture's brightness says how it is exposed",
+        self.assertIn("--tile: a.png: the whole picture's brightness says how it is exposed; write EXR files and merge "
+                      "them, or say it with --exposure",
                       self.fail_with(2, "scene.xml", "-o", "a.png", "--tile", "0/2", "--auto-exposure"))
         self.succeed("scene.xml", "-q", "-o", "a.png", "--crop", "0,0,8,8", "--auto-exposure")
         self.assertIn("--ocio: all outputs hold linear colour",

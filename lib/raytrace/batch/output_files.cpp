@@ -71,8 +71,10 @@ void refuse_useless_tile(const RenderJob& job, const ViewPlane& viewplane, bool 
       throw SettingsError("--denoise: " + file +
                           ": a picture is denoised as a whole; write EXR files of its parts and merge them");
     if (job.tile && viewplane.autoexposure && format.for_display)
-      throw SettingsError("--tile: " + file +
-                          ": the whole picture's brightness says how it is exposed; write EXR files and merge them");
+      throw SettingsError(
+          "--tile: " + file +
+          ": the whole picture's brightness says how it is exposed; write EXR files and merge them, or say it "
+          "with --exposure");
   }
 }
 

@@ -323,6 +323,8 @@ class PictureRender {
     const bool is_part = film.settings().rendered() != film.region();  // without what others' light paths bring
     const bool keeps_sums = film.content() == FilmContent::sums && (partial || job_.sample_offset || is_part);
     const ImageFileSettings settings = file_settings(is_exposed_by_itself() ? automatic_exposure(film) : 0);
+    if (is_exposed_by_itself())
+      report(MessageLevel::step, formatted("exposed by its own brightness, as by --exposure %g", settings.exposure));
     OutputFiles outputs(job_, files, settings, film.settings().extent, its_metadata,
                         keeps_sums ? sum_channels(film) : std::vector<Channel>(), denoised, observer_);
     if (!outputs.write(film)) return false;

@@ -32,7 +32,8 @@ inline ViewSettings view_settings(const ViewPlane& viewplane) {
   return {viewplane.viewtransform, viewplane.exposure, viewplane.autoexposure};
 }
 
-/// In place of the scene's, where they are given.
+/// In place of the scene's, where they are given. An exposure is all of it: neither the scene's nor what the picture
+/// asks for itself is added, unless auto_exposure says so.
 struct ViewOptions {
   std::optional<ViewTransform> transform;
   std::optional<double> exposure;
@@ -49,7 +50,7 @@ struct ViewOptions {
 
   ViewSettings over(const ViewSettings& scene) const {
     return {transform.value_or(scene.transform), exposure.value_or(scene.exposure),
-            auto_exposure || scene.auto_exposure};
+            auto_exposure || (scene.auto_exposure && !exposure)};
   }
 };
 
