@@ -72,6 +72,9 @@ constexpr Synonyms synonyms[] = {
     {"--float", " full float32 fullfloat fp32 singleprecision half "},
     {"--transparent", " alpha nobackground background transparentbackground filmtransparent nosky "},
     {"--exposure", " ev gain brightness expose stops exposurevalue exposurecompensation noautoexposure fixedexposure "},
+    {"--clamp-indirect",
+     " clamp clamping clampradiance indirectclamp indirectclamping sampleclampindirect maxradiance maxcomponentvalue "
+     "clampvalue maxsubpixelintensity fireflies firefly fireflyremoval despeckle "},
     {"--view-transform", " tonemap tonemapping tonemapper toneoperator viewtransform agx filmic colormanagement look "},
     {"--auto-exposure", " autoexpose autobrightness autogain "},
     {"--ocio", " ocioconfig opencolorio colorconfig "},

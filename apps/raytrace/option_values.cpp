@@ -167,6 +167,13 @@ double scale(const std::string& text) {
   return *value;
 }
 
+double radiance(const std::string& text) {
+  const std::optional<double> value = number<double>(text);
+  if (!value || !(*value >= 0 && *value <= largest_number))
+    throw UsageError(in_quotes(text) + " is no radiance; use a number such as 10, or 0 for any");
+  return *value;
+}
+
 double frames_per_second(const std::string& text) {
   const std::optional<double> value = number<double>(text);
   if (!value || !(*value >= 1e-3 && *value <= 1e6))

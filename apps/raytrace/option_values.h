@@ -106,6 +106,9 @@ double error_limit(const std::string& text);
 /// A finite number above 0.
 double scale(const std::string& text);
 
+/// A number from 0 to the largest that a scene may have.
+double radiance(const std::string& text);
+
 /// A number of stops: "-1.5", "+2".
 double exposure(const std::string& text);
 

@@ -227,6 +227,10 @@ void define_options(OptionParser& parser, Options& options) {
   parser.add("--integrator", "NAME",
              "How light is computed, instead of the scene's way: " + joined(names_in(Integrators{}), ", "),
              options.integrator, one_of(names_in(Integrators{})), names_in(Integrators{}));
+  parser.add("--clamp-indirect", "X",
+             "Let no path bring more than X, in each channel, from beyond its first surface, e.g. 10: it takes away "
+             "bright dots, and some light; 0: any, as without it, unless the scene says otherwise",
+             options.clamp_indirect, radiance);
   parser.add("--seed", "N", "Another, equally good, pattern of samples (0)", options.seed, natural_number);
 
   parser.group("Work");

@@ -88,6 +88,9 @@ TEST_CASE("every option reaches its setting, in each of its spellings") {
   CHECK(with({"--exposure", "-.5"}).view.exposure == -0.5);
   CHECK(with({"--exposure", "+2"}).view.exposure == 2);
   CHECK(with({"--exposure", "0"}).view.exposure == 0);
+  CHECK_FALSE(with({}).clamp_indirect.has_value());
+  CHECK(with({"--clamp-indirect", "10"}).clamp_indirect == 10);
+  CHECK(with({"--clamp-indirect=0"}).clamp_indirect == 0);
   CHECK_FALSE(with({}).view.transform.has_value());
   CHECK(with({"--view-transform", "agx"}).view.transform == ViewTransform::agx);
   CHECK(with({"--view-transform=khronos-neutral"}).view.transform == ViewTransform::khronos_neutral);
@@ -231,10 +234,10 @@ TEST_CASE("every word of other renderers leads to an option that there is") {
   Names known;
   for (const OptionEntry& entry : parser.entries()) known.insert(known.end(), entry.names.begin(), entry.names.end());
   for (const char* const word :
-       {"samples",     "width",   "outfile", "frame",    "jobs",     "roi",         "chunk", "var",
-        "simd",        "passes",  "timeout", "continue", "autosave", "nooverwrite", "log",   "timing",
-        "check",       "dump",    "silent",  "debug",    "viewer",   "bpp",         "fp32",  "percent",
-        "firstsample", "rngseed", "inspect", "plugins",  "ver",      "usage"}) {
+       {"samples",     "width",   "outfile", "frame",    "jobs",     "roi",         "chunk",    "var",
+        "simd",        "passes",  "timeout", "continue", "autosave", "nooverwrite", "log",      "timing",
+        "check",       "dump",    "silent",  "debug",    "viewer",   "bpp",         "fp32",     "percent",
+        "firstsample", "rngseed", "inspect", "plugins",  "ver",      "usage",       "fireflies"}) {
     INFO(word);
     CHECK(std::count(known.begin(), known.end(), option_of_other_renderers(word)) == 1);
   }
@@ -288,6 +291,8 @@ TEST_CASE("what is no value of an option is refused with what would be one") {
   CHECK_REFUSED(with({"--bit-depth", "12"}), "neither 8 nor 16");
   for (const char* const text : {"", "bright", "1x", "nan", "inf", "-inf", "64.5", "-65", "+", "+-1", "--1", "1,5"})
     CHECK_REFUSED(with({"--exposure", text}), "is not an exposure");
+  for (const char* const text : {"", "-1", "nan", "inf", "1e18", "10x", "any"})
+    CHECK_REFUSED(with({"--clamp-indirect", text}), "is no radiance; use a number such as 10");
   CHECK_REFUSED(with({"--view-transform", "agxx"}), "did you mean 'agx'?");
   CHECK_REFUSED(with({"--view-transform", "khronos"}), "is not one of srgb, agx, khronos-neutral");
   CHECK_REFUSED(with({"--ocio", ""}), "the name is empty");

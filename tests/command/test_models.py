@@ -308,6 +308,42 @@ class Models(CommandTest):
         self.assertNotEqual(seen[64, "--exposure", "0"], seen[64, "--exposure", "-6"])
         self.assertEqual(seen[1, "--exposure", "-6", "--auto-exposure"], seen[64, "--exposure", "-6", "--auto-exposure"])
 
+    def test_indirect_light_is_clamped_where_that_is_asked_for(self):
+        model = ["slab.ply", *OPTIONS, "--floor"]
+
+        def rendered(*options):
+            self.succeed(*options, "-o", "a.exr")
+            exr = Exr(self.read("a.exr"))
+            return exr.row_bytes, sum(pixel[1] for pixel in exr.pixels().values())
+
+        bits, light = rendered(*model)
+        clamped_bits, clamped_light = rendered(*model, "--clamp-indirect", "0.001")
+        self.assertLess(clamped_light, 0.99 * light)
+        self.assertGreater(clamped_light, 0.3 * light)
+        self.assertEqual(rendered(*model, "--clamp-indirect=0")[0], bits)
+        self.write("printed.xml", self.succeed(*model, "--clamp-indirect", "0.001", "--print-scene").stdout)
+        self.assertEqual(rendered("printed.xml", "-q")[0], clamped_bits)
+        # It takes the place of what a scene says,
+        self.assertEqual(rendered("printed.xml", "-q", "--clamp-indirect", "0")[0], bits)
+        # and pieces know it.
+        for tile, clamp in (("0/2", "0"), ("1/2", "0"), ("1/2", "0.001")):
+            self.succeed(*model, "--tile", tile, "--clamp-indirect", clamp, "-o", f"{tile[0]}.{clamp}.exr")
+        self.succeed(*model, "--tile", "1/2", "-o", "1.exr")
+        self.succeed("merge", "-q", "0.0.exr", "1.0.exr", "-o", "merged.exr")
+        self.succeed("merge", "-q", "0.0.exr", "1.exr", "-o", "merged.exr")
+        self.assertIn("1.0.001.exr", self.fail_with(1, "merge", "0.0.exr", "1.0.001.exr", "-o", "merged.exr"))
+        # Only paths have such light.
+        self.assertIn("--clamp-indirect is of path tracing", self.fail_with(2, "scene.xml", "--clamp-indirect", "1", "-o", "b.exr"))
+        self.assertIn("--clamp-indirect", self.fail_with(2, *model, "--integrator", "normals", "--clamp-indirect", "1", "-o", "b.exr"))
+        self.assertIn("<clampindirect>2.5</clampindirect>",
+                      self.succeed("scene.xml", "--integrator", "path", "--clamp-indirect", "2.5", "--print-scene").stdout)
+        # A scene that leaves its integrator open, and has a lamp that needs paths.
+        lamp = self.read("scene.xml").decode().replace(
+            "<materials>", "<materials> <emissives> <emissive> <name>lamp</name> <ce red='1' green='1' blue='1'/> </emissive> </emissives>")
+        self.write("lamp.xml", lamp)
+        self.assertIn("<clampindirect>3</clampindirect>", self.succeed("lamp.xml", "--clamp-indirect", "3", "--print-scene").stdout)
+        self.assertNotIn("<clampindirect>", self.succeed("lamp.xml", "--clamp-indirect", "0", "--print-scene").stdout)
+
     def test_the_shape_of_a_picture_is_the_cameras(self):
         self.write_gltf([{"type": "perspective", "name": "tall",
                           "perspective": {"yfov": 1, "znear": 1, "aspectRatio": 0.5625}},

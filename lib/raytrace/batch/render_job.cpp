@@ -12,6 +12,7 @@
 #include "raytrace/batch/fit_camera.h"
 #include "raytrace/batch/frames.h"
 #include "raytrace/batch/settings_error.h"
+#include "raytrace/description/default_integrator.h"
 #include "raytrace/description/light_groups.h"
 #include "raytrace/text/message.h"
 #include "raytrace/textures/udim.h"
@@ -73,6 +74,30 @@ void keep_shift(const ViewPlane& before, const ViewPlane& now, CameraParameters&
       any_camera);
 }
 
+void choose_integrator(const std::string& name, SceneDescription& description) {
+  bool found = false;
+  for_each_type(Integrators{}, [&]<class Integrator>(std::type_identity<Integrator>) {
+    if (name != Integrator::element) return;
+    found = true;
+    // The scene's own parameters stay, if they are this integrator's.
+    const bool is_the_scenes =
+        description.integrator && std::holds_alternative<typename Integrator::Parameters>(*description.integrator);
+    if (!is_the_scenes) description.integrator = typename Integrator::Parameters{};
+  });
+  if (!found) throw SettingsError("there is no integrator " + in_quotes(name));
+}
+
+void clamp_indirect(double most, SceneDescription& description) {
+  IntegratorParameters integrator = integrator_of(description);
+  auto* const path = std::get_if<Path::Parameters>(&integrator);
+  if (path == nullptr)
+    throw SettingsError(
+        "--clamp-indirect is of path tracing, and this picture is not path traced; --integrator path does it");
+  if (path->clampindirect == most) return;  // a scene that leaves it open stays as it is
+  path->clampindirect = most;
+  description.integrator = integrator;
+}
+
 }  // namespace
 
 void apply_job(const RenderJob& job, SceneDescription& description) {
@@ -80,17 +105,8 @@ void apply_job(const RenderJob& job, SceneDescription& description) {
   description.viewplane = requested_view_plane(scenes, job);
   keep_shift(scenes, description.viewplane, description.camera);
   for (CameraParameters& moment : description.moving_camera) keep_shift(scenes, description.viewplane, moment);
-  if (job.integrator.empty()) return;
-  bool found = false;
-  for_each_type(Integrators{}, [&]<class Integrator>(std::type_identity<Integrator>) {
-    if (job.integrator != Integrator::element) return;
-    found = true;
-    // The scene's own parameters stay, if they are this integrator's.
-    const bool is_the_scenes =
-        description.integrator && std::holds_alternative<typename Integrator::Parameters>(*description.integrator);
-    if (!is_the_scenes) description.integrator = typename Integrator::Parameters{};
-  });
-  if (!found) throw SettingsError("there is no integrator " + in_quotes(job.integrator));
+  if (!job.integrator.empty()) choose_integrator(job.integrator, description);
+  if (job.clamp_indirect) clamp_indirect(*job.clamp_indirect, description);
 }
 
 SampleRange sample_range(const ViewPlane& viewplane, const RenderJob& job) {

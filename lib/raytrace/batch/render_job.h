@@ -42,7 +42,8 @@ struct RenderJob {
   std::optional<int> samples;                  ///< per pixel; none: the scene's
   std::optional<std::uint32_t> sample_offset;  ///< none: all samples of the picture, not a part of them
   std::uint64_t seed = 0;
-  std::string integrator;  ///< its element, such as "normals"; empty: the scene's
+  std::string integrator;                ///< its element, such as "normals"; empty: the scene's
+  std::optional<double> clamp_indirect;  ///< Path::Parameters::clampindirect; none: the scene's
   AovSet aovs;
   bool transparent = false;
   bool denoise = false;  ///< a tile, or a part of the samples: says so to the merge (batch/denoise.h)
@@ -76,7 +77,7 @@ struct RenderJob {
 };
 
 /// Gives the scene the job's resolution, scale, samples, view and integrator. Throws SettingsError if the picture gets
-/// too large, or there is no such integrator.
+/// too large, there is no such integrator, or what is asked of it is another's.
 void apply_job(const RenderJob& job, SceneDescription& description);
 
 /// Which of each pixel's samples: a sample offset makes them a part of the picture's.

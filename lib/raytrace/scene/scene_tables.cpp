@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "raytrace/description/default_integrator.h"
 #include "raytrace/description/light_groups.h"
 #include "raytrace/math/float_origin.h"
 #include "raytrace/math/gather.h"
@@ -14,21 +15,6 @@ namespace raytrace {
 extern template class MaterialTableOf<OpenPbr>;
 
 namespace {
-
-/// Where the description leaves it open.
-IntegratorParameters default_integrator(const SceneDescription& description) {
-  const auto& suns = std::get<LightItems<DirectionalLight>>(description.lights);
-  const auto has = [&]<class... Types>(TypeList<Types...>) {
-    return (!std::get<MaterialItems<Types>>(description.materials).empty() || ...);
-  };
-  const bool needs_path =
-      has(TypeList<Emissive, Mirror, Conductor, Dielectric, OpenPbr, Fog>{}) ||
-      !std::get<LightItems<EnvironmentLight>>(description.lights).empty() ||
-      !std::get<LightItems<SkyLight>>(description.lights).empty() ||
-      std::any_of(suns.begin(), suns.end(), [](const auto& sun) { return sun.parameters.angle > 0; });
-  if (needs_path) return Path::Parameters{};
-  return Raycast::Parameters{};
-}
 
 Vec3d origin_of(const CameraParameters& camera) {
   return std::visit(
@@ -46,7 +32,7 @@ SceneTables::SceneTables(const SceneDescription& description, int threads, const
     : origin_(origin_of(description.camera)),
       viewplane_(description.viewplane),
       pixel_filter_(description.viewplane),
-      integrator_(description.integrator.value_or(default_integrator(description))),
+      integrator_(integrator_of(description)),
       parts_(description) {
   for (std::string& name : light_group_names(description)) light_groups_.push_back({std::move(name)});
   textures_ = std::make_unique<const TextureTable>(description);
