@@ -31,11 +31,13 @@ TEST_CASE("an OBJ vertex is a combination of v, vt and vn") {
 
 TEST_CASE("an OBJ file of equal indices keeps its vertices, with colours") {
   const ReadResult read =
-      read_bytes("a.obj", "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 0 0 0.5\nvt 0 0\nvt 1 0\nvt 1 1\nf 3/3 1/1 2/2\n");
+      read_bytes("a.obj", "v 0 0 0 1 0 0\nv 1 0 0 0 1 0.04\nv 1 1 0 0.5 0 2\nvt 0 0\nvt 1 0\nvt 1 1\nf 3/3 1/1 2/2\n");
   REQUIRE(read.mesh);
   CHECK(values(read.mesh->indices) == Indices{2, 0, 1});
   CHECK(values(read.mesh->uvs) == Floats{0, 0, 1, 0, 1, 1});
-  CHECK(values(read.mesh->colors) == Floats{1, 0, 0, 0, 1, 0, 0, 0, 0.5F});
+  // Colours are sRGB's, and may be brighter than white.
+  const auto dark = static_cast<float>(0.04 / 12.92), bright = static_cast<float>(4.953845751592042);
+  CHECK(values(read.mesh->colors) == Floats{1, 0, 0, 0, 1, dark, 0.21404114F, 0, bright});
 }
 
 TEST_CASE("an OBJ file's materials come from its MTL files") {

@@ -10,6 +10,7 @@
 #include "raytrace/import/mesh_readers.h"
 #include "raytrace/import/mesh_text.h"
 #include "raytrace/import/obj_statements.h"
+#include "raytrace/math/srgb.h"
 #include "raytrace/parallel/for_each_index.h"
 #include "raytrace/text/message.h"
 
@@ -19,6 +20,9 @@ namespace {
 
 constexpr std::uint32_t none = no_index;
 constexpr std::size_t most_indices = std::size_t{1} << 31U;
+
+/// Blender and MeshLab write what a screen shows: sRGB.
+float linear_color(double code) { return finite_or_zero(rounded(linear_of_srgb(code))); }
 
 MeshMaterial named_material(std::string_view name) {
   MeshMaterial material;
@@ -168,7 +172,7 @@ bool Reader::read_values() {
         mesh_.positions[3 * number + axis] =
             rounded(values[axis] - component(settings_.origin, static_cast<int>(axis)));
       for (std::size_t channel = 0; has_colors && channel < 3; ++channel)
-        mesh_.colors[3 * number + channel] = count >= 6 ? finite_or_zero(rounded(values[3 + channel])) : 1;
+        mesh_.colors[3 * number + channel] = count >= 6 ? linear_color(values[3 + channel]) : 1;
     } else {
       MeshBuffer<float>& out = statement == Statement::uv ? mesh_.uvs : mesh_.normals;
       const std::size_t numbers = statement == Statement::uv ? 2 : 3;
