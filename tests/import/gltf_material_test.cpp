@@ -305,4 +305,49 @@ TEST_CASE("glTF: a material's textures have at most two sets of texture coordina
         "TEXCOORD_1, and is left out\n");
 }
 
+TEST_CASE("a hint names glTF's clear materials of solid things that have no volume") {
+  // A box of corners of their own for each face, as exporters write it; without its last face it is open.
+  const auto hint = [](const std::string& material, double height, std::size_t faces = 6) {
+    std::vector<float> positions;
+    std::vector<std::uint16_t> indices;
+    for (int axis = 0; axis < 3; ++axis)
+      for (int side = 0; side < 2; ++side) {
+        const auto first = static_cast<std::uint16_t>(positions.size() / 3);
+        for (int corner = 0; corner < 4; ++corner) {
+          float place[3] = {};
+          place[axis] = side == 0 ? -0.0F : 1.0F;
+          place[(axis + 1) % 3] = (corner == 1 || corner == 2) == (side == 1) ? 1.0F : 0.0F;
+          place[(axis + 2) % 3] = corner >= 2 ? 1.0F : 0.0F;
+          place[2] *= static_cast<float>(height);
+          positions.insert(positions.end(), place, place + 3);
+        }
+        for (const int corner : {0, 1, 2, 0, 2, 3}) indices.push_back(static_cast<std::uint16_t>(first + corner));
+      }
+    indices.resize(6 * faces);
+    GltfFile file;
+    file.add(positions, "VEC3", 5126, 24).add(indices, "SCALAR", 5123, indices.size());
+    const ReadResult read = read_bytes(
+        "a.gltf", file.text(R"("scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":
+            {"POSITION":0},"indices":1,"material":0}]}],"materials":[{"name":"bottle",)" +
+                            material + "}]"));
+    CHECK(read.mesh);
+    return read.messages;
+  };
+  const std::string glass = R"("KHR_materials_transmission":{"transmissionFactor":1})";
+  const auto with = [](const std::string& extensions) { return R"("extensions":{)" + extensions + "}"; };
+  CHECK(
+      hint(with(glass), 1) ==
+      "a.gltf: warning: materials[0]: 'bottle': it is clear, and a thin wall, which does not refract, though what has "
+      "it is solid: a thicknessFactor above 0 (KHR_materials_volume) makes it solid\n");
+  CHECK_FALSE(hint(with(glass), 0.1).empty());
+  CHECK_FALSE(hint(with(glass + R"(,"KHR_materials_volume":{"thicknessFactor":0})"), 1).empty());
+  CHECK(hint(with(glass + R"(,"KHR_materials_volume":{"thicknessFactor":0.1})"), 1).empty());
+  CHECK(hint(with(R"("KHR_materials_transmission":{"transmissionFactor":0})"), 1).empty());
+  CHECK(hint(with(""), 1).empty());
+  // No sheets, and no panes of two sides.
+  CHECK(hint(with(glass), 1, 5).empty());
+  CHECK(hint(with(glass), 0.001).empty());
+  CHECK(hint(with(glass), 0).empty());
+}
+
 }  // namespace raytrace::test

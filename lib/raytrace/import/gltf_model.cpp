@@ -255,6 +255,11 @@ PrimitiveMaterial ModelReader::material(const Item& number) {
                            is_converted_model(document_.name())}));
   document_.be_quiet(false);
   known->second.coordinates = textures_.coordinates();
+  const MeshMaterial& read = model_.materials.back();
+  known->second.is_thin_glass =
+      read.thin_walled && std::ranges::any_of(read.openpbr, [](const MeshParameter& parameter) {
+        return parameter.name == "transmission_weight";
+      });
   return known->second;
 }
 

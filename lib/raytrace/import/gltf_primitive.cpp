@@ -1,10 +1,13 @@
 #include "raytrace/import/gltf_primitive.h"
 
+#include <bit>
+#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
 
 #include "raytrace/import/gltf_material.h"
+#include "raytrace/math/vec3.h"
 #include "raytrace/text/message.h"
 
 namespace raytrace::gltf {
@@ -100,6 +103,12 @@ class VertexReader {
   std::vector<std::uint64_t> numbers_;  ///< counted from 1; 0: none
 };
 
+/// "'glass': ", if it has a name.
+std::string named(const Item& item) {
+  const std::string name = item.name();
+  return name.empty() ? "" : in_quotes(name) + ": ";
+}
+
 /// Where the alpha of vertex colours would count, which a mesh has no place for.
 void warn_of_alpha(const Primitive& primitive, const Item& material, Document& document) {
   const std::optional<Item> mode = material.find("alphaMode");
@@ -108,9 +117,65 @@ void warn_of_alpha(const Primitive& primitive, const Item& material, Document& d
   bool is_opaque = true;
   for_each_element(*primitive.colors, 1, [&](std::size_t, const auto& values) { is_opaque &= values[3] >= 1; });
   if (is_opaque) return;
-  const std::string name = material.name();
+  document.warn_once(material.place(), named(material) + "the alpha of its vertex colours is not used");
+}
+
+std::uint64_t mixed(std::uint64_t bits) {
+  bits = (bits ^ (bits >> 32U)) * 0xd6e8feb86659fd93U;
+  bits = (bits ^ (bits >> 32U)) * 0xd6e8feb86659fd93U;
+  return bits ^ (bits >> 32U);
+}
+
+/// Of a place: of both zeros the same.
+std::uint64_t key_of(const Vec3d& p) {
+  std::uint64_t key = 0;
+  for (const double x : {p.x, p.y, p.z}) key = mixed(key + std::bit_cast<std::uint64_t>(x == 0 ? 0.0 : x));
+  return key;
+}
+
+/// 0 in sum over edges, each of which is there as often in one direction as in the other; else hardly ever.
+std::uint64_t directed(std::uint64_t from, std::uint64_t to) { return mixed(3 * from + to) - mixed(3 * to + from); }
+
+/// Whether its faces enclose something that is no mere pane: they have no edges where they end, and what they enclose
+/// is thicker than some half a percent of their extent. Vertices at the same place are one.
+bool is_solid(const Primitive& primitive) {
+  std::vector<Vec3d> places(primitive.positions.elements.count);
+  for_each_element(primitive.positions, 1,
+                   [&](std::size_t i, const auto& values) { places[i] = {values[0], values[1], values[2]}; });
+  std::vector<std::size_t> corners(primitive.corners());
+  for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = i;
+  if (primitive.indices)
+    for_each_element(*primitive.indices, 1,
+                     [&](std::size_t i, const auto& values) { corners[i] = static_cast<std::size_t>(values[0]); });
+  std::vector<std::uint64_t> keys;
+  keys.reserve(places.size());
+  for (const Vec3d& place : places) keys.push_back(key_of(place));
+  std::uint64_t open = 0;
+  double volume = 0, area = 0;
+  for (std::size_t i = 0; i < primitive.faces(); ++i) {
+    std::array<std::size_t, 3> face = primitive.face(i);
+    for (std::size_t& corner : face) {
+      corner = corners[corner];
+      if (corner >= places.size()) return false;  // an error, which comes later
+    }
+    for (std::size_t k = 0; k < 3; ++k) open += directed(keys[face[k]], keys[face[(k + 1) % 3]]);
+    const Vec3d a = places[face[0]] - places[0], b = places[face[1]] - places[0], c = places[face[2]] - places[0];
+    volume += dot(a, cross(b, c)) / 6;
+    area += length(cross(b - a, c - a)) / 2;
+  }
+  // A sheet of two sides has half the area each, and their distance is the volume over that.
+  constexpr double least = 0.002;
+  return open == 0 && std::abs(volume) > least * std::pow(area, 1.5);
+}
+
+/// Glass that is solid in the program it comes from, and has no volume in the file. Looked for in what files of usual
+/// sizes have.
+void warn_of_thin_glass(const Primitive& primitive, const Item& material, Document& document) {
+  if (!document.may_look_at(primitive.corners()) || !is_solid(primitive)) return;
   document.warn_once(material.place(),
-                     (name.empty() ? "" : in_quotes(name) + ": ") + "the alpha of its vertex colours is not used");
+                     named(material) +
+                         "it is clear, and a thin wall, which does not refract, though what has it is solid: a "
+                         "thicknessFactor above 0 (KHR_materials_volume) makes it solid");
 }
 
 /// That of the variant, if it has one.
@@ -167,7 +232,11 @@ std::vector<Primitive> read_primitives(Document& document, DracoReader& draco, c
     const std::optional<Item> number = material_of(item, variant);
     const PrimitiveMaterial of_model = number ? material(*number) : PrimitiveMaterial();
     primitive.material = of_model.number;
-    if (number && !of_model.is_overridden) warn_of_alpha(primitive, document.listed("materials", *number), document);
+    if (number && !of_model.is_overridden) {
+      const Item item_of_material = document.listed("materials", *number);
+      warn_of_alpha(primitive, item_of_material, document);
+      if (of_model.is_thin_glass) warn_of_thin_glass(primitive, item_of_material, document);
+    }
     const auto coordinates = [&](std::uint64_t set) {
       return vertices.attribute("TEXCOORD_" + std::to_string(set), 2, 2);
     };

@@ -1,6 +1,8 @@
 // Primitives of a glTF file's meshes. Inside of read_gltf().
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -39,6 +41,12 @@ struct Primitive {
     if (mode == Mode::triangles) return corners() / 3;
     return corners() < 3 ? 0 : corners() - 2;
   }
+  /// The three corners of face i.
+  std::array<std::size_t, 3> face(std::size_t i) const {
+    if (mode == Mode::strip) return {i, i + 1 + i % 2, i + 2 - i % 2};
+    if (mode == Mode::fan) return {i + 1, i + 2, 0};
+    return {3 * i, 3 * i + 1, 3 * i + 2};
+  }
 };
 
 struct PrimitiveMaterial {
@@ -46,6 +54,7 @@ struct PrimitiveMaterial {
   /// Its textures are placed by TEXCOORD_n of these numbers, of which there are at most two.
   std::vector<std::uint64_t> coordinates{};
   bool is_overridden = false;  ///< nothing is said of it
+  bool is_thin_glass = false;  ///< clear, and a thin wall
 };
 
 /// Those of a mesh that have faces. material: what the model has for that of the file. other_primitives

@@ -211,11 +211,7 @@ void MeshWriter::write_faces(const Primitive& primitive, std::size_t first_verte
   std::uint32_t* const out = mesh_.indices.data() + 3 * next_face_;
   for_each_chunk(faces, threads_, [&](std::size_t, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
-      std::array<std::size_t, 3> face{3 * i, 3 * i + 1, 3 * i + 2};
-      if (primitive.mode == Mode::strip)
-        face = {i, i + 1 + i % 2, i + 2 - i % 2};
-      else if (primitive.mode == Mode::fan)
-        face = {i + 1, i + 2, 0};
+      std::array<std::size_t, 3> face = primitive.face(i);
       if (mirrored) std::swap(face[1], face[2]);
       for (std::size_t k = 0; k < 3; ++k)
         out[3 * i + k] =

@@ -92,6 +92,7 @@ RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const SceneTa
   const Sample2D middle{FloatN(0), FloatN(0)};
   const bool has_drawn = group.drawn && draws;
   const std::size_t last_light = has_drawn ? group.first_drawn + ManyLights::draws : group.last_light;
+  const FloatN u_of_drawn = has_drawn ? numbers.place(group.first_drawn).x : FloatN(0);
   for (std::size_t number = group.first_light; number < last_light; ++number) {
     // The first run has the ambient light, whatever the others reach.
     const std::size_t before = number - group.first_light;
@@ -102,7 +103,7 @@ RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const SceneTa
     IncidentLight& here = incident[count];  // written in its array at once: it is large
     const bool is_drawn = has_drawn && number >= group.first_drawn;
     if (is_drawn) [[unlikely]] {
-      const FloatN u = numbers.place(group.first_drawn).x + FloatN(static_cast<float>(number - group.first_drawn));
+      const FloatN u = u_of_drawn + FloatN(static_cast<float>(number - group.first_drawn));
       const FloatN share(1 / static_cast<float>(ManyLights::draws));
       has_shadow = group.drawn->sample(shadow_rays, surface.ns, u * share, here.radiance);
       here.radiance = here.radiance * share;
