@@ -90,4 +90,45 @@ TEST_CASE("an MTL's map_Bump is a normal map if its picture is blue") {
   CHECK(both.messages.empty());
 }
 
+TEST_CASE("a warning names a material whose normal map is grey, as heights are") {
+  const TemporaryFolder folder;
+  const auto warning = [](const std::string& material, const std::string& file) {
+    return "the normal map of the material '" + material + "', '" + file +
+           "', is grey, as heights are: it slants the surface; normals can be baked from heights, and a <bump> has "
+           "them as they are";
+  };
+  for (const auto& [name, type] : {std::pair{"h.png", OIIO::TypeDesc::UINT8},
+                                   {"h16.png", OIIO::TypeDesc::UINT16},
+                                   {"half.exr", OIIO::TypeDesc::HALF},
+                                   {"h.exr", OIIO::TypeDesc::FLOAT}})
+    for (const int channels : {1, 3}) {
+      INFO(name << ' ' << channels);
+      write_color(folder.file(name), {0.7F, 0.7F, 0.7F}, channels, type);
+      const ReliefOfModel relief = relief_of(folder, "norm " + std::string(name));
+      CHECK(relief.has_normals);
+      CHECK(relief.messages == "0: " + warning("m", name) + "\n");
+      write_color(folder.file(name), {0.5F, 0.5F, 0.75F}, 3, type);
+      CHECK(relief_of(folder, "norm " + std::string(name)).messages.empty());
+    }
+  // Of a scene's material, where it stands. Other uses of such pictures are fine.
+  write_color(folder.file("h.png"), {0.7F, 0.7F, 0.7F}, 3, OIIO::TypeDesc::UINT8);
+  const auto said = [&](const std::string& field) {
+    write_text(folder.path() / "scene.xml",
+               "<raytracer><viewplane><hres>4</hres><vres>3</vres></viewplane><camera><eye x='0' y='0' z='9'/><lookat "
+               "x='0' y='0' z='0'/><viewdistance>4</viewdistance></camera>\n<textures><images><image><name>h</name>"
+               "<file>h.png</file></image></images></textures>\n<materials><openpbrs>\n  <openpbr><name>tiles</name>" +
+                   field + "</openpbr></openpbrs></materials></raytracer>");
+    Diagnostics diagnostics("scene.xml");
+    CHECK(load_scene(folder.file("scene.xml"), diagnostics, 1));
+    std::string messages;
+    for (const Diagnostic& diagnostic : diagnostics.kept())
+      messages += std::to_string(diagnostic.location.line) + ":" + std::to_string(diagnostic.location.column) + ": " +
+                  diagnostic.message + "\n";
+    return messages;
+  };
+  CHECK(said("<normalmap texture='h'/>") == "4:3: " + warning("tiles", "h.png") + "\n");
+  CHECK(said("<coatnormalmap texture='h'/>") == "4:3: " + warning("tiles", "h.png") + "\n");
+  CHECK(said("<bump texture='h' height='1'/> <base_color texture='h'/>").empty());
+}
+
 }  // namespace raytrace::test

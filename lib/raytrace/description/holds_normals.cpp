@@ -41,6 +41,26 @@ bool is_grey(const Picture& picture) {
 
 }  // namespace
 
+bool is_grey(const TexelImage& image) {
+  if (image.channels() < 3) return true;
+  const std::size_t bytes = bytes_of(image.format());
+  const TexelImage::Level& level = image.levels().front();
+  constexpr std::int32_t most = 64;  // along an edge
+  const std::int32_t columns = std::min(level.width, most), rows = std::min(level.height, most);
+  for (std::int32_t row = 0; row < rows; ++row)
+    for (std::int32_t column = 0; column < columns; ++column) {
+      const auto along = [](std::int32_t i, std::int32_t count, std::int32_t size) {
+        return static_cast<std::int32_t>(std::int64_t{i} * size / count);
+      };
+      const auto number = static_cast<std::size_t>(
+          TexelImage::index(level, along(column, columns, level.width), along(row, rows, level.height)));
+      const std::byte* const texel = image.texels() + number * static_cast<std::size_t>(image.channels()) * bytes;
+      if (std::memcmp(texel, texel + bytes, bytes) != 0 || std::memcmp(texel, texel + 2 * bytes, bytes) != 0)
+        return false;
+    }
+  return true;
+}
+
 bool holds_normals(const std::string& file) {
   try {
     const auto reader = open_picture(file);

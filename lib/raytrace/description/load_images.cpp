@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "raytrace/description/holds_normals.h"
 #include "raytrace/description/made_picture.h"
 #include "raytrace/description/read_pictures.h"
 #include "raytrace/import/specular_glossiness.h"
@@ -266,6 +267,27 @@ std::vector<std::array<bool, 2>> image_uses(const SceneDescription& scene) {
   return uses;
 }
 
+/// Of those that have just been loaded.
+void warn_of_heights(const SceneDescription& scene, const std::vector<bool>& is_new, Diagnostics& diagnostics) {
+  const auto& images = std::get<TextureItems<Image>>(scene.textures);
+  for_each_type(Materials{}, [&]<class T>(std::type_identity<T>) {
+    const Fields& fields = element_type<T>().fields;
+    for (const auto& item : std::get<MaterialItems<T>>(scene.materials))
+      for (const TextureUse& use : item.textures) {
+        const std::string_view field = fields[use.field].name;
+        if (field != normalmap_field && field != coatnormalmap_field) continue;
+        if (use.texture.type != index_of<Image>(Textures{}) || !is_new[use.texture.index]) continue;
+        const auto& image = images[use.texture.index];
+        if (image.image.number == nullptr || !is_grey(*image.image.number)) continue;
+        diagnostics.warning(location_of(item),
+                            "the normal map of the material " + in_quotes(item.name) + ", " +
+                                in_quotes(std::filesystem::path(image.parameters.file.path).filename().string()) +
+                                ", is grey, as heights are: it slants the surface; normals can be baked from heights, "
+                                "and a <bump> has them as they are");
+      }
+  });
+}
+
 /// Of the texels of images that are loaded.
 std::uint64_t loaded_bytes(const SceneDescription& scene) {
   std::set<const TexelImage*> images;
@@ -300,6 +322,8 @@ bool load_images(SceneDescription& scene, Diagnostics& diagnostics, int threads,
       picture.file = file;
       tasks.push_back({"environment", picture, {true, false}, file.path, location_of(item), &item.image});
     }
+  std::vector<bool> is_new(uses.size());
+  for (std::size_t image = 0; image < uses.size(); ++image) is_new[image] = tasks[image].loaded->hash.empty();
   std::erase_if(tasks, [](const ImageTask& task) { return !task.loaded->hash.empty(); });
   loader.load(tasks, [&](const ImageTask& task, const std::runtime_error& error) {
     const FileName& file = task.image.file;
@@ -311,6 +335,7 @@ bool load_images(SceneDescription& scene, Diagnostics& diagnostics, int threads,
                         (warns ? "; it is magenta" : ""));
     if (warns) *task.loaded = {"missing", TexelImage::of_color(255, 0, 255), TexelImage::of_color(255, 0, 255)};
   });
+  if (!diagnostics.has_errors()) warn_of_heights(scene, is_new, diagnostics);
   for_each_type(Lights{}, [&]<class Light>(std::type_identity<Light>) {
     for (auto& item : std::get<LightItems<Light>>(scene.lights))
       if constexpr (requires { item.photometry; }) {
