@@ -157,6 +157,16 @@ TEST_CASE("what the steps of a transform make together is held against the rules
   CHECK(contains(with_instance({{1e10, 0, 0}, {0, 1e10, 0}, {0, 0, 1e10}, {}}),
                  "the <instance>, with those in its group 'b', makes objects too large"));
   CHECK(contains(with_instance({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {nan, 0, 0}}), "<instance> [0] has a motion that"));
+  // However deep they are, turns make nothing larger.
+  CHECK(errors_of([](Scene& s) {
+          for (int i = 0; i < 200; ++i) {
+            Group& group = s.groups.emplace_back(Group{"g" + std::to_string(i), {}, 0, 0});
+            if (i == 0) continue;
+            ObjectItem<Instance>& instance = std::get<ObjectItems<Instance>>(group.objects).emplace_back();
+            instance.parameters.group.name = "g" + std::to_string(i - 1);
+            instance.transform.steps = {{TransformStep::rotate, {1, 2, 3, 40}}};
+          }
+        }) == "");
 }
 
 TEST_CASE("all errors are reported at once, and warnings alone are none") {

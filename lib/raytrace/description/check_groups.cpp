@@ -39,9 +39,8 @@ class GroupChecker {
     SourceLocation last;
     for (const auto& mesh : std::get<ObjectItems<Mesh>>(scene_.objects)) last = location_of(mesh);
     for (const Group& group : scene_.groups) count_of(states_.at(group.name));
-    Reach reach;
     for (const auto& instance : std::get<ObjectItems<Instance>>(scene_.objects)) {
-      count += count_of(instance, reach);
+      count += count_of(instance, nullptr);
       last = location_of(instance);
     }
     if (count > most_instances)
@@ -73,7 +72,7 @@ class GroupChecker {
     Reach reach{};
   };
 
-  std::uint64_t count_of(const ObjectItem<Instance>& instance, Reach& reach) {
+  std::uint64_t count_of(const ObjectItem<Instance>& instance, Reach* reach) {
     const Reference& name = instance.parameters.group;
     const SourceLocation location = name.line > 0 ? location_of(name) : location_of(instance);
     const auto found = states_.find(name.name);
@@ -93,16 +92,19 @@ class GroupChecker {
     return count;
   }
 
-  /// Of an instance of what has the reach `inner`, to that of what it is in.
-  void add_reach(const ObjectItem<Instance>& instance, const Reach& inner, Reach& reach) {
+  /// Of an instance of what has the reach `inner`, to that of the group that it is in; null: it is in the scene itself.
+  void add_reach(const ObjectItem<Instance>& instance, const Reach& inner, Reach* reach) {
+    const bool is_of_scene = reach == nullptr;
+    if (is_of_scene && inner.scale == 1 && inner.origin == 0) return;  // most, and each is fine by itself
     const Affine affine = instance.transform.affine();
-    // No less than by what any length grows, and more by the factor 3 at most, which is little here.
-    const double scale = length(Vec3d(length(affine.x), length(affine.y), length(affine.z)));
+    // By what lengths grow; or, where that is not the same in all directions, up to twice as much.
+    const double scale =
+        affine.uniform_scale().value_or(length(Vec3d(length(affine.x), length(affine.y), length(affine.z))));
     const Reach outer{scale * inner.scale, scale * inner.origin + length(affine.origin)};
     if (!std::isfinite(outer.scale + outer.origin)) return;  // no good transform by itself, which others say
     // What is wrong is said once, not at all that it is in.
     if (std::max(outer.scale, outer.origin) <= most_reach) {
-      reach = {std::max(reach.scale, outer.scale), std::max(reach.origin, outer.origin)};
+      if (!is_of_scene) *reach = {std::max(reach->scale, outer.scale), std::max(reach->origin, outer.origin)};
     } else {
       diagnostics_.error(location_of(instance),
                          "the <instance>, with those in its group " + in_quotes(instance.parameters.group.name) +
@@ -121,7 +123,7 @@ class GroupChecker {
         count += item.transform.empty() ? 0 : 1;
     });
     for (const auto& inner : std::get<ObjectItems<Instance>>(state.group->objects))
-      count = std::min(count + count_of(inner, state.reach), std::uint64_t{1} << 40U);
+      count = std::min(count + count_of(inner, &state.reach), std::uint64_t{1} << 40U);
     state.count = count;
     state.progress = State::known;
     return count;
