@@ -14,68 +14,12 @@
 #include <variant>
 #include <vector>
 
+#include "raytrace/description/motion_values.h"
 #include "raytrace/text/message.h"
 
 namespace raytrace {
 
 namespace {
-
-template <class Value>
-bool is_same(const Value& a, const Value& b) {
-  if constexpr (HasComponents<Value>)
-    return std::all_of(Components<Value>::members.begin(), Components<Value>::members.end(),
-                       [&](const auto member) { return a.*member == b.*member; });
-  else
-    return a == b;
-}
-
-/// Where the values are written does not count.
-bool have_same_values(const Fields& fields, const void* a, const void* b) {
-  return std::all_of(fields.begin(), fields.end(), [&](const Field& field) {
-    const FieldValue of_a = field.value(const_cast<void*>(a)), of_b = field.value(const_cast<void*>(b));
-    return std::visit(
-        [&]<class Any>(const Any& value) {
-          const Any& other = std::get<Any>(of_b);
-          if constexpr (std::is_same_v<Any, ChoiceReference>)
-            return value.index() == other.index();
-          else
-            return is_same(*value, *other);
-        },
-        of_a);
-  });
-}
-
-/// By what all points of `to` lie beside those of `from`; nothing if not all do, or other values differ.
-std::optional<Vec3d> shift_between(const Fields& fields, const void* from, const void* to) {
-  std::optional<Vec3d> shift;
-  double size = 0;
-  for (const Field& field : fields) {
-    if (!field.is_point) {
-      if (!have_same_values({field}, from, to)) return std::nullopt;
-      continue;
-    }
-    const Vec3d a = field.get<Vec3d>(const_cast<void*>(from)), b = field.get<Vec3d>(const_cast<void*>(to));
-    size = std::max({size, length(a), length(b)});
-    if (!shift) shift = b - a;
-    // Keys round each point by itself.
-    if (length(b - a - *shift) > 1e-12 * size) return std::nullopt;
-  }
-  return shift.value_or(Vec3d{0, 0, 0});
-}
-
-/// Whether what moves straight from one map to the next is flat or mirrored on its way, or nearly so.
-bool collapses_between(const Affine& from, const Affine& to) {
-  const double least = 0.1 * std::min(std::abs(from.determinant()), std::abs(to.determinant()));
-  constexpr int steps = 64;
-  for (int i = 0; i <= steps; ++i) {
-    const double part = static_cast<double>(i) / steps;
-    const auto between = [&](Vec3d Affine::* column) { return from.*column * (1 - part) + to.*column * part; };
-    const Affine map{between(&Affine::x), between(&Affine::y), between(&Affine::z), between(&Affine::origin)};
-    const double determinant = from.determinant() < 0 ? -map.determinant() : map.determinant();
-    if (!(determinant >= least)) return true;
-  }
-  return false;
-}
 
 constexpr const char* slower = "; let the shutter be open for less time";
 
@@ -84,8 +28,9 @@ class MotionFinder {
   MotionFinder(SceneDescription& scene, Diagnostics& diagnostics) : scene_(scene), diagnostics_(diagnostics) {}
 
   /// then: the scene as it is at moment number `moment`, which come one after the other.
-  void add(std::size_t moment, const SceneDescription& then) {
+  void add(std::size_t moment, SceneDescription then) {
     moment_ = moment;
+    take_pixel_size(then);
     add_camera(then.camera);
     compare_objects(0, scene_.objects, then.objects);
     for (std::size_t group = 0; group < scene_.groups.size(); ++group)
@@ -95,14 +40,12 @@ class MotionFinder {
 
   /// All stands still as it is at the only moment; what has keys that count at the frame, as it is there.
   void move_to(SceneDescription then) {
+    take_pixel_size(then);
     warn_of_others(then);
     scene_.camera = then.camera;
-    keep_animations(scene_.objects, then.objects);
-    scene_.objects = std::move(then.objects);
-    for (std::size_t group = 0; group < scene_.groups.size(); ++group) {
-      keep_animations(scene_.groups[group].objects, then.groups[group].objects);
-      scene_.groups[group].objects = std::move(then.groups[group].objects);
-    }
+    move_objects_to(then.objects, scene_.objects);
+    for (std::size_t group = 0; group < scene_.groups.size(); ++group)
+      move_objects_to(then.groups[group].objects, scene_.groups[group].objects);
   }
 
   /// After the last moment.
@@ -131,6 +74,17 @@ class MotionFinder {
     friend auto operator<=>(const Place&, const Place&) = default;
   };
 
+  /// A pixel that grows is as a view plane that comes nearer.
+  void take_pixel_size(SceneDescription& then) const {
+    std::visit(
+        [&](auto& camera) {
+          if constexpr (requires { camera.viewdistance; })
+            camera.viewdistance *=
+                scene_.viewplane.pixelsize / std::exchange(then.viewplane.pixelsize, scene_.viewplane.pixelsize);
+        },
+        then.camera);
+  }
+
   void add_camera(const CameraParameters& then) {
     for_each_type(Cameras{}, [&]<class Camera>(std::type_identity<Camera>) {
       const auto* const now = std::get_if<typename Camera::Parameters>(&scene_.camera);
@@ -156,9 +110,10 @@ class MotionFinder {
     for_each_type(Objects{}, [&]<class T>(std::type_identity<T>) {
       const auto& items = std::get<ObjectItems<T>>(lists);
       const auto& items_then = std::get<ObjectItems<T>>(then);
+      if (items_then.empty()) return;  // they have no keys
       if (items.size() != items_then.size())
         return diagnostics_.error(
-            location_of((items.empty() ? items_then : items).front()),
+            location_of(items_then.front()),
             "not every <" + std::string(T::element) + "> is there all the time while the shutter is open");
       const Fields fields = T::fields();
       for (std::size_t i = 0; i < items.size(); ++i) {
@@ -183,13 +138,15 @@ class MotionFinder {
     then.parameters.time = item.parameters.time;
   }
 
-  void keep_animations(const ObjectLists& lists, ObjectLists& then) {
+  void move_objects_to(ObjectLists& then, ObjectLists& lists) {
     for_each_type(Objects{}, [&]<class T>(std::type_identity<T>) {
-      const auto& items = std::get<ObjectItems<T>>(lists);
+      auto& items = std::get<ObjectItems<T>>(lists);
       auto& items_then = std::get<ObjectItems<T>>(then);
+      if (items_then.empty()) return;  // they have no keys
       if constexpr (requires { items[0].parameters.animation; })
         for (std::size_t i = 0; i < std::min(items.size(), items_then.size()); ++i)
           if (items[i].parameters.time != items_then[i].parameters.time) keep_animation<T>(items[i], items_then[i]);
+      items = std::move(items_then);
     });
   }
 
@@ -213,6 +170,27 @@ class MotionFinder {
     std::vector<Affine>& motion = motions_[object];
     if (motion.empty()) motion.assign(shutter_moments, item.transform.affine());
     motion[moment_] = then.transform.affine() * Affine{.origin = *shift};
+    const auto [last, is_first] = last_.try_emplace(object, moment_, then.transform);
+    if (is_first && moment_ == 0) return;
+    const bool was_elsewhere = !is_first && last->second.first + 1 == moment_;
+    check_turn(item, was_elsewhere ? last->second.second : item.transform, then.transform);
+    last->second = {moment_, then.transform};
+  }
+
+  /// By the angles of the keys: whole turns leave no trace in the maps.
+  template <class T>
+  void check_turn(const ObjectItem<T>& item, const Transform& before, const Transform& now) {
+    constexpr double most = 90, smooth = 22.5;
+    const double turn = largest_turn(before, now);
+    if (turn <= smooth) return;
+    const std::string fact = "this <" + std::string(T::element) + "> turns by " + number_text(turn) +
+                             " degrees from one of the shutter's " + std::to_string(shutter_moments) +
+                             " moments to the next";
+    if (turn > most)
+      diagnostics_.error(location_of(item),
+                         fact + ", too fast to be followed: " + number_text(most) + " is the most" + slower);
+    else if (warned_.insert({item.line, item.column}).second)
+      diagnostics_.warning(location_of(item), fact + ", and straight on in between: its blur has corners" + slower);
   }
 
   template <class T>
@@ -279,6 +257,11 @@ class MotionFinder {
   }
 
   void warn_of_others(const SceneDescription& then) {
+    if (!have_same_values(ViewPlane::fields(), &scene_.viewplane, &then.viewplane) &&
+        warned_.insert({scene_.camera_location.line, scene_.camera_location.column}).second)
+      diagnostics_.warning(
+          scene_.camera_location,
+          std::string("the view plane stands still while the shutter is open: its keys count at the frame"));
     const auto compare = [&](const auto& items, const auto& items_then, const Fields& fields, const std::string& what) {
       for (std::size_t i = 0; i < items.size(); ++i) {
         if (items.size() == items_then.size() &&
@@ -309,6 +292,7 @@ class MotionFinder {
   std::size_t moment_ = 0;
   bool camera_moves_ = false;
   std::map<Place, std::vector<Affine>> motions_;
+  std::map<Place, std::pair<std::size_t, Transform>> last_;  ///< the moment at which it was elsewhere than at the frame
   std::set<std::pair<std::uint32_t, std::uint32_t>> warned_;  ///< by line and column
   std::set<std::string> group_names_;
   int groups_made_ = 0;
@@ -354,7 +338,7 @@ void add_motion(SceneDescription& scene, const std::function<SceneDescription(do
     } else if (at_one_moment) {
       return finder.move_to(std::move(then));
     } else {
-      finder.add(i, then);
+      finder.add(i, std::move(then));
     }
     if (diagnostics.has_errors()) return;
   }
