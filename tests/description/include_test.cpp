@@ -114,11 +114,13 @@ TEST_CASE("names are unique, and what a scene has once it has once, over all fil
         "b.xml:5:33: error: the material name 'red' is taken by the <matte> in line 4 of main.xml; choose another\n"
         "b.xml:6:33: error: the object name 'a' is taken by the <sphere> in line 5 of main.xml; choose another\n"
         "c.xml:2:22: error: the group name 'g' is taken by the <group> in line 7 of b.xml; choose another\n");
-  // One file twice is no special case.
+  // One message in place of one a name.
   files.write("main.xml", view_sections + include_of("red.xml") + include_of("red.xml"));
   files.write("red.xml", red_material);
-  CHECK(files.errors() ==
-        "red.xml:2:33: error: the material name 'red' is taken by the <matte> in line 2 of red.xml; choose another\n");
+  CHECK(files.errors() == "main.xml:5:16: error: red.xml: it is included twice, and its names can be there but once\n");
+  files.write("main.xml", view_sections + include_of("lights.xml") + include_of("lights.xml"));
+  files.write("lights.xml", "<lights><pointlights/></lights>");
+  CHECK(files.load());
 }
 
 TEST_CASE("a texture or mesh of an included file is looked for beside it, and missed there") {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <sstream>
 
 #include "raytrace/xml/scene_text.h"
@@ -53,6 +54,14 @@ TEST_CASE("a file that cannot be read is an error of the file, not of a line") {
   CHECK(reported_of_file("/") == "/: error: cannot read the scene: Is a directory\n");
   CHECK(reported_of_file("") == ": error: cannot read the scene: No such file or directory\n");
   CHECK(reported_of_file("/dev/null") == "/dev/null:1:1: error: the file is empty; a scene starts with <raytracer>\n");
+}
+
+TEST_CASE("files of points are told from scenes by their names") {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("atoms.xyz");
+  std::ofstream(file) << "2\nwater\nO 0 0 0\nH 1 0 0\n";
+  CHECK(reported_of_file(file) == file + ":1:1: error: this is no scene by its name: points are read by the "
+                                         "<spherecloud> of a scene, from a .ply with x, y and z\n");
 }
 
 TEST_CASE("standard input is given as -, and shown as <stdin>") {

@@ -15,8 +15,8 @@
 namespace raytrace {
 namespace {
 
-/// The text is read again at other moments, if something of the scene may move while its shutter is open, or before
-/// it is.
+/// The text, but objects that have no keys, is read again at other moments, if something of the scene may move while
+/// its shutter is open, or before it is.
 SceneDescription with_motion(ReadScene read, std::string_view text, Diagnostics& diagnostics, int threads,
                              const SceneSettings& settings) {
   if (!read.has_keys || diagnostics.has_errors()) return std::move(read.scene);
@@ -27,7 +27,7 @@ SceneDescription with_motion(ReadScene read, std::string_view text, Diagnostics&
   const auto at = [&](double after_frame, Diagnostics& of_moment) {
     SceneSettings at_moment = settings;
     at_moment.after_frame = after_frame;
-    return read_scene(TextBuffer(text), read.scene.file, of_moment, threads, at_moment).scene;
+    return read_scene(TextBuffer(text), read.scene.file, of_moment, threads, at_moment, &read.keyed).scene;
   };
   add_motion(read.scene, at, diagnostics);
   return std::move(read.scene);

@@ -1,6 +1,7 @@
 #include "raytrace/description/scene_files.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <limits>
 #include <optional>
@@ -24,6 +25,13 @@ std::string explain_no_file(const std::filesystem::path& path) {
   // A pipe might never answer, and a device never end.
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) return "it is not a regular file";
   return {};
+}
+
+/// By its name: what other programs write points to.
+bool is_file_of_points(const std::string& file) {
+  static constexpr std::array<std::string_view, 8> types = {".xyz", ".csv", ".pdb", ".pts",
+                                                            ".las", ".laz", ".e57", ".vtk"};
+  return std::find(types.begin(), types.end(), std::filesystem::path(file).extension().string()) != types.end();
 }
 
 /// The root may name its schema, as editors like it.
@@ -55,6 +63,13 @@ bool check_root(Element root, Diagnostics& diagnostics) {
 
 }  // namespace
 
+bool may_have_keys(const SceneFile& file, Element group) {
+  const auto [first, count, items] = file.text.chunks_of(group.offset());
+  for (std::size_t i = first; i < first + count; ++i)
+    if (file.text.of(file.text.chunk(i)).find("<key") != std::string_view::npos) return true;
+  return false;
+}
+
 const SceneFile* SceneFiles::add(TextBuffer text, const std::string& file) {
   const auto folder = std::filesystem::path(file).parent_path().string();
   SceneFile& added =
@@ -70,7 +85,16 @@ const SceneFile* SceneFiles::add(TextBuffer text, const std::string& file) {
   return &added;
 }
 
-const SceneFile* SceneFiles::open(TextBuffer text, const std::string& file) { return add(std::move(text), file); }
+const SceneFile* SceneFiles::open(TextBuffer text, const std::string& file) {
+  if (is_file_of_points(file) && text.text().find("<raytracer") == std::string_view::npos) {
+    diagnostics_.error(
+        {next_line_, 1},
+        std::string("this is no scene by its name: points are read by the <spherecloud> of a scene, from a "
+                    ".ply with x, y and z"));
+    return nullptr;
+  }
+  return add(std::move(text), file);
+}
 
 const SceneFile* SceneFiles::include(const FileName& file) {
   const auto refuse = [&](const std::string& reason) {
@@ -94,6 +118,9 @@ const SceneFile* SceneFiles::include(const FileName& file) {
   if (!text) return refuse(found.kept().front().message);
   if (text->text().size() + 1 >= std::numeric_limits<std::uint32_t>::max() - next_line_)
     return refuse("the files of the scene are larger than 4 GiB");
+  const auto is_same = [&](const IncludedFile& other) { return is_this(other.name); };
+  if (text->text().find("<name>") != std::string_view::npos && std::any_of(included_.begin(), included_.end(), is_same))
+    return refuse("it is included twice, and its names can be there but once");
   included_.push_back({file.path, next_line_});
   diagnostics_.add_files({&included_.back(), 1});
   return add(std::move(*text), file.path);

@@ -23,6 +23,9 @@ struct SceneFile {
   Document skeleton{text};  ///< parsed
 };
 
+/// Whether an item of the group that starts there may have keys, or something in it looks so.
+bool may_have_keys(const SceneFile& file, Element group);
+
 /// All stay open to the end. Their lines and chunks count on from each to the next.
 class SceneFiles {
  public:

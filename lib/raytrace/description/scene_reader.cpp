@@ -27,8 +27,12 @@ namespace {
 
 class SceneReader {
  public:
-  SceneReader(const Variables& variables, Diagnostics& diagnostics, int threads)
-      : diagnostics_(diagnostics), files_(variables, diagnostics, threads), arena_(worker_count(threads)) {
+  SceneReader(const Variables& variables, Diagnostics& diagnostics, int threads, const KeyedObjects* only)
+      : variables_(variables),
+        diagnostics_(diagnostics),
+        only_(only),
+        files_(variables, diagnostics, threads),
+        arena_(worker_count(threads)) {
     scene_.file = diagnostics_.file();
   }
 
@@ -53,9 +57,9 @@ class SceneReader {
         diagnostics_.error(root, [&] { return "the scene has no " + tag(key) + "; add one"; });
   }
 
-  SceneDescription take() {
+  ReadScene take() {
     scene_.included = files_.included();
-    return std::move(scene_);
+    return {std::move(scene_), variables_.moment_was_asked(), std::move(keyed_)};
   }
 
  private:
@@ -259,6 +263,8 @@ class SceneReader {
 
   template <class Section, class T>
   void read_group(Element group) {
+    constexpr bool is_object = std::is_same_v<Section, ObjectsSection>;
+    if (is_object && only_ != nullptr && !only_->contains(T::element)) return;
     using Items = TypedItemList<Section, T>;
     refuse_attributes(group, {}, diagnostics_);
     // What stands before the first item; that one and the rest are in the chunks.
@@ -277,6 +283,7 @@ class SceneReader {
         });
     if constexpr (is_named<Section>)
       if (read_elements < elements) named<Section>().complete = false;
+    if (is_object && variables_.moment_was_asked() && may_have_keys(*file_, group)) keyed_.insert(T::element);
   }
 
   template <class Section>
@@ -355,7 +362,10 @@ class SceneReader {
         });
   }
 
+  const Variables& variables_;
   Diagnostics& diagnostics_;
+  const KeyedObjects* only_;
+  KeyedObjects keyed_;
   SceneFiles files_;
   const SceneFile* file_ = nullptr;  // at hand
   tbb::task_arena arena_;
@@ -369,21 +379,19 @@ class SceneReader {
   bool groups_complete_ = true;  // false: one was refused before its name was read
 };
 
-void report_unused(const Variables& variables, Diagnostics& diagnostics) {
-  for (const std::string_view name : variables.unused())
-    diagnostics.error({}, "no value of the scene uses $" + printable(name) + "; remove -D " + printable(name) + "=...");
-}
-
 }  // namespace
 
 ReadScene read_scene(TextBuffer text, const std::string& file, Diagnostics& diagnostics, int threads,
-                     const SceneSettings& settings) {
+                     const SceneSettings& settings, const KeyedObjects* only) {
   const Variables variables(settings);
-  SceneReader reader(variables, diagnostics, threads);
+  SceneReader reader(variables, diagnostics, threads, only);
   reader.read(std::move(text), file);
   // Where there are errors, not all that stands in the scene has been read.
-  if (!diagnostics.has_errors()) report_unused(variables, diagnostics);
-  return {reader.take(), variables.moment_was_asked()};
+  if (only == nullptr && !diagnostics.has_errors())
+    for (const std::string_view name : variables.unused())
+      diagnostics.error({},
+                        "no value of the scene uses $" + printable(name) + "; remove -D " + printable(name) + "=...");
+  return reader.take();
 }
 
 }  // namespace raytrace
