@@ -76,6 +76,21 @@ TEST_CASE("braces end a variable's name, and may give it a default") {
     CHECK(contains(replaced(text), "has a '${' that is no variable; write ${name}, or ${name:-value}"));
 }
 
+TEST_CASE("a whole number may have leading zeros, as names of files do") {
+  CHECK(replaced("p.${frame:04}.ply") == "p.0007.ply");
+  CHECK(replaced("${a:01}${ab:02}${a:012}") == "102000000000001");
+  CHECK(replaced("${abc:04}") == "uses $abc, which is not set; did you mean $ab?");
+  CHECK(replaced("${_A9:04}") == "has a '${_A9:04}', but '$a' is no whole number");
+  std::string result;
+  CHECK_FALSE(Variables({-7, {}}).replace("${frame:04} ${frame:01}", result));
+  CHECK(result == "-007 -7");
+  CHECK_FALSE(Variables({12345, {}}).replace("${frame:04}", result));
+  CHECK(result == "12345");
+  for (const char* const text : {"${a:4}", "${a:0}", "${a:0x}", "${a:}", "${a:0123}", "${a:04d}"})
+    CHECK(contains(replaced(text), "has a '${' that is no variable; write ${name}, or ${name:-value} with a default, or "
+                                   "${name:04} for four digits"));
+}
+
 TEST_CASE("an empty value counts as none where there is a default, as in the shell") {
   std::string result;
   CHECK_FALSE(Variables({1, {{"e", ""}}}).replace("<${e}><${e:-2}>", result));

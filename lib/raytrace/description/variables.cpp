@@ -6,6 +6,7 @@ namespace raytrace {
 namespace {
 
 constexpr const char* uses = "uses $";
+constexpr const char* forms = "write ${name}, or ${name:-value} with a default, or ${name:04} for four digits";
 constexpr const char* scene_too_long =
     "makes the scene longer than 2 GiB with the variables' values put in; shorten them";
 
@@ -17,6 +18,26 @@ std::size_t name_length(std::string_view text) {
   std::size_t length = 1;
   while (length < text.size() && (starts_name(text[length]) || (text[length] >= '0' && text[length] <= '9'))) ++length;
   return length;
+}
+
+/// "04" of "${frame:04}": 4. None: it is not such a form.
+std::optional<std::size_t> digits_of(std::string_view form) {
+  const bool fits = form.size() >= 2 && form.size() <= 3 && form[0] == '0';
+  if (!fits || form.find_first_not_of("0123456789") != std::string_view::npos) return std::nullopt;
+  std::size_t digits = 0;
+  for (const char c : form) digits = 10 * digits + static_cast<std::size_t>(c - '0');
+  return digits;
+}
+
+/// As printf("%04d") does it: a minus sign is one of the digits.
+bool append_padded(std::string_view value, std::size_t digits, std::string& result) {
+  const bool is_negative = value.starts_with('-');
+  const std::string_view number = value.substr(is_negative ? 1 : 0);
+  if (number.empty() || number.find_first_not_of("0123456789") != std::string_view::npos) return false;
+  if (is_negative) result += '-';
+  if (value.size() < digits) result.append(digits - value.size(), '0');
+  result += number;
+  return true;
 }
 
 }  // namespace
@@ -72,16 +93,21 @@ OptionalMessage Variables::replace_plain(std::string_view& text, std::string& re
 OptionalMessage Variables::replace_braced(std::string_view& text, std::string& result) const {
   static constexpr std::string_view default_sign = ":-";
   const std::size_t end = text.find('}');
-  if (end == std::string_view::npos) return "has a '${' without a '}'; write ${name}, or ${name:-value} with a default";
+  if (end == std::string_view::npos) return std::string("has a '${' without a '}'; ") + forms;
   std::string_view inside = text.substr(1, end - 1);
   text.remove_prefix(end + 1);
   const std::string_view name = inside.substr(0, name_length(inside));
   inside.remove_prefix(name.size());
   const bool has_default = inside.starts_with(default_sign);
-  if (name.empty() || (!has_default && !inside.empty()))
-    return "has a '${' that is no variable; write ${name}, or ${name:-value} with a default";
+  const auto digits = inside.starts_with(':') ? digits_of(inside.substr(1)) : std::nullopt;
+  if (name.empty() || (!has_default && !digits && !inside.empty()))
+    return std::string("has a '${' that is no variable; ") + forms;
   const std::string* const value = find(name);
   if (value == nullptr && !has_default) return explain_unset(name);
+  if (digits) {
+    if (append_padded(*value, *digits, result)) return std::nullopt;
+    return "has a '${" + printable(name) + printable(inside) + "}', but " + in_quotes(*value) + " is no whole number";
+  }
   if (value != nullptr && (!has_default || !value->empty())) {
     result += *value;
     return std::nullopt;
