@@ -178,6 +178,32 @@ TEST_CASE("keys of a vector have its components, and no value stands beside them
         "<key frame=\"1\" x=\"1\" y=\"1\" z=\"1\"/>");
 }
 
+TEST_CASE("keys by other names, and turns about a letter, are written as they are here") {
+  const auto check = [](const std::string& children, const std::string& expected) {
+    CHECK(contains(reported_at(scene_with_sphere(children + "<material>clay</material>"), 1), "error: " + expected));
+  };
+  const std::string center = "<center x='0' y='0' z='0'/>", radius = "<radius>1</radius>";
+  check(center + "<radius><keyframe frame='3' value='2'/></radius>",
+        "unexpected element <keyframe> in <radius>; did you mean <key frame=\"3\" value=\"2\"/>?\n");
+  check("<center><keyframe frame='3' x='2' y='1' z='0'/></center>" + radius,
+        "unexpected element <keyframe> in <center>; did you mean <key frame=\"3\" x=\"2\" y=\"1\" z=\"0\"/>?\n");
+  const auto rotate = [&](const std::string& attributes) {
+    return center + radius + "<transform><rotate " + attributes + "/></transform>";
+  };
+  const std::string unknown = "unknown attribute 'axis' in <rotate>; write <rotate ";
+  check(rotate("axis='y' angle='30'"), unknown + "x=\"0\" y=\"1\" z=\"0\" angle=\"30\"/>\n");
+  check(rotate("axis='X'"), unknown + "x=\"1\" y=\"0\" z=\"0\" angle=\"30\"/>\n");
+}
+
+TEST_CASE("the numbers of a textured colour with keys go into the keys") {
+  const std::string text = scene_with(
+      "<textures><checkers><checker><name>c</name><color1 red='1' green='1' blue='1'/><color2 red='0' green='0' "
+      "blue='0'/></checker></checkers></textures><materials><mattes><matte><name>m</name><ka>1</ka><kd>1</kd><cd "
+      "red='1' texture='c'><key frame='1' red='1' green='1' blue='1'/></cd></matte></mattes></materials>");
+  CHECK(
+      contains(reported_at(text, 1), "unexpected attribute 'red' in <cd>, which has keys; write it into them, as in "));
+}
+
 TEST_CASE("integers, booleans and names have no keys") {
   for (const char* const element : {"hres", "samples", "shadows", "name"}) {
     const std::string children = std::string("<") + element + "><key frame='1' value='1'/></" + element + ">";

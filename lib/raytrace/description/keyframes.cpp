@@ -89,11 +89,18 @@ class KeysReader {
   }
 
   void refuse_value() {
-    if (texture_ != nullptr) {
+    const auto is_component = [&](Attribute attribute) {
+      return std::find(components_.begin(), components_.end(), attribute.name()) != components_.end();
+    };
+    bool has_components = false;
+    for (Attribute attribute = element_.first_attribute(); attribute; attribute = attribute.next())
+      has_components |= is_component(attribute);
+    if (texture_ != nullptr && !has_components) {
       fine_ = read_attributes(element_, texture_fields(*texture_, components_.size() == 1), true, context_);
       return;
     }
     for (Attribute attribute = element_.first_attribute(); attribute; attribute = attribute.next()) {
+      if (texture_ != nullptr && !is_component(attribute)) continue;
       refuse(attribute, [&] {
         return "unexpected attribute " + in_quotes(attribute.name()) + " in " + tag(element_.name()) +
                ", which has keys; write it into them, as in " + example(element_);

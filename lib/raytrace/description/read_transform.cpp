@@ -25,10 +25,28 @@ bool read_matrix(Element element, TransformStep& step, const ReadContext& contex
   return true;
 }
 
+/// <rotate axis="y" angle="30"/>
+bool refuse_axis(Element element, const ReadContext& context) {
+  const Attribute axis = find_attribute(element, "axis"), angle = find_attribute(element, "angle");
+  if (!axis) return false;
+  context.diagnostics.error(axis, [&] {
+    const auto is = [&](char letter) {
+      return axis.value().size() == 1 && (axis.value()[0] == letter || axis.value()[0] == letter - 'a' + 'A');
+    };
+    const std::string numbers = is('x')   ? "x=\"1\" y=\"0\" z=\"0\""
+                                : is('z') ? "x=\"0\" y=\"0\" z=\"1\""
+                                          : "x=\"0\" y=\"1\" z=\"0\"";
+    return "unknown attribute 'axis' in " + tag(element.name()) + "; write <" + printable(element.name()) + " " +
+           numbers + " angle=\"" + (angle ? printable(angle.value()) : "30") + "\"/>";
+  });
+  return true;
+}
+
 bool read_attributes_of_step(Element element, TransformStep& step, const ReadContext& context) {
   const std::span<const std::string_view> names = step_attributes(step.type);
   std::vector<double*> values;
   for (std::size_t i = 0; i < names.size(); ++i) values.push_back(&step.values[i]);
+  if (step.type == TransformStep::rotate && refuse_axis(element, context)) return false;
   if (has_keys(element)) return read_keys(element, names, values, Range::any, context);
   std::vector<AttributeField> fields;
   for (std::size_t i = 0; i < names.size(); ++i) fields.push_back({names[i], values[i]});

@@ -23,6 +23,11 @@ std::vector<AttributeField> component_fields(Value* value, Range range) {
   return fields;
 }
 
+/// What other programs call a key.
+bool is_called_key(std::string_view name) {
+  return name == "keyframe" || name == "keyframes" || name == "keys" || name == "Key" || name == "frame";
+}
+
 /// Reads one child into its target. Each function returns false where it has reported an error.
 class ValueReader {
  public:
@@ -37,6 +42,7 @@ class ValueReader {
     const Node text_node = single_text();
     if (!text_node && has_keys(element_))
       return read_keys(element_, {&number_component, 1}, {&value, 1}, info_.range, context_, texture_);
+    if (!text_node && refuse_other_keys({&number_component, 1})) return false;
     if (texture_ != nullptr && !element_.first_child()) {
       *value = 1;
       return read_attributes(element_, texture_fields(*texture_, true), false, context_);
@@ -176,6 +182,22 @@ class ValueReader {
     }
   }
 
+  /// components: those of a key's value.
+  bool refuse_other_keys(std::span<const std::string_view> components) const {
+    for (Node node = element_.first_child(); node; node = node.next()) {
+      const Element child = node.element();
+      if (!child || !is_called_key(child.name())) continue;
+      context_.diagnostics.error(child, [&] {
+        std::vector<AttributeField> fields{{"frame", static_cast<double*>(nullptr)}};
+        for (const std::string_view name : components) fields.push_back({name, static_cast<double*>(nullptr)});
+        return "unexpected element " + tag(child.name()) + " in " + tag(info_.name) + "; did you mean " +
+               example_of("key", fields, child) + "?";
+      });
+      return true;
+    }
+    return false;
+  }
+
   template <class Value>
   bool read_components(Value& value) const {
     auto fields = component_fields(&value, info_.range);
@@ -184,6 +206,7 @@ class ValueReader {
       for (const AttributeField& field : fields) values.push_back(std::get<double*>(field.target));
       return read_keys(element_, Components<Value>::names, values, info_.range, context_, texture_);
     }
+    if (refuse_other_keys(Components<Value>::names)) return false;
     if constexpr (std::is_same_v<Value, Rgb<double>>) {
       if (texture_ != nullptr) {
         fields.push_back(texture_fields(*texture_, false).front());
