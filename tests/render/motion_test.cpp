@@ -275,7 +275,7 @@ TEST_CASE("what cannot be blurred is an error") {
           "<boxes><box><min x='-1' y='-1' z='-1'/><max x='1' y='1' z='1'/><material>red</material><transform>" +
           keys("rotate", "x='0' y='1' z='0' angle='0'", "x='0' y='1' z='0' angle='5000'") +
           "</transform></box></boxes>"),
-      "this <box> turns, or is turned inside out, too fast"));
+      "too fast to be followed"));
   CHECK(contains(with_camera(still_eye + "<shutteropen>1</shutteropen>"), "closes before it opens"));
   CHECK(contains(with_camera(keys("eye", "x='0' y='0' z='-9'", "x='0' y='0.1' z='9'") + "<lookat x='0' y='0' z='1'/>" +
                              shutter_open),
