@@ -1,8 +1,8 @@
 // The variables of a scene's values: <radius>$size</radius>, with a value that is given when the scene is read.
 //
 // A name starts with a letter or _, letters, digits and _ follow; in ${size} it ends at the brace. ${size:-2} has the
-// default 2, for where the variable is not set or, as in the shell, is empty. $$ is a dollar. A value is put in as it
-// is: a dollar in it starts no variable. $frame is always set.
+// default 2, for where the variable is not set or, as in the shell, is empty; ${size:04} has four digits, if it is a
+// whole number. $$ is a dollar. A dollar in a value starts no variable. $frame is always set.
 #pragma once
 
 #include <atomic>
