@@ -173,7 +173,9 @@ class Film {
 
   PixelSum& sum(int x, int y) { return sums_[index(x, y)]; }
   const PixelSum& sum(int x, int y) const { return sums_[index(x, y)]; }
-  std::span<const PixelSum> sums() const { return {sums_.data(), content_ == FilmContent::sums ? region().pixels() : 0}; }
+  std::span<const PixelSum> sums() const {
+    return {sums_.data(), content_ == FilmContent::sums ? region().pixels() : 0};
+  }
 
   PixelSumHigh high(int x, int y) const {
     return highs_.data() == nullptr ? PixelSumHigh() : highs_.data()[index(x, y)];
