@@ -83,16 +83,20 @@ class PathChunk {
     scatter_fields(reinterpret_cast<const FloatN*>(&packet), fields_, numbers_.data(), offsets.data());
   }
 
+  struct Loaded {
+    Packet path;
+    MaskN lanes;
+  };
   /// The paths order[first], order[first + 1]... that there are, at most a packet of them; and how many. Lanes beyond
   /// the last one follow the first.
-  std::pair<Packet, MaskN> load(const std::vector<std::int32_t>& order, std::size_t first) const {
+  Loaded load(const std::vector<std::int32_t>& order, std::size_t first) const {
     const std::size_t lanes = std::min<std::size_t>(order.size() - first, packet_lanes);
     alignas(64) std::array<std::int32_t, packet_lanes> offsets;
     for (std::size_t lane = 0; lane < packet_lanes; ++lane)
       offsets[lane] = order[first + (lane < lanes ? lane : 0)] * static_cast<std::int32_t>(stride_);
-    std::pair<Packet, MaskN> result;  // which is not copied: it is large
-    gather_fields(numbers_.data(), offsets.data(), fields_, reinterpret_cast<FloatN*>(&result.first));
-    result.second = first_lanes<FloatN>(static_cast<int>(lanes));
+    Loaded result;  // neither copied nor set to 0: it is large
+    gather_fields(numbers_.data(), offsets.data(), fields_, reinterpret_cast<FloatN*>(&result.path));
+    result.lanes = first_lanes<FloatN>(static_cast<int>(lanes));
     return result;
   }
 
