@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <sstream>
 #include <string>
 
 #include "render/scenes.h"
@@ -100,6 +101,47 @@ TEST_CASE("a lamp that falls off is as bright as at the camera, far away as it i
       INFO(isa << ", " << distance);
       CHECK(std::abs(pixel.red - std::numbers::inv_pi_v<float>) < 1e-6F);
     }
+}
+
+TEST_CASE("a scene of any size has the light of lamps that fall off") {
+  const auto sized = [](double size, const std::string& lamp) {
+    const auto at = [&](const std::string& name, double x, double y, double z) {
+      std::ostringstream text;
+      text << "<" << name << " x='" << x * size << "' y='" << y * size << "' z='" << z * size << "'/>";
+      return text.str();
+    };
+    std::ostringstream strength;
+    strength << "<scaleradiance>" << 9 * size * size << "</scaleradiance>";
+    const bool spot = lamp == "spotlight";
+    return "<raytracer><viewplane><hres>8</hres><vres>6</vres><samples>4</samples></viewplane><camera>" +
+           at("eye", 0, 1, 6) + at("lookat", 0, 0, 0) + "<fov>30</fov></camera><lights><" + lamp + "s><" + lamp + ">" +
+           at("location", 0, 3, 1) + (spot ? at("lookat", 0, 0, 0) + "<coneangle>80</coneangle>" : "") +
+           "<falloff>inversesquare</falloff>" + strength.str() + "</" + lamp + "></" + lamp +
+           "s></lights><materials><mattes>" + matte("m", 1, 0.8) +
+           "</mattes></materials><objects><planes><plane><point x='0' y='0' z='0'/><normal x='0' y='1' z='0'/>"
+           "<material>m</material></plane></planes></objects></raytracer>";
+  };
+  for (const std::string lamp : {"pointlight", "spotlight"}) {
+    const Pixel wanted = rendered(parsed_scene(sized(1, lamp)), 1).at(4, 4);
+    REQUIRE(wanted.red > 0.1F);
+    for (const double size : {1e-3, 1e-5, 1e-8, 1e-9, 1e-12}) {
+      INFO(lamp << " " << size);
+      CHECK(std::abs(rendered(parsed_scene(sized(size, lamp)), 1).at(4, 4).red / wanted.red - 1) < 1e-4F);
+    }
+  }
+  // Also where the lamp is at the eye, and where what the camera looks at is but a direction.
+  const auto unit_of = [](const std::string& eye, const std::string& sphere) {
+    return range_of(
+               "<raytracer><viewplane><hres>8</hres><vres>6</vres></viewplane><camera><eye x='0' y='0' z='" + eye +
+               "'/><lookat x='0' y='0' z='-1'/><fov>30</fov></camera><lights><pointlights><pointlight><location x='0' "
+               "y='0' z='" +
+               eye + "'/><falloff>inversesquare</falloff></pointlight></pointlights></lights><materials><mattes>" +
+               matte("m", 0, 1) + "</mattes></materials><objects><spheres><sphere><center x='0' y='0' z='0'/><radius>" +
+               sphere + "</radius><material>m</material></sphere></spheres></objects></raytracer>")
+        .usual;
+  };
+  CHECK(unit_of("3", "1") < 0.5F);
+  CHECK(std::abs(unit_of("3e-9", "1e-9") * std::numbers::pi * 1.6e-17 - 1) < 1e-3);
 }
 
 TEST_CASE("the unit gives the dimmest source a float's bits, or the largest radiance room") {

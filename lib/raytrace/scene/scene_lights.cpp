@@ -4,13 +4,28 @@
 #include <numeric>
 #include <type_traits>
 #include <utility>
+#include <variant>
 
 #include "raytrace/description/light_groups.h"
+#include "raytrace/lights/falloff.h"
 #include "raytrace/lights/ground_picture.h"
 #include "raytrace/lights/sky_model.h"
 #include "raytrace/scene/scene_tables.h"
 
 namespace raytrace {
+
+namespace {
+
+/// By what a scene that is far smaller than 1 must grow to be as large; of others, 1. from_eye: how far away a light
+/// is; view: what the camera looks at; objects: those with bounds, of negative radius if none have.
+double enlargement(double from_eye, double view, const BoundingSphere& objects, const Vec3d& eye) {
+  constexpr double small = 0x1p-10;
+  if (objects.radius >= 0) view = std::min(view, length(eye - objects.center) + objects.radius);
+  const double size = std::max(from_eye, view);
+  return size < small ? 1 / size : 1;
+}
+
+}  // namespace
 
 template <class LightKernel, class Parameters>
 void SceneTables::add_light_bounds(const LightKernel& light, const Parameters& parameters, const Vec3d& eye) {
@@ -32,7 +47,11 @@ void SceneTables::add_light_bounds(const LightKernel& light, const Parameters& p
 }
 
 void SceneTables::add_lights(const SceneDescription& description, int threads) {
-  const Vec3d eye = std::visit([](const auto& camera) { return camera.eye; }, description.camera);
+  const auto [eye, lookat] =
+      std::visit([](const auto& camera) { return std::pair(camera.eye, camera.lookat); }, description.camera);
+  const double view = length(lookat - eye);
+  const Vec3d eye_from_origin = eye - origin_;
+  const BoundingSphere objects = geometry_->bounding_sphere();
   const std::vector<std::string> names = light_group_names(description);
   const auto group_of = [&](const auto& item) {
     return static_cast<std::int32_t>(find_light_group(names, item.parameters.group));
@@ -56,17 +75,27 @@ void SceneTables::add_lights(const SceneDescription& description, int threads) {
   for_each_type(Lights{}, [&]<class Light>(std::type_identity<Light>) {
     if constexpr (!std::is_same_v<Light, EnvironmentLight>)
       for (const auto& item : std::get<LightItems<Light>>(description.lights)) {
-        const auto light = [&] {
+        const auto light_of = [&](const typename Light::Parameters& parameters) {
           if constexpr (requires { item.photometry; })
-            return Kernel<Light>(moved<Light>(item.parameters), item.photometry);
+            return Kernel<Light>(parameters, item.photometry);
           else
-            return Kernel<Light>(moved<Light>(item.parameters));
-        }();
+            return Kernel<Light>(parameters);
+        };
+        const auto light = light_of(moved<Light>(item.parameters));
         if constexpr (Kernel<Light>::ambient) {
           light_groups_[static_cast<std::size_t>(group_of(item))].ambient_radiance += light.radiance();
           light_bounds_.ambient += abs(light.radiance());
         } else {
-          add_light_bounds(light, item.parameters, eye);
+          auto bounded = item.parameters;
+          double times = 1;
+          if constexpr (requires { bounded.falloff; }) {
+            // The radiance at distance 1 says nothing of a small scene.
+            if (bounded.falloff == Falloff::inverse_square)
+              times = enlargement(length(bounded.location - eye), view, objects, eye_from_origin);
+            bounded.location = bounded.location * times;
+            bounded.scaleradiance *= times * times;
+          }
+          add_light_bounds(light_of(bounded), bounded, eye * times);
           lights_.push_back(std::make_unique<LightSourceOf<Kernel<Light>>>(light));
           groups_of_lights_.push_back(group_of(item));
           light_origins_.emplace_back();
