@@ -117,6 +117,23 @@ TEST_CASE("a PLY file's texture is the colour of its mesh, if it is there") {
         several + "a.ply: warning: the texture 'scans/a wall.png' is left out: there are no texture coordinates\n");
 }
 
+TEST_CASE("colours of faces are left out with a warning") {
+  const ReadResult read = read_bytes(
+      "a.ply", square_head +
+                   "element face 1\nproperty list uchar int vertex_indices\nproperty uchar red\nproperty uchar green\n"
+                   "property uchar blue\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2 255 0 0\n");
+  REQUIRE(read.mesh);
+  CHECK(read.mesh->colors.empty());
+  CHECK(contains(read.messages,
+                 "warning: the colours of its faces ('red', 'green', 'blue' of the element 'face') are "
+                 "left out: only vertices have colours here"));
+}
+
+TEST_CASE("a PLY file of points alone, as a mesh, is a cloud's") {
+  CHECK(contains(read_bytes("a.ply", square_head + "end_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n").messages,
+                 "points alone are for the <spherecloud> of a scene"));
+}
+
 TEST_CASE("quads stay quads where they are at least half of the faces") {
   const std::string vertices = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
   const std::string list = "property list uchar int vertex_indices\nend_header\n";

@@ -14,6 +14,7 @@
 #include "raytrace/description/parse_value.h"
 #include "raytrace/description/read_value.h"
 #include "raytrace/description/scene_description.h"
+#include "raytrace/import/empty_files.h"
 #include "raytrace/import/read_mesh.h"
 #include "raytrace/text/message.h"
 
@@ -48,6 +49,10 @@ class MeshLoader {
     for (auto& mesh : std::get<ObjectItems<Mesh>>(objects)) load(mesh);
     for (auto& model : std::exchange(std::get<ObjectItems<Model>>(objects), {})) load(std::move(model), objects);
     for (auto& cloud : std::get<ObjectItems<SphereCloud>>(objects)) load(cloud);
+    // Empty files, or those with errors.
+    const auto has_no_data = [](const auto& item) { return item.data == nullptr; };
+    std::erase_if(std::get<ObjectItems<Mesh>>(objects), has_no_data);
+    std::erase_if(std::get<ObjectItems<SphereCloud>>(objects), has_no_data);
   }
 
   /// objects: those that it is one of.
@@ -220,6 +225,12 @@ class MeshLoader {
         found = Diagnostics(on_one_line(file.path));
         data = reader(file.path, settings, found);
       }
+    }
+    if (!data && file.line > 0 && says_empty(found)) {
+      for (const Diagnostic& one : found.kept())
+        diagnostics_.warning(location_of(file), found.file() + ": " + one.message +
+                                                    (one.severity == Severity::error ? "; it is left out" : ""));
+      return data;
     }
     const bool is_about_all = found.kept().size() == 1 && found.kept().front().location.line == 0;
     if (!data && is_about_all && file.line > 0)

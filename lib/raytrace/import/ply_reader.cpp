@@ -6,6 +6,7 @@
 #include <system_error>
 #include <utility>
 
+#include "raytrace/import/empty_files.h"
 #include "raytrace/import/mesh_readers.h"
 #include "raytrace/import/ply_body.h"
 #include "raytrace/parameters/fields.h"
@@ -132,7 +133,9 @@ std::optional<MeshData> read_ply(MeshFile& file, const std::string& folder, cons
                             : std::nullopt;
   const auto is_list = [](const ply::Property& p) { return p.count_type && !ply::is_float(p.type); };
   if (!property || !is_list(open.header.elements[faces].properties[*property])) {
-    diagnostics.error({open.header.lines, 0}, "there is no element 'face' with a list of integers 'vertex_indices'");
+    diagnostics.error({open.header.lines, 0},
+                      "there is no element 'face' with a list of integers 'vertex_indices'; points alone are for the "
+                      "<spherecloud> of a scene");
     return std::nullopt;
   }
   mesh.normals = open.add({{"nx"}, {"ny"}, {"nz"}}, Column::Use::number);
@@ -144,6 +147,11 @@ std::optional<MeshData> read_ply(MeshFile& file, const std::string& folder, cons
   if (const auto uvs = face.find({"texcoord"}); uvs && face.properties[*uvs].count_type) columns.uvs = uvs;
   if (const auto number = face.find({"texnumber"}); number && !face.properties[*number].count_type)
     columns.texture = number;
+  if (face.find({"red", "r", "diffuse_red"}) && face.find({"green", "g", "diffuse_green"}) &&
+      face.find({"blue", "b", "diffuse_blue"}))
+    diagnostics.warning({},
+                        "the colours of its faces ('red', 'green', 'blue' of the element 'face') are left out: only "
+                        "vertices have colours here");
   if (!columns.uvs)
     mesh.uvs =
         open.add({{"u", "s", "texture_u", "texture_s"}, {"v", "t", "texture_v", "texture_t"}}, Column::Use::number);
@@ -201,7 +209,7 @@ std::optional<PointCloud> read_ply_cloud(MeshFile& file, const MeshReadSettings&
     diagnostics.warning({}, std::to_string(open.vertices - kept) +
                                 " points are not finite, beyond 1e18 or without a size, and are left out");
   if (kept == 0) {
-    diagnostics.error({}, "has no points");
+    diagnostics.error({}, no_points);
     return std::nullopt;
   }
   return cloud;

@@ -1,0 +1,22 @@
+// Files of meshes and clouds in which nothing is: of a series of them, some frame's may be so.
+#pragma once
+
+#include <string_view>
+
+#include "raytrace/xml/diagnostics.h"
+
+namespace raytrace {
+
+// The last error of a reader that found nothing.
+inline constexpr const char* no_faces = "has no faces";
+inline constexpr const char* no_faces_left = "has no faces that can be rendered";
+inline constexpr const char* no_points = "has no points";
+
+/// Whether a reader found nothing else wrong than that.
+inline bool says_empty(const Diagnostics& found) {
+  if (found.error_count() != 1 || found.kept().empty()) return false;
+  const std::string_view last = found.kept().back().message;
+  return last == no_faces || last == no_faces_left || last == no_points;
+}
+
+}  // namespace raytrace
