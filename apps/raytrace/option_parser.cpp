@@ -19,8 +19,11 @@ Names names_of(const CLI::Option& option) {
 }
 
 /// `take`, with the option's name before what it refuses.
-OptionParser::Take named(const OptionParser::Take& take, const std::string& names) {
-  return [take, name = names.substr(names.rfind(',') + 1)](const std::string& text) {
+/// is_option: whether a text is the name of one.
+OptionParser::Take named(const OptionParser::Take& take, const std::string& names,
+                         const std::function<bool(std::string_view)>& is_option) {
+  return [take, is_option, name = names.substr(names.rfind(',') + 1)](const std::string& text) {
+    if (is_option(text)) throw UsageError(name + " needs a value, and " + text + " is an option");
     try {
       take(text);
     } catch (const SettingsError& error) {
@@ -137,13 +140,18 @@ void OptionParser::add_arguments(const std::string& value_name, const std::strin
 void OptionParser::add(const std::string& names, const std::string& value_name, const std::string& help,
                        const Take& take, const Names& values) {
   const CLI::Option* const option =
-      parser_->app.add_option_function<std::string>(names, named(take, names))->type_name(value_name)->take_last();
+      parser_->app
+          .add_option_function<std::string>(
+              names, named(take, names, [this](std::string_view text) { return entry(text) != nullptr; }))
+          ->type_name(value_name)
+          ->take_last();
   note(names_of(*option), value_name, help, values);
 }
 
 void OptionParser::add_repeatable(const std::string& names, const std::string& value_name, const std::string& help,
                                   const Take& take) {
-  const auto take_all = [take = named(take, names)](const std::vector<std::string>& values) {
+  const auto take_all = [take = named(take, names, [this](std::string_view text) { return entry(text) != nullptr; })](
+                            const std::vector<std::string>& values) {
     for (const std::string& value : values) take(value);
   };
   const CLI::Option* const option = parser_->app.add_option_function<std::vector<std::string>>(names, take_all)

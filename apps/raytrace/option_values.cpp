@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "raytrace/aovs/aov_selection.h"
+#include "raytrace/cameras/view_plane.h"
 #include "raytrace/text/message.h"
 #include "raytrace/text/utf8.h"
 
@@ -70,7 +71,7 @@ int integer(const std::string& text, int least, int most) {
 
 std::uint64_t natural_number(const std::string& text) {
   const std::optional<std::uint64_t> value = number<std::uint64_t>(text);
-  if (!value) throw UsageError(in_quotes(text) + " is not a whole number from 0 to 2^64 - 1");
+  if (!value) throw UsageError(in_quotes(text) + " is not a whole number from 0 to 2^64 - 1, nor 'frame'");
   return *value;
 }
 
@@ -119,8 +120,11 @@ std::array<double, 2> model_view(const std::string& text) {
     names.emplace_back(word);
   }
   if (const auto angles = two_angles(text)) return *angles;
+  const auto& transforms = Choices<ViewTransform>::words;
+  const bool is_transform = std::find(transforms.begin(), transforms.end(), text) != transforms.end();
   throw UsageError(in_quotes(text) + " is neither one of " + joined(names, ", ") +
-                   " nor two angles such as 30,15, the second from -90 to 90" + suggestion(text, names));
+                   " nor two angles such as 30,15, the second from -90 to 90" +
+                   (is_transform ? "; did you mean --view-transform " + text + "?" : suggestion(text, names)));
 }
 
 std::array<double, 2> sun_angles(const std::string& text) {

@@ -231,7 +231,13 @@ void define_options(OptionParser& parser, Options& options) {
              "Let no path bring more than X, in each channel, from beyond its first surface, e.g. 10: it takes away "
              "bright dots, and some light; 0: any, as without it, unless the scene says otherwise",
              options.clamp_indirect, radiance);
-  parser.add("--seed", "N", "Another, equally good, pattern of samples (0)", options.seed, natural_number);
+  parser.add("--seed", "N|frame",
+             "Another, equally good, pattern of samples (0); frame: that of the frame's number, so that the noise of a "
+             "film moves",
+             [&](const std::string& text) {
+               options.seed_is_frame = text == "frame";
+               options.seed = options.seed_is_frame ? 0 : natural_number(text);
+             });
 
   parser.group("Work");
   parser.add("-t,--threads", "N", "Use N threads (all processors); the picture does not depend on it", options.threads,

@@ -37,12 +37,12 @@ std::string duration_text(double seconds) {
 
 std::string percentage(double fraction) { return std::to_string(static_cast<int>(100 * fraction)) + " %"; }
 
-/// ", 16 of 64 samples, error 2.3 %" as far as it is known.
+/// ", frame 7, 16 of 64 samples, error 2.3 %" as far as it is known.
 std::string quality_text(const PictureProgress& picture) {
-  if (!picture.error) return {};
-  std::string text;
+  std::string text = picture.frame ? ", frame " + std::to_string(*picture.frame) : "";
+  if (!picture.error) return text;
   if (picture.samples < picture.all_samples)
-    text = ", " + std::to_string(picture.samples) + " of " + counted(picture.all_samples, "sample");
+    text += ", " + std::to_string(picture.samples) + " of " + counted(picture.all_samples, "sample");
   return text + formatted(", error %.2g %%", 100 * *picture.error);
 }
 
@@ -162,6 +162,7 @@ std::string progress_line(ProgressStyle style, double fraction, double seconds, 
   nlohmann::ordered_json event = {
       {"event", "progress"}, {"percent", to_tenths(percent)}, {"seconds", to_tenths(seconds)}};
   if (seconds_left) event["seconds_left"] = to_tenths(*seconds_left);
+  if (picture.frame) event["frame"] = *picture.frame;
   if (picture.all_samples > 0) event["samples"] = {picture.samples, picture.all_samples};
   if (picture.error) event["error"] = *picture.error;
   return json_line(event);

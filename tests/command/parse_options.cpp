@@ -182,6 +182,8 @@ TEST_CASE("incomplete command lines are refused with what to type") {
   CHECK_REFUSED(parse({"--progress"}), "--progress needs a value: one of auto, bar, ");
   CHECK_REFUSED(parse({"my.xml"}), "raytrace my.xml -o picture.exr");
   CHECK_REFUSED(parse({"my.xml", "my.png"}), "raytrace my.xml -o my.png");
+  CHECK_REFUSED(parse({"my.xml", "--checkpoint", "-o", "a.exr"}), "--checkpoint needs a value, and -o is an option");
+  CHECK_REFUSED(parse({"a.glb", "-o", "a.exr", "--view", "srgb"}), "; did you mean --view-transform srgb?");
   CHECK_REFUSED(parse({"my.xml", "-o"}), "--output needs a value: FILE");
   CHECK_REFUSED(parse({"my.xml", "-o", "a.exr", "-t"}), "--threads needs a value: N");
   CHECK_REFUSED(parse({"", "-o", "a.exr"}), "the scene's file name is empty");
@@ -277,7 +279,7 @@ TEST_CASE("what is no value of an option is refused with what would be one") {
   for (const char* const text : {"0", "-2", "1025"})
     CHECK_REFUSED(with({"-t", text}), "is not a whole number from 1 to 1024");
   for (const char* const text : {"-1", "18446744073709551616", "0x10", "1.0"})
-    CHECK_REFUSED(with({"--seed", text}), "is not a whole number from 0");
+    CHECK_REFUSED(with({"--seed", text}), "is not a whole number from 0 to 2^64 - 1, nor 'frame'");
   for (const char* const text : {"1,2,3", "1,2,3,4,5", "a,b,c,d", "0.5,0,1,1", "1 2 3 4", "", "1,2,3,"})
     CHECK_REFUSED(with({"--crop", text}), "use x0,y0,x1,y1");
   for (const char* const text : {"5,5,5,6", "5,5,6,5", "9,0,1,1"})

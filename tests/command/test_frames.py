@@ -8,6 +8,7 @@ import unittest
 
 import support
 from exr import Exr
+from png import Png
 from support import CommandTest
 
 # The sphere wanders; its radius and the frame are variables.
@@ -85,7 +86,35 @@ class Frames(CommandTest):
         self.assertEqual(os.listdir(self.path("f1")) + os.listdir(self.path("f2")), ["#%.exr", "#%.exr"])
         self.fail_with(2, "C#/scene.xml", *SMALL, "--frames", "1-2", "-o", "C#/a.exr")
 
+    def test_what_is_said_of_a_frame_has_its_number(self):
+        done = self.succeed("scene.xml", *SMALL, "--frames", "3-4", "-o", "a.#.exr", "--stats=s.#.json",
+                            "--progress=json")
+        events = [json.loads(line) for line in done.stdout.splitlines()]
+        self.assertEqual([event["frame"] for event in events if event["event"] == "progress"][-1], 4)
+        self.assertEqual(json.loads(self.read("s.3.json"))["frame"], 3)
+        self.assertRegex(self.succeed("scene.xml", *SMALL[1:], "--frames", "5", "-o", "a.exr", "--progress=plain",
+                                      "--stats").stderr, r"rendered 100 %, frame 5[^\0]*scene +scene\.xml, frame 5\n")
+        self.succeed("scene.xml", *SMALL, "-o", "a.exr", "--stats=s.json")
+        self.assertIsNone(json.loads(self.read("s.json"))["frame"])
+        done = self.succeed("scene.xml", "--frames", "7", "-s", "1000000", "--integrator", "path", "-r", "64x64",
+                            "--time-limit", "0.2s", "-o", "a.exr")
+        self.assertRegex(done.stderr, r"the time limit was reached after \d+ samples per pixel of frame 7\n")
+
+    def test_frames_may_have_noise_of_their_own(self):
+        self.write("still.xml", support.SCENE)
+        noisy = ("still.xml", "-r", "16x12", "-s", "2", "--integrator", "ambientocclusion", "--frames", "1-2")
+        self.succeed(*noisy, "-o", "same.#.png")
+        self.assertEqual(Png(self.read("same.1.png")).rows, Png(self.read("same.2.png")).rows)
+        self.succeed(*noisy, "--seed", "frame", "-o", "own.#.png", "--stats=s.#.json")
+        self.assertNotEqual(Png(self.read("own.1.png")).rows, Png(self.read("own.2.png")).rows)
+        self.assertEqual(json.loads(self.read("s.2.json"))["picture"]["seed"], 2)
+        self.succeed("still.xml", *noisy[1:-2], "--seed", "2", "-o", "alone.png")
+        self.assertEqual(Png(self.read("own.2.png")).rows, Png(self.read("alone.png")).rows)
+
     def test_many_frames_need_a_token(self):
+        message = self.fail_with(2, "scene.xml", "--frames", "1-3", "-o", "a.mp4")
+        self.assertIn(".mp4", message)
+        self.assertNotIn("####", message)
         message = self.fail_with(2, "scene.xml", "--frames", "1-3", "-o", "a.exr")
         self.assertIn("use a name such as a.####.exr", message)
         self.assertEqual(self.names(), ["scene.xml"])

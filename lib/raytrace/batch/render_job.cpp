@@ -234,6 +234,8 @@ void RenderBatch::refuse_clashes() const {
     const UsedFile* const other = name.empty() ? nullptr : files.add(file);
     if (other == nullptr) return;
     if (other->role != option || other->file != name) throw ClashError(file, *other);
+    if (option == "--output")
+      static_cast<void>(image_format(name, each_.image_file_settings()));  // no format: that first
     const std::string tokens = with_tokens(pattern, frame_count() > 1, scenes_.size() > 1);
     throw SettingsError(
         option + ": more than one render would write " + name + "; " +
@@ -262,6 +264,7 @@ RenderJob RenderBatch::operator[](std::size_t i) const {
   job.scene = scene(i);
   job.is_one_of_frames = frame(i).has_value();
   job.frame = frame(i).value_or(job.frame);
+  if (job.seed_is_frame) job.seed = static_cast<std::uint32_t>(job.frame);
   const NameValues values{frame(i), job.tile ? std::optional(job.tile->index) : std::nullopt, job.scene};
   for (std::string& output : job.outputs) output = file_name(output, values);
   job.statistics = file_name(job.statistics, values);

@@ -42,6 +42,7 @@ struct RenderJob {
   std::optional<int> samples;                  ///< per pixel; none: the scene's
   std::optional<std::uint32_t> sample_offset;  ///< none: all samples of the picture, not a part of them
   std::uint64_t seed = 0;
+  bool seed_is_frame = false;            ///< RenderBatch sets the seed: each frame has noise of its own
   std::string integrator;                ///< its element, such as "normals"; empty: the scene's
   std::optional<double> clamp_indirect;  ///< Path::Parameters::clampindirect; none: the scene's
   AovSet aovs;

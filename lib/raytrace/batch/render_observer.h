@@ -26,6 +26,7 @@ struct PictureProgress {
   std::uint32_t samples = 0;         ///< that pixels have on average
   std::uint32_t all_samples = 0;     ///< that they are to have
   std::optional<double> error = {};  ///< estimated: RenderStatistics::estimated_error so far
+  std::optional<int> frame = {};     ///< of the frames that were asked for
 };
 
 /// Derive from it what is to be known of a render.

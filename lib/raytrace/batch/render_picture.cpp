@@ -125,7 +125,7 @@ class PictureRender {
     if (const auto warning = rounding_warning(*scene_, identity_.film)) report(MessageLevel::warning, *warning);
     identity_.provenance = provenance_of(*scene_, *description_, job_.threads);
     identity_.tile = job_.tile;
-    if (job_.is_one_of_frames) identity_.frame = job_.frame;
+    if (job_.is_one_of_frames) identity_.frame = result_.statistics.frame = job_.frame;
     identity_.variables = variables_text(job_.variables);
     if (!job_.checkpoint.empty()) checkpoint_ = CheckpointFile(job_.checkpoint, job_.checkpoint_interval);
     if (job_.display_server) {
@@ -181,7 +181,8 @@ class PictureRender {
     else if (const auto warning = error_limit_.warning(error_); warning && done == all)
       report(MessageLevel::warning, *warning);
     else if (done < all)
-      report(MessageLevel::warning, "the time limit was reached after " + counted(done, "sample") + " per pixel");
+      report(MessageLevel::warning, "the time limit was reached after " + counted(done, "sample") + " per pixel" +
+                                        (identity_.frame ? " of frame " + std::to_string(*identity_.frame) : ""));
     std::optional<DenoisedPicture> denoised;
     const Denoising denoising =
         is_denoised(job_) ? denoise(film, job_, observer_, control_, result_.statistics, denoised) : Denoising::done;
@@ -230,10 +231,10 @@ class PictureRender {
       const auto update = [&](const RenderProgress& pass) {
         const double of_time = job_.time_limit ? seconds_since(start_) / *job_.time_limit : 0;
         const double of_samples = work_before + pass.fraction * work;
-        const double of_error = error_limit_.share(error_, pass.error);
-        const std::uint32_t all = identity_.film.samples.count;
-        observer_.on_progress({std::min(std::max({of_samples, of_time, of_error}), std::nextafter(1.0, 0.0)),
-                               static_cast<std::uint32_t>(of_samples * all), all, error_.estimate(pass.error)});
+        const double done = std::max({of_samples, of_time, error_limit_.share(error_, pass.error)});
+        const std::uint32_t all = identity_.film.samples.count, samples = static_cast<std::uint32_t>(of_samples * all);
+        observer_.on_progress(
+            {std::min(done, std::nextafter(1.0, 0.0)), samples, all, error_.estimate(pass.error), identity_.frame});
         if (is_due()) control_.pause() = true;
       };
       const RenderReport done = render(*scene_, film, target, job_.threads, update, &control_.pause());
@@ -277,7 +278,7 @@ class PictureRender {
     RenderStatistics& statistics = result_.statistics;
     statistics.estimated_error = error_.estimate();
     const std::uint32_t samples = identity_.film.samples.count;
-    observer_.on_progress({1, samples, samples, statistics.estimated_error});
+    observer_.on_progress({1, samples, samples, statistics.estimated_error, identity_.frame});
     report(MessageLevel::step, "rendered " + counted(statistics.total_rays(), "ray") + " on " +
                                    counted(static_cast<std::uint64_t>(statistics.threads), "thread") +
                                    time_taken(statistics.phases.render.seconds));

@@ -87,8 +87,9 @@ std::string statistics_text(const RenderStatistics& s) {
     const std::string peak = amount_text(phase.peak_memory_bytes, "B");
     peaks += (peaks.empty() ? " (" : ", ") + std::string(name) + " " + peak.substr(peak.find_first_not_of(' '));
   }
-  return aligned_line("scene", on_one_line(s.scene_file)) + aligned_line("picture", picture + crop) + view + seconds +
-         aligned_line("total", seconds_text(s.phases.seconds())) +
+  const std::string frame = s.frame ? ", frame " + std::to_string(*s.frame) : "";
+  return aligned_line("scene", on_one_line(s.scene_file) + frame) + aligned_line("picture", picture + crop) + view +
+         seconds + aligned_line("total", seconds_text(s.phases.seconds())) +
          (stages.empty() ? stages : aligned_line("stages", stages)) +
          (s.estimated_error ? aligned_line("estimated error", formatted("%10.2f %%", 100 * *s.estimated_error)) : "") +
          (s.photon_radius ? aligned_line("photon radius", formatted("%10.4g", double{*s.photon_radius})) : "") +
@@ -117,10 +118,13 @@ std::string statistics_json(const RenderStatistics& s) {
   if (s.estimated_error) error = *s.estimated_error;
   nlohmann::ordered_json photon_radius = nullptr;
   if (s.photon_radius) photon_radius = *s.photon_radius;
+  nlohmann::ordered_json frame = nullptr;
+  if (s.frame) frame = *s.frame;
   const nlohmann::ordered_json report = {
       {"schema_version", 1},
       {"software", s.software},
       {"scene", s.scene_file},
+      {"frame", frame},
       {"outputs", s.outputs},
       {"picture",
        {{"width", s.width},

@@ -38,6 +38,7 @@ struct Phases {
 struct RenderStatistics {
   std::string software;
   std::string scene_file;
+  std::optional<int> frame = std::nullopt;  ///< of the frames that were asked for
   std::vector<std::string> outputs;
   int width = 0, height = 0;  ///< of the whole picture
   Region region;              ///< rendered
