@@ -237,6 +237,18 @@ TEST_CASE("a thin wall sends what it scatters back and on, by its anisotropy") {
       check_mean(wall("<openpbrs>" + sheet + "</openpbrs>", from_behind), Rgb<double>{0.9, 0.5, 0.2} * (share * white),
                  1e-5);
     }
+  // A texture multiplies it.
+  const std::string halves =
+      "</materials><textures><checkers><checker><name>half</name><color1 red='0.5' green='0.5' blue='0.5'/><color2 "
+      "red='0.5' green='0.5' blue='0.5'/></checker></checkers></textures><materials>";
+  for (const bool from_behind : {false, true})
+    check_mean(wall("<openpbrs>" +
+                        wax("<subsurface_color red='1' green='1' "
+                            "blue='1'/><geometry_thin_walled>true</geometry_thin_walled>"
+                            "<subsurface_scatter_anisotropy texture='half'>-0.8</subsurface_scatter_anisotropy>") +
+                        "</openpbrs>" + halves,
+                    from_behind),
+               Rgb<double>{1, 1, 1} * ((from_behind ? 0.3 : 0.7) * white), 1e-5);
 }
 
 TEST_CASE("what scatters light inside of clear things is as independent walks find it, from outside and from within") {

@@ -104,7 +104,7 @@ class OpenPbr {
         color("subsurface_color", &P::subsurface_color),
         number("subsurface_radius", &P::subsurface_radius),
         color("subsurface_radius_scale", &P::subsurface_radius_scale),
-        constant("subsurface_scatter_anisotropy", &P::subsurface_scatter_anisotropy),
+        optional("subsurface_scatter_anisotropy", &P::subsurface_scatter_anisotropy),
         number("coat_weight", &P::coat_weight),
         color("coat_color", &P::coat_color),
         number("coat_roughness", &P::coat_roughness),

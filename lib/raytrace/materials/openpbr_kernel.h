@@ -39,7 +39,8 @@ class Kernel<OpenPbr> {
     const Value one(1), none(0), half(0.5F);
     Bsdf<T> bsdf;
     // A thin wall sends a part of what it scatters back at once; without walks, all of it is diffuse.
-    const Value &below = values.subsurface_weight, &walks = values.walks, &g = values.subsurface_scatter_anisotropy;
+    const Value &below = values.subsurface_weight, &walks = values.walks;
+    const Value g = max(min(values.subsurface_scatter_anisotropy, one), none - one);
     const auto has_subsurface = below > none;
     const Value comes_back = pick(values.thin > none, half * (one - g), one - walks),
                 goes_on = walks * pick(values.thin > none, half * (one + g), one);
