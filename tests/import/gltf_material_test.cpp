@@ -91,6 +91,14 @@ TEST_CASE("glTF: clear, thin and filled") {
   CHECK(thin.material.thin_walled);
   CHECK(thin.at("transmission_color").value.red == 0.5);
   CHECK(thin.number("specular_ior") == 1.33);
+  // What comes through a solid thing comes through two faces.
+  const ReadMaterial solid(R"("pbrMetallicRoughness":{"baseColorFactor":[0.25,1,0,1]},"extensions":{)" + pane +
+                           R"(,"KHR_materials_volume":{"thicknessFactor":1}})");
+  CHECK_FALSE(solid.material.thin_walled);
+  CHECK(solid.at("transmission_color").value.red == 0.5);
+  CHECK(solid.at("transmission_color").value.green == 1);
+  CHECK(solid.at("transmission_color").value.blue == 0);
+  CHECK(solid.at("base_color").value.red == 0.25);
   const ReadMaterial filled(R"("extensions":{)" + pane + R"(,"KHR_materials_volume":{"thicknessFactor":1,
       "attenuationDistance":0.2,"attenuationColor":[0.1,0.2,0.3]}})");
   CHECK_FALSE(filled.material.thin_walled);

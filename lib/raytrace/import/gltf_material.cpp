@@ -8,6 +8,7 @@
 #include <numbers>
 #include <tuple>
 
+#include "raytrace/import/face_color.h"
 #include "raytrace/import/specular_glossiness.h"
 
 namespace raytrace::gltf {
@@ -232,7 +233,11 @@ class MaterialReader {
       add("transmission_dispersion_abbe_number", std::clamp(20 / dispersion, 1.0, 1e15));
     }
     const double distance = number(volume, "attenuationDistance", 0);
-    if (material_.thin_walled || !(distance > 0)) return add_base_color("transmission_color");
+    if (material_.thin_walled || !(distance > 0)) {
+      add_base_color("transmission_color");
+      if (!material_.thin_walled) material_.openpbr.back().value = color_of_one_face(base_color_);
+      return;
+    }
     add("transmission_depth", distance);
     add("transmission_color", color(volume, "attenuationColor", 1, 1));
   }

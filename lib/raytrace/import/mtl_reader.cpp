@@ -8,6 +8,7 @@
 #include <functional>
 #include <string>
 
+#include "raytrace/import/face_color.h"
 #include "raytrace/import/mesh_readers.h"
 #include "raytrace/import/mesh_text.h"
 #include "raytrace/text/message.h"
@@ -123,7 +124,7 @@ void set_physical(MeshMaterial& material) {
   add("specular_ior", std::clamp(ior > 1 ? ior : 1.5, 1.0, 10.0));
   if (is_glass) {
     add("transmission_weight", 1);
-    material.openpbr.push_back({"transmission_color", inside_color(material.tf.value_or(white))});
+    material.openpbr.push_back({"transmission_color", color_of_one_face(inside_color(material.tf.value_or(white)))});
     material.d.reset();
   }
   if (is_lamp) {
