@@ -240,7 +240,9 @@ std::vector<GeometryTable::BoundedObject> GeometryTable::bounded_objects(
 std::vector<std::uint8_t> GeometryTable::used_materials(std::int32_t materials) const {
   std::vector<std::uint8_t> used(static_cast<std::size_t>(materials));
   const auto add = [&](const GeometryTable& table) {
-    for (const std::int32_t material : table.object_materials_) used[static_cast<std::size_t>(material)] = 1;
+    // Instances of empty groups may be of a material in a scene that has none.
+    for (const std::int32_t material : table.object_materials_)
+      if (material < materials) used[static_cast<std::size_t>(material)] = 1;
     for (const MeshTable& mesh : table.meshes_) mesh.add_used_materials(used);
   };
   add(*this);
