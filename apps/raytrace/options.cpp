@@ -229,14 +229,14 @@ void define_options(OptionParser& parser, Options& options) {
              options.integrator, one_of(names_in(Integrators{})), names_in(Integrators{}));
   parser.add("--clamp-indirect", "X",
              "Let no path bring more than X, in each channel, from beyond its first surface, e.g. 10: it takes away "
-             "bright dots, and some light; 0: any, as without it, unless the scene says otherwise",
+             "bright dots, and some light; 0: any, whatever the scene says",
              options.clamp_indirect, radiance);
   parser.add("--seed", "N|frame",
              "Another, equally good, pattern of samples (0); frame: that of the frame's number, so that the noise of a "
              "film moves",
              [&](const std::string& text) {
                options.seed_is_frame = text == "frame";
-               options.seed = options.seed_is_frame ? 0 : natural_number(text);
+               if (!options.seed_is_frame) options.seed = natural_number(text);
              });
 
   parser.group("Work");

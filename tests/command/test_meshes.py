@@ -59,13 +59,15 @@ class Meshes(CommandTest):
         head = "ply\nformat ascii 1.0\nelement vertex %d\nproperty float x\nproperty float y\nproperty float z\n"
         self.write("there/models/one.ply", head % 0 + "element face 0\nproperty list uchar int vertex_indices\nend_header\n")
         cloud = "<sphereclouds><spherecloud><file>models/none.ply</file><radius>1</radius></spherecloud></sphereclouds>"
-        self.write("there/models/none.ply", head % 1 + "end_header\nnan nan nan\n")
+        self.write("there/models/none.ply", head % 0 + "end_header\n")
         self.write("there/scene.xml", SCENE.replace("</instances>", "</instances>" + cloud) % "models/one.ply")
         done = self.succeed("there/scene.xml", "-o", "a.exr", "--progress=none")
         self.assertRegex(done.stderr, r"there/scene\.xml:6:\d+: warning: there/models/one\.ply: has no faces; it is left out")
         self.assertRegex(done.stderr, r"there/scene\.xml:5:\d+: warning: there/models/none\.ply: has no points; it is left out")
-        self.assertEqual(max(max(row["R"]) for row in Exr(self.read("a.exr")).rows), 0)
+        self.assertEqual({value for row in Exr(self.read("a.exr")).rows.values() for value in row["R"]}, {0})
         self.assertIn("has no faces", self.fail_with(1, "there/models/one.ply", "-o", "a.exr"))
+        self.write("there/models/none.ply", head % 1 + "end_header\nnan nan nan\n")
+        self.assertIn("has no points that can be rendered", self.fail_with(1, "there/scene.xml", "-o", "a.exr"))
 
     def test_a_missing_mesh_is_an_error_where_the_scene_names_it(self):
         os.remove(self.path("there/models/one.ply"))

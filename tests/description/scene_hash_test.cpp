@@ -1,5 +1,6 @@
 // Scenes that look different have different hashes, and others the same.
 #include <functional>
+#include <memory>
 #include <set>
 #include <string>
 #include <string_view>
@@ -186,6 +187,28 @@ TEST_CASE("the hash of many objects is of all of them, and the same by any numbe
   }
   spheres.pop_back();
   CHECK(scene_hash(scene, 3) != hash);
+}
+
+TEST_CASE("the materials that a mesh's file names count in the hash") {
+  SceneDescription scene;
+  ObjectItem<Mesh>& mesh = std::get<ObjectItems<Mesh>>(scene.objects).emplace_back();
+  mesh.materials = {{0, 0}, {0, 1}};
+  const std::string hash = scene_hash(scene);
+  mesh.materials = {{0, 1}, {0, 1}};
+  CHECK(scene_hash(scene) != hash);
+}
+
+TEST_CASE("what a program has made of a mesh counts in the hash") {
+  SceneDescription scene;
+  MeshData data;
+  data.corners = 3;
+  ObjectItem<Mesh>& mesh = std::get<ObjectItems<Mesh>>(scene.objects).emplace_back();
+  mesh.data = std::make_shared<const MeshData>(std::move(data));
+  const std::string hash = scene_hash(scene);
+  MeshData other;
+  other.corners = 4;
+  mesh.data = std::make_shared<const MeshData>(std::move(other));
+  CHECK(scene_hash(scene) != hash);
 }
 
 TEST_CASE("layout, comments and the spelling of numbers do not change the hash") {

@@ -115,7 +115,7 @@ TEST_CASE("a scene of any size has the light of lamps that fall off") {
     const bool spot = lamp == "spotlight";
     return "<raytracer><viewplane><hres>8</hres><vres>6</vres><samples>4</samples></viewplane><camera>" +
            at("eye", 0, 1, 6) + at("lookat", 0, 0, 0) + "<fov>30</fov></camera><lights><" + lamp + "s><" + lamp + ">" +
-           at("location", 0, 3, 1) + (spot ? at("lookat", 0, 0, 0) + "<coneangle>80</coneangle>" : "") +
+           at("location", 0, 3, 1) + (spot ? at("lookat", 0, 0, 0) + "<coneangle>150</coneangle>" : "") +
            "<falloff>inversesquare</falloff>" + strength.str() + "</" + lamp + "></" + lamp +
            "s></lights><materials><mattes>" + matte("m", 1, 0.8) +
            "</mattes></materials><objects><planes><plane><point x='0' y='0' z='0'/><normal x='0' y='1' z='0'/>"
@@ -130,18 +130,22 @@ TEST_CASE("a scene of any size has the light of lamps that fall off") {
     }
   }
   // Also where the lamp is at the eye, and where what the camera looks at is but a direction.
-  const auto unit_of = [](const std::string& eye, const std::string& sphere) {
-    return range_of(
-               "<raytracer><viewplane><hres>8</hres><vres>6</vres></viewplane><camera><eye x='0' y='0' z='" + eye +
-               "'/><lookat x='0' y='0' z='-1'/><fov>30</fov></camera><lights><pointlights><pointlight><location x='0' "
-               "y='0' z='" +
-               eye + "'/><falloff>inversesquare</falloff></pointlight></pointlights></lights><materials><mattes>" +
-               matte("m", 0, 1) + "</mattes></materials><objects><spheres><sphere><center x='0' y='0' z='0'/><radius>" +
-               sphere + "</radius><material>m</material></sphere></spheres></objects></raytracer>")
+  const auto unit_of = [](const std::string& eye, const std::string& sphere, const std::string& lookat = "-1") {
+    return range_of("<raytracer><viewplane><hres>8</hres><vres>6</vres></viewplane><camera><eye x='0' y='0' z='" + eye +
+                    "'/><lookat x='0' y='0' z='" + lookat +
+                    "'/><fov>30</fov></camera><lights><pointlights><pointlight><location x='0' "
+                    "y='0' z='" +
+                    eye + "'/><falloff>inversesquare</falloff></pointlight></pointlights></lights><materials><mattes>" +
+                    matte("m", 0, 1) +
+                    "</mattes></materials><objects><spheres><sphere><center x='0' y='0' z='0'/><radius>" + sphere +
+                    "</radius><material>m</material></sphere></spheres></objects></raytracer>")
         .usual;
   };
   CHECK(unit_of("3", "1") < 0.5F);
-  CHECK(std::abs(unit_of("3e-9", "1e-9") * std::numbers::pi * 1.6e-17 - 1) < 1e-3);
+  CHECK(unit_of("3", "1", "2.9999999") == unit_of("3", "1"));
+  // As far as the corners of the sphere's box.
+  const double size = 3e-9 + std::sqrt(3.0) * 1e-9;
+  CHECK(std::abs(unit_of("3e-9", "1e-9") * std::numbers::pi * size * size - 1) < 1e-3);
 }
 
 TEST_CASE("the unit gives the dimmest source a float's bits, or the largest radiance room") {

@@ -86,6 +86,8 @@ class SceneHash {
         if constexpr (requires { item.shadowcatcher; }) hash.add(item.shadowcatcher);
         if constexpr (requires { item.name; }) hash.add(item.name);
         if constexpr (requires { item.material; }) hash.add_reference(item.material);
+        if constexpr (requires { item.materials; })
+          for (const MaterialReference& material : item.materials) hash.add_reference(material);
         if constexpr (requires { item.textures; }) {
           hash.add(static_cast<std::uint64_t>(item.textures.size()));
           for (const TextureUse& use : item.textures) {
@@ -113,12 +115,12 @@ class SceneHash {
         field.visit(parameters, [&](const auto& value) { add(value); });
   }
 
-  /// By what it was read from a file, if it was.
+  /// By what it was read from a file, if it was, and not by the file's name.
   template <class Item>
   void add_loaded(const Fields& fields, const Item& item) {
     const bool from_file = item.data != nullptr && !item.parameters.file.path.empty();
     add_parameters(fields, &item.parameters, {from_file ? "file" : ""});
-    if (!from_file) return;
+    if (item.data == nullptr) return;
     add(item.data->origin);
     add(*item.data);
   }

@@ -7,16 +7,15 @@
 
 namespace raytrace {
 
-// The last error of a reader that found nothing.
+// The error of a reader whose file says that it has nothing.
 inline constexpr const char* no_faces = "has no faces";
-inline constexpr const char* no_faces_left = "has no faces that can be rendered";
 inline constexpr const char* no_points = "has no points";
 
-/// Whether a reader found nothing else wrong than that.
+/// Whether a reader found nothing else wrong than that. Faces and points that cannot be rendered are another matter.
 inline bool says_empty(const Diagnostics& found) {
   if (found.error_count() != 1 || found.kept().empty()) return false;
   const std::string_view last = found.kept().back().message;
-  return last == no_faces || last == no_faces_left || last == no_points;
+  return last == no_faces || last == no_points;
 }
 
 }  // namespace raytrace

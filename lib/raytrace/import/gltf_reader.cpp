@@ -254,7 +254,7 @@ class ModelWriter {
     if (mesh.parts.size() == 1) mesh.parts.clear();
     report_faults(faults, diagnostics_);
     if (mesh.face_count() > 0) return std::move(mesh);
-    diagnostics_.error({}, has_faces_ ? no_faces_left : no_faces);
+    diagnostics_.error({}, has_faces_ ? "has no faces that can be rendered" : no_faces);
     return std::nullopt;
   }
 

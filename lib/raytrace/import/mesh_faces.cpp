@@ -262,7 +262,7 @@ bool finish_mesh(MeshData& mesh, MeshFaults faults, bool dented_quads, int threa
   const bool has_faces = mesh.face_count() > 0;
   leave_out_faults(mesh, faults);
   report_faults(faults, diagnostics);
-  if (mesh.face_count() == 0) diagnostics.error({}, has_faces ? no_faces_left : no_faces);
+  if (mesh.face_count() == 0) diagnostics.error({}, has_faces ? "has no faces that can be rendered" : no_faces);
   return mesh.face_count() > 0;
 }
 

@@ -209,7 +209,7 @@ std::optional<PointCloud> read_ply_cloud(MeshFile& file, const MeshReadSettings&
     diagnostics.warning({}, std::to_string(open.vertices - kept) +
                                 " points are not finite, beyond 1e18 or without a size, and are left out");
   if (kept == 0) {
-    diagnostics.error({}, no_points);
+    diagnostics.error({}, open.vertices == 0 ? no_points : "has no points that can be rendered");
     return std::nullopt;
   }
   return cloud;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -17,12 +18,12 @@ namespace raytrace {
 namespace {
 
 /// By what a scene that is far smaller than 1 must grow to be as large; of others, 1. from_eye: how far away a light
-/// is; view: what the camera looks at; objects: those with bounds, of negative radius if none have.
-double enlargement(double from_eye, double view, const BoundingSphere& objects, const Vec3d& eye) {
-  constexpr double small = 0x1p-10;
-  if (objects.radius >= 0) view = std::min(view, length(eye - objects.center) + objects.radius);
-  const double size = std::max(from_eye, view);
-  return size < small ? 1 / size : 1;
+/// is; view: what the camera looks at, which may be but a direction; objects: how far those with bounds reach, if all
+/// have some.
+double enlargement(double from_eye, double view, std::optional<double> objects) {
+  constexpr double small = 0x1p-10, smallest = 0x1p-48;
+  const double size = std::max(from_eye, objects.value_or(view));
+  return size < small ? 1 / std::max(size, smallest) : 1;
 }
 
 }  // namespace
@@ -51,7 +52,13 @@ void SceneTables::add_lights(const SceneDescription& description, int threads) {
       std::visit([](const auto& camera) { return std::pair(camera.eye, camera.lookat); }, description.camera);
   const double view = length(lookat - eye);
   const Vec3d eye_from_origin = eye - origin_;
-  const BoundingSphere objects = geometry_->bounding_sphere();
+  std::optional<double> reach;
+  if (const BoundingSphere objects = geometry_->bounding_sphere(); objects.radius >= 0)
+    reach = length(eye_from_origin - objects.center) + objects.radius;
+  for_each_type(Shapes{}, [&]<class Shape>(std::type_identity<Shape>) {
+    if constexpr (!requires { &Kernel<Shape>::bounds; })
+      if (reach && !geometry_->table<Shape>().records.empty()) reach = std::max(*reach, view);
+  });
   const std::vector<std::string> names = light_group_names(description);
   const auto group_of = [&](const auto& item) {
     return static_cast<std::int32_t>(find_light_group(names, item.parameters.group));
@@ -91,7 +98,7 @@ void SceneTables::add_lights(const SceneDescription& description, int threads) {
           if constexpr (requires { bounded.falloff; }) {
             // The radiance at distance 1 says nothing of a small scene.
             if (bounded.falloff == Falloff::inverse_square)
-              times = enlargement(length(bounded.location - eye), view, objects, eye_from_origin);
+              times = enlargement(length(bounded.location - eye), view, reach);
             bounded.location = bounded.location * times;
             bounded.scaleradiance *= times * times;
           }
