@@ -60,8 +60,9 @@ TEST_CASE("files of points are told from scenes by their names") {
   const TemporaryFolder folder;
   const std::string file = folder.file("atoms.xyz");
   std::ofstream(file) << "2\nwater\nO 0 0 0\nH 1 0 0\n";
-  CHECK(reported_of_file(file) == file + ":1:1: error: this is no scene by its name: points are read by the "
-                                         "<spherecloud> of a scene, from a .ply with x, y and z\n");
+  CHECK(reported_of_file(file) == file +
+                                      ":1:1: error: this is no scene by its name: points are read by the "
+                                      "<spherecloud> of a scene, from a .ply with x, y and z\n");
 }
 
 TEST_CASE("standard input is given as -, and shown as <stdin>") {

@@ -87,8 +87,9 @@ TEST_CASE("a whole number may have leading zeros, as names of files do") {
   CHECK_FALSE(Variables({12345, {}}).replace("${frame:04}", result));
   CHECK(result == "12345");
   for (const char* const text : {"${a:4}", "${a:0}", "${a:0x}", "${a:}", "${a:0123}", "${a:04d}"})
-    CHECK(contains(replaced(text), "has a '${' that is no variable; write ${name}, or ${name:-value} with a default, or "
-                                   "${name:04} for four digits"));
+    CHECK(contains(replaced(text),
+                   "has a '${' that is no variable; write ${name}, or ${name:-value} with a default, or "
+                   "${name:04} for four digits"));
 }
 
 TEST_CASE("an empty value counts as none where there is a default, as in the shell") {
