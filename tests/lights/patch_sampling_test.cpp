@@ -4,6 +4,7 @@
 #include "raytrace/scene/patch_sampling.cpp"  // NOLINT(bugprone-suspicious-include)
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -51,7 +52,8 @@ TEST_CASE("points of flat patches are drawn with their density, which integrates
   }
   shares.add({});
   const PatchTextures textures{shares, IntN(1)}, even{shares, IntN(2)};
-  const PatchTextures* const textures_or_none = GENERATE_REF(as<const PatchTextures*>{}, nullptr, &textures, &even);
+  const std::array<const PatchTextures*, 3> all_textures{nullptr, &textures, &even};
+  const PatchTextures* const textures_or_none = all_textures.at(GENERATE(0U, 1U, 2U));
   const bool is_textured = textures_or_none == &textures;
   INFO((textures_or_none == nullptr ? "without textures"
         : is_textured               ? "with an uneven texture"
