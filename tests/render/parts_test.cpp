@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "raytrace/aovs/aov_table.h"
 #include "render/scenes.h"
 #include "support/catch.h"
 #include "support/gltf.h"
