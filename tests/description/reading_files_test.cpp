@@ -56,7 +56,7 @@ TEST_CASE("a file that cannot be read is an error of the file, not of a line") {
   CHECK(reported_of_file("/dev/null") == "/dev/null:1:1: error: the file is empty; a scene starts with <raytracer>\n");
 }
 
-TEST_CASE("files of points are told from scenes by their names") {
+TEST_CASE("files of points are known from scenes by their names") {
   const TemporaryFolder folder;
   const std::string file = folder.file("atoms.xyz");
   std::ofstream(file) << "2\nwater\nO 0 0 0\nH 1 0 0\n";
