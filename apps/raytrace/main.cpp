@@ -24,5 +24,5 @@ int main(int argc, char** argv) {
     }
     return render_command(options);
   };
-  return run_in_prepared_process([&] { return run_reporting_errors(program); });
+  run_in_prepared_process([&] { return run_reporting_errors(program); });
 }

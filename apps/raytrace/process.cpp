@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -157,10 +158,19 @@ void set_library_stacks() {
 #endif
 }
 
-/// The first thread's stack ends where `ulimit -s` says; that of another one can be larger.
-void* run_to_the_end(void* program) { std::exit((*static_cast<const std::function<int()>*>(program))()); }
+/// Ends the process. Where memory ran out, without what libraries would do at its end: OpenImageIO's pool of threads
+/// crashes if not all of them could be started.
+[[noreturn]] void end_process(int code) {
+  if (code != exit_code::out_of_memory) std::exit(code);
+  std::fflush(nullptr);
+  _exit(code);
+}
 
-bool run_on_another_stack(const std::function<int()>& program) {
+/// The first thread's stack ends where `ulimit -s` says; that of another one can be larger.
+void* run_to_the_end(void* program) { end_process((*static_cast<const std::function<int()>*>(program))()); }
+
+/// Ends the process with the program's exit code; returns if there can be no such thread.
+void run_on_another_stack(const std::function<int()>& program) {
   pthread_attr_t attributes;
   pthread_attr_init(&attributes);
   pthread_attr_setstacksize(&attributes, main_stack);
@@ -168,12 +178,11 @@ bool run_on_another_stack(const std::function<int()>& program) {
   const int error =
       pthread_create(&thread, &attributes, run_to_the_end, const_cast<void*>(static_cast<const void*>(&program)));
   pthread_attr_destroy(&attributes);
-  if (error != 0) return false;
+  if (error != 0) return;
   sigset_t all;  // handlers want a stack, too
   sigfillset(&all);
   pthread_sigmask(SIG_BLOCK, &all, nullptr);
   pthread_join(thread, nullptr);
-  return true;
 }
 
 }  // namespace
@@ -247,14 +256,14 @@ std::string memory_limit_text() {
   return data ? allows("data limit of this process (ulimit -d)", data->bytes) : "";
 }
 
-int run_in_prepared_process(const std::function<int()>& program) {
+void run_in_prepared_process(const std::function<int()>& program) {
   occupy_standard_files();
   for (const int number : {SIGPIPE, SIGXFSZ, SIGUSR1}) std::signal(number, SIG_IGN);
   set_library_stacks();
   rlimit stack{};
   const bool is_small = getrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur < main_stack;
-  if (is_small && run_on_another_stack(program)) return EXIT_FAILURE;  // never: the other thread ends the process
-  return program();
+  if (is_small) run_on_another_stack(program);  // does not return if it can
+  end_process(program());
 }
 
 }  // namespace raytrace

@@ -26,7 +26,7 @@ inline constexpr int stopped = 128;       ///< plus the signal's number
 ///   (SIGPIPE, SIGXFSZ), and SIGUSR1, which asks a render for its picture, ends nothing that is no render;
 /// - every stack is large enough, whatever `ulimit -s` says: the program's own and those of threads that libraries
 ///   start.
-int run_in_prepared_process(const std::function<int()>& program);
+[[noreturn]] void run_in_prepared_process(const std::function<int()>& program);
 
 /// As many of the wanted threads as a render should use: all, if they can be started;
 /// where a limit on memory (`ulimit -v`) or on threads does not allow that, half of those that can, so that something

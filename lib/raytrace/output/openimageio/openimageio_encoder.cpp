@@ -166,7 +166,7 @@ class OpenImageIOEncoder final : public ImageEncoder {
     // A pool of the whole process; where it cannot be started, the process crashes at its end. TIFF alone has work for
     // it.
     constexpr int most_threads = 8;
-    OIIO::attribute("threads", std::min(settings.threads, most_threads));
+    OIIO::attribute("threads", is_tiff() ? std::min(settings.threads, most_threads) : 1);
   }
 
   ImageFormat format() const override {
