@@ -95,6 +95,31 @@ TEST_CASE("rays meet each crossing of a surface with the chance that its opacity
   }
 }
 
+TEST_CASE("of a pixel's samples, the share that its opacity is meets a surface: their numbers are stratified") {
+  const SceneDescription one = axial_scene(material("veil", "<opacity>0.25</opacity>"), object(crossed_shapes[0]),
+                                           "<lights>" + white_ambient + "</lights>");
+  for (const std::string& isa : usable_isas()) {
+    const FloatPicture picture = rendered(one, 1, isa);
+    for (const Pixel& pixel : picture.pixels()) REQUIRE(pixel.red == 0.25f);
+  }
+}
+
+TEST_CASE("the numbers of two surfaces have nothing to do with each other") {
+  const std::string behind =
+      "<planes><plane><point x='0' y='0' z='0'/><normal x='0' y='0' z='1'/><material>other</material></plane></planes>";
+  const SceneDescription two =
+      axial_scene(material("veil", "<opacity>0.5</opacity>") + material("other", "<opacity>0.5</opacity>"),
+                  object(crossed_shapes[13]) + behind, "<lights>" + white_ambient + "</lights>");
+  const FloatPicture picture = rendered(two);
+  double squares = 0;
+  for (const Pixel& pixel : picture.pixels()) squares += std::pow(double{pixel.red} - 0.75, 2);
+  CHECK(std::abs(mean(picture) - 0.75) < tolerance(0.75));
+  // Of two samples that follow each other one passes each of them, so of 32 pairs half pass both: 32 / 4. In the same
+  // order all or none would pass the second, and without strata it would be 64 * 0.25 * 0.75 = 12.
+  const double variance = squares / static_cast<double>(picture.pixels().size()) * 64 * 64;
+  CHECK(std::abs(variance - 8) < 3);
+}
+
 TEST_CASE("in instances, too, by the instance's own material") {
   const std::string group = "<groups><group><name>g</name><objects>" + object(crossed_shapes[2], "wall") +
                             object(crossed_shapes[13], "wall") + "</objects></group></groups>";

@@ -14,7 +14,8 @@ RayIdentity::RayIdentity(const SceneTables& of_scene, const Accelerator& its_acc
     : scene(of_scene),
       accelerator(its_accelerator),
       rays(its_rays),
-      keys(of_scene.has_cutouts() ? ids.keys() : UintN(0u)),
+      pixels(of_scene.has_cutouts() ? ids.pixel_keys() : UintN(0u)),
+      samples(ids.sample),
       times(of_scene.has_motion() ? ids.times() : FloatN(0)),
       camera(its_camera) {}
 
@@ -67,10 +68,11 @@ std::uint32_t passing_rays(const RayIdentity& query, unsigned first, std::uint32
     if (query.camera != nullptr) width = scene.ray_cone().half_width(query.camera->skipped + rays.far);
     return texture_point(scene, width, hits, query.accelerator.surface(rays, hits));
   });
-  const UintN key = hash(query.keys, UintN(surface.instance), UintN(surface.geometry),
-                         UintN(mix_bits(surface.primitive) + surface.crossing));
+  const UintN seed = hash(query.pixels, UintN(surface.instance), UintN(surface.geometry),
+                          UintN(mix_bits(surface.primitive) + surface.crossing));
+  const FloatN number = to_unit(scrambled_number(seed, query.samples));
   // What is not a number meets nothing.
-  return bits_of<FloatN>(hits.hit & !(to_unit(key) < opacity)) >> first;
+  return bits_of<FloatN>(hits.hit & !(number < opacity)) >> first;
 }
 
 }  // namespace raytrace

@@ -1,7 +1,9 @@
 // Surfaces that some rays pass, as the opacity of their materials says.
 //
-// Whether a ray meets the surface that it hits is decided by a hash of the ray and of the surface, not by its order
-// among others: so the answer does not depend on how Embree comes to it, and needs no state.
+// Whether a ray meets the surface that it hits is decided by a number of the ray and of the surface, not by its order
+// among others: so the answer does not depend on how Embree comes to it, and needs no state. Over the samples of a
+// pixel the numbers of one surface are stratified, so that half of the rays pass where the opacity is one half; those
+// of two surfaces have nothing to do with each other.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +30,8 @@ struct RayIdentity {
   const SceneTables& scene;
   const Accelerator& accelerator;
   const Ray<FloatN>& rays;  ///< in world space; ray `id` is lane `id`
-  UintN keys;
+  UintN pixels;             ///< RayIds::pixel_keys()
+  UintN samples;            ///< RayIds::sample
   FloatN times;
   const CameraRays* camera;  ///< what camera rays cover, textures are filtered by; null: other rays
   Meets meets = Meets::surfaces;

@@ -32,8 +32,9 @@ struct RayIds {
   const UintN& sample;  ///< perhaps of a branch
   std::uint32_t purpose;
 
-  /// A hash of each.
+  /// A hash of each, and of what they have in common over the samples of the pixel.
   UintN keys() const { return mix_bits(pixel + sample * UintN(0x9e3779b9u)) + UintN(purpose * 0x9e3779b9u); }
+  UintN pixel_keys() const { return mix_bits(pixel + UintN(purpose * 0x9e3779b9u)); }
   /// When they are sent: from 0, when the shutter opens, to 1, the same for all rays of a sample.
   FloatN times() const { return get_2d(pixel, sample_of_pixel(sample), time_dimension).x; }
 };

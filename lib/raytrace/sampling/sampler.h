@@ -127,7 +127,14 @@ RAYTRACE_INLINE ScrambledPoint<U> scrambled_point(const U& pixel, const U& index
   return {reversed_bits(owen_scrambled(place, seed_x)), reversed_bits(owen_scrambled(y, seed_y))};
 }
 
-/// The same as numbers: each lane's of its own pixel and index.
+/// One coordinate alone, of a sequence for each seed: any 2^k consecutive samples from a multiple of 2^k on have one
+/// number in each of 2^k equal parts.
+inline UintN scrambled_number(const UintN& seed, const UintN& index) {
+  const UintN place = reversed_bits(owen_scrambled(reversed_bits(index), seed));
+  return reversed_bits(owen_scrambled(place, mix_bits(seed + UintN(0x9e3779b9u))));
+}
+
+/// scrambled_point() as numbers: each lane's of its own pixel and index.
 inline Sample2D get_2d(const UintN& pixel, const UintN& index, Dimension dimension) {
   const ScrambledPoint<UintN> point = scrambled_point(pixel, index, dimension);
   return {to_unit(point.x), to_unit(point.y)};
