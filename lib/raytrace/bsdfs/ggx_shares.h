@@ -143,7 +143,7 @@ class DielectricShares {
  public:
   // Even steps of the root of |eta - 1| / (eta + 1), since total reflection starts suddenly: to either side of an eta
   // of 1 as many as the root needs to come to 1, of which `unit` are the size of `unit_root`.
-  static constexpr int unit = 16, most = 24, layers = 2 * most + 1;
+  static constexpr int unit = 48, most = 72, layers = 2 * most + 1;
   static constexpr float unit_root = 0.67F;
 
   /// From the layer's first number on.
