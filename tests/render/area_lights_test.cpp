@@ -311,6 +311,32 @@ TEST_CASE("lamps in instances are drawn as lamps that stand there themselves") {
   CHECK(std::abs(instanced / single - 1) < 0.02);
 }
 
+TEST_CASE("a lamp of a group that has a transform of its own is drawn there alone, not where it would be without") {
+  const std::string ball = "<spheres><sphere><center x='0.6' y='0' z='0'/><radius>0.1</radius>G</sphere></spheres>";
+  const std::string lamp =
+      "<boxes><box><min x='-0.1' y='-0.1' z='-0.1'/><max x='0.1' y='0.1' z='0.1'/>M<transform>"
+      "<scale x='1' y='1' z='3'/><rotate x='1' y='1' z='0' angle='35'/><translate x='-0.4' y='0.1' z='0'/></transform>"
+      "</box></boxes>";
+  const auto brightness = [&](const std::string& all_objects, const std::string& grouped) {
+    const auto with_materials = [](std::string objects) {
+      for (const auto& [letter, name] : {std::pair('M', "lamp"), std::pair('G', "grey")})
+        for (std::size_t at = 0; (at = objects.find(letter, at)) != std::string::npos;)
+          objects.replace(at, 1, "<material>" + std::string(name) + "</material>");
+      return objects;
+    };
+    std::string text = room("", "", 256, "");
+    if (!grouped.empty())
+      text.insert(text.find("<objects>"),
+                  "<groups><group><name>g</name><objects>" + with_materials(grouped) + "</objects></group></groups>");
+    text.insert(text.rfind("</objects>"), with_materials(all_objects));
+    return mean_green(rendered(parsed_scene(text), 2));
+  };
+  const double grouped = brightness("<instances><instance><group>g</group></instance></instances>", ball + lamp);
+  const double single = brightness(ball + lamp, "");
+  INFO(grouped << ", without a group " << single);
+  CHECK(std::abs(grouped / single - 1) < 0.02);
+}
+
 TEST_CASE("lamps in instances are as bright far from the origin as at it") {
   // Since the camera looks at a point far behind them, the scene's origin stays where it is.
   const auto mean_at = [](double x) {

@@ -52,7 +52,10 @@ std::string ball_in_glass(const std::string& path, int samples, const std::strin
           "<phongs><phong><name>varnish</name><ka>0</ka><kd>0.5</kd><ks>0.3</ks><exp>8</exp>"
           "<cd red='0.7' green='0.7' blue='0.7'/><cs red='1' green='1' blue='1'/></phong></phongs>"
           "<emissives><emissive><name>lamp</name><ce red='1' green='1' blue='1'/><scaleradiance>10</scaleradiance>"
-          "</emissive></emissives><dielectrics><dielectric><name>glass</name></dielectric></dielectrics><openpbrs>"
+          "</emissive></emissives><mattes><matte><name>veil</name><ka>0</ka><kd>1</kd><opacity>0.4</opacity>"
+          "<cd red='0.8' green='0.8' "
+          "blue='0.8'/></matte></mattes><dielectrics><dielectric><name>glass</name></dielectric></"
+          "dielectrics><openpbrs>"
           "<openpbr><name>wax</name><base_color red='0.8' green='0.8' blue='0.8'/><subsurface_weight>1"
           "</subsurface_weight><subsurface_color red='0.8' green='0.8' blue='0.8'/><subsurface_radius>0.05"
           "</subsurface_radius></openpbr><openpbr><name>lacquer</name><base_color red='0.6' green='0.6' blue='0.6'/>"
@@ -99,7 +102,7 @@ TEST_CASE("a mirror shows the light that it sends to the floor") {
 }
 
 TEST_CASE("photons bring what paths from the camera leave out") {
-  for (const std::string ball : {"floor", "varnish", "lacquer", "gloss", "wax"}) {
+  for (const std::string ball : {"floor", "varnish", "lacquer", "gloss", "wax", "veil"}) {
     const auto mean = [&](const std::string& path, int samples) {
       double sum = 0;
       constexpr int renders = 4;

@@ -118,7 +118,7 @@ void EmitterTable::for_each_geometry(const GeometryTable& world, std::span<const
     const GeometryTable& table =
         target.group == InstanceTarget::no_group ? world : *world.groups()[static_cast<std::size_t>(target.group)];
     const Setting setting{instances.number(i), instances.materials()[i], to_double(instances.world_from_object(i)),
-                          static_cast<double>(instances.scale(i))};
+                          static_cast<double>(instances.scale(i)), target.is_shape};
     if (setting.material >= 0 && !(materials[static_cast<std::size_t>(setting.material)].radiance > 0)) continue;
     if (!target.is_shape) {
       each_of(table, setting);
@@ -137,7 +137,6 @@ std::int32_t EmitterTable::material_of(const GeometryTable& table, std::uint32_t
 
 void EmitterTable::add_geometry(const GeometryTable& table, std::uint32_t geometry, Primitives primitives,
                                 const Setting& setting, Making& making) {
-  const bool is_single = primitives.last - primitives.first == 1 && setting.instance != 0;
   const MeshTable* const mesh = table.geometry(geometry).mesh;
   Range range{setting.instance,
               geometry,
@@ -162,7 +161,7 @@ void EmitterTable::add_geometry(const GeometryTable& table, std::uint32_t geomet
         const auto& shapes = table.table<Shape>();
         const auto i = static_cast<std::size_t>(primitive);
         if constexpr (requires { Kernel<Shape>::add_patches(shapes.records[i], patches); })
-          if (is_single || !shapes.is_instanced(i)) Kernel<Shape>::add_patches(shapes.records[i], patches);
+          if (setting.is_shape || !shapes.is_instanced(i)) Kernel<Shape>::add_patches(shapes.records[i], patches);
       });
     }
     for (LightPatch& patch : patches) {

@@ -94,7 +94,8 @@ class EmitterTable {
     std::uint32_t instance = 0;
     std::int32_t material = -1;  ///< in place of the objects' own; -1: none
     Affine world_from_object = {};
-    double scale = 1;  ///< of all lengths; 0: not of all the same
+    double scale = 1;       ///< of all lengths; 0: not of all the same
+    bool is_shape = false;  ///< it is that of a single shape, whose rays are turned to it
   };
   struct Primitives {
     std::int32_t first, last;  ///< before that

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "raytrace/accel/surface_uv.h"
 #include "raytrace/film/photons.h"
 #include "raytrace/math/lanes.h"
 #include "raytrace/parallel/for_each_index.h"
@@ -58,13 +59,25 @@ class PhotonTracer final : private LightPathTracer {
     const LightPathPacket& path = at.path;
     const SurfaceInteraction<FloatN>& surface = at.surface;
     const auto lights = static_cast<std::int32_t>(tables_.lights().size());
-    const MaskN lit = lanes & (dot(surface.ng, surface.wo) > FloatN(0)) & (largest(path.flux) < infinity<FloatN>());
+    const Rgb<FloatN> flux = path.flux * (FloatN(share_) / opacity(at, lanes));
+    const MaskN lit = lanes & (dot(surface.ng, surface.wo) > FloatN(0)) & (largest(flux) < infinity<FloatN>());
     for (const std::size_t lane : SetLanes(lit)) {
-      photons_.push_back(
-          {path.sample.get(lane),
-           {in_lane(surface.p, lane), in_lane(surface.ng, lane), in_lane(surface.wo, lane),
-            in_lane(path.flux, lane) * share_, path.group.get(lane), path.source.get(lane) >= lights, at.depth}});
+      photons_.push_back({path.sample.get(lane),
+                          {in_lane(surface.p, lane), in_lane(surface.ng, lane), in_lane(surface.wo, lane),
+                           in_lane(flux, lane), path.group.get(lane), path.source.get(lane) >= lights, at.depth}});
     }
+  }
+
+  /// The share of the light that meets the surface. What arrives there is over that, since the camera's paths meet it
+  /// as seldom.
+  FloatN opacity(const LightPathPoint& at, const MaskN& lanes) const {
+    FloatN result(1);
+    if (!tables_.has_cutouts()) return result;
+    const auto point = [&] { return texture_point(tables_, FloatN(0), at.hits, at.surface); };
+    for_each_value(tables_.material(at.hits), lanes, [&](std::int32_t material, const MaskN& here) {
+      if (tables_.is_cutout(material)) result = select(here, min(tables_.opacity(material, point), FloatN(1)), result);
+    });
+    return result;
   }
 
   struct PathPhoton {
