@@ -288,6 +288,10 @@ class Models(CommandTest):
         self.assertEqual(self.succeed(*plain).stderr.count(said), 1)
         self.assertNotIn("cameras;", self.succeed(*plain, "--camera", "plan").stderr)
         self.assertNotIn("cameras;", self.succeed(*plain, "--view", "top").stderr)
+        # Other light takes the place of the file's, as one line says.
+        for light in (["--environment", "sky"], ["--sun", "70,25"]):
+            self.assertIn(f"its light is left out: {light[0]} lights it instead;", self.succeed(*plain, *light).stderr)
+        self.assertNotIn("left out", self.succeed(*plain, "--environment", "none").stderr)
         message = self.fail_with(1, *options, "--camera", "far", "-o", "b.exr")
         self.assertIn("has no camera 'far'; there are 'near', 'plan'", message)
 

@@ -58,8 +58,6 @@ void add_unseen_lamps(SceneDescription& description, const Directions& to) {
   }
 }
 
-constexpr std::string_view sky_environment = "sky", no_environment = "none";
-
 /// Brighter above than below, so that metal and glass, which show nothing but what is around, have a shape. radiance:
 /// its mean, in green.
 void add_studio_sky(SceneDescription& description, double radiance) {

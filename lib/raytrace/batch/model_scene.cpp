@@ -159,6 +159,16 @@ void for_each_turned_vertex(const SceneDescription& description, const Function&
   });
 }
 
+/// The file's lights, where the stage has others in their place.
+void warn_of_unused_lights(const SceneDescription& description, const ModelStage& stage, Diagnostics& diagnostics) {
+  const std::size_t lights = data_of(description).lights.size();
+  const bool counts = !stage.sun && (stage.environment.empty() || stage.environment == no_environment);
+  if (lights == 0 || counts) return;
+  diagnostics.warning({}, (lights == 1 ? "its light is" : "its " + std::to_string(lights) + " lights are") +
+                              " left out: " + (stage.environment.empty() ? "--sun" : "--environment") +
+                              " lights it instead; a scene with a <model> has both");
+}
+
 }  // namespace
 
 bool is_model(const std::string& file) { return is_mesh_file(file); }
@@ -221,6 +231,7 @@ std::optional<SceneDescription> load_model(const std::string& file, const ModelS
   }
   if (stage.floor) add_floor(description, shown);
   add_model_lights(description, shown, stage, to, camera == nullptr ? std::optional(extent) : std::nullopt);
+  warn_of_unused_lights(description, stage, diagnostics);
   if (!stage.environment.empty() && !load_images(description, diagnostics, threads, textures)) return std::nullopt;
   return description;
 }
