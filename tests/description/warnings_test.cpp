@@ -1,4 +1,6 @@
 // What scenes may have but hardly mean: warnings, each with its line and column and what to write instead.
+#include <sstream>
+
 #include "raytrace/description/check_scene.h"
 #include "reported.h"
 #include "support/catch.h"
@@ -99,6 +101,44 @@ TEST_CASE("a fog of a single object that has no inside has a warning") {
   CHECK(reported(scene_of_fog("<planes><plane><point x='0' y='0' z='0'/><normal x='0' y='1' z='0'/>"
                               "<material>mist</material></plane></planes>"))
             .empty());  // all below it
+}
+
+TEST_CASE("a mesh of glass that is inside out has a warning") {
+  const auto tetrahedron = [](const std::string& faces, const std::string& more) {
+    return "<mesh><positions>0 0 0, 1 0 0, 0 1 0, 0 0 1</positions><faces>" + faces + "</faces>" + more +
+           "<material>m</material></mesh>";
+  };
+  const auto said = [](const std::string& material, const std::string& meshes) {
+    SceneDescription scene = accepted(
+        scene_with("<materials>" + material + "</materials><objects><meshes>" + meshes + "</meshes></objects>"));
+    Diagnostics diagnostics("s");
+    CHECK(load_meshes(scene, diagnostics));
+    std::ostringstream out;
+    diagnostics.print(out);
+    return out.str();
+  };
+  const std::string glass = "<dielectrics><dielectric><name>m</name></dielectric></dielectrics>";
+  const std::string outwards = "0 2 1, 0 1 3, 0 3 2, 1 2 3", inwards = "0 1 2, 0 3 1, 0 2 3, 1 3 2";
+  const std::string mirrored = "<transform><scale x='-1' y='1' z='1'/></transform>";
+  const std::string larger = "<transform><translate x='-0.2' y='-0.2' z='-0.2'/><scale x='9' y='9' z='9'/></transform>";
+  CHECK(said(glass, tetrahedron(inwards, "")) ==
+        "s:2:107: warning: the fronts of the mesh's faces are inside: as glass it is inside out; give its faces the "
+        "other order of corners, counter-clockwise where they are looked at from outside\n");
+  CHECK(contains(said(glass, tetrahedron(inwards, mirrored)), "inside out"));
+  CHECK(contains(
+      said("<openpbrs><openpbr><name>m</name><transmission_weight>1</transmission_weight></openpbr></openpbrs>",
+           tetrahedron(inwards, "")),
+      "inside out"));
+  CHECK(said(glass, tetrahedron(outwards, "")).empty());
+  CHECK(said(glass, tetrahedron(outwards, mirrored)).empty());
+  CHECK(said(glass, tetrahedron("0 1 2, 0 3 1, 0 2 3", "")).empty());                    // open
+  CHECK(said(glass, tetrahedron(outwards, larger) + tetrahedron(inwards, "")).empty());  // a bubble
+  CHECK(said("<dielectrics><dielectric><name>m</name><thinwalled>true</thinwalled></dielectric></dielectrics>",
+             tetrahedron(inwards, ""))
+            .empty());
+  CHECK(said("<mirrors><mirror><name>m</name><cr red='1' green='1' blue='1'/></mirror></mirrors>",
+             tetrahedron(inwards, ""))
+            .empty());
 }
 
 TEST_CASE("items that are read by a pattern have their warnings, too") {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "raytrace/description/check_groups.h"
+#include "raytrace/description/check_solids.h"
 #include "raytrace/description/file_lights.h"
 #include "raytrace/description/file_materials.h"
 #include "raytrace/description/holds_normals.h"
@@ -263,7 +264,9 @@ bool load_meshes(SceneDescription& description, Diagnostics& diagnostics, int th
   if (const auto error = too_many_copies(description)) diagnostics.error({}, *error);
   if (std::get<TextureItems<Image>>(description.textures).size() > images_before)
     load_images(description, diagnostics, threads, textures);
-  return diagnostics.error_count() == errors_before;
+  if (diagnostics.error_count() > errors_before) return false;
+  check_solids(description, diagnostics);
+  return true;
 }
 
 }  // namespace raytrace

@@ -1,0 +1,14 @@
+// Solids that are inside out.
+#pragma once
+
+#include "raytrace/description/scene_description.h"
+#include "raytrace/xml/diagnostics.h"
+
+namespace raytrace {
+
+/// Of meshes that are loaded, and right. Warns of each closed mesh of clear material whose faces have their fronts
+/// inside: rays that come from outside would start within the glass. Not of one within the box of other clear things:
+/// it may be the hollow of a bottle.
+void check_solids(const SceneDescription& scene, Diagnostics& diagnostics);
+
+}  // namespace raytrace
