@@ -35,6 +35,17 @@ std::string cylinder(const std::string& caps) {
          "<material>mist</material></cylinder></cylinders>";
 }
 
+/// What loading the meshes of a scene with these objects says.
+std::string said_of(const std::string& materials, const std::string& objects, const std::string& more = "") {
+  SceneDescription scene =
+      accepted(scene_with("<materials>" + materials + "</materials><objects>" + objects + "</objects>" + more));
+  Diagnostics diagnostics("s");
+  CHECK(load_meshes(scene, diagnostics));
+  std::ostringstream out;
+  diagnostics.print(out);
+  return out.str();
+}
+
 }  // namespace
 
 TEST_CASE("a surface that gives more light than it gets has a warning") {
@@ -109,13 +120,7 @@ TEST_CASE("a mesh of glass that is inside out has a warning") {
            "<material>m</material></mesh>";
   };
   const auto said = [](const std::string& material, const std::string& meshes) {
-    SceneDescription scene = accepted(
-        scene_with("<materials>" + material + "</materials><objects><meshes>" + meshes + "</meshes></objects>"));
-    Diagnostics diagnostics("s");
-    CHECK(load_meshes(scene, diagnostics));
-    std::ostringstream out;
-    diagnostics.print(out);
-    return out.str();
+    return said_of(material, "<meshes>" + meshes + "</meshes>");
   };
   const std::string glass = "<dielectrics><dielectric><name>m</name></dielectric></dielectrics>";
   const std::string outwards = "0 2 1, 0 1 3, 0 3 2, 1 2 3", inwards = "0 1 2, 0 3 1, 0 2 3, 1 3 2";
@@ -138,6 +143,31 @@ TEST_CASE("a mesh of glass that is inside out has a warning") {
             .empty());
   CHECK(said("<mirrors><mirror><name>m</name><cr red='1' green='1' blue='1'/></mirror></mirrors>",
              tetrahedron(inwards, ""))
+            .empty());
+}
+
+TEST_CASE("a pane of solid glass under a sun has a warning, unless something brings its light") {
+  const std::string glass = "<dielectrics><dielectric><name>m</name></dielectric></dielectrics>";
+  const std::string sun =
+      "<lights><directionallights><directionallight><direction x='0' y='1' z='1'/></directionallight>"
+      "</directionallights></lights>";
+  const auto box = [](const std::string& thickness) {
+    return "<boxes><box><min x='0' y='0' z='0'/><max x='1' y='1.5' z='" + thickness +
+           "'/><material>m</material></box></boxes>";
+  };
+  CHECK(said_of(glass, box("0.02"), sun) ==
+        "s:2:106: warning: suns, points and spots do not shine through a pane that is solid: let its material be "
+        "thin-walled, or give <path> <caustics>light</caustics>\n");
+  const std::string mesh =
+      "<meshes><mesh><positions>0 0 0, 1 0 0, 0 1 0, 0 0 0.01</positions><faces>0 2 1, 0 1 3, 0 3 2, 1 2 3</faces>"
+      "<material>m</material></mesh></meshes>";
+  CHECK(contains(said_of(glass, mesh, sun), "a pane that is solid"));
+  CHECK(said_of(glass, box("0.02")).empty());
+  CHECK(said_of(glass, box("0.5"), sun).empty());
+  for (const char* const integrator : {"<path><caustics>light</caustics></path>", "<raycast/>"})
+    CHECK(said_of(glass, box("0.02"), sun + "<integrator>" + integrator + "</integrator>").empty());
+  CHECK(said_of("<dielectrics><dielectric><name>m</name><thinwalled>true</thinwalled></dielectric></dielectrics>",
+                box("0.02"), sun)
             .empty());
 }
 

@@ -1,10 +1,14 @@
 #include "raytrace/description/check_solids.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "raytrace/description/default_integrator.h"
 #include "raytrace/import/mesh_data.h"
 #include "raytrace/math/bounds.h"
 #include "raytrace/text/message.h"
@@ -29,8 +33,15 @@ bool is_clear_solid(const SceneDescription& scene, const MaterialReference& mate
 struct Solid {
   const ObjectItem<Mesh>* mesh;
   Bounds box;  ///< after its transform
-  bool is_inside_out;
+  bool is_flat = false, is_inside_out = false;
 };
+
+/// By the size of its box.
+bool is_flat(const Vec3d& size) {
+  std::array sizes{size.x, size.y, size.z};
+  std::ranges::sort(sizes);
+  return sizes[0] < 0.1 * sizes[1];
+}
 
 bool is_within(const Bounds& inner, const Bounds& outer) {
   const auto from = [](const Vec3f& a, const Vec3f& b) { return a.x <= b.x && a.y <= b.y && a.z <= b.z; };
@@ -43,12 +54,15 @@ Solid solid_of(const ObjectItem<Mesh>& mesh) {
     const float* const p = &data.positions.data()[std::size_t{3} * data.indices.data()[corner]];
     return Vec3d{p[0], p[1], p[2]};
   };
-  Solid solid{&mesh, empty_bounds, false};
+  Solid solid{&mesh, empty_bounds};
+  Bounds own_box = empty_bounds;
   const Affine affine = mesh.transform.affine();
   for (std::size_t i = 0; i < data.indices.size(); ++i) {
-    const Vec3f p(affine.point(position(i) + data.origin));
+    const Vec3f own(position(i)), p(affine.point(position(i) + data.origin));
+    own_box = join(own_box, {own, own});
     solid.box = join(solid.box, {p, p});
   }
+  solid.is_flat = is_flat(Vec3d(own_box.upper) - Vec3d(own_box.lower));
   // By the divergence theorem: the areas of what is closed add up to nothing, and the volume is positive if they point
   // outwards. Of triangles and of quads' halves, twice the area and six times the volume each.
   const Vec3d middle = position(0);
@@ -70,17 +84,33 @@ Solid solid_of(const ObjectItem<Mesh>& mesh) {
   return solid;
 }
 
+/// Of lights that no ray meets by chance.
+bool has_lights_without_size(const SceneDescription& scene) {
+  const auto has = [&]<class... Light>() { return (... || !std::get<LightItems<Light>>(scene.lights).empty()); };
+  return has.operator()<DirectionalLight, PointLight, SpotLight, SkyLight>();
+}
+
+bool has_path_without_caustics(const SceneDescription& scene) {
+  const IntegratorParameters integrator = integrator_of(scene);
+  const auto* const path = std::get_if<Path::Parameters>(&integrator);
+  return path != nullptr && path->caustics == Caustics::none;
+}
+
 }  // namespace
 
 void check_solids(const SceneDescription& scene, Diagnostics& diagnostics) {
+  std::optional<SourceLocation> pane;  // the first
   const auto add = [&](const ObjectLists& lists) {
+    const auto clear = [&](const MaterialReference& material) { return is_clear_solid(scene, material); };
+    for (const auto& box : std::get<ObjectItems<Box>>(lists))
+      if (!pane && is_flat(box.parameters.max - box.parameters.min) && clear(box.material)) pane = location_of(box);
     std::vector<Solid> solids;
     for (const auto& mesh : std::get<ObjectItems<Mesh>>(lists)) {
       if (mesh.data == nullptr || !mesh.data->copies.empty() || mesh.data->indices.empty()) continue;
-      const auto clear = [&](const MaterialReference& material) { return is_clear_solid(scene, material); };
       if (std::ranges::all_of(mesh.materials, clear)) solids.push_back(solid_of(mesh));
     }
     for (const Solid& solid : solids) {
+      if (solid.is_flat && !pane) pane = location_of(*solid.mesh);
       if (!solid.is_inside_out) continue;
       const auto is_around = [&](const Solid& other) { return &other != &solid && is_within(solid.box, other.box); };
       if (std::ranges::any_of(solids, is_around)) continue;
@@ -92,6 +122,11 @@ void check_solids(const SceneDescription& scene, Diagnostics& diagnostics) {
   };
   add(scene.objects);
   for (const Group& group : scene.groups) add(group.objects);
+  if (!pane || !has_lights_without_size(scene) || !has_path_without_caustics(scene)) return;
+  const std::string message =
+      "suns, points and spots do not shine through a pane that is solid: let its material be thin-walled, or give "
+      "<path> <caustics>light</caustics>";
+  diagnostics.warning(*pane, message);
 }
 
 }  // namespace raytrace
