@@ -34,16 +34,6 @@ std::string motion_scene(const std::string& objects, const std::string& camera, 
       camera);
 }
 
-SceneDescription at_moment(const std::string& text, double after_frame) {
-  Diagnostics diagnostics("scene.xml");
-  SceneSettings settings;
-  settings.after_frame = after_frame;
-  auto scene = parse_scene(text, diagnostics, 1, settings);
-  REQUIRE(scene.has_value());
-  REQUIRE(load_meshes(*scene, diagnostics, 1));
-  return std::move(*scene);
-}
-
 /// The mean over all channels and pixels of the difference between the picture with an open shutter and the mean of
 /// pictures of still scenes, and the largest difference of a pixel.
 struct Differences {
@@ -72,10 +62,6 @@ Differences compare_with_moments(const std::string& objects, const std::string& 
     result.largest = std::max({result.largest, std::abs(red), std::abs(green), std::abs(blue)});
   }
   return result;
-}
-
-std::string keys(const std::string& element, const std::string& first, const std::string& last) {
-  return "<" + element + "><key frame='0' " + first + "/><key frame='2' " + last + "/></" + element + ">";
 }
 
 const std::string moving_ball = "<spheres><sphere>" + keys("center", "x='-4' y='0' z='0'", "x='4' y='0' z='0'") +

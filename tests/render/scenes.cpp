@@ -4,12 +4,23 @@
 #include <cmath>
 #include <cstring>
 #include <random>
+#include <utility>
 
 #include "raytrace/aovs/aov_selection.h"
 #include "support/catch.h"
 #include "support/usable_isas.h"
 
 namespace raytrace::test {
+
+SceneDescription at_moment(const std::string& text, double after_frame) {
+  Diagnostics diagnostics("scene.xml");
+  SceneSettings settings;
+  settings.after_frame = after_frame;
+  auto scene = parse_scene(text, diagnostics, 1, settings);
+  REQUIRE(scene.has_value());
+  REQUIRE(load_meshes(*scene, diagnostics, 1));
+  return std::move(*scene);
+}
 
 std::string busy_scene(int width, int height, int samples) {
   std::mt19937 bits(3);

@@ -28,6 +28,14 @@ inline std::string vector_text(const std::string& element, double x, double y, d
 /// All shapes and both materials under three lights, with a thousand small spheres among them.
 std::string busy_scene(int width, int height, int samples);
 
+/// A value that goes from that at frame 0 to that at frame 2: attributes of a vector or the like.
+inline std::string keys(const std::string& element, const std::string& first, const std::string& last) {
+  return "<" + element + "><key frame='0' " + first + "/><key frame='2' " + last + "/></" + element + ">";
+}
+
+/// The scene as it stands so long after frame 1.
+SceneDescription at_moment(const std::string& text, double after_frame);
+
 inline Region whole(const SceneDescription& description) {
   return {0, 0, description.viewplane.hres, description.viewplane.vres};
 }

@@ -3,6 +3,7 @@
 #include "raytrace/accel/accelerator.h"
 #include "raytrace/math/gather.h"
 #include "raytrace/math/lanes.h"
+#include "raytrace/scene/instance_maps.h"
 
 namespace raytrace {
 
@@ -164,31 +165,14 @@ Ray<FloatN> Accelerator::in_instances(const Ray<FloatN>& rays, const Hits& hits)
 void Accelerator::to_world(const Hits& hits, SurfaceInteraction<FloatN>& surface) const {
   const MaskN inside = hits.hit & float_mask<FloatN>(hits.instance != UintN(0u));
   const UintN number = select_lanes(inside, hits.instance, UintN(0u));
-  const auto world_from_object = table_.instances().world_from_object(number, hits.time);
-  const auto object_from_world = table_.instances().object_from_world(number, hits.time);
-  // The transpose of the inverse. Of any scale, so that squares neither overflow nor vanish.
-  const auto turned = [&](const Vec3<FloatN>& n) {
-    const Vec3<FloatN> normal{dot(object_from_world.x, n), dot(object_from_world.y, n), dot(object_from_world.z, n)};
-    const Vec3<FloatN> scaled = normal * inverse_power_of_2(largest_component(normal));
-    const FloatN squared_length = dot(scaled, scaled);
-    return select(squared_length > FloatN(0), scaled * (FloatN(1) / sqrt(squared_length)), scaled);
-  };
-  const auto size = [](const AffineRecord<FloatN>& affine) {
-    return abs(affine.x.x) + abs(affine.x.y) + abs(affine.x.z) + abs(affine.y.x) + abs(affine.y.y) + abs(affine.y.z) +
-           abs(affine.z.x) + abs(affine.z.y) + abs(affine.z.z);
-  };
-  const Vec3<FloatN> p = apply_point(world_from_object, surface.p);
-  // The surface's own error, and the roundings of the point and of rays that come to it, on either side of the maps.
-  const FloatN scale = size(world_from_object);
-  const FloatN stretch = scale * size(object_from_world);
-  const FloatN reach = largest_component(p) + largest_component(world_from_object.origin);
-  const FloatN error = scale * surface.error + scale * largest_component(surface.p) * FloatN(0x1p-22F) +
-                       reach * stretch * FloatN(0x1p-23F);
-  surface.ng = select(inside, turned(surface.ng), surface.ng);
+  const InstanceMaps maps = maps_of(table_.instances(), number, hits.time);
+  const Vec3<FloatN> p = apply_point(maps.world_from_object, surface.p);
+  const FloatN error = maps.error(surface.p, surface.error, p);
+  surface.ng = select(inside, maps.normal_to_world(surface.ng), surface.ng);
   if (surface.is_smooth) {
-    surface.ns = select(inside, turned(surface.ns), surface.ns);
+    surface.ns = select(inside, maps.normal_to_world(surface.ns), surface.ns);
     surface.to_smooth_surface =
-        select(inside, apply_vector(world_from_object, surface.to_smooth_surface), surface.to_smooth_surface);
+        select(inside, apply_vector(maps.world_from_object, surface.to_smooth_surface), surface.to_smooth_surface);
   }
   surface.p = select(inside, p, surface.p);
   surface.error = select(inside, error, surface.error);

@@ -32,21 +32,24 @@ void add_media(const SceneTables& tables, const Accelerator& accelerator, const 
 }  // namespace
 
 MediumStack media_around(const SceneTables& tables, const Accelerator& accelerator, const Vec3<FloatN>& points,
-                         const MaskN& lanes) {
+                         const MaskN& lanes, const RayIds* ids) {
   MediumStack around;
   const auto add = [&](const auto& intersect) { add_media(tables, accelerator, points, lanes, around, intersect); };
-  if (!tables.media().has_fog()) {
+  if (!tables.media().has_fog() && ids == nullptr) {
     add([&](Ray<FloatN>& rays, const MaskN& left) { return accelerator.intersect(rays, left, Coherence::incoherent); });
     return around;
   }
-  // Fogs apart: they may end at surfaces.
-  for (const Meets meets : {Meets::surfaces, Meets::boundaries_of_fogs})
+  const UintN any_number(0u);
+  const auto add_what = [&](Meets meets) {
     add([&](Ray<FloatN>& rays, const MaskN& left) {
-      const UintN any_number(0u);
-      RayIdentity identity(tables, accelerator, rays, {any_number, any_number, 0});
+      RayIdentity identity(tables, accelerator, rays, ids != nullptr ? *ids : RayIds{any_number, any_number, 0});
       identity.meets = meets;
       return accelerator.intersect(rays, left, Coherence::incoherent, nullptr, &identity);
     });
+  };
+  // Fogs apart: they may end at surfaces.
+  add_what(Meets::surfaces);
+  if (tables.media().has_fog()) add_what(Meets::boundaries_of_fogs);
   return around;
 }
 

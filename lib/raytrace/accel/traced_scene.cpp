@@ -30,13 +30,15 @@ void TracedScene::find_media() {
   };
   for (const auto& origin : tables_.light_origins())
     if (origin && !origin->infinitely_far) lights_in_media_ |= is_in_media(Vec3<FloatN>(origin->position), one);
-  // By a point of each patch.
+  // What moves may come to be in one. Of others, by a point of each patch.
+  lights_in_media_ |= tables_.emitters().has_motion();
   const auto patches = static_cast<std::int32_t>(tables_.emitters().size());
   for (std::int32_t first = 0; first < patches && !lights_in_media_; first += packet_lanes) {
     const IntN patch = IntN(first) + lane_numbers<IntN>();
     const MaskN lanes = float_mask<FloatN>(patch < IntN(patches));
-    const EmitterTable::Sample sample = tables_.emitters().sample(
-        select_lanes(lanes, patch, IntN(first)), Vec3<FloatN>(tables_.camera_eye()), FloatN(0.5F), FloatN(0.5F));
+    const EmitterTable::Sample sample =
+        tables_.emitters().sample(select_lanes(lanes, patch, IntN(first)), Vec3<FloatN>(tables_.camera_eye()),
+                                  FloatN(0), FloatN(0.5F), FloatN(0.5F));
     lights_in_media_ = is_in_media(sample.point.p, lanes);
   }
 }

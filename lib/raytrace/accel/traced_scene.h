@@ -29,10 +29,11 @@ class TracedScene final : public Scene {
   const SceneTables& tables() const { return tables_; }
   const Accelerator& accelerator() const { return accelerator_; }
 
-  /// The media that the camera is in; lights, by what is around each path's start.
+  /// The media that the camera is in; lights, by what is around each path's start. ids: of its rays.
   const MediumStack& camera_media() const { return camera_media_; }
-  MediumStack light_media(const Vec3<FloatN>& starts, const MaskN& lanes) const {
-    return lights_in_media_ ? media_around(tables_, accelerator_, starts, lanes) : MediumStack();
+  MediumStack light_media(const Vec3<FloatN>& starts, const MaskN& lanes, const RayIds& ids) const {
+    if (!lights_in_media_) return {};
+    return media_around(tables_, accelerator_, starts, lanes, tables_.emitters().has_motion() ? &ids : nullptr);
   }
 
   /// The objects as met from where all camera rays start, and from where all shadow rays to light `number` go. Null if

@@ -141,8 +141,7 @@ void CausticTable::weigh(const Lights& lights) {
       add(source++, t, (arriving(*light, target) + faint) * disk);
     }
     for (std::size_t i = 0; i < lights.emitters.size(); ++i) {
-      const PatchRecord<float>& patch = lights.emitters.patch(i);
-      const Vec3d way = Vec3d(target.center) - Vec3d(patch.origin);
+      const Vec3d way = Vec3d(target.center) - lights.emitters.location(i);
       const double distance2 = dot(way, way) + double{target.radius} * double{target.radius};
       add(source++, t, lights.emitters.area(i) * double{lights.emitters.radiance(i)} * disk / distance2);
     }

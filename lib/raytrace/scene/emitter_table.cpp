@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "raytrace/math/lanes.h"
+#include "raytrace/scene/patch_emission.h"
 #include "raytrace/scene/patch_geometry.h"
 #include "raytrace/scene/patch_pieces.h"
 #include "raytrace/scene/patch_shares.h"
@@ -28,21 +29,6 @@ constexpr std::size_t most_pieces = std::size_t{1} << 16, most_look_ups = std::s
 /// Of a face and of a piece, each way: a longer way in the tree costs more than cells do, but cells know nothing of how
 /// near they are.
 constexpr int most_cuts = 4, most_cells = 64;
-
-LightEmission emission_of(const LightPatch& patch, float radiance, bool two_sided) {
-  LightEmission emission{box_of(patch)};
-  emission.power = static_cast<float>(area_of(patch) * static_cast<double>(radiance));
-  std::optional<Vec3d> axis;
-  if (is_flat(patch) || patch.shape == PatchShape::ellipse) axis = cross(patch.a, patch.b);
-  if (patch.shape == PatchShape::band && patch.b.z == 0) axis = patch.a * (patch.b.x - patch.b.y);
-  if (axis && length(*axis) > 0 && !two_sided) {
-    emission.axis = Vec3f(normalize(*axis));
-  } else {
-    emission.cosine = -1;
-  }
-  if (two_sided) emission.power *= 2;
-  return emission;
-}
 
 /// How far p is from the surface that the patch is a piece of.
 float distance_to(const PatchRecord<float>& patch, const Vec3f& p) {
@@ -69,6 +55,7 @@ EmitterTable::EmitterTable(const GeometryTable& world, std::span<const MaterialE
                            LightSampling sampling, const RadianceAt& radiance_at) {
   const auto shines = [](const MaterialEmission& material) { return material.radiance > 0; };
   if (std::none_of(materials.begin(), materials.end(), shines)) return;
+  instances_ = &world.instances();
   Making making{materials, radiance_at};
   making.cuts = 0;
   // All are drawn alike where they are drawn evenly.
@@ -99,6 +86,7 @@ EmitterTable::EmitterTable(const GeometryTable& world, std::span<const MaterialE
   for_each_geometry(world, materials,
                     [&](const GeometryTable& table, std::uint32_t geometry, const Primitives& primitives,
                         const Setting& setting) { add_geometry(table, geometry, primitives, setting, making); });
+  if (has_motion()) movers_.resize(patches_.size(), 0);
   tree_ = LightTree(making.emissions, sampling);
 }
 
@@ -112,13 +100,12 @@ void EmitterTable::for_each_geometry(const GeometryTable& world, std::span<const
   each_of(world, {});
   const InstanceTable& instances = world.instances();
   for (std::size_t i = 0; i < instances.size(); ++i) {
-    // Those that move are met by chance alone.
-    if (instances.moves(i)) continue;
     const InstanceTarget& target = instances.target(i);
     const GeometryTable& table =
         target.group == InstanceTarget::no_group ? world : *world.groups()[static_cast<std::size_t>(target.group)];
-    const Setting setting{instances.number(i), instances.materials()[i], to_double(instances.world_from_object(i)),
-                          static_cast<double>(instances.scale(i)), target.is_shape};
+    Setting setting{instances.number(i), instances.materials()[i], to_double(instances.world_from_object(i)),
+                    static_cast<double>(instances.scale(i)), target.is_shape};
+    if (instances.moves(i)) setting.moments = instances.moments(i);
     if (setting.material >= 0 && !(materials[static_cast<std::size_t>(setting.material)].radiance > 0)) continue;
     if (!target.is_shape) {
       each_of(table, setting);
@@ -144,8 +131,9 @@ void EmitterTable::add_geometry(const GeometryTable& table, std::uint32_t geomet
               static_cast<std::int32_t>(patches_.size()),
               0,
               mesh != nullptr,
-              setting.world_from_object.determinant() < 0};
+              setting.moments.empty() && setting.world_from_object.determinant() < 0};
   Faces faces;
+  if (!setting.moments.empty()) faces.world_from_patches = setting.moments[setting.moments.size() / 2];
   const auto add = [&](std::int32_t primitive) {
     const std::int32_t number = material_of(table, geometry, primitive, setting);
     const MaterialEmission& material = making.materials[static_cast<std::size_t>(number)];
@@ -165,7 +153,7 @@ void EmitterTable::add_geometry(const GeometryTable& table, std::uint32_t geomet
       });
     }
     for (LightPatch& patch : patches) {
-      if (setting.instance == 0) continue;
+      if (setting.instance == 0 || !setting.moments.empty()) continue;
       const auto moved = transformed(patch, setting.world_from_object, setting.scale);
       if (!moved) return;
       patch = *moved;
@@ -195,22 +183,28 @@ void EmitterTable::add_geometry(const GeometryTable& table, std::uint32_t geomet
         const std::size_t cells = faces.cells.size() / patches.size();
         shares_.add(std::span(faces.cells).subspan(i * cells, cells));
       }
-      making.emissions.push_back(emission_of(patch, faces.radiances[i], material.two_sided));
+      making.emissions.push_back(setting.moments.empty()
+                                     ? emission_of(patch, faces.radiances[i], material.two_sided)
+                                     : emission_of(patch, setting.moments, faces.radiances[i], material.two_sided));
+    }
+    if (!setting.moments.empty()) {
+      movers_.resize(patches_.size() - patches.size(), 0);
+      movers_.resize(patches_.size(), static_cast<std::int32_t>(setting.instance));
     }
   };
   for (std::int32_t i = primitives.first; i < primitives.last; ++i) add(i);
   if (!range.primitives.empty()) ranges_.push_back(range);
 }
 
-EmitterTable::Sample EmitterTable::sample(const Vec3<FloatN>& p, const Vec3<FloatN>& normal, const FloatN& u,
-                                          const FloatN& u1, const FloatN& u2) const {
+EmitterTable::Sample EmitterTable::sample(const Vec3<FloatN>& p, const Vec3<FloatN>& normal, const FloatN& time,
+                                          const FloatN& u, const FloatN& u1, const FloatN& u2) const {
   const LightTree::Choice choice = tree_.sample(p, normal, u);
-  Sample sample = this->sample(choice.light, p, u1, u2);
+  Sample sample = this->sample(choice.light, p, time, u1, u2);
   sample.point.pdf = sample.point.pdf * choice.probability;
   return sample;
 }
 
-std::int32_t EmitterTable::patch_of(const Hits& hits, std::size_t lane, const Vec3f& p) const {
+std::int32_t EmitterTable::patch_of(const Hits& hits, std::size_t lane, Vec3f p) const {
   const std::uint32_t instance = hits.instance.get(lane), geometry = hits.geometry.get(lane);
   const std::int32_t primitive = hits.primitive.get(lane);
   const std::uint32_t place = place_of(instance);
@@ -228,6 +222,8 @@ std::int32_t EmitterTable::patch_of(const Hits& hits, std::size_t lane, const Ve
       range->first_patch + static_cast<std::int32_t>(found - primitives.begin()) * range->patches_each;
   const std::int32_t pieces = range->pieces();
   std::int32_t face = first;
+  if (has_motion() && !range->is_mesh && movers_[static_cast<std::size_t>(first)] != 0)
+    p = apply_point(instances_->maps(InstanceTable::index_of(instance), hits.time.get(lane)).object_from_world, p);
   if (range->is_mesh) {
     face += range->patches_each == 2 * pieces && hits.u.get(lane) + hits.v.get(lane) > 1 ? pieces : 0;
   } else {
@@ -257,17 +253,13 @@ float EmitterTable::radiance(std::size_t number) const {
   return radiances_[has_own_radiances_ ? number : static_cast<std::size_t>(material)];
 }
 
-double EmitterTable::area(std::size_t number) const {
-  const PatchRecord<float>& patch = patches_[number];
-  return area_of({PatchCode::shape_of(patch.code), Vec3d(patch.origin), Vec3d(patch.a), Vec3d(patch.b)});
-}
-
-EmitterTable::Sample EmitterTable::sample(const IntN& patch, const Vec3<FloatN>& from, const FloatN& u1,
-                                          const FloatN& u2) const {
+EmitterTable::Sample EmitterTable::sample(const IntN& patch, const Vec3<FloatN>& from, const FloatN& time,
+                                          const FloatN& u1, const FloatN& u2) const {
   const auto record = gather_records<PatchRecord, FloatN>(patches_.data(), LaneIndices(patch));
   const PatchTextures textures{shares_, patch};
-  return {sample_patch(record, from, u1, u2, shares_.empty() ? nullptr : &textures),
-          PatchCode::material_of(record.code), patch};
+  return {has_motion() ? sample_moving(record, textures, from, time, u1, u2)
+                       : sample_patch(record, from, u1, u2, if_any(textures)),
+          PatchCode::material_of(record.code), patch, time};
 }
 
 MaskN EmitterTable::has_patch(const Hits& hits, const MaskN& lanes, const Vec3<FloatN>& p) const {
@@ -289,9 +281,9 @@ FloatN EmitterTable::pdf(const Vec3<FloatN>& from, const Vec3<FloatN>& from_norm
   const IntN existing = select_lanes(drawn, patch, IntN(0));
   const auto record = gather_records<PatchRecord, FloatN>(patches_.data(), LaneIndices(existing));
   const PatchTextures textures{shares_, existing};
-  const FloatN density = tree_.probability(from, from_normal, existing) *
-                         patch_pdf(record, from, surface.p, surface.ng, shares_.empty() ? nullptr : &textures);
-  return select(drawn, density, FloatN(0));
+  const FloatN density = has_motion() ? pdf_of_moving(record, textures, from, hits.time, surface.p, surface.ng)
+                                      : patch_pdf(record, from, surface.p, surface.ng, if_any(textures));
+  return select(drawn, tree_.probability(from, from_normal, existing) * density, FloatN(0));
 }
 
 Hits EmitterTable::hits(const Sample& sample, const MaskN& lanes) const {
@@ -321,6 +313,7 @@ Hits EmitterTable::hits(const Sample& sample, const MaskN& lanes) const {
   }
   Hits hits;
   hits.hit = lanes;
+  hits.time = sample.time;
   hits.instance = UintN::load_aligned(instance.data());
   hits.geometry = UintN::load_aligned(geometry.data());
   hits.primitive = IntN::load_aligned(primitive.data());

@@ -11,17 +11,21 @@
 
 namespace raytrace {
 
-std::vector<float> EmitterTable::radiances_of(const LightPatch& face, bool is_second, const Range& range,
-                                              std::int32_t primitive, const Making& making) {
+std::vector<float> EmitterTable::radiances_of(const LightPatch& patch, const Affine& world_from_patch, bool is_second,
+                                              const Range& range, std::int32_t primitive, const Making& making) {
+  const LightPatch face{patch.shape, world_from_patch.point(patch.origin), world_from_patch.vector(patch.a),
+                        world_from_patch.vector(patch.b)};
   const std::int32_t cells = making.cells * making.cells, all = making.cuts * making.cuts * cells;
   const double radius = std::max(length(face.a), length(face.b)) / (making.cuts * making.cells);
   SurfaceInteraction<FloatN> surface{};
-  surface.ng = surface.ns = surface.wo = Vec3<FloatN>(Vec3f(normalize(cross(face.a, face.b))));
+  surface.ng = surface.ns = surface.wo =
+      Vec3<FloatN>(Vec3f(normalize(world_from_patch.normal(cross(patch.a, patch.b)))));
   surface.front = MaskN(true);
   Hits hits;
   hits.instance = UintN(range.instance);
   hits.geometry = UintN(range.geometry);
   hits.primitive = IntN(primitive);
+  hits.time = FloatN(0.5F);  // where things move, they are halfway
   std::vector<float> result;
   for (std::int32_t first = 0; first < all; first += packet_lanes) {
     const std::int32_t lanes = std::min<std::int32_t>(packet_lanes, all - first);
@@ -63,7 +67,8 @@ void EmitterTable::weigh(Faces& faces, const Range& range, std::int32_t primitiv
   std::vector<float> cells, wholes;
   bool is_even = true;
   for (std::size_t i = 0; i < faces.patches.size(); ++i) {
-    std::vector<float> face = radiances_of(faces.patches[i], range.is_mesh && i > 0, range, primitive, making);
+    std::vector<float> face =
+        radiances_of(faces.patches[i], faces.world_from_patches, range.is_mesh && i > 0, range, primitive, making);
     for (float& radiance : face) radiance = std::isfinite(radiance) ? radiance : material.radiance;
     double sum = 0;
     for (const float radiance : face) sum += double{radiance};
@@ -88,7 +93,7 @@ void EmitterTable::weigh(Faces& faces, const Range& range, std::int32_t primitiv
   const std::ptrdiff_t each = making.cells * making.cells;
   for (auto cell = cells.begin(); cell != cells.end(); cell += each)
     pieces.push_back(static_cast<float>(std::accumulate(cell, cell + each, 0.0) / static_cast<double>(each)));
-  faces = {std::move(patches), std::move(pieces), making.cuts, std::move(cells)};
+  faces = {std::move(patches), std::move(pieces), making.cuts, std::move(cells), faces.world_from_patches};
 }
 
 }  // namespace raytrace

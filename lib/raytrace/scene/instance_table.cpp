@@ -53,6 +53,10 @@ InstanceTable::Maps InstanceTable::maps(std::size_t i, float time) const {
   return {to_float(map), to_float(map.inverse())};
 }
 
+std::span<const Affine> InstanceTable::moments(std::size_t i) const {
+  return std::span(moments_).subspan(static_cast<std::size_t>(first_moments_[i]), std::size_t{shutter_moments});
+}
+
 AffineRecord<FloatN> InstanceTable::moving_map(const UintN& number, const FloatN& time,
                                                AffineRecord<float> Maps::* map) const {
   std::array<AffineRecord<float>, packet_lanes> of_lanes;

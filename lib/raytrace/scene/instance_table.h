@@ -91,6 +91,8 @@ class InstanceTable {
   };
   /// Of instance i, at a time from 0, when the shutter opens, to 1, when it closes.
   Maps maps(std::size_t i, float time) const;
+  /// Of one that moves: world_from_object at each moment.
+  std::span<const Affine> moments(std::size_t i) const;
   /// By how much it scales all lengths; 0: not all by the same.
   float scale(std::size_t i) const { return scales_[i]; }
   const std::vector<std::int32_t>& materials() const { return materials_; }

@@ -44,16 +44,6 @@ void join_cones(LightEmission& a, const LightEmission& b) {
   a.cosine = static_cast<float>(std::cos(angle));
 }
 
-LightEmission join(const LightEmission& a, const LightEmission& b) {
-  if (a.box.lower.x > a.box.upper.x) return b;
-  if (b.box.lower.x > b.box.upper.x) return a;
-  LightEmission both = a;
-  join_cones(both, b);
-  both.box = join(a.box, b.box);
-  both.power += b.power;
-  return both;
-}
-
 // Cones in 32 bits: the axis on an octahedron, 12 bits for each of x and y (Meyer et al., "On Floating-Point Normal
 // Vectors", 2010), and in the upper 8 the sine of half the angle between axis and edge, rounded up.
 
@@ -169,6 +159,16 @@ Angle less(const Angle& a, const Angle& b) {
 FloatN sine_of(const FloatN& cosine) { return sqrt(max(FloatN(1) - cosine * cosine, FloatN(0))); }
 
 }  // namespace
+
+LightEmission join(const LightEmission& a, const LightEmission& b) {
+  if (a.box.lower.x > a.box.upper.x) return b;
+  if (b.box.lower.x > b.box.upper.x) return a;
+  LightEmission both = a;
+  join_cones(both, b);
+  both.box = join(a.box, b.box);
+  both.power += b.power;
+  return both;
+}
 
 LightTree::LightTree(const std::vector<LightEmission>& lights, LightSampling sampling, Reach reach,
                      std::size_t leaf_size)

@@ -22,6 +22,9 @@ struct LightEmission {
   float power = 0;
 };
 
+/// All that both have, or the other one where one has an empty box.
+LightEmission join(const LightEmission& a, const LightEmission& b);
+
 class LightTree {
  public:
   /// What the lights' cones are.

@@ -77,27 +77,29 @@ void start_at_source(const SceneTables& scene, LightPathPacket& path, const Targ
 }
 
 void start_at_patches(const SceneTables& scene, LightPathPacket& path, const Targets& targets, const MaskN& lanes) {
+  const EmitterTable& emitters = scene.emitters();
   const auto first = static_cast<std::int32_t>(scene.lights().size());
   const IntN patch = select_lanes(lanes, path.source - IntN(first), IntN(0));
   // Places are drawn for a point of the target that no plane of a lamp is likely to go through; of spheres, whose far
   // sides such a point does not see, for one inside.
   Vec3<FloatN> from = targets.center + Vec3<FloatN>(Vec3f(0.137F, 0.271F, 0.391F)) * targets.radius;
-  alignas(64) std::array<float, packet_lanes> x, y, z;
-  from.x.store_aligned(x.data());
-  from.y.store_aligned(y.data());
-  from.z.store_aligned(z.data());
+  alignas(64) std::array<float, packet_lanes> x{}, y{}, z{}, is_inside{};
   for (std::size_t lane = 0; lane < packet_lanes; ++lane) {
-    const PatchRecord<float>& record = scene.emitters().patch(static_cast<std::size_t>(patch.get(lane)));
+    const PatchRecord<float>& record = emitters.patch(static_cast<std::size_t>(patch.get(lane)));
     const PatchShape shape = PatchCode::shape_of(record.code);
     if (shape != PatchShape::sphere && shape != PatchShape::ellipsoid) continue;
     const Vec3f up = shape == PatchShape::sphere ? Vec3f(0, 0, record.a.x) : Vec3f(record.b.y, record.b.x, record.a.z);
     x[lane] = record.origin.x + up.x * 0.25F;
     y[lane] = record.origin.y + up.y * 0.25F;
     z[lane] = record.origin.z + up.z * 0.25F;
+    is_inside[lane] = 1;
   }
-  from = {FloatN::load_aligned(x.data()), FloatN::load_aligned(y.data()), FloatN::load_aligned(z.data())};
+  const FloatN time = emitters.has_motion() ? RayIds{path.pixel, path.sample, 0}.times() : FloatN(0);
+  const Vec3<FloatN> inside{FloatN::load_aligned(x.data()), FloatN::load_aligned(y.data()),
+                            FloatN::load_aligned(z.data())};
+  from = select(FloatN::load_aligned(is_inside.data()) > FloatN(0), emitters.to_world(patch, time, inside), from);
   const Sample2D place = get_2d(path.pixel, path.sample, light_path_dimension(LightPathDraw::place));
-  const EmitterTable::Sample sample = scene.emitters().sample(patch, from, place.x, place.y);
+  const EmitterTable::Sample sample = emitters.sample(patch, from, time, place.x, place.y);
   path.group = select_lanes(lanes, scene.light_group_of_material(sample.material), path.group);
   const PatchSample& drawn = sample.point;
   // Per area, from per solid angle.

@@ -55,7 +55,7 @@ void LightPathTracer::begin(const UintN& pixel, const UintN& sample, const IntN&
   path.row = row;
   const MaskN lit = lanes & start_light_paths(tables_, path);
   if (none(lit)) return;
-  MediumStack media = scene_.light_media(path.rays.origin, lit);
+  MediumStack media = scene_.light_media(path.rays.origin, lit, ray_ids(path, 0));
   const Hits hits = intersect(path, media, 0, path.rays, lit, rays);
   const IntN material = tables_.material(hits);
   // Other targets' paths are aimed at these. What lies inside of a medium may not be there.

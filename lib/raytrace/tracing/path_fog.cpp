@@ -216,7 +216,9 @@ PathBatch::FogLight PathBatch::draw_light_in_fog(const PathPacket& path, const F
   point.p = part.rays.at(distance);
   point.ng = point.ns = Vec3<FloatN>(Vec3f(0, 0, 0));
   point.error = rounding_error(point.p, FloatN(0));
-  DrawnLight light = draw_light(tables, point, point.ns, numbers(FogDraw::emitter), numbers(FogDraw::emitter_point));
+  const FloatN time = tables.emitters().has_motion() ? numbers.ids(0).times() : FloatN(0);
+  DrawnLight light =
+      draw_light(tables, point, point.ns, time, numbers(FogDraw::emitter), numbers(FogDraw::emitter_point));
   light.lit = light.lit & part.lanes;
   FogLight result;
   if (none(light.lit)) return result;

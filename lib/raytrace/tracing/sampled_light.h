@@ -56,9 +56,9 @@ struct DrawnLight {
 };
 
 inline void draw_from_surfaces(const SceneTables& tables, const SurfaceInteraction<FloatN>& surface,
-                               const Vec3<FloatN>& normal, const FloatN& choice, const Sample2D& point,
-                               DrawnLight& result) {
-  result.sample = tables.emitters().sample(surface.p, normal, choice, point.x, point.y);
+                               const Vec3<FloatN>& normal, const FloatN& time, const FloatN& choice,
+                               const Sample2D& point, DrawnLight& result) {
+  result.sample = tables.emitters().sample(surface.p, normal, time, choice, point.x, point.y);
   const PatchSample& drawn = result.sample.point;
   SurfaceInteraction<FloatN>& light = result.surface;
   light = {};
@@ -77,17 +77,18 @@ inline void draw_from_surfaces(const SceneTables& tables, const SurfaceInteracti
 }
 
 /// Drawn from a surface or the environment, for points on surfaces, or in media, where ns and ng have the length 0.
-/// normal: by which it is drawn, of length 0 if all sides count. local_wi is not set, and `lit` says of all lanes
-/// whether there is light.
+/// normal: by which it is drawn, of length 0 if all sides count. time: of the rays, as Hits have it. local_wi is not
+/// set, and `lit` says of all lanes whether there is light.
 inline DrawnLight draw_light(const SceneTables& tables, const SurfaceInteraction<FloatN>& surface,
-                             const Vec3<FloatN>& normal, const Sample2D& choice, const Sample2D& point) {
+                             const Vec3<FloatN>& normal, const FloatN& time, const Sample2D& choice,
+                             const Sample2D& point) {
   const float environment_share = environment_share_of(tables);
   DrawnLight light;
   light.is_sky = choice.y < FloatN(environment_share);
   light.ray.origin = offset_ray_origin(surface);
   light.ray.near = FloatN(0);
   if (environment_share < 1) {
-    draw_from_surfaces(tables, surface, normal, choice.x, point, light);
+    draw_from_surfaces(tables, surface, normal, time, choice.x, point, light);
     light.pdf = light.pdf * FloatN(1 - environment_share);
   }
   if (environment_share > 0) {
@@ -109,7 +110,7 @@ inline DrawnLight draw_light(const SceneTables& tables, const SurfaceInteraction
 inline DrawnLight draw_light(const SceneTables& tables, const PathVertex& vertex, const Sample2D& choice,
                              const Sample2D& point) {
   const SurfaceInteraction<FloatN>& surface = vertex.surface;
-  DrawnLight light = draw_light(tables, surface, vertex.side(), choice, point);
+  DrawnLight light = draw_light(tables, surface, vertex.side(), vertex.hits.time, choice, point);
   light.local_wi = vertex.frame.to_local(light.wi);
   MaskN faces = (light.local_wi.z > FloatN(0)) & (dot(light.wi, surface.true_normal()) > FloatN(0));
   if (any(vertex.both_sides)) {

@@ -78,7 +78,7 @@ void add_emitters(CatcherPoint& point, const Hits& hits, LightChoice& choice) {
   for (std::uint32_t i = 0; i < count; ++i) {
     DrawnLight light;
     light.ray = point.ray;
-    draw_from_surfaces(tables, point.surface, point.surface.ns, point.draw(CatcherDraw::emitter, i, count).x,
+    draw_from_surfaces(tables, point.surface, point.surface.ns, hits.time, point.draw(CatcherDraw::emitter, i, count).x,
                        point.draw(CatcherDraw::emitter_point, i, count), light);
     light.surface.wo = -light.wi;
     const FloatN cosine = point.cosine(light.wi);
