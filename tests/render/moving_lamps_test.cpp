@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -63,9 +64,11 @@ Apart apart_from_moments(const LampRoom& room, int samples) {
   Blocks open{}, still{};
   add_blocks_of(rendered(parsed_scene(room.text(samples, open_shutter)), 2), 1, open);
   constexpr int moments = 32;
-  for (int i = 0; i < moments; ++i)
-    add_blocks_of(rendered(at_moment(room.text(std::max(samples / moments, 1)), -0.5 + (i + 0.5) / moments), 2),
-                  1.0 / moments, still);
+  for (int i = 0; i < moments; ++i) {
+    const auto seed = static_cast<std::uint64_t>(i) + 1;
+    const SceneDescription then = at_moment(room.text(std::max(samples / moments, 1)), -0.5 + (i + 0.5) / moments);
+    add_blocks_of(rendered(then, 2, {}, seed), 1.0 / moments, still);
+  }
   double sum_open = 0, sum_still = 0, worst = 0;
   for (std::size_t i = 0; i < still.size(); ++i) {
     sum_open += open[i];
@@ -76,7 +79,9 @@ Apart apart_from_moments(const LampRoom& room, int samples) {
 }
 
 const std::string slides = keys("translate", "x='-1' y='0' z='0'", "x='1' y='0.5' z='0.4'");
-const std::string turns = keys("rotate", "x='0.3' y='0.2' z='1' angle='-100'", "x='0.3' y='0.2' z='1' angle='140'");
+const std::string turns = keys("rotate", "x='0.3' y='0.2' z='1' angle='-50'", "x='0.3' y='0.2' z='1' angle='70'");
+/// Out of the camera's view: a bright edge would need more moments.
+const std::string above = "<translate x='0' y='2.4' z='0.3'/>";
 std::string under(const std::string& transform) { return "<transform>" + transform + "</transform>"; }
 
 /// A panel, a ball, a disk, a box and a quad in a group.
@@ -93,21 +98,22 @@ std::string lamps_under(const std::string& transform) {
 }
 
 const LampRoom moving_lamps[] = {
-    {"<spheres><sphere>" + keys("center", "x='-1' y='0' z='0'", "x='1' y='0.4' z='0.3'") +
+    {"<spheres><sphere>" + keys("center", "x='-1' y='1.8' z='0.2'", "x='1' y='2.2' z='0.5'") +
      "<radius>0.2</radius>M</sphere></spheres>"},
-    {"<boxes><box><min x='-0.3' y='-0.1' z='-0.1'/><max x='0.3' y='0.1' z='0.2'/>M" + under(turns) + "</box></boxes>"},
+    {"<boxes><box><min x='-0.3' y='-0.1' z='-0.1'/><max x='0.3' y='0.1' z='0.2'/>M" + under(turns + above) +
+     "</box></boxes>"},
     {"<rectangles><rectangle><corner x='-0.3' y='0' z='-0.2'/><edge1 x='0.6' y='0' z='0'/><edge2 x='0' y='0' "
      "z='0.4'/>M" +
-     under(turns + slides) + "</rectangle></rectangles>"},
-    {lamps_under("<scale x='1.4' y='1.4' z='1.4'/>" + slides), group_of_lamps},
-    {lamps_under("<scale x='-1.3' y='0.6' z='1'/>" + turns + slides), group_of_lamps},
-    {lamps_under(keys("scale", "x='0.4' y='0.6' z='1'", "x='1.6' y='1.2' z='0.5'") + turns), group_of_lamps},
+     under(turns + slides + above) + "</rectangle></rectangles>"},
+    {lamps_under("<scale x='1.4' y='1.4' z='1.4'/>" + slides + above), group_of_lamps},
+    {lamps_under("<scale x='-1.3' y='0.6' z='1'/>" + turns + slides + above), group_of_lamps},
+    {lamps_under(keys("scale", "x='0.4' y='0.6' z='1'", "x='1.6' y='1.2' z='0.5'") + turns + above), group_of_lamps},
 };
 
 }  // namespace
 
 TEST_CASE("a lamp that moves is as bright as at its moments on the mean") {
-  const int samples = is_sanitized ? 64 : 2048;
+  const int samples = is_sanitized ? 64 : 1024;
   for (std::size_t i = 0; i < std::size(moving_lamps); ++i) {
     const Apart apart = apart_from_moments(moving_lamps[i], samples);
     INFO("lamp " << i << ": " << apart.mean << ", at worst " << apart.worst);
@@ -137,11 +143,11 @@ TEST_CASE("all shapes that move are as bright where they are drawn as where they
   room.lamp = "<opacity>0.9999999</opacity>";
   const double met = mean_green(rendered(parsed_scene(room.text(is_sanitized ? 64 : 4096, open_shutter)), 2));
   INFO(drawn << ", by chance " << met);
-  CHECK(std::abs(drawn / met - 1) < (is_sanitized ? 0.1 : 0.01));
+  CHECK(std::abs(drawn / met - 1) < (is_sanitized ? 0.1 : 0.02));
 }
 
 TEST_CASE("a lamp with a texture that moves is as bright as at its moments on the mean") {
-  LampRoom room{lamps_under("<scale x='-1.3' y='0.8' z='1'/>" + turns + slides), group_of_lamps};
+  LampRoom room{lamps_under("<scale x='-1.3' y='0.8' z='1'/>" + turns + slides + above), group_of_lamps};
   const std::string uvs = "</faces><uvs>0 0  1 0  1 1  0 1</uvs>";
   room.groups.replace(room.groups.find("</faces>"), 8, uvs);
   room.textures =
@@ -155,11 +161,14 @@ TEST_CASE("a lamp with a texture that moves is as bright as at its moments on th
     return text;
   };
   REQUIRE(!parsed_scene(textured(1, open_shutter)).groups.empty());
-  const int samples = is_sanitized ? 32 : 1024, moments = 32;
+  const int samples = is_sanitized ? 32 : 512, moments = 32;
   const double open = mean_green(rendered(parsed_scene(textured(samples, open_shutter)), 2));
   double still = 0;
-  for (int i = 0; i < moments; ++i)
-    still += mean_green(rendered(at_moment(textured(samples / moments, ""), -0.5 + (i + 0.5) / moments), 2)) / moments;
+  for (int i = 0; i < moments; ++i) {
+    const auto seed = static_cast<std::uint64_t>(i) + 1;
+    const SceneDescription then = at_moment(textured(samples / moments, ""), -0.5 + (i + 0.5) / moments);
+    still += mean_green(rendered(then, 2, {}, seed)) / moments;
+  }
   INFO(open << ", at its moments " << still);
   CHECK(std::abs(open / still - 1) < (is_sanitized ? 0.1 : 0.01));
 }
@@ -186,33 +195,36 @@ TEST_CASE("light paths and photons start at lamps where they are at their time")
     LampRoom room{
         "<spheres><sphere><center x='0' y='-0.3' z='0.3'/><radius>0.4</radius><material>glass</material></sphere>"
         "</spheres>" +
-            lamps_under("<translate x='0' y='1.4' z='0'/><scale x='0.8' y='0.8' z='0.8'/>" + slides),
+            lamps_under("<scale x='0.8' y='0.8' z='0.8'/>" + slides + above),
         group_of_lamps};
     room.materials = "<dielectrics><dielectric><name>glass</name><ior>1.5</ior></dielectric></dielectrics>";
     room.path = "<caustics>" + way + "</caustics>";
     room.maxdepth = 5;
-    const Apart apart = apart_from_moments(room, is_sanitized ? 32 : 1024);
+    const Apart apart = apart_from_moments(room, is_sanitized ? 32 : 512);
     INFO(way << ": " << apart.mean << ", at worst " << apart.worst);
     CHECK(std::abs(apart.mean) < (is_sanitized ? 0.1 : 0.01));
     CHECK(apart.worst < (is_sanitized ? 0.3 : 0.04));
   }
 }
 
-TEST_CASE("a lamp inside of glass that moves with it is as bright by light paths as at its moments") {
-  LampRoom room{lamps_under("<translate x='0' y='0.4' z='0'/>" + slides),
-                "<group><name>lamps</name><objects><spheres><sphere><center x='0' y='0' z='0'/><radius>0.1</radius>M"
-                "</sphere><sphere><center x='0' y='0' z='0'/><radius>0.3</radius><material>glass</material></sphere>"
+TEST_CASE("light paths know the glass around a lamp that moves with it") {
+  // By what the glass takes of the light, which is less or more where paths do not know that they are in it.
+  LampRoom room{lamps_under(slides + above),
+                "<group><name>lamps</name><objects><spheres><sphere><center x='0' y='0' z='0'/><radius>0.2</radius>M"
+                "</sphere><sphere><center x='0' y='0' z='0'/><radius>0.4</radius><material>glass</material></sphere>"
                 "</spheres></objects></group>"};
-  room.materials = "<dielectrics><dielectric><name>glass</name><ior>1.5</ior></dielectric></dielectrics>";
+  room.materials =
+      "<dielectrics><dielectric><name>glass</name><ior>1.2</ior><attenuationcolor red='0.4' green='0.4' blue='0.4'/>"
+      "<attenuationdistance>0.2</attenuationdistance></dielectric></dielectrics>";
   room.path = "<caustics>light</caustics>";
-  room.maxdepth = 5;
+  room.maxdepth = 3;
   const Apart apart = apart_from_moments(room, is_sanitized ? 32 : 1024);
   INFO(apart.mean << ", at worst " << apart.worst);
-  CHECK(std::abs(apart.mean) < (is_sanitized ? 0.1 : 0.01));
+  CHECK(std::abs(apart.mean) < (is_sanitized ? 0.2 : 0.05));
 }
 
 TEST_CASE("fog gets the light of lamps that move") {
-  LampRoom room{lamps_under("<scale x='0.7' y='0.7' z='0.7'/>" + turns + slides) +
+  LampRoom room{lamps_under("<scale x='0.7' y='0.7' z='0.7'/>" + turns + slides + above) +
                     "<boxes><box><min x='-6' y='-1' z='-1.5'/><max x='6' y='6' z='6'/><material>haze</material></box>"
                     "</boxes>",
                 group_of_lamps};
@@ -226,10 +238,13 @@ TEST_CASE("fog gets the light of lamps that move") {
 TEST_CASE("the bits of light from what moves do not depend on how the work is cut") {
   LampRoom room{moving_lamps[4].objects + moving_lamps[0].objects +
                     "<disks><disk><center x='1' y='1.5' z='0'/><normal x='0' y='-1' z='0'/><radius>0.3</radius>M</disk>"
-                    "</disks>",
+                    "</disks><spheres><sphere><center x='0' y='-0.3' z='0.3'/><radius>0.4</radius>"
+                    "<material>glass</material></sphere></spheres>",
                 group_of_lamps};
+  room.materials = "<dielectrics><dielectric><name>glass</name><ior>1.5</ior></dielectric></dielectrics>";
+  room.path = GENERATE(std::string(), std::string("<caustics>light</caustics>"));
   room.maxdepth = 3;
-  check_same_bits(parsed_scene(room.text(4, open_shutter)));
+  check_same_bits(parsed_scene(room.text(8, open_shutter)));
 }
 
 }  // namespace raytrace::test
