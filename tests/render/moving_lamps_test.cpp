@@ -207,20 +207,23 @@ TEST_CASE("light paths and photons start at lamps where they are at their time")
   }
 }
 
-TEST_CASE("light paths know the glass around a lamp that moves with it") {
-  // By what the glass takes of the light, which is less or more where paths do not know that they are in it.
-  LampRoom room{lamps_under(slides + above),
-                "<group><name>lamps</name><objects><spheres><sphere><center x='0' y='0' z='0'/><radius>0.2</radius>M"
-                "</sphere><sphere><center x='0' y='0' z='0'/><radius>0.4</radius><material>glass</material></sphere>"
-                "</spheres></objects></group>"};
+TEST_CASE("light paths know what their lamp is in at their time") {
+  // A lamp in clear glass, which is in dark glass when the shutter opens. That slides away.
+  const std::string ball = "<sphere><center x='0' y='0' z='0'/><radius>";
+  LampRoom room{lamps_under(keys("translate", "x='0' y='0' z='0'", "x='0.2' y='0' z='0'") + above) + "<spheres>" +
+                    ball + "0.5</radius><material>dark</material>" +
+                    under(keys("translate", "x='-1' y='0' z='0'", "x='3' y='0' z='0'") + above) + "</sphere></spheres>",
+                "<group><name>lamps</name><objects><spheres>" + ball + "0.2</radius>M</sphere>" + ball +
+                    "0.3</radius><material>clear</material></sphere></spheres></objects></group>"};
   room.materials =
-      "<dielectrics><dielectric><name>glass</name><ior>1.2</ior><attenuationcolor red='0.4' green='0.4' blue='0.4'/>"
-      "<attenuationdistance>0.2</attenuationdistance></dielectric></dielectrics>";
+      "<dielectrics><dielectric><name>clear</name><ior>1.2</ior></dielectric><dielectric><name>dark</name>"
+      "<ior>1.2</ior><attenuationcolor red='0.1' green='0.1' blue='0.1'/><attenuationdistance>0.1</attenuationdistance>"
+      "</dielectric></dielectrics>";
   room.path = "<caustics>light</caustics>";
-  room.maxdepth = 3;
+  room.maxdepth = 5;
   const Apart apart = apart_from_moments(room, is_sanitized ? 32 : 1024);
   INFO(apart.mean << ", at worst " << apart.worst);
-  CHECK(std::abs(apart.mean) < (is_sanitized ? 0.2 : 0.05));
+  CHECK(std::abs(apart.mean) < (is_sanitized ? 0.3 : 0.05));
 }
 
 TEST_CASE("fog gets the light of lamps that move") {
