@@ -81,7 +81,7 @@ Apart apart_from_moments(const LampRoom& room, int samples) {
 const std::string slides = keys("translate", "x='-1' y='0' z='0'", "x='1' y='0.5' z='0.4'");
 const std::string turns = keys("rotate", "x='0.3' y='0.2' z='1' angle='-50'", "x='0.3' y='0.2' z='1' angle='70'");
 /// Out of the camera's view: a bright edge would need more moments.
-const std::string above = "<translate x='0' y='2.4' z='0.3'/>";
+const std::string out_of_view = "<translate x='0' y='2.4' z='0.3'/>";
 std::string under(const std::string& transform) { return "<transform>" + transform + "</transform>"; }
 
 /// A panel, a ball, a disk, a box and a quad in a group.
@@ -100,14 +100,15 @@ std::string lamps_under(const std::string& transform) {
 const LampRoom moving_lamps[] = {
     {"<spheres><sphere>" + keys("center", "x='-1' y='1.8' z='0.2'", "x='1' y='2.2' z='0.5'") +
      "<radius>0.2</radius>M</sphere></spheres>"},
-    {"<boxes><box><min x='-0.3' y='-0.1' z='-0.1'/><max x='0.3' y='0.1' z='0.2'/>M" + under(turns + above) +
+    {"<boxes><box><min x='-0.3' y='-0.1' z='-0.1'/><max x='0.3' y='0.1' z='0.2'/>M" + under(turns + out_of_view) +
      "</box></boxes>"},
     {"<rectangles><rectangle><corner x='-0.3' y='0' z='-0.2'/><edge1 x='0.6' y='0' z='0'/><edge2 x='0' y='0' "
      "z='0.4'/>M" +
-     under(turns + slides + above) + "</rectangle></rectangles>"},
-    {lamps_under("<scale x='1.4' y='1.4' z='1.4'/>" + slides + above), group_of_lamps},
-    {lamps_under("<scale x='-1.3' y='0.6' z='1'/>" + turns + slides + above), group_of_lamps},
-    {lamps_under(keys("scale", "x='0.4' y='0.6' z='1'", "x='1.6' y='1.2' z='0.5'") + turns + above), group_of_lamps},
+     under(turns + slides + out_of_view) + "</rectangle></rectangles>"},
+    {lamps_under("<scale x='1.4' y='1.4' z='1.4'/>" + slides + out_of_view), group_of_lamps},
+    {lamps_under("<scale x='-1.3' y='0.6' z='1'/>" + turns + slides + out_of_view), group_of_lamps},
+    {lamps_under(keys("scale", "x='0.4' y='0.6' z='1'", "x='1.6' y='1.2' z='0.5'") + turns + out_of_view),
+     group_of_lamps},
 };
 
 }  // namespace
@@ -147,7 +148,7 @@ TEST_CASE("all shapes that move are as bright where they are drawn as where they
 }
 
 TEST_CASE("a lamp with a texture that moves is as bright as at its moments on the mean") {
-  LampRoom room{lamps_under("<scale x='-1.3' y='0.8' z='1'/>" + turns + slides + above), group_of_lamps};
+  LampRoom room{lamps_under("<scale x='-1.3' y='0.8' z='1'/>" + turns + slides + out_of_view), group_of_lamps};
   const std::string uvs = "</faces><uvs>0 0  1 0  1 1  0 1</uvs>";
   room.groups.replace(room.groups.find("</faces>"), 8, uvs);
   room.textures =
@@ -195,7 +196,7 @@ TEST_CASE("light paths and photons start at lamps where they are at their time")
     LampRoom room{
         "<spheres><sphere><center x='0' y='-0.3' z='0.3'/><radius>0.4</radius><material>glass</material></sphere>"
         "</spheres>" +
-            lamps_under("<scale x='0.8' y='0.8' z='0.8'/>" + slides + above),
+            lamps_under("<scale x='0.8' y='0.8' z='0.8'/>" + slides + out_of_view),
         group_of_lamps};
     room.materials = "<dielectrics><dielectric><name>glass</name><ior>1.5</ior></dielectric></dielectrics>";
     room.path = "<caustics>" + way + "</caustics>";
@@ -210,9 +211,10 @@ TEST_CASE("light paths and photons start at lamps where they are at their time")
 TEST_CASE("light paths know what their lamp is in at their time") {
   // A lamp in clear glass, which is in dark glass when the shutter opens. That slides away.
   const std::string ball = "<sphere><center x='0' y='0' z='0'/><radius>";
-  LampRoom room{lamps_under(keys("translate", "x='0' y='0' z='0'", "x='0.2' y='0' z='0'") + above) + "<spheres>" +
+  LampRoom room{lamps_under(keys("translate", "x='0' y='0' z='0'", "x='0.2' y='0' z='0'") + out_of_view) + "<spheres>" +
                     ball + "0.5</radius><material>dark</material>" +
-                    under(keys("translate", "x='-1' y='0' z='0'", "x='3' y='0' z='0'") + above) + "</sphere></spheres>",
+                    under(keys("translate", "x='-1' y='0' z='0'", "x='3' y='0' z='0'") + out_of_view) +
+                    "</sphere></spheres>",
                 "<group><name>lamps</name><objects><spheres>" + ball + "0.2</radius>M</sphere>" + ball +
                     "0.3</radius><material>clear</material></sphere></spheres></objects></group>"};
   room.materials =
@@ -227,7 +229,7 @@ TEST_CASE("light paths know what their lamp is in at their time") {
 }
 
 TEST_CASE("fog gets the light of lamps that move") {
-  LampRoom room{lamps_under("<scale x='0.7' y='0.7' z='0.7'/>" + turns + slides + above) +
+  LampRoom room{lamps_under("<scale x='0.7' y='0.7' z='0.7'/>" + turns + slides + out_of_view) +
                     "<boxes><box><min x='-6' y='-1' z='-1.5'/><max x='6' y='6' z='6'/><material>haze</material></box>"
                     "</boxes>",
                 group_of_lamps};

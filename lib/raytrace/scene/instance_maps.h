@@ -51,7 +51,10 @@ struct InstanceMaps {
 
 /// number: 0 where they are none. Those get what the first instance has. time: as of InstanceTable::maps().
 inline InstanceMaps maps_of(const InstanceTable& instances, const UintN& number, const FloatN& time) {
-  return {instances.world_from_object(number, time), instances.object_from_world(number, time)};
+  if (instances.moving().empty())
+    return {instances.world_from_object(number, time), instances.object_from_world(number, time)};
+  const auto [world_from_object, object_from_world] = instances.moving_maps(number, time);
+  return {world_from_object, object_from_world};
 }
 
 }  // namespace raytrace

@@ -57,13 +57,17 @@ std::span<const Affine> InstanceTable::moments(std::size_t i) const {
   return std::span(moments_).subspan(static_cast<std::size_t>(first_moments_[i]), std::size_t{shutter_moments});
 }
 
-AffineRecord<FloatN> InstanceTable::moving_map(const UintN& number, const FloatN& time,
-                                               AffineRecord<float> Maps::* map) const {
-  std::array<AffineRecord<float>, packet_lanes> of_lanes;
+InstanceTable::LaneMaps InstanceTable::moving_maps(const UintN& number, const FloatN& time) const {
+  std::array<AffineRecord<float>, packet_lanes> world_from_object, object_from_world;
   const IntN indices = index(number);
-  for (std::size_t lane = 0; lane < packet_lanes; ++lane)
-    of_lanes[lane] = maps(static_cast<std::size_t>(indices.get(lane)), time.get(lane)).*map;
-  return gather_records<AffineRecord, FloatN>(of_lanes.data(), LaneIndices(lane_numbers<IntN>()));
+  for (std::size_t lane = 0; lane < packet_lanes; ++lane) {
+    const Maps of_lane = maps(static_cast<std::size_t>(indices.get(lane)), time.get(lane));
+    world_from_object[lane] = of_lane.world_from_object;
+    object_from_world[lane] = of_lane.object_from_world;
+  }
+  const LaneIndices lanes(lane_numbers<IntN>());
+  return {gather_records<AffineRecord, FloatN>(world_from_object.data(), lanes),
+          gather_records<AffineRecord, FloatN>(object_from_world.data(), lanes)};
 }
 
 Bounds transformed_bounds(const Affine& affine, const Bounds& box) {

@@ -104,7 +104,7 @@ class InstanceTable {
   IntN material(const UintN& number) const { return gather(materials_.data(), index(number)); }
   AffineRecord<FloatN> object_from_world(const UintN& number, const FloatN& time) const {
     if (!moving_.empty()) [[unlikely]]
-      return moving_map(number, time, &Maps::object_from_world);
+      return moving_maps(number, time).object_from_world;
     return gather_records<AffineRecord, FloatN>(object_from_world_.data(), LaneIndices(index(number)));
   }
   /// Whether any has a place in a file, and where that is; of the others, that map leaves all as it is.
@@ -114,17 +114,20 @@ class InstanceTable {
   }
   AffineRecord<FloatN> world_from_object(const UintN& number, const FloatN& time) const {
     if (!moving_.empty()) [[unlikely]]
-      return moving_map(number, time, &Maps::world_from_object);
+      return moving_maps(number, time).world_from_object;
     return gather_records<AffineRecord, FloatN>(world_from_object_.data(), LaneIndices(index(number)));
   }
+  /// Both, where some move.
+  struct LaneMaps {
+    AffineRecord<FloatN> world_from_object, object_from_world;
+  };
+  LaneMaps moving_maps(const UintN& number, const FloatN& time) const;
 
  private:
   static IntN index(const UintN& number) {
     return same_bits<IntN>(number & UintN(~shape_of_world)) -
            select_lanes(float_mask<FloatN>(number == UintN(0u)), IntN(0), IntN(1));
   }
-
-  AffineRecord<FloatN> moving_map(const UintN& number, const FloatN& time, AffineRecord<float> Maps::* map) const;
 
   std::vector<InstanceTarget> targets_;
   std::vector<AffineRecord<float>> object_from_world_, world_from_object_;
