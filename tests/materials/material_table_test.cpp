@@ -101,10 +101,11 @@ void check_table(const std::vector<typename Material::Parameters>& parameters, d
   double worst = 0;
   for (int i = 0; i < 5000; ++i) {
     const Packet packet = random_packet(random, i % 4 == 0);
-    const Rgb<FloatN> shaded = table.shade(batch_of<IntN>([&](std::size_t lane) { return packet.material[lane]; }),
-                                           MaskN(true), vectors_of([&](std::size_t lane) { return packet.wo[lane]; }),
-                                           vectors_of([&](std::size_t lane) { return packet.normal[lane]; }), nullptr,
-                                           Rgb<float>(ambient), packet.incident, nullptr, nullptr);
+    const Rgb<FloatN> shaded =
+        table.shade(batch_of<IntN>([&](std::size_t lane) { return packet.material[lane]; }), MaskN(true), {},
+                    vectors_of([&](std::size_t lane) { return packet.wo[lane]; }),
+                    vectors_of([&](std::size_t lane) { return packet.normal[lane]; }), nullptr, Rgb<float>(ambient),
+                    packet.incident, nullptr, nullptr);
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       const Rgb<double> wanted =
           formula(parameters[packet.material[lane]], packet.wo[lane], packet.normal[lane], packet.lights[lane]);
@@ -137,7 +138,7 @@ TEST_CASE("each lane of a packet has the radiance of its own phong") {
 TEST_CASE("without lights, materials reflect the ambient light alone") {
   const MaterialTableOf<Phong> table({Kernel<Phong>::bsdf({0.5, 1, 1, {0.2, 0.4, 0.6}, {1, 1, 1}, 20})});
   const Vec3<FloatN> up = spread({0, 0, 1});
-  const Rgb<FloatN> shaded = table.shade(IntN(0), MaskN(true), up, up, nullptr, {1, 1, 2}, {}, nullptr, nullptr);
+  const Rgb<FloatN> shaded = table.shade(IntN(0), MaskN(true), {}, up, up, nullptr, {1, 1, 2}, {}, nullptr, nullptr);
   CHECK(all(shaded.red == FloatN(0.1f)));
   CHECK(all(shaded.green == FloatN(0.2f)));
   CHECK(static_cast<double>(shaded.blue.get(0)) == Approx(0.6).epsilon(1e-6));

@@ -20,6 +20,9 @@ class Kernel<Dielectric> {
     Rgb<T> reflected, transmitted;  ///< what these are multiplied by
     Rgb<T> extinction;              ///< inside, for a unit of length
 
+    /// evaluate() is in the local frame, as all others are.
+    static constexpr bool in_local_frame = true;
+
     template <class Front>
     void set_side(const Front& front, const Refraction<T>& media) {
       const T inside = media.inside(eta);
@@ -28,14 +31,7 @@ class Kernel<Dielectric> {
 
     Rgb<T> ambient_radiance(const Rgb<T>&) const { return black(); }
     Rgb<T> albedo() const { return reflected; }
-    Rgb<T> evaluate(const Vec3<T>& wo, const Vec3<T>& wi, const Vec3<T>& normal) const {
-      const Mask<T> rough = ggx().is_rough();
-      if (none(rough)) return black();
-      const Vec3<T> from = above_surface(wo, normal);
-      const auto reflection = ggx().reflection(from, wi, normal);
-      const T f = fresnel(reflection.cosine).reflectance * reflection.f / share(dot(from, normal));
-      return select(rough, reflected * f, black());
-    }
+    Rgb<T> evaluate(const Vec3<T>& wo, const Vec3<T>& wi, const Vec3<T>&) const { return value(lobes(wo), wi).f; }
     T pdf(const Vec3<T>& wo, const Vec3<T>& wi) const { return value(lobes(wo), wi).pdf; }
 
     /// What all directions of light have in common for one wo, in the local frame.

@@ -17,8 +17,8 @@
 //                                a lobe, u1 and u2 a direction in it
 //   T pdf(const Vec3<T>& wo, const Vec3<T>& wi) const;
 //                                the density at which sample() draws wi, per solid angle, in the local frame
-// evaluate() and pdf() are of reflection alone: both directions are on the normal's side. What comes through a surface
-// is sample()'s, and may be value()'s below. And, if it
+// evaluate() and pdf() are of what is not smooth. wo is on the normal's side; wi may be below the surface: there they
+// are 0, or of what comes through, if the material says by scatters_through() that it knows that. And, if it
 //   shines by itself:
 //     Rgb<T> emitted() const;                    radiance, the same in all directions
 //   has two sides:
@@ -46,8 +46,8 @@
 // Then light paths carry the light that it sends on (integrators/path.h, Caustics): evaluate() must know all that
 // sample() draws and is not `specular`.
 //
-// One whose value() knows what comes through, for wi below the surface, may say so in the same way by
-// scatters_through(). Then light is drawn for it from behind as well.
+// One that lets light through rough facets, and whose evaluate(), pdf() and value() know what comes from behind, may
+// say so in the same way by scatters_through(). Then light is drawn for it from behind as well.
 //
 // One that lets light straight through, as thin panes do, may say so in the same way by is_pane(). Then shadow rays
 // pass it, and its Bsdf has

@@ -12,6 +12,7 @@
 // of surface_detail.h. Not there: the coat's own tangent.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -197,6 +198,22 @@ class OpenPbr {
            own * own + 2 * coat * coat < double{least_alpha} * least_alpha &&
            parameters.specular_roughness_anisotropy == 0 && !is_textured("specular_roughness") &&
            !(parameters.coat_weight > 0 && is_textured("coat_roughness"));
+  }
+  /// As materials/kernels.h has it. Shadow rays know nothing of what textures make of the way inside.
+  static bool scatters_through(const Parameters& parameters, const auto& is_textured) {
+    const bool clear =
+        parameters.transmission_weight > 0 && (parameters.base_metalness < 1 || is_textured("base_metalness"));
+    const bool is_textured_inside = !parameters.geometry_thin_walled && parameters.transmission_depth > 0 &&
+                                    (is_textured("transmission_color") || is_textured("transmission_depth"));
+    return clear && !is_textured_inside && has_facets(parameters);
+  }
+  /// Whether the base is rough, below its coat; with textures, in some places.
+  static bool has_facets(const Parameters& parameters) {
+    const double own = parameters.specular_roughness, coat = parameters.coat_roughness;
+    const double rougher = std::sqrt(std::sqrt(std::min(own * own * own * own + 2 * coat * coat * coat * coat, 1.0)));
+    const double root = own + (rougher - own) * parameters.coat_weight;
+    const double across = 1 - parameters.specular_roughness_anisotropy;
+    return root * root * std::sqrt(2 / (1 + across * across)) >= double{least_alpha};
   }
   /// Whether light may come through it, bent.
   static bool refracts(const Parameters& parameters) { return parameters.transmission_weight > 0; }

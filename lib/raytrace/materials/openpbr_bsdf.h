@@ -112,15 +112,28 @@ struct OpenPbrBsdf {
     Rgb<T> f;
     T pdf;  ///< at which sample() draws wi
   };
-  /// Of what is not smooth; wi: above the surface, else it is 0.
+  /// Of what is not smooth: what it reflects for wi above the surface, what comes through the base for wi below it.
   Value value(const Lobes& layers, const Vec3<T>& wi) const {
+    Value result = reflected(layers, wi);
+    const Mask<T> below = wi.z < T(-1e-6F);
+    if (none(below)) [[likely]]
+      return result;
+    if (const Mask<T> through = below & lets_through() & ggx().is_rough(); any(through)) {
+      const Value from_behind = through_facets(layers, wi);
+      result.f = select(through, from_behind.f, result.f);
+      result.pdf = select(through, from_behind.pdf, result.pdf);
+    }
+    return result;
+  }
+  /// The first alone: else it is 0.
+  Value reflected(const Lobes& layers, const Vec3<T>& wi) const {
     const LayerFrames<T>* const frames = layers.frames;
-    if (frames == nullptr) return value(layers, wi, wi, wi, wi);
-    return value(layers, wi, frames->diffuse.to_own(wi), frames->base.to_own(wi), frames->coat.to_own(wi));
+    if (frames == nullptr) return reflected(layers, wi, wi, wi, wi);
+    return reflected(layers, wi, frames->diffuse.to_own(wi), frames->base.to_own(wi), frames->coat.to_own(wi));
   }
   /// diffuse_wi, base_wi, coat_wi: wi to them.
-  [[gnu::noinline]] Value value(const Lobes& layers, const Vec3<T>& wi, const Vec3<T>& diffuse_wi,
-                                const Vec3<T>& base_wi, const Vec3<T>& coat_wi) const {
+  [[gnu::noinline]] Value reflected(const Lobes& layers, const Vec3<T>& wi, const Vec3<T>& diffuse_wi,
+                                    const Vec3<T>& base_wi, const Vec3<T>& coat_wi) const {
     const LayerFrames<T>* const frames = layers.frames;
     const Mask<T> is_above = wi.z > T(1e-6F);
     const T even = T(1) - layers.fuzz_choice - layers.coat_choice - layers.facet_choice - layers.inside_choice;
@@ -157,7 +170,7 @@ struct OpenPbrBsdf {
     return {select(is_above, result.f, black()), select(is_above, result.pdf, T(0))};
   }
 
-  /// What of value()'s f is of facets that mirror nearly as smooth ones do. wi: likewise.
+  /// What of reflected()'s f is of facets that mirror nearly as smooth ones do. wi: likewise.
   Rgb<T> gloss(const Lobes& layers, const Vec3<T>& wi) const;
 
   Rgb<T> evaluate(const Vec3<T>& wo, const Vec3<T>& wi, const Vec3<T>&) const { return value(lobes(wo), wi).f; }
@@ -208,7 +221,7 @@ struct OpenPbrBsdf {
       coat_cosine = frames->coat.to_own(wi).z;
       share = of_layer([&](const LayerFrame<T>& layer) { return layer.share(wi, own); });
     }
-    Value above = value(layers, wi);
+    Value above = reflected(layers, wi);
     // What the layer that drew it does not reflect is nothing to the others either.
     if (frames != nullptr) above = {select(share > T(0), above.f, black()), select(share > T(0), above.pdf, T(0))};
     // Of finitely many directions: as if of their own.
@@ -353,46 +366,24 @@ struct OpenPbrBsdf {
     return result;
   }
 
-  /// A sample that comes through a facet, as through a dielectric's. choice: how often it does, the facet given.
-  [[gnu::noinline]] BsdfSample<T> refracted(const Lobes& layers, const StretchedGgx<T>& ggx, const Vec3<T>& facet,
-                                            const T& cosine, const T& choice) const {
-    const Vec3<T>& from = layers.from;
-    const auto [reflectance, below_cosine] = fresnel_reflection(cosine, eta);
-    const T reflected = select(is_thin(), pane_reflectance(reflectance), reflectance);
-    Vec3<T> flipped = facet * (T(2) * cosine) - from;
-    flipped.z = -flipped.z;
-    const Vec3<T> bent = facet * (cosine / eta - below_cosine) - from * (T(1) / eta);
-    Vec3<T> wi = select(is_thin(), flipped, bent);
-    const T eta2 = select(is_thin(), T(1), square(eta)), cosine_i = max(-wi.z, T(1e-6F));
-    const T lambda_o = ggx.lambda(from), lambda_i = ggx.lambda({wi.x, wi.y, cosine_i});
-    const T across = max(abs(cosine - eta * below_cosine), T(1e-6F));
-    const T spread = select(is_thin(), T(0.25F) / cosine, square(eta) * below_cosine / square(across));
-    const T facets = ggx.density(facet) * cosine / (from.z * (T(1) + lambda_o));
-    const Mask<T> rough = ggx.is_rough();
-    Mask<T> comes = (reflected < T(1)) & (-wi.z > T(1e-6F));
-    const T share = select(is_thin(), layers.white_share, layers.dielectric_share);
-    const T density = select(rough, facets * spread, T(1));
-    const T shape = select(rough, (T(1) + lambda_o) / ((T(1) + lambda_o + lambda_i) * share), T(1));
-    const T part = (T(1) - metalness) * transmission * (T(1) - reflected) * shape * density / (cosine_i * eta2);
-    Rgb<T> parts = white() * part;
-    if (const Mask<T> filmed = film.weight > T(0); any(filmed)) {
-      const Rgb<T> all = select(is_thin() | !rough, white() * share, layers.film_share);
-      const T unit = part * share / max(T(1) - reflected, T(1e-6F));
-      const auto kept = [&](const T& r) { return (T(1) - select(is_thin(), pane_reflectance(r), r)) * unit; };
-      const Rgb<T> r = film.on_dielectric(cosine, eta);
-      parts = select(filmed, Rgb<T>{kept(r.red), kept(r.green), kept(r.blue)} / all, parts);
-    }
-    if (layers.frames != nullptr) [[unlikely]] {
-      const Vec3<T> own = wi;
-      wi = layers.frames->base.from_own(own);
-      parts = parts * layers.frames->base.share_from_below(wi, own);
-      comes = comes & (wi.z < T(-1e-6F));
-    }
-    return {wi, select(comes, under_coat(layers, cosine_i) * tint * parts, black()),
-            select(comes, choice * density, T(0)), eta2, !rough};
-  }
+  /// Through a facet of the base.
+  struct Passage {
+    Vec3<T> facet;
+    T cosine;                      ///< of its angle with wo
+    FresnelReflection<T> fresnel;  ///< of one boundary at it
+    Vec3<T> own_wi;                ///< below the surface, in the base's frame
+    T choice;                      ///< how often sample() lets light of that facet through
+  };
+  /// What comes through a facet into that direction, as through a dielectric's.
+  BsdfSample<T> through_facet(const Lobes& layers, const StretchedGgx<T>& ggx, const Passage& way) const;
+  /// A sample that comes through a facet. choice: as Passage has it.
+  BsdfSample<T> refracted(const Lobes& layers, const StretchedGgx<T>& ggx, const Vec3<T>& facet, const T& cosine,
+                          const T& choice) const;
+  /// What comes through rough facets from wi below the surface.
+  Value through_facets(const Lobes& layers, const Vec3<T>& wi) const;
 };
 
 }  // namespace raytrace
 
 #include "raytrace/materials/openpbr_lobes.h"
+#include "raytrace/materials/openpbr_through.h"

@@ -76,7 +76,7 @@ class MaterialTable {
   virtual Rgb<FloatN> emitted(const LaneIndices& materials, const TexturePoint<FloatN>* point) const = 0;
 
   /// A direction that light comes from, drawn by each lane's material out of u, u1 and u2 in [0, 1), and what leaves
-  /// of light from wi, which is on the surface's side, in the lanes of `lit`. wo, wi, layers: in the local frame.
+  /// of light from wi, in the lanes of `lit`. wo, wi, layers: in the local frame.
   virtual Scattering scatter(const LaneIndices& materials, const MaskN& front, const Refraction<FloatN>& media,
                              const Vec3<FloatN>& wo, const MaskN& lit, const Vec3<FloatN>& wi, const FloatN& u,
                              const FloatN& u1, const FloatN& u2, const LayerNormals<FloatN>* layers,
@@ -100,10 +100,10 @@ class MaterialTable {
 
   /// The radiance that leaves along wo, of unit length. materials: of each lane, for every lane one that exists. frame:
   /// about the normal; null where no material's reflection differs along the surface.
-  virtual Rgb<FloatN> shade(const LaneIndices& materials, const MaskN& front, const Vec3<FloatN>& wo,
-                            const Vec3<FloatN>& normal, const Frame<FloatN>* frame, const Rgb<float>& ambient_radiance,
-                            std::span<const IncidentLight> lights, const LayerNormals<FloatN>* layers,
-                            const TexturePoint<FloatN>* point) const = 0;
+  virtual Rgb<FloatN> shade(const LaneIndices& materials, const MaskN& front, const Refraction<FloatN>& media,
+                            const Vec3<FloatN>& wo, const Vec3<FloatN>& normal, const Frame<FloatN>* frame,
+                            const Rgb<float>& ambient_radiance, std::span<const IncidentLight> lights,
+                            const LayerNormals<FloatN>* layers, const TexturePoint<FloatN>* point) const = 0;
 };
 
 /// A material with textures.
@@ -126,28 +126,35 @@ class MaterialTableOf final : public MaterialTable {
                            TexturedMaterials textured = {}, const TextureTable* textures = nullptr)
       : bsdfs_(std::move(bsdfs)), textured_(std::move(textured)), textures_(textures) {}
 
-  Rgb<FloatN> shade(const LaneIndices& materials, const MaskN& front, const Vec3<FloatN>& wo,
-                    const Vec3<FloatN>& normal, const Frame<FloatN>* frame, const Rgb<float>& ambient_radiance,
-                    std::span<const IncidentLight> lights, const LayerNormals<FloatN>* layers,
-                    const TexturePoint<FloatN>* point) const override {
-    const auto bsdfs = gathered(materials, front, point);
+  Rgb<FloatN> shade(const LaneIndices& materials, const MaskN& front, const Refraction<FloatN>& media,
+                    const Vec3<FloatN>& wo, const Vec3<FloatN>& normal, const Frame<FloatN>* frame,
+                    const Rgb<float>& ambient_radiance, std::span<const IncidentLight> lights,
+                    const LayerNormals<FloatN>* layers, const TexturePoint<FloatN>* point) const override {
+    const auto bsdfs = gathered(materials, front, point, media);
     Rgb<FloatN> result = bsdfs.ambient_radiance(Rgb<FloatN>(ambient_radiance));
     if constexpr (requires { BsdfN::in_local_frame; }) {
       if (BsdfN::in_local_frame || frame != nullptr) {
         const Frame<FloatN> local = frame != nullptr ? *frame : Frame<FloatN>(normal);
         const Vec3<FloatN> local_wo = local.to_local(wo);
-        if constexpr (has_layers)
-          if (layers != nullptr) [[unlikely]] {
-            const LayerFrames<FloatN> frames(layers->to_local(local), local_wo);
-            const auto lobes = bsdfs.lobes(local_wo, &frames);
+        if (lights.empty()) return result;
+        if constexpr (BsdfN::in_local_frame) {
+          const auto with_lobes = [&](const auto& lobes) {
             for (const IncidentLight& light : lights)
               result += bsdfs.value(lobes, local.to_local(light.wi)).f * (light.radiance * light.cosine);
             return result;
-          }
-        for (const IncidentLight& light : lights)
-          result += bsdfs.evaluate(local_wo, local.to_local(light.wi), local_normal<FloatN>()) *
-                    (light.radiance * light.cosine);
-        return result;
+          };
+          if constexpr (has_layers)
+            if (layers != nullptr) [[unlikely]] {
+              const LayerFrames<FloatN> frames(layers->to_local(local), local_wo);
+              return with_lobes(bsdfs.lobes(local_wo, &frames));
+            }
+          return with_lobes(bsdfs.lobes(local_wo));
+        } else {
+          for (const IncidentLight& light : lights)
+            result += bsdfs.evaluate(local_wo, local.to_local(light.wi), local_normal<FloatN>()) *
+                      (light.radiance * light.cosine);
+          return result;
+        }
       }
     }
     for (const IncidentLight& light : lights)

@@ -106,8 +106,9 @@ void SceneTables::add_scattering_through() {
     scattering_through_ = std::move(scattering);
 }
 
-MaskN SceneTables::scatters_through(const Hits& hits) const {
-  return hits.hit & float_mask<FloatN>(gather(scattering_through_.data(), material(hits)) != IntN(0));
+MaskN SceneTables::scatters_through(const Hits& hits, const SurfaceInteraction<FloatN>& surface) const {
+  const MaskN scatters = hits.hit & float_mask<FloatN>(gather(scattering_through_.data(), material(hits)) != IntN(0));
+  return surface.has_emerging ? scatters & !surface.emerges : scatters;
 }
 
 MaskN SceneTables::is_pane(const IntN& material) const {

@@ -143,9 +143,10 @@ class SceneTables {
   Rgb<FloatN> albedo(const Hits& hits, const TexturePoint<FloatN>* point) const;
 
   /// The radiance that leaves the surface along wo, each lane's by its own material: one call for each material type
-  /// among the lanes.
+  /// among the lanes. media: around it, for what comes from behind.
   Rgb<FloatN> shade(const Hits& hits, const SurfaceInteraction<FloatN>& surface, const Rgb<float>& ambient_radiance,
-                    std::span<const IncidentLight> lights, const TexturePoint<FloatN>* point) const;
+                    std::span<const IncidentLight> lights, const TexturePoint<FloatN>* point,
+                    const Refraction<FloatN>& media = {}) const;
 
   /// Whether some rays pass a surface of the scene, since its material has an opacity or is a pane.
   bool has_cutouts() const { return has_cutouts_; }
@@ -164,7 +165,7 @@ class SceneTables {
   /// Whether some surfaces send on light that is drawn behind them, and which. Not in scenes where shadow rays behind
   /// them would have to know more: of panes, or of light that is scattered inside.
   bool has_scattering_through() const { return !scattering_through_.empty(); }
-  MaskN scatters_through(const Hits& hits) const;
+  MaskN scatters_through(const Hits& hits, const SurfaceInteraction<FloatN>& surface) const;
   /// 1 for materials that are fogs, else 0; empty if no object has one.
   std::vector<std::uint8_t> fogs() const;
   /// Whether it has no surface: rays pass it, but paths know its boundary.

@@ -138,17 +138,17 @@ Rgb<FloatN> SceneTables::straight(const Hits& hits, const Refraction<FloatN>& me
 
 Rgb<FloatN> SceneTables::shade(const Hits& hits, const SurfaceInteraction<FloatN>& surface,
                                const Rgb<float>& ambient_radiance, std::span<const IncidentLight> lights,
-                               const TexturePoint<FloatN>* point) const {
+                               const TexturePoint<FloatN>* point, const Refraction<FloatN>& media) const {
   if (surface.has_emerging) [[unlikely]] {
     const Rgb<FloatN> even = shade_emerging(lights);
     if (none(hits.hit & !surface.emerges)) return even;
     SurfaceInteraction<FloatN> others = surface;
     others.has_emerging = false;
-    return select(surface.emerges, even, shade(hits, others, ambient_radiance, lights, point));
+    return select(surface.emerges, even, shade(hits, others, ambient_radiance, lights, point, media));
   }
   const auto in_frame = [&](const Frame<FloatN>* frame) {
     return by_material(hits, [&](const MaterialTable& table, const LaneIndices& materials) {
-      return table.shade(materials, surface.front, surface.wo, surface.ns, frame, ambient_radiance, lights,
+      return table.shade(materials, surface.front, media, surface.wo, surface.ns, frame, ambient_radiance, lights,
                          surface.has_layers ? &surface.layers : nullptr, point);
     });
   };

@@ -62,26 +62,45 @@ struct ShadowNumbers {
   std::uint32_t number(std::size_t light) const { return before + static_cast<std::uint32_t>(light); }
 };
 
+/// What lights behind a surface need to know of it, which sends their light on in some lanes.
+struct LightsBehind {
+  const MaskN& lanes;
+  const MediumBoundary& boundary;
+};
+
 /// What of the group's lights' radiance leaves the surface along wo, in the lanes that were hit; of its ambient light,
 /// too. clock: if not null, its stages of this end here. media: if not null, what the light comes through. panes:
-/// likewise, where it comes through some. draws: whether lights may be drawn, where there are many.
+/// likewise, where it comes through some. draws: whether lights may be drawn, where there are many. behind: null where
+/// no light of the scene comes through surfaces, scattered.
 RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const SceneTables::LightGroup& group,
                                          const Hits& hits, const SurfaceInteraction<FloatN>& surface,
                                          const TexturePoint<FloatN>* textures, Coherence coherence,
                                          const MaskN& counted, RayCounts& counts, const ShadowNumbers& numbers,
                                          StageClock* clock = nullptr, const PointMedia* media = nullptr,
-                                         const PanesAhead* panes = nullptr, bool draws = false) {
+                                         const PanesAhead* panes = nullptr, bool draws = false,
+                                         const LightsBehind* behind = nullptr) {
   const SceneTables& tables = scene.tables();
   std::array<IncidentLight, lights_per_run> incident;
   std::size_t count = 0;
   Rgb<FloatN> radiance{Rgb<float>(0, 0, 0)};
   Rgb<float> ambient = group.ambient_radiance;
+  Refraction<FloatN> refraction;  // what reflects alone is as if all was in air
+  Vec3<FloatN> side = surface.ns;
+  if (behind != nullptr) [[unlikely]] {
+    const Refraction<FloatN>& media = behind->boundary.media;
+    refraction.outside = select(behind->lanes, media.outside, refraction.outside);
+    refraction.factor = select(behind->lanes, media.factor, refraction.factor);
+    refraction.disperses = media.disperses;
+    side = select(behind->lanes, Vec3<FloatN>(Vec3f(0, 0, 0)), side);
+  }
   const auto end = [&](Stage stage) {
     if (clock != nullptr) clock->end(stage);
   };
   const auto shade_run = [&] {
     end(Stage::lights);
-    radiance += tables.shade(hits, surface, ambient, {incident.data(), count}, textures);
+    const std::span<const IncidentLight> run(incident.data(), count);
+    radiance += behind == nullptr ? tables.shade(hits, surface, ambient, run, textures)
+                                  : tables.shade(hits, surface, ambient, run, textures, refraction);
     ambient = Rgb<float>(0, 0, 0);
     count = 0;
     end(Stage::shade);
@@ -101,11 +120,13 @@ RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const SceneTa
     bool shadows = light.shadows();
     MaskN has_shadow(true);                 // of those that are drawn, each lane's
     IncidentLight& here = incident[count];  // written in its array at once: it is large
+    if (behind != nullptr) [[unlikely]]
+      shadow_rays.origin = offset_ray_origin(surface);
     const bool is_drawn = has_drawn && number >= group.first_drawn;
     if (is_drawn) [[unlikely]] {
       const FloatN u = u_of_drawn + FloatN(static_cast<float>(number - group.first_drawn));
       const FloatN share(1 / static_cast<float>(ManyLights::draws));
-      has_shadow = group.drawn->sample(shadow_rays, surface.ns, u * share, here.radiance);
+      has_shadow = group.drawn->sample(shadow_rays, side, u * share, here.radiance);
       here.radiance = here.radiance * share;
       shadows = true;
     } else if (tables.has_sampled_lights() && light.takes_samples()) [[unlikely]]
@@ -114,6 +135,16 @@ RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const SceneTa
       light.sample(shadow_rays, middle, here.radiance);
     // Of any length: the shadow rays need not wait for a square root and a quotient.
     MaskN lit = hits.hit & (dot(surface.ns, shadow_rays.direction) > FloatN(0));
+    MaskN through(false);
+    if (behind != nullptr) [[unlikely]] {
+      const Vec3<FloatN>& way = shadow_rays.direction;
+      through = behind->lanes & (dot(surface.ns, way) < FloatN(0)) & (dot(surface.ng, way) < FloatN(0));
+      const Vec3<FloatN> origin = offset_ray_origin(surface, through);
+      const MaskN is_near = through & (shadow_rays.far < infinity<FloatN>());
+      shadow_rays.direction = select(is_near, way + (shadow_rays.origin - origin), way);
+      shadow_rays.origin = origin;
+      lit = lit | through;
+    }
     // Where rays look for boundaries as well, those to spotlights from outside of their cones are too many. So are they
     // where nothing was drawn.
     if (media != nullptr || is_drawn) [[unlikely]]
@@ -132,12 +163,20 @@ RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const SceneTa
       end(Stage::trace);
     }
     if (none(lit)) continue;
-    if (media != nullptr) [[unlikely]]
-      here.radiance = here.radiance * light_through(scene, shadow_rays, lit, numbers.ids(number), *media);
+    if (media != nullptr) [[unlikely]] {
+      if (any(through)) {
+        const MediaOfLight there(tables.media(), behind->boundary, media->stack, through, surface.front);
+        here.radiance =
+            here.radiance * light_through(scene, shadow_rays, lit, numbers.ids(number), {there.stack, there.current});
+      } else {
+        here.radiance = here.radiance * light_through(scene, shadow_rays, lit, numbers.ids(number), *media);
+      }
+    }
     here.wi = normalize(shadow_rays.direction);
     here.cosine = select(lit, max(dot(surface.ns, here.wi), FloatN(0)), FloatN(0));
     if (surface.has_relief) [[unlikely]]
       here.cosine = here.cosine * relief_shadow(surface, here.wi);
+    if (any(through)) here.cosine = select(lit & through, abs(dot(surface.ns, here.wi)), here.cosine);
     ++count;
   }
   if (count > 0 || last_light - group.first_light <= lights_per_run) shade_run();

@@ -11,6 +11,21 @@ struct PointMedia {
   const IntN& current;  ///< that of them which counts
 };
 
+/// Of a point on a surface, for light that comes through it in some lanes.
+struct MediaOfLight {
+  MediumStack stack;
+  IntN current;
+
+  /// here: what paths came through to that boundary.
+  MediaOfLight(const MediumTable& table, const MediumBoundary& boundary, const MediumStack& here, const MaskN& through,
+               const MaskN& front)
+      : stack(here), current(boundary.current) {
+    if (table.empty() || none(through)) return;
+    boundary.cross(stack, through, front);
+    current = select_lanes(through, stack.current(table), current);
+  }
+};
+
 /// How much of a ray's length is at its end: more than what rounding makes of two surfaces in one place.
 inline constexpr float end_of_ray = 0x1p-16F;
 

@@ -286,23 +286,24 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   if (tables.media().has_fog()) [[unlikely]]
     ahead.most = ahead.most - path.fog_scatterings;
   const PanesAhead* const panes = tables.has_panes_for_surfaces() && most_panes > 0 ? &ahead : nullptr;
+  // Light is drawn from behind for what sends it on.
+  const MaskN both_sides = tables.has_scattering_through() ? tables.scatters_through(hits, surface) : MaskN(false);
+  const LightsBehind behind{both_sides, boundary};
   Rgb<FloatN> light = black();
   for (std::size_t group = 0; group < groups_; ++group) {
     const SceneTables::LightGroup& lights_of_group = tables.light_groups()[group];
     if (lights_of_group.is_dark()) continue;
     const bool draws = depth > 0 || lights_of_group.last_light - lights_of_group.first_drawn > ManyLights::most_asked;
-    light = direct_light(scene_, lights_of_group, hits, surface, point, coherence, lanes, counts,
-                         ShadowNumbers{path.pixel, path.sample, first_key + 1}, &clock_,
-                         has_media ? &point_media : nullptr, panes, draws);
+    light =
+        direct_light(scene_, lights_of_group, hits, surface, point, coherence, lanes, counts,
+                     ShadowNumbers{path.pixel, path.sample, first_key + 1}, &clock_, has_media ? &point_media : nullptr,
+                     panes, draws, tables.has_scattering_through() ? &behind : nullptr);
     if (any(on_way | on_gloss_way)) light = select(on_way | on_gloss_way, black(), light);
     if (groups_ == 1) break;  // which is added with the light that is drawn
     add_scattered(path, lanes, path.throughput * light, IntN(static_cast<std::int32_t>(group)), depth + 1);
     light = black();
   }
-  const PathVertex vertex{
-      hits,          surface,
-      point,         tables.shading_frame(hits, surface, point),
-      path.distance, tables.has_scattering_through() ? tables.scatters_through(hits) : MaskN(false)};
+  const PathVertex vertex{hits, surface, point, tables.shading_frame(hits, surface, point), path.distance, both_sides};
   const Vec3<FloatN> wo = vertex.frame.to_local(surface.wo);
   const bool draws_light = tables.environment() != nullptr || !tables.emitters().empty();
   DrawnLight drawn =
@@ -321,13 +322,8 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   if (any(drawn.lit)) {
     // Rays to one light are neighbours as the camera's are, those to many are not.
     const Coherence to_lights = has_one_light_ ? coherence : Coherence::incoherent;
-    MediumStack media_there = media;
-    IntN medium_there = boundary.current;
-    if (has_media && any(drawn.through)) {
-      boundary.cross(media_there, drawn.through, surface.front);
-      medium_there = select_lanes(drawn.through, media_there.current(tables.media()), medium_there);
-    }
-    const PointMedia media_of_light{media_there, medium_there};
+    const MediaOfLight there(tables.media(), boundary, media, drawn.through, surface.front);
+    const PointMedia media_of_light{there.stack, there.current};
     light += arriving_light(scene_, vertex, drawn, scattering.towards, to_lights, ids(lights + 1), counts, clock_,
                             has_media ? &media_of_light : nullptr, panes);
   }
