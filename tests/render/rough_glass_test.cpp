@@ -9,12 +9,6 @@ namespace raytrace::test {
 
 namespace {
 
-double mean_of(const FloatPicture& picture) {
-  double sum = 0;
-  for (const Pixel& pixel : picture.pixels()) sum += double{pixel.green};
-  return sum / static_cast<double>(picture.pixels().size());
-}
-
 /// A ball of rough glass before the camera.
 std::string frosted_ball(const std::string& glass, const std::string& more, const std::string& viewplane,
                          const std::string& lights = "") {
@@ -40,8 +34,8 @@ TEST_CASE("rough glass: a sky for which light is drawn is as bright behind it as
       "</environmentlights></lights>";
   const std::string background = "<background red='1' green='1' blue='1'/>";
   for (const std::string& glass : {clouded, std::string("<roughness>0.4</roughness><thinwalled>true</thinwalled>")}) {
-    const double drawn = mean_of(rendered(frosted_ball(glass, "", "", sky)));
-    const double met = mean_of(rendered(frosted_ball(glass, "", background)));
+    const double drawn = mean_green(rendered(frosted_ball(glass, "", "", sky)));
+    const double met = mean_green(rendered(frosted_ball(glass, "", background)));
     INFO(drawn << ", " << met);
     CHECK(std::abs(drawn / met - 1) < 0.006);
   }
@@ -58,8 +52,8 @@ TEST_CASE("rough glass: a small lamp in it or behind it lights it without much n
     for (std::size_t i = 0; i < one.pixels().size(); ++i)
       square += std::pow(double{one.pixels()[i].green} - double{other.pixels()[i].green}, 2);
     const double noise = std::sqrt(square / 2 / static_cast<double>(one.pixels().size()));
-    INFO("noise " << noise << ", mean " << mean_of(one));
-    CHECK(noise < 0.15 * mean_of(one));
+    INFO("noise " << noise << ", mean " << mean_green(one));
+    CHECK(noise < 0.15 * mean_green(one));
   }
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <string>
 
+#include "render/fogged.h"
 #include "render/scenes.h"
 #include "support/catch.h"
 
@@ -133,6 +134,50 @@ TEST_CASE("rough OpenPBR: light paths and photons bring nothing again that is dr
     INFO(kind << ": " << with << ", without: " << none);
     CHECK(std::abs(with / none - 1) < 0.02);
   }
+}
+
+TEST_CASE("rough glass: what shines through it comes into the fog that begins there") {
+  const std::string lights = GENERATE(
+      "<directionallights><directionallight><direction x='0.1' y='0' z='-1'/></directionallight>"
+      "</directionallights>",
+      "<pointlights><pointlight><location x='0.4' y='0' z='-6'/></pointlight></pointlights>", "");
+  const auto mean = [&](bool has_fog) {
+    Fogged scene;
+    scene.fog = "<color red='0' green='0' blue='0'/>";
+    if (!has_fog) scene.box = "";
+    scene.materials = openpbr_glass(rough + thin);
+    scene.lights = lights;
+    scene.objects =
+        "<rectangles><rectangle><corner x='-60' y='-60' z='-3'/><edge1 x='120' y='0' z='0'/><edge2 x='0' y='120' "
+        "z='0'/>"
+        "<material>frosted</material></rectangle></rectangles>";
+    if (lights.empty()) scene.objects += "<spheres>" + small_lamp("<center x='0.6' y='0' z='-6'/>", 0.5) + "</spheres>";
+    scene.path = "<maxdepth>4</maxdepth>";
+    scene.background = black_sky;
+    return mean_of(scene).green;
+  };
+  const double wanted = mean(false) * std::exp(-5 / mean_free_path), got = mean(true);
+  INFO(lights << ": " << got << ", wanted " << wanted);
+  CHECK(wanted > 0.001);
+  CHECK(std::abs(got / wanted - 1) < 0.01);
+}
+
+TEST_CASE("rough OpenPBR: what shines through it shines through panes behind it as well") {
+  const std::string glass = openpbr_glass(rough + thin) +
+                            "<dielectrics><dielectric><name>air</name><ior>1</ior><thinwalled>true</thinwalled>"
+                            "</dielectric></dielectrics>";
+  const std::string place = "x='0' y='0.5' z='-2.5'";
+  const std::string pane = "<sphere><center x='0' y='0' z='0'/><radius>1.5</radius><material>air</material></sphere>";
+  const std::string lamp = small_lamp("<center " + place + "/>", 0.1);
+  const std::string point = point_light("<location " + place + "/>", 0.1);
+  const double open = mean_green(rendered(ball_scene(glass, "", black_sky, point)));
+  const double behind = mean_green(rendered(ball_scene(glass, pane, black_sky, point)));
+  INFO("a point: " << behind << " for " << open);
+  CHECK(std::abs(behind / open - 1) < 0.02);
+  const double lit = mean_green(rendered(ball_scene(glass, pane + lamp, black_sky)));
+  INFO("a lamp: " << lit);
+  CHECK(std::abs(lit / open - 1) < 0.05);
+  CHECK(noise_of(ball_scene(glass, pane + lamp, black_sky)) < 0.5);
 }
 
 }  // namespace raytrace::test

@@ -98,7 +98,7 @@ void SceneTables::add_panes() {
 }
 
 void SceneTables::add_scattering_through() {
-  if (has_panes_ || media_.scatters()) return;
+  if ((has_panes_ && caustics_) || media_.scatters()) return;
   std::vector<std::int32_t> scattering;
   for (std::size_t i = 0; i < details_.size(); ++i)
     scattering.push_back(used_materials_[i] != 0 && details_[i].scatters_through ? 1 : 0);

@@ -163,7 +163,7 @@ class SceneTables {
   bool is_pane(std::int32_t material) const { return has_panes_ && panes_[static_cast<std::size_t>(material)] != 0; }
   MaskN is_pane(const IntN& material) const;
   /// Whether some surfaces send on light that is drawn behind them, and which. Not in scenes where shadow rays behind
-  /// them would have to know more: of panes, or of light that is scattered inside.
+  /// them would have to know more: of panes which light paths pass, or of light that is scattered inside.
   bool has_scattering_through() const { return !scattering_through_.empty(); }
   MaskN scatters_through(const Hits& hits, const SurfaceInteraction<FloatN>& surface) const;
   /// 1 for materials that are fogs, else 0; empty if no object has one.

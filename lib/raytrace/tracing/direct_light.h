@@ -66,6 +66,7 @@ struct ShadowNumbers {
 struct LightsBehind {
   const MaskN& lanes;
   const MediumBoundary& boundary;
+  const FloatN& distance;  ///< that paths came to it
 };
 
 /// What of the group's lights' radiance leaves the surface along wo, in the lanes that were hit; of its ambient light,
@@ -87,10 +88,10 @@ RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const SceneTa
   Refraction<FloatN> refraction;  // what reflects alone is as if all was in air
   Vec3<FloatN> side = surface.ns;
   if (behind != nullptr) [[unlikely]] {
-    const Refraction<FloatN>& media = behind->boundary.media;
-    refraction.outside = select(behind->lanes, media.outside, refraction.outside);
-    refraction.factor = select(behind->lanes, media.factor, refraction.factor);
-    refraction.disperses = media.disperses;
+    const Refraction<FloatN>& there = behind->boundary.media;
+    refraction.outside = select(behind->lanes, there.outside, refraction.outside);
+    refraction.factor = select(behind->lanes, there.factor, refraction.factor);
+    refraction.disperses = there.disperses;
     side = select(behind->lanes, Vec3<FloatN>(Vec3f(0, 0, 0)), side);
   }
   const auto end = [&](Stage stage) {
@@ -165,7 +166,8 @@ RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const SceneTa
     if (none(lit)) continue;
     if (media != nullptr) [[unlikely]] {
       if (any(through)) {
-        const MediaOfLight there(tables.media(), behind->boundary, media->stack, through, surface.front);
+        const MediaOfLight there(scene, behind->boundary, media->stack, through & lit, surface.front, shadow_rays,
+                                 behind->distance, numbers.ids(number));
         here.radiance =
             here.radiance * light_through(scene, shadow_rays, lit, numbers.ids(number), {there.stack, there.current});
       } else {

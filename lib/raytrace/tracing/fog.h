@@ -11,21 +11,6 @@ struct PointMedia {
   const IntN& current;  ///< that of them which counts
 };
 
-/// Of a point on a surface, for light that comes through it in some lanes.
-struct MediaOfLight {
-  MediumStack stack;
-  IntN current;
-
-  /// here: what paths came through to that boundary.
-  MediaOfLight(const MediumTable& table, const MediumBoundary& boundary, const MediumStack& here, const MaskN& through,
-               const MaskN& front)
-      : stack(here), current(boundary.current) {
-    if (table.empty() || none(through)) return;
-    boundary.cross(stack, through, front);
-    current = select_lanes(through, stack.current(table), current);
-  }
-};
-
 /// How much of a ray's length is at its end: more than what rounding makes of two surfaces in one place.
 inline constexpr float end_of_ray = 0x1p-16F;
 
@@ -83,6 +68,27 @@ void for_each_part_in_fog(const TracedScene& scene, const Ray<FloatN>& rays, Mas
 /// them. distance: at least that of the rays that ended there. media: where these ended; then where the rays start.
 void pass_boundaries_at_starts(const TracedScene& scene, Ray<FloatN>& rays, MaskN lanes, const FloatN& distance,
                                const RayIds& ids, MediumStack& media);
+
+/// Of a point on a surface, for light that comes through it in some lanes.
+struct MediaOfLight {
+  MediumStack stack;
+  IntN current;
+
+  /// here: what paths of that length came through to that boundary. shadow_rays: from the point.
+  MediaOfLight(const TracedScene& scene, const MediumBoundary& boundary, const MediumStack& here, const MaskN& through,
+               const MaskN& front, const Ray<FloatN>& shadow_rays, const FloatN& distance, const RayIds& ids)
+      : stack(here), current(boundary.current) {
+    const MediumTable& table = scene.tables().media();
+    if (table.empty() || none(through)) return;
+    boundary.cross(stack, through, front);
+    if (table.has_fog()) [[unlikely]] {
+      Ray<FloatN> rays = shadow_rays;
+      rays.direction = normalize(rays.direction);
+      pass_boundaries_at_starts(scene, rays, through, distance, ids, stack);
+    }
+    current = select_lanes(through, stack.current(table), current);
+  }
+};
 
 /// The share that fogs leave of the light on the way along those rays; media: as above.
 Rgb<FloatN> fog_transmittance(const TracedScene& scene, const Ray<FloatN>& rays, const MaskN& lanes, const RayIds& ids,

@@ -288,7 +288,7 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   const PanesAhead* const panes = tables.has_panes_for_surfaces() && most_panes > 0 ? &ahead : nullptr;
   // Light is drawn from behind for what sends it on.
   const MaskN both_sides = tables.has_scattering_through() ? tables.scatters_through(hits, surface) : MaskN(false);
-  const LightsBehind behind{both_sides, boundary};
+  const LightsBehind behind{both_sides, boundary, path.distance};
   Rgb<FloatN> light = black();
   for (std::size_t group = 0; group < groups_; ++group) {
     const SceneTables::LightGroup& lights_of_group = tables.light_groups()[group];
@@ -322,7 +322,8 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   if (any(drawn.lit)) {
     // Rays to one light are neighbours as the camera's are, those to many are not.
     const Coherence to_lights = has_one_light_ ? coherence : Coherence::incoherent;
-    const MediaOfLight there(tables.media(), boundary, media, drawn.through, surface.front);
+    const MediaOfLight there(scene_, boundary, media, drawn.through & drawn.lit, surface.front, drawn.ray,
+                             path.distance, ids(lights + 1));
     const PointMedia media_of_light{there.stack, there.current};
     light += arriving_light(scene_, vertex, drawn, scattering.towards, to_lights, ids(lights + 1), counts, clock_,
                             has_media ? &media_of_light : nullptr, panes);
