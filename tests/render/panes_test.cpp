@@ -99,7 +99,9 @@ TEST_CASE("suns and points shine through panes by as much as comes through") {
   // Each pane is a scattering, and other glass casts shadows.
   CHECK(below(pane_at(2, "air") + pane_at(2.5, "air"), 2) == 0);
   CHECK(below(pane_at(2, "thick"), 2) == 0);
-  CHECK(below(pane_at(2, "frosted"), 2) == 0);
+  // Shadow rays to the floor do not come through a frosted one, but paths that meet it find its light.
+  CHECK(below(pane_at(2, "frosted"), 1) == 0);
+  CHECK(below(pane_at(2, "frosted"), 2) > 0.05 * open);
 }
 
 TEST_CASE("a sheet that its coat makes rough is no pane") {

@@ -94,13 +94,14 @@ TEST_CASE("rough glass: points shine through it as small lamps do, and suns") {
                                    openpbr_glass(rough + thin + layers), dielectric_glass("<roughness>0.4</roughness>"),
                                    dielectric_glass("<roughness>0.4</roughness><thinwalled>true</thinwalled>")}) {
     for (const std::string place : {"x='0' y='0.2' z='0'", "x='0' y='0.5' z='-2'"}) {
-      const FloatPicture lamp = rendered(ball_scene(glass, small_lamp("<center " + place + "/>", radius), black_sky));
+      const FloatPicture lamp =
+          rendered(ball_scene(glass, small_lamp("<center " + place + "/>", radius), black_sky, "", 128));
       const FloatPicture point =
-          rendered(ball_scene(glass, "", black_sky, point_light("<location " + place + "/>", radius)));
+          rendered(ball_scene(glass, "", black_sky, point_light("<location " + place + "/>", radius), 128));
       INFO(glass << " at " << place << ": " << mean_green(point) << ", lamp " << mean_green(lamp));
       CHECK(std::abs(mean_green(point) / mean_green(lamp) - 1) < 0.05);
     }
-    CHECK(mean_green(rendered(ball_scene(glass, "", black_sky, sun))) > 0.02);
+    CHECK(mean_green(rendered(ball_scene(glass, "", black_sky, sun, 16))) > 0.02);
   }
 }
 
