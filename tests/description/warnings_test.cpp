@@ -163,6 +163,9 @@ TEST_CASE("a pane of solid glass under a sun has a warning, unless something bri
       "<material>m</material></mesh></meshes>";
   CHECK(contains(said_of(glass, mesh, sun), "a pane that is solid"));
   CHECK(said_of(glass, box("0.02")).empty());
+  CHECK(said_of("<dielectrics><dielectric><name>m</name><roughness>0.3</roughness></dielectric></dielectrics>",
+                box("0.02"), sun)
+            .empty());
   CHECK(said_of(glass, box("0.5"), sun).empty());
   for (const char* const integrator : {"<path><caustics>light</caustics></path>", "<raycast/>"})
     CHECK(said_of(glass, box("0.02"), sun + "<integrator>" + integrator + "</integrator>").empty());

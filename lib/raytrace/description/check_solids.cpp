@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -17,14 +18,18 @@ namespace raytrace {
 
 namespace {
 
-bool is_clear_solid(const SceneDescription& scene, const MaterialReference& material) {
-  bool result = false;
+enum class Clear { not_solid, smooth, rough };
+
+Clear clearness(const SceneDescription& scene, const MaterialReference& material) {
+  Clear result = Clear::not_solid;
   for_each_type(Materials{}, [&]<class T>(std::type_identity<T>) {
     const auto& items = std::get<MaterialItems<T>>(scene.materials);
     if (material.type != index_of<T>(Materials{}) || material.index >= items.size()) return;
     if constexpr (requires { T::refracts(items[0].parameters); }) {
       const auto& parameters = items[material.index].parameters;
-      result = T::refracts(parameters) && !(T::values(parameters).thin > 0);
+      if (!T::refracts(parameters) || T::values(parameters).thin > 0) return;
+      const bool is_smooth = T::focuses(parameters, [](std::string_view) { return false; });
+      result = is_smooth ? Clear::smooth : Clear::rough;
     }
   });
   return result;
@@ -101,16 +106,23 @@ bool has_path_without_caustics(const SceneDescription& scene) {
 void check_solids(const SceneDescription& scene, Diagnostics& diagnostics) {
   std::optional<SourceLocation> pane;  // the first
   const auto add = [&](const ObjectLists& lists) {
-    const auto clear = [&](const MaterialReference& material) { return is_clear_solid(scene, material); };
+    const auto is_clear = [&](const MaterialReference& material) {
+      return clearness(scene, material) != Clear::not_solid;
+    };
+    // Light that is drawn behind rough ones comes through.
+    const auto is_smooth = [&](const MaterialReference& material) {
+      return clearness(scene, material) == Clear::smooth;
+    };
     for (const auto& box : std::get<ObjectItems<Box>>(lists))
-      if (!pane && is_flat(box.parameters.max - box.parameters.min) && clear(box.material)) pane = location_of(box);
+      if (!pane && is_flat(box.parameters.max - box.parameters.min) && is_smooth(box.material)) pane = location_of(box);
     std::vector<Solid> solids;
     for (const auto& mesh : std::get<ObjectItems<Mesh>>(lists)) {
       if (mesh.data == nullptr || !mesh.data->copies.empty() || mesh.data->indices.empty()) continue;
-      if (std::ranges::all_of(mesh.materials, clear)) solids.push_back(solid_of(mesh));
+      if (std::ranges::all_of(mesh.materials, is_clear)) solids.push_back(solid_of(mesh));
     }
     for (const Solid& solid : solids) {
-      if (solid.is_flat && !pane) pane = location_of(*solid.mesh);
+      if (!pane && solid.is_flat && std::ranges::all_of(solid.mesh->materials, is_smooth))
+        pane = location_of(*solid.mesh);
       if (!solid.is_inside_out) continue;
       const auto is_around = [&](const Solid& other) { return &other != &solid && is_within(solid.box, other.box); };
       if (std::ranges::any_of(solids, is_around)) continue;
