@@ -20,7 +20,10 @@ const std::string panes_materials =
     "</dielectric><dielectric><name>thick</name></dielectric><dielectric><name>frosted</name><roughness>0.3</roughness>"
     "<thinwalled>true</thinwalled></dielectric><dielectric><name>half there</name><ior>1</ior><opacity>0.5</opacity>"
     "<ct red='0' green='0' blue='0'/><thinwalled>true</thinwalled></dielectric><dielectric><name>printed</name>"
-    "<ior>1</ior><ct texture='squares'/><thinwalled>true</thinwalled></dielectric></dielectrics><openpbrs><openpbr>"
+    "<ior>1</ior><ct texture='squares'/><thinwalled>true</thinwalled></dielectric><dielectric><name>polished</name>"
+    "<roughness texture='squares'>0</roughness><thinwalled>true</thinwalled></dielectric></dielectrics><openpbrs>"
+    "<openpbr><name>polished sheet</name><transmission_weight>1</transmission_weight><specular_roughness "
+    "texture='squares'>0</specular_roughness><geometry_thin_walled>true</geometry_thin_walled></openpbr><openpbr>"
     "<name>sheet</name><transmission_weight>1</transmission_weight><transmission_color red='0.5' green='1' blue='0.5'/>"
     "<specular_roughness>0</specular_roughness><geometry_thin_walled>true</geometry_thin_walled></openpbr>"
     "<openpbr><name>misted</name><transmission_weight>1</transmission_weight><specular_roughness>0</specular_roughness>"
@@ -93,6 +96,8 @@ TEST_CASE("suns and points shine through panes by as much as comes through") {
   CHECK(below(pane_at(2, "window"), 2) == Approx(open * through_window).epsilon(2e-3));
   CHECK(below(pane_at(2, "green"), 2) == Approx(open * through_window).epsilon(2e-3));
   CHECK(below(pane_at(2, "sheet"), 2) == Approx(open * through_window).epsilon(2e-3));
+  CHECK(below(pane_at(2, "polished"), 2) == Approx(open * through_window).epsilon(2e-3));
+  CHECK(below(pane_at(2, "polished sheet"), 2) == Approx(open * through_window).epsilon(2e-3));
   CHECK(below(pane_at(2, "air") + pane_at(2.5, "air") + pane_at(3, "air"), 4) == Approx(open).epsilon(2e-3));
   CHECK(below(pane_at(2, "half there"), 2) == Approx(open * 0.5).epsilon(0.15));
   CHECK(below(pane_at(2, "printed"), 2) == Approx(open * 0.5).epsilon(1e-3));

@@ -92,7 +92,8 @@ class Dielectric {
     return !focuses(parameters, is_textured) && !is_textured("attenuationcolor") && !is_textured("attenuationdistance");
   }
   static bool is_pane(const Parameters& parameters, const auto& is_textured) {
-    return parameters.thinwalled && focuses(parameters, is_textured) && !is_textured("roughness");
+    return parameters.thinwalled && focuses(parameters, is_textured) &&
+           (parameters.roughness == 0 || !is_textured("roughness"));
   }
   /// All that a kernel needs.
   static Values<double> values(const Parameters& parameters) {

@@ -196,8 +196,9 @@ class OpenPbr {
                  coat = parameters.coat_weight > 0 ? parameters.coat_roughness * parameters.coat_roughness : 0;
     return parameters.geometry_thin_walled && parameters.transmission_weight > 0 && parameters.base_metalness < 1 &&
            own * own + 2 * coat * coat < double{least_alpha} * least_alpha &&
-           parameters.specular_roughness_anisotropy == 0 && !is_textured("specular_roughness") &&
-           !(parameters.coat_weight > 0 && is_textured("coat_roughness"));
+           parameters.specular_roughness_anisotropy == 0 &&
+           (parameters.specular_roughness == 0 || !is_textured("specular_roughness")) &&
+           (coat == 0 || !is_textured("coat_roughness"));
   }
   /// As materials/kernels.h has it. Shadow rays know nothing of what textures make of the way inside.
   static bool scatters_through(const Parameters& parameters, const auto& is_textured) {
