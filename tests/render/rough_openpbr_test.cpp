@@ -163,6 +163,34 @@ TEST_CASE("rough glass: what shines through it comes into the fog that begins th
   CHECK(std::abs(got / wanted - 1) < 0.01);
 }
 
+TEST_CASE("rough glass: it is as bright however close behind it a fog ends") {
+  // Behind a block of glass, and not as far as the lights.
+  const std::string lights = GENERATE(
+      "<directionallights><directionallight><direction x='0.1' y='0' z='-1'/></directionallight></directionallights>",
+      "");
+  const auto mean = [&](const std::string& end) {
+    const std::string lamp =
+        "<rectangles><rectangle><corner x='-1' y='-1' z='-9'/><edge1 x='2' y='0' z='0'/><edge2 x='0' y='2' z='0'/>"
+        "<material>lamp</material></rectangle></rectangles>";
+    return mean_green(rendered(parsed_scene(
+        "<raytracer><viewplane><hres>12</hres><vres>12</vres><samples>64</samples>" + black_sky +
+        "</viewplane><camera><eye x='0' y='0' z='3'/><lookat x='0' y='0' z='0'/><fov>20</fov></camera><integrator>"
+        "<path><maxdepth>4</maxdepth></path></integrator><lights>" +
+        lights + "</lights><materials>" + openpbr_glass(rough) +
+        "<emissives><emissive><name>lamp</name><ce red='9' green='9' blue='9'/></emissive></emissives><fogs><fog>"
+        "<name>mist</name><meanfreepath>2</meanfreepath><color red='0' green='0' blue='0'/></fog></fogs></materials>"
+        "<objects><boxes><box><min x='-2' y='-2' z='-0.1'/><max x='2' y='2' z='0'/><material>frosted</material></box>"
+        "<box><min x='-2.5' y='-2.5' z='-1.6'/><max x='2.5' y='2.5' z='" +
+        end + "'/><material>mist</material></box></boxes>" + (lights.empty() ? lamp : "") + "</objects></raytracer>")));
+  };
+  const double exact = mean("-0.1");
+  CHECK(exact > 0.001);
+  for (const std::string end : {"-0.0999999", "-0.1000001", "-0.100001"}) {
+    INFO(end << ", " << (lights.empty() ? "lamp" : "sun") << ": " << mean(end) << ", wanted " << exact);
+    CHECK(std::abs(mean(end) / exact - 1) < 1e-3);
+  }
+}
+
 TEST_CASE("rough OpenPBR: what shines through it shines through panes behind it as well") {
   const std::string glass = openpbr_glass(rough + thin) +
                             "<dielectrics><dielectric><name>air</name><ior>1</ior><thinwalled>true</thinwalled>"

@@ -168,8 +168,7 @@ RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const SceneTa
       if (any(through)) {
         const MediaOfLight there(scene, behind->boundary, media->stack, through & lit, surface.front, shadow_rays,
                                  behind->distance, numbers.ids(number));
-        here.radiance =
-            here.radiance * light_through(scene, shadow_rays, lit, numbers.ids(number), {there.stack, there.current});
+        here.radiance = here.radiance * light_through(scene, shadow_rays, lit, numbers.ids(number), there.media());
       } else {
         here.radiance = here.radiance * light_through(scene, shadow_rays, lit, numbers.ids(number), *media);
       }

@@ -9,6 +9,8 @@ namespace raytrace {
 struct PointMedia {
   const MediumStack& stack;
   const IntN& current;  ///< that of them which counts
+  const Vec3<FloatN>* behind =
+      nullptr;  ///< where rays have passed the boundaries in the point's own place; null: there
 };
 
 /// How much of a ray's length is at its end: more than what rounding makes of two surfaces in one place.
@@ -73,11 +75,14 @@ void pass_boundaries_at_starts(const TracedScene& scene, Ray<FloatN>& rays, Mask
 struct MediaOfLight {
   MediumStack stack;
   IntN current;
+  Vec3<FloatN> starts;  ///< of the shadow rays, behind boundaries of fogs in the point's place
+
+  PointMedia media() const { return {stack, current, &starts}; }
 
   /// here: what paths of that length came through to that boundary. shadow_rays: from the point.
   MediaOfLight(const TracedScene& scene, const MediumBoundary& boundary, const MediumStack& here, const MaskN& through,
                const MaskN& front, const Ray<FloatN>& shadow_rays, const FloatN& distance, const RayIds& ids)
-      : stack(here), current(boundary.current) {
+      : stack(here), current(boundary.current), starts(shadow_rays.origin) {
     const MediumTable& table = scene.tables().media();
     if (table.empty() || none(through)) return;
     boundary.cross(stack, through, front);
@@ -85,6 +90,7 @@ struct MediaOfLight {
       Ray<FloatN> rays = shadow_rays;
       rays.direction = normalize(rays.direction);
       pass_boundaries_at_starts(scene, rays, through, distance, ids, stack);
+      starts = rays.origin;
     }
     current = select_lanes(through, stack.current(table), current);
   }
@@ -101,7 +107,9 @@ inline Rgb<FloatN> light_through(const TracedScene& scene, const Ray<FloatN>& ra
   if (!table.has_fog()) [[likely]]
     return table.transmittance(media.current, length(rays.direction) * rays.far);
   MediumStack stack = media.stack;
-  const Rgb<FloatN> fogs = fog_transmittance(scene, rays, lanes, ids, stack);
+  Ray<FloatN> left = rays;
+  if (media.behind != nullptr) left.origin = *media.behind;
+  const Rgb<FloatN> fogs = fog_transmittance(scene, left, lanes, ids, stack);
   const Rgb<FloatN> clear = table.transmittance(media.current, length(rays.direction) * rays.far);
   return select(table.is_fog(media.current), fogs, fogs * clear);
 }

@@ -324,7 +324,7 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
     const Coherence to_lights = has_one_light_ ? coherence : Coherence::incoherent;
     const MediaOfLight there(scene_, boundary, media, drawn.through & drawn.lit, surface.front, drawn.ray,
                              path.distance, ids(lights + 1));
-    const PointMedia media_of_light{there.stack, there.current};
+    const PointMedia media_of_light = there.media();
     light += arriving_light(scene_, vertex, drawn, scattering.towards, to_lights, ids(lights + 1), counts, clock_,
                             has_media ? &media_of_light : nullptr, panes);
   }
