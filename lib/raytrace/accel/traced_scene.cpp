@@ -30,8 +30,8 @@ void TracedScene::find_media() {
   };
   for (const auto& origin : tables_.light_origins())
     if (origin && !origin->infinitely_far) lights_in_media_ |= is_in_media(Vec3<FloatN>(origin->position), one);
-  // What moves may come to be in one. Of others, by a point of each patch.
-  lights_in_media_ |= tables_.emitters().has_motion();
+  // Where something moves, a light may come to be in one. Else by a point of each patch.
+  lights_in_media_ |= has_moving_instances();
   const auto patches = static_cast<std::int32_t>(tables_.emitters().size());
   for (std::int32_t first = 0; first < patches && !lights_in_media_; first += packet_lanes) {
     const IntN patch = IntN(first) + lane_numbers<IntN>();

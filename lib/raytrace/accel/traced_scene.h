@@ -29,11 +29,12 @@ class TracedScene final : public Scene {
   const SceneTables& tables() const { return tables_; }
   const Accelerator& accelerator() const { return accelerator_; }
 
-  /// The media that the camera is in; lights, by what is around each path's start. ids: of its rays.
+  /// The media that the camera is in when the shutter opens; lights, by what is around each path's start. ids: of its
+  /// rays.
   const MediumStack& camera_media() const { return camera_media_; }
   MediumStack light_media(const Vec3<FloatN>& starts, const MaskN& lanes, const RayIds& ids) const {
     if (!lights_in_media_) return {};
-    return media_around(tables_, accelerator_, starts, lanes, tables_.emitters().has_motion() ? &ids : nullptr);
+    return media_around(tables_, accelerator_, starts, lanes, has_moving_instances() ? &ids : nullptr);
   }
 
   /// The objects as met from where all camera rays start, and from where all shadow rays to light `number` go. Null if
@@ -45,6 +46,7 @@ class TracedScene final : public Scene {
   }
 
  private:
+  bool has_moving_instances() const { return !tables_.geometry().instances().moving().empty(); }
   void make_buffers(int threads);
   void find_media();
 
