@@ -138,6 +138,12 @@ TEST_CASE("a mesh of glass that is inside out has a warning") {
   CHECK(said(glass, tetrahedron(outwards, mirrored)).empty());
   CHECK(said(glass, tetrahedron("0 1 2, 0 3 1, 0 2 3", "")).empty());                    // open
   CHECK(said(glass, tetrahedron(outwards, larger) + tetrahedron(inwards, "")).empty());  // a bubble
+  CHECK(said_of(glass,
+                "<spheres><sphere><center x='0' y='0' z='0'/><radius>3</radius><material>m</material></sphere>"
+                "</spheres><meshes>" +
+                    tetrahedron(inwards, "") + "</meshes>")
+            .empty());
+  CHECK(contains(said(glass, tetrahedron(inwards, "") + tetrahedron(inwards, "")), "inside out"));
   CHECK(said("<dielectrics><dielectric><name>m</name><thinwalled>true</thinwalled></dielectric></dielectrics>",
              tetrahedron(inwards, ""))
             .empty());
@@ -155,18 +161,32 @@ TEST_CASE("a pane of solid glass under a sun has a warning, unless something bri
     return "<boxes><box><min x='0' y='0' z='0'/><max x='1' y='1.5' z='" + thickness +
            "'/><material>m</material></box></boxes>";
   };
-  CHECK(said_of(glass, box("0.02"), sun) ==
-        "s:2:106: warning: suns, points and spots do not shine through a pane that is solid: let its material be "
-        "thin-walled, or give <path> <caustics>light</caustics>\n");
+  CHECK(
+      said_of(glass, box("0.02"), sun) ==
+      "s:2:106: warning: suns, points and spots do not shine through what is flat and of solid glass; let the material "
+      "of a pane be thin-walled, or give <path> <caustics>light</caustics>\n");
   const std::string mesh =
       "<meshes><mesh><positions>0 0 0, 1 0 0, 0 1 0, 0 0 0.01</positions><faces>0 2 1, 0 1 3, 0 3 2, 1 2 3</faces>"
       "<material>m</material></mesh></meshes>";
-  CHECK(contains(said_of(glass, mesh, sun), "a pane that is solid"));
+  CHECK(contains(said_of(glass, mesh, sun), "what is flat and of solid glass"));
   CHECK(said_of(glass, box("0.02")).empty());
   CHECK(said_of("<dielectrics><dielectric><name>m</name><roughness>0.3</roughness></dielectric></dielectrics>",
                 box("0.02"), sun)
             .empty());
   CHECK(said_of(glass, box("0.5"), sun).empty());
+  const std::string flattened =
+      "<boxes><box><min x='0' y='0' z='0'/><max x='1' y='1' z='1'/><material>m</material>"
+      "<transform><scale x='1' y='1' z='0.01'/></transform></box></boxes>";
+  CHECK(contains(said_of(glass, flattened, sun), "what is flat and of solid glass"));
+  CHECK(contains(said_of("<openpbrs><openpbr><name>m</name><transmission_weight>0.9</transmission_weight>"
+                         "<specular_roughness>0</specular_roughness></openpbr></openpbrs>",
+                         box("0.02"), sun),
+                 "what is flat and of solid glass"));
+  CHECK(said_of(glass,
+                "<meshes><mesh><positions>0 0 0, 9 0 0, 9 0 9, 0 0 9</positions><faces>0 3 2 1</faces><material>m"
+                "</material></mesh></meshes>",
+                sun)
+            .empty());  // water
   for (const char* const integrator : {"<path><caustics>light</caustics></path>", "<raycast/>"})
     CHECK(said_of(glass, box("0.02"), sun + "<integrator>" + integrator + "</integrator>").empty());
   CHECK(said_of("<dielectrics><dielectric><name>m</name><thinwalled>true</thinwalled></dielectric></dielectrics>",

@@ -6,10 +6,12 @@
 
 namespace raytrace {
 
-/// Of meshes that are loaded, and right. Warns of each closed mesh of clear material whose faces have their fronts
-/// inside: rays that come from outside would start within the glass. Not of one within the box of other clear things:
-/// it may be the hollow of a bottle.
-/// Warns of the first flat one, a pane, that suns and points should shine through, where nothing brings their light.
+/// Meshes must be loaded and valid.
+///
+/// Warns of each closed mesh of clear material whose faces have their fronts inside: rays that come from outside would
+/// start within the glass. Not of one that others may be around, as a bottle is around its hollow.
+/// Warns of the first that is flat, such as a pane, where suns and points should shine through and nothing brings their
+/// light.
 void check_solids(const SceneDescription& scene, Diagnostics& diagnostics);
 
 }  // namespace raytrace
