@@ -31,8 +31,9 @@ struct InstanceMaps {
     const auto scaled = [&](const Vec3<FloatN>& v) { return v * over_scale; };
     const auto& [x, y, z, origin] = world_from_object;
     const FloatN volume = abs(dot(scaled(x), cross(scaled(y), scaled(z))));
-    const FloatN stretch = length(in_world) * over_scale / length(in_object);
-    return density * stretch * stretch * stretch / volume;
+    const FloatN distance = length(in_object), stretch = length(in_world) * over_scale / distance;
+    return select((volume > FloatN(0)) & (distance > FloatN(0)), density * stretch * stretch * stretch / volume,
+                  FloatN(0));
   }
 
  private:
@@ -49,7 +50,7 @@ struct InstanceMaps {
   }
 };
 
-/// number: 0 where they are none. Those get what the first instance has. time: as of InstanceTable::maps().
+/// number: 0 for lanes without an instance, which get the first one's maps. time: as of InstanceTable::maps().
 inline InstanceMaps maps_of(const InstanceTable& instances, const UintN& number, const FloatN& time) {
   if (instances.moving().empty())
     return {instances.world_from_object(number, time), instances.object_from_world(number, time)};
