@@ -113,6 +113,27 @@ class Aovs(CommandTest):
                     self.assertAlmostEqual(whole, key + other, places=6)
                     self.assertAlmostEqual(other, alone, places=6)
 
+    def test_a_sky_and_its_sun_are_groups(self):
+        sky = """<lights><skylights><skylight><sundirection x='1' y='1' z='1'/>%s</skylight></skylights></lights>"""
+        shown = {}
+        for name, groups in (("both", "<group>sky</group><sungroup>sun</sungroup>"), ("one", "<group>sky</group>"),
+                             ("sun", "<sungroup>sun</sungroup>"), ("dark", "")):
+            self.write(name + ".xml", re.sub("<lights>.*</lights>", sky % groups, support.SCENE, flags=re.DOTALL))
+            shown[name] = self.render("--aov", "all", "--float", "--integrator", "path", name=name + ".exr", scene=name + ".xml")
+        for y, row in shown["both"].rows.items():
+            for color in "RGB":
+                self.assertEqual(row[f"light_sun.{color}"], shown["sun"].rows[y][f"light_sun.{color}"])
+                self.assertEqual(row[f"light_sky.{color}"], shown["sun"].rows[y][f"light_default.{color}"])
+                layers = [row[f"light_{group}.{color}"] for group in ("sun", "sky", "default")]
+                without_groups = shown["dark"].rows[y][color]
+                of_one_group = shown["one"].rows[y][f"light_sky.{color}"]
+                for whole, plain, one, *parts in zip(row[color], without_groups, of_one_group, *layers):
+                    self.assertAlmostEqual(whole, sum(parts), delta=1e-6 * max(whole, 1))
+                    self.assertAlmostEqual(whole, plain, delta=1e-6 * max(whole, 1))
+                    self.assertAlmostEqual(whole, one + parts[-1], delta=1e-6 * max(whole, 1))
+        largest = {group: max(max(row[f"light_{group}.R"]) for row in shown["both"].rows.values()) for group in ("sun", "sky")}
+        self.assertGreater(min(largest.values()), 0.01)
+
     def test_a_matte_is_the_coverage_of_its_object(self):
         picture = self.render("--aov", "crypto_object,crypto_material", "-s", "16")
         # f834d0a6 is the hash of "crypto_object" by other programs.

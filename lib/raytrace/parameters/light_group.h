@@ -13,8 +13,8 @@ inline constexpr std::string_view default_light_group = "default";
 
 /// The field of lights and of materials that shine. Its name is part of channels' names.
 template <class Parameters>
-Field light_group() {
-  return optional("group", &Parameters::group, Range::identifier);
+Field light_group(std::string_view name = "group", Reference Parameters::* group = &Parameters::group) {
+  return optional(name, group, Range::identifier);
 }
 
 }  // namespace raytrace

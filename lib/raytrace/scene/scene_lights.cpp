@@ -60,8 +60,15 @@ void SceneTables::add_lights(const SceneDescription& description, int threads) {
       if (reach && !geometry_->table<Shape>().records.empty()) reach = std::max(*reach, view);
   });
   const std::vector<std::string> names = light_group_names(description);
-  const auto group_of = [&](const auto& item) {
-    return static_cast<std::int32_t>(find_light_group(names, item.parameters.group));
+  const auto find_group = [&](const Reference& group) {
+    return static_cast<std::int32_t>(find_light_group(names, group));
+  };
+  const auto group_of = [&](const auto& item) { return find_group(item.parameters.group); };
+  const auto group_of_light = [&](const auto& item) {
+    if constexpr (requires { item.parameters.group_of_sun(); })
+      return find_group(item.parameters.group_of_sun());
+    else
+      return group_of(item);
   };
   for (const auto& item : std::get<LightItems<EnvironmentLight>>(description.lights)) {
     LightItem<EnvironmentLight> light = item;
@@ -90,7 +97,7 @@ void SceneTables::add_lights(const SceneDescription& description, int threads) {
         };
         const auto light = light_of(moved<Light>(item.parameters));
         if constexpr (Kernel<Light>::ambient) {
-          light_groups_[static_cast<std::size_t>(group_of(item))].ambient_radiance += light.radiance();
+          light_groups_[static_cast<std::size_t>(group_of_light(item))].ambient_radiance += light.radiance();
           light_bounds_.ambient += abs(light.radiance());
         } else {
           auto bounded = item.parameters;
@@ -104,7 +111,7 @@ void SceneTables::add_lights(const SceneDescription& description, int threads) {
           }
           add_light_bounds(light_of(bounded), bounded, eye * times);
           lights_.push_back(std::make_unique<LightSourceOf<Kernel<Light>>>(light));
-          groups_of_lights_.push_back(group_of(item));
+          groups_of_lights_.push_back(group_of_light(item));
           light_origins_.emplace_back();
           has_sampled_lights_ |= lights_.back()->takes_samples();
           if (!light.shadows() || lights_.back()->takes_samples()) continue;
