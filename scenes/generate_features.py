@@ -1085,6 +1085,32 @@ write(
 """,
 )
 
+# A wall in the light of lamps of four temperatures, without and with a white balance.
+TEMPERATURES = (2000, 2700, 4000, 6500)
+for name, balance, comment in (("kelvin", "", "without a white balance"), ("white-balance", " <whitebalance>2700</whitebalance>", "with 2,700 K as white")):
+    write(
+        name,
+        "Lamps of " + ", ".join(f"{kelvin:,}" for kelvin in TEMPERATURES) + f" kelvin before a white wall, {comment}.",
+        room=ROOM.replace("<samples>16</samples>", f"<samples>16</samples>{balance}")
+        .replace("<hres>320</hres> <vres>240</vres>", "<hres>320</hres> <vres>120</vres>")
+        .replace("520", "340"),
+        lights="  <lights>\n    <ambientlight> <scaleradiance>0.15</scaleradiance> <color kelvin=\"2700\"/> </ambientlight>\n    <pointlights>\n"
+        + "".join(
+            f"""\
+      <pointlight>
+        <location x="{2.4 * i - 3.6:g}" y="1.7" z="0"/> <scaleradiance>1.1</scaleradiance> <color kelvin="{kelvin}"/>
+        <falloff>inversesquare</falloff>
+      </pointlight>
+"""
+            for i, kelvin in enumerate(TEMPERATURES)
+        )
+        + "    </pointlights>\n  </lights>\n",
+        mattes='      <matte> <name>plaster</name> <ka>0.9</ka> <kd>0.9</kd> <cd red="0.9" green="0.9" blue="0.9"/> </matte>\n',
+        objects="""\
+    <planes> <plane> <point x="0" y="0" z="-0.9"/> <normal x="0" y="0" z="1"/> <material>plaster</material> </plane> </planes>
+""",
+    )
+
 # Materials
 row = "".join(
     f'      <sphere> <center x="{x}" y="0.75" z="0"/> <radius>0.75</radius> <material>{name}</material> </sphere>\n'

@@ -80,6 +80,7 @@ constexpr Synonyms synonyms[] = {
      "clampvalue maxsubpixelintensity fireflies firefly fireflyremoval despeckle "},
     {"--view-transform", " tonemap tonemapping tonemapper toneoperator viewtransform agx filmic colormanagement look "},
     {"--auto-exposure", " autoexpose autobrightness autogain "},
+    {"--white-balance", " whitebalance wb kelvin colortemperature colourtemperature temperature whitepoint "},
     {"--ocio", " ocioconfig opencolorio colorconfig "},
     {"--scale", " percent percentage resize resolutionscale fraction "},
     {"--sample-offset", " offset firstsample startsample samplestart sampleoffset samplerange skipsamples "},

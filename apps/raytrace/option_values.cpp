@@ -10,6 +10,7 @@
 
 #include "raytrace/aovs/aov_selection.h"
 #include "raytrace/cameras/view_plane.h"
+#include "raytrace/math/blackbody.h"
 #include "raytrace/text/message.h"
 #include "raytrace/text/utf8.h"
 
@@ -200,6 +201,15 @@ double exposure(const std::string& text) {
     throw UsageError(in_quotes(text) +
                      " is not an exposure; use a number of stops from -64 to 64, e.g. 1 for twice the light, or -1.5");
   }
+  return *value;
+}
+
+double white_balance(const std::string& text) {
+  const std::optional<double> value = number<double>(text);
+  if (!value || (*value != 0 && !is_temperature(*value)))
+    throw UsageError(in_quotes(text) +
+                     " is not a white balance; use the kelvin of a lamp from 1000, embers, to 15000, "
+                     "blue sky, e.g. 2700, or 0 for none");
   return *value;
 }
 

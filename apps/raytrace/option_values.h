@@ -112,6 +112,9 @@ double radiance(const std::string& text);
 /// A number of stops: "-1.5", "+2".
 double exposure(const std::string& text);
 
+/// 0, or a temperature of math/blackbody.h.
+double white_balance(const std::string& text);
+
 /// "x0,y0,x1,y1", at least one pixel; it may reach beyond the picture.
 Region crop(const std::string& text);
 

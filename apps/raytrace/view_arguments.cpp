@@ -35,6 +35,10 @@ void define_view_options(OptionParser& parser, ViewOptions& view) {
   parser.add_switch("--auto-exposure", view.auto_exposure,
                     "Expose these files as the picture's own brightness asks for: its logarithmic mean becomes 0.18; "
                     "--exposure is added");
+  parser.add("--white-balance", "K",
+             "Show in these files as white what is lit by a lamp of K kelvin, e.g. 2700, whatever the scene says; 0 "
+             "leaves colours as they are",
+             view.white_balance, white_balance);
   parser.add(
       "--view-transform", "NAME",
       "How these files show what is brighter than they can: srgb, clipped; agx; khronos-neutral (srgb for scenes, "

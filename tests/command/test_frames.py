@@ -305,7 +305,8 @@ class SkipExisting(CommandTest):
                 self.assertTrue(skipped(*change), change)
         for kept, change in (("a.exr", ["--float"]), ("a.exr", ["--aov", "depth"]), ("a.exr", ["--sample-offset", "0"]),
                              ("a.png", ["--bit-depth", "16"]), ("a.png", ["--exposure", "-0.75"]),
-                             ("a.png", ["--view-transform", "agx"]), ("a.png", ["--auto-exposure"])):
+                             ("a.png", ["--view-transform", "agx"]), ("a.png", ["--auto-exposure"]),
+                             ("a.png", ["--white-balance", "3000"])):
             outputs = ["-o", kept]
             skipped()
             self.assertTrue(skipped(), change)

@@ -45,6 +45,7 @@ class Manual(CommandTest):
             "--frames", "-D", "--define", "--skip-existing", "--aov", "--transparent", "--exposure",
             "--integrator", "--clamp-indirect", "--missing-texture", "--texture-memory", "--view", "--camera", "--animation", "--fps",
             "--variant", "--up", "--turntable", "--floor", "--environment", "--sun", "--view-transform", "--auto-exposure",
+            "--white-balance",
             "--ocio", "--ocio-display", "--ocio-view", "--ocio-colorspace"})
 
     def test_man_page_has_the_same_options(self):

@@ -143,7 +143,7 @@ class Statistics(CommandTest):
         self.assertEqual(report["scene"], "scene.xml")
         self.assertEqual(report["outputs"], ["a.exr", "b.png"])
         self.assertEqual(report["picture"], {"width": 80, "height": 60, "region": [0, 0, 40, 30], "samples": 3, "seed": 5,
-                                             "view_transform": "srgb", "exposure": 0})
+                                             "view_transform": "srgb", "exposure": 0, "white_balance": 0})
         self.assertEqual(report["threads"], 2)
         self.assertEqual(report["primitives"], 2)
         self.assertGreaterEqual(report["rays"]["camera"], 40 * 30 * 3)

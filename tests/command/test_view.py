@@ -103,23 +103,25 @@ class View(CommandTest):
 
     def test_linear_files_stay_as_they_are(self):
         before = self.rendered()[0]
-        for options in (["--view-transform", "agx"], ["--exposure", "2"], ["--auto-exposure"], ["--ocio", "view.ocio"]):
+        for options in (["--view-transform", "agx"], ["--exposure", "2"], ["--auto-exposure"], ["--ocio", "view.ocio"],
+                        ["--white-balance", "2700"]):
             self.assertEqual(self.rendered(*options)[0].row_bytes, before.row_bytes)
 
     def test_the_printed_scene_is_shown_in_the_same_way(self):
         for options in (["--view-transform", "agx"], ["--exposure=-1.3"], ["--auto-exposure", "--exposure", "0.5"],
-                        ["--view-transform", "khronos-neutral", "--auto-exposure"]):
+                        ["--view-transform", "khronos-neutral", "--auto-exposure"], ["--white-balance", "3200"]):
             exr, png = self.rendered(*options)
             self.write("printed.xml", self.succeed("scene.xml", *options, "--print-scene").stdout)
             printed_exr, printed = self.rendered(scene="printed.xml")
             self.assertEqual(printed.rows, png.rows)
             self.assertEqual(printed_exr.row_bytes, exr.row_bytes)
-            for name in ("viewTransform", "exposure", "autoExposure"):
+            for name in ("viewTransform", "exposure", "autoExposure", "whiteBalance"):
                 self.assertEqual(printed.text.get("raytrace:" + name), png.text.get("raytrace:" + name))
             # The options' values take the place of the scene's, and an exposure that of its automatic one as well.
-            self.assertEqual(self.rendered("--exposure", "0", "--view-transform", "srgb", scene="printed.xml")[1].rows,
+            self.assertEqual(self.rendered("--exposure", "0", "--view-transform", "srgb", "--white-balance", "0",
+                                           scene="printed.xml")[1].rows,
                              self.rendered()[1].rows)
-            self.assertEqual(self.rendered("--exposure", "0", "--auto-exposure", "--view-transform", "srgb",
+            self.assertEqual(self.rendered("--exposure", "0", "--auto-exposure", "--view-transform", "srgb", "--white-balance", "0",
                                            scene="printed.xml")[1].rows, self.rendered("--auto-exposure")[1].rows)
 
     def test_models_are_shown_through_khronos_neutral(self):
@@ -136,6 +138,37 @@ class View(CommandTest):
         self.assertEqual(plain_exr.row_bytes, exr.row_bytes)
         self.succeed("slab.ply", "-q", *small, "--turntable", "2", "-o", "turn.#.png")
         self.assertEqual(Png(self.read("turn.1.png")).text["raytrace:viewTransform"], "khronos-neutral")
+
+    def test_a_white_balance_shows_its_lamps_as_white(self):
+        """A grey wall in the light of one lamp, in every way that says what is white."""
+        self.write("lamp.xml", """<raytracer>
+  <viewplane> <hres>8</hres> <vres>6</vres> <whitebalance>$white</whitebalance> <background kelvin="$lamp"/> </viewplane>
+  <camera> <eye x="0" y="0" z="1"/> <lookat x="0" y="0" z="0"/> <fov>40</fov> </camera>
+</raytracer>""")
+        for lamp in (1900, 2700, 6504, 15000):
+            for scene_says, options in ((lamp, []), (0, ["--white-balance", str(lamp)]), (9000, [f"--white-balance={lamp}"])):
+                options = ["lamp.xml", "-q", "-D", f"lamp={lamp}", "-D", f"white={scene_says}", "--exposure=-1", *options]
+                self.succeed(*options, "--bit-depth", "16", "-o", "a.png")
+                png = Png(self.read("a.png"))
+                self.assertEqual(float(png.text["raytrace:whiteBalance"]), lamp)
+                for value in png.rows[0][:3]:
+                    self.assertAlmostEqual(value / 65535, srgb(0.5), delta=1e-3)
+        # Another white: what is warmer than it is orange, what is colder blue.
+        for white, is_orange in ((6504, True), (2000, False)):
+            self.succeed("lamp.xml", "-q", "-D", "lamp=2700", "-D", f"white={white}", "--exposure=-1", "-o", "a.png")
+            red, _, blue = Png(self.read("a.png")).rows[0][:3]
+            self.assertEqual(red > blue, is_orange)
+        # Through pieces: as the scene says, and as merge says.
+        for tile in range(2):
+            self.succeed("lamp.xml", "-q", "-D", "lamp=2700", "-D", "white=2700", "--tile", f"{tile}/2", "-o", f"{tile}.exr")
+        self.succeed("merge", "-q", "0.exr", "1.exr", "-o", "b.png", "--exposure=-1")
+        self.assertEqual({*Png(self.read("b.png")).rows[0]}, {188})
+        self.succeed("merge", "-q", "0.exr", "1.exr", "-o", "b.png", "--white-balance", "0")
+        self.assertNotIn("raytrace:whiteBalance", Png(self.read("b.png")).text)
+        self.succeed("lamp.xml", "-q", "-D", "lamp=2700", "-D", "white=0", "--tile", "1/2", "-o", "1.exr")
+        self.assertIn("say how with --white-balance", self.fail_with(1, "merge", "0.exr", "1.exr", "-o", "b.png"))
+        for wrong in ("900", "15001", "warm", "-1", "nan"):
+            self.assertIn("white balance", self.fail_with(2, "lamp.xml", "-o", "a.png", f"--white-balance={wrong}"))
 
     def test_auto_exposure(self):
         exr, png = self.rendered("--auto-exposure", "-t", "1")

@@ -226,4 +226,20 @@ TEST_CASE("a direction must not be 0 at the frame at hand") {
   CHECK(contains(reported_at(text, 1), "at frame 1"));
 }
 
+TEST_CASE("a colour's keys may be temperatures, which change and not their colours") {
+  const auto lamp = [](const std::string& color, int frame) {
+    const std::string text = printed_at(
+        "<raytracer><viewplane><hres>4</hres><vres>3</vres>" + color +
+            "</viewplane><camera><eye x='0' y='0' z='1'/><lookat x='0' y='0' z='0'/><fov>40</fov></camera></raytracer>",
+        frame);
+    const std::size_t begin = text.find("<background");
+    REQUIRE(begin != std::string::npos);
+    return text.substr(begin, text.find("/>", begin) - begin);
+  };
+  const std::string keys = "<background><key frame='1' kelvin='2000'/><key frame='5' kelvin='6000'/></background>";
+  CHECK(lamp(keys, 3) == lamp("<background kelvin='4000'/>", 1));
+  CHECK(lamp(keys, 1) == lamp("<background kelvin='2000'/>", 1));
+  CHECK(lamp(keys, 3) != lamp(keys, 1));
+}
+
 }  // namespace raytrace::test

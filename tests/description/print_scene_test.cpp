@@ -57,6 +57,7 @@ TEST_CASE("a scene is printed with every value spelled out") {
     <viewtransform>srgb</viewtransform>
     <exposure>0</exposure>
     <autoexposure>false</autoexposure>
+    <whitebalance>0</whitebalance>
   </viewplane>
   <camera>
     <eye x="0" y="0" z="9"/>

@@ -54,7 +54,7 @@ void change_each(Value& value, const Changed& changed) {
 /// Of the fields of the view plane, of cameras and of materials. A map of tangents has no number.
 bool does_not_count(std::string_view field) {
   return field == "samples" || field == "viewtransform" || field == "exposure" || field == "autoexposure" ||
-         field == "shutteropen" || field == "shutterclose" || field == "tangentmap";
+         field == "whitebalance" || field == "shutteropen" || field == "shutterclose" || field == "tangentmap";
 }
 
 void change_fields(const ElementType& type, void* parameters, const std::function<void()>& changed) {
@@ -160,6 +160,7 @@ TEST_CASE("what does not change the picture does not change the hash") {
     other.viewplane.samples += 7;
     other.viewplane.viewtransform = ViewTransform::agx;
     other.viewplane.exposure += 1;
+    other.viewplane.whitebalance += 1;
     other.viewplane.autoexposure = !other.viewplane.autoexposure;
     std::visit(
         [](auto& camera) {

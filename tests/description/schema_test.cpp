@@ -202,9 +202,9 @@ TEST_CASE("the schema refuses most of the bad scenes, the program all", "[schema
                                     "annulus_without_area",
                                     "include_missing"};
   // Nor that one element stands in place of another, or goes with some only.
-  expected.insert({"exposure_too_low", "filter_too_wide", "fisheye_beyond_all", "fov_and_pixelsize",
-                   "fov_and_viewdistance", "fov_too_wide", "lens_of_two_blades", "missing_viewdistance",
-                   "too_many_indirectsamples"});
+  expected.insert({"exposure_too_low", "filter_too_wide", "kelvin_beside_red", "kelvin_too_cold", "key_too_hot",
+                   "whitebalance_too_warm", "fisheye_beyond_all", "fov_and_pixelsize", "fov_and_viewdistance",
+                   "fov_too_wide", "lens_of_two_blades", "missing_viewdistance", "too_many_indirectsamples"});
   // Nor what a material's numbers and colours are together.
   expected.insert({"conductor_of_two_colors", "conductor_of_two_edges", "conductor_too_rough",
                    "conductor_too_stretched", "conductor_without_color", "dielectric_that_shines",

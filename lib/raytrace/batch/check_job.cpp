@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "raytrace/batch/settings_error.h"
+#include "raytrace/math/blackbody.h"
 #include "raytrace/text/message.h"
 
 namespace raytrace {
@@ -34,6 +35,9 @@ void require_good_job(const RenderJob& job) {
   if (job.view.exposure && !(std::abs(*job.view.exposure) <= largest_exposure))
     throw SettingsError("--exposure: " + formatted("%g", *job.view.exposure) +
                         " is not an exposure; it is a number of stops from -64 to 64");
+  if (job.view.white_balance && *job.view.white_balance != 0 && !is_temperature(*job.view.white_balance))
+    throw SettingsError("--white-balance: " + formatted("%g", *job.view.white_balance) +
+                        " is not a white balance; it is from 1000 to 15000 kelvin, or 0 for none");
   if (job.time_limit) require_time("--time-limit", *job.time_limit);
   require_time("--checkpoint-interval", job.checkpoint_interval);
   if (job.error_limit && !(*job.error_limit > 0 && *job.error_limit <= 1))

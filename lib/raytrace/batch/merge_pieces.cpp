@@ -263,9 +263,10 @@ class Merger {
     for (const Piece& piece : pieces_) {
       const ViewSettings view = view_of(pieces_.front()), other = view_of(piece);
       if (other == view) continue;
-      const char* const option = other.transform != view.transform ? "--view-transform"
-                                 : other.exposure != view.exposure ? "--exposure"
-                                                                   : "--auto-exposure";
+      const char* const option = other.transform != view.transform           ? "--view-transform"
+                                 : other.exposure != view.exposure           ? "--exposure"
+                                 : other.white_balance != view.white_balance ? "--white-balance"
+                                                                             : "--auto-exposure";
       refuse({piece.file + " is to be shown in another way than " + pieces_.front().file + ": say how with " + option});
     }
   }

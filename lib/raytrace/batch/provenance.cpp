@@ -9,6 +9,7 @@
 #include "raytrace/aovs/aov_selection.h"
 #include "raytrace/description/scene_description.h"
 #include "raytrace/film/samples_done.h"
+#include "raytrace/math/blackbody.h"
 #include "raytrace/output/pixel_format.h"
 #include "raytrace/text/message.h"
 
@@ -123,6 +124,13 @@ std::string other(const std::string& what, const std::string& got, const std::st
   return what + " (" + got + ", not " + wanted + ")";
 }
 
+/// False if the text is none.
+bool read_number(const std::string& text, double& number) {
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  return error == std::errc() && stop == end;
+}
+
 ViewSettings read_view(const ExrReader& piece) {
   ViewSettings view;
   if (const auto name = piece.attribute<std::string>(view_transform_keyword)) {
@@ -132,15 +140,16 @@ ViewSettings read_view(const ExrReader& piece) {
     view.transform = static_cast<ViewTransform>(found - words.begin());
   }
   if (const auto text = piece.attribute<std::string>(exposure_keyword)) {
-    const char* const end = text->data() + text->size();
-    const auto [stop, error] = std::from_chars(text->data(), end, view.exposure);
-    if (error != std::errc() || stop != end || !(std::abs(view.exposure) <= largest_exposure))
+    if (!read_number(*text, view.exposure) || !(std::abs(view.exposure) <= largest_exposure))
       refuse(piece, exposure_keyword, *text);
   }
   if (const auto text = piece.attribute<std::string>(auto_exposure_keyword)) {
     if (*text != "1") refuse(piece, auto_exposure_keyword, *text);
     view.auto_exposure = true;
   }
+  if (const auto text = piece.attribute<std::string>(white_balance_keyword))
+    if (!read_number(*text, view.white_balance) || !is_temperature(view.white_balance))
+      refuse(piece, white_balance_keyword, *text);
   return view;
 }
 
@@ -196,7 +205,8 @@ std::string variables_text(const std::map<std::string, std::string>& variables) 
 std::vector<ImageAttribute> wished_view(const ViewSettings& view) {
   std::vector<ImageAttribute> attributes;
   if (view.transform != ViewTransform::srgb) attributes.push_back({view_transform_keyword, name_of(view.transform)});
-  if (view.exposure != 0) attributes.push_back({exposure_keyword, exposure_text(view.exposure)});
+  if (view.exposure != 0) attributes.push_back({exposure_keyword, shortest_text(view.exposure)});
+  if (view.white_balance != 0) attributes.push_back({white_balance_keyword, shortest_text(view.white_balance)});
   if (view.auto_exposure) attributes.push_back({auto_exposure_keyword, "1"});
   return attributes;
 }

@@ -55,6 +55,7 @@ ViewPlane requested_view_plane(const ViewPlane& viewplane, const RenderJob& job)
   requested.viewtransform = view.transform;
   requested.exposure = view.exposure;
   requested.autoexposure = view.auto_exposure;
+  requested.whitebalance = view.white_balance;
   requested.samples = job.samples.value_or(viewplane.samples);
   if (std::int64_t{job.sample_offset.value_or(0)} + requested.samples > std::numeric_limits<int>::max())
     throw SettingsError("--sample-offset: a picture has at most 2147483647 samples per pixel");

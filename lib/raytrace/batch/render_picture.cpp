@@ -309,8 +309,7 @@ class PictureRender {
     return all_written && saved ? RenderOutcome::stopped : RenderOutcome::failed;
   }
 
-  /// samples: that each pixel has, or is to have if the picture is partial.
-  /// denoised: null if it is not.
+  /// samples: that each pixel has, or is to have if the picture is partial. denoised: null if it is not.
   bool write_picture(const Film& film, const std::vector<std::string>& files, std::uint32_t samples, bool partial,
                      const DenoisedPicture* denoised = nullptr) {
     const PhaseTimer timer(result_.statistics.phases.write);
@@ -345,6 +344,7 @@ class PictureRender {
     if (!any_for_display(job_.outputs, settings)) return settings;
     result_.statistics.view_transform = settings.ocio.empty() ? name_of(settings.view_transform) : "ocio";
     result_.statistics.exposure = settings.exposure;
+    result_.statistics.white_balance = settings.white_balance;
     return settings;
   }
 

@@ -77,8 +77,9 @@ std::string statistics_text(const RenderStatistics& s) {
                               counted(static_cast<std::uint64_t>(s.samples), "sample") + " per pixel";
   const std::string crop = s.region == Region{0, 0, s.width, s.height} ? "" : ", crop " + text_of(s.region);
   std::string view;
-  if (s.view_transform != "srgb" || s.exposure != 0)
-    view = aligned_line("view", s.view_transform + formatted(", exposure %g", s.exposure));
+  const std::string balance = s.white_balance != 0 ? formatted(", white balance %g K", s.white_balance) : "";
+  if (s.view_transform != "srgb" || s.exposure != 0 || !balance.empty())
+    view = aligned_line("view", s.view_transform + formatted(", exposure %g", s.exposure) + balance);
   std::string seconds, peaks, stages;
   for (const auto& [name, processor_seconds] : s.stage_seconds())
     stages += (stages.empty() ? "" : ", ") + std::string(name) + formatted(" %.3f s", processor_seconds);
@@ -133,7 +134,8 @@ std::string statistics_json(const RenderStatistics& s) {
         {"samples", s.samples},
         {"seed", s.seed},
         {"view_transform", s.view_transform},
-        {"exposure", s.exposure}}},
+        {"exposure", s.exposure},
+        {"white_balance", s.white_balance}}},
       {"seconds", seconds},
       {"processor_seconds", s.processor_seconds},
       {"stage_seconds", stages},

@@ -46,6 +46,7 @@ struct RenderStatistics {
   std::uint64_t seed = 0;
   std::string view_transform = "srgb";  ///< of files for display; "ocio" with OpenColorIO
   double exposure = 0;                  ///< the same: in stops, with what the picture itself asked for
+  double white_balance = 0;             ///< the same: in kelvin; 0: none
   int threads = 0;
   Phases phases;
   RayCounts rays;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "raytrace/film/region.h"
+#include "raytrace/math/blackbody.h"
 
 namespace raytrace {
 
@@ -17,7 +18,8 @@ Fields ViewPlane::fields() {
           optional("filterwidth", &ViewPlane::filterwidth, Range::not_negative),
           optional("viewtransform", &ViewPlane::viewtransform),
           optional("exposure", &ViewPlane::exposure),
-          optional("autoexposure", &ViewPlane::autoexposure)};
+          optional("autoexposure", &ViewPlane::autoexposure),
+          optional("whitebalance", &ViewPlane::whitebalance)};
 }
 
 std::optional<ParameterDiagnostic> ViewPlane::check(const ViewPlane& viewplane) {
@@ -25,6 +27,9 @@ std::optional<ParameterDiagnostic> ViewPlane::check(const ViewPlane& viewplane) 
     return ParameterDiagnostic{ParameterDiagnostic::Effect::error, "a <filterwidth> is at most 100 pixels"};
   if (std::abs(viewplane.exposure) > largest_exposure)
     return ParameterDiagnostic{ParameterDiagnostic::Effect::error, "an <exposure> is from -64 to 64 stops"};
+  if (viewplane.whitebalance != 0 && !is_temperature(viewplane.whitebalance))
+    return ParameterDiagnostic{ParameterDiagnostic::Effect::error,
+                               "a <whitebalance> is 0, for none, or from 1000 to 15000 kelvin"};
   if (is_allowed_size(viewplane.hres, viewplane.vres)) return std::nullopt;
   return ParameterDiagnostic{
       ParameterDiagnostic::Effect::error,

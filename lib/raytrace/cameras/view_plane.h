@@ -5,6 +5,7 @@
 //     <background red="0" green="0" blue="0"/>
 //     <filter>gaussian</filter> <filterwidth>3</filterwidth>
 //     <viewtransform>agx</viewtransform> <exposure>-0.5</exposure> <autoexposure>true</autoexposure>
+//     <whitebalance>3200</whitebalance>
 //   </viewplane>
 #pragma once
 
@@ -47,6 +48,7 @@ struct ViewPlane {
   ViewTransform viewtransform = ViewTransform::srgb;
   double exposure = 0;        ///< in stops: the colour is multiplied by 2^exposure
   bool autoexposure = false;  ///< first, as the picture's own brightness asks for (output/auto_exposure.h)
+  double whitebalance = 0;    ///< in kelvin: of the light that is shown as white (math/blackbody.h); 0: none
 
   using Parameters = ViewPlane;
   static constexpr std::string_view element = "viewplane";

@@ -43,6 +43,9 @@ std::array<double, 4> value_at(const std::vector<Key>& keys, double frame);
 /// The attribute of a number's keys, where those of vectors have x, y and z.
 inline constexpr std::string_view number_component = "value";
 
+/// That of a colour, or of its keys, that is a black body's (math/blackbody.h), in place of red, green and blue.
+inline constexpr std::string_view temperature_attribute = "kelvin";
+
 /// Whether the element has keys among its children.
 bool has_keys(Element element);
 

@@ -281,18 +281,21 @@ class SchemaPrinter : private XmlWriter {
   void print_components(Range range) {
     const std::string type = number_name(range);
     element(named("complexType", type_name<Value>(range)), [&] {
-      // Nor can it say "attributes or elements".
-      print_keys(type, Components<Value>::names);
+      // Nor can it say "attributes or elements", or "these attributes or that one".
+      constexpr bool is_color = std::is_same_v<Value, Rgb<double>>;
+      print_keys(type, Components<Value>::names, is_color);
       for (const std::string_view component : Components<Value>::names) attribute(component, type, false);
+      if (is_color) attribute(temperature_attribute, number_name(Range::positive), false);
     });
   }
 
-  void print_keys(const std::string& type, std::span<const std::string_view> components) {
+  void print_keys(const std::string& type, std::span<const std::string_view> components, bool or_temperature = false) {
     element("xs:sequence", [&] {
       element(R"(xs:element name="key" minOccurs="0" maxOccurs="unbounded")", [&] {
         element("xs:complexType", [&] {
           attribute("frame", number_name(Range::any), true);
-          for (const std::string_view component : components) attribute(component, type, true);
+          for (const std::string_view component : components) attribute(component, type, !or_temperature);
+          if (or_temperature) attribute(temperature_attribute, number_name(Range::positive), false);
           attribute("interpolation", "interpolation", false);
         });
       });

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "raytrace/description/keyframes.h"
 #include "raytrace/description/read_value.h"
 #include "raytrace/math/srgb.h"
 
@@ -169,7 +170,9 @@ std::string example_of(std::string_view element, std::span<const AttributeField>
   std::string text = "<" + printable(element);
   for (std::size_t i = 0; i < fields.size(); ++i) {
     if (!fields[i].required) continue;
-    const std::string_view any = std::holds_alternative<std::string_view*>(fields[i].target) ? "..." : "1";
+    const std::string_view any = std::holds_alternative<std::string_view*>(fields[i].target) ? "..."
+                                 : fields[i].name == temperature_attribute                   ? "2700"
+                                                                                             : "1";
     text.append(" ").append(fields[i].name).append("=\"").append(own[i].empty() ? any : own[i]).append("\"");
   }
   return text + (own.of_hexadecimal() ? "/>, the linear values of that sRGB colour" : "/>");

@@ -7,6 +7,7 @@
 #include "raytrace/description/include.h"
 #include "raytrace/description/keyframes.h"
 #include "raytrace/description/read_transform.h"
+#include "raytrace/math/blackbody.h"
 
 namespace raytrace {
 
@@ -198,8 +199,46 @@ class ValueReader {
     return false;
   }
 
+  /// Whether it is <color kelvin="2700"/>, or has keys such as <key frame="1" kelvin="2700"/>.
+  bool has_temperature() const {
+    if (find_attribute(element_, temperature_attribute)) return true;
+    for (Node node = element_.first_child(); node; node = node.next())
+      if (const Element child = node.element(); child && find_attribute(child, temperature_attribute)) return true;
+    return false;
+  }
+
+  bool read_temperature(Rgb<double>& color) const {
+    double kelvin = 0;
+    std::vector<AttributeField> fields{{temperature_attribute, &kelvin}};
+    if (texture_ != nullptr) fields.push_back(texture_fields(*texture_, false).front());
+    double* const target = &kelvin;
+    const bool fine =
+        has_keys(element_)
+            ? read_keys(element_, {&temperature_attribute, 1}, {&target, 1}, Range::any, context_, texture_)
+            : read_attributes_alone(element_, fields, context_,
+                                    [&](Node node) { return unexpected_content(node, fields); });
+    if (!fine) return false;
+    if (!is_temperature(kelvin)) {
+      context_.diagnostics.error(element_, [&] {
+        return "a black body of " + number_text(kelvin) + " kelvin in " + tag(info_.name) +
+               "; it is from 1000, embers, to 15000, blue sky";
+      });
+      return false;
+    }
+    color = blackbody_color(kelvin);
+    return true;
+  }
+
+  std::string unexpected_content(Node node, std::span<const AttributeField> fields) const {
+    return (node.element() ? "unexpected element " + tag(node.element().name())
+                           : "unexpected text " + in_quotes(node.text())) +
+           " in " + tag(info_.name) + "; its value goes into attributes: " + example_of(info_.name, fields, element_);
+  }
+
   template <class Value>
   bool read_components(Value& value) const {
+    if constexpr (std::is_same_v<Value, Rgb<double>>)
+      if (has_temperature()) return read_temperature(value);
     auto fields = component_fields(&value, info_.range);
     if (element_.first_child() && has_keys(element_)) {
       std::vector<double*> values;
@@ -218,11 +257,8 @@ class ValueReader {
         }
       }
     }
-    return read_attributes_alone(element_, fields, context_, [&](Node node) {
-      return (node.element() ? "unexpected element " + tag(node.element().name())
-                             : "unexpected text " + in_quotes(node.text())) +
-             " in " + tag(info_.name) + "; its value goes into attributes: " + example_of(info_.name, fields, element_);
-    });
+    return read_attributes_alone(element_, fields, context_,
+                                 [&](Node node) { return unexpected_content(node, fields); });
   }
 
   void refuse_zero() const {

@@ -23,7 +23,8 @@ class SceneHash {
     for_each_single(scene, [&]<class T>(std::type_identity<T>, const auto& parameters) {
       // The view plane is always the same type. Its samples do not count, nor does what only files for display show.
       if constexpr (std::is_same_v<T, ViewPlane>) {
-        add_parameters(element_type<T>().fields, &parameters, {"samples", "viewtransform", "exposure", "autoexposure"});
+        add_parameters(element_type<T>().fields, &parameters,
+                       {"samples", "viewtransform", "exposure", "autoexposure", "whitebalance"});
       } else {
         add(T::element);
         add_camera<T>(parameters);

@@ -34,6 +34,7 @@ struct ImageFileSettings {
   double exposure = 0;       ///< formats for display: the linear colour is multiplied by 2^exposure
 
   // Formats for display, too.
+  double white_balance = 0;  ///< ViewPlane::whitebalance
   ViewTransform view_transform = ViewTransform::srgb;
   OcioSettings ocio{};                    ///< in its place
   std::optional<double> auto_exposure{};  ///< `exposure` is this, and what the picture itself asked for

@@ -11,6 +11,7 @@
 #include <limits>
 #include <utility>
 
+#include "raytrace/math/blackbody.h"
 #include "raytrace/math/srgb.h"
 #include "raytrace/output/view_transform.h"
 
@@ -61,6 +62,16 @@ void apply_ocio(const PixelFormat& format, float* values, int pixels) {
     }
 }
 
+/// A colour that is not finite stays as it is.
+Pixel balanced(const ColorMatrix& white_balance, Pixel pixel) {
+  const Rgb<double> color = product(white_balance, {pixel.red, pixel.green, pixel.blue});
+  if (!std::isfinite(color.red + color.green + color.blue)) return pixel;
+  pixel.red = static_cast<float>(color.red);
+  pixel.green = static_cast<float>(color.green);
+  pixel.blue = static_cast<float>(color.blue);
+  return pixel;
+}
+
 /// NaN, which no render gives, covers nothing.
 float coverage(float alpha) { return alpha > 0 ? std::min(alpha, 1.0F) : 0.0F; }
 
@@ -71,12 +82,13 @@ PixelFormat display_format(const ImageFileSettings& settings) {
   format.alpha = settings.transparent;
   format.gain = static_cast<float>(std::exp2(settings.exposure));
   format.view = settings.view_transform;
+  if (settings.white_balance != 0) format.white_balance = white_balance(settings.white_balance);
   return format;
 }
 
-std::string exposure_text(double exposure) {
+std::string shortest_text(double number) {
   std::array<char, 32> text;
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), exposure).ptr};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
 }
 
 std::vector<ImageAttribute> view_attributes(const ImageFileSettings& settings) {
@@ -91,8 +103,9 @@ std::vector<ImageAttribute> view_attributes(const ImageFileSettings& settings) {
   } else if (settings.view_transform != ViewTransform::srgb) {
     attributes.push_back({view_transform_keyword, name_of(settings.view_transform)});
   }
-  if (settings.exposure != 0) attributes.push_back({exposure_keyword, exposure_text(settings.exposure)});
-  if (settings.auto_exposure) attributes.push_back({auto_exposure_keyword, exposure_text(*settings.auto_exposure)});
+  if (settings.exposure != 0) attributes.push_back({exposure_keyword, shortest_text(settings.exposure)});
+  if (settings.white_balance != 0) attributes.push_back({white_balance_keyword, shortest_text(settings.white_balance)});
+  if (settings.auto_exposure) attributes.push_back({auto_exposure_keyword, shortest_text(*settings.auto_exposure)});
   return attributes;
 }
 
@@ -111,11 +124,12 @@ Repairs stored_row(const ImageBand& band, int row, const PixelFormat& format, fl
   const bool is_viewed = format.for_display && (format.ocio || format.view != ViewTransform::srgb);
   const std::size_t first = static_cast<std::size_t>(row) * width;
   for (std::size_t i = first; i < first + width; ++i) {
-    const Pixel pixel = color_at(band, i);
+    Pixel pixel = color_at(band, i);
     const float alpha = format.alpha ? coverage(pixel.alpha) : 1.0F;
     const bool straight = format.for_display && alpha < 1;
     const float factor = !straight ? format.gain : alpha > 0 ? format.gain / alpha : 0.0F;
     if (std::min({pixel.red, pixel.green, pixel.blue}) < format.lowest && format.lowest == 0) ++repairs.negative;
+    if (format.white_balance) pixel = balanced(*format.white_balance, pixel);
     if (is_viewed) {
       view(pixel, factor, format, values, repairs);
       values += 3;

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "raytrace/math/color_matrix.h"
 #include "raytrace/output/color_transform.h"
 #include "raytrace/output/image_band.h"
 #include "raytrace/output/image_file.h"
@@ -19,23 +21,25 @@ struct PixelFormat {
   float lowest = 0, highest = 1;
   float gain = 1;  ///< of the linear colour
   // Of display formats.
+  std::optional<ColorMatrix> white_balance{};
   ViewTransform view = ViewTransform::srgb;
   std::shared_ptr<const ColorTransform> ocio{};  ///< null, or in place of the view transform and the curve
 
   int channels() const { return alpha ? 4 : 3; }
 };
 
-/// A display format's, with the settings' alpha, exposure and view transform, but without OpenColorIO, which is
-/// the module's (openimageio_module.h).
+/// A display format's, with the settings' alpha, exposure, white balance and view transform, but without OpenColorIO,
+/// which is the module's (openimageio_module.h).
 PixelFormat display_format(const ImageFileSettings& settings);
 
 inline constexpr const char* view_transform_keyword = "raytrace:viewTransform";
 inline constexpr const char* exposure_keyword = "raytrace:exposure";
 inline constexpr const char* auto_exposure_keyword = "raytrace:autoExposure";
+inline constexpr const char* white_balance_keyword = "raytrace:whiteBalance";
 inline constexpr const char* ocio_keyword = "raytrace:ocio";
 
 /// As short as it can be without being another number.
-std::string exposure_text(double exposure);
+std::string shortest_text(double number);
 
 /// What a file for display says of the settings' view: only of what is not the default. What the picture's own
 /// brightness asked for, and what was asked for beside it, are two.

@@ -24,12 +24,13 @@ struct ViewSettings {
   ViewTransform transform = ViewTransform::srgb;
   double exposure = 0;
   bool auto_exposure = false;
+  double white_balance = 0;
 
   friend bool operator==(const ViewSettings&, const ViewSettings&) = default;
 };
 
 inline ViewSettings view_settings(const ViewPlane& viewplane) {
-  return {viewplane.viewtransform, viewplane.exposure, viewplane.autoexposure};
+  return {viewplane.viewtransform, viewplane.exposure, viewplane.autoexposure, viewplane.whitebalance};
 }
 
 /// In place of the scene's, where they are given. An exposure is all of it: neither the scene's nor what the picture
@@ -38,19 +39,21 @@ struct ViewOptions {
   std::optional<ViewTransform> transform;
   std::optional<double> exposure;
   bool auto_exposure = false;
+  std::optional<double> white_balance;
   OcioSettings ocio;
 
   /// The option of the command line that is given, or the first of several; empty: none.
   std::string first_given() const {
     if (exposure) return "--exposure";
     if (auto_exposure) return "--auto-exposure";
+    if (white_balance) return "--white-balance";
     if (transform) return "--view-transform";
     return ocio.empty() ? "" : "--ocio";
   }
 
   ViewSettings over(const ViewSettings& scene) const {
     return {transform.value_or(scene.transform), exposure.value_or(scene.exposure),
-            auto_exposure || (scene.auto_exposure && !exposure)};
+            auto_exposure || (scene.auto_exposure && !exposure), white_balance.value_or(scene.white_balance)};
   }
 };
 

@@ -1,20 +1,13 @@
 #include "raytrace/output/view_transform.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+
+#include "raytrace/math/color_matrix.h"
 
 namespace raytrace {
 
 namespace {
-
-using Row = std::array<double, 3>;
-using Matrix = std::array<Row, 3>;
-
-Rgb<double> product(const Matrix& matrix, const Rgb<double>& color) {
-  const auto part = [&](const Row& row) { return row[0] * color.red + row[1] * color.green + row[2] * color.blue; };
-  return {part(matrix[0]), part(matrix[1]), part(matrix[2])};
-}
 
 template <class Function>
 Rgb<double> each(const Rgb<double>& color, const Function& f) {
@@ -46,35 +39,21 @@ Rgb<double> khronos_neutral(const Rgb<double>& color) {
 // over the logarithm, from 10 stops below 0.18 to 6.5 above, which leaves 0.18 as it is; the outset gives back colour.
 // Without what Blender's table adds: the hue is the curve's, and what is outside of Rec. 709 is clipped.
 
-constexpr Matrix rec2020_of_rec709{{{0.627403895934699, 0.329283038377884, 0.043313065687417},
-                                    {0.069097289358232, 0.919540395075459, 0.011362315566309},
-                                    {0.016391438875150, 0.088013307877226, 0.895595253247624}}};
-constexpr Matrix rec709_of_rec2020{{{1.660491002108435, -0.587641138788550, -0.072849863319885},
-                                    {-0.124550474521591, 1.132899897125960, -0.008349422604369},
-                                    {-0.018150763354905, -0.100578898008007, 1.118729661362913}}};
-constexpr Matrix inset{{{0.856627153315983, 0.0951212405381588, 0.0482516061458583},
-                        {0.137318972929847, 0.761241990602591, 0.101439036467562},
-                        {0.11189821299995, 0.0767994186031903, 0.811302368396859}}};
+constexpr ColorMatrix rec2020_of_rec709{{{0.627403895934699, 0.329283038377884, 0.043313065687417},
+                                         {0.069097289358232, 0.919540395075459, 0.011362315566309},
+                                         {0.016391438875150, 0.088013307877226, 0.895595253247624}}};
+constexpr ColorMatrix rec709_of_rec2020{{{1.660491002108435, -0.587641138788550, -0.072849863319885},
+                                         {-0.124550474521591, 1.132899897125960, -0.008349422604369},
+                                         {-0.018150763354905, -0.100578898008007, 1.118729661362913}}};
+constexpr ColorMatrix inset{{{0.856627153315983, 0.0951212405381588, 0.0482516061458583},
+                             {0.137318972929847, 0.761241990602591, 0.101439036467562},
+                             {0.11189821299995, 0.0767994186031903, 0.811302368396859}}};
 /// What the outset undoes.
-constexpr Matrix milder_inset{{{0.899796955911611, 0.0871996192028351, 0.013003424885555},
-                               {0.11142098895748, 0.875575586156966, 0.0130034248855548},
-                               {0.11142098895748, 0.0871996192028349, 0.801379391839686}}};
+constexpr ColorMatrix milder_inset{{{0.899796955911611, 0.0871996192028351, 0.013003424885555},
+                                    {0.11142098895748, 0.875575586156966, 0.0130034248855548},
+                                    {0.11142098895748, 0.0871996192028349, 0.801379391839686}}};
 
-constexpr Matrix inverse(const Matrix& m) {
-  Matrix result{};
-  double determinant = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      const std::size_t a = (j + 1) % 3, b = (j + 2) % 3, c = (i + 1) % 3, d = (i + 2) % 3;
-      result[i][j] = m[a][c] * m[b][d] - m[a][d] * m[b][c];
-    }
-    determinant += m[0][i] * result[i][0];
-  }
-  for (Row& row : result)
-    for (double& value : row) value /= determinant;
-  return result;
-}
-constexpr Matrix outset = inverse(milder_inset);
+constexpr ColorMatrix outset = inverse(milder_inset);
 
 constexpr double stops_below = 10, stops_above = 6.5, middle_grey = 0.18;
 constexpr double slope = 2.4, power = 1.5, display_power = 2.4;

@@ -88,6 +88,7 @@ std::string view_text(const ImageFileSettings& settings) {
     if (attribute.name == view_transform_keyword) text += ", view transform " + value;
     if (attribute.name == ocio_keyword) text += ", OpenColorIO " + value;
     if (attribute.name == exposure_keyword) text += ", exposure " + value;
+    if (attribute.name == white_balance_keyword) text += ", white balance " + value + " K";
   }
   return text;
 }
