@@ -35,7 +35,8 @@ std::array<float, 2> uv_of(std::size_t i) {
   return {static_cast<float>(i % side) / side, static_cast<float>(i / side) / side};
 }
 std::array<std::uint8_t, 4> color_of(std::size_t i) {
-  return {static_cast<std::uint8_t>(5 * i), static_cast<std::uint8_t>(255 - i), static_cast<std::uint8_t>(i % 3), 255};
+  return {static_cast<std::uint8_t>(5 * i), static_cast<std::uint8_t>(255 - i), static_cast<std::uint8_t>(i % 3),
+          static_cast<std::uint8_t>(3 * i)};
 }
 
 std::vector<std::array<std::uint32_t, 3>> sheet_faces() {
@@ -112,7 +113,9 @@ std::string draco_scene(const std::string& primitives) {
 }
 
 MeshData read_sheet(const GltfFile& file, const std::string& primitives) {
-  ReadResult read = read_bytes("a.glb", file.glb(draco_scene(primitives)));
+  MeshReadSettings settings;
+  settings.vertex_alphas = true;
+  ReadResult read = read_bytes("a.glb", file.glb(draco_scene(primitives)), settings);
   INFO(read.messages);
   REQUIRE(read.mesh);
   CHECK(read.messages.empty());
@@ -166,6 +169,7 @@ void check_sheet(const MeshData& mesh) {
   CHECK(error_of(mesh.normals, vertices, 3, [](auto i, auto k) { return normal_of(i)[k]; }) < 0.01);
   CHECK(error_of(mesh.uvs, vertices, 2, [](auto i, auto k) { return k == 0 ? uv_of(i)[k] : 1 - uv_of(i)[k]; }) < 0.001);
   CHECK(error_of(mesh.colors, vertices, 3, [](auto i, auto k) { return color_of(i)[k] / 255.0F; }) < 1e-6);
+  CHECK(error_of(mesh.alphas, vertices, 1, [](auto i, auto) { return color_of(i)[3] / 255.0F; }) < 1e-6);
   std::vector<std::array<std::size_t, 3>> expected;
   for (const auto& face : sheet_faces()) expected.push_back({face[0], face[1], face[2]});  // each from its least
   std::sort(expected.begin(), expected.end());

@@ -94,7 +94,9 @@ const std::string of_grid = R"("attributes":{"POSITION":0},"indices":1)";
 
 MeshData read_compressed(const GltfFile& file, const std::string& primitive = of_grid, const std::string& of_node = "",
                          const std::string& extension = "EXT_meshopt_compression") {
-  ReadResult read = read_bytes("a.glb", file.glb(requiring(extension, primitive, of_node)));
+  MeshReadSettings settings;
+  settings.vertex_alphas = true;
+  ReadResult read = read_bytes("a.glb", file.glb(requiring(extension, primitive, of_node)), settings);
   INFO(read.messages);
   REQUIRE(read.mesh);
   CHECK(read.messages.empty());
@@ -240,6 +242,11 @@ TEST_CASE("meshoptimizer's colours are restored from luma and two differences") 
     double error = 0;
     for (std::size_t i = 0; i < mesh.colors.size(); ++i)
       error = std::max(error, std::abs(double{mesh.colors[i]} - expected[i % 9]));
+    // Of 8, 6 and 8 bits; the first says how many, and those below it are alpha's.
+    const double alphas[] = {1, 0, 128 / 255.0};
+    REQUIRE(mesh.alphas.size() == grid_size);
+    for (std::size_t i = 0; i < mesh.alphas.size(); ++i)
+      error = std::max(error, std::abs(double{mesh.alphas[i]} - alphas[i % 3]) / 2);
     CHECK(error < 0.51 / double{std::numeric_limits<T>::max()});
   };
   check(std::uint8_t{}, 5121);

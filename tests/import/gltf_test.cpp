@@ -261,26 +261,6 @@ TEST_CASE("a glTF spot of Blender's has Blender's penumbra") {
   CHECK(penumbra(R"("innerConeAngle":0,"outerConeAngle":0.5)", blender) == Approx(0.5 * 180 / std::numbers::pi));
 }
 
-TEST_CASE("a warning names a glTF material that would need the alpha of vertex colours") {
-  const auto messages = [](const std::string& alpha_mode, std::uint8_t alpha) {
-    GltfFile file = square();
-    file.add(std::vector<std::uint8_t>{255, 0, 51, 255, 0, 0, 0, 255, 0, 0, 0, alpha, 0, 0, 0, 255}, "VEC4", 5121, 4,
-             R"(,"normalized":true)");
-    const std::string once = R"({"attributes":{"POSITION":0,"COLOR_0":2},"indices":1,"material":0})";
-    const ReadResult read =
-        read_bytes("a.gltf", file.text(R"("scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[)" +
-                                       once + ',' + once + R"(]}],"materials":[{"name":"veil")" + alpha_mode + "}]"));
-    CHECK(read.mesh);
-    return read.messages;
-  };
-  const std::string warning = "a.gltf: warning: materials[0]: 'veil': the alpha of its vertex colours is not used\n";
-  CHECK(messages(R"(,"alphaMode":"BLEND")", 128) == warning);
-  CHECK(messages(R"(,"alphaMode":"MASK")", 128) == warning);
-  CHECK(messages(R"(,"alphaMode":"BLEND")", 255).empty());
-  CHECK(messages(R"(,"alphaMode":"OPAQUE")", 128).empty());
-  CHECK(messages("", 128).empty());
-}
-
 TEST_CASE("glTF's primitives are one mesh with a material for each face") {
   GltfFile file = square();
   file.add(Numbers{0.5F, 0.5F, 0.5F, 0.5F, 0.5F, 0.5F, 0.5F, 0.5F}, "VEC2", float_type, 4);

@@ -24,13 +24,13 @@ std::string ply_of(PlyForm form, const std::vector<PlyFace>& faces, bool uvs_fir
                    const std::string& comments = "") {
   const std::string names[] = {"ascii", "binary_little_endian", "binary_big_endian"};
   const std::string lists[] = {"property list uchar int vertex_indices\n", "property list uchar float texcoord\n"};
-  std::string bytes =
-      "ply\nformat " + names[static_cast<std::size_t>(form)] + " 1.0\n" + comments +
-      "element vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n"
-      "property uchar green\nproperty uchar blue\nproperty float nx\nproperty float ny\nproperty float nz\n"
-      "element face " +
-      std::to_string(faces.size()) + "\n" + lists[uvs_first ? 1 : 0] + lists[uvs_first ? 0 : 1] +
-      "property int texnumber\nend_header\n";
+  std::string bytes = "ply\nformat " + names[static_cast<std::size_t>(form)] + " 1.0\n" + comments +
+                      "element vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n"
+                      "property uchar green\nproperty uchar blue\nproperty uchar alpha\nproperty float nx\nproperty "
+                      "float ny\nproperty float nz\n"
+                      "element face " +
+                      std::to_string(faces.size()) + "\n" + lists[uvs_first ? 1 : 0] + lists[uvs_first ? 0 : 1] +
+                      "property int texnumber\nend_header\n";
   const auto put = [&](auto value, const char* behind = " ") {
     bytes +=
         form == PlyForm::text ? std::to_string(value) + behind : bytes_of_value(value, form == PlyForm::big_endian);
@@ -38,7 +38,7 @@ std::string ply_of(PlyForm form, const std::vector<PlyFace>& faces, bool uvs_fir
   for (int i = 0; i < 4; ++i) {
     const bool right = i == 1 || i == 2, upper = i >= 2;
     for (const float value : {right ? 1.0F : 0.0F, upper ? 1.0F : 0.0F, 0.0F}) put(value);
-    for (const int color : {i == 1 ? 255 : 0, 0, 255}) put(static_cast<std::uint8_t>(color));
+    for (const int color : {i == 1 ? 255 : 0, 0, 255, 51 * i}) put(static_cast<std::uint8_t>(color));
     put(0.0F);
     put(right ? 1.0F : 0.0F);
     put(1.0F, "\n");
@@ -68,10 +68,13 @@ constexpr PlyForm all_forms[] = {PlyForm::text, PlyForm::little_endian, PlyForm:
 }  // namespace
 
 TEST_CASE("texture coordinates of a PLY file's corners make vertices of their own") {
+  MeshReadSettings settings;
+  settings.vertex_alphas = true;
   for (const PlyForm form : all_forms)
     for (const bool uvs_first : {false, true}) {
       const ReadResult read = read_bytes(
-          "a.ply", ply_of(form, {{{0, 1, 2}, {0, 0, 1, 0, 1, 1}}, {{0, 2, 3}, {0, 0, 0.25F, 0.5F, 0, 1}}}, uvs_first));
+          "a.ply", ply_of(form, {{{0, 1, 2}, {0, 0, 1, 0, 1, 1}}, {{0, 2, 3}, {0, 0, 0.25F, 0.5F, 0, 1}}}, uvs_first),
+          settings);
       INFO(read.messages << static_cast<int>(form) << uvs_first);
       CHECK(read.messages.empty());
       REQUIRE(read.mesh);
@@ -81,6 +84,7 @@ TEST_CASE("texture coordinates of a PLY file's corners make vertices of their ow
       CHECK(values(read.mesh->positions) == std::vector<float>{0, 0, 0, 1, 0, 0, 1, 1, 0, 1, 1, 0, 0, 1, 0});
       CHECK(read.mesh->colors[3] == 1);
       CHECK(read.mesh->colors[9] == 0);
+      CHECK(values(read.mesh->alphas) == std::vector<float>{0, 0.2F, 0.4F, 0.4F, 0.6F});
       CHECK(read.mesh->normals[3 * 3 + 1] == 1);
       CHECK(read.mesh->normals[3 * 4 + 1] == 0);
     }

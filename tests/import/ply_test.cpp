@@ -84,6 +84,32 @@ TEST_CASE("an ASCII PLY has normals, texture coordinates and colours of its vert
   CHECK(read.mesh->colors[6] == Approx(0.502886).epsilon(1e-5));
 }
 
+TEST_CASE("a PLY's alphas beside its colours are kept for a scene that asks for them") {
+  const auto read = [](const std::string& type, const std::string& alphas, bool for_scene = true,
+                       const std::string& colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n") {
+    const std::string first = alphas.substr(0, alphas.find(' ')), second = alphas.substr(alphas.find(' ') + 1);
+    const std::string color = colors.empty() ? " " : " 1 2 3 ";
+    MeshReadSettings settings;
+    settings.vertex_alphas = for_scene;
+    const ReadResult result = read_bytes(
+        "a.ply",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n" + colors +
+            "property " + type + " alpha\nelement face 1\nproperty list uchar int vertex_index\nend_header\n0 0 0" +
+            color + first + "\n1 0 0" + color + second + "\n0 1 0" + color + first + "\n3 0 1 2\n",
+        settings);
+    INFO(result.messages);
+    REQUIRE(result.mesh);
+    return values(result.mesh->alphas);
+  };
+  CHECK(read("uchar", "255 51") == Floats{1, 0.2F, 1});
+  CHECK(read("ushort", "0 13107") == Floats{0, 0.2F, 0});
+  CHECK(read("float", "0.25 7") == Floats{0.25F, 1, 0.25F});  // none is beyond 0 or 1
+  CHECK(read("float", "nan -1") == Floats{0, 0, 0});
+  CHECK(read("uchar", "255 255").empty());
+  CHECK(read("uchar", "255 51", false).empty());
+  CHECK(read("uchar", "255 51", true, "").empty());
+}
+
 TEST_CASE("a PLY file's texture is the colour of its mesh, if it is there") {
   const TemporaryFolder folder;
   const auto read = [&](const std::string& texture, const std::string& uvs) {

@@ -74,7 +74,8 @@ inline bool same_mesh(const MeshData& a, const MeshData& b) {
   return a.corners == b.corners && values(a.positions) == values(b.positions) &&
          values(a.indices) == values(b.indices) && values(a.normals) == values(b.normals) &&
          values(a.uvs) == values(b.uvs) && values(a.uvs2) == values(b.uvs2) && values(a.colors) == values(b.colors) &&
-         values(a.tangents) == values(b.tangents) && values(a.face_materials) == values(b.face_materials);
+         values(a.alphas) == values(b.alphas) && values(a.tangents) == values(b.tangents) &&
+         values(a.face_materials) == values(b.face_materials);
 }
 
 }  // namespace raytrace::test

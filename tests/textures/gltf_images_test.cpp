@@ -166,6 +166,50 @@ TEST_CASE("glTF's roughness and metalness are channels of one image, and a mask 
   CHECK(mask.valuescale * 0.48 + mask.valueoffset < 0);
 }
 
+TEST_CASE("the alphas of a glTF file's vertices multiply the opacity's image, or are its texture") {
+  const TemporaryFolder folder;
+  GltfFile file = made_triangle();
+  file.add(std::vector<float>{1, 0, 0, 1, 0, 1, 0, 0.5F, 0, 0, 1, 0}, "VEC4", 5126, 3);
+  const auto primitive = [](int material) {
+    return R"({"attributes":{"POSITION":0,"TEXCOORD_0":1,"COLOR_0":3},"material":)" + std::to_string(material) + "}";
+  };
+  write_text(
+      folder.file("a.gltf"), file.text(R"("scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"textures":[{"source":0}],
+      "meshes":[{"primitives":[)" + primitive(0) +
+                                       ',' + primitive(1) + ',' + primitive(2) + R"(]}],
+      "materials":[{"alphaMode":"MASK","alphaCutoff":0.25,"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.5],
+        "baseColorTexture":{"index":0}}},{"alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.5]}},
+        {"alphaMode":"MASK","alphaCutoff":0.75}],"images":[{"uri":"data:image/png;base64,)" +
+                                       made_png_base64 + R"("}])"));
+  const LoadedGltf loaded = loaded_gltf(folder, "a.gltf");
+  INFO(loaded.messages);
+  REQUIRE(loaded.fine);
+  CHECK(loaded.messages.empty());
+  const auto& materials = std::get<MaterialItems<OpenPbr>>(loaded.scene->materials);
+  const auto opacity_of = [&](std::size_t material) {
+    for (const TextureUse& use : materials.at(material).textures)
+      if (element_type<OpenPbr>().fields[use.field].name == "opacity") return use;
+    FAIL("no opacity");
+    return TextureUse{};
+  };
+  const auto& images = std::get<TextureItems<Image>>(loaded.scene->textures);
+  REQUIRE(images.size() == 2);  // that of the colour has none of it
+  CHECK(materials[0].parameters.opacity == 1);
+  REQUIRE(opacity_of(0).texture.type == index_of<Image>(Textures{}));
+  CHECK(images[opacity_of(0).texture.index].parameters.vertexalpha);
+  CHECK(opacity_of(0).channel == TextureChannel::alpha);
+  CHECK_FALSE(images[1 - opacity_of(0).texture.index].parameters.vertexalpha);
+  const auto& vertices = std::get<TextureItems<VertexColor>>(loaded.scene->textures);
+  REQUIRE(vertices.size() == 2);  // that of the mask is made sharp
+  CHECK(materials[1].parameters.opacity == 0.5);
+  CHECK(opacity_of(1).channel == TextureChannel::alpha);
+  CHECK(vertices[opacity_of(1).texture.index].parameters.valuescale == 1);
+  CHECK(materials[2].parameters.opacity == 1);
+  const VertexColor::Parameters& mask = vertices[opacity_of(2).texture.index].parameters;
+  CHECK(mask.valuescale * 0.75 + mask.valueoffset == 0.5);
+  CHECK(mask.valuescale > 50);
+}
+
 TEST_CASE("a glTF texture's WebP image is read in place of its other one") {
   const TemporaryFolder folder;
   std::string members = made_gltf_members;

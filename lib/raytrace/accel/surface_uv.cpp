@@ -202,6 +202,17 @@ Rgb<FloatN> vertex_color(const GeometryTable& world, const Hits& hits) {
   return result;
 }
 
+FloatN vertex_alpha(const GeometryTable& world, const Hits& hits) {
+  FloatN result(1);
+  if (world.has_shapes_only()) return result;
+  world.for_each_geometry(hits, [&](const GeometryTable& table, std::uint32_t geometry, const MaskN& here) {
+    const MeshTable* const mesh = table.geometry(geometry).mesh;
+    if (mesh == nullptr || !mesh->has_alphas()) return;
+    result = select(here, mesh->alpha(mesh->triangles(follow_first(here, hits.primitive), hits)), result);
+  });
+  return result;
+}
+
 /// What u and v change by along a way on the surface; 1, more than there is, where they say nothing, as at a pole.
 Vec2<FloatN> uv_along(const SurfaceUv<FloatN>& uv, const Vec3<FloatN>& way) {
   // By unit vectors, so that no product of large objects' overflows.
@@ -247,6 +258,7 @@ TexturePoint<FloatN> texture_point(const SceneTables& scene, const FloatN& radiu
   if (scene.has_second_uvset()) [[unlikely]]
     point.second = on_surface(UvSet::second);
   point.vertex_color = vertex_color(scene.geometry(), hits);
+  point.vertex_alpha = scene.has_vertex_alphas() ? vertex_alpha(scene.geometry(), hits) : FloatN(1);
   return point;
 }
 
@@ -257,9 +269,12 @@ std::optional<TexturePoint<FloatN>> texture_point_of_coordinates(const SceneTabl
     const MeshTable* const mesh = table.geometry(geometry).mesh;
     if (mesh == nullptr || !mesh->has_coordinates(set)) return;
     const Vec2<FloatN> nothing{FloatN(0), FloatN(0)};
-    UvPoint<FloatN>& point = result.emplace().by(set);
+    TexturePoint<FloatN>& all = result.emplace();
+    UvPoint<FloatN>& point = all.by(set);
     point.uv_across = point.uv_along = nothing;
-    point.uv = mesh->coordinates(mesh->triangles(follow_first(here, hits.primitive), hits), set);
+    const LaneTriangles triangles = mesh->triangles(follow_first(here, hits.primitive), hits);
+    point.uv = mesh->coordinates(triangles, set);
+    all.vertex_alpha = mesh->has_alphas() ? mesh->alpha(triangles) : FloatN(1);
   });
   return result;
 }

@@ -49,6 +49,7 @@ OptionalMessage check_buffers(const MeshData& mesh, std::size_t materials) {
   for (const auto& [name, size, each] :
        {std::tuple("normals", mesh.normals.size(), std::size_t{3}), std::tuple("uvs", mesh.uvs.size(), std::size_t{2}),
         std::tuple("uvs2", mesh.uvs2.size(), std::size_t{2}), std::tuple("colors", mesh.colors.size(), std::size_t{3}),
+        std::tuple("alphas", mesh.alphas.size(), std::size_t{1}),
         std::tuple("tangents", mesh.tangents.size(), std::size_t{4})})
     if (OptionalMessage message = check_size(name, size, each, vertices, "vertices")) return message;
   if (OptionalMessage message = check_size("face_materials", mesh.face_materials.size(), 1, faces, "faces"))

@@ -72,11 +72,14 @@ MaterialReference FileMaterials::add(const MeshMaterial& material, const std::fi
   if (!material.map_d.file.empty())
     set_texture(added, opacity_field, image(material.map_d, folder),
                 material.map_d.alpha ? TextureChannel::alpha : TextureChannel::automatic);
+  else if (material.map_d.by_vertices)
+    set_texture(added, opacity_field, vertex_colors(material.map_d), TextureChannel::alpha);
   if (!material.norm.file.empty()) set_texture(added, normalmap_field, image(material.norm, folder));
   with_type(Materials{}, added.type, [&]<class Material>(std::type_identity<Material>) {
     auto& parameters = std::get<MaterialItems<Material>>(scene_.materials)[added.index].parameters;
     if constexpr (requires { parameters.opacity; }) {
-      parameters.opacity = std::max(0.0, material.d.value_or(1));
+      // What a mask is multiplied by is in its texture, before the cutoff.
+      parameters.opacity = material.is_mask && material.map_d.by_vertices ? 1 : std::max(0.0, material.d.value_or(1));
       parameters.normalmap = material.norm.strength;
     }
   });
@@ -114,7 +117,8 @@ TextureReference FileMaterials::image(const MeshTexture& texture, const std::fil
   const std::string path = (folder / texture.file).string();
   const ImageUse key{
       path,           texture.scale,  texture.offset,  texture.rotation, texture.value_scale, texture.value_offset,
-      texture.edge_u, texture.edge_v, texture.nearest, texture.by_uvs2,  colorspace,          texture.made_of};
+      texture.edge_u, texture.edge_v, texture.nearest, texture.by_uvs2,  texture.by_vertices, colorspace,
+      texture.made_of};
   const auto [known, is_new] = known_images_.try_emplace(key, images.size());
   const auto index = static_cast<std::uint32_t>(known->second);
   if (!is_new) return {index_of<Image>(Textures{}), index};
@@ -130,6 +134,7 @@ TextureReference FileMaterials::image(const MeshTexture& texture, const std::fil
   if (texture.edge_v != texture.edge_u) image.parameters.wrapv = Image::own_wrap_v(wrap_of(texture.edge_v));
   if (texture.nearest) image.parameters.filter = TextureFilter::nearest;
   if (texture.by_uvs2) image.parameters.uvset = UvSet::second;
+  image.parameters.vertexalpha = texture.by_vertices;
   image.image.bytes = texture.bytes;
   if (texture.made_of) {
     auto from = std::make_shared<SpecularGlossiness>(*texture.made_of);
@@ -142,10 +147,17 @@ TextureReference FileMaterials::image(const MeshTexture& texture, const std::fil
   return {index_of<Image>(Textures{}), index};
 }
 
-TextureReference FileMaterials::vertex_colors() {
+TextureReference FileMaterials::vertex_colors(const MeshTexture& values) {
   auto& textures = std::get<TextureItems<VertexColor>>(scene_.textures);
-  if (textures.empty()) textures.push_back({{}, "vertex colors", 0, true});
-  return {index_of<VertexColor>(Textures{}), 0};
+  const auto known = std::ranges::find_if(textures, [&](const TextureItem<VertexColor>& item) {
+    return item.parameters.valuescale == values.value_scale && item.parameters.valueoffset == values.value_offset;
+  });
+  const auto index = static_cast<std::uint32_t>(known - textures.begin());
+  if (known == textures.end()) {
+    const std::string number = textures.empty() ? "" : '#' + std::to_string(textures.size());
+    textures.push_back({{values.value_scale, values.value_offset}, "vertex colors" + number, 0, true});
+  }
+  return {index_of<VertexColor>(Textures{}), index};
 }
 
 void FileMaterials::set_texture(const MaterialReference& material, std::string_view field,

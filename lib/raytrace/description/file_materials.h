@@ -35,7 +35,8 @@ class FileMaterials {
   /// The same one for what uses an image in the same way.
   TextureReference image(const MeshTexture& texture, const std::filesystem::path& folder,
                          ColorSpace colorspace = ColorSpace::automatic);
-  TextureReference vertex_colors();
+  /// values: what is done to the numbers at vertices.
+  TextureReference vertex_colors(const MeshTexture& values = {});
   void set_texture(const MaterialReference& material, std::string_view field, const TextureReference& texture,
                    TextureChannel channel = TextureChannel::automatic);
 
@@ -43,7 +44,7 @@ class FileMaterials {
   std::set<std::string> taken_names_;
   using ImageUse =
       std::tuple<std::string, std::array<double, 2>, std::array<double, 2>, double, double, double, MeshTexture::Edge,
-                 MeshTexture::Edge, bool, bool, ColorSpace, std::shared_ptr<const SpecularGlossiness>>;
+                 MeshTexture::Edge, bool, bool, bool, ColorSpace, std::shared_ptr<const SpecularGlossiness>>;
   std::map<ImageUse, std::size_t> known_images_;
   MaterialReference grey_ = no_material, painted_ = no_material;
 };

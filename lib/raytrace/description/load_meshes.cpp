@@ -27,6 +27,21 @@ bool has_faces_without(const MeshData& mesh) {
   return std::ranges::find(mesh.face_materials, MeshData::no_material) != mesh.face_materials.end();
 }
 
+/// Whether a material of the scene asks for the alphas of vertices.
+bool wants_vertex_alphas(const SceneDescription& scene) {
+  const auto is_by_them = [&](const TextureUse& use) {
+    if (use.texture.type == index_of<VertexColor>(Textures{})) return use.channel == TextureChannel::alpha;
+    return use.texture.type == index_of<Image>(Textures{}) &&
+           std::get<TextureItems<Image>>(scene.textures).at(use.texture.index).parameters.vertexalpha;
+  };
+  bool any = false;
+  for_each_type(Materials{}, [&]<class Material>(std::type_identity<Material>) {
+    for (const auto& item : std::get<MaterialItems<Material>>(scene.materials))
+      any = any || std::ranges::any_of(item.textures, is_by_them);
+  });
+  return any;
+}
+
 class MeshLoader {
  public:
   MeshLoader(SceneDescription& scene, Diagnostics& diagnostics, int threads)
@@ -216,6 +231,7 @@ class MeshLoader {
   std::optional<Data> read(const FileName& file, MeshReadSettings settings,
                            std::optional<Data> (*reader)(const std::string&, const MeshReadSettings&, Diagnostics&)) {
     settings.threads = threads_;
+    settings.vertex_alphas = vertex_alphas_;
     Diagnostics found(on_one_line(file.path));
     std::optional<Data> data = reader(file.path, settings, found);
     if (data) {
@@ -244,6 +260,7 @@ class MeshLoader {
   SceneDescription& scene_;
   Diagnostics& diagnostics_;
   int threads_;
+  const bool vertex_alphas_ = wants_vertex_alphas(scene_);
   FileMaterials added_;
   std::map<MeshFileKey, LoadedFile> files_;
   const std::set<MeshFileKey> shown_materials_ = files_with_shown_materials(scene_);

@@ -134,6 +134,7 @@ class SceneHash {
     add_values(data.uvs);
     add_values(data.uvs2);
     add_values(data.colors);
+    add_values(data.alphas);
     add_values(data.face_materials);
     add_values(data.tangents);
     // Cryptomatte's ids are of their names.

@@ -103,13 +103,11 @@ class MaterialReader {
     material_.d = base_alpha_;
     if (mode->text() == "BLEND") return;
     const double cutoff = number(item_, "alphaCutoff", 0.5);
-    if (material_.map_d.file.empty()) {
-      material_.d = base_alpha_ >= cutoff ? 1 : 0;
-      return;
-    }
+    material_.is_mask = true;
+    // Of what nothing but the vertices' alphas may multiply.
+    material_.d = !material_.map_d.file.empty() || base_alpha_ >= cutoff ? 1 : 0;
     // All or nothing, but for a hundredth about the cutoff.
     constexpr double steep = 100;
-    material_.d = 1;
     material_.map_d.value_scale = steep * base_alpha_;
     material_.map_d.value_offset = 0.5 - steep * cutoff;
   }

@@ -256,6 +256,7 @@ PrimitiveMaterial ModelReader::material(const Item& number) {
   document_.be_quiet(false);
   known->second.coordinates = textures_.coordinates();
   const MeshMaterial& read = model_.materials.back();
+  known->second.shows_alpha = read.map_d.alpha && !known->second.is_overridden;
   known->second.is_thin_glass =
       read.thin_walled && std::ranges::any_of(read.openpbr, [](const MeshParameter& parameter) {
         return parameter.name == "transmission_weight";

@@ -32,6 +32,12 @@ inline bool is_deformed(const Primitive& primitive, const Instance& instance) {
   return has_skin(primitive, instance) || is_morphed(primitive, *instance.weights);
 }
 
+/// A skin mirrors as its first joint does.
+inline bool is_mirrored(const Primitive& primitive, const Instance& instance) {
+  const Affine& affine = has_skin(primitive, instance) ? instance.skin->joints.front() : instance.transform;
+  return affine.determinant() < 0;
+}
+
 struct Model {
   std::unique_ptr<Document> document;               ///< what accessors point into
   std::vector<Instance> instances;                  ///< in the order of the nodes

@@ -109,17 +109,6 @@ std::string named(const Item& item) {
   return name.empty() ? "" : in_quotes(name) + ": ";
 }
 
-/// Where the alpha of vertex colours would count, which a mesh has no place for.
-void warn_of_alpha(const Primitive& primitive, const Item& material, Document& document) {
-  const std::optional<Item> mode = material.find("alphaMode");
-  if (!mode || mode->text() == "OPAQUE" || !primitive.colors || primitive.colors->elements.components < 4) return;
-  if (!document.may_look_at(primitive.colors->elements.count)) return;
-  bool is_opaque = true;
-  for_each_element(*primitive.colors, 1, [&](std::size_t, const auto& values) { is_opaque &= values[3] >= 1; });
-  if (is_opaque) return;
-  document.warn_once(material.place(), named(material) + "the alpha of its vertex colours is not used");
-}
-
 std::uint64_t mixed(std::uint64_t bits) {
   bits = (bits ^ (bits >> 32U)) * 0xd6e8feb86659fd93U;
   bits = (bits ^ (bits >> 32U)) * 0xd6e8feb86659fd93U;
@@ -232,11 +221,9 @@ std::vector<Primitive> read_primitives(Document& document, DracoReader& draco, c
     const std::optional<Item> number = material_of(item, variant);
     const PrimitiveMaterial of_model = number ? material(*number) : PrimitiveMaterial();
     primitive.material = of_model.number;
-    if (number && !of_model.is_overridden) {
-      const Item item_of_material = document.listed("materials", *number);
-      warn_of_alpha(primitive, item_of_material, document);
-      if (of_model.is_thin_glass) warn_of_thin_glass(primitive, item_of_material, document);
-    }
+    primitive.shows_alpha = of_model.shows_alpha;
+    if (number && !of_model.is_overridden && of_model.is_thin_glass)
+      warn_of_thin_glass(primitive, document.listed("materials", *number), document);
     const auto coordinates = [&](std::uint64_t set) {
       return vertices.attribute("TEXCOORD_" + std::to_string(set), 2, 2);
     };

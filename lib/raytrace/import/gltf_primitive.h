@@ -35,6 +35,9 @@ struct Primitive {
   Mode mode = Mode::triangles;
   std::uint32_t material = MeshData::no_material;  ///< its number in the model
   std::size_t vertices_of = 0;                     ///< the first primitive of the mesh that has the same vertices
+  bool shows_alpha = false;                        ///< its material shows that of its vertices' colours
+
+  bool has_alpha() const { return colors && colors->elements.components == 4; }
 
   std::size_t corners() const { return indices ? indices->elements.count : positions.elements.count; }
   std::size_t faces() const {
@@ -55,6 +58,7 @@ struct PrimitiveMaterial {
   std::vector<std::uint64_t> coordinates{};
   bool is_overridden = false;  ///< nothing is said of it
   bool is_thin_glass = false;  ///< clear, and a thin wall
+  bool shows_alpha = false;    ///< by its alphaMode
 };
 
 /// Those of a mesh that have faces. material: what the model has for that of the file. other_primitives

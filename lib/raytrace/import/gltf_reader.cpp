@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "raytrace/import/empty_files.h"
+#include "raytrace/import/gltf_arrays.h"
 #include "raytrace/import/gltf_copies.h"
 #include "raytrace/import/gltf_model.h"
 #include "raytrace/import/mesh_faces.h"
@@ -14,50 +15,6 @@
 namespace raytrace {
 namespace gltf {
 namespace {
-
-/// Which arrays the meshes of a model have: all of them the same.
-struct Arrays {
-  bool normals = false, tangents = false, uvs = false, uvs2 = false, colors = false, materials = false;
-
-  void add(const Instance& instance) {
-    for (const Primitive& primitive : *instance.mesh) {
-      normals = normals || primitive.normals;
-      tangents = tangents || (primitive.tangents && !is_deformed(primitive, instance));
-      uvs = uvs || primitive.uvs;
-      uvs2 = uvs2 || primitive.uvs2;
-      colors = colors || primitive.colors;
-      materials = materials || primitive.material != 0;
-    }
-  }
-};
-
-/// What a mesh is made of.
-struct Size {
-  std::size_t vertices = 0;
-  FaceCounts faces;
-  std::size_t deformed_at_once = 0;
-
-  void add(const Instance& instance) {
-    for (const Primitive& primitive : *instance.mesh) {
-      if (primitive.vertices_of == static_cast<std::size_t>(&primitive - instance.mesh->data()))
-        vertices += primitive.positions.elements.count;
-      if (is_deformed(primitive, instance))
-        deformed_at_once = std::max(deformed_at_once, primitive.positions.elements.count);
-      faces.triangles += primitive.faces();
-    }
-  }
-  std::size_t bytes(const Arrays& arrays) const {
-    constexpr std::size_t bytes_of_face = 4 * sizeof(std::uint32_t);
-    const std::size_t bytes_of_vertex = (11 + (arrays.uvs2 ? 2 : 0) + (arrays.tangents ? 4 : 0)) * sizeof(float);
-    return vertices * bytes_of_vertex + faces.triangles * bytes_of_face + deformed_at_once * bytes_of_deformed_vertex;
-  }
-};
-
-/// A skin mirrors as its first joint does.
-bool is_mirrored(const Primitive& primitive, const Instance& instance) {
-  const Affine& affine = has_skin(primitive, instance) ? instance.skin->joints.front() : instance.transform;
-  return affine.determinant() < 0;
-}
 
 /// Joins instances into one mesh.
 class MeshWriter {
@@ -104,6 +61,7 @@ bool MeshWriter::allocate(const Size& size, const Arrays& arrays, Diagnostics& d
   if (arrays.uvs) mesh_.uvs = MeshBuffer<float>(2 * vertices);
   if (arrays.uvs2) mesh_.uvs2 = MeshBuffer<float>(2 * vertices);
   if (arrays.colors) mesh_.colors = MeshBuffer<float>(3 * vertices);
+  if (arrays.alphas) mesh_.alphas = MeshBuffer<float>(vertices);
   if (arrays.materials) mesh_.face_materials = MeshBuffer<std::uint32_t>(size.faces.triangles);
   return true;
 }
@@ -179,6 +137,14 @@ void MeshWriter::write_vertices(const Primitive& primitive, const Instance& inst
   write(mesh_.uvs, 2, primitive.uvs, 0, from_lower_left);
   write(mesh_.uvs2, 2, primitive.uvs2 ? primitive.uvs2 : primitive.uvs, 0, from_lower_left);
   write(mesh_.colors, 3, primitive.colors, 1, [](const Vec3d& color) { return color; });
+  if (mesh_.alphas.empty()) return;
+  // Of opaque materials, too: others may have the same vertices.
+  float* const alphas = mesh_.alphas.data() + first;
+  std::fill_n(alphas, count, 1.0F);
+  if (!primitive.has_alpha()) return;
+  for_each_element(*primitive.colors, threads_, [&](std::size_t i, const Values& values) {
+    alphas[i] = values[3] > 0 ? rounded(std::min(values[3], 1.0)) : 0;
+  });
 }
 
 /// What is deformed has none: those that follow from its texture coordinates are as good.
@@ -233,7 +199,9 @@ class ModelWriter {
         diagnostics_(diagnostics),
         plan_(plan_copies(model)),
         joined_(settings.origin, settings.threads),
-        first_copies_(plan_.meshes) {}
+        first_copies_(plan_.meshes) {
+    arrays_.all_alphas = settings.vertex_alphas;
+  }
 
   std::optional<MeshData> write() {
     if (!allocate()) return std::nullopt;
@@ -250,7 +218,12 @@ class ModelWriter {
     mesh.cameras = model_.cameras;
     mesh.lights = model_.lights;
     mesh.animation_end = model_.animation_end;
-    for (MeshMaterial& material : mesh.materials) material.vertex_colors = !mesh.colors.empty();
+    const bool has_alphas = !mesh.alphas.empty() ||
+                            std::ranges::any_of(mesh.copies, [](const auto& of) { return !of.mesh->alphas.empty(); });
+    for (MeshMaterial& material : mesh.materials) {
+      material.vertex_colors = !mesh.colors.empty();
+      material.map_d.by_vertices = has_alphas && material.map_d.alpha;
+    }
     if (mesh.parts.size() == 1) mesh.parts.clear();
     report_faults(faults, diagnostics_);
     if (mesh.face_count() > 0) return std::move(mesh);
@@ -271,6 +244,7 @@ class ModelWriter {
   MeshFaults finish(MeshWriter& writer) const {
     MeshFaults faults = writer.faults();
     leave_out_faults(writer.mesh(), faults);
+    leave_out_ones(writer.mesh().alphas);
     return faults;
   }
 

@@ -61,6 +61,7 @@ struct MeshTexture {
   double value_scale = 1, value_offset = 0;  ///< of what is in the picture
   double strength = 1;                       ///< of a normal map
   bool alpha = false;                        ///< of an opacity: that it is its alpha, which is 1 where it has none
+  bool by_vertices = false;                  ///< of an opacity: the vertices' alphas multiply it, before value_scale
   Edge edge_u = Edge::repeat, edge_v = Edge::repeat;  ///< what is beyond
   bool nearest = false;                               ///< its pixels are seen as such from near by
   bool by_uvs2 = false;                               ///< it is placed by the mesh's second texture coordinates
@@ -90,6 +91,7 @@ struct MeshMaterial {
   std::optional<double> ns, d, ni, pr, pm, ps, pc, pcr, aniso;
   std::optional<int> illum;
   bool vertex_colors = false;  ///< multiply kd
+  bool is_mask = false;        ///< its opacity is all or nothing, about what map_d's value_scale and value_offset say
   MeshTexture map_kd, map_ke, map_d, map_pr, map_pm, norm;
   MeshTexture map_bump;  ///< normals, or heights of no known size
 };
@@ -149,6 +151,7 @@ struct MeshData {
   MeshBuffer<float> uvs;      ///< two numbers; (0, 0) is the lower left of an image
   MeshBuffer<float> uvs2;     ///< a second set of such
   MeshBuffer<float> colors;   ///< linear red, green and blue
+  MeshBuffer<float> alphas;  ///< one number, what colours have beside them; empty where all are 1 or nothing wants them
   /// The directions in which u grows where the material's normal map is looked up, and 1, or -1 where v grows against
   /// normal x tangent; 0 0 0 0 where that vertex has none.
   MeshBuffer<float> tangents;

@@ -62,6 +62,7 @@ void join_vertices(MeshData& mesh, const MeshBuffer<std::uint32_t>& uvs, const M
   };
   gather(mesh.positions, 3, mesh.indices);
   gather(mesh.colors, 3, mesh.indices);
+  gather(mesh.alphas, 1, mesh.indices);
   gather(mesh.uvs, 2, uvs);
   gather(mesh.normals, 3, normals);
   mesh.indices = std::move(vertices.number);
@@ -77,6 +78,7 @@ void join_vertices(MeshData& mesh, const MeshBuffer<float>& uvs, int threads) {
       [&](std::size_t i, std::size_t j) { return mesh.indices[i] == mesh.indices[j] && bits(i) == bits(j); });
   for (MeshBuffer<float>* const values : {&mesh.positions, &mesh.colors, &mesh.normals})
     gather_values(vertices, 3, mesh.indices, threads, *values);
+  gather_values(vertices, 1, mesh.indices, threads, mesh.alphas);
   mesh.uvs = MeshBuffer<float>(2 * vertices.first.size());
   for (std::size_t i = 0; i < vertices.first.size(); ++i)
     for (std::size_t k = 0; k < 2; ++k) mesh.uvs[2 * i + k] = uvs[2 * std::size_t{vertices.first[i]} + k];
@@ -209,6 +211,10 @@ std::size_t mark_bad_positions(float* positions, std::size_t count) {
     ++bad;
   }
   return bad;
+}
+
+void leave_out_ones(MeshBuffer<float>& alphas) {
+  if (std::all_of(alphas.begin(), alphas.end(), [](float alpha) { return alpha >= 1; })) alphas = {};
 }
 
 void leave_out_faults(MeshData& mesh, MeshFaults& faults) {

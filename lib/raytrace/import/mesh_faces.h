@@ -152,6 +152,9 @@ struct MeshFaults {
   }
 };
 
+/// Takes all away where they say nothing, since all are 1.
+void leave_out_ones(MeshBuffer<float>& alphas);
+
 /// Leaves out the faces that are degenerate or at bad vertices, counts them, and moves those vertices to the origin.
 void leave_out_faults(MeshData& mesh, MeshFaults& faults);
 /// As warnings.

@@ -19,7 +19,7 @@ namespace raytrace::ply {
 
 /// Where a property of the vertices goes, and what becomes of it.
 struct Column {
-  enum class Use : std::uint8_t { position, number, color, radius };
+  enum class Use : std::uint8_t { position, number, color, alpha, radius };
   std::size_t property = 0;
   Use use = Use::number;
   double origin = 0;     ///< of a position
@@ -40,7 +40,11 @@ void with_conversion(const Column& column, Type type, const Function& f) {
         const double most = size_of(type) == 2 ? 65535 : 255;
         return f([most](double value) { return srgb_to_linear(value, most); });
       }
-      [[fallthrough]];
+      return f([](double value) { return finite_or_zero(rounded(value)); });
+    case Column::Use::alpha: {
+      const double most = is_float(type) ? 1 : size_of(type) == 2 ? 65535 : 255;
+      return f([most](double value) { return rounded(value > 0 ? std::min(value / most, 1.0) : 0); });
+    }
     case Column::Use::number:
       return f([](double value) { return finite_or_zero(rounded(value)); });
   }

@@ -42,6 +42,8 @@ struct OpenFile {
     return add({{"red", "r", "diffuse_red"}, {"green", "g", "diffuse_green"}, {"blue", "b", "diffuse_blue"}},
                Column::Use::color);
   }
+  /// What colours have beside them.
+  MeshBuffer<float> add_alphas() { return add({{"alpha", "a", "diffuse_alpha"}}, Column::Use::alpha); }
 };
 
 /// Reads the head, and makes sure that the file has the vertices and that these have positions.
@@ -140,6 +142,7 @@ std::optional<MeshData> read_ply(MeshFile& file, const std::string& folder, cons
   }
   mesh.normals = open.add({{"nx"}, {"ny"}, {"nz"}}, Column::Use::number);
   mesh.colors = open.add_colors();
+  if (settings.vertex_alphas && !mesh.colors.empty()) mesh.alphas = open.add_alphas();
 
   // Those of corners are closer to what is seen.
   ply::FaceColumns columns{*property};
@@ -160,6 +163,7 @@ std::optional<MeshData> read_ply(MeshFile& file, const std::string& folder, cons
   MeshFaults faults;
   bool dented_quads = false;
   if (!open.body->read_vertices(open.columns, mesh.positions.data(), faults.bad_vertices)) return std::nullopt;
+  leave_out_ones(mesh.alphas);
   if (!open.body->read_faces(columns, mesh, values, faults, dented_quads)) return std::nullopt;
   if (columns.uvs) {
     constexpr std::size_t most_corners = std::size_t{1} << 31U;

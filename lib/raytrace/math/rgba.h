@@ -17,6 +17,13 @@ RAYTRACE_INLINE Rgba<T> select(const Mask& mask, const Rgba<T>& a, const Rgba<T>
   return {select(mask, a.color, b.color), select(mask, a.alpha, b.alpha)};
 }
 
+/// All four numbers times scale, plus offset.
+template <class T>
+RAYTRACE_INLINE Rgba<T> scaled(const Rgba<T>& value, float scale, float offset) {
+  const auto changed = [&](const T& x) { return x * T(scale) + T(offset); };
+  return {{changed(value.color.red), changed(value.color.green), changed(value.color.blue)}, changed(value.alpha)};
+}
+
 /// a where s is 0, b where it is 1; exactly a where both are the same.
 template <class T>
 RAYTRACE_INLINE T mix(const T& a, const T& b, const T& s) {

@@ -237,6 +237,12 @@ Rgb<FloatN> MeshTable::color(const LaneTriangles& triangles) const {
   return {mean.x, mean.y, mean.z};
 }
 
+FloatN MeshTable::alpha(const LaneTriangles& triangles) const {
+  const float* const alphas = data_->alphas.data();
+  return gather(alphas, triangles.vertex1) * (FloatN(1) - triangles.u - triangles.v) +
+         gather(alphas, triangles.vertex2) * triangles.u + gather(alphas, triangles.vertex3) * triangles.v;
+}
+
 std::optional<std::int32_t> MeshTable::only_material() const {
   if (data_->face_materials.empty() || materials_.size() == 1) return materials_.front();
   return std::nullopt;

@@ -89,6 +89,9 @@ class MeshTable {
   /// Whether it has colours at vertices, and what they are between those of the lanes' triangles.
   bool has_colors() const { return !data_->colors.empty(); }
   Rgb<FloatN> color(const LaneTriangles& triangles) const;
+  /// The same of alphas.
+  bool has_alphas() const { return !data_->alphas.empty(); }
+  FloatN alpha(const LaneTriangles& triangles) const;
 
   /// Of all faces; none if they differ.
   std::optional<std::int32_t> only_material() const;

@@ -26,6 +26,17 @@ Vec3d origin_of(const CameraParameters& camera) {
       camera);
 }
 
+bool have_vertex_alphas(const SceneDescription& description) {
+  const auto any_in = [](const ObjectLists& objects) {
+    return std::ranges::any_of(std::get<ObjectItems<Mesh>>(objects), [](const ObjectItem<Mesh>& mesh) {
+      return !mesh.data->alphas.empty() ||
+             std::ranges::any_of(mesh.data->copies, [](const auto& copies) { return !copies.mesh->alphas.empty(); });
+    });
+  };
+  return any_in(description.objects) ||
+         std::ranges::any_of(description.groups, [&](const Group& group) { return any_in(group.objects); });
+}
+
 }  // namespace
 
 SceneTables::SceneTables(const SceneDescription& description, int threads, const TexturePointOf& point_of)
@@ -38,6 +49,7 @@ SceneTables::SceneTables(const SceneDescription& description, int threads, const
   textures_ = std::make_unique<const TextureTable>(description);
   has_second_uvset_ = textures_->has_second_uvset();
   has_object_space_ = textures_->has_object_space();
+  has_vertex_alphas_ = have_vertex_alphas(description);
   add_materials(description);
   const MeshMaterials materials = mesh_materials(description);
   has_vertex_tangents_ = !materials.want_tangents[0].empty() || !materials.want_tangents[1].empty();

@@ -236,6 +236,8 @@ class SceneTables {
   bool has_second_uvset() const { return has_second_uvset_; }
   /// Whether materials ask for tangents at the vertices of meshes.
   bool has_vertex_tangents() const { return has_vertex_tangents_; }
+  /// Whether meshes have alphas at their vertices.
+  bool has_vertex_alphas() const { return has_vertex_alphas_; }
   /// Whether any texture is fixed to objects.
   bool has_object_space() const { return has_object_space_; }
   /// How wide a pixel is where the camera's rays start, and by how much it widens with their lengths.
@@ -340,7 +342,7 @@ class SceneTables {
   MediumTable media_;
   bool has_cutouts_ = false, has_relief_ = false, has_emission_ = false, has_second_uvset_ = false,
        has_turned_tangents_ = false, has_subsurface_ = false, has_photons_ = false, has_panes_ = false,
-       has_vertex_tangents_ = false, has_object_space_ = false;
+       has_vertex_tangents_ = false, has_object_space_ = false, has_vertex_alphas_ = false;
   std::vector<std::int32_t> shining_sides_;       ///< of all materials: 0, 1 for the front, 2 for both
   std::vector<std::int32_t> panes_;               ///< 1 for those that are panes, else 0; empty where none are passed
   std::vector<std::int32_t> scattering_through_;  ///< likewise: those that send on light from behind

@@ -68,6 +68,7 @@ class Image {
     double uvrotation = 0;  ///< degrees by which the place turns about (0, 0), from u to v
     double valuescale = 1, valueoffset = 0;
     UvSet uvset = UvSet::first;
+    bool vertexalpha = false;  ///< the alphas of a mesh's vertices multiply what is in the picture, before valuescale
   };
   static constexpr std::string_view group = "images";
   static constexpr std::string_view element = "image";
@@ -83,7 +84,8 @@ class Image {
             optional("uvrotation", &Parameters::uvrotation),
             optional("valuescale", &Parameters::valuescale),
             optional("valueoffset", &Parameters::valueoffset),
-            optional("uvset", &Parameters::uvset)};
+            optional("uvset", &Parameters::uvset),
+            optional("vertexalpha", &Parameters::vertexalpha)};
   }
   static std::optional<ParameterDiagnostic> check(const Parameters& parameters) {
     using enum ParameterDiagnostic::Effect;

@@ -32,7 +32,8 @@ class Kernel<Image> {
         uvset_(image.uvset),
         offset_{static_cast<float>(image.uvoffset.x), static_cast<float>(image.uvoffset.y)},
         value_scale_(static_cast<float>(image.valuescale)),
-        value_offset_(static_cast<float>(image.valueoffset)) {
+        value_offset_(static_cast<float>(image.valueoffset)),
+        is_by_vertices_(image.vertexalpha) {
     const double angle = image.uvrotation * std::numbers::pi / 180, c = std::cos(angle), s = std::sin(angle);
     across_ = {static_cast<float>(c * image.uvscale.x), static_cast<float>(-s * image.uvscale.y)};
     up_ = {static_cast<float>(s * image.uvscale.x), static_cast<float>(c * image.uvscale.y)};
@@ -51,10 +52,9 @@ class Kernel<Image> {
   }
 
   Rgba<FloatN> at(const TexturePoint<FloatN>& point) const {
-    const Rgba<FloatN> value = in_file(point.by(uvset_));
-    if (value_scale_ == 1 && value_offset_ == 0) return value;
-    const auto changed = [&](const FloatN& x) { return x * FloatN(value_scale_) + FloatN(value_offset_); };
-    return {{changed(value.color.red), changed(value.color.green), changed(value.color.blue)}, changed(value.alpha)};
+    Rgba<FloatN> value = in_file(point.by(uvset_));
+    if (is_by_vertices_) value = {value.color * point.vertex_alpha, value.alpha * point.vertex_alpha};
+    return value_scale_ == 1 && value_offset_ == 0 ? value : scaled(value, value_scale_, value_offset_);
   }
 
  private:
@@ -300,6 +300,7 @@ class Kernel<Image> {
   Vec2<float> across_{}, up_{};  ///< of the place in the picture: what u and v give to its coordinates
   Vec2<float> offset_;
   float value_scale_, value_offset_;
+  bool is_by_vertices_;
 };
 
 }  // namespace raytrace

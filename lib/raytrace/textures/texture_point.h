@@ -32,6 +32,7 @@ template <class F>
 struct TexturePoint : UvPoint<F> {
   SpacePoint<F> world, object;  ///< the latter: anything in scenes without textures in that space
   Rgb<F> vertex_color;          ///< between those of the mesh's vertices; white where there are none
+  F vertex_alpha;               ///< likewise; 1 where there are none
   UvPoint<F> second;            ///< of the second set; anything in scenes that have no texture which asks for it
 
   const SpacePoint<F>& in(TextureSpace space) const { return space == TextureSpace::world ? world : object; }

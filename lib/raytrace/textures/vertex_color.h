@@ -7,13 +7,17 @@
 
 namespace raytrace {
 
-/// White where a surface has none.
+/// White, with an alpha of 1, where a surface has none.
 class VertexColor {
  public:
-  struct Parameters {};
+  struct Parameters {
+    double valuescale = 1, valueoffset = 0;  ///< of colour and alpha, as an image's
+  };
   static constexpr std::string_view group = "vertexcolors";
   static constexpr std::string_view element = "vertexcolor";
-  static Fields fields() { return {}; }
+  static Fields fields() {
+    return {optional("valuescale", &Parameters::valuescale), optional("valueoffset", &Parameters::valueoffset)};
+  }
 };
 
 }  // namespace raytrace
