@@ -78,6 +78,10 @@ constexpr Synonyms synonyms[] = {
     {"--clamp-indirect",
      " clamp clamping clampradiance indirectclamp indirectclamping sampleclampindirect maxradiance maxcomponentvalue "
      "clampvalue maxsubpixelintensity fireflies firefly fireflyremoval despeckle "},
+    {"--clay",
+     " claymode clayrender clayoverride clayshading overridematerial overridematerials materialoverride "
+     "overrideshader globalmaterial whitemodel whitemode greymode graymode untextured notextures nomaterials "
+     "defaultmaterial "},
     {"--view-transform", " tonemap tonemapping tonemapper toneoperator viewtransform agx filmic colormanagement look "},
     {"--auto-exposure", " autoexpose autobrightness autogain "},
     {"--white-balance", " whitebalance wb kelvin colortemperature colourtemperature temperature whitepoint "},

@@ -145,6 +145,15 @@ Names aov_choices() {
   return choices;
 }
 
+std::vector<std::string> material_names(const std::string& text) {
+  std::vector<std::string> names;
+  for (const std::string_view name : split(text, ',')) {
+    if (name.empty()) throw UsageError("--clay: " + in_quotes(text) + " has a name that is empty");
+    names.emplace_back(name);
+  }
+  return names;
+}
+
 AovSet aovs(const std::string& text) {
   Names wanted;
   for (const std::string_view name : split(text, ','))

@@ -85,6 +85,9 @@ Names aov_choices();
 /// "depth,normal", or "all" of them.
 AovSet aovs(const std::string& text);
 
+/// "wood,glass"
+std::vector<std::string> material_names(const std::string& text);
+
 /// "1920x1080"
 Resolution resolution(const std::string& text);
 

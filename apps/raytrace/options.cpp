@@ -58,6 +58,9 @@ void define(const std::string& text, std::map<std::string, std::string>& variabl
 /// What --stats is without a file.
 constexpr const char* statistics_as_text = "text";
 
+/// What --clay is without names: no material has this one.
+constexpr const char* all_of_clay = "*";
+
 constexpr const char* models_group = "Models";
 
 constexpr const char* no_scene = "no scene given; for example: raytrace scene.xml -o picture.exr";
@@ -82,6 +85,8 @@ void refuse_incomplete(const Options& options) {
     if (options.statistics == statistics_as_text && options.scenes.size() > 1 && is_word)
       throw UsageError("there is no scene " + in_quotes(scene) +
                        "; --stats takes a file after \"=\": --stats=FILE.json");
+    if (options.clay && options.clay->empty() && options.scenes.size() > 1 && is_word)
+      throw UsageError("there is no scene " + in_quotes(scene) + "; --clay takes names after \"=\": --clay=" + scene);
   }
   if (options.outputs.empty() && options.renders()) {
     const std::string& last = options.scenes.back();
@@ -231,6 +236,11 @@ void define_options(OptionParser& parser, Options& options) {
              "Let no path bring more than X, in each channel, from beyond its first surface, e.g. 10: it takes away "
              "bright dots, and some light; 0: any, whatever the scene says",
              options.clamp_indirect, radiance);
+  parser.add_with_optional_value(
+      "--clay", "NAMES",
+      "Make all that is opaque matte grey clay, to look at forms: without textures, gloss and relief. What shines, "
+      "glass, fogs and cut-outs stay; and so do materials of these names, with commas between them",
+      options.clay_names, all_of_clay);
   parser.add("--seed", "N|frame",
              "Another, equally good, pattern of samples (0); frame: that of the frame's number, so that the noise of a "
              "film moves",
@@ -307,6 +317,10 @@ Options parse_options(int argc, const char* const* argv) {
   }
   if (options.stage && options.stage->turntable > 0 && options.frames.empty())
     options.frames = frame_numbers("1-" + std::to_string(options.stage->turntable));
+  if (options.clay_names == all_of_clay)
+    options.clay.emplace();
+  else if (!options.clay_names.empty())
+    options.clay = material_names(options.clay_names);
   // Not by CLI11's excludes(): from version 2.4 on, a counting flag counts as given when it is not.
   if (options.quiet && options.verbose > 0) throw UsageError("--quiet excludes --verbose");
   refuse_two_views(options.view);

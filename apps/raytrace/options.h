@@ -21,7 +21,8 @@ struct Options : RenderJob {
   std::vector<int> frames;          ///< in increasing order; empty: not asked for
   std::optional<PixelIndex> pixel;  ///< to be printed instead of a picture
 
-  bool floor = false;  ///< ModelStage::floor
+  bool floor = false;      ///< ModelStage::floor
+  std::string clay_names;  ///< as given; empty: not at all
 
   int verbose = 0;  ///< how often asked
   bool quiet = false;

@@ -91,6 +91,9 @@ TEST_CASE("every option reaches its setting, in each of its spellings") {
   CHECK_FALSE(with({}).clamp_indirect.has_value());
   CHECK(with({"--clamp-indirect", "10"}).clamp_indirect == 10);
   CHECK(with({"--clamp-indirect=0"}).clamp_indirect == 0);
+  CHECK_FALSE(with({}).clay.has_value());
+  CHECK(with({"--clay"}).clay == std::vector<std::string>{});
+  CHECK(with({"--clay=glass,gold paint"}).clay == std::vector<std::string>{"glass", "gold paint"});
   CHECK_FALSE(with({}).view.transform.has_value());
   CHECK(with({"--view-transform", "agx"}).view.transform == ViewTransform::agx);
   CHECK(with({"--view-transform=khronos-neutral"}).view.transform == ViewTransform::khronos_neutral);
@@ -295,6 +298,7 @@ TEST_CASE("what is no value of an option is refused with what would be one") {
     CHECK_REFUSED(with({"--exposure", text}), "is not an exposure");
   for (const char* const text : {"", "-1", "nan", "inf", "1e18", "10x", "any"})
     CHECK_REFUSED(with({"--clamp-indirect", text}), "is no radiance; use a number such as 10");
+  CHECK_REFUSED(with({"--clay=a,,b"}), "'a,,b' has a name that is empty");
   CHECK_REFUSED(with({"--view-transform", "agxx"}), "did you mean 'agx'?");
   CHECK_REFUSED(with({"--view-transform", "khronos"}), "is not one of srgb, agx, khronos-neutral");
   CHECK_REFUSED(with({"--ocio", ""}), "the name is empty");

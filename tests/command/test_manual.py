@@ -43,7 +43,7 @@ class Manual(CommandTest):
             "--validate", "--print-scene", "--list", "--version", "-h", "--help", "--tile", "--sample-offset", "--pixel",
             "--time-limit", "--error-limit", "--checkpoint", "--checkpoint-interval", "--resume", "--log-file", "--display-server",
             "--frames", "-D", "--define", "--skip-existing", "--aov", "--transparent", "--exposure",
-            "--integrator", "--clamp-indirect", "--missing-texture", "--texture-memory", "--view", "--camera", "--animation", "--fps",
+            "--integrator", "--clamp-indirect", "--clay", "--missing-texture", "--texture-memory", "--view", "--camera", "--animation", "--fps",
             "--variant", "--up", "--turntable", "--floor", "--environment", "--sun", "--view-transform", "--auto-exposure",
             "--white-balance",
             "--ocio", "--ocio-display", "--ocio-view", "--ocio-colorspace"})

@@ -12,6 +12,7 @@
 #include "raytrace/batch/fit_camera.h"
 #include "raytrace/batch/frames.h"
 #include "raytrace/batch/settings_error.h"
+#include "raytrace/description/clay.h"
 #include "raytrace/description/default_integrator.h"
 #include "raytrace/description/light_groups.h"
 #include "raytrace/text/message.h"
@@ -108,6 +109,8 @@ void apply_job(const RenderJob& job, SceneDescription& description) {
   for (CameraParameters& moment : description.moving_camera) keep_shift(scenes, description.viewplane, moment);
   if (!job.integrator.empty()) choose_integrator(job.integrator, description);
   if (job.clamp_indirect) clamp_indirect(*job.clamp_indirect, description);
+  if (!job.clay) return;
+  if (const OptionalMessage problem = make_clay(description, *job.clay)) throw SettingsError("--clay: " + *problem);
 }
 
 SampleRange sample_range(const ViewPlane& viewplane, const RenderJob& job) {

@@ -45,6 +45,8 @@ struct RenderJob {
   bool seed_is_frame = false;            ///< RenderBatch sets the seed: each frame has noise of its own
   std::string integrator;                ///< its element, such as "normals"; empty: the scene's
   std::optional<double> clamp_indirect;  ///< Path::Parameters::clampindirect; none: the scene's
+  /// All that is opaque is of clay (description/clay.h), but for materials of these names; none: the scene's materials.
+  std::optional<std::vector<std::string>> clay;
   AovSet aovs;
   bool transparent = false;
   bool denoise = false;  ///< a tile, or a part of the samples: says so to the merge (batch/denoise.h)
@@ -77,8 +79,8 @@ struct RenderJob {
   ImageFileSettings image_file_settings() const;
 };
 
-/// Gives the scene the job's resolution, scale, samples, view and integrator. Throws SettingsError if the picture gets
-/// too large, there is no such integrator, or what is asked of it is another's.
+/// Gives the scene the job's resolution, scale, samples, view, integrator and clay. Throws SettingsError if the picture
+/// gets too large, there is no such integrator, or what is asked of it is another's.
 void apply_job(const RenderJob& job, SceneDescription& description);
 
 /// Which of each pixel's samples: a sample offset makes them a part of the picture's.
