@@ -42,6 +42,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const bool is_gltf = name == "a.gltf" || name == "a.glb";
   const std::size_t moment = data[0] / std::size(names);
   if (is_gltf) settings.animation = "0";
+  settings.vertex_alphas = moment % 3 != 0;
   settings.time = 0.25 * static_cast<double>(moment);
   if (is_gltf && moment % 2 == 0) settings.variant = "0";
   Diagnostics diagnostics(file);
