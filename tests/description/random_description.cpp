@@ -213,6 +213,7 @@ ObjectLists random_objects(Random& random, const SceneDescription& scene,
       ObjectItem<T> item{random_parameters<T>(random), name, materials[below(random, materials.size())]};
       item.transform = random_transform(random);
       item.shadowcatcher = below(random, 4) == 0;
+      item.visible = below(random, 4) != 0;
       if constexpr (std::is_same_v<T, Instance>) {
         if (scene.groups.empty()) continue;
         item.parameters.group.name = scene.groups[below(random, scene.groups.size())].name;
@@ -231,7 +232,7 @@ ObjectLists random_objects(Random& random, const SceneDescription& scene,
 bool same_objects(const ObjectLists& a, const ObjectLists& b) {
   return same_items(Objects{}, a, b, [](const auto& x, const auto& y) {
     return x.name == y.name && same(x.material, y.material) && x.transform == y.transform &&
-           x.shadowcatcher == y.shadowcatcher;
+           x.shadowcatcher == y.shadowcatcher && x.visible == y.visible;
   });
 }
 

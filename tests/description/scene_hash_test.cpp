@@ -118,6 +118,7 @@ void change_everything(SceneDescription& scene, const Changed& changed) {
       change_fields<T>(object.parameters, changed);
       change_each(object.name, changed);
       change_each(object.shadowcatcher, changed);
+      change_each(object.visible, changed);
       for (TransformStep& step : object.transform.steps)
         for (std::size_t k = 0; k < step.value_count(); ++k) change_each(step.values[k], changed);
       for (std::uint32_t* part : {&object.material.type, &object.material.index}) {

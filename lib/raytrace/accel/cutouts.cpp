@@ -17,7 +17,18 @@ RayIdentity::RayIdentity(const SceneTables& of_scene, const Accelerator& its_acc
       pixels(of_scene.has_cutouts() ? ids.pixel_keys() : UintN(0u)),
       samples(ids.sample),
       times(of_scene.has_motion() ? ids.times() : FloatN(0)),
-      camera(its_camera) {}
+      camera(its_camera) {
+  if (camera != nullptr) set_seeing(MaskN(true));
+}
+
+void RayIdentity::set_seeing(const MaskN& lanes) {
+  if (scene.geometry().has_invisible()) seeing = bits_of<FloatN>(lanes);
+}
+
+std::uint32_t unseen_by(const RayIdentity& query, unsigned first, const CutoutSurface& surface) {
+  const bool is_seen = !query.scene.geometry().is_invisible(surface.instance, surface.geometry, surface.primitive);
+  return is_seen ? 0 : query.seeing >> first;
+}
 
 std::optional<std::int32_t> cutout_material(const RayIdentity& query, const CutoutSurface& surface) {
   const std::int32_t material =

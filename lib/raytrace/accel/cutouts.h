@@ -36,9 +36,13 @@ struct RayIdentity {
   const CameraRays* camera;  ///< what camera rays cover, textures are filtered by; null: other rays
   Meets meets = Meets::surfaces;
   std::uint32_t* passed_panes = nullptr;  ///< bit i is set where ray i passes a pane, by surfaces_but_panes
+  std::uint32_t seeing = 0;  ///< bit i is set where ray i is what the camera sees by: objects invisible to it are not
+                             ///< there for the ray; 0 in scenes without any
 
   RayIdentity(const SceneTables& of_scene, const Accelerator& its_accelerator, const Ray<FloatN>& its_rays,
               const RayIds& ids, const CameraRays* its_camera = nullptr);
+  /// The camera sees by these.
+  void set_seeing(const MaskN& lanes);
 };
 
 /// A primitive that rays hit, and which crossing of its surface that is, counted along the rays.
@@ -55,11 +59,25 @@ std::uint32_t passing_rays(const RayIdentity& query, unsigned first, std::uint32
                            std::int32_t material, std::span<const float> t, std::span<const float> u,
                            std::span<const float> v);
 
+/// Which of the rays, as bits, do not meet the primitive at all, since its object is not visible to the camera.
+std::uint32_t unseen_by(const RayIdentity& query, unsigned first, const CutoutSurface& surface);
+
+/// The lanes whose bits are set.
+template <class F>
+Mask<F> mask_of(std::uint32_t bits) {
+  alignas(64) std::int32_t lanes[lane_count<F>];
+  for (int i = 0; i < lane_count<F>; ++i) lanes[i] = (bits >> i & 1) != 0 ? -1 : 0;
+  return float_mask<F>(Ints<F>::load_aligned(lanes) != Ints<F>(0));
+}
+
 /// The distances t at which rays hit a primitive, or those of their next hits, where they pass what they hit there.
 /// The rays are `count` from `first` on. find(rays, lanes, u, v): their hits behind rays.near.
 template <class F, class Find>
 F without_passed(const RayIdentity& query, unsigned first, int count, CutoutSurface surface, Ray<F> rays, F t, F& u,
                  F& v, const Find& find) {
+  if (query.seeing != 0) [[unlikely]]
+    if (const std::uint32_t unseen = unseen_by(query, first, surface); unseen != 0)
+      t = select(mask_of<F>(unseen), infinity<F>(), t);
   const std::optional<std::int32_t> material = cutout_material(query, surface);
   if (!material) return t;
   // No shape is crossed more often; what rounding finds beyond that is passed.
@@ -74,9 +92,7 @@ F without_passed(const RayIdentity& query, unsigned first, int count, CutoutSurf
     open = surface.crossing < most_crossings ? passing_rays(query, first, open, surface, *material, at[0], at[1], at[2])
                                              : open;
     if (open == 0) break;
-    alignas(64) std::int32_t lanes[lane_count<F>];
-    for (int i = 0; i < lane_count<F>; ++i) lanes[i] = (open >> i & 1) != 0 ? -1 : 0;
-    const Mask<F> passed = float_mask<F>(Ints<F>::load_aligned(lanes) != Ints<F>(0));
+    const Mask<F> passed = mask_of<F>(open);
     if (surface.crossing >= most_crossings) return select(passed, infinity<F>(), t);
     rays.near = select(passed, same_bits<F>(same_bits<Uints<F>>(t) + Uints<F>(1u)), rays.near);
     F next_u = u, next_v = v;

@@ -32,10 +32,11 @@ void add_media(const SceneTables& tables, const Accelerator& accelerator, const 
 }  // namespace
 
 MediumStack media_around(const SceneTables& tables, const Accelerator& accelerator, const Vec3<FloatN>& points,
-                         const MaskN& lanes, const RayIds* ids) {
+                         const MaskN& lanes, const RayIds* ids, bool camera_sees) {
   MediumStack around;
   const auto add = [&](const auto& intersect) { add_media(tables, accelerator, points, lanes, around, intersect); };
-  if (!tables.media().has_fog() && ids == nullptr) {
+  camera_sees = camera_sees && tables.geometry().has_invisible();
+  if (!tables.media().has_fog() && ids == nullptr && !camera_sees) {
     add([&](Ray<FloatN>& rays, const MaskN& left) { return accelerator.intersect(rays, left, Coherence::incoherent); });
     return around;
   }
@@ -44,6 +45,7 @@ MediumStack media_around(const SceneTables& tables, const Accelerator& accelerat
     add([&](Ray<FloatN>& rays, const MaskN& left) {
       RayIdentity identity(tables, accelerator, rays, ids != nullptr ? *ids : RayIds{any_number, any_number, 0});
       identity.meets = meets;
+      if (camera_sees) identity.set_seeing(MaskN(true));
       return accelerator.intersect(rays, left, Coherence::incoherent, nullptr, &identity);
     });
   };

@@ -23,7 +23,7 @@ TracedScene::TracedScene(const SceneDescription& description, int threads, const
 void TracedScene::find_media() {
   const MaskN one = first_lanes<FloatN>(1);
   if (!tables_.camera_is_far())
-    camera_media_ = media_around(tables_, accelerator_, Vec3<FloatN>(tables_.camera_eye()), MaskN(true));
+    camera_media_ = media_around(tables_, accelerator_, Vec3<FloatN>(tables_.camera_eye()), MaskN(true), nullptr, true);
   if (tables_.caustics() == nullptr) return;
   const auto is_in_media = [&](const Vec3<FloatN>& points, const MaskN& lanes) {
     return any(lanes & media_around(tables_, accelerator_, points, lanes).is_in_any());

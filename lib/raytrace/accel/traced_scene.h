@@ -29,12 +29,20 @@ class TracedScene final : public Scene {
   const SceneTables& tables() const { return tables_; }
   const Accelerator& accelerator() const { return accelerator_; }
 
-  /// The media that the camera is in when the shutter opens; lights, by what is around each path's start. ids: of its
-  /// rays.
-  const MediumStack& camera_media() const { return camera_media_; }
+  /// The media that camera rays start in: those that the camera is in when the shutter opens, or, where it does not see
+  /// what is near, those around each start; lights, by what is around each path's start. ids: of its rays.
+  MediumStack camera_media(const Vec3<FloatN>& starts, const MaskN& lanes, const RayIds& ids) const {
+    return tables_.has_near_clip() && !tables_.media().empty() ? media_for_camera(starts, lanes, ids) : camera_media_;
+  }
+  /// The media around points: as the camera sees them, without what is not visible to it; and all.
+  MediumStack media_for_camera(const Vec3<FloatN>& points, const MaskN& lanes, const RayIds& ids) const {
+    return media_around(tables_, accelerator_, points, lanes, has_moving_instances() ? &ids : nullptr, true);
+  }
+  MediumStack media_of_all(const Vec3<FloatN>& points, const MaskN& lanes, const RayIds& ids) const {
+    return media_around(tables_, accelerator_, points, lanes, has_moving_instances() ? &ids : nullptr);
+  }
   MediumStack light_media(const Vec3<FloatN>& starts, const MaskN& lanes, const RayIds& ids) const {
-    if (!lights_in_media_) return {};
-    return media_around(tables_, accelerator_, starts, lanes, has_moving_instances() ? &ids : nullptr);
+    return lights_in_media_ ? media_of_all(starts, lanes, ids) : MediumStack();
   }
 
   /// The objects as met from where all camera rays start, and from where all shadow rays to light `number` go. Null if

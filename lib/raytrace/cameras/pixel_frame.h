@@ -11,9 +11,10 @@ namespace raytrace {
 
 /// Where the picture shows a point.
 struct FilmPoint {
-  double x, y;  ///< in pixels from the picture's center, to the right and upwards
-  Vec3d from;   ///< where the camera's ray to the point starts
-  double area;  ///< in square pixels: of the picture, for a unit of area at the point that faces the camera
+  double x, y;      ///< in pixels from the picture's center, to the right and upwards
+  Vec3d from;       ///< where the camera's ray to the point starts
+  double area;      ///< in square pixels: of the picture, for a unit of area at the point that faces the camera
+  double seen = 1;  ///< the share of the way from the point to there along which the camera sees
 };
 
 /// What a camera shows of a plane at distance 1 before `from`, whose pixels have those edges, at right angles. shift:

@@ -85,6 +85,7 @@ class MeshLoader {
     mesh.line = model.line;
     mesh.column = model.column;
     mesh.shadowcatcher = model.shadowcatcher;
+    mesh.visible = model.visible;
     mesh.transform = std::move(model.transform);
     load(mesh);
     if (mesh.data == nullptr || mesh.data->lights.empty()) return;

@@ -105,8 +105,10 @@ class ScenePrinter : private XmlWriter {
       if (!item.transform.empty()) print_transform(item.transform);
     if constexpr (requires { item.material; })
       if (item.material != no_material) print_value("material", name_of<MaterialsSection>(scene, item.material));
-    if constexpr (requires { item.shadowcatcher; })
+    if constexpr (requires { item.shadowcatcher; }) {
       if (item.shadowcatcher) print_value(shadowcatcher_element, true);
+      if (!item.visible) print_value(visible_element, false);
+    }
   }
 
   void print_transform(const Transform& transform) {

@@ -150,7 +150,7 @@ class SchemaPrinter : private XmlWriter {
 
   static std::string_view type_of_label(std::string_view label) {
     if (label == transform_element) return label;
-    return label == shadowcatcher_element ? "boolean" : "text";
+    return label == shadowcatcher_element || label == visible_element ? "boolean" : "text";
   }
 
   void print_item(const ElementType& type, std::span<const FieldInfo> labels, bool may_have_textures = false) {

@@ -158,8 +158,10 @@ class TypedItemList final : public ItemList {
       targets[i] = &labels[i];
       if constexpr (requires { item.transform; })
         if (labels_[i].name == transform_element) targets[i] = &item.transform;
-      if constexpr (requires { item.shadowcatcher; })
+      if constexpr (requires { item.shadowcatcher; }) {
         if (labels_[i].name == shadowcatcher_element) targets[i] = &item.shadowcatcher;
+        if (labels_[i].name == visible_element) targets[i] = &item.visible;
+      }
     }
     return targets;
   }

@@ -122,6 +122,7 @@ struct ObjectItem {
   MaterialReference material;
   std::uint32_t line = 0;
   bool shadowcatcher = false;  ///< a transparent picture shows the shadows on it alone
+  bool visible = true;         ///< false: the camera's own rays pass it
   Transform transform = {};    ///< of what the parameters say
   std::uint32_t column = 0;
 };
@@ -137,7 +138,7 @@ struct ObjectItem<Shape> {
   std::string name;
   MaterialReference material = no_material;  ///< where there is one, of all faces or spheres
   std::uint32_t line = 0;
-  bool shadowcatcher = false;
+  bool shadowcatcher = false, visible = true;
   Transform transform = {};
 
   // From load_meshes().
@@ -154,7 +155,7 @@ struct ObjectItem<Object> {
   std::string name;
   MaterialReference material = no_material;  ///< where there is one, of all its objects
   std::uint32_t line = 0;
-  bool shadowcatcher = false;  ///< all its objects
+  bool shadowcatcher = false, visible = true;  ///< all its objects
   Transform transform = {};
   /// Of an instance that moves while the shutter is open: its transform at each moment (motion.h).
   std::vector<Affine> motion{};

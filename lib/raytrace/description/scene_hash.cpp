@@ -84,7 +84,10 @@ class SceneHash {
         }
         if constexpr (requires { item.motion; })
           for (const Affine& map : item.motion) hash.add(map);
-        if constexpr (requires { item.shadowcatcher; }) hash.add(item.shadowcatcher);
+        if constexpr (requires { item.shadowcatcher; }) {
+          hash.add(item.shadowcatcher);
+          hash.add(item.visible);
+        }
         if constexpr (requires { item.name; }) hash.add(item.name);
         if constexpr (requires { item.material; }) hash.add_reference(item.material);
         if constexpr (requires { item.materials; })

@@ -15,7 +15,7 @@ namespace raytrace {
 inline constexpr std::string_view root_element = "raytracer";
 inline constexpr std::string_view groups_element = "groups", group_element = "group";
 inline constexpr std::string_view transform_element = "transform";
-inline constexpr std::string_view shadowcatcher_element = "shadowcatcher";
+inline constexpr std::string_view shadowcatcher_element = "shadowcatcher", visible_element = "visible";
 inline constexpr std::string_view integrator_element = "integrator";  ///< holds one of Integrators
 
 // The sections: elements at the root that hold any number of items of the types in a registry. labels: the children
@@ -50,8 +50,11 @@ struct ObjectsSection {
   using Types = Objects;
   static constexpr std::string_view element = "objects", item = "object";
   static constexpr auto items = &SceneDescription::objects;
-  static constexpr std::array<FieldInfo, 4> labels{
-      {{"name", false}, {"material"}, {transform_element, false}, {shadowcatcher_element, false}}};
+  static constexpr std::array<FieldInfo, 5> labels{{{"name", false},
+                                                    {"material"},
+                                                    {transform_element, false},
+                                                    {shadowcatcher_element, false},
+                                                    {visible_element, false}}};
   static constexpr bool may_skip = true;
 };
 

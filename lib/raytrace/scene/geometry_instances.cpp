@@ -11,6 +11,17 @@ namespace raytrace {
 
 namespace {
 
+/// What an instance says of all that is in it.
+struct Flags {
+  bool catches = false, is_invisible = false;
+
+  /// Of an item in there.
+  template <class Item>
+  Flags in(const Item& item) const {
+    return {catches || item.shadowcatcher, is_invisible || !item.visible};
+  }
+};
+
 /// Where something is: one map, or one for each moment while the shutter is open.
 using Maps = std::vector<Affine>;
 
@@ -71,9 +82,13 @@ void GeometryTable::add_instances(const SceneDescription& description, const Vec
   };
   // An instance of a group is one of its own objects, and one of each instance in it.
   const auto add = [&](const InstanceTarget& target, const Maps& maps, const Bounds& box, std::int32_t object,
-                       std::int32_t material, bool catches) {
-    instances_catch_.push_back(catches);
-    has_catchers_ = has_catchers_ || catches;
+                       std::int32_t material, const Flags& flags) {
+    const auto put = [](ObjectSet& set, bool is_in_set) {
+      set.instances.push_back(is_in_set);
+      set.has_any |= is_in_set;
+    };
+    put(catchers_, flags.catches);
+    put(invisible_, flags.is_invisible);
     if (maps.size() == 1)
       instances_.add(target, maps.front(), box, object, material);
     else
@@ -81,7 +96,7 @@ void GeometryTable::add_instances(const SceneDescription& description, const Vec
   };
   // Copies of meshes in the world, or in a group, are as the mesh's own faces. object: of each mesh.
   const auto add_copies = [&](const ObjectLists& objects, std::size_t first, const Maps& outer, const auto& object,
-                              std::int32_t material, bool catches) {
+                              std::int32_t material, const Flags& flags) {
     std::size_t number = 0;
     for (const auto& item : std::get<ObjectItems<Mesh>>(objects)) {
       for (const MeshCopies& copies : item.data->copies) {
@@ -89,7 +104,7 @@ void GeometryTable::add_instances(const SceneDescription& description, const Vec
         for (const MeshCopies::Place& place : copies.places) {
           add({static_cast<std::int32_t>(first)},
               from_origin(composed(outer, {item.transform.affine() * place.affine}), mesh.origin_), mesh.bounds_,
-              object(number), material, catches || item.shadowcatcher);
+              object(number), material, flags.in(item));
           if (has_object_space_) instances_.set_place_in_file(place.affine);
         }
         ++first;
@@ -98,39 +113,38 @@ void GeometryTable::add_instances(const SceneDescription& description, const Vec
     }
   };
   const auto add_group = [&](const auto& self, const ObjectItem<Instance>& item, const Maps& outer, std::int32_t object,
-                             std::int32_t outer_material, bool outer_catches) -> void {
+                             std::int32_t outer_material, const Flags& outer_flags) -> void {
     const std::size_t number = numbers.at(item.parameters.group.name);
     const GeometryTable& group = *groups_[number];
     const Maps maps = composed(outer, item.motion.empty() ? Maps{item.transform.affine()} : item.motion);
     const std::int32_t material = material_number(item, outer_material);
-    const bool catches = outer_catches || item.shadowcatcher;
+    const Flags flags = outer_flags.in(item);
     if (group.bounds_.lower.x <= group.bounds_.upper.x)
       add({static_cast<std::int32_t>(number)}, from_origin(maps, group.origin_), group.bounds_, object, material,
-          catches);
+          flags);
     for (const TransformedShape& shape : group.transformed_) {
       InstanceTarget target = shape.target;
       target.group = static_cast<std::int32_t>(number);
-      add(target, composed(maps, {shape.affine}), shape.bounds, object, material, catches);
+      add(target, composed(maps, {shape.affine}), shape.bounds, object, material, flags);
     }
     add_copies(
         description.groups[number].objects, first_copied_[number + 1], maps, [&](std::size_t) { return object; },
-        material, catches);
+        material, flags);
     for (const auto& inner : std::get<ObjectItems<Instance>>(description.groups[number].objects))
-      self(self, inner, maps, object, material, catches);
+      self(self, inner, maps, object, material, flags);
   };
   const Maps to_origin{Affine{.origin = Vec3d(0, 0, 0) - origin}};
   // First, as the table of parts counts them.
-  add_copies(
-      description.objects, first_copied_.front(), to_origin,
-      [&](std::size_t mesh) { return geometries_[Shapes::size + mesh].first_object; }, -1, false);
+  add_copies(description.objects, first_copied_.front(), to_origin,
+             [&](std::size_t mesh) { return geometries_[Shapes::size + mesh].first_object; }, -1, {});
   for (const auto& item : std::get<ObjectItems<Instance>>(description.objects)) {
-    add_group(add_group, item, to_origin, static_cast<std::int32_t>(object_materials_.size()), -1, false);
+    add_group(add_group, item, to_origin, static_cast<std::int32_t>(object_materials_.size()), -1, {});
     object_materials_.push_back(std::max(0, material_number(item, -1)));
   }
   for (const TransformedShape& shape : transformed_) {
     const std::int32_t object =
         geometries_[shape.target.shape_type].first_object + static_cast<std::int32_t>(shape.target.primitive);
-    add(shape.target, composed(to_origin, {shape.affine}), shape.bounds, object, -1, false);
+    add(shape.target, composed(to_origin, {shape.affine}), shape.bounds, object, -1, {});
   }
 }
 

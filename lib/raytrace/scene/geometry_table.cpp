@@ -46,7 +46,8 @@ GeometryTable::GeometryTable(const SceneDescription& description, const Vec3d& o
   add_copied_meshes(description.objects, materials, threads);
   for (const Group& group : description.groups) add_copied_meshes(group.objects, materials, threads);
   add_instances(description, origin, materials.first);
-  for (const auto& group : groups_) has_catchers_ = has_catchers_ || group->has_catchers_;
+  for (const auto set : {&GeometryTable::catchers_, &GeometryTable::invisible_})
+    for (const auto& group : groups_) (this->*set).has_any |= ((*group).*set).has_any;
 }
 
 void GeometryTable::add_objects(const ObjectLists& objects, const Vec3d& origin, const MeshMaterials& materials,
@@ -65,7 +66,7 @@ void GeometryTable::add_objects(const ObjectLists& objects, const Vec3d& origin,
   set_bounds(threads);
   object_materials_.resize(static_cast<std::size_t>(count));
   set_object_materials(objects, materials.first, threads);
-  set_shadow_catchers(objects, threads);
+  set_object_sets(objects, threads);
 }
 
 void GeometryTable::add_shapes(const ObjectLists& objects, const Vec3d& origin) {

@@ -92,8 +92,14 @@ class GeometryTable {
   std::optional<std::int32_t> only_material(const Hits& hits) const;
 
   /// Whether any object is a shadow catcher, and the lanes that hit one.
-  bool has_shadow_catchers() const { return has_catchers_; }
-  MaskN shadow_catchers(const Hits& hits) const;
+  bool has_shadow_catchers() const { return catchers_.has_any; }
+  MaskN shadow_catchers(const Hits& hits) const { return lanes_of(&GeometryTable::catchers_, hits); }
+  /// Whether any object is not visible to the camera, the lanes that hit one, and whether what one ray hit is of one.
+  bool has_invisible() const { return invisible_.has_any; }
+  MaskN invisible(const Hits& hits) const { return lanes_of(&GeometryTable::invisible_, hits); }
+  bool is_invisible(std::uint32_t instance, std::uint32_t geometry, std::uint32_t primitive) const {
+    return is_of(&GeometryTable::invisible_, instance, geometry, primitive);
+  }
 
   /// For lanes that hit the same geometry of the same table: f(table, geometry, those lanes).
   template <class Function>
@@ -130,11 +136,19 @@ class GeometryTable {
   const GeometryTable& table_of(const InstanceTarget& target) const {
     return target.group == InstanceTarget::no_group ? *this : *groups_[static_cast<std::size_t>(target.group)];
   }
-  bool is_shadow_catcher(std::uint32_t instance, std::uint32_t geometry, std::uint32_t primitive) const;
+  /// Objects for which something holds, which is false of most.
+  struct ObjectSet {
+    std::vector<std::int32_t> objects;  ///< by number
+    std::vector<bool> instances;        ///< whether all of an instance is of it
+    bool has_any = false;
+  };
+  bool is_of(ObjectSet GeometryTable::* set, std::uint32_t instance, std::uint32_t geometry,
+             std::uint32_t primitive) const;
+  MaskN lanes_of(ObjectSet GeometryTable::* set, const Hits& hits) const;
   /// The same number, but that of the cloud where lanes that hit a sphere hit one of a cloud.
   IntN or_cloud(const IntN& object, const IntN& sphere, const MaskN& lanes) const;
   void set_object_materials(const ObjectLists& objects, std::span<const std::int32_t> first_materials, int threads);
-  void set_shadow_catchers(const ObjectLists& objects, int threads);
+  void set_object_sets(const ObjectLists& objects, int threads);
   void set_bounds(int threads);
 
   bool has_object_space_;  ///< all transforms of shapes are kept then
@@ -147,9 +161,7 @@ class GeometryTable {
   std::vector<std::int32_t> first_objects_, primitive_masks_;
   std::vector<std::int32_t> object_materials_;  ///< of each object; of a mesh, its first
   bool objects_have_one_material_ = true;       ///< each
-  std::vector<std::int32_t> catchers_;          ///< the objects that are shadow catchers, by number
-  std::vector<bool> instances_catch_;           ///< whether all of an instance is one
-  bool has_catchers_ = false;
+  ObjectSet catchers_, invisible_;
   std::vector<TransformedShape> transformed_;
   Bounds bounds_ = empty_bounds;                              ///< of all that is not an instance
   std::vector<std::unique_ptr<const GeometryTable>> groups_;  ///< and behind them the meshes that are copied

@@ -79,6 +79,7 @@ SceneTables::SceneTables(const SceneDescription& description, int threads, const
     emissions.push_back(details_[i].is_cutout() ? MaterialEmission{} : emission);
     emissions.back().textured = !textured_.empty() && textured_[i] != 0;
   }
+  has_cutouts_ |= geometry_->has_invisible();
   media_.set(media);
   const auto* const path = std::get_if<Path::Parameters>(&integrator_);
   if (path == nullptr) emissions.clear();

@@ -69,13 +69,15 @@ class SceneTables {
   /// camera_has_lens(). The result: the lanes that have a ray; the picture is black in the others.
   MaskN set_camera_rays(const FloatN& x, const FloatN& y, const Sample2D& lens, CameraRays& result) const;
   bool camera_has_lens() const { return camera_has_lens_; }
-  /// Where the picture shows p, by way of the lens' point for that lane: FilmPoint. None: nowhere.
+  /// Where the picture shows p, by way of the lens' point for that lane: FilmPoint. None: nowhere, as what is too near.
   std::optional<FilmPoint> project(const Vec3d& p, const Sample2D& lens, std::size_t lane) const;
-  /// The camera, if it is of the first type, whose rays always exist, and is not far away and stands still, as most do;
-  /// else null.
+  /// The camera, if it is of the first type, whose rays always exist, and is not far away, stands still and sees all
+  /// that is near, as most do; else null.
   const auto* usual_camera() const {
-    return camera_is_far() || !moving_camera_.empty() ? nullptr : std::get_if<0>(&*camera_);
+    return camera_is_far() || !moving_camera_.empty() || has_near_clip() ? nullptr : std::get_if<0>(&*camera_);
   }
+  /// Whether the camera sees nothing that is nearer than some distance along its viewing direction.
+  bool has_near_clip() const { return near_clip_ > 0; }
   /// Whether the camera is so far away from all objects with bounds that its rays start at them.
   bool camera_is_far() const { return camera_target_.has_value(); }
   const Vec3f& camera_eye() const { return camera_eye_; }
@@ -148,7 +150,8 @@ class SceneTables {
                     std::span<const IncidentLight> lights, const TexturePoint<FloatN>* point,
                     const Refraction<FloatN>& media = {}) const;
 
-  /// Whether some rays pass a surface of the scene, since its material has an opacity or is a pane.
+  /// Whether some rays pass a surface of the scene, since its material has an opacity or is a pane, or since its object
+  /// is not visible to the camera.
   bool has_cutouts() const { return has_cutouts_; }
   /// Whether the camera or instances move while the shutter is open.
   bool has_motion() const { return !moving_camera_.empty() || !geometry_->instances().moving().empty(); }
@@ -292,6 +295,7 @@ class SceneTables {
   template <class CameraKernel>
   void set_ray_cone(const CameraKernel& camera);
   /// ids: the pixels and samples, which say when the rays of a camera that moves are sent.
+  /// They start at the eye, and their `near` is where the camera begins to see.
   template <class F, class CameraKernel>
   Ray<F> rays_of(const CameraKernel& camera, const FloatN& x, const FloatN& y, const Sample2D& lens,
                  const CameraRays& ids) const;
@@ -320,6 +324,8 @@ class SceneTables {
   std::vector<KernelVariant<Cameras>::type> moving_camera_;  ///< at each moment while the shutter is open
   std::optional<BoundingSphere> camera_target_;              ///< around all objects with bounds, if it is far
   Vec3f camera_eye_{}, viewing_direction_{};
+  std::vector<Vec3f> moving_directions_;  ///< of moving_camera_
+  float near_clip_ = 0;                   ///< along the viewing direction
   bool depth_is_distance_ = false, camera_has_lens_ = false;
   std::optional<BufferOrigin> camera_origin_;
   std::vector<LightGroup> light_groups_;

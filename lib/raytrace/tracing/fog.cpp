@@ -34,10 +34,10 @@ void pass_boundaries_at_starts(const TracedScene& scene, Ray<FloatN>& rays, Mask
 }
 
 Rgb<FloatN> fog_transmittance(const TracedScene& scene, const Ray<FloatN>& rays, const MaskN& lanes, const RayIds& ids,
-                              MediumStack& media) {
+                              MediumStack& media, const MaskN& seeing) {
   const FloatN unit = length(rays.direction);
   Rgb<FloatN> left(Rgb<float>(1, 1, 1));
-  for_each_part_in_fog(scene, rays, lanes, ids, media,
+  for_each_part_in_fog(scene, rays, lanes, ids, media, seeing,
                        [&](const MaskN& in_fog, const IntN& fog, int, const FloatN& begin, const FloatN& end) {
                          const Rgb<FloatN> here = scene.tables().media().transmittance(fog, (end - begin) * unit);
                          left = select(in_fog, left * here, left);

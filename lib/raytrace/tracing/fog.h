@@ -23,9 +23,10 @@ inline constexpr float end_of_ray = 0x1p-16F;
 /// part(lanes, fog, number, begin, end): called once for each interval between two boundaries. `lanes` are in a fog
 /// there, each in the one that `fog` says; `number` counts the intervals; begin, end: as distances along rays are. The
 /// result: the lanes that go on behind it; the others' media stay what they are there.
+/// seeing: the lanes that the camera sees by, for which fogs that are not visible to it are not there.
 template <class Part>
 void for_each_part_in_fog(const TracedScene& scene, const Ray<FloatN>& rays, MaskN lanes, const RayIds& ids,
-                          MediumStack& media, const Part& part) {
+                          MediumStack& media, const MaskN& seeing, const Part& part) {
   constexpr int most_boundaries = 1000;  // where rounding keeps a ray at one
   const SceneTables& tables = scene.tables();
   const FloatN reach = rays.far * FloatN(1 - end_of_ray);
@@ -36,6 +37,7 @@ void for_each_part_in_fog(const TracedScene& scene, const Ray<FloatN>& rays, Mas
     left.far = reach - begin;
     RayIdentity identity(tables, scene.accelerator(), left, ids);
     identity.meets = Meets::boundaries_of_fogs;
+    identity.set_seeing(seeing);
     Hits hits =
         scene.accelerator().intersect(left, lanes & (left.far > FloatN(0)), Coherence::incoherent, nullptr, &identity);
     const FloatN end = select(hits.hit, min(begin + left.far, rays.far), rays.far);
@@ -96,20 +98,20 @@ struct MediaOfLight {
   }
 };
 
-/// The share that fogs leave of the light on the way along those rays; media: as above.
+/// The share that fogs leave of the light on the way along those rays; media and seeing: as above.
 Rgb<FloatN> fog_transmittance(const TracedScene& scene, const Ray<FloatN>& rays, const MaskN& lanes, const RayIds& ids,
-                              MediumStack& media);
+                              MediumStack& media, const MaskN& seeing = MaskN(false));
 
-/// What is left of the light that comes along shadow rays to points in media.
+/// What is left of the light that comes along shadow rays to points in media. seeing: as above.
 inline Rgb<FloatN> light_through(const TracedScene& scene, const Ray<FloatN>& rays, const MaskN& lanes,
-                                 const RayIds& ids, const PointMedia& media) {
+                                 const RayIds& ids, const PointMedia& media, const MaskN& seeing = MaskN(false)) {
   const MediumTable& table = scene.tables().media();
   if (!table.has_fog()) [[likely]]
     return table.transmittance(media.current, length(rays.direction) * rays.far);
   MediumStack stack = media.stack;
   Ray<FloatN> left = rays;
   if (media.behind != nullptr) left.origin = *media.behind;
-  const Rgb<FloatN> fogs = fog_transmittance(scene, left, lanes, ids, stack);
+  const Rgb<FloatN> fogs = fog_transmittance(scene, left, lanes, ids, stack, seeing);
   const Rgb<FloatN> clear = table.transmittance(media.current, length(rays.direction) * rays.far);
   return select(table.is_fog(media.current), fogs, fogs * clear);
 }

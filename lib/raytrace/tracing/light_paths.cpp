@@ -66,9 +66,14 @@ void LightPaths::arrive(const LightPathPoint& at, const MaskN& scattered) {
     lanes = lanes & !tables_.geometry().shadow_catchers(hits);
     if (none(lanes)) return;
   }
+  const bool has_invisible = tables_.geometry().has_invisible();
+  if (has_invisible) [[unlikely]] {
+    lanes = lanes & !tables_.geometry().invisible(hits);
+    if (none(lanes)) return;
+  }
   const Sample2D lens = get_2d(path.pixel, path.sample, light_path_dimension(LightPathDraw::lens));
   std::array<FilmPoint, packet_lanes> points;
-  alignas(64) std::array<float, packet_lanes> x{}, y{}, z{}, areas{};
+  alignas(64) std::array<float, packet_lanes> x{}, y{}, z{}, areas{}, shares{};
   std::uint32_t shown = 0;
   for (const std::size_t lane : SetLanes(lanes)) {
     const Vec3d p(in_lane(surface.p, lane));
@@ -80,6 +85,7 @@ void LightPaths::arrive(const LightPathPoint& at, const MaskN& scattered) {
     y[lane] = static_cast<float>(way.y);
     z[lane] = static_cast<float>(way.z);
     areas[lane] = static_cast<float>(point->area);
+    shares[lane] = static_cast<float>(point->seen);
     shown |= std::uint32_t{1} << lane;
   }
   if (shown == 0) return;
@@ -111,22 +117,26 @@ void LightPaths::arrive(const LightPathPoint& at, const MaskN& scattered) {
     f = select(found, saturating_difference(f, gloss), f);
   }
   Rgb<FloatN> radiance = path.flux * f * weight;
-  const bool has_fog = tables_.media().has_fog();
+  const RayIds ids = ray_ids(path, static_cast<std::uint32_t>(depth) * 2 + 1);
+  // The camera sees through other media than those that the light came through where some are not visible to it.
+  const bool has_fog = tables_.media().has_fog(), sees_others = has_invisible && !tables_.media().empty();
+  const MediumStack seen_media = sees_others ? scene_.media_for_camera(offset_ray_origin(seen), lit, ids) : media;
+  const IntN current = sees_others ? seen_media.current(tables_.media()) : boundary.current;
+  const FloatN share = FloatN::load_aligned(shares.data());
   if (!tables_.media().empty() && !has_fog)
-    radiance = radiance * tables_.media().transmittance(boundary.current, distance);
+    radiance = radiance * tables_.media().transmittance(current, distance * share);
   MaskN arrives = lit & (largest(radiance) > FloatN(0));
   if (none(arrives)) return;
   Ray<FloatN> ray;
   ray.origin = offset_ray_origin(seen);
   ray.direction = way + (surface.p - ray.origin);
   ray.near = FloatN(0);
-  ray.far = FloatN(1);
+  ray.far = share;
   report_->rays.shadow += count_lanes(arrives);
-  const RayIds ids = ray_ids(path, static_cast<std::uint32_t>(depth) * 2 + 1);
-  const MaskN hidden = occluded(scene_, ray, arrives, ids, Coherence::incoherent);
+  const MaskN hidden = occluded(scene_, ray, arrives, ids, Coherence::incoherent, has_invisible);
   arrives = arrives & !hidden;
   if (has_fog && any(arrives)) [[unlikely]]
-    radiance = radiance * light_through(scene_, ray, arrives, ids, {media, boundary.current});
+    radiance = radiance * light_through(scene_, ray, arrives, ids, {seen_media, current}, MaskN(true));
   for (const std::size_t lane : SetLanes(arrives)) splat(at, lane, points[lane], radiance);
 }
 

@@ -74,7 +74,8 @@ MaskN PathBatch::add(CameraRays& camera, const MaskN& active, const MaskN& wante
   path.sample = camera.sample;
   path.slot = IntN(first_slot) + lane_numbers<IntN>();
   path.way = IntN(any_way);
-  const MediumStack::Packed media = scene_.camera_media().packed();
+  const MediumStack camera_media = scene_.camera_media(path.rays.origin, active, {path.pixel, path.sample, 0});
+  const MediumStack::Packed media = camera_media.packed();
   path.first_media = media.first;
   path.last_media = media.last;
   path.deviation = FloatN(0);
@@ -82,14 +83,14 @@ MaskN PathBatch::add(CameraRays& camera, const MaskN& active, const MaskN& wante
   const MediumTable& table = scene_.tables().media();
   MaskN met = hits.hit;
   if (table.has_fog()) [[unlikely]] {
-    MediumStack stack = scene_.camera_media();
+    MediumStack stack = camera_media;
     MaskN fogged(false);
     const Hits next = go_through_fog(path, stack, wanted, {0, 0, MaskN(false), &hits, &fogged}, camera_walks_);
     met = met | fogged;
     path.set_hits(next);
     append(paths_, path, next, next.hit);
-  } else if (table.scatters() && any(table.scatters(scene_.camera_media().current(table)))) [[unlikely]] {
-    const Hits walked = walk(path, scene_.camera_media().current(table), hits.hit & wanted, 0, 0, camera_walks_);
+  } else if (table.scatters() && any(active & table.scatters(camera_media.current(table)))) [[unlikely]] {
+    const Hits walked = walk(path, camera_media.current(table), hits.hit & wanted, 0, 0, camera_walks_);
     path.set_hits(walked);
     append(paths_, path, walked, walked.hit);
   } else {
@@ -222,6 +223,8 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
     boundary = find_boundary(path, media, hits, surface, depth, counts);
     lanes = hits.hit;
     if (none(lanes)) return;
+    if (depth == 0 && tables.geometry().has_invisible()) [[unlikely]]
+      add_invisible_media(path, surface, lanes & seen_by(path, depth), media, boundary);
   }
   if (tables.has_subsurface()) {
     surface.emerges = lanes & float_mask<FloatN>(path.way == IntN(from_below));
@@ -274,7 +277,7 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   const auto ids = [&](std::uint32_t ray) { return RayIds{path.pixel, path.sample, first_key + ray}; };
   const auto draw = [&](PathDraw what) { return get_2d(path.pixel, path.sample, path_dimension(depth, what)); };
   const Coherence coherence = depth == 0 ? Coherence::coherent : Coherence::incoherent;
-  const MaskN is_first = depth == 0 ? !float_mask<FloatN>(path.way == IntN(by_scattering)) : MaskN(false);
+  const MaskN is_first = seen_by(path, depth);
   const MaskN on_way =
       focuses & (float_mask<FloatN>(path.way == IntN(by_reflection)) | float_mask<FloatN>(path.way == IntN(by_focus)));
   const MaskN on_gloss_way =

@@ -137,6 +137,14 @@ class PathBatch {
   /// next_boundary() of paths whose ray to there was their ray number `depth`.
   MediumBoundary find_boundary(PathPacket& path, MediumStack& media, Hits& hits, SurfaceInteraction<FloatN>& surface,
                                int depth, RayCounts& counts);
+  /// The lanes in which the ray number `depth` of paths is what the camera sees by: from the eye on, unscattered.
+  static MaskN seen_by(const PathPacket& path, int depth) {
+    return depth == 0 ? !float_mask<FloatN>(path.way == IntN(by_scattering)) : MaskN(false);
+  }
+  /// Of first points that the camera sees, in those lanes: adds the media that are not visible to it, since paths go on
+  /// from there in all that there is.
+  void add_invisible_media(const PathPacket& path, const SurfaceInteraction<FloatN>& surface, const MaskN& lanes,
+                           MediumStack& media, MediumBoundary& boundary) const;
   /// Of light groups, that of each lane's light; where there is more than one.
   IntN group_of(const DrawnLight& light) const;
   /// The light that photons have brought to those points of paths.

@@ -264,6 +264,7 @@ Hits PathBatch::go_through_fog(PathPacket& path, MediumStack& media, const MaskN
   MaskN goes_on = lanes, fogged(false), scattered(false);
   for (std::uint32_t step = 0; any(goes_on); ++step) {
     FogNumbers numbers{path.pixel, path.sample, way.number, step};
+    const MaskN seeing = step == 0 ? seen_by(path, way.depth) : MaskN(false);
     Hits hits;
     if (step == 0 && way.first_hits != nullptr) {
       hits = *way.first_hits;
@@ -271,7 +272,8 @@ Hits PathBatch::go_through_fog(PathPacket& path, MediumStack& media, const MaskN
     } else {
       Ray<FloatN> ray{rays.origin, rays.direction, FloatN(0), infinity<FloatN>()};
       const RayIds ids = numbers.ids(0);
-      const RayIdentity identity(tables, scene_.accelerator(), ray, ids);
+      RayIdentity identity(tables, scene_.accelerator(), ray, ids);
+      identity.set_seeing(seeing);
       counts.indirect += count_lanes(goes_on);
       hits = scene_.accelerator().intersect(ray, goes_on, Coherence::incoherent, nullptr, &identity);
       rays.near = FloatN(0);
@@ -284,7 +286,7 @@ Hits PathBatch::go_through_fog(PathPacket& path, MediumStack& media, const MaskN
       if (any(through)) pass_boundaries_at_starts(scene_, ray, through, path.distance, numbers.ids(0), media);
     }
     for_each_part_in_fog(
-        scene_, ray, goes_on, numbers.ids(0), media,
+        scene_, ray, goes_on, numbers.ids(0), media, seeing,
         [&](const MaskN& in_fog, const IntN& fog, int number, const FloatN& begin, const FloatN& end) {
           FogPart part(tables.media(), in_fog, ray, begin, end, fog, media);
           // What the camera sees first has most of the noise, and a shadow ray costs less than a path.

@@ -41,7 +41,8 @@ MediumBoundary PathBatch::find_boundary(PathPacket& path, MediumStack& media, Hi
     }
     counts.indirect += count_lanes(lanes);
     const std::uint32_t id = 0x20000000U | static_cast<std::uint32_t>(depth) << 8U | (passes++ & 0xFFU);
-    const Hits next = raytrace::intersect(scene_, rays, lanes, {path.pixel, path.sample, id}, Coherence::incoherent);
+    const Hits next = raytrace::intersect(scene_, rays, lanes, {path.pixel, path.sample, id}, Coherence::incoherent,
+                                          seen_by(path, depth));
     if (const MaskN escaped = lanes & !next.hit; any(escaped)) {
       const Ray<FloatN> last = path.rays;
       path.rays = rays;
@@ -55,10 +56,19 @@ MediumBoundary PathBatch::find_boundary(PathPacket& path, MediumStack& media, Hi
       intersect, true);
 }
 
+void PathBatch::add_invisible_media(const PathPacket& path, const SurfaceInteraction<FloatN>& surface,
+                                    const MaskN& lanes, MediumStack& media, MediumBoundary& boundary) const {
+  if (none(lanes)) return;
+  const MediumStack all = scene_.media_of_all(offset_ray_origin(surface), lanes, {path.pixel, path.sample, 0});
+  const MediumStack::Packed before = media.packed(), now = all.packed();
+  media = MediumStack({select_lanes(lanes, now.first, before.first), select_lanes(lanes, now.last, before.last)});
+  boundary = MediumBoundary(scene_.tables().media(), media, lanes, boundary.inside, surface.front);
+}
+
 Hits PathBatch::walk(PathPacket& path, const IntN& medium, const MaskN& lanes, std::uint32_t number, int depth,
                      RayCounts& counts) {
-  const MediumWalk end =
-      walk_through(scene_, medium, lanes, {path.pixel, path.sample, number}, path.rays, path.throughput, counts);
+  const MediumWalk end = walk_through(scene_, medium, lanes, {path.pixel, path.sample, number, seen_by(path, depth)},
+                                      path.rays, path.throughput, counts);
   // Lights are not drawn to where it scattered, and light paths do not bring what is scattered.
   path.pdf = select(end.scatters, infinity<FloatN>(), path.pdf);
   path.way = select_lanes(end.scatters, IntN(depth == 0 ? by_scattering : any_way), path.way);

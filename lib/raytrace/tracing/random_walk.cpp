@@ -40,6 +40,7 @@ void walk(const TracedScene& scene, const Scatterers& scatterers, MaskN walks, c
   const auto number = [&](int step, std::uint32_t what) {
     return to_unit(mix_bits(key + UintN((static_cast<std::uint32_t>(step) * 5 + what) * 0x9e3779b9U)));
   };
+  MaskN seeing = ids.seeing;
   for (int step = 0; step < most_scatterings; ++step) {
     const Rgb<FloatN> light = magnitudes(throughput);
     walks = walks & (sum(light) > FloatN(0));
@@ -49,7 +50,7 @@ void walk(const TracedScene& scene, const Scatterers& scatterers, MaskN walks, c
     rays.far = select(walks, min(length, FloatN(1e17F)), rays.far);
     counts.indirect += count_lanes(walks);
     const std::uint32_t id = 0x80000000U | ids.walk << 14U | static_cast<std::uint32_t>(step);
-    Hits hits = intersect(scene, rays, walks, {ids.pixel, ids.sample, id}, Coherence::incoherent);
+    Hits hits = intersect(scene, rays, walks, {ids.pixel, ids.sample, id}, Coherence::incoherent, seeing);
     const Rgb<FloatN> left = exp_of(scatterers.extinction * -rays.far);
     const Rgb<FloatN> density = select(hits.hit, left, scatterers.extinction * left);
     const FloatN mean_density = sum(light * density) / sum(light);
@@ -66,6 +67,7 @@ void walk(const TracedScene& scene, const Scatterers& scatterers, MaskN walks, c
     }
     if (none(scatters)) continue;
     scattered_at(scatters);
+    seeing = seeing & !scatters;
     rays.origin = select(scatters, rays.at(rays.far), rays.origin);
     const Vec3<FloatN> turned =
         sample_henyey_greenstein(rays.direction, scatterers.anisotropy, number(step, 2), number(step, 3));

@@ -15,6 +15,8 @@ struct WalkIds {
   const UintN& pixel;  ///< as CameraRays have them
   const UintN& sample;
   std::uint32_t walk;  ///< which walk of the path, below 2^17
+  /// The lanes in which the camera sees by the paths' rays, up to the first scattering.
+  MaskN seeing{false};
 };
 
 /// Where paths go in below surfaces, of which at least one lane has a hit.
