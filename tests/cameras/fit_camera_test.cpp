@@ -260,4 +260,25 @@ TEST_CASE("a point is in the picture's middle, and a camera that sees all around
   CHECK_THROWS_AS(fit_camera(around, around), SettingsError);
 }
 
+TEST_CASE("a camera that is moved cuts where it did, and need not show what is not visible to it") {
+  const std::string ball = "<spheres><sphere><center x='0' y='0' z='0'/><radius>1</radius><material>m</material>";
+  const std::string far_ball = "</sphere><sphere><center x='50' y='0' z='0'/><radius>1</radius><material>m</material>";
+  const std::string end = "</sphere></spheres>", hidden = "<visible>false</visible>";
+  const auto fitted = [&](const std::string& objects, double nearclip) {
+    SceneDescription scene = scene_to_fit(objects,
+                                          "<camera><eye x='0' y='0' z='90'/><lookat x='0' y='0' z='0'/><viewdistance>"
+                                          "70</viewdistance><nearclip>" +
+                                              std::to_string(nearclip) + "</nearclip></camera>");
+    fit_camera(scene, scene);
+    return std::get<PinholeCamera::Parameters>(scene.camera);
+  };
+  const PinholeCamera::Parameters camera = fitted(ball + end, 90);
+  CHECK(std::abs(camera.eye.z - camera.nearclip) < 1e-9);
+  CHECK(camera.eye.z < 10);
+  CHECK(fitted(ball + end, 0).nearclip == 0);
+  CHECK(fitted(ball + end, 10).nearclip == 0);
+  CHECK(std::abs(fitted(ball + far_ball + hidden + end, 90).eye.z - camera.eye.z) < 1e-9);
+  CHECK(fitted(ball + far_ball + end, 90).eye.z > 20);
+}
+
 }  // namespace raytrace::test

@@ -65,6 +65,7 @@ TEST_CASE("a scene is printed with every value spelled out") {
     <up x="0" y="1" z="0"/>
     <shutteropen>0</shutteropen>
     <shutterclose>0</shutterclose>
+    <nearclip>0</nearclip>
     <viewdistance>4</viewdistance>
     <shift x="0" y="0"/>
   </camera>

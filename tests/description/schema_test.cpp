@@ -222,6 +222,7 @@ TEST_CASE("the schema refuses most of the bad scenes, the program all", "[schema
                    "missing_component",
                    "misspelt_material",
                    "nan",
+                   "near_clip_negative",
                    "negative_coefficient",
                    "negative_radius",
                    "not_a_number",

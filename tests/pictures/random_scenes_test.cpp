@@ -131,6 +131,41 @@ TEST_CASE("random scenes through other cameras, far away or far from the origin,
   check_scenes(0, 12, change_camera, [](SceneDescription& description) { move(description, {1e7, -3e6, 2e7}); });
 }
 
+TEST_CASE("random scenes of which the camera does not see all equal the reference's pictures") {
+  const auto hide = [](reference::Scene& scene, unsigned seed) {
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) scene.objects[i].visible = (i + seed) % 3 != 0;
+    const bool has_plane = scene.projection == reference::Scene::Projection::pinhole ||
+                           scene.projection == reference::Scene::Projection::thin_lens;
+    // Before the middle, in it, or not at all.
+    if (has_plane) scene.near_clip = static_cast<float>((seed / 2 % 3) * 0.45L * length(scene.eye - scene.look_at));
+  };
+  check_scenes(0, 18, hide, [](SceneDescription&) {});
+  const auto transform = [&](reference::Scene& scene, unsigned seed) {
+    reference::transform_objects(scene, seed);
+    hide(scene, seed);
+  };
+  check_scenes(0, 12, transform, [](SceneDescription&) {});
+  const auto move = [&](reference::Scene& scene, unsigned seed) {
+    hide(scene, seed);
+    set_in_motion(scene, seed);
+    set_time(scene);
+  };
+  check_scenes(0, 8, move, [](SceneDescription&) {});
+  const auto change = [&](reference::Scene& scene, unsigned seed) {
+    change_camera(scene, seed);
+    hide(scene, seed);
+  };
+  check_scenes(0, 12, change, [](SceneDescription&) {});
+  const auto go_away = [&](reference::Scene& scene, unsigned seed) {
+    const reference::Vector way = scene.eye - scene.look_at;
+    scene.eye = scene.look_at + 1e5L * way;
+    scene.pixel_size = scene.pixel_size / 1e5L;
+    hide(scene, seed);
+    if (scene.near_clip > 0) scene.near_clip = length(scene.eye - scene.look_at) - (seed % 2) * length(way) / 4;
+  };
+  check_scenes(0, 12, go_away, [](SceneDescription&) {});
+}
+
 TEST_CASE("the random scenes show every kind of thing") {
   // What the comparison above is worth depends on this: something is hit, lit, shadowed and seen from inside.
   int covered = 0, shadowed = 0;

@@ -47,17 +47,31 @@ std::array<Real, 2> lens_point(int blades, Real rotation, Real u1, Real u2) {
 
 }  // namespace
 
-std::optional<Hit> nearest_hit(const Scene& scene, const Ray& ray) {
+namespace {
+
+/// The nearest behind that distance, of all objects or of those that are visible to the camera.
+std::optional<Hit> nearest_hit(const Scene& scene, const Ray& ray, Real begin, bool seen) {
   std::optional<Hit> nearest;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    if (seen && !scene.objects[i].visible) continue;
     const Crossings crossings = scene.objects[i].shape->crossings(ray);
     for (int k = 0; k < crossings.count; ++k) {
       const Real t = crossings.distances[static_cast<unsigned>(k)];
-      if (t > 0 && (!nearest || t < nearest->distance)) nearest = Hit{i, t};
+      if (t > begin && (!nearest || t < nearest->distance)) nearest = Hit{i, t};
     }
   }
   return nearest;
 }
+
+std::optional<Hit> seen_hit(const Scene& scene, const Ray& ray) {
+  const Vector eye = scene.now ? scene.eye + *scene.now * scene.eye_way : scene.eye;
+  const Real along_view = dot(ray.direction, unit(scene.look_at - eye));
+  return nearest_hit(scene, ray, scene.near_clip > 0 ? scene.near_clip / along_view : 0, true);
+}
+
+}  // namespace
+
+std::optional<Hit> nearest_hit(const Scene& scene, const Ray& ray) { return nearest_hit(scene, ray, 0, false); }
 
 Crossings crossings_leaving(const Shape& shape, const Ray& ray) {
   const Crossings all = shape.crossings(ray);
@@ -129,7 +143,7 @@ Ray camera_ray(const Scene& scene, int column, int row, Real px, Real py) {
 }
 
 Vector radiance(const Scene& scene, const Ray& ray) {
-  const std::optional<Hit> hit = nearest_hit(scene, ray);
+  const std::optional<Hit> hit = seen_hit(scene, ray);
   if (!hit) return scene.background;
   const Object& object = scene.objects[hit->object];
   const Material& material = scene.materials[object.material];

@@ -31,6 +31,7 @@ struct Light {
 struct Object {
   ShapePointer shape;
   std::size_t material = 0;  ///< index into Scene::materials
+  bool visible = true;       ///< to the camera
 };
 
 /// For instances: a shape in a group of its own.
@@ -48,6 +49,7 @@ struct Scene {
   Vector eye, look_at;
   Vector up{0, 1, 0};  ///< not parallel to the view: the scene format leaves open what happens then
   Real view_distance = 1;
+  Real near_clip = 0;  ///< the camera sees nothing nearer, along its view
 
   enum class Projection { pinhole, thin_lens, fisheye, spherical };
   Projection projection = Projection::pinhole;

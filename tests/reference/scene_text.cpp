@@ -34,9 +34,10 @@ std::string material_text(const Material& material) {
   return "<phongs><phong>" + text + "</phong></phongs>\n";
 }
 
-std::string object_text(const Shape& shape, const std::string& material) {
+std::string object_text(const Shape& shape, const std::string& material, bool visible = true) {
   return "<" + shape.group() + "><" + shape.element() + ">" + shape.parameters() + "<material>" + material +
-         "</material></" + shape.element() + "></" + shape.group() + ">";
+         "</material>" + (visible ? "" : "<visible>false</visible>") + "</" + shape.element() + "></" + shape.group() +
+         ">";
 }
 
 std::string camera_text(const Scene& scene) {
@@ -44,7 +45,7 @@ std::string camera_text(const Scene& scene) {
   std::string text = scene.shutter + (scene.eye_keys.empty() ? vector_element("eye", scene.eye) : scene.eye_keys) +
                      vector_element("lookat", scene.look_at) + vector_element("up", scene.up);
   if (scene.projection == Projection::pinhole || scene.projection == Projection::thin_lens)
-    text += number_element("viewdistance", scene.view_distance);
+    text += number_element("viewdistance", scene.view_distance) + number_element("nearclip", scene.near_clip);
   const char* name = "camera";
   if (scene.projection == Projection::thin_lens) {
     name = "thinlenscamera";
@@ -82,7 +83,7 @@ std::string scene_text(const Scene& scene) {
   for (const Material& material : scene.materials) text += material_text(material);
   text += "</materials>\n<objects>\n";
   for (const Object& object : scene.objects)
-    text += object_text(*object.shape, scene.materials[object.material].name) + "\n";
+    text += object_text(*object.shape, scene.materials[object.material].name, object.visible) + "\n";
   text += "</objects>\n<groups>\n";
   for (const Group& group : scene.groups)
     text += "<group><name>" + group.name + "</name><objects>" +

@@ -96,9 +96,24 @@ Estimate estimate(const std::string& text) {
   return {mean, std::sqrt(variance)};
 }
 
+/// A matte square of edge 1.
+std::string board(double x, double y, double z) {
+  return "<rectangles><rectangle>" + vector_text("corner", x, y, z) +
+         "<edge1 x='0' y='0' z='-1'/><edge2 x='1' y='0' z='0'/><material>floor</material></rectangle></rectangles>";
+}
+
+/// The objects, the camera not seeing them.
+std::string hidden(std::string objects) {
+  const std::string end = "</material>";
+  for (std::size_t at = 0; (at = objects.find(end, at)) != std::string::npos; at += end.size())
+    objects.insert(at + end.size(), "<visible>false</visible>");
+  return objects;
+}
+
 std::vector<Stage> stages() {
   const std::string eye = "<eye x='0' y='5' z='5'/><lookat x='0' y='0' z='0.5'/>";
   const std::string none = "<spheres></spheres>";
+  const std::string lamp = Stage().lamp;
   const std::string sky =
       "<environmentlights><environmentlight><color red='1' green='0.9' blue='0.8'/>"
       "<scaleradiance>2</scaleradiance></environmentlight></environmentlights>";
@@ -151,6 +166,22 @@ std::vector<Stage> stages() {
       {.name = "an orthographic camera",
        .camera = "<orthographiccamera>" + eye + "</orthographiccamera>",
        .viewplane = "<pixelsize>0.2</pixelsize>"},
+      // The camera sees the floor through the ball, and past a board and from below another, that hide light alone.
+      {.name = "a ball, boards and a lamp that the camera does not see",
+       .focusing = hidden(Stage::ball("glass") + board(0, 3, 3) + board(-2.5, 0.1, 1.5) + board(0.5, 0.05, 1)),
+       .lamp = hidden(lamp)},
+      {.name = "a ball in amber that the camera does not see",
+       .focusing = Stage::ball("copper") +
+                   hidden("<boxes><box><min x='-1.5' y='-0.1' z='-1.5'/><max x='1.5' y='2' z='1.5'/><material>amber"
+                          "</material></box></boxes>")},
+      {.name = "a board and half a ball that are nearer than the camera sees",
+       .camera = "<camera>" + eye + "<fov>45</fov><nearclip>5.8</nearclip></camera>",
+       .focusing = Stage::ball("glass") + board(0, 2.5, 3)},
+      {.name = "the same with a lens",
+       .camera = "<thinlenscamera>" + eye +
+                 "<fov>45</fov><lensradius>0.3</lensradius><focaldistance>6</focaldistance><nearclip>5.8</nearclip>"
+                 "</thinlenscamera>",
+       .focusing = Stage::ball("glass") + board(0, 2.5, 3)},
       {.name = "a fisheye", .camera = "<fisheyecamera>" + eye + "<angle>120</angle></fisheyecamera>"},
       {.name = "a camera that looks all around", .camera = "<sphericalcamera>" + eye + "</sphericalcamera>"},
   };

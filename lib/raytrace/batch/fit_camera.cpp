@@ -86,7 +86,8 @@ class Measurer {
     for_each_type(Objects{}, [&]<class T>(std::type_identity<T>) {
       if constexpr (has_end<T>())
         for (const auto& item : std::get<ObjectItems<T>>(objects))
-          if (lamps || !is_lamp(item.material)) add_item(item, lamps, before(item.transform, directions), reaches);
+          if (lamps || (item.visible && !is_lamp(item.material)))
+            add_item(item, lamps, before(item.transform, directions), reaches);
     });
   }
 
@@ -227,6 +228,8 @@ void fit_camera(const SceneDescription& shown, SceneDescription& scene) {
             if (needed > 0) picture.pixelsize = needed;
             distance = nearest + std::max({width, height, depth, smallest_size});
           }
+          // What is cut away stays the same.
+          if (camera.nearclip > 0) camera.nearclip = std::max(camera.nearclip + distance - dot(camera.eye, w), 0.0);
           const Vec3d beside = u * across.eye(distance) + v * upwards.eye(distance);
           camera.lookat = beside + w * middle;
           camera.eye = beside + w * distance;

@@ -15,11 +15,12 @@ class OrthographicCamera {
   struct Parameters {
     Vec3d eye{}, lookat{};                     ///< they differ
     Vec3d up{0, 1, 0};                         ///< if parallel to the view direction, another is picked
+    double nearclip = 0;                       ///< the camera sees nothing nearer, along the view; 0: all
     double shutteropen = 0, shutterclose = 0;  ///< frames after the current one
   };
   static constexpr std::string_view name = "orthographic";  ///< as --list cameras shows it
   static constexpr std::string_view element = "orthographiccamera";
-  static Fields fields() { return view_fields<Parameters>(); }
+  static Fields fields() { return view_plane_fields<Parameters>(); }
   static std::optional<ParameterDiagnostic> check(const Parameters& parameters) { return check_view(parameters); }
 
   static CameraMatrices matrices(const Parameters& parameters, const ViewPlane& viewplane) {

@@ -19,8 +19,9 @@ class PinholeCamera {
     Vec3d eye{}, lookat{};  ///< they differ
     Vec3d up{0, 1, 0};      ///< if parallel to the view direction, another is picked
     double viewdistance = 0;
-    Vec2d shift{0, 0};  ///< of the picture on the view plane, right and up, in larger sides of it
-    double fov = 0;     ///< of files alone, in degrees; load_scene() sets viewdistance by it
+    Vec2d shift{0, 0};    ///< of the picture on the view plane, right and up, in larger sides of it
+    double fov = 0;       ///< of files alone, in degrees; load_scene() sets viewdistance by it
+    double nearclip = 0;  ///< the camera sees nothing nearer, along the view; 0: all
     double shutteropen = 0, shutterclose = 0;  ///< frames after the current one
   };
   static constexpr std::string_view name = "pinhole";  ///< as --list cameras shows it

@@ -26,6 +26,7 @@ class ThinLensCamera {
     double bladerotation = 0;  ///< degrees that the first corner is turned from the right towards the top
     Vec2d shift{0, 0};         ///< of the picture on the view plane, right and up, in larger sides of it
     double fov = 0;            ///< of files alone, in degrees; load_scene() sets viewdistance by it
+    double nearclip = 0;       ///< the camera sees nothing nearer, along the view; 0: all
     double shutteropen = 0, shutterclose = 0;  ///< frames after the current one
   };
   static constexpr std::string_view name = "thinlens";  ///< as --list cameras shows it

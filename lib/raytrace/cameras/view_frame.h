@@ -38,10 +38,18 @@ Fields view_fields() {
           optional("shutterclose", &Parameters::shutterclose)};
 }
 
+/// The same of one with a view plane.
+template <class Parameters>
+Fields view_plane_fields() {
+  Fields fields = view_fields<Parameters>();
+  fields.push_back(optional("nearclip", &Parameters::nearclip, Range::not_negative));
+  return fields;
+}
+
 /// The same of one with a view plane at `viewdistance`.
 template <class Parameters>
 Fields perspective_fields() {
-  Fields fields = view_fields<Parameters>();
+  Fields fields = view_plane_fields<Parameters>();
   fields.push_back(required("viewdistance", &Parameters::viewdistance, Range::positive));
   fields.push_back(optional("shift", &Parameters::shift));
   return fields;

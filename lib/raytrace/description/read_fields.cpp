@@ -39,6 +39,8 @@ constexpr Synonym synonyms[] = {
     {"wrapu", "wrap"},
     {"wraps", "wrap"},
     {"wrapt", "wrapv"},
+    {"near", "nearclip"},
+    {"clip_start", "nearclip"},
     {"lensshift", "shift"},
     {"shift_x", "shift"},
     {"shift_y", "shift"},

@@ -10,10 +10,10 @@ namespace raytrace {
 
 struct CaughtShadows;
 
-/// Rays of a camera, and how much of the way from where they begin they leave out.
+/// Rays of a camera, and how much of the way from the eye to where they begin they leave out.
 struct CameraRays {
   Ray<FloatN> rays;
-  FloatN skipped{0};  ///< rays.near may be as far before their origins
+  FloatN skipped{0};  ///< rays.near may be as far before their origins, of a camera that is far away
   // Of integrators that take samples, and in scenes with opacities: the pixel's hash, and the sample's index.
   UintN pixel{0u}, sample{0u};
   /// Receives the shadows on shadow catchers (tracing/shadow_catcher.h); null: these are surfaces like any other.
@@ -29,8 +29,10 @@ inline CameraRays rays_at(const BoundingSphere& sphere, const Ray<Doubles<FloatN
   const Vec3<D> across = to_center - rays.direction * closest;
   const D half_chord = sqrt(max(D(sphere.radius * sphere.radius) - dot(across, across), D(0.0)));
   // Less, by more than its rounding to float.
-  const FloatN skipped = (max(closest - half_chord, D(0.0)) * D(1 - 0x1p-22)).to_float();
-  return {{to_float(rays.origin + rays.direction * D(skipped)), to_float(rays.direction), -skipped, infinity<FloatN>()},
+  const FloatN near = rays.near.to_float();
+  const FloatN skipped = max((max(closest - half_chord, D(0.0)) * D(1 - 0x1p-22)).to_float(), near);
+  return {{to_float(rays.origin + rays.direction * D(skipped)), to_float(rays.direction), near - skipped,
+           infinity<FloatN>()},
           skipped};
 }
 

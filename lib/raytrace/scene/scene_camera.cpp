@@ -1,4 +1,5 @@
 // The camera of SceneTables.
+#include <utility>
 #include <variant>
 
 #include "raytrace/description/motion.h"
@@ -21,6 +22,12 @@ Ray<F> generate(const CameraKernel& camera, const F& x, const F& y, const Sample
     return camera.generate(x, y);
 }
 
+/// The third column turns points into -z, behind the camera.
+Vec3f direction_of(const CameraMatrices& matrices) {
+  const float* const m = matrices.world_to_camera;
+  return {-m[2], -m[6], -m[10]};
+}
+
 }  // namespace
 
 void SceneTables::set_camera(const SceneDescription& description) {
@@ -31,15 +38,18 @@ void SceneTables::set_camera(const SceneDescription& description) {
     camera_ = camera;
     for (const CameraParameters& moment : description.moving_camera)
       moving_camera_.push_back(Kernel<Type>(moved<Type>(std::get<typename Type::Parameters>(moment)), viewplane_));
+    if constexpr (requires { parameters->nearclip; }) near_clip_ = static_cast<float>(parameters->nearclip);
     camera_has_lens_ = has_lens<Kernel<Type>>;
     set_ray_cone(camera);
     camera_eye_ = Vec3f(parameters->eye - origin_);
     if constexpr (requires { camera.origin(); })
-      if (!camera_is_far() && moving_camera_.empty()) camera_origin_ = BufferOrigin{camera.origin()};
-    const CameraMatrices matrices = Type::matrices(*parameters, viewplane_);
-    const float* const m = matrices.world_to_camera;  // its third column turns points into -z, behind the camera
-    viewing_direction_ = Vec3f(-m[2], -m[6], -m[10]);
-    depth_is_distance_ = !matrices.is_projection;
+      if (!camera_is_far() && moving_camera_.empty() && !has_near_clip())
+        camera_origin_ = BufferOrigin{camera.origin()};
+    viewing_direction_ = direction_of(Type::matrices(*parameters, viewplane_));
+    for (const CameraParameters& moment : description.moving_camera)
+      moving_directions_.push_back(
+          direction_of(Type::matrices(std::get<typename Type::Parameters>(moment), viewplane_)));
+    depth_is_distance_ = !Type::matrices(*parameters, viewplane_).is_projection;
   });
 }
 
@@ -63,7 +73,7 @@ bool SceneTables::camera_is_far_from(const BoundingSphere& sphere, const SceneDe
 }
 
 std::optional<FilmPoint> SceneTables::project(const Vec3d& p, const Sample2D& lens, std::size_t lane) const {
-  return std::visit(
+  auto point = std::visit(
       [&]<class CameraKernel>(const CameraKernel& camera) {
         if constexpr (has_lens<CameraKernel>)
           return camera.project(p, lens.x, lens.y, lane);
@@ -71,13 +81,26 @@ std::optional<FilmPoint> SceneTables::project(const Vec3d& p, const Sample2D& le
           return camera.project(p);
       },
       *camera_);
+  if (point && has_near_clip()) {
+    const double depth = dot(p - point->from, Vec3d(viewing_direction_)), near = near_clip_;
+    if (!(depth > near)) return std::nullopt;
+    point->seen = 1 - near / depth;
+  }
+  return point;
 }
 
 template <class F, class CameraKernel>
 Ray<F> SceneTables::rays_of(const CameraKernel& camera, const FloatN& x, const FloatN& y, const Sample2D& lens,
                             const CameraRays& ids) const {
-  if (moving_camera_.empty()) [[likely]]
-    return generate<F>(camera, F(x), F(y), lens);
+  // How far along a ray what it may see begins.
+  const auto set_near = [&](Ray<F>& rays, const Vec3f& viewing_direction) {
+    if (has_near_clip()) rays.near = F(near_clip_) / dot(rays.direction, Vec3<F>(viewing_direction));
+  };
+  if (moving_camera_.empty()) [[likely]] {
+    Ray<F> rays = generate<F>(camera, F(x), F(y), lens);
+    set_near(rays, viewing_direction_);
+    return rays;
+  }
   const FloatN place = RayIds{ids.pixel, ids.sample, 0}.times() * FloatN(shutter_moments - 1);
   const IntN before = min(to_int(place), IntN(shutter_moments - 2));
   const F part(place - to_float(before));
@@ -88,11 +111,14 @@ Ray<F> SceneTables::rays_of(const CameraKernel& camera, const FloatN& x, const F
     const F whole(to_float(before));
     const auto here = (whole > F(number - FloatN(0.5F))) & (whole < F(number + FloatN(0.5F)));
     const auto at = [&](std::size_t i) {
-      return generate<F>(std::get<CameraKernel>(moving_camera_[i]), F(x), F(y), lens);
+      Ray<F> rays = generate<F>(std::get<CameraKernel>(moving_camera_[i]), F(x), F(y), lens);
+      set_near(rays, moving_directions_[i]);
+      return rays;
     };
     const Ray<F> a = at(moment), b = at(moment + 1);
     result.origin = select(here, a.origin + (b.origin - a.origin) * part, result.origin);
     result.direction = select(here, normalize(a.direction + (b.direction - a.direction) * part), result.direction);
+    result.near = select(here, a.near + (b.near - a.near) * part, result.near);
     left = left & (to_float(before) != number);
   }
   return result;
@@ -108,6 +134,12 @@ MaskN SceneTables::set_camera_rays(const FloatN& x, const FloatN& y, const Sampl
         } else {
           result.rays = rays_of<FloatN>(camera, x, y, lens, result);
           result.skipped = FloatN(0);
+          if (has_near_clip()) {
+            // They start there, in what medium is there.
+            Ray<FloatN>& rays = result.rays;
+            result.skipped = std::exchange(rays.near, FloatN(0));
+            rays.origin = rays.at(result.skipped);
+          }
         }
         if constexpr (requires { camera.has_ray(x, y); })
           return camera.has_ray(x, y);

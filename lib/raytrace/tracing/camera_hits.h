@@ -16,12 +16,14 @@ RAYTRACE_INLINE Hits nearest_camera_hits(const TracedScene& scene, CameraRays& c
                                                                    Coherence::coherent, &camera)
                                             : scene.accelerator().intersect(some, lanes, Coherence::coherent, buffer);
   };
+  const FloatN near = rays.near;
   Hits hits = intersect(rays, active, scene.camera_buffer());
   if (!scene.tables().camera_is_far()) [[likely]]
     return hits;
   const MaskN near_eye = hits.hit & (rays.far < camera.skipped * FloatN(-0.5F));
   if (none(near_eye)) return hits;
-  Ray<FloatN> from_eye{rays.origin - rays.direction * camera.skipped, rays.direction, FloatN(0), infinity<FloatN>()};
+  Ray<FloatN> from_eye{rays.origin - rays.direction * camera.skipped, rays.direction, near + camera.skipped,
+                       infinity<FloatN>()};
   const Hits near_hits = intersect(from_eye, near_eye, nullptr);
   rays.origin = select(near_eye, from_eye.origin, rays.origin);
   rays.near = select(near_eye, from_eye.near, rays.near);
