@@ -1218,6 +1218,43 @@ for name, comment, lookat, shift in (
         objects=f"    <boxes>\n{TOWERS}    </boxes>\n",
     )
 
+# A room with a gap in its roof.
+for name, comment, clip in (
+    ("camera-uncut", "A house, seen from outside.", ""),
+    ("camera-near-clip", "The same, cut open for the camera alone: the wall before it still keeps the sun out.",
+     " <nearclip>6.7</nearclip>"),
+):
+    write(
+        name,
+        comment,
+        room=ROOM.replace("<samples>16</samples>", "<samples>64</samples>")
+        .replace("<viewdistance>520</viewdistance>", f"<viewdistance>400</viewdistance>{clip}"),
+        lights="""\
+  <lights>
+    <ambientlight> <scaleradiance>0.3</scaleradiance> </ambientlight>
+    <directionallights>
+      <directionallight> <direction x="-0.4" y="1.6" z="0.5"/> <scaleradiance>3</scaleradiance> </directionallight>
+    </directionallights>
+  </lights>
+  <integrator> <path/> </integrator>
+""",
+        mattes=CLAY + """\
+      <matte> <name>wall</name> <ka>0.5</ka> <kd>0.8</kd> <cd red="0.9" green="0.85" blue="0.75"/> </matte>
+""",
+        objects="""\
+    <boxes>
+      <box> <min x="-2" y="0" z="-1.9"/> <max x="2" y="2.4" z="-1.8"/> <material>wall</material> </box>
+      <box> <min x="-2" y="0" z="1.7"/> <max x="2" y="2.4" z="1.8"/> <material>wall</material> </box>
+      <box> <min x="-2.1" y="0" z="-1.9"/> <max x="-2" y="2.4" z="1.8"/> <material>wall</material> </box>
+      <box> <min x="2" y="0" z="-1.9"/> <max x="2.1" y="2.4" z="1.8"/> <material>wall</material> </box>
+      <box> <min x="-2.1" y="2.4" z="-1.9"/> <max x="-0.8" y="2.5" z="1.8"/> <material>wall</material> </box>
+      <box> <min x="0.8" y="2.4" z="-1.9"/> <max x="2.1" y="2.5" z="1.8"/> <material>wall</material> </box>
+      <box> <min x="0.9" y="0" z="-1.2"/> <max x="1.7" y="0.8" z="-0.4"/> <material>clay</material> </box>
+    </boxes>
+    <spheres> <sphere> <center x="-0.3" y="0.6" z="-0.2"/> <radius>0.6</radius> <material>clay</material> </sphere> </spheres>
+""",
+    )
+
 STAIRS = "".join(
     f"      <rectangle> <corner x=\"{x}\" y=\"{y}\" z=\"{z}\"/> <edge1 {edge1}/> <edge2 {edge2}/> "
     "<material>glossy</material> </rectangle>\n"
@@ -1419,6 +1456,44 @@ write(
 """,
     floor=FLOOR.replace("</material> </plane>", "</material> <shadowcatcher>true</shadowcatcher> </plane>"),
 )
+
+# What the camera does not see
+for name, comment, more in (
+    ("visible", "A lamp before the eye and a dark screen, which throws its shadow, in a room with a mirror.", ""),
+    ("invisible", "The same lamp and screen, which the camera does not see: the mirror does.",
+     " <visible>false</visible>"),
+):
+    write(
+        name,
+        comment,
+        room=ROOM.replace("<samples>16</samples>", "<samples>256</samples>"),
+        lights="  <integrator> <path> <caustics>light</caustics> </path> </integrator>\n",
+        mattes=CLAY + """\
+      <matte> <name>screen</name> <ka>0</ka> <kd>0.1</kd> <cd red="1" green="1" blue="1"/> </matte>
+""",
+        materials_more="""\
+    <mirrors> <mirror> <name>mirror</name> <cr red="0.9" green="0.9" blue="0.9"/> </mirror> </mirrors>
+    <emissives>
+      <emissive> <name>lamp</name> <ce red="1" green="0.9" blue="0.75"/> <scaleradiance>20</scaleradiance> </emissive>
+    </emissives>
+""",
+        objects=f"""\
+    <spheres>
+      <sphere> <center x="-0.7" y="0.7" z="0.4"/> <radius>0.7</radius> <material>clay</material> </sphere>
+      <sphere> <center x="-1.1" y="1.9" z="2.6"/> <radius>0.35</radius> <material>lamp</material>{more} </sphere>
+    </spheres>
+    <rectangles>
+      <rectangle>
+        <corner x="-2.4" y="0.1" z="-1.2"/> <edge1 x="4.4" y="0" z="-0.9"/> <edge2 x="0" y="2.4" z="0"/>
+        <material>mirror</material>
+      </rectangle>
+      <rectangle>
+        <corner x="0.4" y="0.1" z="1.6"/> <edge1 x="0.9" y="0" z="0.4"/> <edge2 x="0" y="1.3" z="0"/>
+        <material>screen</material>{more}
+      </rectangle>
+    </rectangles>
+""",
+    )
 
 # Integrator
 BOUNCES = dict(
