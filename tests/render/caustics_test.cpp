@@ -168,20 +168,20 @@ std::vector<Stage> stages() {
        .viewplane = "<pixelsize>0.2</pixelsize>"},
       // The camera sees the floor through the ball, and past a board and from below another, that hide light alone.
       {.name = "a ball, boards and a lamp that the camera does not see",
-       .focusing = hidden(Stage::ball("glass") + board(0, 3, 3) + board(-2.5, 0.1, 1.5) + board(0.5, 0.05, 1)),
+       .focusing = hidden(Stage::ball("glass") + board(0, 3, 3) + board(-2.5, 0.1, 1.5) + board(-1, 0.05, 1.2)),
        .lamp = hidden(lamp)},
       {.name = "a ball in amber that the camera does not see",
        .focusing = Stage::ball("copper") +
                    hidden("<boxes><box><min x='-1.5' y='-0.1' z='-1.5'/><max x='1.5' y='2' z='1.5'/><material>amber"
                           "</material></box></boxes>")},
       {.name = "a board and half a ball that are nearer than the camera sees",
-       .camera = "<camera>" + eye + "<fov>45</fov><nearclip>5.8</nearclip></camera>",
-       .focusing = Stage::ball("glass") + board(0, 2.5, 3)},
+       .camera = "<camera>" + eye + "<fov>45</fov><nearclip>6.6</nearclip></camera>",
+       .focusing = Stage::ball("glass") + board(-1, 2.5, 3)},
       {.name = "the same with a lens",
        .camera = "<thinlenscamera>" + eye +
                  "<fov>45</fov><lensradius>0.3</lensradius><focaldistance>6</focaldistance><nearclip>5.8</nearclip>"
                  "</thinlenscamera>",
-       .focusing = Stage::ball("glass") + board(0, 2.5, 3)},
+       .focusing = Stage::ball("glass") + board(-1, 2.5, 3)},
       {.name = "a fisheye", .camera = "<fisheyecamera>" + eye + "<angle>120</angle></fisheyecamera>"},
       {.name = "a camera that looks all around", .camera = "<sphericalcamera>" + eye + "</sphericalcamera>"},
   };

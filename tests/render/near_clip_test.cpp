@@ -142,6 +142,9 @@ TEST_CASE("a sphere that is cut shows its inside, from near and from very far aw
       "</plane></planes>";
   CHECK(depths(far) == without);
   far.clip = near_clip(29);
+  far.objects +=
+      "<planes><plane><point x='0' y='0' z='99980'/><normal x='0' y='0' z='1'/><material>grey</material>"
+      "</plane></planes>";
   for (const float depth : depths(far)) CHECK(std::abs(depth - 30) < 0.1F);
 }
 

@@ -238,20 +238,27 @@ TEST_CASE("fog that the camera does not see dims what lights are seen by, but no
 
 TEST_CASE("what is inside of clear things that the camera does not see is as dim as they make it") {
   // From a mirror in amber to a lamp in it, two away; the camera sees the mirror as if there were no amber.
-  const auto seen_from = [&](const std::string& z, const std::string& box) {
+  const std::string mirror_and_lamp = rectangle(-1, "mirror") + lamp_from(1);
+  const auto seen_from = [&](const std::string& z, const std::string& box, const std::string& objects) {
     return mean_green(rendered(
         "<raytracer><viewplane><hres>4</hres><vres>4</vres><samples>16</samples></viewplane><camera><eye x='0' y='0' "
         "z='" +
         z + "'/><lookat x='0' y='0' z='-9'/><fov>0.01</fov></camera><integrator><path/></integrator><materials>" +
         materials +
-        "<dielectrics><dielectric><name>amber</name><attenuationcolor red='0.5' green='0.5' blue='0.5'/>"
+        "<dielectrics><dielectric><name>amber</name><priority>1</priority><attenuationcolor red='0.5' green='0.5' "
+        "blue='0.5'/>"
         "<attenuationdistance>1</attenuationdistance></dielectric></dielectrics></materials><objects>" +
-        rectangle(-1, "mirror") + lamp_from(1) +
-        "<boxes><box><min x='-50' y='-50' z='-3'/><max x='50' y='50' z='3'/><material>amber</material>" + box +
-        "</box></boxes></objects></raytracer>"));
+        objects + "<boxes><box><min x='-50' y='-50' z='-3'/><max x='50' y='50' z='3'/><material>amber</material>" +
+        box + "</box></boxes></objects></raytracer>"));
   };
-  CHECK(std::abs(seen_from("0.9", invisible) - 9 * 0.9 * 0.25) < 1e-4);
-  CHECK(std::abs(seen_from("0", "") - 9 * 0.9 * 0.25 * 0.5) < 1e-4);
+  // What the camera sees behind the boundary of something that is not there, inside of what counts more.
+  const std::string unseen = rectangle(0, "grey").insert(rectangle(0, "grey").find("</rectangle>"), invisible);
+  const std::string inner =
+      "<boxes><box><min x='-40' y='-40' z='-0.5'/><max x='40' y='40' z='0.5'/><material>glass"
+      "</material></box></boxes>";
+  CHECK(std::abs(seen_from("0.9", "", rectangle(-1, "lamp") + unseen + inner) - 9 * std::pow(0.5, 1.9)) < 1e-4);
+  CHECK(std::abs(seen_from("0.9", invisible, mirror_and_lamp) - 9 * 0.9 * 0.25) < 1e-4);
+  CHECK(std::abs(seen_from("0", "", mirror_and_lamp) - 9 * 0.9 * 0.25 * 0.5) < 1e-4);
 }
 
 TEST_CASE("what the camera does not see leaves no trace of how a picture is cut") {
