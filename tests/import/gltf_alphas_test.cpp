@@ -103,11 +103,9 @@ TEST_CASE("glTF: a mask's cutoff is one of the product with the alphas of vertic
   };
   const MeshMaterial bare =
       material(R"({"alphaMode":"MASK","alphaCutoff":0.3,"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.5]}})");
-  CHECK(bare.is_mask);
   CHECK(bare.d == 1);  // where no alphas count, it is beyond the cutoff
   CHECK(bare.map_d.value_scale * 0.3 / 0.5 + bare.map_d.value_offset == Approx(0.5));
   const MeshMaterial veil = material(R"({"alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.5]}})");
-  CHECK_FALSE(veil.is_mask);
   CHECK(veil.d == 0.5);
   CHECK(veil.map_d.value_scale == 1);
 }

@@ -78,8 +78,7 @@ MaterialReference FileMaterials::add(const MeshMaterial& material, const std::fi
   with_type(Materials{}, added.type, [&]<class Material>(std::type_identity<Material>) {
     auto& parameters = std::get<MaterialItems<Material>>(scene_.materials)[added.index].parameters;
     if constexpr (requires { parameters.opacity; }) {
-      // What a mask is multiplied by is in its texture, before the cutoff.
-      parameters.opacity = material.is_mask && material.map_d.by_vertices ? 1 : std::max(0.0, material.d.value_or(1));
+      parameters.opacity = std::max(0.0, material.d.value_or(1));
       parameters.normalmap = material.norm.strength;
     }
   });

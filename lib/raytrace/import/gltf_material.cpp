@@ -103,8 +103,7 @@ class MaterialReader {
     material_.d = base_alpha_;
     if (mode->text() == "BLEND") return;
     const double cutoff = number(item_, "alphaCutoff", 0.5);
-    material_.is_mask = true;
-    // Of what nothing but the vertices' alphas may multiply.
+    // Alphas of vertices are at most 1: what is below the cutoff without them stays so.
     material_.d = !material_.map_d.file.empty() || base_alpha_ >= cutoff ? 1 : 0;
     // All or nothing, but for a hundredth about the cutoff.
     constexpr double steep = 100;

@@ -91,7 +91,6 @@ struct MeshMaterial {
   std::optional<double> ns, d, ni, pr, pm, ps, pc, pcr, aniso;
   std::optional<int> illum;
   bool vertex_colors = false;  ///< multiply kd
-  bool is_mask = false;        ///< its opacity is all or nothing, about what map_d's value_scale and value_offset say
   MeshTexture map_kd, map_ke, map_d, map_pr, map_pm, norm;
   MeshTexture map_bump;  ///< normals, or heights of no known size
 };
