@@ -176,6 +176,16 @@ TEST_CASE("on a shadow catcher, alpha is the share of the light from all around 
     INFO("radius " << radius << " below a lamp");
     CHECK(std::abs(alpha(transparent(scene("", ceiling + disk(1, radius)))) - hidden) < 2 * tolerance);
   }
+  // What catchers hide does not count: around a disk that hides a fifth, a ring of them that hides as much again and a
+  // half; and one above it that hides all that the disk hides, and more.
+  const std::string ring = "<annuli><annulus>" + vector_text("center", 0, 1, 0) + vector_text("normal", 0, 1, 0) +
+                           "<innerradius>0.5</innerradius><outerradius>1</outerradius><material>grey</material>" +
+                           catching + "</annulus></annuli>";
+  CHECK(std::abs(alpha(transparent(scene(sky, ring + disk(1, 0.5)))) - 0.2 / 0.7) < 1.5 * tolerance);
+  std::string cover = disk(2, 2);
+  cover.insert(cover.find("</disk>"), catching);
+  CHECK(alpha(transparent(scene(sky, cover + disk(1, 0.5)))) == 0);
+  CHECK(alpha(transparent(scene(sky, ring))) == 0);
 }
 
 TEST_CASE("shadows on a shadow catcher have the same bits however the picture is cut") {
@@ -188,7 +198,8 @@ TEST_CASE("shadows on a shadow catcher have the same bits however the picture is
   const std::string half_there =
       "<boxes><box><min x='-1' y='1' z='-1'/><max x='1' y='2' z='1'/><material>veil</material></box></boxes>";
   std::string text = seen_from_above(integrator, 16, lights,
-                                     plane() + half_there + rectangle(-3, -1, -2, 1, 3) + disk(4, 0.5, -1, "lamp"));
+                                     plane() + half_there + rectangle(-3, -1, -2, 1, 3) + disk(4, 0.5, -1, "lamp") +
+                                         rectangle(2, 4, -2, 2, 0.5, catching));
   const std::string end = "</mattes>", light = "<location";
   text.insert(text.find(end),
               "<matte><name>veil</name><ka>1</ka><kd>0.5</kd><cd red='1' green='1' blue='1'/><opacity>0.5</opacity>"

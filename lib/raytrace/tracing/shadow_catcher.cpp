@@ -18,6 +18,11 @@ namespace {
 /// So many candidates are drawn: powers of 2, so that those of a sample are well spread. The more there are, the nearer
 /// the mean of A is to the share of the light that is hidden; the weights of points on a near surface differ most.
 constexpr std::uint32_t emitter_candidates = 16, environment_candidates = 8;
+/// So often a sample asks for light that no catcher hides. The more, the nearer A is to the share of that light where
+/// catchers hide most of it.
+constexpr std::uint32_t most_rounds = 4;
+/// So many surfaces are looked at for a catcher behind them.
+constexpr int most_surfaces = 64;
 
 FloatN brightness_of(const Rgb<FloatN>& color) { return abs(color.red) + abs(color.green) + abs(color.blue); }
 
@@ -41,6 +46,7 @@ struct CatcherPoint {
   const CameraRays& camera;
   const SurfaceInteraction<FloatN>& surface;
   Ray<FloatN> ray;  ///< that starts there
+  UintN pixel;      ///< of the draws: the camera's, another for each round
 
   /// The cosine of the light's angle with the surface, 0 where it comes from behind.
   FloatN cosine(const Vec3<FloatN>& wi) const {
@@ -49,7 +55,7 @@ struct CatcherPoint {
   }
   /// Of a sample's candidate, which has so many.
   Sample2D draw(CatcherDraw what, std::uint32_t candidate, std::uint32_t count) const {
-    return get_2d(camera.pixel, camera.sample * UintN(count) + UintN(candidate), catcher_dimension(what));
+    return get_2d(pixel, camera.sample * UintN(count) + UintN(candidate), catcher_dimension(what));
   }
 };
 
@@ -63,7 +69,7 @@ void add_lights(CatcherPoint& point, LightChoice& choice) {
     const LightSource& light = *tables.lights()[i];
     Sample2D place{FloatN(0), FloatN(0)};
     if (light.takes_samples())
-      place = get_2d(point.camera.pixel, point.camera.sample,
+      place = get_2d(point.pixel, point.camera.sample,
                      catcher_dimension(CatcherDraw::first_light, static_cast<std::uint32_t>(i)));
     Rgb<FloatN> radiance;
     light.sample(point.ray, place, radiance);
@@ -120,6 +126,21 @@ void add_environment(CatcherPoint& point, LightChoice& choice) {
   }
 }
 
+/// The lanes whose rays a shadow catcher hides, whatever else does.
+MaskN hidden_by_catchers(const TracedScene& scene, Ray<FloatN> rays, const MaskN& lanes, const RayIds& ids) {
+  const FloatN far = rays.far;
+  MaskN hidden(false), left = lanes;
+  for (int i = 0; i < most_surfaces && any(left); ++i) {
+    rays.far = far;
+    const Hits hits = intersect(scene, rays, left, ids, Coherence::incoherent);
+    const MaskN catches = hits.hit & scene.tables().geometry().shadow_catchers(hits);
+    hidden = hidden | catches;
+    left = hits.hit & !catches;
+    rays.near = select(left, same_bits<FloatN>(same_bits<UintN>(rays.far) + UintN(1u)), rays.near);
+  }
+  return hidden;
+}
+
 }  // namespace
 
 void CaughtShadows::add_to(RayResult& result, std::span<Rgb<FloatN>> groups, RayCounts& counts) const {
@@ -150,30 +171,38 @@ Hits catch_shadows(const TracedScene& scene, const CameraRays& camera, const Hit
   others.find_first();
 
   const SurfaceInteraction<FloatN> surface = scene.accelerator().surface(camera.rays, on_catcher);
-  CatcherPoint point{tables, camera, surface, {}};
-  point.ray = {offset_ray_origin(surface), surface.ng, FloatN(0), infinity<FloatN>()};
-  const Sample2D drawn = get_2d(camera.pixel, camera.sample, catcher_dimension(CatcherDraw::choice));
-  LightChoice choice{Reservoir(drawn.x), point.ray};
-  add_lights(point, choice);
-  if (std::holds_alternative<Path::Parameters>(tables.integrator())) {  // all that rays are cast for is lights
-    add_emitters(point, on_catcher, choice);
-    add_environment(point, choice);
-  }
-  const MaskN lit = on_catcher.hit & choice.may_hide;
-  if (none(lit)) return others;
-  caught.shadow_rays = count_lanes(lit & caught.counted);
+  const bool finds_paths = std::holds_alternative<Path::Parameters>(tables.integrator());
+  const Ray<FloatN> start{offset_ray_origin(surface), surface.ng, FloatN(0), infinity<FloatN>()};
   const RayIds ids{camera.pixel, camera.sample, 0x10000000U};
-  if (!tables.has_panes_for_surfaces()) [[likely]] {
-    caught.shadowed = lit & occluded(scene, choice.ray, lit, ids, Coherence::coherent);
-    return others;
+  MaskN open = on_catcher.hit;  // what hides their light is not known yet
+  for (std::uint32_t round = 0; round < most_rounds && any(open); ++round) {
+    CatcherPoint point{tables, camera, surface, start, camera.pixel ^ UintN(round * 0x9E3779B9U)};
+    const Sample2D drawn = get_2d(point.pixel, camera.sample, catcher_dimension(CatcherDraw::choice));
+    LightChoice choice{Reservoir(drawn.x), point.ray};
+    add_lights(point, choice);
+    if (finds_paths) {  // all that rays are cast for is lights
+      add_emitters(point, on_catcher, choice);
+      add_environment(point, choice);
+    }
+    const MaskN lit = open & choice.may_hide;
+    if (none(lit)) return others;
+    caught.shadow_rays += count_lanes(lit & caught.counted);
+    MaskN hidden;
+    if (!tables.has_panes_for_surfaces()) [[likely]] {
+      hidden = lit & occluded(scene, choice.ray, lit, ids, Coherence::coherent);
+    } else {
+      // Panes hide as much as they do not let through.
+      const int most = std::get<Path::Parameters>(tables.integrator()).maxdepth - 1;
+      const PanesAhead panes{IntN(most), {}, camera.skipped + camera.rays.far};
+      Rgb<FloatN> left(Rgb<float>(1, 1, 1));
+      const MaskN occluded = occluded_behind_panes(scene, choice.ray, lit, ids, Coherence::coherent, panes, left);
+      const FloatN mean = (left.red + left.green + left.blue) * FloatN(1.0F / 3);
+      hidden = lit & (occluded | (drawn.y >= mean));
+    }
+    // What catchers hide from each other is dark in the photograph already: such light does not count.
+    open = hidden_by_catchers(scene, choice.ray, hidden, ids);
+    caught.shadowed = caught.shadowed | (hidden & !open);
   }
-  // Panes hide as much as they do not let through.
-  const int most = std::get<Path::Parameters>(tables.integrator()).maxdepth - 1;
-  const PanesAhead panes{IntN(most), {}, camera.skipped + camera.rays.far};
-  Rgb<FloatN> left(Rgb<float>(1, 1, 1));
-  const MaskN occluded = occluded_behind_panes(scene, choice.ray, lit, ids, Coherence::coherent, panes, left);
-  const FloatN mean = (left.red + left.green + left.blue) * FloatN(1.0F / 3);
-  caught.shadowed = lit & (occluded | (drawn.y >= mean));
   return others;
 }
 

@@ -5,6 +5,9 @@
 // bring, and sends a shadow ray there (resampled importance sampling; Talbot, Cline and Egbert 2005). Where that is
 // hidden, the sample counts as a hit and is black, otherwise as a miss. So A becomes the share of the light that is
 // hidden, and stays a count of whole samples, which any cut of the picture adds up to the same.
+//
+// Light that other catchers hide is missing in the photograph as well, so A is a share of the rest: the sample then
+// chooses again.
 #pragma once
 
 #include <cstdint>
