@@ -20,12 +20,15 @@ inline std::uint32_t samples_of_pass(std::uint32_t done, std::uint32_t all) {
   return std::min(std::clamp(done, least_pass, most), all - done);
 }
 
-/// Those of `samples` that end in time.
+/// Those of `samples` that end in time: as few as 1 where no more do, whatever these cost.
 inline std::uint32_t samples_in_time(std::uint32_t samples, double seconds_left, double seconds_a_sample) {
   const double fitting = seconds_a_sample > 0 ? std::max(0.0, seconds_left / seconds_a_sample)
                          : seconds_left > 0   ? least_pass
                                               : 0.0;
-  return fitting < samples ? static_cast<std::uint32_t>(fitting) / least_pass * least_pass : samples;
+  if (fitting >= samples) return samples;
+  const auto whole = static_cast<std::uint32_t>(fitting);
+  constexpr double cost_of_few = 1.5;
+  return whole >= least_pass ? whole / least_pass * least_pass : static_cast<std::uint32_t>(fitting / cost_of_few);
 }
 
 /// The error of a picture, from the estimates of its passes, whose errors are taken for independent.

@@ -315,8 +315,9 @@ std::string example_value(const FieldInfo& info, const FieldTarget& target, std:
       : std::holds_alternative<FileName*>(target) ? example_file(parent)
       : std::holds_alternative<NumberGroups*>(target) || std::holds_alternative<WordOrGroups*>(target)
           ? "0 0 0, 1 0 0, 0 1 0"
-      : info.name == "fov" ? "40"
-                           : "1";
+      : info.name == "fov"        ? "40"
+      : info.name == "lensradius" ? "0.01"
+                                  : "1";
   return tag(info.name) + value + closing_tag(info.name);
 }
 
