@@ -129,4 +129,16 @@ TEST_CASE("passes put the error of their picture together from their own") {
   CHECK(std::abs(*errors.estimate() - 0.1) < 1e-6);
 }
 
+TEST_CASE("passes that fit into the time that is left are whole, and the last is as large as fits") {
+  CHECK(samples_in_time(32, 100, 1) == 32);
+  CHECK(samples_in_time(32, 31.9, 1) == 28);
+  CHECK(samples_in_time(8, 4.5, 1) == 4);
+  CHECK(samples_in_time(8, 3.9, 1) == 2);  // of fewer than 4, each costs half as much again
+  CHECK(samples_in_time(8, 1.4, 1) == 0);
+  CHECK(samples_in_time(3, 3.1, 1) == 3);
+  CHECK(samples_in_time(8, -1, 1) == 0);
+  CHECK(samples_in_time(8, 1, 0) == 4);  // what a sample costs is not known yet
+  CHECK(samples_in_time(8, 0, 0) == 0);
+}
+
 }  // namespace raytrace::test
