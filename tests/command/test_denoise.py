@@ -13,6 +13,7 @@ from support import CommandTest
 
 FAKE = os.environ["RAYTRACE_FAKE_DENOISER"]
 ENVIRONMENT = {**os.environ, "RAYTRACE_DENOISER": FAKE}
+IN_GROUPS = support.SCENE.replace("<scaleradiance>2</scaleradiance>", "<scaleradiance>2</scaleradiance> <group>key</group>")
 SIZE = ["-r", "24x18", "-s", "4", "--float", "-q"]
 
 
@@ -88,6 +89,49 @@ class Pictures(DenoiseTest):
         picture = Exr(self.read("half.exr"))
         self.assertEqual({picture.channels[name] for name in ("R", "noisy.R")}, {"e"})
         self.assertEqual({picture.channels[name] for name in ("denoise_albedo.R", "light_default.R")}, {"f"})
+
+    def filtered(self, row, x, layer, color):
+        """What the filter makes of a layer that has noise."""
+        axis = dict(zip("RGB", "XYZ"))[color]
+        return row[f"noisy.{layer}.{color}"][x] / 2 + 2 * row[f"denoise_albedo.{color}"][x] - 4 * row[f"denoise_normal.{axis}"][x]
+
+    def test_light_groups_are_denoised_like_the_picture(self):
+        """One of two alone is what the filter makes of it; all of them still add up to the picture."""
+        layers = ("light_key", "light_default")
+        self.write("scene.xml", IN_GROUPS)
+        noisy = self.render("noisy.exr", "--aov", ",".join(layers))
+        alone = self.render("alone.exr", "--denoise", "--aov", "light_key")
+        both = self.render("both.exr", "--denoise", "--aov", ",".join(layers))
+        self.check(both)
+        for color in "RGB":
+            for picture, its in ((alone, layers[:1]), (both, layers)):
+                for layer in its:
+                    self.assertEqual([row[f"noisy.{layer}.{color}"] for row in picture.row_bytes.values()],
+                                     [row[f"{layer}.{color}"] for row in noisy.row_bytes.values()])
+            for row in alone.rows.values():
+                for x in range(alone.width):
+                    self.assertAlmostEqual(row[f"light_key.{color}"][x], self.filtered(row, x, "light_key", color), delta=1e-5)
+            scaled = 0
+            for row in both.rows.values():
+                for x in range(both.width):
+                    key, rest = (self.filtered(row, x, layer, color) for layer in layers)
+                    if key + rest > 0.01:
+                        scaled += 1
+                        self.assertAlmostEqual(row[f"light_key.{color}"][x], key * row[color][x] / (key + rest), delta=1e-3)
+                        self.assertAlmostEqual(sum(row[f"{layer}.{color}"][x] for layer in layers), row[color][x], delta=1e-5)
+            self.assertGreater(scaled, 20)
+        for tile in range(2):
+            self.render(f"{tile}.exr", "--denoise", "--tile", f"{tile}/2", "--aov", ",".join(layers))
+        self.succeed("merge", "-q", "0.exr", "1.exr", "-o", "merged.exr", env=ENVIRONMENT)
+        self.assertEqual(Exr(self.read("merged.exr")).row_bytes, both.row_bytes)
+
+    def test_light_groups_that_take_light_away_keep_their_noise(self):
+        self.write("scene.xml", IN_GROUPS.replace("<scaleradiance>2<", "<scaleradiance>-2<"))
+        picture = self.render("clean.exr", "--denoise", "--aov", "light_key,light_default")
+        self.assertLess(min(min(row["light_key.R"]) for row in picture.rows.values()), 0)
+        for row in picture.row_bytes.values():
+            for layer in ("light_key", "light_default"):
+                self.assertEqual(row[f"{layer}.R"], row[f"noisy.{layer}.R"])
 
     def test_statistics(self):
         self.render("clean.exr", "--denoise", "--stats=stats.json")

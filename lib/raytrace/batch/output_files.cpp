@@ -159,7 +159,7 @@ OutputFiles::OutputFiles(const RenderJob& job, const std::vector<std::string>& f
     channels_.insert(channels_.end(), more.begin(), more.end());
   };
   add(aov_channels(film_aovs(job)));
-  if (denoised_ != nullptr) add(noisy_channels(job.full_float, job.transparent));
+  if (denoised_ != nullptr) add(noisy_channels(channels_, job.transparent));
   add(sums_);
   for (const std::string& name : files) {
     succeeds(

@@ -1,6 +1,7 @@
 #include "raytrace/output/denoised_picture.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 #include <variant>
@@ -17,25 +18,36 @@ std::size_t plane_of(const std::vector<Channel>& channels, const std::string& na
   return static_cast<std::size_t>(found - channels.begin());
 }
 
+/// The first channels of light groups.
+std::vector<std::size_t> layers_among(const std::vector<Channel>& channels) {
+  std::vector<std::size_t> layers;
+  for (std::size_t i = 0; i < channels.size(); ++i)
+    if (channels[i].name.starts_with("light_") && channels[i].name.ends_with(".R")) layers.push_back(i);
+  return layers;
+}
+
 }  // namespace
 
-std::vector<Channel> noisy_channels(bool full_float, bool transparent) {
-  std::vector<Channel> channels = color_channels(full_float);
-  if (!transparent) channels.pop_back();
-  for (Channel& channel : channels) channel.name = "noisy." + channel.name;
-  return channels;
+std::vector<Channel> noisy_channels(const std::vector<Channel>& channels, bool transparent) {
+  std::vector<Channel> noisy(channels.begin(), channels.begin() + (transparent ? colors + 1 : colors));
+  for (const std::size_t layer : layers_among(channels))
+    for (std::size_t channel = 0; channel < colors; ++channel) noisy.push_back(channels[layer + channel]);
+  for (Channel& channel : noisy) channel.name = "noisy." + channel.name;
+  return noisy;
 }
 
 DenoisedPicture::DenoisedPicture(const Region& region, const std::vector<Channel>& channels, bool transparent)
     : region_(region),
       albedo_(plane_of(channels, std::string(denoiser_aovs[0]) + ".R")),
-      normal_(plane_of(channels, std::string(denoiser_aovs[1]) + ".X")) {
+      normal_(plane_of(channels, std::string(denoiser_aovs[1]) + ".X")),
+      layers_(layers_among(channels)) {
   picture_.width = region.width();
   picture_.height = region.height();
   const std::size_t numbers = colors * region.pixels();
   for (std::vector<float>* const pixels : {&picture_.color, &picture_.albedo, &picture_.normal})
     pixels->resize(numbers);
   if (transparent) picture_.alpha.resize(numbers);
+  picture_.layers.assign(layers_.size(), std::vector<float>(numbers));
 }
 
 std::size_t DenoisedPicture::begin_of(const ImageBand& band) const { return region_.index(region_.x0, band.region.y0); }
@@ -53,6 +65,7 @@ void DenoisedPicture::add(const ImageBand& band) {
     copy(band, albedo_ + channel, channel, picture_.albedo);
     copy(band, normal_ + channel, channel, picture_.normal);
     if (!picture_.alpha.empty()) copy(band, colors, channel, picture_.alpha);
+    for (std::size_t i = 0; i < layers_.size(); ++i) copy(band, layers_[i] + channel, channel, picture_.layers[i]);
   }
 }
 
@@ -60,15 +73,46 @@ bool DenoisedPicture::denoise(int threads, const std::function<bool()>& stop) {
   const std::vector<std::uint8_t> even = even_alpha();
   std::vector<float> noisy_alpha;
   for (std::size_t i = 0; i < picture_.alpha.size(); i += colors) noisy_alpha.push_back(picture_.alpha[i]);
+  const bool add_up = layers_add_up(), are_light = layers_are_light();
+  std::vector<std::vector<float>> noisy_layers;
+  if (!are_light) noisy_layers.swap(picture_.layers);
   auto clean = denoised(std::move(picture_), threads, stop);
   picture_ = {};
   if (!clean) return false;
   picture_.color = std::move(clean->color);
+  picture_.layers = std::move(are_light ? clean->layers : noisy_layers);
+  if (are_light && add_up) scale_layers();
   picture_.alpha.resize(noisy_alpha.size());
   for (std::size_t pixel = 0; pixel < noisy_alpha.size(); ++pixel)
     picture_.alpha[pixel] =
         even[pixel] != 0 ? noisy_alpha[pixel] : std::clamp(clean->alpha[colors * pixel], 0.0F, 1.0F);
   return true;
+}
+
+bool DenoisedPicture::layers_are_light() const {
+  return std::all_of(picture_.layers.begin(), picture_.layers.end(), [](const std::vector<float>& layer) {
+    return std::all_of(layer.begin(), layer.end(), [](float value) { return value >= 0; });
+  });
+}
+
+bool DenoisedPicture::layers_add_up() const {
+  for (std::size_t i = 0; i < picture_.color.size(); ++i) {
+    float sum = 0;
+    for (const std::vector<float>& layer : picture_.layers) sum += layer[i];
+    // Colours may be half floats.
+    if (!(std::abs(sum - picture_.color[i]) <= 2e-3F * std::abs(picture_.color[i]) + 1e-6F)) return false;
+  }
+  return true;
+}
+
+void DenoisedPicture::scale_layers() {
+  for (std::size_t i = 0; i < picture_.color.size(); ++i) {
+    float sum = 0;
+    for (const std::vector<float>& layer : picture_.layers) sum += layer[i];
+    const float scale = sum > 0 ? picture_.color[i] / sum : 1;
+    if (std::isfinite(scale))
+      for (std::vector<float>& layer : picture_.layers) layer[i] *= scale;
+  }
 }
 
 /// Of each pixel, whether all within two pixels of it have alpha 0, or all have 1.
@@ -96,16 +140,26 @@ std::vector<std::uint8_t> DenoisedPicture::even_alpha() const {
 void DenoisedPicture::put_into(ImageBand& band) const {
   const std::size_t begin = begin_of(band), noisy = band.planes.size();
   const std::size_t planes = colors + (picture_.alpha.empty() ? 0 : 1);
-  for (std::size_t plane = 0; plane < planes; ++plane) band.planes.push_back(band.planes[plane]);
+  const auto keep = [&](std::size_t first, std::size_t count) {
+    for (std::size_t plane = first; plane < first + count; ++plane) band.planes.push_back(band.planes[plane]);
+  };
+  keep(0, planes);
+  for (const std::size_t layer : layers_) keep(layer, colors);
   const auto values = [&](std::size_t plane) { return std::get<std::vector<float>>(band.planes[plane]).data(); };
   const std::size_t pixels = std::get<std::vector<float>>(band.planes[0]).size();
-  for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
-    if (planes > colors) values(colors)[pixel] = picture_.alpha[begin + pixel];
-    const bool is_empty = planes > colors && values(colors)[pixel] == 0;
-    for (std::size_t channel = 0; channel < colors; ++channel)
-      if (!is_empty || values(noisy + channel)[pixel] != 0)
-        values(channel)[pixel] = picture_.color[colors * (begin + pixel) + channel];
-  }
+  const auto replace = [&](std::size_t plane, std::size_t noisy_plane, const std::vector<float>& clean) {
+    for (std::size_t channel = 0; channel < colors; ++channel) {
+      float* const shown = values(plane + channel);
+      const float* const kept = values(noisy_plane + channel);
+      for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
+        const bool is_empty = planes > colors && values(colors)[pixel] == 0;
+        if (!is_empty || kept[pixel] != 0) shown[pixel] = clean[colors * (begin + pixel) + channel];
+      }
+    }
+  };
+  if (planes > colors) std::copy_n(picture_.alpha.begin() + static_cast<std::ptrdiff_t>(begin), pixels, values(colors));
+  replace(0, noisy, picture_.color);
+  for (std::size_t i = 0; i < layers_.size(); ++i) replace(layers_[i], noisy + planes + i * colors, picture_.layers[i]);
 }
 
 }  // namespace raytrace

@@ -179,6 +179,8 @@ std::optional<DenoiserPicture> denoised(DenoiserPicture picture, int threads, co
       !device.filter(picture, picture.normal, "normal", no, false, stop) ||
       !device.filter(picture, picture.color, "color", yes, true, stop))
     return std::nullopt;
+  for (std::vector<float>& layer : picture.layers)
+    if (!device.filter(picture, layer, "color", yes, true, stop)) return std::nullopt;
   if (!picture.alpha.empty() && !device.filter(picture, picture.alpha, "color", yes, false, stop)) return std::nullopt;
   return picture;
 }

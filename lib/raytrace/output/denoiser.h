@@ -16,10 +16,11 @@ namespace raytrace {
 /// Rows from the top, without gaps, three numbers a pixel.
 struct DenoiserPicture {
   int width = 0, height = 0;
-  std::vector<float> color;   ///< linear radiance; what is below 0 becomes 0
-  std::vector<float> alpha;   ///< from 0 to 1, three times the same; empty: the picture has none
-  std::vector<float> albedo;  ///< from 0 to 1; may have noise, as the next
-  std::vector<float> normal;  ///< of length 1 at most, in any space
+  std::vector<float> color;                ///< linear radiance; what is below 0 becomes 0
+  std::vector<std::vector<float>> layers;  ///< the same, of parts of the light
+  std::vector<float> alpha;                ///< from 0 to 1, three times the same; empty: the picture has none
+  std::vector<float> albedo;               ///< from 0 to 1; may have noise, as the next
+  std::vector<float> normal;               ///< of length 1 at most, in any space
 };
 
 /// "Open Image Denoise 2.5.1". Throws OutputError, with what to do, if there is none.
