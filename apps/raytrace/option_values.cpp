@@ -213,7 +213,7 @@ double exposure(const std::string& text) {
   return *value;
 }
 
-double white_balance(const std::string& text) {
+double balanced_temperature(const std::string& text) {
   const std::optional<double> value = number<double>(text);
   if (!value || (*value != 0 && !is_temperature(*value)))
     throw UsageError(in_quotes(text) +

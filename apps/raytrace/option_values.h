@@ -116,7 +116,7 @@ double radiance(const std::string& text);
 double exposure(const std::string& text);
 
 /// 0, or a temperature of math/blackbody.h.
-double white_balance(const std::string& text);
+double balanced_temperature(const std::string& text);
 
 /// "x0,y0,x1,y1", at least one pixel; it may reach beyond the picture.
 Region crop(const std::string& text);

@@ -38,7 +38,7 @@ void define_view_options(OptionParser& parser, ViewOptions& view) {
   parser.add("--white-balance", "K",
              "Show in these files as white what is lit by a lamp of K kelvin, e.g. 2700, whatever the scene says; 0 "
              "leaves colours as they are",
-             view.white_balance, white_balance);
+             view.white_balance, balanced_temperature);
   parser.add(
       "--view-transform", "NAME",
       "How these files show what is brighter than they can: srgb, clipped; agx; khronos-neutral (srgb for scenes, "

@@ -399,7 +399,7 @@ class Models(CommandTest):
         self.assertEqual(Exr(self.read("fit.exr")).row_bytes, bits)
         scene_text = self.read("scene.xml").decode()
         camera = scene_text[scene_text.index("<camera>"):scene_text.index("</camera>")]
-        view = "".join(line for line in camera.splitlines() if "viewdistance" not in line and "<shift" not in line)
+        view = "".join(line for line in camera.splitlines() if not any(word in line for word in ("viewdistance", "<shift", "<nearclip")))
         self.write("around.xml", scene_text.replace(
             camera + "</camera>", view.replace("camera", "sphericalcamera") + "</sphericalcamera>"))
         self.assertIn("--fit", self.fail_with(2, "around.xml", "--fit", "-o", "a.exr"))

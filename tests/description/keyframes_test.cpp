@@ -226,7 +226,7 @@ TEST_CASE("a direction must not be 0 at the frame at hand") {
   CHECK(contains(reported_at(text, 1), "at frame 1"));
 }
 
-TEST_CASE("a colour's keys may be temperatures, which change and not their colours") {
+TEST_CASE("a colour's keys may be temperatures: between them the temperature changes steadily") {
   const auto lamp = [](const std::string& color, int frame) {
     const std::string text = printed_at(
         "<raytracer><viewplane><hres>4</hres><vres>3</vres>" + color +

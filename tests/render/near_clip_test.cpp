@@ -199,6 +199,54 @@ TEST_CASE("rays begin on the plane in the medium that is there") {
   CHECK(std::abs(brightness("fog", 3) - 4 * std::exp(-7)) < 0.01);
 }
 
+TEST_CASE("a clip that has keys is blurred while the shutter is open") {
+  // It passes a wall at a distance of 5 in the middle, or from 0 on after five sixths of the time.
+  for (const auto& [first, wanted] : {std::pair{4.0, 0.5}, std::pair{0.0, 5 / 6.0}}) {
+    const Cut cut{.clip = "<nearclip><key frame='1' value='" + std::to_string(first) +
+                          "'/><key frame='2' value='6'/></nearclip><shutteropen>0</shutteropen><shutterclose>1"
+                          "</shutterclose>",
+                  .objects = wall(5, "lamp"),
+                  .integrator = "<path/>",
+                  .viewplane = "<samples>64</samples>"};
+    double sum = 0;
+    const FloatPicture picture = rendered(text_of(cut));
+    for (const Pixel& pixel : picture.pixels()) sum += double{pixel.red};
+    CHECK(std::abs(sum / static_cast<double>(picture.pixels().size()) / 4 - wanted) < 0.02);
+  }
+}
+
+TEST_CASE("media beside each other that a plane cuts are as each alone") {
+  const auto half = [](double left, double right, const std::string& material) {
+    return "<boxes><box><min x='" + std::to_string(left) + "' y='-60' z='0'/><max x='" + std::to_string(right) +
+           "' y='60' z='7'/><material>" + material + "</material></box></boxes>";
+  };
+  const std::string media =
+      "<openpbrs><openpbr><name>milk</name><transmission_weight>1</transmission_weight><specular_ior>1.0001"
+      "</specular_ior><transmission_depth>1</transmission_depth><transmission_color red='0.9' green='0.9' blue='0.9'/>"
+      "<transmission_scatter red='0.5' green='0.5' "
+      "blue='0.5'/></openpbr></openpbrs><dielectrics><dielectric><name>amber"
+      "</name><ior>1.0001</ior><attenuationcolor red='0.7' green='0.6' blue='0.5'/><attenuationdistance>1"
+      "</attenuationdistance></dielectric></dielectrics>";
+  const auto picture = [&](const std::string& objects) {
+    return rendered(text_of({.clip = near_clip(6),
+                             .objects = objects + wall(-1, "lamp"),
+                             .integrator = "<path/>",
+                             .viewplane = "<samples>1</samples>",
+                             .materials = media}));
+  };
+  // The eye is at z = 10, the plane at 4, where a pixel is 0.7 wide.
+  const FloatPicture both = picture(half(-60, 0.1, "milk") + half(0.101, 60, "amber"));
+  const FloatPicture amber = picture(half(-60, 60, "amber"));
+  int compared = 0;
+  for (int row = 0; row < 17; ++row)
+    for (int column = 12; column < 23; ++column, ++compared) {
+      INFO(column << ", " << row);
+      CHECK(std::abs(both.at(column, row).red - amber.at(column, row).red) < 1e-3F);
+    }
+  CHECK(compared == 187);
+  CHECK(amber.at(12, 8).red > 0.5F);
+}
+
 TEST_CASE("a picture that a plane cuts has the same bits however it is divided") {
   std::string mirror = ball(1, 1.5);
   mirror.replace(mirror.find("grey"), 4, "mirror");

@@ -29,7 +29,9 @@ const std::string materials =
     "<matte><name>veil</name><ka>0.5</ka><kd>0.5</kd><cd red='0' green='0' blue='1'/><opacity>0.5</opacity></matte>"
     "</mattes><emissives><emissive><name>lamp</name><ce red='9' green='9' blue='9'/></emissive></emissives>"
     "<mirrors><mirror><name>mirror</name><cr red='0.9' green='0.9' blue='0.9'/></mirror></mirrors>"
-    "<dielectrics><dielectric><name>glass</name></dielectric></dielectrics>";
+    "<dielectrics><dielectric><name>glass</name></dielectric></dielectrics>"
+    "<fogs><fog><name>mist</name><meanfreepath>6</meanfreepath></fog><fog><name>soot</name><meanfreepath>0.7"
+    "</meanfreepath><color red='0' green='0' blue='0'/></fog></fogs>";
 
 std::string scene(const std::string& integrator, const std::string& objects, const std::string& groups = {},
                   const std::string& lights = shadowless, int samples = 4) {
@@ -115,15 +117,20 @@ TEST_CASE("pictures and AOVs are as if what the camera does not see were not the
     const bool by_paths = integrator == "<path/>";
     const std::string without = scene(integrator, seen);
     const FloatPicture picture = rendered(without);
-    const ImageBand values = picture_aovs(parsed_scene(without), aovs);
+    for (const std::string& isa : usable_isas()) {
+      const FloatPicture its_picture = rendered(parsed_scene(without), 1, isa);
+      const ImageBand values = picture_aovs(parsed_scene(without), aovs, isa);
+      for (const Hidden& hidden : hidden_objects()) {
+        INFO(integrator << ": " << hidden.name << ", " << isa);
+        const std::string with = scene(integrator, seen + hidden.objects, hidden.groups);
+        // Paths meet it on their ways from surface to surface.
+        if (!by_paths) CHECK(identical(rendered(parsed_scene(with), 1, isa), its_picture));
+        CHECK(same_values(picture_aovs(parsed_scene(with), aovs, isa), values));
+      }
+    }
     for (const Hidden& hidden : hidden_objects()) {
       INFO(integrator << ": " << hidden.name);
       const std::string with = scene(integrator, seen + hidden.objects, hidden.groups);
-      for (const std::string& isa : usable_isas()) {
-        // Paths meet it on their ways from surface to surface.
-        if (!by_paths) CHECK(identical(rendered(parsed_scene(with), 1, isa), picture));
-        CHECK(same_values(picture_aovs(parsed_scene(with), aovs, isa), values));
-      }
       std::string shown = with;
       for (std::size_t at = 0; (at = shown.find(invisible)) != std::string::npos;) shown.erase(at, invisible.size());
       CHECK_FALSE(identical(rendered(shown), picture));
@@ -274,6 +281,26 @@ TEST_CASE("what the camera does not see leaves no trace of how a picture is cut"
   for (const std::string caustics : {"light", "photons"})
     check_same_bits(parsed_scene(scene("<path><caustics>" + caustics + "</caustics></path>", objects, "", lights, 8)),
                     caustics == "light");
+  // Paths that the fog scatters are next to such as see through the glass.
+  objects += "<boxes><box><min x='-4' y='-2' z='-4'/><max x='4' y='5' z='6'/><material>mist</material></box></boxes>";
+  check_same_bits(parsed_scene(scene("<path/>", objects, "", lights, 8)), true);
+}
+
+TEST_CASE("an invisible object far away changes nothing of what media paths are in") {
+  // Both fogs are everywhere before the wall; the one that paths came into last counts.
+  const auto fog = [](double near, const std::string& material) {
+    return "<boxes><box><min x='-50' y='-50' z='-9'/><max x='50' y='50' z='" + std::to_string(near) + "'/><material>" +
+           material + "</material></box></boxes>";
+  };
+  const std::string lights = "<pointlights><pointlight><location x='0' y='0' z='5'/></pointlight></pointlights>";
+  const std::string objects = fog(7, "soot") + fog(6, "mist") + rectangle(-3, "grey");
+  const std::string glass = sphere(0, -400, 0, 0.1, "glass", ""), grey = sphere(0, -400, 0, 0.1, "grey", "");
+  for (const std::string& far : {glass, grey}) {
+    std::string hidden = far;
+    hidden.insert(hidden.find("</sphere>"), invisible);
+    CHECK(identical(rendered(scene("<path/>", objects + hidden, "", lights)),
+                    rendered(scene("<path/>", objects + far, "", lights))));
+  }
 }
 
 }  // namespace raytrace::test

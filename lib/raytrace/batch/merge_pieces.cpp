@@ -223,8 +223,7 @@ class Merger {
     if (denoises()) {
       for (ImageAttribute& attribute : denoised_attributes()) metadata_.attributes.push_back(std::move(attribute));
       denoised = denoise(whole, rows);
-      for (Channel& channel : noisy_channels(channels_, image_settings.transparent))
-        all.push_back(std::move(channel));
+      for (Channel& channel : noisy_channels(channels_, image_settings.transparent)) all.push_back(std::move(channel));
     }
     std::vector<std::unique_ptr<ImageFile>> files;
     for (const std::string& file : settings_.outputs)

@@ -20,7 +20,8 @@ inline std::uint32_t samples_of_pass(std::uint32_t done, std::uint32_t all) {
   return std::min(std::clamp(done, least_pass, most), all - done);
 }
 
-/// Those of `samples` that end in time: as few as 1 where no more do, whatever these cost.
+/// Those of `samples` that end in time. Fewer than least_pass only where that many do not fit; each of them is taken to
+/// cost half as much again.
 inline std::uint32_t samples_in_time(std::uint32_t samples, double seconds_left, double seconds_a_sample) {
   const double fitting = seconds_a_sample > 0 ? std::max(0.0, seconds_left / seconds_a_sample)
                          : seconds_left > 0   ? least_pass

@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "raytrace/math/blackbody.h"
 #include "raytrace/text/message.h"
 #include "raytrace/text/utf8.h"
 #include "raytrace/xml/xml_characters.h"
@@ -119,6 +120,8 @@ OptionalMessage check_value(double number, Range range) {
   if (std::abs(number) > largest_number) {
     return "is beyond the largest number that a scene may have, " + number_text(largest_number);
   }
+  if (range == Range::temperature && !is_temperature(number))
+    return "is not the temperature of a black body: it is from 1000 kelvin, embers, to 15000, blue sky";
   if (range == Range::not_negative && number < 0) return "must not be negative";
   if (range == Range::positive && number <= 0) return "must be greater than 0";
   if (range == Range::positive && number < smallest_size) {

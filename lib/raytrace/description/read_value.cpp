@@ -199,32 +199,27 @@ class ValueReader {
     return false;
   }
 
-  /// Whether it is <color kelvin="2700"/>, or has keys such as <key frame="1" kelvin="2700"/>.
+  /// Whether it is <color kelvin="2700"/>, or has keys such as <key frame="1" kelvin="2700"/>; or is meant so.
   bool has_temperature() const {
     if (find_attribute(element_, temperature_attribute)) return true;
     for (Node node = element_.first_child(); node; node = node.next())
-      if (const Element child = node.element(); child && find_attribute(child, temperature_attribute)) return true;
+      if (const Element child = node.element();
+          child && (child.name() == temperature_attribute || find_attribute(child, temperature_attribute)))
+        return true;
     return false;
   }
 
   bool read_temperature(Rgb<double>& color) const {
     double kelvin = 0;
-    std::vector<AttributeField> fields{{temperature_attribute, &kelvin}};
+    std::vector<AttributeField> fields{{temperature_attribute, &kelvin, Range::temperature}};
     if (texture_ != nullptr) fields.push_back(texture_fields(*texture_, false).front());
     double* const target = &kelvin;
     const bool fine =
         has_keys(element_)
-            ? read_keys(element_, {&temperature_attribute, 1}, {&target, 1}, Range::any, context_, texture_)
+            ? read_keys(element_, {&temperature_attribute, 1}, {&target, 1}, Range::temperature, context_, texture_)
             : read_attributes_alone(element_, fields, context_,
                                     [&](Node node) { return unexpected_content(node, fields); });
     if (!fine) return false;
-    if (!is_temperature(kelvin)) {
-      context_.diagnostics.error(element_, [&] {
-        return "a black body of " + number_text(kelvin) + " kelvin in " + tag(info_.name) +
-               "; it is from 1000, embers, to 15000, blue sky";
-      });
-      return false;
-    }
     color = blackbody_color(kelvin);
     return true;
   }

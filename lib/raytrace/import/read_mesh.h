@@ -55,8 +55,8 @@ struct MeshReadSettings {
   std::string animation{};  ///< its name, or its number from 0, or all; empty: the model is at rest
   double time = 0;          ///< of it, in seconds; beyond its ends it stands still
   std::string variant{};  ///< of the materials, by its name or number; empty: those that primitives have by themselves
-  /// Alphas of vertices are kept whatever the file's materials are: one of the scene's wants them. Else those are that
-  /// glTF's materials show.
+  /// Keep the alphas of vertices whatever the file's materials are, since one of the scene's wants them. Otherwise only
+  /// those are kept that a glTF material shows.
   bool vertex_alphas = false;
   int threads = 0;  ///< at most; 0: all that the machine has
   /// Whether faces have another material in place of the file's of that name, which nothing need be said of then.

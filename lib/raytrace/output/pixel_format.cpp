@@ -63,13 +63,14 @@ void apply_ocio(const PixelFormat& format, float* values, int pixels) {
 }
 
 /// A colour that is not finite stays as it is.
-Pixel balanced(const ColorMatrix& white_balance, Pixel pixel) {
+Pixel balanced(const ColorMatrix& white_balance, const Pixel& pixel) {
   const Rgb<double> color = product(white_balance, {pixel.red, pixel.green, pixel.blue});
   if (!std::isfinite(color.red + color.green + color.blue)) return pixel;
-  pixel.red = static_cast<float>(color.red);
-  pixel.green = static_cast<float>(color.green);
-  pixel.blue = static_cast<float>(color.blue);
-  return pixel;
+  const auto stored = [](double part) {
+    constexpr double most = std::numeric_limits<float>::max();
+    return static_cast<float>(std::clamp(part, -most, most));
+  };
+  return {stored(color.red), stored(color.green), stored(color.blue), pixel.alpha};
 }
 
 /// NaN, which no render gives, covers nothing.

@@ -36,6 +36,7 @@ enum class Range {
   not_negative,  ///< numbers, and each component of vectors and colours: 0 or more
   positive,      ///< the same: at least `smallest_size`; integers: 1 or more
   nonzero,       ///< vectors: a direction, so not all of x, y, z are 0 (or below `smallest_size`)
+  temperature,   ///< numbers: of a black body (math/blackbody.h)
   identifier,    ///< references: letters, digits, _ and -; or none
 };
 

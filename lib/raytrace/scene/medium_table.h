@@ -160,6 +160,19 @@ class MediumStack {
     media_[0] = select_lanes(lanes, medium, media_[0]);
   }
 
+  /// The path was in all of these before: in those that are not known.
+  void add_first(const MaskN& lanes, const MediumStack& others) {
+    for (const IntN& medium : others.media_) add_first(lanes & is(medium != IntN(0)) & !contains(medium), medium);
+  }
+
+  /// Without the media that `others` do not have.
+  void keep_common(const MediumStack& others) {
+    for (std::size_t i = media_.size(); i-- > 0;) {
+      const IntN medium = media_[i];
+      remove(is(medium != IntN(0)) & !others.contains(medium), medium);
+    }
+  }
+
   /// The path has come out of it: of the last one of that number.
   void remove(const MaskN& lanes, const IntN& medium) {
     MaskN left = lanes;

@@ -38,7 +38,15 @@ void SceneTables::set_camera(const SceneDescription& description) {
     camera_ = camera;
     for (const CameraParameters& moment : description.moving_camera)
       moving_camera_.push_back(Kernel<Type>(moved<Type>(std::get<typename Type::Parameters>(moment)), viewplane_));
-    if constexpr (requires { parameters->nearclip; }) near_clip_ = static_cast<float>(parameters->nearclip);
+    const auto near_clip_of = [](const auto& its) {
+      if constexpr (requires { its.nearclip; })
+        return static_cast<float>(its.nearclip);
+      else
+        return 0.0F;
+    };
+    near_clip_ = near_clip_of(*parameters);
+    for (const CameraParameters& moment : description.moving_camera)
+      moving_near_clips_.push_back(near_clip_of(std::get<typename Type::Parameters>(moment)));
     camera_has_lens_ = has_lens<Kernel<Type>>;
     set_ray_cone(camera);
     camera_eye_ = Vec3f(parameters->eye - origin_);
@@ -93,12 +101,12 @@ template <class F, class CameraKernel>
 Ray<F> SceneTables::rays_of(const CameraKernel& camera, const FloatN& x, const FloatN& y, const Sample2D& lens,
                             const CameraRays& ids) const {
   // How far along a ray what it may see begins.
-  const auto set_near = [&](Ray<F>& rays, const Vec3f& viewing_direction) {
-    if (has_near_clip()) rays.near = F(near_clip_) / dot(rays.direction, Vec3<F>(viewing_direction));
+  const auto set_near = [&](Ray<F>& rays, const Vec3f& viewing_direction, float near_clip) {
+    if (has_near_clip()) rays.near = F(near_clip) / dot(rays.direction, Vec3<F>(viewing_direction));
   };
   if (moving_camera_.empty()) [[likely]] {
     Ray<F> rays = generate<F>(camera, F(x), F(y), lens);
-    set_near(rays, viewing_direction_);
+    set_near(rays, viewing_direction_, near_clip_);
     return rays;
   }
   const FloatN place = RayIds{ids.pixel, ids.sample, 0}.times() * FloatN(shutter_moments - 1);
@@ -112,7 +120,7 @@ Ray<F> SceneTables::rays_of(const CameraKernel& camera, const FloatN& x, const F
     const auto here = (whole > F(number - FloatN(0.5F))) & (whole < F(number + FloatN(0.5F)));
     const auto at = [&](std::size_t i) {
       Ray<F> rays = generate<F>(std::get<CameraKernel>(moving_camera_[i]), F(x), F(y), lens);
-      set_near(rays, moving_directions_[i]);
+      set_near(rays, moving_directions_[i], moving_near_clips_[i]);
       return rays;
     };
     const Ray<F> a = at(moment), b = at(moment + 1);

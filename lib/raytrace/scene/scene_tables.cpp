@@ -37,6 +37,33 @@ bool have_vertex_alphas(const SceneDescription& description) {
          std::ranges::any_of(description.groups, [&](const Group& group) { return any_in(group.objects); });
 }
 
+/// Whether an object that the camera does not see has such a material; of instances, any object of any group may be in.
+template <class HasMedium>
+bool have_invisible_media(const SceneDescription& description, const HasMedium& has_medium) {
+  const auto any_in = [&](const ObjectLists& objects, const auto& is_meant) {
+    bool any = false;
+    for_each_type(Objects{}, [&]<class T>(std::type_identity<T>) {
+      for (const auto& item : std::get<ObjectItems<T>>(objects)) any = any || is_meant(item);
+    });
+    return any;
+  };
+  const auto any_of_all = [&](const auto& is_meant) {
+    return any_in(description.objects, is_meant) ||
+           std::ranges::any_of(description.groups, [&](const Group& group) { return any_in(group.objects, is_meant); });
+  };
+  const auto has_own = [&](const auto& item) {
+    if constexpr (requires { item.materials; })
+      return std::ranges::any_of(item.materials, has_medium);
+    else
+      return item.material != no_material && has_medium(item.material);
+  };
+  return any_of_all([&](const auto& item) {
+    if (item.visible) return false;
+    if (has_own(item)) return true;
+    return requires { item.motion; } && item.material == no_material && any_of_all(has_own);
+  });
+}
+
 }  // namespace
 
 SceneTables::SceneTables(const SceneDescription& description, int threads, const TexturePointOf& point_of)
@@ -81,6 +108,11 @@ SceneTables::SceneTables(const SceneDescription& description, int threads, const
   }
   has_cutouts_ |= geometry_->has_invisible();
   media_.set(media);
+  has_invisible_media_ = geometry_->has_invisible() && !media_.empty() &&
+                         have_invisible_media(description, [&](const MaterialReference& material) {
+                           const auto number = static_cast<std::size_t>(first_material_[material.type]);
+                           return details_[number + material.index].medium.has_value();
+                         });
   const auto* const path = std::get_if<Path::Parameters>(&integrator_);
   if (path == nullptr) emissions.clear();
   emitters_.emplace(*geometry_, emissions, path == nullptr ? LightSampling::tree : path->lightsampling,

@@ -1,6 +1,7 @@
 // A scene as data: what a description says, in the form that integrators read.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
@@ -77,7 +78,9 @@ class SceneTables {
     return camera_is_far() || !moving_camera_.empty() || has_near_clip() ? nullptr : std::get_if<0>(&*camera_);
   }
   /// Whether the camera sees nothing that is nearer than some distance along its viewing direction.
-  bool has_near_clip() const { return near_clip_ > 0; }
+  bool has_near_clip() const {
+    return near_clip_ > 0 || std::ranges::any_of(moving_near_clips_, [](float near) { return near > 0; });
+  }
   /// Whether the camera is so far away from all objects with bounds that its rays start at them.
   bool camera_is_far() const { return camera_target_.has_value(); }
   const Vec3f& camera_eye() const { return camera_eye_; }
@@ -150,6 +153,8 @@ class SceneTables {
                     std::span<const IncidentLight> lights, const TexturePoint<FloatN>* point,
                     const Refraction<FloatN>& media = {}) const;
 
+  /// Whether something inside of which there is a medium is not visible to the camera.
+  bool has_invisible_media() const { return has_invisible_media_; }
   /// Whether some rays pass a surface of the scene, since its material has an opacity or is a pane, or since its object
   /// is not visible to the camera.
   bool has_cutouts() const { return has_cutouts_; }
@@ -326,6 +331,7 @@ class SceneTables {
   Vec3f camera_eye_{}, viewing_direction_{};
   std::vector<Vec3f> moving_directions_;  ///< of moving_camera_
   float near_clip_ = 0;                   ///< along the viewing direction
+  std::vector<float> moving_near_clips_;  ///< of moving_camera_
   bool depth_is_distance_ = false, camera_has_lens_ = false;
   std::optional<BufferOrigin> camera_origin_;
   std::vector<LightGroup> light_groups_;
@@ -343,7 +349,8 @@ class SceneTables {
   std::unique_ptr<const GeometryTable> geometry_;
   std::optional<const EmitterTable> emitters_;
   std::optional<const CausticTable> caustics_;
-  std::vector<float> emitted_;          ///< of each material, red, green and blue; of those with textures, the most
+  std::vector<float> emitted_;  ///< of each material, red, green and blue; of those with textures, the most
+  bool has_invisible_media_ = false;
   std::vector<SurfaceDetail> details_;  ///< of all materials
   MediumTable media_;
   bool has_cutouts_ = false, has_relief_ = false, has_emission_ = false, has_second_uvset_ = false,

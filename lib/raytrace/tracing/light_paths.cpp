@@ -119,8 +119,9 @@ void LightPaths::arrive(const LightPathPoint& at, const MaskN& scattered) {
   Rgb<FloatN> radiance = path.flux * f * weight;
   const RayIds ids = ray_ids(path, static_cast<std::uint32_t>(depth) * 2 + 1);
   // The camera sees through other media than those that the light came through where some are not visible to it.
-  const bool has_fog = tables_.media().has_fog(), sees_others = has_invisible && !tables_.media().empty();
-  const MediumStack seen_media = sees_others ? scene_.media_for_camera(offset_ray_origin(seen), lit, ids) : media;
+  const bool has_fog = tables_.media().has_fog(), sees_others = tables_.has_invisible_media();
+  MediumStack seen_media = media;
+  if (sees_others) seen_media.keep_common(scene_.media_for_camera(offset_ray_origin(seen), lit, ids));
   const IntN current = sees_others ? seen_media.current(tables_.media()) : boundary.current;
   const FloatN share = FloatN::load_aligned(shares.data());
   if (!tables_.media().empty() && !has_fog)

@@ -90,9 +90,12 @@ MaskN PathBatch::add(CameraRays& camera, const MaskN& active, const MaskN& wante
     path.set_hits(next);
     append(paths_, path, next, next.hit);
   } else if (table.scatters() && any(active & table.scatters(camera_media.current(table)))) [[unlikely]] {
-    const Hits walked = walk(path, camera_media.current(table), hits.hit & wanted, 0, 0, camera_walks_);
+    // Where the camera does not see what is near, the media are not the same for all lanes.
+    const IntN current = camera_media.current(table);
+    const MaskN lanes = hits.hit & wanted, walks = lanes & table.scatters(current);
+    const Hits walked = any(walks) ? select(walks, walk(path, current, walks, 0, 0, camera_walks_), hits) : hits;
     path.set_hits(walked);
-    append(paths_, path, walked, walked.hit);
+    append(paths_, path, walked, lanes & walked.hit);
   } else {
     append(paths_, path, hits, hits.hit & wanted);
   }
@@ -223,8 +226,8 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
     boundary = find_boundary(path, media, hits, surface, depth, counts);
     lanes = hits.hit;
     if (none(lanes)) return;
-    if (depth == 0 && tables.geometry().has_invisible()) [[unlikely]]
-      add_invisible_media(path, surface, lanes & seen_by(path, depth), media, boundary);
+    if (depth == 0 && tables.has_invisible_media()) [[unlikely]]
+      add_invisible_media(path, surface, lanes, media, boundary);
   }
   if (tables.has_subsurface()) {
     surface.emerges = lanes & float_mask<FloatN>(path.way == IntN(from_below));

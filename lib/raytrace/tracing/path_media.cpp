@@ -58,10 +58,9 @@ MediumBoundary PathBatch::find_boundary(PathPacket& path, MediumStack& media, Hi
 
 void PathBatch::add_invisible_media(const PathPacket& path, const SurfaceInteraction<FloatN>& surface,
                                     const MaskN& lanes, MediumStack& media, MediumBoundary& boundary) const {
-  if (none(lanes)) return;
-  const MediumStack all = scene_.media_of_all(offset_ray_origin(surface), lanes, {path.pixel, path.sample, 0});
-  const MediumStack::Packed before = media.packed(), now = all.packed();
-  media = MediumStack({select_lanes(lanes, now.first, before.first), select_lanes(lanes, now.last, before.last)});
+  const MaskN see = lanes & seen_by(path, 0);
+  if (none(see)) return;
+  media.add_first(see, scene_.media_of_all(offset_ray_origin(surface), see, {path.pixel, path.sample, 0}));
   boundary = MediumBoundary(scene_.tables().media(), media, lanes, boundary.inside, surface.front);
 }
 

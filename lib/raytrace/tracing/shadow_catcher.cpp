@@ -127,11 +127,13 @@ void add_environment(CatcherPoint& point, LightChoice& choice) {
 }
 
 /// The lanes whose rays a shadow catcher hides, whatever else does.
-MaskN hidden_by_catchers(const TracedScene& scene, Ray<FloatN> rays, const MaskN& lanes, const RayIds& ids) {
+MaskN hidden_by_catchers(const TracedScene& scene, Ray<FloatN> rays, const MaskN& lanes, const RayIds& ids,
+                         CaughtShadows& caught) {
   const FloatN far = rays.far;
   MaskN hidden(false), left = lanes;
   for (int i = 0; i < most_surfaces && any(left); ++i) {
     rays.far = far;
+    caught.shadow_rays += count_lanes(left & caught.counted);
     const Hits hits = intersect(scene, rays, left, ids, Coherence::incoherent);
     const MaskN catches = hits.hit & scene.tables().geometry().shadow_catchers(hits);
     hidden = hidden | catches;
@@ -200,7 +202,7 @@ Hits catch_shadows(const TracedScene& scene, const CameraRays& camera, const Hit
       hidden = lit & (occluded | (drawn.y >= mean));
     }
     // What catchers hide from each other is dark in the photograph already: such light does not count.
-    open = hidden_by_catchers(scene, choice.ray, hidden, ids);
+    open = hidden_by_catchers(scene, choice.ray, hidden, ids, caught);
     caught.shadowed = caught.shadowed | (hidden & !open);
   }
   return others;
