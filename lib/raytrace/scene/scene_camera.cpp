@@ -53,11 +53,12 @@ void SceneTables::set_camera(const SceneDescription& description) {
     if constexpr (requires { camera.origin(); })
       if (!camera_is_far() && moving_camera_.empty() && !has_near_clip())
         camera_origin_ = BufferOrigin{camera.origin()};
-    viewing_direction_ = direction_of(Type::matrices(*parameters, viewplane_));
+    const CameraMatrices matrices = Type::matrices(*parameters, viewplane_);
+    viewing_direction_ = direction_of(matrices);
+    depth_is_distance_ = !matrices.is_projection;
     for (const CameraParameters& moment : description.moving_camera)
       moving_directions_.push_back(
           direction_of(Type::matrices(std::get<typename Type::Parameters>(moment), viewplane_)));
-    depth_is_distance_ = !Type::matrices(*parameters, viewplane_).is_projection;
   });
 }
 
