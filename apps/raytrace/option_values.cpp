@@ -4,12 +4,14 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <tuple>
 
 #include "raytrace/aovs/aov_selection.h"
 #include "raytrace/cameras/view_plane.h"
+#include "raytrace/film/light_pass.h"
 #include "raytrace/math/blackbody.h"
 #include "raytrace/text/message.h"
 #include "raytrace/text/utf8.h"
@@ -141,7 +143,7 @@ std::string one_of(const std::string& text, const Names& names) {
 
 Names aov_choices() {
   Names choices = aov_names();
-  choices.insert(choices.end(), {"light_NAME", "all"});
+  choices.insert(choices.end(), {"light_NAME", "passes", "all"});
   return choices;
 }
 
@@ -158,9 +160,12 @@ AovSet aovs(const std::string& text) {
   Names wanted;
   for (const std::string_view name : split(text, ','))
     wanted.push_back(light_group_of(name) ? std::string(name) : one_of(std::string(name), aov_choices()));
+  if (std::erase(wanted, "passes") > 0)
+    wanted.insert(wanted.end(), std::begin(light_pass_names), std::end(light_pass_names));
   if (std::erase(wanted, "all") == 0) return aov_set(wanted);
-  const Names all = aov_names();
-  wanted.insert(wanted.end(), all.begin(), all.end());
+  for (const std::string& name : aov_names())
+    if (std::find(std::begin(light_pass_names), std::end(light_pass_names), name) == std::end(light_pass_names))
+      wanted.push_back(name);
   AovSet set = aov_set(wanted);
   set.wants_all_light_groups = true;
   return set;

@@ -200,7 +200,8 @@ void define_options(OptionParser& parser, Options& options) {
   define_view_options(parser, options.view);
   parser.add("--aov", "LIST",
              "What EXR files hold besides the colour, separated by commas: " + joined(aov_names(), ", ") +
-                 "; light_NAME, what the lights of a group bring; or all",
+                 "; light_NAME, what the lights of a group bring; passes, from diffuse_direct to background; or all, "
+                 "but passes",
              options.aovs, aovs, aov_choices());
   parser.add("--bit-depth", "8|16", "Bits per channel in PNG, TIFF and other sRGB-encoded files (8)", options.bit_depth,
              bit_depth, {"8", "16"});

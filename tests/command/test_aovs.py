@@ -17,6 +17,10 @@ NAMES = ["depth", "position", "normal", "albedo", "denoise_albedo", "denoise_nor
          "crypto_object", "crypto_material", "samples"]
 
 
+PASSES = [f"{scattering}_{way}" for scattering in ("diffuse", "specular", "transmission", "volume")
+          for way in ("direct", "indirect")] + ["emission", "background"]
+
+
 def mattes(exr, layer):
     """name -> (x, y) -> share of the pixel, decoded as the specification of Cryptomatte says."""
     key = next(name[:-len("name")] for name in exr.attributes
@@ -50,7 +54,7 @@ class Aovs(CommandTest):
         return Exr(self.read(name))
 
     def test_list(self):
-        self.assertEqual(self.succeed("--list", "aovs").stdout.split(), NAMES)
+        self.assertEqual(self.succeed("--list", "aovs").stdout.split(), NAMES + PASSES)
 
     def test_wrong_names_are_told(self):
         message = self.fail_with(2, "scene.xml", "-o", "a.exr", "--aov", "depth,normals")
@@ -101,6 +105,20 @@ class Aovs(CommandTest):
         sky = {name: values[0] for name, values in picture.rows[0].items()}
         self.assertEqual([sky["Z"], sky["id.object"], sky["N.Y"], sky["crypto_object00.G"]],
                          [struct.unpack("<f", struct.pack("<f", 1e30))[0], 0, 0, 0])
+
+    def test_passes_add_up_to_the_picture(self):
+        picture, plain = self.render("--aov", "passes", "--float"), self.render("--float", name="b.exr")
+        self.assertEqual(set(picture.channels) - set(plain.channels), {f"{name}.{color}" for name in PASSES for color in "RGB"})
+        for y, row in picture.rows.items():
+            for color in "RGB":
+                self.assertEqual(row[color], plain.rows[y][color])
+                for whole, *parts in zip(row[color], *(row[f"{name}.{color}"] for name in PASSES)):
+                    self.assertAlmostEqual(sum(parts), whole, delta=1e-5)
+        self.assertGreater(max(max(row["diffuse_direct.R"]) for row in picture.rows.values()), 0.1)
+        self.assertGreater(max(max(row["background.B"]) for row in picture.rows.values()), 0.1)
+        one = self.render("--aov", "diffuse_direct", "--float", name="b.exr")
+        self.assertEqual([row["diffuse_direct.R"] for row in one.rows.values()],
+                         [row["diffuse_direct.R"] for row in picture.rows.values()])
 
     def test_light_groups_add_up_to_the_picture(self):
         picture = self.render("--aov", "light_key,light_default", "--float")
@@ -183,11 +201,11 @@ class Aovs(CommandTest):
                 self.assertEqual(values, whole.rows[y][name][29:62], (name, y))
 
     def test_merged_tiles_and_sample_ranges_are_the_whole(self):
-        whole = self.render("--aov", "all", "-s", "9")
+        whole = self.render("--aov", "all,passes", "-s", "9")
         for i in range(4):
-            self.render("--aov", "all", "-s", "9", "--tile", f"{i}/4", name=f"tile{i}.exr")
+            self.render("--aov", "all,passes", "-s", "9", "--tile", f"{i}/4", name=f"tile{i}.exr")
         for first, count in ((0, 2), (2, 6), (8, 1)):
-            self.render("--aov", "all", "-s", str(count), "--sample-offset", str(first), name=f"range{first}.exr")
+            self.render("--aov", "all,passes", "-s", str(count), "--sample-offset", str(first), name=f"range{first}.exr")
         for pieces in (["tile2.exr", "tile0.exr", "tile3.exr", "tile1.exr"], ["range8.exr", "range0.exr", "range2.exr"]):
             self.succeed("merge", *pieces, "-o", "merged.exr")
             merged = Exr(self.read("merged.exr"))

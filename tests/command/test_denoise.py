@@ -2,6 +2,7 @@
 (fake_denoiser.cpp): it tells in each number what it was made of."""
 
 import os
+import re
 import signal
 import struct
 import unittest
@@ -124,6 +125,26 @@ class Pictures(DenoiseTest):
             self.render(f"{tile}.exr", "--denoise", "--tile", f"{tile}/2", "--aov", ",".join(layers))
         self.succeed("merge", "-q", "0.exr", "1.exr", "-o", "merged.exr", env=ENVIRONMENT)
         self.assertEqual(Exr(self.read("merged.exr")).row_bytes, both.row_bytes)
+
+    def test_passes_still_add_up_to_the_picture_beside_light_groups(self):
+        self.write("scene.xml", IN_GROUPS)
+        picture = self.render("clean.exr", "--denoise", "--aov", "passes,light_key,light_default")
+        self.check(picture)
+        passes = {name.rsplit(".", 1)[0] for name in picture.channels if re.match("[a-z]+_(in)?direct[.]", name)}
+        passes |= {"emission", "background"}
+        self.assertEqual(len(passes), 10)
+        groups, scaled = {"light_key", "light_default"}, 0
+        for row in picture.rows.values():
+            for color in "RGB":
+                for x in range(picture.width):
+                    for layers in (passes, groups):
+                        noisy = sum(row[f"noisy.{layer}.{color}"][x] for layer in layers)
+                        self.assertAlmostEqual(noisy, row[f"noisy.{color}"][x], delta=1e-5)
+                        if sum(self.filtered(row, x, layer, color) for layer in layers) > 0.01:
+                            scaled += 1
+                            self.assertAlmostEqual(sum(row[f"{layer}.{color}"][x] for layer in layers), row[color][x],
+                                                   delta=1e-4)
+        self.assertGreater(scaled, 40)
 
     def test_light_groups_that_take_light_away_keep_their_noise(self):
         self.write("scene.xml", IN_GROUPS.replace("<scaleradiance>2<", "<scaleradiance>-2<"))

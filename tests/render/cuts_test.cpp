@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <random>
@@ -17,6 +18,7 @@
 #include "raytrace/batch/provenance.h"
 #include "raytrace/description/light_groups.h"
 #include "raytrace/description/scene_description.h"
+#include "raytrace/film/light_pass.h"
 #include "raytrace/film/tiles.h"
 #include "raytrace/output/exr_reader.h"
 #include "raytrace/output/image_band.h"
@@ -261,9 +263,11 @@ class CutRender {
     return colors;
   }
 
-  /// Of all light groups, and what a denoiser looks at, which paths bring.
+  /// Of all light groups and passes, and what a denoiser looks at, which paths bring.
   static AovSet aovs_of(const SceneDescription& description) {
-    AovSet aovs = aov_set({"denoise_albedo", "denoise_normal"});
+    std::vector<std::string> names(std::begin(light_pass_names), std::end(light_pass_names));
+    names.insert(names.end(), {"denoise_albedo", "denoise_normal"});
+    AovSet aovs = aov_set(names);
     aovs.wants_all_light_groups = true;
     return with_light_groups(aovs, light_group_names(description));
   }

@@ -7,6 +7,7 @@
 
 #include "raytrace/aovs/aov_selection.h"
 #include "raytrace/film/splat_layer.h"
+#include "raytrace/parameters/light_group.h"
 #include "render/scenes.h"
 #include "support/catch.h"
 #include "support/contains.h"
@@ -107,7 +108,7 @@ void check_sums(const Film& film, bool some_are_dark = false) {
     bool any = false;
     for_each_pixel(film.region(),
                    [&](std::size_t, int x, int y) { any = any || layer.samples->sum(x, y) != RadianceSum{}; });
-    INFO(layer.group);
+    INFO(layer.name);
     CHECK((any || some_are_dark));
   }
 }
@@ -178,8 +179,9 @@ TEST_CASE("a light group is what its lights bring alone") {
     const Film film = film_by_group(parsed_scene(lit_scene(integrator)));
     REQUIRE(film.lights().size() == 3);
     for (const LightLayer& layer : film.lights()) {
-      INFO(integrator << layer.group);
-      const FloatPicture alone = rendered(parsed_scene(lit_scene(integrator, layer.group)));
+      INFO(integrator << layer.name);
+      const FloatPicture alone =
+          rendered(parsed_scene(lit_scene(integrator, layer.name.substr(light_aov_prefix.size()))));
       float apart = 0;
       for_each_pixel(film.region(), [&](std::size_t i, int x, int y) {
         Pixel mean = film.light_pixel(layer, x, y);

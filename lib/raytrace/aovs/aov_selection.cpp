@@ -20,7 +20,7 @@ namespace raytrace {
 
 namespace {
 
-const std::string light_prefix = "light_";
+const std::string light_prefix(light_aov_prefix);
 
 std::vector<Aov> selected(const AovSet& aovs) {
   std::vector<Aov> list;
@@ -124,7 +124,9 @@ AovSettings aov_settings(const AovSet& aovs) {
     if (aov.rule == AovRule::nearest) settings.nearest_values += aov.values();
     if (aov.rule == AovRule::mean) settings.mean_units.resize(settings.mean_units.size() + aov.values());
     if (aov.rule == AovRule::coverage) ++settings.coverages;
+    if (aov.rule == AovRule::light) settings.layers.emplace_back(aov.name);
   }
+  for (const std::string& group : aovs.light_groups()) settings.layers.push_back(light_prefix + group);
   return settings;
 }
 
@@ -177,6 +179,7 @@ void fill_aovs(ImageBand& band, std::size_t first_plane, const Film& film) {
   ChannelValues* plane = band.planes.data() + first_plane;
   std::size_t next_nearest = 0, next_mean = 0, next_coverage = 0;
   for (const Aov& aov : selected(wanted)) {
+    if (aov.rule == AovRule::light) break;  // the table's last, which follow as layers
     if (aov.rule == AovRule::coverage) {
       fill_coverage(plane, rows, next_coverage++, film);
       plane += 2 * cryptomatte::pairs;

@@ -5,11 +5,13 @@
 #pragma once
 
 #include <cstddef>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "raytrace/description/scene_description.h"
+#include "raytrace/film/light_pass.h"
 #include "raytrace/output/image_band.h"
 #include "raytrace/output/image_file.h"
 
@@ -31,6 +33,7 @@ enum class AovRule {
   mean,      ///< the mean of all samples, those that met nothing counting as 0
   coverage,  ///< the share of the samples that met each object, or each material, by id: Cryptomatte
   samples,   ///< how many samples the pixel has
+  light,     ///< the mean of a part of the light: a LightPass
 };
 
 /// What a scene's values may reach.
@@ -106,7 +109,45 @@ inline constexpr Aov aov_table[] = {
     Aov{.name = "crypto_object", .rule = AovRule::coverage, .names = object_names},
     Aov{.name = "crypto_material", .rule = AovRule::coverage, .names = material_names},
     Aov{.name = "samples", .rule = AovRule::samples, .channel_names = {"samples"}, .type = ChannelType::uint32},
+    // The light by what it was scattered by first on the way from the camera (film/light_pass.h, in that order).
+    Aov{.name = "diffuse_direct",
+        .rule = AovRule::light,
+        .channel_names = {"diffuse_direct.R", "diffuse_direct.G", "diffuse_direct.B"}},
+    Aov{.name = "diffuse_indirect",
+        .rule = AovRule::light,
+        .channel_names = {"diffuse_indirect.R", "diffuse_indirect.G", "diffuse_indirect.B"}},
+    Aov{.name = "specular_direct",
+        .rule = AovRule::light,
+        .channel_names = {"specular_direct.R", "specular_direct.G", "specular_direct.B"}},
+    Aov{.name = "specular_indirect",
+        .rule = AovRule::light,
+        .channel_names = {"specular_indirect.R", "specular_indirect.G", "specular_indirect.B"}},
+    Aov{.name = "transmission_direct",
+        .rule = AovRule::light,
+        .channel_names = {"transmission_direct.R", "transmission_direct.G", "transmission_direct.B"}},
+    Aov{.name = "transmission_indirect",
+        .rule = AovRule::light,
+        .channel_names = {"transmission_indirect.R", "transmission_indirect.G", "transmission_indirect.B"}},
+    Aov{.name = "volume_direct",
+        .rule = AovRule::light,
+        .channel_names = {"volume_direct.R", "volume_direct.G", "volume_direct.B"}},
+    Aov{.name = "volume_indirect",
+        .rule = AovRule::light,
+        .channel_names = {"volume_indirect.R", "volume_indirect.G", "volume_indirect.B"}},
+    Aov{.name = "emission", .rule = AovRule::light, .channel_names = {"emission.R", "emission.G", "emission.B"}},
+    Aov{.name = "background",
+        .rule = AovRule::light,
+        .channel_names = {"background.R", "background.G", "background.B"}},
 };
+
+/// Where in the table the passes begin.
+inline constexpr std::size_t first_light_pass = std::size(aov_table) - light_pass_count;
+static_assert([] {
+  for (std::size_t i = 0; i < light_pass_count; ++i)
+    if (const Aov& aov = aov_table[first_light_pass + i]; aov.rule != AovRule::light || aov.name != light_pass_names[i])
+      return false;
+  return aov_table[first_light_pass - 1].rule != AovRule::light;
+}());
 
 /// How many values all AOVs of a rule have together.
 constexpr std::size_t all_values(AovRule rule) {

@@ -77,7 +77,7 @@ class PictureRender {
     const bool whole_film = !job_.checkpoint.empty() || job_.time_limit || job_.error_limit ||
                             (job_.sample_offset && aovs.gather()) ||
                             scene_->traces_light_paths() ||  // which reach any row
-                            !job_.aovs.light_groups().empty() || is_exposed_by_itself() || is_denoised(job_);
+                            !aovs.layers.empty() || is_exposed_by_itself() || is_denoised(job_);
     in_bands_ = !whole_film && rows < settings_.region.height();
     const RenderOutcome outcome = in_bands_ ? render_in_bands(rows) : render_at_once();
     report_invalid_samples();

@@ -35,6 +35,9 @@ BsdfSample<T> select(const Mask<T>& mask, const BsdfSample<T>& a, const BsdfSamp
           (a.enters & mask) | (b.enters & !mask)};
 }
 
+/// Of what a surface reflects not diffusely: what mirrors nearly as a smooth surface does, or all of it.
+enum class Gloss { sharp, any };
+
 /// The normal in the local frame.
 template <class T>
 Vec3<T> local_normal() {

@@ -38,6 +38,9 @@ struct AovSettings {
   std::size_t nearest_values = 0;  ///< of the sample that met the nearest surface: 32 bit words
   std::vector<int> mean_units;     ///< for each mean: its sum counts units of 2^this
   std::size_t coverages = 0;
+  /// The AOVs that are parts of the picture's light, of which a film keeps exact sums: first the passes, in the table's
+  /// order, then the light groups.
+  std::vector<std::string> layers;
   /// For each coverage: the ids of the things with indices 0, 1... Things of equal ids count as one. Needed only where
   /// samples are taken.
   using CoverageIds = std::vector<std::vector<std::uint32_t>>;

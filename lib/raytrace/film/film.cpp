@@ -86,8 +86,8 @@ Film::Film(const FilmSettings& settings, FilmContent content)
       if (settings.light_paths_of)
         splats_ = std::make_unique<SplatLayer>(region(), static_cast<std::uint64_t>(settings.extent.full_width) *
                                                              static_cast<std::uint64_t>(settings.extent.full_height));
-      for (const std::string& group : settings.aovs.wanted.light_groups())
-        lights_.push_back({group, std::make_unique<RadianceLayer>(region()),
+      for (const std::string& layer : settings.aovs.layers)
+        lights_.push_back({layer, std::make_unique<RadianceLayer>(region()),
                            splats_ ? std::make_unique<RadianceLayer>(region()) : nullptr});
       if (settings.aovs.gather()) aovs_ = std::make_unique<AovFilm>(region(), settings.aovs);
       break;

@@ -198,8 +198,8 @@ class Film {
   const Photons* photons() const { return photons_.get(); }
   void set_photons(std::unique_ptr<const Photons> photons);
 
-  /// What the light groups bring that settings().aovs names, in their order. With that of all other groups, it adds up
-  /// to the film's own sums and splats.
+  /// The parts of the light that settings().aovs.layers names, in their order. All light groups add up to the film's
+  /// own sums and splats exactly, all passes but for the rounding of each to the film's unit.
   std::span<LightLayer> lights() { return lights_; }
   std::span<const LightLayer> lights() const { return lights_; }
   /// As pixel(), of one of them.

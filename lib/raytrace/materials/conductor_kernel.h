@@ -20,6 +20,7 @@ class Kernel<Conductor> {
 
     /// Where all materials of a scene are isotropic, evaluate() is in any frame.
     static constexpr bool in_local_frame = false;
+    static constexpr bool is_glossy = true;
 
     Rgb<T> ambient_radiance(const Rgb<T>&) const { return black(); }
     Rgb<T> albedo() const { return normal; }

@@ -22,6 +22,7 @@ class Kernel<Dielectric> {
 
     /// evaluate() is in the local frame, as all others are.
     static constexpr bool in_local_frame = true;
+    static constexpr bool is_glossy = true;
 
     template <class Front>
     void set_side(const Front& front, const Refraction<T>& media) {

@@ -25,6 +25,10 @@
 //     void set_side(const Mask<T>& front, const Refraction<T>& media);
 //                                                whether wo is on the surface's front, and the indices of refraction
 //                                                on both sides (materials/medium.h): called before all others
+//   reflects some of the light in highlights:
+//     Rgb<T> gloss(const Vec3<T>& wo, const Vec3<T>& wi) const;   that part of evaluate(), in the local frame
+//   or all that it reflects:
+//     static constexpr bool is_glossy = true;
 //   has highlights far brighter than most of what it reflects:
 //     Rgb<T> usual_f() const;                    in place of evaluate() straight back, for the film's unit
 //   has evaluate() in the local frame, as all others are:
@@ -33,6 +37,7 @@
 //     lobes(wo);                                 the result of it, from which follow, in the local frame,
 //     sample(lobes, u, u1, u2); value(lobes, wi);   the same as sample(wo, ...); evaluate() and pdf(), as f and pdf
 //     lobes(wo, const LayerFrames<T>*);          likewise, of layers with normals of their own (bsdfs/layer_normals.h)
+//     gloss(lobes, wi, Gloss which);             with them: as gloss(wo, wi)
 //   lets light in that comes out elsewhere, as sample() says by `enters`:
 //     Subsurface<T> subsurface_inside() const;   what it is scattered by (materials/subsurface.h)
 //   sends light through:

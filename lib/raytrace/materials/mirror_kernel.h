@@ -14,6 +14,8 @@ class Kernel<Mirror> {
   struct Bsdf {
     Rgb<T> reflectance;
 
+    static constexpr bool is_glossy = true;
+
     Rgb<T> ambient_radiance(const Rgb<T>&) const { return black(); }
     Rgb<T> albedo() const { return reflectance; }
     Rgb<T> evaluate(const Vec3<T>&, const Vec3<T>&, const Vec3<T>&) const { return black(); }

@@ -170,8 +170,8 @@ struct OpenPbrBsdf {
     return {select(is_above, result.f, black()), select(is_above, result.pdf, T(0))};
   }
 
-  /// What of reflected()'s f is of facets that mirror nearly as smooth ones do. wi: likewise.
-  Rgb<T> gloss(const Lobes& layers, const Vec3<T>& wi) const;
+  /// What of reflected()'s f is of facets: of `sharp` gloss, those that mirror nearly as smooth ones do. wi: likewise.
+  Rgb<T> gloss(const Lobes& layers, const Vec3<T>& wi, Gloss which) const;
 
   Rgb<T> evaluate(const Vec3<T>& wo, const Vec3<T>& wi, const Vec3<T>&) const { return value(lobes(wo), wi).f; }
   T pdf(const Vec3<T>& wo, const Vec3<T>& wi) const { return value(lobes(wo), wi).pdf; }

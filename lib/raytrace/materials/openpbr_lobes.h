@@ -119,15 +119,16 @@ template <class T>
 }
 
 template <class T>
-[[gnu::noinline]] Rgb<T> OpenPbrBsdf<T>::gloss(const Lobes& layers, const Vec3<T>& wi) const {
+[[gnu::noinline]] Rgb<T> OpenPbrBsdf<T>::gloss(const Lobes& layers, const Vec3<T>& wi, Gloss which) const {
+  const T roughest(which == Gloss::sharp ? glossy_roughness : 2.0F);
   const LayerFrames<T>* const frames = layers.frames;
   const Vec3<T> base_wi = frames == nullptr ? wi : frames->base.to_own(wi),
                 coat_wi = frames == nullptr ? wi : frames->coat.to_own(wi);
   Value result{black(), T(0)};
-  if (const Mask<T> near = ggx().is_rough() & (roughness < T(glossy_roughness)); any(near))
+  if (const Mask<T> near = ggx().is_rough() & (roughness < roughest); any(near))
     result.f = select(near, by_facets(layers, base_wi).f * under_coat(layers, coat_wi.z), black());
   if (frames != nullptr) frames->base.count_about_surface(wi, base_wi, result.f, result.pdf);
-  if (const Mask<T> near = coat_ggx().is_rough() & (coat > T(0)) & (coat_roughness < T(glossy_roughness)); any(near))
+  if (const Mask<T> near = coat_ggx().is_rough() & (coat > T(0)) & (coat_roughness < roughest); any(near))
     result.f += select(near, by_coat(layers, wi, coat_wi).f, black());
   return select(wi.z > T(1e-6F), result.f, black());
 }

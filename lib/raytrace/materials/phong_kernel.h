@@ -22,6 +22,7 @@ class Kernel<Phong> {
     Rgb<T> evaluate(const Vec3<T>& wo, const Vec3<T>& wi, const Vec3<T>& normal) const {
       return diffuse.f() + specular.f(wo, wi, normal);
     }
+    Rgb<T> gloss(const Vec3<T>& wo, const Vec3<T>& wi) const { return specular.f(wo, wi, local_normal<T>()); }
     /// The diffuse lobe and the highlight, each as often as it reflects of light from straight above.
     BsdfSample<T> sample(const Vec3<T>& wo, const T& u, const T& u1, const T& u2) const {
       const Vec3<T> normal = local_normal<T>();

@@ -24,6 +24,9 @@ struct Rgb {
   friend RAYTRACE_INLINE Rgb operator+(const Rgb& a, const Rgb& b) {
     return {a.red + b.red, a.green + b.green, a.blue + b.blue};
   }
+  friend RAYTRACE_INLINE Rgb operator-(const Rgb& a, const Rgb& b) {
+    return {a.red - b.red, a.green - b.green, a.blue - b.blue};
+  }
   friend RAYTRACE_INLINE Rgb operator*(const Rgb& a, const Rgb& b) {
     return {a.red * b.red, a.green * b.green, a.blue * b.blue};
   }

@@ -3,8 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
+#include <string_view>
 #include <utility>
 #include <variant>
+
+#include "raytrace/film/light_pass.h"
+#include "raytrace/parameters/light_group.h"
 
 namespace raytrace {
 
@@ -18,11 +23,21 @@ std::size_t plane_of(const std::vector<Channel>& channels, const std::string& na
   return static_cast<std::size_t>(found - channels.begin());
 }
 
-/// The first channels of light groups.
+/// The name of the part of the light whose first channel it is; else nothing.
+std::string_view layer_of(const Channel& channel) {
+  std::string_view name = channel.name;
+  if (!name.ends_with(".R")) return {};
+  name.remove_suffix(2);
+  const bool is_pass =
+      std::find(std::begin(light_pass_names), std::end(light_pass_names), name) != std::end(light_pass_names);
+  return is_pass || name.starts_with(light_aov_prefix) ? name : std::string_view();
+}
+
+/// The first channels of parts of the light.
 std::vector<std::size_t> layers_among(const std::vector<Channel>& channels) {
   std::vector<std::size_t> layers;
   for (std::size_t i = 0; i < channels.size(); ++i)
-    if (channels[i].name.starts_with("light_") && channels[i].name.ends_with(".R")) layers.push_back(i);
+    if (!layer_of(channels[i]).empty()) layers.push_back(i);
   return layers;
 }
 
@@ -47,6 +62,8 @@ DenoisedPicture::DenoisedPicture(const Region& region, const std::vector<Channel
   for (std::vector<float>* const pixels : {&picture_.color, &picture_.albedo, &picture_.normal})
     pixels->resize(numbers);
   if (transparent) picture_.alpha.resize(numbers);
+  for (const std::size_t layer : layers_)
+    are_groups_.push_back(layer_of(channels[layer]).starts_with(light_aov_prefix));
   picture_.layers.assign(layers_.size(), std::vector<float>(numbers));
 }
 
@@ -73,7 +90,10 @@ bool DenoisedPicture::denoise(int threads, const std::function<bool()>& stop) {
   const std::vector<std::uint8_t> even = even_alpha();
   std::vector<float> noisy_alpha;
   for (std::size_t i = 0; i < picture_.alpha.size(); i += colors) noisy_alpha.push_back(picture_.alpha[i]);
-  const bool add_up = layers_add_up(), are_light = layers_are_light();
+  const bool are_light = layers_are_light();
+  std::vector<std::vector<std::size_t>> wholes;
+  for (const bool of_groups : {false, true})
+    if (std::vector<std::size_t> some = layers_of(of_groups); add_up(some)) wholes.push_back(std::move(some));
   std::vector<std::vector<float>> noisy_layers;
   if (!are_light) noisy_layers.swap(picture_.layers);
   auto clean = denoised(std::move(picture_), threads, stop);
@@ -81,7 +101,8 @@ bool DenoisedPicture::denoise(int threads, const std::function<bool()>& stop) {
   if (!clean) return false;
   picture_.color = std::move(clean->color);
   picture_.layers = std::move(are_light ? clean->layers : noisy_layers);
-  if (are_light && add_up) scale_layers();
+  if (are_light)
+    for (const std::vector<std::size_t>& layers : wholes) scale(layers);
   picture_.alpha.resize(noisy_alpha.size());
   for (std::size_t pixel = 0; pixel < noisy_alpha.size(); ++pixel)
     picture_.alpha[pixel] =
@@ -95,23 +116,31 @@ bool DenoisedPicture::layers_are_light() const {
   });
 }
 
-bool DenoisedPicture::layers_add_up() const {
-  for (std::size_t i = 0; i < picture_.color.size(); ++i) {
-    float sum = 0;
-    for (const std::vector<float>& layer : picture_.layers) sum += layer[i];
+std::vector<std::size_t> DenoisedPicture::layers_of(bool of_groups) const {
+  std::vector<std::size_t> layers;
+  for (std::size_t i = 0; i < are_groups_.size(); ++i)
+    if (are_groups_[i] == of_groups) layers.push_back(i);
+  return layers;
+}
+
+float DenoisedPicture::sum_of(const std::vector<std::size_t>& layers, std::size_t number) const {
+  float sum = 0;
+  for (const std::size_t layer : layers) sum += picture_.layers[layer][number];
+  return sum;
+}
+
+bool DenoisedPicture::add_up(const std::vector<std::size_t>& layers) const {
+  for (std::size_t i = 0; i < picture_.color.size(); ++i)
     // Colours may be half floats.
-    if (!(std::abs(sum - picture_.color[i]) <= 2e-3F * std::abs(picture_.color[i]) + 1e-6F)) return false;
-  }
+    if (!(std::abs(sum_of(layers, i) - picture_.color[i]) <= 2e-3F * std::abs(picture_.color[i]) + 1e-6F)) return false;
   return true;
 }
 
-void DenoisedPicture::scale_layers() {
+void DenoisedPicture::scale(const std::vector<std::size_t>& layers) {
   for (std::size_t i = 0; i < picture_.color.size(); ++i) {
-    float sum = 0;
-    for (const std::vector<float>& layer : picture_.layers) sum += layer[i];
-    const float scale = sum > 0 ? picture_.color[i] / sum : 1;
+    const float sum = sum_of(layers, i), scale = sum > 0 ? picture_.color[i] / sum : 1;
     if (std::isfinite(scale))
-      for (std::vector<float>& layer : picture_.layers) layer[i] *= scale;
+      for (const std::size_t layer : layers) picture_.layers[layer][i] *= scale;
   }
 }
 

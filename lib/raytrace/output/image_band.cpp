@@ -26,10 +26,11 @@ struct SumLayout {
   struct Light {
     bool has_high = false, has_splat_high = false;
   };
-  std::vector<Light> lights{};  ///< of each light group, in the order of their names
+  std::vector<Light> lights{};  ///< of each of aovs.layers
 };
 
-std::string light_start(const std::string& group) { return "sums.light." + group + "."; }
+/// Of one of AovSettings::layers, by its number: names of up to 31 characters are those that all programs read.
+std::string layer_start(std::size_t layer) { return formatted("sums.layer%02zu.", layer); }
 
 std::string coverage_name(std::size_t coverage) { return "sums.aov.cover" + std::to_string(coverage); }
 
@@ -62,11 +63,12 @@ std::vector<Channel> channels_of(const SumLayout& layout) {
       add(coverage_name(coverage) + ".count" + digits);
     }
   auto light = layout.lights.begin();
-  for (const std::string& group : layout.aovs.wanted.light_groups()) {
-    add_colors(light_start(group));
-    if (light->has_high) add_colors(light_start(group) + "limb2.");
-    if (layout.has_splats) add_colors(light_start(group) + "splat.");
-    if (light->has_splat_high) add_colors(light_start(group) + "splat.limb2.");
+  for (std::size_t i = 0; i < layout.aovs.layers.size(); ++i) {
+    const std::string start = layer_start(i);
+    add_colors(start);
+    if (light->has_high) add_colors(start + "limb2.");
+    if (layout.has_splats) add_colors(start + "splat.");
+    if (light->has_splat_high) add_colors(start + "splat.limb2.");
     ++light;
   }
   return channels;
@@ -82,9 +84,9 @@ SumLayout layout_of(const FilmSettings& settings, const std::vector<Channel>& ch
                    settings.light_paths_of && count("sums.splat.limb2.red.low") > 0};
   for (std::size_t coverage = 0; coverage < settings.aovs.coverages; ++coverage)
     layout.ids.push_back(count(coverage_name(coverage) + ".id"));
-  for (const std::string& group : settings.aovs.wanted.light_groups())
-    layout.lights.push_back({count(light_start(group) + "limb2.red.low") > 0,
-                             layout.has_splats && count(light_start(group) + "splat.limb2.red.low") > 0});
+  for (std::size_t i = 0; i < settings.aovs.layers.size(); ++i)
+    layout.lights.push_back({count(layer_start(i) + "limb2.red.low") > 0,
+                             layout.has_splats && count(layer_start(i) + "splat.limb2.red.low") > 0});
   return layout;
 }
 
@@ -149,7 +151,8 @@ std::int64_t halves(const std::uint32_t* words) {
   return static_cast<std::int64_t>(words[0] | std::uint64_t{words[1]} << 32U);
 }
 
-/// Adds what AOVs gather, but light groups. False as add_words(). next: their words; goes on to what comes after them.
+/// Adds what AOVs gather, but parts of the light. False as add_words(). next: their words; goes on to what comes after
+/// them.
 bool add_aov_words(const std::uint32_t*& next, const SumLayout& layout, const SampleRange& range, std::uint32_t samples,
                    AovFilm& aovs, int x, int y) {
   bool sound = true;

@@ -10,6 +10,7 @@
 namespace raytrace {
 
 inline constexpr std::string_view default_light_group = "default";
+inline constexpr std::string_view light_aov_prefix = "light_";
 
 /// The field of lights and of materials that shine. Its name is part of channels' names.
 template <class Parameters>

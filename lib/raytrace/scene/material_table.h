@@ -82,10 +82,10 @@ class MaterialTable {
                              const FloatN& u1, const FloatN& u2, const LayerNormals<FloatN>* layers,
                              const TexturePoint<FloatN>* point) const = 0;
 
-  /// What of f, as scatter() has it for light from wi, is nearly a mirror's.
+  /// What of f, as scatter() has it for light from wi above the surface, is gloss. `sharp`: of a mixture alone.
   virtual Rgb<FloatN> gloss(const LaneIndices& materials, const MaskN& front, const Refraction<FloatN>& media,
-                            const Vec3<FloatN>& wo, const Vec3<FloatN>& wi, const LayerNormals<FloatN>* layers,
-                            const TexturePoint<FloatN>* point) const = 0;
+                            const Vec3<FloatN>& wo, const Vec3<FloatN>& wi, Gloss which,
+                            const LayerNormals<FloatN>* layers, const TexturePoint<FloatN>* point) const = 0;
 
   /// The share that is left of light that went so far behind surfaces.
   virtual Rgb<FloatN> transmittance(const LaneIndices& materials, const FloatN& distance,
@@ -201,15 +201,21 @@ class MaterialTableOf final : public MaterialTable {
   }
 
   Rgb<FloatN> gloss(const LaneIndices& materials, const MaskN& front, const Refraction<FloatN>& media,
-                    const Vec3<FloatN>& wo, const Vec3<FloatN>& wi, const LayerNormals<FloatN>* layers,
+                    const Vec3<FloatN>& wo, const Vec3<FloatN>& wi, Gloss which, const LayerNormals<FloatN>* layers,
                     const TexturePoint<FloatN>* point) const override {
+    const Rgb<FloatN> black(Rgb<float>(0, 0, 0));
     if constexpr (has_layers) {
       const auto bsdfs = gathered(materials, front, point, media);
-      if (layers == nullptr) return bsdfs.gloss(bsdfs.lobes(wo), wi);
+      if (layers == nullptr) return bsdfs.gloss(bsdfs.lobes(wo), wi, which);
       const LayerFrames<FloatN> frames(*layers, wo);
-      return bsdfs.gloss(bsdfs.lobes(wo, &frames), wi);
+      return bsdfs.gloss(bsdfs.lobes(wo, &frames), wi, which);
+    } else if constexpr (requires(BsdfN bsdf) { bsdf.gloss(wo, wi); }) {
+      return which == Gloss::any ? gathered(materials, front, point, media).gloss(wo, wi) : black;
+    } else if constexpr (requires { BsdfN::is_glossy; }) {
+      return which == Gloss::any ? gathered(materials, front, point, media).evaluate(wo, wi, local_normal<FloatN>())
+                                 : black;
     } else {
-      return Rgb<FloatN>(Rgb<float>(0, 0, 0));
+      return black;
     }
   }
 

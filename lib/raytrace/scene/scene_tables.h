@@ -212,10 +212,10 @@ class SceneTables {
   Scattering scatter(const Hits& hits, const SurfaceInteraction<FloatN>& surface, const Frame<FloatN>& frame,
                      const Refraction<FloatN>& media, const Vec3<FloatN>& wo, const MaskN& lit, const Vec3<FloatN>& wi,
                      const FloatN& u, const FloatN& u1, const FloatN& u2, const TexturePoint<FloatN>* point) const;
-  /// What of f for light from wi is nearly a mirror's: of paths that leave so, none but those from the camera bring
-  /// what they find.
+  /// What of f for light from wi above the surfaces is gloss. Of paths that leave by `sharp` gloss, none but those from
+  /// the camera bring what they find.
   Rgb<FloatN> gloss(const Hits& hits, const SurfaceInteraction<FloatN>& surface, const Frame<FloatN>& frame,
-                    const Refraction<FloatN>& media, const Vec3<FloatN>& wo, const Vec3<FloatN>& wi,
+                    const Refraction<FloatN>& media, const Vec3<FloatN>& wo, const Vec3<FloatN>& wi, Gloss which,
                     const TexturePoint<FloatN>* point) const;
   /// The share that is left of light that went so far behind the surfaces.
   Rgb<FloatN> transmittance(const Hits& hits, const FloatN& distance, const TexturePoint<FloatN>* point) const;

@@ -107,11 +107,11 @@ Scattering SceneTables::scatter(const Hits& hits, const SurfaceInteraction<Float
 
 Rgb<FloatN> SceneTables::gloss(const Hits& hits, const SurfaceInteraction<FloatN>& surface, const Frame<FloatN>& frame,
                                const Refraction<FloatN>& media, const Vec3<FloatN>& wo, const Vec3<FloatN>& wi,
-                               const TexturePoint<FloatN>* point) const {
+                               Gloss which, const TexturePoint<FloatN>* point) const {
   std::optional<LayerNormals<FloatN>> layers;
   if (surface.has_layers) layers = surface.layers.to_local(frame);
   const Rgb<FloatN> gloss = by_material(hits, [&](const MaterialTable& table, const LaneIndices& materials) {
-    return table.gloss(materials, surface.front, media, wo, wi, layers ? &*layers : nullptr, point);
+    return table.gloss(materials, surface.front, media, wo, wi, which, layers ? &*layers : nullptr, point);
   });
   return surface.has_emerging ? select(surface.emerges, Rgb<FloatN>(Rgb<float>(0, 0, 0)), gloss) : gloss;
 }

@@ -69,17 +69,57 @@ struct LightsBehind {
   const FloatN& distance;  ///< that paths came to it
 };
 
+/// Parts of the light that leaves surfaces along wo; the rest is diffuse.
+struct LightParts {
+  Rgb<FloatN> gloss{Rgb<float>(0, 0, 0)}, transmitted{Rgb<float>(0, 0, 0)};
+
+  /// Of light that they are parts of, the rest; where that is no more than rounding, it goes to the larger of the two.
+  Rgb<FloatN> take_diffuse(const Rgb<FloatN>& light) {
+    const auto take = [](const FloatN& whole, FloatN& of_gloss, FloatN& of_transmitted) {
+      const FloatN rest = whole - of_gloss - of_transmitted;
+      const MaskN is_none = abs(rest) <= abs(whole) * FloatN(1e-5F), of_first = abs(of_gloss) >= abs(of_transmitted);
+      of_gloss = select(is_none & of_first, of_gloss + rest, of_gloss);
+      of_transmitted = select(is_none & !of_first, of_transmitted + rest, of_transmitted);
+      return select(is_none, FloatN(0), rest);
+    };
+    return {take(light.red, gloss.red, transmitted.red), take(light.green, gloss.green, transmitted.green),
+            take(light.blue, gloss.blue, transmitted.blue)};
+  }
+};
+
+/// Adds what the surfaces send on of lights that reach them. refraction: around them.
+[[gnu::noinline]] inline void add_parts(const SceneTables& tables, const Hits& hits,
+                                        const SurfaceInteraction<FloatN>& surface,
+                                        std::span<const IncidentLight> lights, const TexturePoint<FloatN>* textures,
+                                        const Refraction<FloatN>& refraction, LightParts& parts) {
+  const Frame<FloatN> frame = tables.shading_frame(hits, surface, textures);
+  const Vec3<FloatN> wo = frame.to_local(surface.wo);
+  for (const IncidentLight& light : lights) {
+    const Rgb<FloatN> arriving = light.radiance * light.cosine;
+    const Vec3<FloatN> wi = frame.to_local(light.wi);
+    const MaskN lit = hits.hit & (light.cosine > FloatN(0)), above = lit & (wi.z > FloatN(0)), below = lit & !above;
+    if (any(above))
+      parts.gloss +=
+          select(above, tables.gloss(hits, surface, frame, refraction, wo, wi, Gloss::any, textures) * arriving,
+                 Rgb<FloatN>(Rgb<float>(0, 0, 0)));
+    if (none(below)) continue;
+    IncidentLight through = light;
+    through.cosine = select(below, light.cosine, FloatN(0));
+    parts.transmitted += tables.shade(hits, surface, Rgb<float>(0, 0, 0), {&through, 1}, textures, refraction);
+  }
+}
+
 /// What of the group's lights' radiance leaves the surface along wo, in the lanes that were hit; of its ambient light,
 /// too. clock: if not null, its stages of this end here. media: if not null, what the light comes through. panes:
 /// likewise, where it comes through some. draws: whether lights may be drawn, where there are many. behind: null where
-/// no light of the scene comes through surfaces, scattered.
+/// no light of the scene comes through surfaces, scattered. parts: if not null, gets those of the result added.
 RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const SceneTables::LightGroup& group,
                                          const Hits& hits, const SurfaceInteraction<FloatN>& surface,
                                          const TexturePoint<FloatN>* textures, Coherence coherence,
                                          const MaskN& counted, RayCounts& counts, const ShadowNumbers& numbers,
                                          StageClock* clock = nullptr, const PointMedia* media = nullptr,
                                          const PanesAhead* panes = nullptr, bool draws = false,
-                                         const LightsBehind* behind = nullptr) {
+                                         const LightsBehind* behind = nullptr, LightParts* parts = nullptr) {
   const SceneTables& tables = scene.tables();
   std::array<IncidentLight, lights_per_run> incident;
   std::size_t count = 0;
@@ -102,6 +142,8 @@ RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const SceneTa
     const std::span<const IncidentLight> run(incident.data(), count);
     radiance += behind == nullptr ? tables.shade(hits, surface, ambient, run, textures)
                                   : tables.shade(hits, surface, ambient, run, textures, refraction);
+    if (parts != nullptr) [[unlikely]]
+      add_parts(tables, hits, surface, run, textures, refraction, *parts);
     ambient = Rgb<float>(0, 0, 0);
     count = 0;
     end(Stage::shade);

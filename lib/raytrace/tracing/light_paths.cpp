@@ -14,6 +14,7 @@
 #include "raytrace/tracing/fog.h"
 #include "raytrace/tracing/identified_rays.h"
 #include "raytrace/tracing/light_layers.h"
+#include "raytrace/tracing/light_parts.h"
 #include "raytrace/tracing/sampled_light.h"
 
 namespace raytrace {
@@ -25,6 +26,13 @@ LightPaths::LightPaths(const TracedScene& scene, Film& film, StageClock& clock)
       inverse_unit_(std::ldexp(1.0, -film.settings().unit_exponent)) {
   for (const LightLayer* const layer : light_layers(tables_, film))
     layers_.push_back(layer == nullptr ? nullptr : layer->splats.get());
+  const PassLayers passes = pass_layers(film);
+  const auto splats_of = [&](LightPass pass) {
+    const LightLayer* const layer = passes[static_cast<std::size_t>(pass)];
+    return layer == nullptr ? nullptr : layer->splats.get();
+  };
+  diffuse_ = splats_of(LightPass::diffuse_indirect);
+  specular_ = splats_of(LightPass::specular_indirect);
 }
 
 void LightPaths::begin(const Pixels& pixels, const UintN& samples, const MaskN& wanted, RenderReport& report) {
@@ -113,8 +121,13 @@ void LightPaths::arrive(const LightPathPoint& at, const MaskN& scattered) {
   Rgb<FloatN> f = bsdf.f;
   if (const MaskN found = lit & float_mask<FloatN>(path.source >= IntN(static_cast<int>(tables_.lights().size())));
       any(found)) {
-    const Rgb<FloatN> gloss = tables_.gloss(hits, seen, frame, boundary.media, wo, wi, point);
+    const Rgb<FloatN> gloss = tables_.gloss(hits, seen, frame, boundary.media, wo, wi, Gloss::sharp, point);
     f = select(found, saturating_difference(f, gloss), f);
+  }
+  Rgb<FloatN> gloss(Rgb<float>(0, 0, 0));  // the share of it
+  if (diffuse_ != nullptr || specular_ != nullptr) [[unlikely]] {
+    const Rgb<FloatN> of_all = tables_.gloss(hits, seen, frame, boundary.media, wo, wi, Gloss::any, point);
+    gloss = share_of(saturating_difference(of_all, bsdf.f - f), f);
   }
   Rgb<FloatN> radiance = path.flux * f * weight;
   const RayIds ids = ray_ids(path, static_cast<std::uint32_t>(depth) * 2 + 1);
@@ -138,16 +151,16 @@ void LightPaths::arrive(const LightPathPoint& at, const MaskN& scattered) {
   arrives = arrives & !hidden;
   if (has_fog && any(arrives)) [[unlikely]]
     radiance = radiance * light_through(scene_, ray, arrives, ids, {seen_media, current}, MaskN(true));
-  for (const std::size_t lane : SetLanes(arrives)) splat(at, lane, points[lane], radiance);
+  for (const std::size_t lane : SetLanes(arrives)) splat(at, lane, points[lane], radiance, gloss);
 }
 
-void LightPaths::splat(const LightPathPoint& at, std::size_t lane, const FilmPoint& point,
-                       const Rgb<FloatN>& radiance) {
+void LightPaths::splat(const LightPathPoint& at, std::size_t lane, const FilmPoint& point, const Rgb<FloatN>& radiance,
+                       const Rgb<FloatN>& gloss) {
   const LightPathPacket& path = at.path;
   const PictureExtent& extent = film_.settings().extent;
   const FilterTable& filter = tables_.pixel_filter();
   const double pixels = static_cast<double>(extent.full_width) * static_cast<double>(extent.full_height);
-  const Rgb<float> brought = in_lane(radiance, lane);
+  const Rgb<float> brought = in_lane(radiance, lane), of_gloss = in_lane(gloss, lane);
   // From the picture's upper left corner.
   const double x = point.x + extent.full_width / 2.0, y = extent.full_height / 2.0 - point.y, reach = filter.reach();
   const Region& region = film_.region();
@@ -165,18 +178,24 @@ void LightPaths::splat(const LightPathPoint& at, std::size_t lane, const FilmPoi
       if (to_x < region.x0 || to_x >= region.x1 || to_y < region.y0 || to_y >= region.y1) continue;
       const double share = columns.share(to_x) * rows.share(to_y) / pixels;
       if (share == 0) continue;
-      RadianceSum units;
+      RadianceSum units, gloss_units, diffuse_units;
       std::size_t channel = 0;
       bool fits = true;
+      const float gloss_shares[] = {of_gloss.red, of_gloss.green, of_gloss.blue};
       for (const float value : {brought.red, brought.green, brought.blue}) {
         const double term = std::nearbyint(double{value} * share * inverse_unit_);
         fits = fits && std::abs(term) <= largest_units;
-        units[channel++] = fits ? static_cast<Int128>(term) : 0;
+        units[channel] = fits ? static_cast<Int128>(term) : 0;
+        gloss_units[channel] = fits ? static_cast<Int128>(std::nearbyint(term * gloss_shares[channel])) : 0;
+        diffuse_units[channel] = units[channel] - gloss_units[channel];
+        ++channel;
       }
       if (fits) {
         film_.splats()->add(to_x, to_y, units);
         if (RadianceLayer* const layer = layers_[static_cast<std::size_t>(path.group.get(lane))])
           layer->add(to_x, to_y, units);
+        if (diffuse_ != nullptr) diffuse_->add(to_x, to_y, diffuse_units);
+        if (specular_ != nullptr) specular_->add(to_x, to_y, gloss_units);
       } else {
         report_->invalid_samples.add({path.column.get(lane), path.row.get(lane), path.sample.get(lane)});
         return;

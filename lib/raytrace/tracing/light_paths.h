@@ -30,19 +30,35 @@ class LightPaths final : private LightPathTracer {
   };
   /// Begins those of these samples of these pixels, in the lanes of `wanted`.
   void begin(const Pixels& pixels, const UintN& samples, const MaskN& wanted, RenderReport& report);
+  /// The same of a PacketBlock's pixels in the region.
+  template <class Block>
+  void begin(const Block& block, const Region& region, const UintN& samples, const MaskN& wanted,
+             RenderReport& report) {
+    Pixels pixels;
+    alignas(64) std::array<std::uint32_t, packet_lanes> in_region{};
+    block.for_each_lane(region, [&](int x, int y, std::size_t lane) {
+      pixels.x[lane] = x;
+      pixels.y[lane] = y;
+      in_region[lane] = 1;
+    });
+    const MaskN here = float_mask<FloatN>(UintN::load_aligned(in_region.data()) != UintN(0u));
+    begin(pixels, samples, wanted & here, report);
+  }
   /// Brings all of them to their ends.
   void finish(RenderReport& report);
 
  private:
   /// Sends what reaches those points to the camera, where it shows them.
   void arrive(const LightPathPoint& at, const MaskN& scattered) override;
-  void splat(const LightPathPoint& at, std::size_t lane, const FilmPoint& point, const Rgb<FloatN>& radiance);
+  void splat(const LightPathPoint& at, std::size_t lane, const FilmPoint& point, const Rgb<FloatN>& radiance,
+             const Rgb<FloatN>& gloss);
 
   Film& film_;
   bool catches_shadows_;  ///< shadow catchers are not in the picture
   double inverse_unit_;
-  std::vector<RadianceLayer*> layers_;  ///< of each light group; null where the film has none
-  RenderReport* report_ = nullptr;      ///< while begin() and finish() run
+  std::vector<RadianceLayer*> layers_;                      ///< of each light group; null where the film has none
+  RadianceLayer *diffuse_ = nullptr, *specular_ = nullptr;  ///< of passes, likewise
+  RenderReport* report_ = nullptr;                          ///< while begin() and finish() run
 };
 
 }  // namespace raytrace

@@ -26,11 +26,12 @@ PathBatch::PathBatch(const TracedScene& scene, const Film& film)
       photons_(static_cast<const PhotonMap*>(film.photons())),
       is_transparent_(film.settings().transparent),
       follows_mirrors_(follow_mirrors(film.settings().aovs.wanted)),
+      has_passes_(raytrace::has_passes(film.settings().aovs.wanted)),
       settings_(std::get<Path::Parameters>(scene.tables().integrator())),
       branches_(static_cast<std::size_t>(settings_.indirectsamples)),
       most_packets_(std::max<std::size_t>(1, most_paths / packet_lanes / branches_)),
-      paths_(most_packets_ * branches_ * packet_lanes, PathPacket::unused(scene.tables().media())),
-      next_(most_packets_ * branches_ * packet_lanes, PathPacket::unused(scene.tables().media())),
+      paths_(most_packets_ * branches_ * packet_lanes, PathPacket::unused(scene.tables().media(), has_passes_)),
+      next_(most_packets_ * branches_ * packet_lanes, PathPacket::unused(scene.tables().media(), has_passes_)),
       groups_(scene.tables().light_groups().size()),
       has_one_light_(scene.tables().emitters().size() + (scene.tables().environment() != nullptr ? 1 : 0) == 1),
       strands_(branches_ == 1 ? 1 : 1 + branches_) {
@@ -42,6 +43,7 @@ PathBatch::PathBatch(const TracedScene& scene, const Film& film)
 void PathBatch::clear() {
   direct_.clear();
   indirect_.clear();
+  pass_sums_.clear();
   followed_.clear();
 }
 
@@ -61,6 +63,7 @@ MaskN PathBatch::add(CameraRays& camera, const MaskN& active, const MaskN& wante
   const auto first_slot = static_cast<std::int32_t>(packets() * strands_ * packet_lanes);
   direct_.resize(direct_.size() + strands_ * groups_);
   indirect_.resize(indirect_.size() + strands_ * groups_);
+  if (has_passes_) pass_sums_.resize(pass_sums_.size() + strands_ * pass_slots);
   if (follows_mirrors_) followed_.emplace_back();
   PathPacket path;
   path.rays = camera.rays;
@@ -79,7 +82,8 @@ MaskN PathBatch::add(CameraRays& camera, const MaskN& active, const MaskN& wante
   path.first_media = media.first;
   path.last_media = media.last;
   path.deviation = FloatN(0);
-  path.fog_scatterings = IntN(0);
+  path.fog_scatterings = path.first = IntN(0);
+  path.gloss_share = black();
   const MediumTable& table = scene_.tables().media();
   MaskN met = hits.hit;
   if (table.has_fog()) [[unlikely]] {
@@ -124,19 +128,19 @@ void PathBatch::trace(RayCounts& counts) {
   }
 }
 
-void PathBatch::add(std::vector<Sums>& sums, const IntN& slot, const MaskN& lanes, const Rgb<FloatN>& radiance,
-                    const IntN& group) const {
+void PathBatch::add(std::vector<Sums>& sums, std::size_t groups, const IntN& slot, const MaskN& lanes,
+                    const Rgb<FloatN>& radiance, const IntN& group) {
   if (none(lanes)) return;
-  alignas(64) std::array<std::int32_t, packet_lanes> slots, groups;
+  alignas(64) std::array<std::int32_t, packet_lanes> slots, numbers;
   slot.store_aligned(slots.data());
-  group.store_aligned(groups.data());
+  group.store_aligned(numbers.data());
   alignas(64) Sums terms;
   radiance.red.store_aligned(terms[0].data());
   radiance.green.store_aligned(terms[1].data());
   radiance.blue.store_aligned(terms[2].data());
   for (const std::size_t lane : SetLanes(lanes)) {
     const auto to = static_cast<std::size_t>(slots[lane]);
-    Sums& sum = sums[to / packet_lanes * groups_ + static_cast<std::size_t>(groups[lane])];
+    Sums& sum = sums[to / packet_lanes * groups + static_cast<std::size_t>(numbers[lane])];
     for (std::size_t channel = 0; channel < 3; ++channel) sum[channel][to % packet_lanes] += terms[channel][lane];
   }
 }
@@ -144,15 +148,16 @@ void PathBatch::add(std::vector<Sums>& sums, const IntN& slot, const MaskN& lane
 void PathBatch::add_scattered(const PathPacket& path, const MaskN& lanes, const Rgb<FloatN>& radiance,
                               const IntN& group, int scatterings) {
   if (!scene_.tables().media().has_fog()) [[likely]]
-    return add(scatterings <= 1 ? direct_ : indirect_, path.slot, lanes, radiance, group);
+    return add(scatterings <= 1 ? direct_ : indirect_, groups_, path.slot, lanes, radiance, group);
   const MaskN once = float_mask<FloatN>(path.fog_scatterings + IntN(scatterings) <= IntN(1));
-  add(direct_, path.slot, lanes & once, radiance, group);
-  add(indirect_, path.slot, lanes & !once, radiance, group);
+  add(direct_, groups_, path.slot, lanes & once, radiance, group);
+  add(indirect_, groups_, path.slot, lanes & !once, radiance, group);
 }
 
-Rgb<FloatN> PathBatch::sum(const std::vector<Sums>& sums, std::size_t packet, std::size_t group) const {
+Rgb<FloatN> PathBatch::sum(const std::vector<Sums>& sums, std::size_t groups, std::size_t packet,
+                           std::size_t group) const {
   const auto load = [&](std::size_t strand) {
-    const Sums& some = sums[(packet * strands_ + strand) * groups_ + group];
+    const Sums& some = sums[(packet * strands_ + strand) * groups + group];
     return Rgb<FloatN>(FloatN::load_unaligned(some[0].data()), FloatN::load_unaligned(some[1].data()),
                        FloatN::load_unaligned(some[2].data()));
   };
@@ -162,21 +167,24 @@ Rgb<FloatN> PathBatch::sum(const std::vector<Sums>& sums, std::size_t packet, st
   return load(0) + all * FloatN(1 / static_cast<float>(branches_));
 }
 
+Rgb<FloatN> PathBatch::left_of_indirect(std::size_t packet) const {
+  const FloatN most(static_cast<float>(settings_.clampindirect));
+  Rgb<FloatN> all = sum(indirect_, groups_, packet, 0);
+  for (std::size_t i = 1; i < groups_; ++i) all += sum(indirect_, groups_, packet, i);
+  const auto left = [&](const FloatN& whole) { return select(whole > most, most / whole, FloatN(1)); };
+  return {left(all.red), left(all.green), left(all.blue)};
+}
+
 Rgb<FloatN> PathBatch::radiance(std::size_t packet, std::size_t group) const {
-  Rgb<FloatN> indirect = sum(indirect_, packet, group);
+  Rgb<FloatN> indirect = sum(indirect_, groups_, packet, group);
   if (settings_.clampindirect > 0) {
     const FloatN most(static_cast<float>(settings_.clampindirect));
-    if (groups_ == 1) {
+    if (groups_ == 1)
       indirect = {min(indirect.red, most), min(indirect.green, most), min(indirect.blue, most)};
-    } else {
-      // Groups lose the same share of a sum that is too large.
-      Rgb<FloatN> all = sum(indirect_, packet, 0);
-      for (std::size_t i = 1; i < groups_; ++i) all += sum(indirect_, packet, i);
-      const auto left = [&](const FloatN& whole) { return select(whole > most, most / whole, FloatN(1)); };
-      indirect = indirect * Rgb<FloatN>(left(all.red), left(all.green), left(all.blue));
-    }
+    else  // groups lose the same share of a sum that is too large
+      indirect = indirect * left_of_indirect(packet);
   }
-  return sum(direct_, packet, group) + indirect;
+  return sum(direct_, groups_, packet, group) + indirect;
 }
 
 void PathBatch::add_escaped(const PathPacket& path, const MaskN& lanes, int depth) {
@@ -192,13 +200,17 @@ void PathBatch::add_escaped(const PathPacket& path, const MaskN& lanes, int dept
       const EnvironmentSample sky = environment->at(path.rays.direction);
       const FloatN other = sky.pdf * FloatN(environment_share_of(tables));
       const MaskN left_out = float_mask<FloatN>(path.way == IntN(by_focus));
-      add_scattered(path, in_sky & !left_out, path.throughput * (sky.radiance * power_heuristic(path.pdf, other)),
-                    IntN(tables.environment_group()), depth);
+      const Rgb<FloatN> radiance = path.throughput * (sky.radiance * power_heuristic(path.pdf, other));
+      add_scattered(path, in_sky & !left_out, radiance, IntN(tables.environment_group()), depth);
+      if (has_passes_) [[unlikely]]
+        add_to_passes(path, path.first, in_sky & !left_out, radiance, depth, LightPass::background);
     }
   }
   const MaskN in_background = lanes & !in_sky & float_mask<FloatN>(scatterings < IntN(settings_.maxdepth));
-  add_scattered(path, in_background, path.throughput * Rgb<FloatN>(Rgb<float>(tables.viewplane().background)), IntN(0),
-                depth);
+  const Rgb<FloatN> radiance = path.throughput * Rgb<FloatN>(Rgb<float>(tables.viewplane().background));
+  add_scattered(path, in_background, radiance, IntN(0), depth);
+  if (has_passes_) [[unlikely]]
+    add_to_passes(path, path.first, in_background, radiance, depth, LightPass::background);
 }
 
 IntN PathBatch::group_of(const DrawnLight& light) const {
@@ -262,6 +274,8 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
       }
       add_scattered(path, shines, path.throughput * emitted, tables.light_group_of_material(tables.material(hits)),
                     depth);
+      if (has_passes_) [[unlikely]]
+        add_to_passes(path, path.first, shines, path.throughput * emitted, depth);
     }
   }
   clock_.end(Stage::lights);
@@ -295,17 +309,19 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   // Light is drawn from behind for what sends it on.
   const MaskN both_sides = tables.has_scattering_through() ? tables.scatters_through(hits, surface) : MaskN(false);
   const LightsBehind behind{both_sides, boundary, path.distance};
-  Rgb<FloatN> light = black();
+  Rgb<FloatN> light = black(), light_of_groups = black();
+  LightParts parts;
   for (std::size_t group = 0; group < groups_; ++group) {
     const SceneTables::LightGroup& lights_of_group = tables.light_groups()[group];
     if (lights_of_group.is_dark()) continue;
     const bool draws = depth > 0 || lights_of_group.last_light - lights_of_group.first_drawn > ManyLights::most_asked;
-    light =
-        direct_light(scene_, lights_of_group, hits, surface, point, coherence, lanes, counts,
-                     ShadowNumbers{path.pixel, path.sample, first_key + 1}, &clock_, has_media ? &point_media : nullptr,
-                     panes, draws, tables.has_scattering_through() ? &behind : nullptr);
+    light = direct_light(
+        scene_, lights_of_group, hits, surface, point, coherence, lanes, counts,
+        ShadowNumbers{path.pixel, path.sample, first_key + 1}, &clock_, has_media ? &point_media : nullptr, panes,
+        draws, tables.has_scattering_through() ? &behind : nullptr, has_passes_ && depth == 0 ? &parts : nullptr);
     if (any(on_way | on_gloss_way)) light = select(on_way | on_gloss_way, black(), light);
     if (groups_ == 1) break;  // which is added with the light that is drawn
+    light_of_groups += light;
     add_scattered(path, lanes, path.throughput * light, IntN(static_cast<std::int32_t>(group)), depth + 1);
     light = black();
   }
@@ -331,10 +347,15 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
     const MediaOfLight there(scene_, boundary, media, drawn.through & drawn.lit, surface.front, drawn.ray,
                              path.distance, ids(lights + 1));
     const PointMedia media_of_light = there.media();
-    light += arriving_light(scene_, vertex, drawn, scattering.towards, to_lights, ids(lights + 1), counts, clock_,
-                            has_media ? &media_of_light : nullptr, panes);
+    const Rgb<FloatN> arrived = arriving_light(scene_, vertex, drawn, scattering.towards, to_lights, ids(lights + 1),
+                                               counts, clock_, has_media ? &media_of_light : nullptr, panes);
+    light += arrived;
+    if (has_passes_ && depth == 0) [[unlikely]]
+      add_drawn_light(tables, vertex, boundary.media, drawn, scattering.towards, arrived, parts);
   }
   add_scattered(path, lanes, path.throughput * light, groups_ > 1 ? group_of(drawn) : IntN(0), depth + 1);
+  if (has_passes_) [[unlikely]]
+    add_to_passes(path, lanes, light_of_groups + light, parts, depth);
   if (photons_ != nullptr)
     if (const MaskN shown = lanes & !(focuses | is_first); any(shown))
       add_photons(path, hits, surface, point, shown, depth);

@@ -16,6 +16,7 @@
 #include "raytrace/integrators/path.h"
 #include "raytrace/scene/medium_table.h"
 #include "raytrace/tracing/aov_values.h"
+#include "raytrace/tracing/light_parts.h"
 #include "raytrace/tracing/path_packet.h"
 #include "raytrace/tracing/photon_map.h"
 #include "raytrace/tracing/ray_result.h"
@@ -48,6 +49,10 @@ class PathBatch {
   /// What came along the camera rays of that packet from lights of that group; nothing in lanes without a path.
   Rgb<FloatN> radiance(std::size_t packet, std::size_t group) const;
 
+  /// The same by passes, where the film has any.
+  bool has_passes() const { return has_passes_; }
+  PassLight passes(std::size_t packet) const;
+
   /// Whether the film has AOVs that follow mirrors, and then what they hold of that packet's lanes.
   bool follows_mirrors() const { return follows_mirrors_; }
   FollowedSurface followed(std::size_t packet) const;
@@ -56,7 +61,7 @@ class PathBatch {
   void clear();
 
  private:
-  static constexpr std::size_t most_paths = 1024;
+  static constexpr std::size_t most_paths = 1024, pass_slots = light_pass_count + 1;
 
   using Chunk = PathChunk<PathPacket>;
   using Sums = std::array<std::array<float, packet_lanes>, 3>;  ///< red, green and blue of each lane
@@ -71,13 +76,27 @@ class PathBatch {
   void follow(const PathPacket& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface,
               const TexturePoint<FloatN>* point, const MaskN& lanes);
   void stop_following(const PathPacket& path, const MaskN& lanes);
-  /// Adds to those lanes' paths what came from lights of each lane's group.
-  void add(std::vector<Sums>& sums, const IntN& slot, const MaskN& lanes, const Rgb<FloatN>& radiance,
-           const IntN& group) const;
+  /// Adds to those lanes' paths what came from lights of each lane's group, of so many; or to each lane's pass.
+  static void add(std::vector<Sums>& sums, std::size_t groups, const IntN& slot, const MaskN& lanes,
+                  const Rgb<FloatN>& radiance, const IntN& group);
   /// The same to the sums of what surfaces have scattered so often, and fogs path.fog_scatterings times.
   void add_scattered(const PathPacket& path, const MaskN& lanes, const Rgb<FloatN>& radiance, const IntN& group,
                      int scatterings);
-  Rgb<FloatN> sum(const std::vector<Sums>& sums, std::size_t packet, std::size_t group) const;
+  Rgb<FloatN> sum(const std::vector<Sums>& sums, std::size_t groups, std::size_t packet, std::size_t group) const;
+  /// The share that is left of what clampindirect bounds.
+  Rgb<FloatN> left_of_indirect(std::size_t packet) const;
+
+  // Where the film has passes.
+
+  /// Adds to the passes of paths that were first scattered so, with the share of gloss that they have. scatterings: as
+  /// add_scattered() has them. otherwise: the pass of those that were not scattered.
+  void add_to_passes(const PathPacket& path, const IntN& first, const MaskN& lanes, const Rgb<FloatN>& radiance,
+                     int scatterings, LightPass otherwise = LightPass::emission);
+  /// The same of light that surfaces scatter, with its parts, which count for the paths that these scatter first.
+  void add_to_passes(const PathPacket& path, const MaskN& lanes, const Rgb<FloatN>& light, LightParts& parts,
+                     int depth);
+  /// Says what scattered those paths first, where nothing did before.
+  void set_first(PathPacket& path, const MaskN& lanes, const IntN& scattering) const;
   /// Lights the points that these paths have met, in those lanes, and scatters the paths there.
   void extend(PathPacket& path, const MaskN& arrived, int depth, RayCounts& counts);
   /// Points that paths scatter at.
@@ -156,7 +175,7 @@ class PathBatch {
 
   const TracedScene& scene_;
   const PhotonMap* photons_;
-  bool is_transparent_, follows_mirrors_;
+  bool is_transparent_, follows_mirrors_, has_passes_;
   const Path::Parameters& settings_;
   StageClock clock_;
   std::size_t branches_, most_packets_;  ///< that go on from a camera ray's first point
@@ -170,6 +189,8 @@ class PathBatch {
   std::size_t strands_;
   /// Of each packet and strand, group by group: what was scattered once or never, and all else.
   std::vector<Sums> direct_, indirect_;
+  /// The same by passes; those of diffuse_direct that clampindirect bounds, which came out from below a surface, last.
+  std::vector<Sums> pass_sums_;
   std::vector<Followed> followed_;  ///< of each packet, if AOVs follow mirrors
 };
 

@@ -111,8 +111,12 @@ void PathBatch::light_fog(const PathPacket& path, const FogPart& part, FogNumber
       if (none(lit)) return;
     }
     left = left * light_through(scene_, light.ray, lit, ids, {part.media, part.fog});
-    add_scattered(path, lit, path.throughput * part.scattering * light.radiance * left * FloatN(share), light.group,
-                  depth + 1);
+    const Rgb<FloatN> radiance = path.throughput * part.scattering * light.radiance * left * FloatN(share);
+    add_scattered(path, lit, radiance, light.group, depth + 1);
+    if (has_passes_) [[unlikely]] {
+      const MaskN here = float_mask<FloatN>(path.first == IntN(unscattered));
+      add_to_passes(path, select_lanes(here, IntN(in_volume), path.first), lit, radiance, depth + 1);
+    }
   };
   for (int round = 0; round < part.rounds; ++round) {
     numbers.round = static_cast<std::uint32_t>(round);
@@ -297,6 +301,8 @@ Hits PathBatch::go_through_fog(PathPacket& path, MediumStack& media, const MaskN
           lit.lanes = in_fog & float_mask<FloatN>(path.fog_scatterings < IntN(settings_.maxdepth - way.depth));
           if (any(lit.lanes)) light_fog(path, lit, numbers, way.depth, counts);
           const MaskN here = scatter_in_fog(path, part, numbers, way.depth);
+          if (has_passes_) [[unlikely]]
+            set_first(path, here, IntN(in_volume));
           scatters = scatters | (here & lit.lanes);
           ends = ends | here;
           // Those that have been scattered often, or carry little.

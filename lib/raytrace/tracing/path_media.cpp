@@ -71,6 +71,8 @@ Hits PathBatch::walk(PathPacket& path, const IntN& medium, const MaskN& lanes, s
   // Lights are not drawn to where it scattered, and light paths do not bring what is scattered.
   path.pdf = select(end.scatters, infinity<FloatN>(), path.pdf);
   path.way = select_lanes(end.scatters, IntN(depth == 0 ? by_scattering : any_way), path.way);
+  if (has_passes_) [[unlikely]]
+    set_first(path, end.scatters, IntN(in_volume));
   return end.hits;
 }
 

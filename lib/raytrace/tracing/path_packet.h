@@ -21,6 +21,15 @@ enum PathWay : std::int32_t {
   from_below,      ///< anything, and it now comes out from below the surface that it has hit
 };
 
+/// What scattered a path the first time, for passes.
+enum FirstScattering : std::int32_t {
+  unscattered,
+  reflected,
+  transmitted,
+  in_volume,
+  below_surface,  ///< it went in at a surface, and came out
+};
+
 /// A path from the camera for each lane, whose last ray has hit something.
 struct PathPacket : ArrivedRays {
   Rgb<FloatN> throughput;
@@ -35,11 +44,15 @@ struct PathPacket : ArrivedRays {
   IntN first_media, last_media;  ///< MediumStack::Packed, in scenes with media
   IntN fog_scatterings;          ///< how often fog has scattered it; in scenes with fog
   FloatN deviation;              ///< of the path's wavelength, or 0 if it has none; where media disperse light
+  IntN first;                    ///< FirstScattering; where the film has passes
+  Rgb<FloatN> gloss_share;       ///< of what was reflected first; likewise
 
   /// How many of the last members the paths of scenes with those media do without.
-  static std::size_t unused(const MediumTable& media) {
-    if (media.disperses()) return 0;
-    return media.has_fog() ? 1 : media.empty() ? 4 : 2;
+  static std::size_t unused(const MediumTable& media, bool has_passes) {
+    if (has_passes) return 0;
+    constexpr std::size_t of_passes = 4;
+    if (media.disperses()) return of_passes;
+    return of_passes + (media.has_fog() ? 1 : media.empty() ? 4 : 2);
   }
 };
 

@@ -22,12 +22,14 @@ void PathBatch::add_photons(const PathPacket& path, const Hits& hits, const Surf
   // What gloss reflects of lamps and skies, paths find by themselves.
   if (any(found.is_met)) {
     const Frame<FloatN> frame = tables.shading_frame(hits, surface, point);
-    const Rgb<FloatN> gloss =
-        tables.gloss(hits, surface, frame, {}, frame.to_local(surface.wo), frame.to_local(light.wi), point);
+    const Rgb<FloatN> gloss = tables.gloss(hits, surface, frame, {}, frame.to_local(surface.wo),
+                                           frame.to_local(light.wi), Gloss::sharp, point);
     radiance = select(found.is_met, saturating_difference(radiance, gloss * light.radiance * light.cosine), radiance);
   }
   radiance = radiance * path.throughput;
-  add(indirect_, path.slot, found.lanes, radiance, groups_ > 1 ? found.group : IntN(0));
+  add(indirect_, groups_, path.slot, found.lanes, radiance, groups_ > 1 ? found.group : IntN(0));
+  if (has_passes_) [[unlikely]]
+    add_to_passes(path, path.first, found.lanes, radiance, depth + 2);
 }
 
 }  // namespace raytrace

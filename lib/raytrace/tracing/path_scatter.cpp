@@ -41,7 +41,7 @@ MaskN PathBatch::split_gloss(PathPacket& path, const PathDeparture& from, const 
   const PathVertex& vertex = from.vertex;
   const Vec3<FloatN> wo = vertex.frame.to_local(vertex.surface.wo);
   const Rgb<FloatN> gloss = scene_.tables().gloss(vertex.hits, vertex.surface, vertex.frame, from.boundary.media, wo,
-                                                  sample.wi, vertex.textures);
+                                                  sample.wi, Gloss::sharp, vertex.textures);
   const auto sum = [](const Rgb<FloatN>& c) { return c.red + c.green + c.blue; };
   const FloatN all = sum(sample.f);
   const FloatN chance = select(lanes & (all > FloatN(0)), min(sum(gloss) / all, FloatN(1)), FloatN(0));
@@ -57,6 +57,11 @@ MaskN PathBatch::split_gloss(PathPacket& path, const PathDeparture& from, const 
   const Rgb<FloatN> parts{part(gloss.red, sample.f.red), part(gloss.green, sample.f.green),
                           part(gloss.blue, sample.f.blue)};
   path.throughput = select(both, path.throughput * parts, path.throughput);
+  if (has_passes_ && from.depth == 0) [[unlikely]] {
+    const Rgb<FloatN> rest = saturating_difference(sample.f, gloss), all_gloss = path.gloss_share * sample.f;
+    const Rgb<FloatN> left = share_of(saturating_difference(all_gloss, gloss), rest);
+    path.gloss_share = select(both, select(by_gloss_alone, Rgb<FloatN>(Rgb<float>(1, 1, 1)), left), path.gloss_share);
+  }
   return by_gloss_alone;
 }
 
@@ -77,6 +82,13 @@ void PathBatch::scatter(PathPacket& path, const PathDeparture& from, const BsdfS
   if (surface.has_relief) weight = select(through, weight, weight * relief_shadow(surface, rays.direction));
   path.throughput = select(alive, path.throughput * sample.f * weight, Rgb<FloatN>(Rgb<float>(0, 0, 0)));
   path.eta2 = path.eta2 * sample.eta2;
+  if (has_passes_ && depth == 0) [[unlikely]] {
+    const MaskN is_first = from.lanes & float_mask<FloatN>(path.first == IntN(unscattered));
+    path.gloss_share =
+        select(is_first, gloss_share(tables, from.vertex, from.boundary.media, sample), path.gloss_share);
+    set_first(path, is_first, select_lanes(through, IntN(transmitted), IntN(reflected)));
+    path.first = select_lanes(is_first & sample.enters, IntN(below_surface), path.first);
+  }
   if (tables.caustics() != nullptr) set_way(path, from, sample, alive);
   if (depth + 1 >= settings_.roulettedepth) {
     // Twice as many as carry it: what ends has cost little, and what goes on need not be much brighter.

@@ -11,6 +11,7 @@
 #include "raytrace/math/kernel.h"
 #include "raytrace/tracing/camera_hits.h"
 #include "raytrace/tracing/direct_light.h"
+#include "raytrace/tracing/light_parts.h"
 #include "raytrace/tracing/ray_result.h"
 #include "raytrace/tracing/render_report.h"
 
@@ -29,6 +30,10 @@ class Kernel<Raycast> {
   static MaskN radiance_by_group(const TracedScene& scene, CameraRays& camera, const MaskN& active,
                                  const MaskN& counted, RayCounts& counts, FirstHits* first,
                                  std::span<Rgb<FloatN>> groups);
+
+  /// The passes of what radiance() says, or radiance_by_group(), of those camera rays; first: as it set that.
+  static PassLight passes(const TracedScene& scene, const CameraRays& camera, const FirstHits& first,
+                          const RayResult& result, const MaskN& counted);
 
  private:
   /// shade(hits, surface, textures): the radiance where something was hit.
@@ -102,6 +107,29 @@ inline RayResult Kernel<Raycast>::radiance(const TracedScene& scene, const Rgb<f
     return Rgb<FloatN>(black);
   };
   return trace(scene, black, camera, active, first, shade).hit;
+}
+
+[[gnu::noinline]] inline PassLight Kernel<Raycast>::passes(const TracedScene& scene, const CameraRays& camera,
+                                                           const FirstHits& first, const RayResult& result,
+                                                           const MaskN& counted) {
+  PassLight light = emitted_or_behind({result.radiance, MaskN(false)});
+  const auto pass = [&](LightPass which) -> Rgb<FloatN>& { return light[static_cast<std::size_t>(which)]; };
+  const Rgb<FloatN> black(Rgb<float>(0, 0, 0));
+  pass(LightPass::background) = select(result.hit, black, pass(LightPass::background));
+  if (none(first.hits.hit)) return light;
+  const SceneTables& tables = scene.tables();
+  const TexturePoint<FloatN>* const textures = first.textures ? &*first.textures : nullptr;
+  LightParts parts;
+  Rgb<FloatN> all = black;
+  RayCounts counts;  // of rays that have been counted
+  for (const SceneTables::LightGroup& group : tables.light_groups())
+    all += direct_light(scene, group, first.hits, first.surface, textures, Coherence::coherent, counted, counts,
+                        {camera.pixel, camera.sample, 1}, nullptr, nullptr, nullptr, false, nullptr, &parts);
+  pass(LightPass::diffuse_direct) = select(first.hits.hit, parts.take_diffuse(all), black);
+  pass(LightPass::specular_direct) = select(first.hits.hit, parts.gloss, black);
+  if (tables.has_emission())
+    pass(LightPass::emission) = select(first.hits.hit, tables.emitted(first.hits, first.surface, textures), black);
+  return light;
 }
 
 }  // namespace raytrace

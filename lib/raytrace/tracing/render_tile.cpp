@@ -9,13 +9,10 @@
 #include <vector>
 
 #include "raytrace/sampling/pixel_sampler.h"
-#include "raytrace/tracing/block_aovs.h"
-#include "raytrace/tracing/block_error.h"
-#include "raytrace/tracing/block_sums.h"
-#include "raytrace/tracing/group_sums.h"
 #include "raytrace/tracing/integrator_calls.h"
 #include "raytrace/tracing/light_layers.h"
 #include "raytrace/tracing/light_paths.h"
+#include "raytrace/tracing/open_block.h"
 #include "raytrace/tracing/packet_block.h"
 #include "raytrace/tracing/samples_left.h"
 #include "raytrace/tracing/shadow_catcher.h"
@@ -54,7 +51,9 @@ class BlockRenderer {
         usual_camera_(scene.tables().pixel_filter().moves_samples() ? nullptr : scene.tables().usual_camera()),
         layers_(light_layers(scene.tables(), film)),
         group_light_(layers_.size()),
-        by_group_(layers_.size() > 1 || layers_.front() != nullptr) {
+        by_group_(layers_.size() > 1 || layers_.front() != nullptr),
+        pass_layers_(pass_layers(film)),
+        by_pass_(has_passes(film.settings().aovs.wanted)) {
     if (!raycast && integrator_.radiance == nullptr) batch_.emplace(scene, film);
     catches_shadows_ = film.settings().transparent && integrator_catches_shadows(scene.tables()) &&
                        scene.tables().geometry().has_shadow_catchers();
@@ -97,7 +96,6 @@ class BlockRenderer {
     const FilmSettings& settings = film_.settings();
     const ViewPlane& viewplane = scene_.tables().viewplane();
     const auto column = block.columns(), row = block.rows();
-    const UintN slot = Block::slots();
     const auto width = static_cast<float>(viewplane.hres), height = static_cast<float>(viewplane.vres);
     // The lower left corner of the pixel, from the picture's center; rows of the format count from the bottom.
     const FloatN x = to_float(column) - FloatN(width / 2);
@@ -111,12 +109,14 @@ class BlockRenderer {
     BlockSums<Block> sums(scale_);
     std::optional<GroupSums<Block>> group_sums;
     if (by_group_) group_sums.emplace(scale_, layers_.size());
+    std::optional<PassSums<Block>> pass_sums;
+    if (by_pass_ && !batch_) pass_sums.emplace(scale_, pass_layers_);
     BlockError<Block> error(left.first, left.last);
     FirstHits first;
     CameraRays camera;
     for (int packets = 1; base < left.last; base += group, ++packets) {
       if (!raycast && batch_) batch_->clock().begin_packet();
-      const UintN sample = UintN(base) + slot;
+      const UintN sample = UintN(base) + Block::slots();
       const bool all_wanted = base >= left.all_from && left.last - base >= group;
       const MaskN wanted = all_wanted ? active : active & in_range(sample, left.lane_first, UintN(left.last));
       const Sample2D point = sampler.next();
@@ -134,7 +134,7 @@ class BlockRenderer {
       } else {
         traced = active & set_camera_rays(block, FloatN(x), FloatN(y), Sample2D(point), UintN(sample), camera);
       }
-      FirstHits* const first_hits = aovs != nullptr ? &first : nullptr;
+      FirstHits* const first_hits = aovs != nullptr || by_pass_ ? &first : nullptr;
       RayResult result;
       if (!raycast && batch_)
         result = {Rgb<FloatN>(background_), batch_->add(camera, traced, wanted, first_hits)};
@@ -159,25 +159,33 @@ class BlockRenderer {
       report_.rays.camera += count_lanes(wanted & traced);
       if (!raycast && batch_) batch_->clock().end(Stage::film);
       if (!raycast && light_paths_) {
-        begin_light_paths(block, sample, wanted);
+        // They are in the film before the samples are, but in one call of render(): nobody looks at it in between.
+        light_paths_->begin(block, region_, sample, wanted, report_);
         batch_->clock().end(Stage::light_paths);
       }
       if (!raycast && batch_) {
         waiting_.push_back({block, base, left.first, left.last, wanted, result});
         if (batch_->is_full()) trace_batch();
-      } else if (by_group_) [[unlikely]] {
+        if (packets % packets_per_look == 0 && stopped()) break;
+        continue;
+      }
+      std::uint32_t refused = 0;  // lanes, as bits, whose light is no number that sums can hold
+      if (by_group_) [[unlikely]] {
         if (!raycast) set_light_of_no_group(group_light_, result.radiance);
-        add_by_group(*group_sums, result, wanted, block, base);
+        refused = add_by_group(*group_sums, result, wanted, block, base);
         if (!raycast) error.add(light_of_all(group_light_), sample, wanted);
       } else {
         if (!raycast) error.add(result.radiance, sample, wanted);
         const MaskN large = sums.add(result, wanted);
-        if (any(large)) add_invalid(sums.add_large(result.radiance, large), block, base);
+        if (any(large)) refused = add_invalid(sums.add_large(result.radiance, large), block, base);
         if (packets % (sums.most_packets / packets_per_look * packets_per_look) == 0) sums.carry();
       }
+      if (by_pass_) [[unlikely]]  // copies, as above
+        pass_sums->add(light_of_passes(camera, first, RayResult(result), MaskN(wanted)), MaskN(wanted), refused);
       if (packets % packets_per_look == 0 && stopped()) break;
     }
     if (!raycast && batch_) return;
+    if (pass_sums) pass_sums->add_to_layers(block, region_);
     if (by_group_)
       group_sums->add_to(film_, layers_, block, region_);
     else
@@ -188,40 +196,43 @@ class BlockRenderer {
   /// Lanes whose light is their paths': in transparent pictures all, since fog lights what it does not cover.
   MaskN has_own_light(const MaskN& hit) const { return batch_ && film_.settings().transparent ? MaskN(true) : hit; }
 
-  /// Adds group_light_ where something was hit. missed: its radiance is what arrives elsewhere.
-  void add_by_group(GroupSums<Block>& sums, const RayResult& missed, const MaskN& wanted, const Block& block,
-                    std::uint32_t base) {
+  /// By passes, of integrators without a batch.
+  [[gnu::noinline]] PassLight light_of_passes(const CameraRays& camera, const FirstHits& first, const RayResult& result,
+                                              const MaskN& wanted) const {
+    return raycast ? Kernel<Raycast>::passes(scene_, camera, first, result, wanted) : emitted_or_behind(result);
+  }
+
+  /// Adds group_light_ where something was hit. missed: its radiance is what arrives elsewhere. The result: the lanes,
+  /// as bits, that are refused.
+  std::uint32_t add_by_group(GroupSums<Block>& sums, const RayResult& missed, const MaskN& wanted, const Block& block,
+                             std::uint32_t base) {
     const Rgb<FloatN> black(Rgb<float>(0, 0, 0));
     const auto group = static_cast<std::size_t>(environment_ != nullptr ? scene_.tables().environment_group() : 0);
     for (std::size_t i = 0; i < group_light_.size(); ++i)
       group_light_[i] = select(has_own_light(missed.hit), group_light_[i], i == group ? missed.radiance : black);
-    if (const std::uint32_t refused = sums.add(group_light_, missed.hit, wanted); refused != 0)
-      add_invalid(refused, block, base);
+    const std::uint32_t refused = sums.add(group_light_, missed.hit, wanted);
+    return refused == 0 ? 0 : add_invalid(refused, block, base);
   }
-
-  /// Those of the lanes' pixels and samples. They are in the film before the samples are, but in one call of render():
-  /// nobody looks at the film in between.
-  void begin_light_paths(const Block& block, const UintN& samples, const MaskN& wanted) {
-    LightPaths::Pixels pixels;
-    alignas(64) std::array<std::uint32_t, packet_lanes> in_region{};
-    block.for_each_lane(region_, [&](int x, int y, std::size_t lane) {
-      pixels.x[lane] = x;
-      pixels.y[lane] = y;
-      in_region[lane] = 1;
-    });
-    const MaskN here = float_mask<FloatN>(UintN::load_aligned(in_region.data()) != UintN(0u));
-    light_paths_->begin(pixels, samples, wanted & here, report_);
+  /// The passes of a packet whose paths have been traced.
+  void add_passes(std::size_t packet, std::uint32_t refused) {
+    if (!by_pass_) return;
+    PassLight light = batch_->passes(packet);
+    const RayResult& missed = waiting_[packet].missed;
+    Rgb<FloatN>& background = light[static_cast<std::size_t>(LightPass::background)];
+    background = select(has_own_light(missed.hit), background, missed.radiance);
+    open_->pass_sums->add(light, waiting_[packet].wanted, refused);
   }
 
   /// Packets' results, when their paths have been traced.
   void trace_batch() {
     batch_->trace(report_.rays);
     for (std::size_t i = 0; i < waiting_.size(); ++i) {
-      const WaitingPacket& packet = waiting_[i];
+      const WaitingPacket<Block>& packet = waiting_[i];
       batch_->clock().begin_packet();
       if (!open_ || open_->block.left != packet.block.left || open_->block.top != packet.block.top) {
         if (open_) close_block();
-        open_ = std::make_unique<OpenBlock>(packet, scale_, layers_.size());
+        open_ = std::make_unique<OpenBlock<Block>>(packet, scale_, layers_.size());
+        if (by_pass_) open_->pass_sums.emplace(scale_, pass_layers_);
         if (batch_->follows_mirrors()) open_->followed.emplace(*film_.aovs(), packet.block, region_);
       }
       if (open_->followed) open_->followed->add_followed(batch_->followed(i), packet.wanted);
@@ -229,7 +240,9 @@ class BlockRenderer {
       if (by_group_) {
         for (std::size_t group = 0; group < group_light_.size(); ++group)
           group_light_[group] = batch_->radiance(i, group);
-        add_by_group(open_->group_sums, packet.missed, packet.wanted, packet.block, packet.base);
+        const std::uint32_t refused =
+            add_by_group(open_->group_sums, packet.missed, packet.wanted, packet.block, packet.base);
+        add_passes(i, refused);
         open_->error.add(light_of_all(group_light_), sample, packet.wanted);
         continue;
       }
@@ -238,7 +251,7 @@ class BlockRenderer {
       const RayResult result{select(has_own_light(hit), batch_->radiance(i, 0), packet.missed.radiance), hit};
       open_->error.add(result.radiance, sample, packet.wanted);
       const MaskN large = sums.add(result, packet.wanted);
-      if (any(large)) add_invalid(sums.add_large(result.radiance, large), packet.block, packet.base);
+      add_passes(i, any(large) ? add_invalid(sums.add_large(result.radiance, large), packet.block, packet.base) : 0);
       if (++open_->packets % sums.most_packets == 0) sums.carry();
       batch_->clock().end(Stage::film);
     }
@@ -251,6 +264,7 @@ class BlockRenderer {
       open_->group_sums.add_to(film_, layers_, open_->block, region_);
     else
       open_->sums.add_to(film_, open_->block, region_);
+    if (open_->pass_sums) open_->pass_sums->add_to_layers(open_->block, region_);
     open_->error.add_to(report_.error, open_->block, region_);
     if (open_->followed) open_->followed->finish();
     open_.reset();
@@ -301,11 +315,13 @@ class BlockRenderer {
   }
 
   bool stopped() const { return stop_ != nullptr && stop_->load(std::memory_order_relaxed); }
-  void add_invalid(std::uint32_t lanes, const Block& block, std::uint32_t base) {
+  /// The result: those lanes, as bits.
+  std::uint32_t add_invalid(std::uint32_t lanes, const Block& block, std::uint32_t base) {
     block.for_each_lane(region_, [&](int x, int y, std::size_t lane) {
       if ((lanes >> lane & 1U) != 0)
         report_.invalid_samples.add({x, y, base + static_cast<std::uint32_t>(Block::slot(static_cast<int>(lane)))});
     });
+    return lanes;
   }
 
   const TracedScene& scene_;
@@ -328,29 +344,13 @@ class BlockRenderer {
   std::vector<Rgb<FloatN>> group_light_;  ///< of the packet at hand
   bool by_group_;                         ///< whether the picture is put together of them
 
+  PassLayers pass_layers_;
+  bool by_pass_;  ///< whether the film has any
   // Of integrators with batches.
-  struct WaitingPacket {
-    Block block;
-    std::uint32_t base;         ///< of its samples
-    std::uint32_t first, last;  ///< of the samples that the block wants
-    MaskN wanted;
-    RayResult missed;  ///< what arrives where nothing was hit
-  };
-  /// A block some packets of which have their results.
-  struct OpenBlock {
-    Block block;
-    BlockSums<Block> sums;
-    GroupSums<Block> group_sums;  ///< in place of them where there are groups
-    BlockError<Block> error;
-    std::optional<BlockAovs> followed{};  ///< those that follow mirrors, if the film has any
-    int packets = 0;
-    OpenBlock(const WaitingPacket& first, const SumScale& scale, std::size_t groups)
-        : block(first.block), sums(scale), group_sums(scale, groups), error(first.first, first.last) {}
-  };
   std::optional<PathBatch> batch_;
-  std::optional<LightPaths> light_paths_;  ///< where the scene has them
-  std::vector<WaitingPacket> waiting_;     ///< the batch's, in its order
-  std::unique_ptr<OpenBlock> open_;        ///< that of the last one that left
+  std::optional<LightPaths> light_paths_;      ///< where the scene has them
+  std::vector<WaitingPacket<Block>> waiting_;  ///< the batch's, in its order
+  std::unique_ptr<OpenBlock<Block>> open_;     ///< that of the last one that left
 };
 
 template <bool raycast>
