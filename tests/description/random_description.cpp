@@ -154,7 +154,7 @@ bool same_items(List list, const Tuple& a, const Tuple& b, Equal equal) {
   return all;
 }
 
-/// One for about half of the material's fields that may have one.
+/// One for about half of the fields that may have one.
 std::vector<TextureUse> random_uses(Random& random, const Fields& fields,
                                     const std::vector<TextureReference>& textures) {
   std::vector<TextureUse> uses;
@@ -168,9 +168,9 @@ std::vector<TextureUse> random_uses(Random& random, const Fields& fields,
 }
 
 /// Numbers of textures have their default without one.
-template <class Material>
-void reset_unused(MaterialItem<Material>& item) {
-  const Fields& fields = element_type<Material>().fields;
+template <class T>
+void reset_unused(auto& item) {
+  const Fields& fields = element_type<T>().fields;
   for (std::uint32_t i = 0; i < fields.size(); ++i) {
     const bool used =
         std::any_of(item.textures.begin(), item.textures.end(), [&](const TextureUse& use) { return use.field == i; });
@@ -204,7 +204,8 @@ bool is_moderate(const Affine& affine) {
 
 /// Instances are of groups that the scene has.
 ObjectLists random_objects(Random& random, const SceneDescription& scene,
-                           const std::vector<MaterialReference>& materials) {
+                           const std::vector<MaterialReference>& materials,
+                           const std::vector<TextureReference>& textures) {
   ObjectLists objects;
   int named = 0;
   for_each_type(Objects{}, [&]<class T>(std::type_identity<T>) {
@@ -221,6 +222,10 @@ ObjectLists random_objects(Random& random, const SceneDescription& scene,
       }
       if constexpr (std::is_same_v<T, SphereCloud> || std::is_same_v<T, Model>)
         item.parameters.file.path = random_name(random);
+      if constexpr (requires { item.textures; }) {
+        item.textures = random_uses(random, element_type<T>().fields, textures);
+        reset_unused<T>(item);
+      }
       if constexpr (requires { T::may_lack_material; })
         if (below(random, 2) == 0) item.material = no_material;
       std::get<ObjectItems<T>>(objects).push_back(std::move(item));
@@ -229,10 +234,18 @@ ObjectLists random_objects(Random& random, const SceneDescription& scene,
   return objects;
 }
 
+/// Of items that have any.
+bool same_textures(const auto& x, const auto& y) {
+  if constexpr (requires { x.textures; })
+    return std::equal(x.textures.begin(), x.textures.end(), y.textures.begin(), y.textures.end(),
+                      [](const TextureUse& u, const TextureUse& v) { return same(u, v); });
+  return true;
+}
+
 bool same_objects(const ObjectLists& a, const ObjectLists& b) {
   return same_items(Objects{}, a, b, [](const auto& x, const auto& y) {
     return x.name == y.name && same(x.material, y.material) && x.transform == y.transform &&
-           x.shadowcatcher == y.shadowcatcher && x.visible == y.visible;
+           x.shadowcatcher == y.shadowcatcher && x.visible == y.visible && same_textures(x, y);
   });
 }
 
@@ -277,15 +290,16 @@ SceneDescription random_description(Random& random) {
           {static_cast<std::uint32_t>(index_of<T>(Materials{})), static_cast<std::uint32_t>(items.size())});
       items.push_back({random_parameters<T>(random), random_name(random) + std::to_string(materials.size())});
       if (below(random, 2) == 0) items.back().textures = random_uses(random, element_type<T>().fields, textures);
-      reset_unused(items.back());
+      reset_unused<T>(items.back());
     }
   });
   if (materials.empty()) return scene;
   for (std::size_t i = below(random, 3); i > 0; --i) {
-    scene.groups.push_back({random_name(random) + std::to_string(i), random_objects(random, scene, materials)});
+    scene.groups.push_back(
+        {random_name(random) + std::to_string(i), random_objects(random, scene, materials, textures)});
     std::get<ObjectItems<Plane>>(scene.groups.back().objects).clear();
   }
-  scene.objects = random_objects(random, scene, materials);
+  scene.objects = random_objects(random, scene, materials, textures);
   return scene;
 }
 
@@ -297,11 +311,7 @@ bool same_scene(const SceneDescription& a, const SceneDescription& b) {
          same_items(Textures{}, a.textures, b.textures,
                     [](const auto& x, const auto& y) { return x.name == y.name; }) &&
          same_items(Materials{}, a.materials, b.materials,
-                    [](const auto& x, const auto& y) {
-                      return x.name == y.name &&
-                             std::equal(x.textures.begin(), x.textures.end(), y.textures.begin(), y.textures.end(),
-                                        [](const TextureUse& u, const TextureUse& v) { return same(u, v); });
-                    }) &&
+                    [](const auto& x, const auto& y) { return x.name == y.name && same_textures(x, y); }) &&
          same_objects(a.objects, b.objects) &&
          std::equal(
              a.groups.begin(), a.groups.end(), b.groups.begin(), b.groups.end(),

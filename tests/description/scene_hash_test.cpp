@@ -70,6 +70,18 @@ void change_fields(typename T::Parameters& parameters, const std::function<void(
   change_fields(element_type<T>(), &parameters, changed);
 }
 
+void change_textures(std::vector<TextureUse>& uses, const std::function<void()>& changed) {
+  for (TextureUse& use : uses) {
+    for (std::uint32_t* part : {&use.field, &use.texture.type, &use.texture.index}) {
+      ++*part;
+      changed();
+      --*part;
+    }
+    ChoiceReference channel(use.channel);
+    change_each(channel, changed);
+  }
+}
+
 /// Calls changed() after each change that makes another scene.
 template <class Changed>
 void change_everything(SceneDescription& scene, const Changed& changed) {
@@ -101,15 +113,7 @@ void change_everything(SceneDescription& scene, const Changed& changed) {
     for (auto& material : std::get<MaterialItems<T>>(scene.materials)) {
       change_fields<T>(material.parameters, changed);
       change_each(material.name, changed);
-      for (TextureUse& use : material.textures) {
-        for (std::uint32_t* part : {&use.field, &use.texture.type, &use.texture.index}) {
-          ++*part;
-          changed();
-          --*part;
-        }
-        ChoiceReference channel(use.channel);
-        change_each(channel, changed);
-      }
+      change_textures(material.textures, changed);
     }
   });
   for_each_type(Objects{}, [&]<class T>(std::type_identity<T>) {
@@ -119,6 +123,7 @@ void change_everything(SceneDescription& scene, const Changed& changed) {
       change_each(object.name, changed);
       change_each(object.shadowcatcher, changed);
       change_each(object.visible, changed);
+      if constexpr (requires { object.textures; }) change_textures(object.textures, changed);
       for (TransformStep& step : object.transform.steps)
         for (std::size_t k = 0; k < step.value_count(); ++k) change_each(step.values[k], changed);
       for (std::uint32_t* part : {&object.material.type, &object.material.index}) {

@@ -43,7 +43,7 @@ class SceneChecker {
           item_ = {T::element, i++};
           location_ = location_of(item);
           check_references(scene, item);
-          check_parameters(element_type<T>(), &item.parameters, true);
+          check_values<T>(item, true);
         }
       });
     }
@@ -67,13 +67,7 @@ class SceneChecker {
         if constexpr (requires { item.photometry; })
           if (!item.parameters.iesfile.path.empty() && item.photometry.hash.empty())
             error("has an IES file that has not been loaded (load_images.h)");
-        if constexpr (requires { item.textures; }) check_textured_fields(element_type<T>().fields, item.textures);
-        if (!check_parameters(element_type<T>(), &item.parameters, Section::may_skip)) continue;
-        report_warnings(
-            element_type<T>(), &item.parameters, [&](std::string_view field) { return is_textured<T>(item, field); },
-            [&](const ParameterWarning& warning) {
-              diagnostics_.warning(location_, item_.text() + ": " + warning.message);
-            });
+        check_values<T>(item, Section::may_skip);
       }
     });
   }
@@ -95,6 +89,18 @@ class SceneChecker {
       return tag(element) + (index ? " [" + std::to_string(*index) + "]" : "");
     }  // <sphere> [2]
   };
+
+  /// Parameters and their textures.
+  template <class T, class Item>
+  void check_values(const Item& item, bool may_skip) {
+    if constexpr (requires { item.textures; }) check_textured_fields(element_type<T>().fields, item.textures);
+    if (!check_parameters(element_type<T>(), &item.parameters, may_skip)) return;
+    report_warnings(
+        element_type<T>(), &item.parameters, [&](std::string_view field) { return is_textured<T>(item, field); },
+        [&](const ParameterWarning& warning) {
+          diagnostics_.warning(location_, item_.text() + ": " + warning.message);
+        });
+  }
 
   void error(const std::string& message) { diagnostics_.error(location_, item_.text() + " " + message); }
 

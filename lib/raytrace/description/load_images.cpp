@@ -21,6 +21,7 @@
 #include "raytrace/description/holds_normals.h"
 #include "raytrace/description/made_picture.h"
 #include "raytrace/description/read_pictures.h"
+#include "raytrace/description/refine_mesh.h"
 #include "raytrace/import/specular_glossiness.h"
 #include "raytrace/math/content_hash.h"
 #include "raytrace/memory/file_mapping.h"
@@ -254,7 +255,7 @@ class ImageLoader {
   std::map<std::tuple<std::string, ColorSpace, std::size_t>, std::shared_ptr<const TexelImage>> tiles_;
 };
 
-/// For each image, whether materials use it as a colour, and as a number.
+/// For each image, whether the scene uses it as a colour, and as a number.
 std::vector<std::array<bool, 2>> image_uses(const SceneDescription& scene) {
   std::vector<std::array<bool, 2>> uses(std::get<TextureItems<Image>>(scene.textures).size());
   for_each_type(Materials{}, [&]<class T>(std::type_identity<T>) {
@@ -263,6 +264,9 @@ std::vector<std::array<bool, 2>> image_uses(const SceneDescription& scene) {
       for (const TextureUse& use : item.textures)
         if (use.texture.type == index_of<Image>(Textures{}))
           uses[use.texture.index][fields[use.field].template is<double>() ? 1 : 0] = true;
+  });
+  for_each_displacement(scene, [&](const TextureUse& use) {
+    if (use.texture.type == index_of<Image>(Textures{})) uses[use.texture.index][1] = true;
   });
   return uses;
 }

@@ -14,6 +14,7 @@
 #include "raytrace/description/mesh_file_key.h"
 #include "raytrace/description/parse_value.h"
 #include "raytrace/description/read_value.h"
+#include "raytrace/description/refine_mesh.h"
 #include "raytrace/description/scene_description.h"
 #include "raytrace/import/empty_files.h"
 #include "raytrace/import/read_mesh.h"
@@ -35,6 +36,7 @@ bool wants_vertex_alphas(const SceneDescription& scene) {
            std::get<TextureItems<Image>>(scene.textures).at(use.texture.index).parameters.vertexalpha;
   };
   bool any = false;
+  for_each_displacement(scene, [&](const TextureUse& use) { any = any || is_by_them(use); });
   for_each_type(Materials{}, [&]<class Material>(std::type_identity<Material>) {
     for (const auto& item : std::get<MaterialItems<Material>>(scene.materials))
       any = any || std::ranges::any_of(item.textures, is_by_them);
@@ -74,12 +76,19 @@ class MeshLoader {
   /// objects: those that it is one of.
   void load(ObjectItem<Model>&& model, ObjectLists& objects) {
     ObjectItem<Mesh>& mesh = std::get<ObjectItems<Mesh>>(objects).emplace_back();
-    auto& [file, animation, time, variant, overridematerials] = model.parameters;
+    auto& [file, animation, time, variant, overridematerials, subdivision, subdivisionscheme, displacement, midlevel] =
+        model.parameters;
     mesh.parameters.file = std::move(file);
     mesh.parameters.animation = std::move(animation);
     mesh.parameters.time = time;
     mesh.parameters.variant = std::move(variant);
     mesh.parameters.overridematerials = overridematerials;
+    mesh.parameters.subdivision = subdivision;
+    mesh.parameters.subdivisionscheme = subdivisionscheme;
+    mesh.parameters.displacement = displacement;
+    mesh.parameters.midlevel = midlevel;
+    mesh.textures = std::move(model.textures);
+    for (TextureUse& use : mesh.textures) use.field = displacement_use_field<Mesh>();
     mesh.name = std::move(model.name);
     mesh.material = model.material;
     mesh.line = model.line;
@@ -105,14 +114,17 @@ class MeshLoader {
 
   void load(ObjectItem<Mesh>& mesh) {
     LoadedFile loaded;
-    if (mesh.data != nullptr && mesh.parameters.file.path.empty() && mesh.parameters.positions.empty())
-      loaded = {mesh.data, mesh.materials};  // a program has made them
+    const bool is_made = mesh.data != nullptr && mesh.parameters.file.path.empty() && mesh.parameters.positions.empty();
+    if (is_made)
+      loaded = {mesh.data, mesh.materials};  // by a program
     else if (mesh.parameters.file.path.empty())
       loaded.data = made(mesh);
     else
       loaded = from_file(mesh);
     if (loaded.data == nullptr) return;
-    mesh.data = loaded.data;
+    mesh.data = is_made && mesh.refined ? loaded.data : refiner_.refined(mesh, loaded.data);
+    mesh.refined = is_made;
+    if (mesh.data == nullptr) return;
     mesh.materials = mesh.material == no_material ? std::move(loaded.materials) : std::vector{mesh.material};
     if (mesh.materials.empty()) mesh.materials = {mesh.data->colors.empty() ? added_.grey() : added_.painted()};
   }
@@ -154,9 +166,9 @@ class MeshLoader {
       return nullptr;
     }
     Diagnostics found(diagnostics_.file());
-    std::optional<MeshData> data =
-        make_mesh(values.positions.numbers, values.faces.numbers, Mesh::face_ends(values.faces),
-                  values.normals.groups.numbers, values.uvs.numbers, values.uvs2.numbers, found);
+    std::optional<MeshData> data = make_mesh(values.positions.numbers, values.faces.numbers,
+                                             Mesh::face_ends(values.faces), values.normals.groups.numbers,
+                                             values.uvs.numbers, values.uvs2.numbers, values.subdivision > 0, found);
     for (const Diagnostic& diagnostic : found.kept())
       diagnostics_.add(diagnostic.severity, location_of(mesh), "the mesh: " + diagnostic.message);
     return data ? std::make_shared<const MeshData>(std::move(*data)) : nullptr;
@@ -166,6 +178,7 @@ class MeshLoader {
     const FileName& file = mesh.parameters.file;
     const Mesh::Parameters& values = mesh.parameters;
     MeshReadSettings settings{.animation = values.animation.name, .time = values.time, .variant = values.variant.name};
+    settings.polygons = values.subdivision > 0;
     const bool overrides = values.overridematerials;
     const MeshFileKey key = key_of(mesh.parameters);
     const auto [known, is_new] = files_.try_emplace(key);
@@ -263,6 +276,7 @@ class MeshLoader {
   int threads_;
   const bool vertex_alphas_ = wants_vertex_alphas(scene_);
   FileMaterials added_;
+  MeshRefiner refiner_{scene_, diagnostics_, threads_};
   std::map<MeshFileKey, LoadedFile> files_;
   const std::set<MeshFileKey> shown_materials_ = files_with_shown_materials(scene_);
   std::map<std::string, std::shared_ptr<const PointCloud>> clouds_;

@@ -9,17 +9,21 @@
 
 namespace raytrace {
 
-/// The file, its animation, the time, the variant, and whether materials are overridden: what is the same for several
-/// meshes is read once.
-using MeshFileKey = std::tuple<std::string, std::string, double, std::string, bool>;
+/// The file, its animation, the time, the variant, whether materials are overridden and whether polygons are kept: what
+/// is the same for several meshes is read once.
+using MeshFileKey = std::tuple<std::string, std::string, double, std::string, bool, bool>;
 
 /// Of a mesh or a model.
 template <class Parameters>
 MeshFileKey key_of(const Parameters& parameters) {
   const std::string& animation = parameters.animation.name;
   // The time is of an animation alone.
-  return {parameters.file.path, animation, animation.empty() ? 0 : parameters.time, parameters.variant.name,
-          parameters.overridematerials};
+  return {parameters.file.path,
+          animation,
+          animation.empty() ? 0 : parameters.time,
+          parameters.variant.name,
+          parameters.overridematerials,
+          parameters.subdivision > 0};
 }
 
 /// Those of which something in the scene has the materials of the file.

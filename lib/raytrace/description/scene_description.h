@@ -130,28 +130,56 @@ struct ObjectItem {
 /// No material: that of its file, or none.
 inline constexpr MaterialReference no_material{0xffffffff, 0xffffffff};
 
-/// What files hold, or may hold: meshes and clouds of spheres.
-template <class Shape>
-  requires requires { typename Shape::Data; }
-struct ObjectItem<Shape> {
-  typename Shape::Parameters parameters;
+// What files hold, or may hold.
+
+template <>
+struct ObjectItem<SphereCloud> {
+  SphereCloud::Parameters parameters;
   std::string name;
-  MaterialReference material = no_material;  ///< where there is one, of all faces or spheres
+  MaterialReference material = no_material;  ///< where there is one, of all spheres
   std::uint32_t line = 0;
   bool shadowcatcher = false, visible = true;
   Transform transform = {};
 
   // From load_meshes().
-  std::shared_ptr<const typename Shape::Data> data = nullptr;
+  std::shared_ptr<const PointCloud> data = nullptr;
   std::vector<MaterialReference> materials = {};  ///< those of the data, at least one
   std::uint32_t column = 0;
 };
 
-/// Instances and models.
-template <class Object>
-  requires std::is_same_v<Object, Instance> || std::is_same_v<Object, Model>
-struct ObjectItem<Object> {
-  typename Object::Parameters parameters;
+template <>
+struct ObjectItem<Mesh> {
+  Mesh::Parameters parameters;
+  std::string name;
+  MaterialReference material = no_material;  ///< where there is one, of all faces
+  std::uint32_t line = 0;
+  bool shadowcatcher = false, visible = true;
+  Transform transform = {};
+
+  // From load_meshes(). The data are of the finer faces, if it has such.
+  std::shared_ptr<const MeshData> data = nullptr;
+  std::vector<MaterialReference> materials = {};  ///< those of the data, at least one
+  std::uint32_t column = 0;
+  std::vector<TextureUse> textures{};  ///< that of its displacement, if it has one
+  /// Of data that a program has made: that they are of the finer faces already.
+  bool refined = false;
+};
+
+template <>
+struct ObjectItem<Model> {
+  Model::Parameters parameters;
+  std::string name;
+  MaterialReference material = no_material;  ///< where there is one, of all its objects
+  std::uint32_t line = 0;
+  bool shadowcatcher = false, visible = true;  ///< all its objects
+  Transform transform = {};
+  std::uint32_t column = 0;
+  std::vector<TextureUse> textures{};  ///< as a mesh's
+};
+
+template <>
+struct ObjectItem<Instance> {
+  Instance::Parameters parameters;
   std::string name;
   MaterialReference material = no_material;  ///< where there is one, of all its objects
   std::uint32_t line = 0;

@@ -144,6 +144,10 @@ struct MeshData {
   /// `corners` vertices of each face, in the order of the file. A triangle in a mesh of quads repeats its last vertex.
   MeshBuffer<std::uint32_t> indices;
   int corners = 3;  ///< 3 or 4
+  /// While a file is read: that a mesh with any larger polygons than triangles is one of quads, and has what follows.
+  bool keeps_polygons = false;
+  /// Of each face, whether it is a triangle of one polygon with the face before. Empty: none is, or nothing wants it.
+  MeshBuffer<std::uint8_t> continued;
 
   // Of each vertex; empty where the file has none.
   MeshBuffer<float> normals;  ///< three numbers, not normalized; 0 0 0 where that vertex has none

@@ -86,13 +86,15 @@ void join_vertices(MeshData& mesh, const MeshBuffer<float>& uvs, int threads) {
 }
 
 bool make_faces(const FaceCounts& counts, MeshData& mesh, Diagnostics& diagnostics) {
-  mesh.corners = counts.corners();
+  const bool keeps = mesh.keeps_polygons && counts.quads + counts.cut > 0;
+  mesh.corners = keeps ? 4 : counts.corners();
   const std::size_t faces = counts.faces(mesh.corners);
   if (faces >= std::numeric_limits<std::uint32_t>::max()) {
     diagnostics.error({}, "has more than 4294967294 faces");
     return false;
   }
   mesh.indices = MeshBuffer<std::uint32_t>(faces * static_cast<std::size_t>(mesh.corners));
+  if (keeps && counts.cut > 0) mesh.continued = MeshBuffer<std::uint8_t>(faces);
   return true;
 }
 
@@ -222,11 +224,14 @@ void leave_out_faults(MeshData& mesh, MeshFaults& faults) {
   const auto corners = static_cast<std::size_t>(mesh.corners);
   const std::size_t all = mesh.face_count();
   std::size_t kept = 0;
+  bool follows_kept = false;  // that the first triangle of its polygon is there
   faults.degenerate_faces = 0;
   auto next_part = mesh.parts.begin();
   for (std::size_t i = 0; i < all; ++i) {
     for (; next_part != mesh.parts.end() && next_part->first_face == i; ++next_part) next_part->first_face = kept;
     const std::uint32_t* const face = &mesh.indices[corners * i];
+    const bool continues = !mesh.continued.empty() && mesh.continued[i] != 0;
+    follows_kept = follows_kept && continues;
     if (is_degenerate(face, mesh.corners)) {
       ++faults.degenerate_faces;
       continue;
@@ -236,11 +241,14 @@ void leave_out_faults(MeshData& mesh, MeshFaults& faults) {
       continue;
     std::copy(face, face + corners, &mesh.indices[corners * kept]);
     if (!mesh.face_materials.empty()) mesh.face_materials[kept] = mesh.face_materials[i];
+    if (!mesh.continued.empty()) mesh.continued[kept] = follows_kept ? 1 : 0;
+    follows_kept = true;
     ++kept;
   }
   for (; next_part != mesh.parts.end(); ++next_part) next_part->first_face = kept;
   mesh.indices.shorten_to(corners * kept);
   if (!mesh.face_materials.empty()) mesh.face_materials.shorten_to(kept);
+  if (!mesh.continued.empty()) mesh.continued.shorten_to(kept);
   if (faults.bad_vertices > 0)
     for (std::size_t i = 0; i < mesh.positions.size(); ++i)
       if (std::isnan(mesh.positions[i])) mesh.positions[i] = 0;

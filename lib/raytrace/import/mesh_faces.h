@@ -55,7 +55,8 @@ void join_vertices(MeshData& mesh, const MeshBuffer<std::uint32_t>& uvs, const M
 /// The same of a mesh whose corners have u and v of their own, instead of its vertices.
 void join_vertices(MeshData& mesh, const MeshBuffer<float>& uvs, int threads);
 
-/// Allocates the faces of a mesh. False, and an error, if they are more than Embree numbers, 2^32 - 1.
+/// Allocates the faces of a mesh, as it keeps polygons or not. False, and an error, if they are more than Embree
+/// numbers, 2^32 - 1.
 bool make_faces(const FaceCounts& counts, MeshData& mesh, Diagnostics& diagnostics);
 
 /// Cuts a polygon of at least three corners into faces of a mesh of triangles or of quads, as read_mesh.h says.
@@ -93,6 +94,7 @@ class FaceWriter {
       : cutter_(mesh.positions.data(), mesh.corners),
         corners_(static_cast<std::size_t>(mesh.corners)),
         indices_(mesh.indices.data()),
+        continued_(mesh.continued.empty() ? nullptr : mesh.continued.data()),
         next_(corners_ * first_face) {}
 
   /// Calls on_corner(i, j) where it writes corner j of the polygon as the mesh's index i.
@@ -106,6 +108,8 @@ class FaceWriter {
       on_corner(next_, corner);
       indices_[next_++] = polygon[corner];
     }
+    if (continued_ != nullptr)
+      for (std::size_t i = first; i < next_; i += corners_) continued_[i / corners_] = i > first ? 1 : 0;
     for (std::size_t i = first; i < next_; i += corners_)
       degenerate_ += is_degenerate(indices_ + i, static_cast<int>(corners_)) ? 1U : 0U;
   }
@@ -120,6 +124,7 @@ class FaceWriter {
   PolygonCutter cutter_;
   std::size_t corners_;
   std::uint32_t* indices_;
+  std::uint8_t* continued_;
   std::size_t next_, degenerate_ = 0;
 };
 

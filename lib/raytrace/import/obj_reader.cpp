@@ -195,6 +195,7 @@ std::uint32_t Reader::resolved(std::int64_t index, std::size_t seen, std::size_t
 }
 
 bool Reader::read_faces() {
+  mesh_.keeps_polygons = settings_.polygons;
   if (!make_faces(before_.back().faces, mesh_, diagnostics_)) return false;
   faults_.too_small_polygons = before_.back().faces.too_small;
   for (const std::size_t which : {1U, 2U})

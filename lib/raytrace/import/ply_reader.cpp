@@ -128,6 +128,7 @@ std::optional<MeshData> read_ply(MeshFile& file, const std::string& folder, cons
   using ply::Column;
   ply::OpenFile open;
   MeshData mesh;
+  mesh.keeps_polygons = settings.polygons;
   if (!ply::open(file, settings, diagnostics, open, mesh.positions)) return std::nullopt;
   const std::size_t faces = open.header.find("face");
   const auto property = faces < open.header.elements.size()

@@ -105,8 +105,10 @@ std::optional<MeshData> read_mesh(const std::string& name, const MeshReadSetting
 
 std::optional<MeshData> make_mesh(std::span<const double> positions, std::span<const double> corners,
                                   std::span<const std::uint32_t> face_ends, std::span<const double> normals,
-                                  std::span<const double> uvs, std::span<const double> uvs2, Diagnostics& diagnostics) {
+                                  std::span<const double> uvs, std::span<const double> uvs2, bool polygons,
+                                  Diagnostics& diagnostics) {
   MeshData mesh;
+  mesh.keeps_polygons = polygons;
   const auto floats = [](std::span<const double> values, const Vec3d& origin) {
     MeshBuffer<float> buffer(values.size());
     for (std::size_t i = 0; i < values.size(); ++i)

@@ -58,6 +58,9 @@ struct MeshReadSettings {
   /// Keep the alphas of vertices whatever the file's materials are, since one of the scene's wants them. Otherwise only
   /// those are kept that a glTF material shows.
   bool vertex_alphas = false;
+  /// Keep quads where most faces are triangles, and which triangles are of one polygon (MeshData::continued), as
+  /// subdivided() wants it.
+  bool polygons = false;
   int threads = 0;  ///< at most; 0: all that the machine has
   /// Whether faces have another material in place of the file's of that name, which nothing need be said of then.
   /// Null: none have.
@@ -76,10 +79,11 @@ std::optional<MeshData> read_mesh(const std::string& file, const MeshReadSetting
 Vec3d near_origin(std::span<const float> positions);
 
 /// A mesh of values that are at hand. corners: of the faces, which end there, each of at least three; they are vertices
-/// that exist. normals, uvs, uvs2: of each vertex; empty: none.
+/// that exist. normals, uvs, uvs2: of each vertex; empty: none. polygons: as MeshReadSettings has it.
 std::optional<MeshData> make_mesh(std::span<const double> positions, std::span<const double> corners,
                                   std::span<const std::uint32_t> face_ends, std::span<const double> normals,
-                                  std::span<const double> uvs, std::span<const double> uvs2, Diagnostics& diagnostics);
+                                  std::span<const double> uvs, std::span<const double> uvs2, bool polygons,
+                                  Diagnostics& diagnostics);
 
 /// The elements `vertex` of a PLY file, with x, y, z, radius and red, green, blue.
 std::optional<PointCloud> read_point_cloud(const std::string& file, const MeshReadSettings& settings,

@@ -3,21 +3,25 @@
 #include <bit>
 
 #include "raytrace/import/direction_sums.h"
-#include "raytrace/import/unique_items.h"
+#include "raytrace/parallel/for_each_index.h"
 
 namespace raytrace {
 
-MeshBuffer<float> vertex_normals(const MeshData& mesh, const float* positions, int threads) {
-  const std::size_t vertices = mesh.vertex_count();
+UniqueItems unique_positions(const float* positions, std::size_t count, int threads) {
   const auto bits = [&](std::size_t vertex, std::size_t axis) {
     return std::bit_cast<std::uint32_t>(positions[3 * vertex + axis] + 0.0F);  // -0 is 0
   };
-  const UniqueItems unique = unique_items(
-      vertices, threads,
+  return unique_items(
+      count, threads,
       [&](std::size_t i) { return mixed_bits(mixed_bits(bits(i, 0) | std::uint64_t{bits(i, 1)} << 32U) + bits(i, 2)); },
       [&](std::size_t i, std::size_t j) {
         return bits(i, 0) == bits(j, 0) && bits(i, 1) == bits(j, 1) && bits(i, 2) == bits(j, 2);
       });
+}
+
+MeshBuffer<float> vertex_normals(const MeshData& mesh, const float* positions, int threads) {
+  const std::size_t vertices = mesh.vertex_count();
+  const UniqueItems unique = unique_positions(positions, vertices, threads);
 
   DirectionSums sums(unique.first.size());
   const auto add_triangle = [&](const std::uint32_t* face, int a, int b, int c) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "raytrace/import/mesh_data.h"
+#include "raytrace/import/unique_items.h"
 
 namespace raytrace {
 
@@ -10,5 +11,8 @@ namespace raytrace {
 /// have no area or cancel each other. Vertices at one position have the same, whatever their uvs. positions: the
 /// mesh's, or others in place of them. The result does not depend on the number of threads.
 MeshBuffer<float> vertex_normals(const MeshData& mesh, const float* positions, int threads);
+
+/// Which of so many positions are the same.
+UniqueItems unique_positions(const float* positions, std::size_t count, int threads);
 
 }  // namespace raytrace

@@ -18,4 +18,12 @@ std::size_t chunk_count(std::size_t count);
 void for_each_chunk(std::size_t count, int threads,
                     const std::function<void(std::size_t chunk, std::size_t first, std::size_t last)>& f);
 
+/// Calls f(i) for each of so many items, each of which may be worth some nanoseconds.
+template <class F>
+void for_each_item(std::size_t count, int threads, const F& f) {
+  for_each_chunk(count, threads, [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) f(i);
+  });
+}
+
 }  // namespace raytrace

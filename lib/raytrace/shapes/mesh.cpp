@@ -14,7 +14,9 @@ ParameterDiagnostic refused(std::string message) { return {ParameterDiagnostic::
 }  // namespace
 
 std::optional<ParameterDiagnostic> Mesh::check(const Parameters& parameters) {
-  const auto& [file, positions, faces, normals, uvs, uvs2, animation, time, variant, overridematerials] = parameters;
+  const auto& [file, positions, faces, normals, uvs, uvs2, animation, time, variant, overridematerials, subdivision,
+               subdivisionscheme, displacement, midlevel] = parameters;
+  if (auto refusal = check_subdivision(parameters)) return refusal;
   const bool has_values =
       !positions.empty() || !faces.empty() || !normals.groups.empty() || !uvs.empty() || !uvs2.empty();
   if (!file.path.empty() && has_values)

@@ -14,6 +14,7 @@
 #pragma once
 
 #include "raytrace/parameters/fields.h"
+#include "raytrace/shapes/subdivision.h"
 
 namespace raytrace {
 
@@ -41,20 +42,28 @@ class Mesh {
     double time = 0;                 ///< of the animation, in seconds
     Reference variant;               ///< of its materials; none: those that primitives have by themselves
     bool overridematerials = false;  ///< materials of the scene take the place of the file's of the same names
+    // subdivision.h
+    int subdivision = 0;
+    SubdivisionScheme subdivisionscheme = SubdivisionScheme::smooth;
+    double displacement = 1, midlevel = 0;
   };
   using Data = MeshData;  ///< of the file, or of the values
   static constexpr std::string_view group = "meshes";
   static constexpr std::string_view element = "mesh";
   static constexpr bool may_lack_material = true;  ///< then it has those of its file
   static Fields fields() {
-    return {optional("file", &Parameters::file),   optional("positions", &Parameters::positions),
-            optional("faces", &Parameters::faces), optional("normals", &Parameters::normals),
-            optional("uvs", &Parameters::uvs),     optional("animation", &Parameters::animation),
-            optional("time", &Parameters::time),   optional("variant", &Parameters::variant),
-            optional("uvs2", &Parameters::uvs2),   optional("overridematerials", &Parameters::overridematerials)};
+    return with_subdivision<Parameters>(
+        {optional("file", &Parameters::file), optional("positions", &Parameters::positions),
+         optional("faces", &Parameters::faces), optional("normals", &Parameters::normals),
+         optional("uvs", &Parameters::uvs), optional("animation", &Parameters::animation),
+         constant("time", &Parameters::time), optional("variant", &Parameters::variant),
+         optional("uvs2", &Parameters::uvs2), optional("overridematerials", &Parameters::overridematerials)});
   }
 
   static std::optional<ParameterDiagnostic> check(const Parameters& parameters);
+  static std::vector<ParameterWarning> warnings(const Parameters& parameters, const IsTextured& is_textured) {
+    return subdivision_warnings(parameters, is_textured);
+  }
 
   /// Where each face ends among its corners: without commas, those of triangles, or of one face if their number is no
   /// multiple of 3.
