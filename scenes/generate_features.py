@@ -300,6 +300,101 @@ shape("mesh-flat", "A knot of 480 quads with the normals of its faces.", knot("f
 shape("mesh-smooth", "The same knot with smooth normals.", knot("smooth"))
 
 
+def jack(elements, x):
+    """A cube with an arm from each of its faces, of 30 quads."""
+    sides = [(axis, sign) for axis in range(3) for sign in (-1, 1)]
+
+    def square(axis, sign, size, away):
+        """Its corners, counter-clockwise from outside."""
+        ring = [(-size, -size), (size, -size), (size, size), (-size, size)]
+        corners = []
+        for u, v in ring if sign > 0 else ring[::-1]:
+            corner = [0.0, 0.0, 0.0]
+            corner[axis], corner[(axis + 1) % 3], corner[(axis + 2) % 3] = sign * away, u, v
+            corners.append(tuple(corner))
+        return corners
+
+    quads = []
+    for axis, sign in sides:
+        inner, outer = square(axis, sign, 0.25, 0.25), square(axis, sign, 0.32, 0.85)
+        quads.append(outer)
+        for i in range(4):
+            quads.append([inner[i], inner[(i + 1) % 4], outer[(i + 1) % 4], outer[i]])
+    places = sorted({corner for quad in quads for corner in quad})
+    positions = [" ".join(f"{c:g}" for c in place) for place in places]
+    faces = [" ".join(str(places.index(corner)) for corner in quad) for quad in quads]
+    lines = lambda items: ",\n".join("          " + ", ".join(items[i : i + 6]) for i in range(0, len(items), 6))
+    return f"""\
+      <mesh>
+        <positions>
+{lines(positions)}
+        </positions>
+        <faces>
+{lines(faces)}
+        </faces>
+        {elements} <material>glossy</material>
+        <transform>
+          <rotate x="1" y="0.3" z="0.6" angle="40"/> <scale x="0.8" y="0.8" z="0.8"/> <translate x="{x}" y="0.75" z="0"/>
+        </transform>
+      </mesh>
+"""
+
+
+shape(
+    "subdivision",
+    "A jack of 30 quads, the same subdivided once, and four times.",
+    "    <meshes>\n"
+    + jack("<normals>flat</normals>", -1.55)
+    + jack("<subdivision>1</subdivision> <normals>flat</normals>", 0)
+    + jack("<subdivision>4</subdivision>", 1.55)
+    + "    </meshes>\n",
+)
+write(
+    "displacement",
+    "A cube that becomes a ball with craters, a box of stone, and the ground, which is one square: all by noise.",
+    textures="""\
+    <noises>
+      <noise> <name>craters</name> <scale>0.55</scale> <octaves>3</octaves> </noise>
+      <noise> <name>stone</name> <scale>0.3</scale> <octaves>8</octaves> </noise>
+      <noise> <name>ground</name> <scale>1.2</scale> <octaves>10</octaves> </noise>
+    </noises>
+""",
+    mattes="""\
+      <matte> <name>clay</name> <ka>0.12</ka> <kd>0.9</kd> <cd red="0.85" green="0.28" blue="0.12"/> </matte>
+      <matte> <name>grey</name> <ka>0.12</ka> <kd>0.9</kd> <cd red="0.6" green="0.58" blue="0.52"/> </matte>
+""",
+    floor="",
+    objects="""\
+    <meshes>
+      <mesh>
+        <positions>-9 0 -9, -9 0 9, 9 0 9, 9 0 -9</positions> <faces>0 1 2 3,</faces>
+        <subdivision>8</subdivision> <subdivisionscheme>flat</subdivisionscheme>
+        <displacement texture="ground" height="0.7"/> <midlevel>0.5</midlevel> <material>floor</material>
+      </mesh>
+      <mesh>
+        <positions>
+          -1.2 -1.2 -1.2, 1.2 -1.2 -1.2, 1.2 1.2 -1.2, -1.2 1.2 -1.2, -1.2 -1.2 1.2, 1.2 -1.2 1.2, 1.2 1.2 1.2,
+          -1.2 1.2 1.2
+        </positions>
+        <faces>0 3 2 1, 4 5 6 7, 0 1 5 4, 1 2 6 5, 2 3 7 6, 3 0 4 7</faces>
+        <subdivision>7</subdivision> <displacement texture="craters" height="0.45"/> <midlevel>0.5</midlevel>
+        <material>clay</material> <transform> <translate x="-1" y="1" z="0"/> </transform>
+      </mesh>
+      <mesh>
+        <positions>
+          -0.6 -0.6 -0.6, 0.6 -0.6 -0.6, 0.6 0.6 -0.6, -0.6 0.6 -0.6, -0.6 -0.6 0.6, 0.6 -0.6 0.6, 0.6 0.6 0.6,
+          -0.6 0.6 0.6
+        </positions>
+        <faces>0 3 2 1, 4 5 6 7, 0 1 5 4, 1 2 6 5, 2 3 7 6, 3 0 4 7</faces>
+        <subdivision>7</subdivision> <subdivisionscheme>flat</subdivisionscheme>
+        <displacement texture="stone" height="0.16"/> <midlevel>0.5</midlevel> <material>grey</material>
+        <transform> <rotate x="0" y="1" z="0" angle="25"/> <translate x="1.15" y="0.6" z="0.3"/> </transform>
+      </mesh>
+    </meshes>
+""",
+)
+
+
 def double_helix(file):
     """Two strands and what joins them, as points with a radius and a colour."""
     points = []
