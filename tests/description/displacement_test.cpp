@@ -163,10 +163,11 @@ TEST_CASE("a square displaced by a ramp slants, with the normals of what it has 
 
 TEST_CASE("textures have no more detail than vertices can show") {
   // Four squares between two vertices: their mean, everywhere.
-  const Loaded scene = loaded(mesh_text(
-      "<positions>0 0 0, 1 0 0, 1 1 0, 0 1 0</positions> <uvs>0 0, 8 0, 8 8, 0 8</uvs> <faces>0 1 2 3,</faces>"
-      "<subdivisionscheme>flat</subdivisionscheme> <subdivision>1</subdivision>"
-      "<displacement texture='squares' height='1'/>"));
+  const Loaded scene =
+      loaded(mesh_text("<positions>0 0 0, 1 0 0, 1 1 0, 0 1 0</positions> <uvs>0.3 0.2, 8.3 0.2, 8.3 8.2, 0.3 "
+                       "8.2</uvs> <faces>0 1 2 3,</faces>"
+                       "<subdivisionscheme>flat</subdivisionscheme> <subdivision>1</subdivision>"
+                       "<displacement texture='squares' height='1'/>"));
   for (std::size_t i = 0; i < scene.mesh().vertex_count(); ++i) CHECK(place(scene.mesh(), i).z == Approx(0.5));
 }
 

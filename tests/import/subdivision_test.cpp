@@ -293,7 +293,7 @@ TEST_CASE("finer faces have the materials and the parts of those that they are o
 
 TEST_CASE("a vertex where two fans of faces touch stays, as one of an edge of three faces does that ends there") {
   // Two tetrahedra with one vertex in common.
-  const MeshData mesh = mesh_of(3, {0, 0, 0, 1, 0, 1, 0, 1, 1, -1, -1, 1, 1, 0, -1, 0, 1, -1, -1, -1, -1},
+  const MeshData mesh = mesh_of(3, {0, 0, 0, 1, 0, 1, 0, 1, 1, -1, -1, 1, 2, 0, -1, 0, 3, -2, -1, -1, -1},
                                 {0, 2, 1, 0, 3, 2, 0, 1, 3, 1, 2, 3, 0, 4, 5, 0, 5, 6, 0, 6, 4, 4, 6, 5});
   const MeshData fine = subdivided(mesh, {.levels = 2});
   CHECK(length(position_of(fine, 0)) == 0);
