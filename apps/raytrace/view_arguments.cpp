@@ -44,6 +44,9 @@ void define_view_options(OptionParser& parser, ViewOptions& view) {
       "How these files show what is brighter than they can: srgb, clipped; agx; khronos-neutral (srgb for scenes, "
       "khronos-neutral for models)",
       view.transform, view_transform, Names(words.begin(), words.end()));
+  parser.add_switch("--dither", view.dither,
+                    "In these files, with 8 bits: round up or down by a fine pattern, so that dark gradients have no "
+                    "steps");
   text_of_option("--ocio", "FILE.ocio", "Show these files through an OpenColorIO configuration instead",
                  view.ocio.config);
   text_of_option("--ocio-display", "NAME", "Its display (its default)", view.ocio.display);

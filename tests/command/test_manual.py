@@ -46,6 +46,7 @@ class Manual(CommandTest):
             "--integrator", "--clamp-indirect", "--clay", "--missing-texture", "--texture-memory", "--view", "--camera", "--animation", "--fps",
             "--variant", "--up", "--turntable", "--floor", "--environment", "--sun", "--view-transform", "--auto-exposure",
             "--white-balance",
+            "--dither",
             "--ocio", "--ocio-display", "--ocio-view", "--ocio-colorspace"})
 
     def test_man_page_has_the_same_options(self):

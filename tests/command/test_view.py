@@ -3,6 +3,7 @@
 import json
 import math
 import re
+import struct
 import unittest
 
 import support
@@ -169,6 +170,49 @@ class View(CommandTest):
         self.assertIn("say how with --white-balance", self.fail_with(1, "merge", "0.exr", "1.exr", "-o", "b.png"))
         for wrong in ("900", "15001", "warm", "-1", "nan"):
             self.assertIn("white balance", self.fail_with(2, "lamp.xml", "-o", "a.png", f"--white-balance={wrong}"))
+
+    def test_dither_has_each_colour_as_its_mean(self):
+        # A backdrop that goes from black to a thousandth: three steps of 8 bits.
+        self.write("ramp.xml", """<raytracer><viewplane><hres>160</hres><vres>64</vres></viewplane>
+            <camera><eye x="0" y="0" z="9"/><lookat x="0" y="0" z="0"/><fov>20</fov></camera>
+            <integrator><albedo/></integrator><textures><images><image><name>ramp</name><file>ramp.pfm</file>
+            <wrap>clamp</wrap></image></images></textures><materials><mattes><matte><name>m</name><ka>0</ka><kd>1</kd>
+            <cd texture="ramp"/></matte></mattes></materials><objects><rectangles><rectangle><corner x="-9" y="-9" z="0"/>
+            <edge1 x="18" y="0" z="0"/><edge2 x="0" y="18" z="0"/><material>m</material></rectangle></rectangles></objects>
+            </raytracer>""")
+        with open(self.path("ramp.pfm"), "wb") as file:
+            file.write(b"PF\n2 1\n-1.0\n" + struct.pack("<6f", 0, 0, 0, 0.001, 0.001, 0.001))
+        self.succeed("ramp.xml", "-q", "--float", "-o", "exact.exr", "-o", "plain.png", "-s", "16")
+        self.succeed("ramp.xml", "-q", "-o", "a.png", "-s", "16", "--dither")
+        exact, plain, png = Exr(self.read("exact.exr")), Png(self.read("plain.png")), Png(self.read("a.png"))
+        self.assertEqual((png.text["raytrace:dither"], "raytrace:dither" in plain.text), ("1", False))
+        steps = [0, 0]
+        for x in range(0, 160, 8):
+            for y in range(0, 64, 8):
+                block = [(u, v) for u in range(x, x + 8) for v in range(y, y + 8)]
+                right = sum(255 * srgb(exact.rows[v]["R"][u]) for u, v in block) / 64
+                for i, picture in enumerate((plain, png)):
+                    shown = sum(picture.rows[v][3 * u] for u, v in block) / 64
+                    steps[i] = max(steps[i], abs(shown - right))
+        self.assertLess(steps[1], 0.12)
+        self.assertGreater(steps[0], 0.3)
+        for row, (y, values) in zip(png.rows, exact.rows.items()):
+            for shown, value in zip(row[::3], values["R"]):
+                self.assertLess(abs(shown - 255 * srgb(value)), 1.001)
+        # A crop is a part of it; a JPEG is one of the same, 16 bits are not dithered; and merge does the same.
+        self.succeed("ramp.xml", "-q", "-o", "b.png", "-s", "16", "--dither", "--crop", "13,5,60,31")
+        self.assertEqual(Png(self.read("b.png")).rows, [row[39:180] for row in png.rows[5:31]])
+        self.succeed("ramp.xml", "-q", "-o", "16.png", "-s", "16", "--bit-depth", "16")
+        plain = self.read("16.png")
+        self.succeed("ramp.xml", "-q", "-o", "16.png", "-s", "16", "--bit-depth", "16", "--dither")
+        self.assertEqual(Png(self.read("16.png")).rows, Png(plain).rows)
+        for i in range(2):
+            self.succeed("ramp.xml", "-q", "-o", f"{i}.exr", "-s", "16", "--float", "--tile", f"{i}/2")
+        self.succeed("merge", "-q", "0.exr", "1.exr", "-o", "c.png", "--dither")
+        self.assertEqual(Png(self.read("c.png")).rows, png.rows)
+        # What is not dithered is not taken for it.
+        self.assertNotIn("skipped", self.succeed("ramp.xml", "-v", "-o", "plain.png", "-s", "16", "--dither", "--skip-existing").stderr)
+        self.assertIn("skipped", self.succeed("ramp.xml", "-v", "-o", "plain.png", "-s", "16", "--dither", "--skip-existing").stderr)
 
     def test_auto_exposure(self):
         exr, png = self.rendered("--auto-exposure", "-t", "1")

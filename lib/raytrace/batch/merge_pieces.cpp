@@ -203,6 +203,7 @@ class Merger {
     image_settings.threads = settings_.threads;
     image_settings.transparent = identity.film.transparent;
     image_settings.ocio = settings_.view.ocio;
+    image_settings.dither = settings_.view.dither;
     refuse_useless_options(image_settings);
     const Region& whole = first.whole;
     std::size_t most_sums = 0;

@@ -29,7 +29,8 @@ void check_output_settings(const RenderJob& job) {
   if (job.transparent && none(&ImageFormat::alpha))
     throw SettingsError("--transparent: none of the outputs can hold alpha; .exr, .png and .tif can");
   ViewOptions view = job.view;
-  if (job.tile || job.crop || job.sample_offset) view = {{}, {}, false, {}, job.view.ocio};  // the merge shows them
+  if (job.tile || job.crop || job.sample_offset)
+    view = {{}, {}, false, {}, job.view.dither, job.view.ocio};  // the merge shows them
   refuse_useless_view(files, settings, view);
   if (!job.aovs.empty() && none(&ImageFormat::data))
     throw SettingsError("--aov: none of the outputs can hold more than colour; .exr can");
@@ -112,8 +113,8 @@ bool outputs_are_complete(const RenderJob& job, const SceneDescription& descript
   const ViewSettings view = view_settings(description.viewplane);
   ImageFileSettings settings = job.image_file_settings();
   set_view(settings, view, 0);
-  for (const char* const keyword :
-       {view_transform_keyword, ocio_keyword, exposure_keyword, auto_exposure_keyword, white_balance_keyword})
+  for (const char* const keyword : {view_transform_keyword, ocio_keyword, exposure_keyword, auto_exposure_keyword,
+                                    white_balance_keyword, dither_keyword})
     wanted.view[keyword];
   for (const ImageAttribute& attribute : view_attributes(settings))
     wanted.view[attribute.name] = std::get<std::string>(attribute.value);

@@ -34,6 +34,7 @@ ImageFileSettings RenderJob::image_file_settings() const {
   settings.threads = threads;
   settings.transparent = transparent;
   settings.ocio = view.ocio;
+  settings.dither = view.dither;
   return settings;
 }
 

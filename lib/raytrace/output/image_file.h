@@ -37,6 +37,7 @@ struct ImageFileSettings {
   double white_balance = 0;  ///< ViewPlane::whitebalance
   ViewTransform view_transform = ViewTransform::srgb;
   OcioSettings ocio{};                    ///< in its place
+  bool dither = false;                    ///< of 8 bits: values are rounded up or down so that their mean is right
   std::optional<double> auto_exposure{};  ///< `exposure` is this, and what the picture itself asked for
 };
 

@@ -62,6 +62,24 @@ void apply_ocio(const PixelFormat& format, float* values, int pixels) {
     }
 }
 
+/// In [0, 1), of a pixel in the whole picture: spread so evenly that neighbours differ most (Jimenez, "Next Generation
+/// Post Processing in Call of Duty: Advanced Warfare", SIGGRAPH 2014: interleaved gradient noise).
+double threshold_at(int x, int y) {
+  const auto fraction = [](double number) { return number - std::floor(number); };
+  return fraction(52.9829189 * fraction(0.06711056 * x + 0.00583715 * y));
+}
+
+void dither(float* values, int pixels, int channels, int x, int y) {
+  constexpr double most = 255;
+  for (int i = 0; i < pixels; ++i) {
+    const double threshold = threshold_at(x + i, y);
+    for (int part = 0; part < 3; ++part) {
+      float& value = values[std::ptrdiff_t{i} * channels + part];
+      value = static_cast<float>(std::min(std::floor(double{value} * most + threshold), most) / most);
+    }
+  }
+}
+
 /// A colour that is not finite stays as it is.
 Pixel balanced(const ColorMatrix& white_balance, const Pixel& pixel) {
   const Rgb<double> color = product(white_balance, {pixel.red, pixel.green, pixel.blue});
@@ -84,6 +102,7 @@ PixelFormat display_format(const ImageFileSettings& settings) {
   format.gain = static_cast<float>(std::exp2(settings.exposure));
   format.view = settings.view_transform;
   if (settings.white_balance != 0) format.white_balance = white_balance(settings.white_balance);
+  format.dithered = settings.dither && settings.bit_depth == 8;
   return format;
 }
 
@@ -106,6 +125,7 @@ std::vector<ImageAttribute> view_attributes(const ImageFileSettings& settings) {
   }
   if (settings.exposure != 0) attributes.push_back({exposure_keyword, shortest_text(settings.exposure)});
   if (settings.white_balance != 0) attributes.push_back({white_balance_keyword, shortest_text(settings.white_balance)});
+  if (settings.dither && settings.bit_depth == 8) attributes.push_back({dither_keyword, "1"});
   if (settings.auto_exposure) attributes.push_back({auto_exposure_keyword, shortest_text(*settings.auto_exposure)});
   return attributes;
 }
@@ -141,6 +161,7 @@ Repairs stored_row(const ImageBand& band, int row, const PixelFormat& format, fl
     if (format.alpha) *values++ = alpha;
   }
   if (format.ocio) apply_ocio(format, row_values, band.region.width());
+  if (format.dithered) dither(row_values, band.region.width(), format.channels(), band.region.x0, band.region.y0 + row);
   return repairs;
 }
 

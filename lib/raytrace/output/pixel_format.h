@@ -24,6 +24,8 @@ struct PixelFormat {
   std::optional<ColorMatrix> white_balance{};
   ViewTransform view = ViewTransform::srgb;
   std::shared_ptr<const ColorTransform> ocio{};  ///< null, or in place of the view transform and the curve
+  /// Colours are multiples of 1/255: each the one below or above, by a pattern that has the colour as its mean.
+  bool dithered = false;
 
   int channels() const { return alpha ? 4 : 3; }
 };
@@ -37,6 +39,7 @@ inline constexpr const char* exposure_keyword = "raytrace:exposure";
 inline constexpr const char* auto_exposure_keyword = "raytrace:autoExposure";
 inline constexpr const char* white_balance_keyword = "raytrace:whiteBalance";
 inline constexpr const char* ocio_keyword = "raytrace:ocio";
+inline constexpr const char* dither_keyword = "raytrace:dither";
 
 /// As short as it can be without being another number.
 std::string shortest_text(double number);

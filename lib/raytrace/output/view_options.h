@@ -40,6 +40,7 @@ struct ViewOptions {
   std::optional<double> exposure;
   bool auto_exposure = false;
   std::optional<double> white_balance;
+  bool dither = false;  ///< ImageFileSettings::dither
   OcioSettings ocio;
 
   /// The option of the command line that is given, or the first of several; empty: none.
@@ -48,6 +49,7 @@ struct ViewOptions {
     if (auto_exposure) return "--auto-exposure";
     if (white_balance) return "--white-balance";
     if (transform) return "--view-transform";
+    if (dither) return "--dither";
     return ocio.empty() ? "" : "--ocio";
   }
 
