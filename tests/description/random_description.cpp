@@ -226,6 +226,10 @@ ObjectLists random_objects(Random& random, const SceneDescription& scene,
         item.textures = random_uses(random, element_type<T>().fields, textures);
         reset_unused<T>(item);
       }
+      if constexpr (std::is_same_v<T, Plane>)  // which has no end, as such a fog has
+        if (item.material.type == index_of<Fog>(Materials{}) &&
+            !std::get<MaterialItems<Fog>>(scene.materials)[item.material.index].textures.empty())
+          continue;
       if constexpr (requires { T::may_lack_material; })
         if (below(random, 2) == 0) item.material = no_material;
       std::get<ObjectItems<T>>(objects).push_back(std::move(item));
@@ -247,6 +251,28 @@ bool same_objects(const ObjectLists& a, const ObjectLists& b) {
     return x.name == y.name && same(x.material, y.material) && x.transform == y.transform &&
            x.shadowcatcher == y.shadowcatcher && x.visible == y.visible && same_textures(x, y);
   });
+}
+
+/// What its density may be: that of a file, or of a texture in space.
+void randomize_density(Random& random, const SceneDescription& scene, MaterialItem<Fog>& fog) {
+  fog.textures.clear();
+  const auto& noises = std::get<TextureItems<Noise>>(scene.textures);
+  const bool has_texture = !noises.empty() && below(random, 2) == 0;
+  if (has_texture) {
+    const Fields& fields = element_type<Fog>().fields;
+    for (std::uint32_t i = 0; i < fields.size(); ++i)
+      if (fields[i].name == Fog::density_field)
+        fog.textures.push_back({i,
+                                {static_cast<std::uint32_t>(index_of<Noise>(Textures{})),
+                                 static_cast<std::uint32_t>(below(random, noises.size()))},
+                                static_cast<TextureChannel>(below(random, 4))});
+  } else {
+    fog.parameters.densityfade = Vec3d(0, 0, 0);
+    if (below(random, 2) != 0) return;
+    fog.parameters.densityfile.path = random_name(random) + ".vdb";
+    if (below(random, 2) == 0) fog.parameters.densitygrid.name = "smoke_2";
+  }
+  fog.transform = random_transform(random);
 }
 
 }  // namespace
@@ -280,6 +306,7 @@ SceneDescription random_description(Random& random) {
       textures.push_back(
           {static_cast<std::uint32_t>(index_of<T>(Textures{})), static_cast<std::uint32_t>(items.size())});
       items.push_back({random_parameters<T>(random), random_name(random) + std::to_string(textures.size())});
+      if constexpr (std::is_same_v<T, Noise>) items.back().parameters.space = TextureSpace::world;  // fogs may have it
     }
   });
   std::vector<MaterialReference> materials;
@@ -291,6 +318,7 @@ SceneDescription random_description(Random& random) {
       items.push_back({random_parameters<T>(random), random_name(random) + std::to_string(materials.size())});
       if (below(random, 2) == 0) items.back().textures = random_uses(random, element_type<T>().fields, textures);
       reset_unused<T>(items.back());
+      if constexpr (std::is_same_v<T, Fog>) randomize_density(random, scene, items.back());
     }
   });
   if (materials.empty()) return scene;
@@ -311,7 +339,11 @@ bool same_scene(const SceneDescription& a, const SceneDescription& b) {
          same_items(Textures{}, a.textures, b.textures,
                     [](const auto& x, const auto& y) { return x.name == y.name; }) &&
          same_items(Materials{}, a.materials, b.materials,
-                    [](const auto& x, const auto& y) { return x.name == y.name && same_textures(x, y); }) &&
+                    [](const auto& x, const auto& y) {
+                      if constexpr (requires { x.transform; })
+                        if (!(x.transform == y.transform)) return false;
+                      return x.name == y.name && same_textures(x, y);
+                    }) &&
          same_objects(a.objects, b.objects) &&
          std::equal(
              a.groups.begin(), a.groups.end(), b.groups.begin(), b.groups.end(),

@@ -113,6 +113,11 @@ void change_everything(SceneDescription& scene, const Changed& changed) {
     for (auto& material : std::get<MaterialItems<T>>(scene.materials)) {
       change_fields<T>(material.parameters, changed);
       change_each(material.name, changed);
+      if constexpr (requires { material.grid; }) {
+        for (TransformStep& step : material.transform.steps)
+          for (std::size_t k = 0; k < step.value_count(); ++k) change_each(step.values[k], changed);
+        change_each(material.grid.hash, changed);
+      }
       change_textures(material.textures, changed);
     }
   });

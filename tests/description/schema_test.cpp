@@ -214,6 +214,11 @@ TEST_CASE("the schema refuses most of the bad scenes, the program all", "[schema
                    "openpbr_too_dispersive", "openpbr_too_rough"});
   // Nor how large a number is at most, or whether there is a texture of a name.
   expected.insert({"displacement_of_unknown_texture", "subdivision_too_often"});
+  // Nor what a fog's density is of.
+  expected.insert({"fog_density_beside_file", "fog_density_in_a_plane", "fog_density_negative",
+                   "fog_density_of_a_picture", "fog_density_on_surfaces", "fog_density_unknown",
+                   "fog_density_with_a_space", "fog_fade_of_nothing", "fog_file_of_another_kind", "fog_grid_of_a_vol",
+                   "fog_transform_of_nothing"});
   // Nor what may be in a file that is included.
   expected.insert({"missing_camera", "missing_viewplane", "missing_viewplane_fov"});
   // What it cannot say since numbers and vectors may have keys, and values variables.

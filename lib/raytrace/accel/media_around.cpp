@@ -18,7 +18,7 @@ void add_media(const SceneTables& tables, const Accelerator& accelerator, const 
     goes_on = goes_on & hits.hit;
     if (none(goes_on)) break;
     const SurfaceInteraction<FloatN> surface = accelerator.surface(rays, hits);
-    const IntN inside = tables.media().of_material(tables.material(hits));
+    const IntN inside = tables.inside(hits);
     const MaskN is_boundary = goes_on & float_mask<FloatN>(inside != IntN(0)), leaves = is_boundary & !surface.front;
     const MaskN entered_here = leaves & entered.contains(inside);
     entered.add(is_boundary & surface.front, inside);

@@ -179,6 +179,9 @@ class SceneChecker {
     } else if constexpr (requires { item.material; }) {
       check_reference<MaterialsSection>(scene, item.material);
     }
+    if constexpr (requires { item.grid; })
+      if (!item.parameters.densityfile.path.empty() && !item.grid.grid)
+        error("has a <densityfile> that has not been loaded (load_images())");
     if constexpr (requires { item.textures; })
       for (const TextureUse& use : item.textures) check_reference<TexturesSection>(scene, use.texture);
   }

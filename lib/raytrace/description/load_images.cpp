@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "raytrace/description/holds_normals.h"
+#include "raytrace/description/load_grids.h"
 #include "raytrace/description/made_picture.h"
 #include "raytrace/description/read_pictures.h"
 #include "raytrace/description/refine_mesh.h"
@@ -354,6 +355,7 @@ bool load_images(SceneDescription& scene, Diagnostics& diagnostics, int threads,
         }
       }
   });
+  fine &= load_grids(scene, diagnostics, threads, [](const std::string& file) { return file_hash(file); });
   if (!loader.failure().empty())
     diagnostics.warning(
         {}, "textures stay in memory, beyond the limit, for there is no room for them in files: " + loader.failure());

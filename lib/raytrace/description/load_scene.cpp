@@ -6,6 +6,7 @@
 #include <system_error>
 #include <utility>
 
+#include "raytrace/description/check_fogs.h"
 #include "raytrace/description/include.h"
 #include "raytrace/description/load_images.h"
 #include "raytrace/description/motion.h"
@@ -30,6 +31,7 @@ SceneDescription with_motion(ReadScene read, std::string_view text, Diagnostics&
     return read_scene(TextBuffer(text), read.scene.file, of_moment, threads, at_moment, &read.keyed).scene;
   };
   add_motion(read.scene, at, diagnostics);
+  check_moving_densities(read.scene, diagnostics);
   return std::move(read.scene);
 }
 

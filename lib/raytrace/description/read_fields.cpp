@@ -46,7 +46,7 @@ constexpr Synonym synonyms[] = {
     {"shift_y", "shift"},
     {"width", "hres"},
     {"height", "vres"},
-    {"density", "meanfreepath", ", which is 1 / density"},
+    {"extinction", "meanfreepath", ", which is 1 / extinction"},
     {"aperture", "lensradius"},
     {"focusdistance", "focaldistance"},
 };

@@ -192,7 +192,7 @@ class TypedItemList final : public ItemList {
     for (const FieldTexture& use : textures_) {
       const auto& [name, channel] = use.attributes;
       if (const std::optional<ItemReference> texture = names_.textures.find(name)) {
-        const std::size_t field = use.field - Section::labels.size();
+        const std::size_t field = use.field - labels_.size();
         item.textures.push_back(
             {static_cast<std::uint32_t>(field), *texture, channel_of(element_type<T>().fields[field], channel)});
         continue;

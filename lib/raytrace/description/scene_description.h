@@ -16,6 +16,7 @@
 #include "raytrace/cameras/registry.h"
 #include "raytrace/cameras/view_plane.h"
 #include "raytrace/description/variables.h"
+#include "raytrace/import/density_grid.h"
 #include "raytrace/import/mesh_data.h"
 #include "raytrace/integrators/registry.h"
 #include "raytrace/lights/photometry.h"
@@ -113,6 +114,19 @@ struct MaterialItem {
   bool imported = false;               ///< from a mesh's file, which brings it again when it is read again
   std::vector<TextureUse> textures{};  ///< of a field no more than one
   std::uint32_t column = 0;
+};
+
+/// Those whose density may be that of a file.
+template <>
+struct MaterialItem<Fog> {
+  Fog::Parameters parameters;
+  std::string name;
+  std::uint32_t line = 0;
+  bool imported = false;
+  std::vector<TextureUse> textures{};
+  std::uint32_t column = 0;
+  Transform transform = {};  ///< of the density
+  LoadedGrid grid{};         ///< once its file, if it has one, has been loaded (load_images.h)
 };
 
 template <class Shape>

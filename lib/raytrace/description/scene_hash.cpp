@@ -72,6 +72,9 @@ class SceneHash {
         } else if constexpr (requires { item.photometry; }) {
           hash.add_parameters(fields, &item.parameters, {item.photometry.hash.empty() ? "" : "iesfile"});
           hash.add(item.photometry.hash);
+        } else if constexpr (requires { item.grid; }) {
+          hash.add_parameters(fields, &item.parameters, {item.grid.hash.empty() ? "" : "densityfile"});
+          hash.add(item.grid.hash);
         } else {
           hash.add_parameters(fields, &item.parameters);
         }

@@ -63,6 +63,8 @@ template <class Section, class T>
 constexpr auto labels_of() {
   if constexpr (requires { T::may_be_turned; }) {
     return std::array<FieldInfo, 1>{{{transform_element, false}}};
+  } else if constexpr (requires { T::may_be_moved; }) {
+    return std::array<FieldInfo, 2>{{{"name"}, {transform_element, false}}};
   } else {
     auto labels = Section::labels;
     if constexpr (requires { T::may_lack_material; }) labels[1].required = false;

@@ -37,11 +37,12 @@ class Kernel<Fog> {
   static Bsdf<float> bsdf(const Fog::Parameters& parameters) { return bsdf_of<float>(parameters); }
 
   static std::optional<Medium> medium(const Fog::Parameters& parameters, const Bsdf<float>& bsdf) {
-    const auto extinction = static_cast<float>(std::clamp(1 / parameters.meanfreepath, 1e-30, 1e30));
+    const auto extinction = static_cast<float>(std::clamp(parameters.density / parameters.meanfreepath, 1e-30, 1e30));
     Medium medium;
     medium.priority = Medium::fog_priority;
     medium.extinction = Rgb<float>(extinction, extinction, extinction);
     medium.scattering = bsdf.color * extinction;
+    medium.emission = Rgb<float>(parameters.ce);
     medium.anisotropy = static_cast<float>(std::clamp(parameters.anisotropy, -0.98, 0.98));
     return medium;
   }

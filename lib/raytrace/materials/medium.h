@@ -12,6 +12,7 @@ struct Medium {
   float dispersion = 0;            ///< dispersion_of()
   Rgb<float> scattering{0, 0, 0};  ///< for a unit of length; a part of the extinction
   float anisotropy = 0;            ///< of the scattering, as Subsurface has it
+  Rgb<float> emission{0, 0, 0};    ///< of fog: the radiance of so much that nothing shines through
 
   /// Fog counts less than all that has a surface.
   static constexpr int fog_priority = -1;

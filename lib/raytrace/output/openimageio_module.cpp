@@ -71,6 +71,13 @@ std::unique_ptr<PictureReader> make_openimageio_reader(const std::string& file, 
   return reader;
 }
 
+GridTiles read_vdb_tiles(const std::string& file, const std::string& name) {
+  static auto* const read = symbol<ReadOpenImageIOGrid>("raytrace_read_grid");
+  GridTiles grid;
+  read(file, name, grid);
+  return grid;
+}
+
 bool openimageio_reads_all_of(const std::string& file, int width, int height) {
   static auto* const reads_all_of = symbol<OpenImageIOReadsAllOf>("raytrace_openimageio_reads_all_of");
   return reads_all_of(file, width, height);

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "raytrace/import/grid_tiles.h"
 #include "raytrace/output/color_transform.h"
 #include "raytrace/output/image_encoder.h"
 #include "raytrace/output/picture.h"
@@ -28,6 +29,10 @@ std::unique_ptr<PictureReader> make_openimageio_reader(const std::string& file, 
 /// Throws OutputError if the module is missing.
 bool openimageio_reads_all_of(const std::string& file, int width, int height);
 
+/// A grid of an OpenVDB file; name: empty for "density", or else the first. Throws GridError, or OutputError if the
+/// module is missing.
+GridTiles read_vdb_tiles(const std::string& file, const std::string& name);
+
 /// The module's symbols. The caller owns the encoder.
 using MakeOpenImageIOEncoder = ImageEncoder*(const std::string& file, const std::string& extension,
                                              const ImageFileSettings& settings);
@@ -39,5 +44,7 @@ extern "C" OpenImageIOReadsAllOf raytrace_openimageio_reads_all_of;
 using MakeOpenImageIOReader = void(const std::string& file, std::string_view bytes,
                                    std::unique_ptr<PictureReader>& reader);
 extern "C" MakeOpenImageIOReader raytrace_make_openimageio_reader;
+using ReadOpenImageIOGrid = void(const std::string& file, const std::string& name, GridTiles& grid);
+extern "C" ReadOpenImageIOGrid raytrace_read_grid;
 
 }  // namespace raytrace

@@ -148,4 +148,54 @@ void GeometryTable::add_instances(const SceneDescription& description, const Vec
   }
 }
 
+const GeometryTable::TransformedShape* GeometryTable::transformed_shape(const InstanceTarget& target) const {
+  if (!target.is_shape) return nullptr;
+  for (const TransformedShape& shape : table_of(target).transformed_)
+    if (shape.target.shape_type == target.shape_type && shape.target.primitive == target.primitive) return &shape;
+  return nullptr;
+}
+
+Affine GeometryTable::file_from_instance(std::size_t instance) const {
+  const InstanceTarget& target = instances_.target(instance);
+  if (const TransformedShape* const shape = transformed_shape(target)) return shape->affine;
+  return Affine{.origin = table_of(target).origin_};
+}
+
+Bounds GeometryTable::bounds_in_file(std::span<const std::uint8_t> wanted_materials, const Vec3d& origin) const {
+  Bounds all = empty_bounds;
+  const auto add = [&](const Affine& map, const Bounds& bounds) { all = join(all, transformed_bounds(map, bounds)); };
+  const auto add_own = [&](const GeometryTable& table, const Vec3d& its_origin) {
+    for (const BoundedObject& object : table.bounded_objects(wanted_materials))
+      if (object.object >= 0) add(Affine{.origin = its_origin}, object.bounds);
+  };
+  add_own(*this, origin);
+  for (const BoundedObject& object : bounded_objects(wanted_materials)) {
+    if (object.object >= 0) continue;
+    const auto instance = static_cast<std::size_t>(-1 - object.object);
+    const InstanceTarget& target = instances_.target(instance);
+    const Affine map = file_from_instance(instance);
+    if (const TransformedShape* const shape = transformed_shape(target))
+      add(map, shape->bounds);
+    else if (instances_.materials()[instance] >= 0)  // in place of all materials of the group
+      add(map, table_of(target).bounds_);
+    else
+      add_own(table_of(target), table_of(target).origin_);
+  }
+  return all;
+}
+
+std::vector<GeometryTable::PlaceOfGroup> GeometryTable::places_of_groups(
+    std::span<const std::uint8_t> wanted_materials) const {
+  std::vector<PlaceOfGroup> places;
+  for (const BoundedObject& object : bounded_objects(wanted_materials)) {
+    if (object.object >= 0) continue;
+    const auto instance = static_cast<std::size_t>(-1 - object.object);
+    if (instances_.target(instance).group == InstanceTarget::no_group) continue;
+    const AffineRecord<float>& map = instances_.world_from_object(instance);
+    const Affine world_from_object{Vec3d(map.x), Vec3d(map.y), Vec3d(map.z), Vec3d(map.origin)};
+    places.push_back({instance, world_from_object * file_from_instance(instance).inverse()});
+  }
+  return places;
+}
+
 }  // namespace raytrace

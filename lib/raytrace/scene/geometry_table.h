@@ -79,6 +79,16 @@ class GeometryTable {
     std::uint32_t geometry;  ///< that it is of; of instances the number behind the last
   };
   std::vector<BoundedObject> bounded_objects(std::span<const std::uint8_t> wanted_materials) const;
+  /// Around all that has such a material, where the scene's file has it: in the world, whose origin is given, or in the
+  /// space of its group. Only of the world. Of negative size if there is none.
+  Bounds bounds_in_file(std::span<const std::uint8_t> wanted_materials, const Vec3d& origin) const;
+  /// The instances of groups with such a material, by index, and the map of each from the space that its group has in
+  /// the scene's file. Only of the world.
+  struct PlaceOfGroup {
+    std::size_t instance;
+    Affine world_from_group;
+  };
+  std::vector<PlaceOfGroup> places_of_groups(std::span<const std::uint8_t> wanted_materials) const;
   /// Of so many materials, those that objects have: 1, else 0.
   std::vector<std::uint8_t> used_materials(std::int32_t materials) const;
 
@@ -132,6 +142,9 @@ class GeometryTable {
   /// The object and the material of a primitive of this table.
   std::int32_t own_object(std::uint32_t geometry, std::uint32_t primitive) const;
   std::int32_t own_material(std::uint32_t geometry, std::uint32_t primitive) const;
+  /// From the space of an instance's objects to that which they have in the scene's file.
+  Affine file_from_instance(std::size_t instance) const;
+  const TransformedShape* transformed_shape(const InstanceTarget& target) const;
   /// The table of an instance's objects.
   const GeometryTable& table_of(const InstanceTarget& target) const {
     return target.group == InstanceTarget::no_group ? *this : *groups_[static_cast<std::size_t>(target.group)];

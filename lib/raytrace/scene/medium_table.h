@@ -23,16 +23,28 @@ namespace raytrace {
 /// Media have numbers from 1 on. 0 is none: the air about all objects.
 class MediumTable {
  public:
-  /// media: each material's; none where nothing is inside. Throws RenderError for more than numbers of 16 bits count.
-  void set(const std::vector<std::optional<Medium>>& media) {
+  /// media: each material's; none where nothing is inside. places: of those that are fogs with a density, in how many
+  /// places they are besides the first: each has a number of its own, behind the medium's. Empty: there is no such fog.
+  /// Throws RenderError for more than numbers of 16 bits count.
+  void set(const std::vector<std::optional<Medium>>& media, const std::vector<std::optional<std::size_t>>& places) {
     *this = {};
-    for (const auto& medium : media) {
+    std::int32_t densities = 0;
+    if (!places.empty()) densities_.push_back(-1);
+    for (std::size_t i = 0; i < media.size(); ++i) {
       numbers_.push_back(0);
-      if (!medium) continue;
-      add(*medium);
-      numbers_.back() = static_cast<std::int32_t>(ior_.size() - 1);
+      if (!media[i]) continue;
+      const bool is_uneven = !places.empty() && places[i];
+      numbers_.back() = static_cast<std::int32_t>(ior_.size());
+      const std::size_t count = is_uneven ? 1 + *places[i] : 1;
+      if (ior_.size() + count > 1U << 16U)
+        throw RenderError(
+            "there are more than 65,535 clear materials, counting fogs that are not the same everywhere once for each "
+            "instance");
+      for (std::size_t j = 0; j < count; ++j) {
+        add(*media[i]);
+        if (!places.empty()) densities_.push_back(is_uneven ? densities++ : -1);
+      }
     }
-    if (ior_.size() > 1U << 16U) throw RenderError("there are more than 65,535 clear materials");
   }
 
   bool empty() const { return ior_.size() == 1; }
@@ -50,6 +62,19 @@ class MediumTable {
     return float_mask<FloatN>(medium != IntN(0)) & float_mask<FloatN>(priority(medium) == IntN(Medium::fog_priority));
   }
 
+  /// Whether any of them is a fog that is not the same everywhere, which lanes' are, and their numbers among such, in
+  /// which those of one fog follow each other.
+  bool has_densities() const { return !densities_.empty(); }
+  IntN density(const IntN& medium) const { return gather(densities_.data(), medium); }
+  MaskN has_density(const IntN& medium) const { return float_mask<FloatN>(density(medium) > IntN(-1)); }
+  /// What so much of it that nothing shines through sends; whether any does.
+  bool has_emission() const { return has_emission_; }
+  Rgb<FloatN> emission(const IntN& medium) const {
+    return {gather(emission_.red.data(), medium), gather(emission_.green.data(), medium),
+            gather(emission_.blue.data(), medium)};
+  }
+
+  /// Of a fog that is in several places the first.
   IntN of_material(const IntN& material) const { return gather(numbers_.data(), material); }
   FloatN ior(const IntN& medium) const { return gather(ior_.data(), medium); }
   /// dispersion_of() its Abbe number; of none 0.
@@ -92,6 +117,10 @@ class MediumTable {
     scattering_.green.push_back(medium.scattering.green);
     scattering_.blue.push_back(medium.scattering.blue);
     anisotropy_.push_back(medium.anisotropy);
+    emission_.red.push_back(medium.emission.red);
+    emission_.green.push_back(medium.emission.green);
+    emission_.blue.push_back(medium.emission.blue);
+    has_emission_ |= medium.emission.red + medium.emission.green + medium.emission.blue > 0;
     has_fog_ |= medium.is_fog();
     scatters_ |= !medium.is_fog() && medium.scattering.red + medium.scattering.green + medium.scattering.blue > 0;
   }
@@ -107,9 +136,10 @@ class MediumTable {
   std::vector<std::int32_t> numbers_, priority_{std::numeric_limits<std::int32_t>::min()};
   std::vector<float> ior_{1}, dispersion_{0};
   std::vector<float> red_{0}, green_{0}, blue_{0};  ///< what is left of these colours, as exponents
-  Channels scattering_;
+  Channels scattering_, emission_;
   std::vector<float> anisotropy_{0};
-  bool disperses_ = false, scatters_ = false, has_fog_ = false;
+  std::vector<std::int32_t> densities_;  ///< -1: it is the same everywhere; empty: all are
+  bool disperses_ = false, scatters_ = false, has_fog_ = false, has_emission_ = false;
 };
 
 /// The media that each lane's path is in, in the order in which it came into them: four at most. Of more, the last

@@ -107,7 +107,9 @@ SceneTables::SceneTables(const SceneDescription& description, int threads, const
     emissions.back().textured = !textured_.empty() && textured_[i] != 0;
   }
   has_cutouts_ |= geometry_->has_invisible();
-  media_.set(media);
+  densities_ = DensityTable(description, first_material_[index_of<Fog>(Materials{})], used_materials_, *geometry_,
+                            origin_, *textures_, threads);
+  media_.set(media, densities_.places());
   has_invisible_media_ = geometry_->has_invisible() && !media_.empty() &&
                          have_invisible_media(description, [&](const MaterialReference& material) {
                            const auto number = static_cast<std::size_t>(first_material_[material.type]);
@@ -246,6 +248,9 @@ void SceneTables::add_materials(const SceneDescription& description) {
       if constexpr (requires { bsdfs.back().subsurface; }) details_.back().has_subsurface = bsdfs.back().subsurface > 0;
       if constexpr (requires { Kernel<Material>::medium(parameters, bsdfs.back()); })
         details_.back().medium = Kernel<Material>::medium(parameters, bsdfs.back());
+      // Where a texture says how dense it is, that is no factor of all of it.
+      if constexpr (requires { item.grid; })
+        details_.back().medium = Kernel<Material>::medium(item.parameters, bsdfs.back());
       Rgb<float> radiance(0, 0, 0);
       if constexpr (requires { bsdfs.back().emitted(); }) {
         radiance = bsdfs.back().emitted();

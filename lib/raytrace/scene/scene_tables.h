@@ -17,6 +17,7 @@
 #include "raytrace/sampling/sampler.h"
 #include "raytrace/scene/camera.h"
 #include "raytrace/scene/caustic_table.h"
+#include "raytrace/scene/density_table.h"
 #include "raytrace/scene/emitter_table.h"
 #include "raytrace/scene/environment.h"
 #include "raytrace/scene/geometry_table.h"
@@ -227,6 +228,16 @@ class SceneTables {
   bool has_subsurface() const { return has_subsurface_; }
   /// What is inside of clear materials that objects have; empty if there is none.
   const MediumTable& media() const { return media_; }
+  /// What is inside of what was hit; 0: nothing, or the same as outside.
+  IntN inside(const Hits& hits) const {
+    const IntN medium = media_.of_material(material(hits));
+    if (!densities_.has_instances()) [[likely]]
+      return medium;
+    const MaskN moved = hits.hit & float_mask<FloatN>(hits.instance != UintN(0u)) & media_.has_density(medium);
+    return medium + densities_.place(select_lanes(moved, hits.instance, UintN(0u)));
+  }
+  /// Of fogs that are not the same everywhere, by MediumTable::density().
+  const DensityTable& densities() const { return densities_; }
 
   /// Whether materials have normal maps or bumps.
   bool has_relief() const { return has_relief_; }
@@ -240,7 +251,7 @@ class SceneTables {
 
   /// Whether any of the lanes has a material with textures, or one that wants to know where u grows.
   bool has_textures(const Hits& hits) const;
-  /// Whether any texture looks up by the second set of texture coordinates.
+  /// Whether any texture looks up by the second set of coordinates.
   bool has_second_uvset() const { return has_second_uvset_; }
   /// Whether materials ask for tangents at the vertices of meshes.
   bool has_vertex_tangents() const { return has_vertex_tangents_; }
@@ -248,8 +259,7 @@ class SceneTables {
   bool has_vertex_alphas() const { return has_vertex_alphas_; }
   /// Whether any texture is fixed to objects.
   bool has_object_space() const { return has_object_space_; }
-  /// How wide a pixel is where the camera's rays start, and by how much it widens with their lengths.
-  const RayCone& ray_cone() const { return ray_cone_; }
+  const RayCone& ray_cone() const { return ray_cone_; }  ///< of the camera's rays
 
  private:
   MaskN shines(const IntN& material, const MaskN& front) const {
@@ -353,6 +363,7 @@ class SceneTables {
   bool has_invisible_media_ = false;
   std::vector<SurfaceDetail> details_;  ///< of all materials
   MediumTable media_;
+  DensityTable densities_;
   bool has_cutouts_ = false, has_relief_ = false, has_emission_ = false, has_second_uvset_ = false,
        has_turned_tangents_ = false, has_subsurface_ = false, has_photons_ = false, has_panes_ = false,
        has_vertex_tangents_ = false, has_object_space_ = false, has_vertex_alphas_ = false;

@@ -1,5 +1,8 @@
 #include "raytrace/tracing/fog.h"
 
+#include "raytrace/sampling/hash.h"
+#include "raytrace/tracing/density_walk.h"
+
 namespace raytrace {
 
 void pass_boundaries_at_starts(const TracedScene& scene, Ray<FloatN>& rays, MaskN lanes, const FloatN& distance,
@@ -21,7 +24,7 @@ void pass_boundaries_at_starts(const TracedScene& scene, Ray<FloatN>& rays, Mask
     if (tables.has_motion()) [[unlikely]]
       hits.time = ids.times();
     const SurfaceInteraction<FloatN> surface = scene.accelerator().surface(left, hits);
-    const IntN inside = select_lanes(lanes, tables.media().of_material(tables.material(hits)), IntN(0));
+    const IntN inside = select_lanes(lanes, tables.inside(hits), IntN(0));
     // Some may have been passed before: the last one says what the rays are in.
     const MaskN is_in = media.contains(inside);
     media.add(lanes & surface.front & !is_in, inside);
@@ -33,13 +36,39 @@ void pass_boundaries_at_starts(const TracedScene& scene, Ray<FloatN>& rays, Mask
   }
 }
 
+namespace {
+
+/// A part of rays' ways.
+struct RayPart {
+  const FloatN& begin;
+  const FloatN& end;
+};
+
+/// In lanes whose fog is not the same everywhere, what that leaves on this part of the way; in the others `even`.
+[[gnu::noinline]] Rgb<FloatN> density_transmittance(const SceneTables& tables, const Ray<FloatN>& rays,
+                                                    const FloatN& unit, const MaskN& in_fog, const IntN& fog,
+                                                    const RayPart& part, const UintN& key, Rgb<FloatN> even) {
+  for_each_value(tables.media().density(fog), in_fog & tables.media().has_density(fog),
+                 [&](std::int32_t number, const MaskN& here) {
+                   const FloatN left = left_by(tables.densities()[number], rays, unit, here, part.begin, part.end,
+                                               mix_bits(key ^ UintN(0x7261746fU)));
+                   even = select(here, Rgb<FloatN>(left, left, left), even);
+                 });
+  return even;
+}
+
+}  // namespace
+
 Rgb<FloatN> fog_transmittance(const TracedScene& scene, const Ray<FloatN>& rays, const MaskN& lanes, const RayIds& ids,
                               MediumStack& media, const MaskN& seeing) {
   const FloatN unit = length(rays.direction);
   Rgb<FloatN> left(Rgb<float>(1, 1, 1));
   for_each_part_in_fog(scene, rays, lanes, ids, media, seeing,
-                       [&](const MaskN& in_fog, const IntN& fog, int, const FloatN& begin, const FloatN& end) {
-                         const Rgb<FloatN> here = scene.tables().media().transmittance(fog, (end - begin) * unit);
+                       [&](const MaskN& in_fog, const IntN& fog, int part, const FloatN& begin, const FloatN& end) {
+                         Rgb<FloatN> here = scene.tables().media().transmittance(fog, (end - begin) * unit);
+                         if (scene.tables().media().has_densities()) [[unlikely]]
+                           here = density_transmittance(scene.tables(), rays, unit, in_fog, fog, {begin, end},
+                                                        ids.keys() + UintN(static_cast<std::uint32_t>(part)), here);
                          left = select(in_fog, left * here, left);
                          return in_fog;
                        });

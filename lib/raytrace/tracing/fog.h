@@ -48,7 +48,7 @@ void for_each_part_in_fog(const TracedScene& scene, const Ray<FloatN>& rays, Mas
       if (tables.has_motion()) [[unlikely]]
         hits.time = ids.times();
       const SurfaceInteraction<FloatN> surface = scene.accelerator().surface(left, hits);
-      inside = select_lanes(hits.hit, tables.media().of_material(tables.material(hits)), IntN(0));
+      inside = select_lanes(hits.hit, tables.inside(hits), IntN(0));
       enters = hits.hit & surface.front;
       leaves = hits.hit & !surface.front;
       behind = offset_ray_origin(surface, hits.hit);

@@ -24,7 +24,7 @@ MediumBoundary next_boundary(const TracedScene& scene, MediumStack& stack, Ray<F
   const SceneTables& tables = scene.tables();
   const MediumTable& media = tables.media();
   for (MaskN arrives = hits.hit;;) {
-    const IntN inside = media.of_material(tables.material(hits));
+    const IntN inside = tables.inside(hits);
     if (none(hits.hit & (stack.is_in_any() | float_mask<FloatN>(inside != IntN(0))))) {
       went(arrives, Rgb<FloatN>(Rgb<float>(1, 1, 1)));
       return {};

@@ -82,6 +82,9 @@ class PathBatch {
   /// The same to the sums of what surfaces have scattered so often, and fogs path.fog_scatterings times.
   void add_scattered(const PathPacket& path, const MaskN& lanes, const Rgb<FloatN>& radiance, const IntN& group,
                      int scatterings);
+  /// The same of light that a fog scatters, whose paths surfaces have scattered so often.
+  void add_from_fog(const PathPacket& path, const MaskN& lanes, const Rgb<FloatN>& radiance, const IntN& group,
+                    int depth);
   Rgb<FloatN> sum(const std::vector<Sums>& sums, std::size_t groups, std::size_t packet, std::size_t group) const;
   /// The share that is left of what clampindirect bounds.
   Rgb<FloatN> left_of_indirect(std::size_t packet) const;
@@ -149,6 +152,20 @@ class PathBatch {
                              const FloatN& u) const;
   /// The lanes that end within the part, which are scattered there, unless it absorbs them.
   static MaskN scatter_in_fog(PathPacket& path, const FogPart& part, const FogNumbers& numbers, int depth);
+
+  // The same where a fog is not the same everywhere: at points, where free flights end.
+
+  struct FogPoint;
+  /// Lights such a part, in the lanes that may be scattered once more, and scatters the paths that end in it.
+  MaskN go_through_density(PathPacket& path, const FogPart& part, const MaskN& may_scatter, FogNumbers numbers,
+                           int depth, RayCounts& counts);
+  /// color: the share of the light that is scattered there.
+  void light_fog_point(const PathPacket& path, const FogPart& part, const FogPoint& point, const Rgb<FloatN>& color,
+                       const FogNumbers& numbers, int depth, RayCounts& counts);
+  FogLight choose_light_at(const FogPart& part, const FogPoint& point, const Rgb<FloatN>& scattered,
+                           const FogNumbers& numbers) const;
+  FogLight draw_light_at(const PathPacket& path, const FogPart& part, const FogPoint& point,
+                         const FogNumbers& numbers) const;
 
   /// Those paths' ways below the surfaces that they have met, to where they come out: rays start and go there.
   void go_below(const PathPacket& path, const Hits& hits, const SurfaceInteraction<FloatN>& surface,

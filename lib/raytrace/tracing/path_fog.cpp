@@ -4,92 +4,17 @@
 // flight of its own. Lights at a point get half of their distances by the angles from which the light sees them, so
 // that the halos of lamps are not noisier than what is far away from them (Kulla and Fajardo, "Importance Sampling
 // Techniques for Path Tracing in Participating Media", EGSR 2012).
+#include "raytrace/tracing/path_fog.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
-#include "raytrace/bsdfs/henyey_greenstein.h"
-#include "raytrace/sampling/ray_ids.h"
 #include "raytrace/sampling/reservoir.h"
-#include "raytrace/sampling/sampler.h"
-#include "raytrace/tracing/fog.h"
-#include "raytrace/tracing/fog_distances.h"
-#include "raytrace/tracing/path_batch.h"
 #include "raytrace/tracing/sampled_light.h"
 
 namespace raytrace {
-
-namespace {
-
-/// Up to so many lights of a group are asked each for what they bring to a part.
-constexpr std::size_t most_asked_in_fog = 24;
-
-FloatN brightness(const Rgb<FloatN>& color) { return abs(color.red) + abs(color.green) + abs(color.blue); }
-
-}  // namespace
-
-/// A part of paths' ways in a fog.
-struct PathBatch::FogPart {
-  MaskN lanes;
-  const Ray<FloatN>& rays;  ///< of unit length
-  FloatN begin, end;
-  const IntN& fog;
-  const MediumStack& media;
-  FloatN extinction, anisotropy;
-  Rgb<FloatN> scattering;
-  FlightDistances flights;
-  int rounds = 1;  ///< how often light is looked for
-
-  FogPart(const MediumTable& table, const MaskN& those, const Ray<FloatN>& their_rays, const FloatN& from,
-          const FloatN& to, const IntN& its_fog, const MediumStack& its_media)
-      : lanes(those),
-        rays(their_rays),
-        begin(from),
-        end(min(to, FloatN(1e17F))),
-        fog(its_fog),
-        media(its_media),
-        extinction(max(table.extinction(fog).green, FloatN(1e-30F))),  // the same of all colours
-        anisotropy(table.anisotropy(fog)),
-        scattering(table.scattering(fog)),
-        flights(extinction, begin, end) {}
-
-  /// What is left of light that went from there to where the part begins.
-  FloatN left(const FloatN& distance) const { return exp(-extinction * (distance - begin)); }
-  FloatN phase(const Vec3<FloatN>& wi) const { return henyey_greenstein(dot(rays.direction, wi), anisotropy); }
-};
-
-/// What comes to it from one light, before what is in between.
-struct PathBatch::FogLight {
-  MaskN lit{false}, has_shadow{false};
-  Ray<FloatN> ray;
-  FloatN distance{0};                         ///< of its origin, along the part's rays
-  std::uint32_t ray_number = 0;               ///< among the part's
-  Rgb<FloatN> radiance{Rgb<float>(0, 0, 0)};  ///< over the density of the draw, times the phase function's value
-  IntN group{0};
-};
-
-/// Random numbers of a part, and which its rays are: where paths go on a straight way, which begins with `step`
-/// scatterings. Up to the first of them, those of the first parts are well spread.
-struct PathBatch::FogNumbers {
-  const UintN& pixel;
-  const UintN& sample;
-  std::uint32_t walk, step, part = 0;
-  std::uint32_t round = 0;  ///< how often light has been looked for
-
-  Sample2D operator()(FogDraw what) const {
-    constexpr std::uint32_t spread_parts = 32;  // that have dimensions of their own
-    const std::uint32_t round_of_part = round << 5U | part % spread_parts, repeat = part / spread_parts;
-    if (step == 0 && repeat == 0) return get_2d(pixel, sample, fog_dimension(walk, round_of_part, what));
-    const UintN key = mix_bits(RayIds{pixel, sample, 0x70000000U | walk}.keys() + UintN(repeat * 0x85ebca6bU));
-    const std::uint32_t number = ((step << 8U | round_of_part) * 8 + static_cast<std::uint32_t>(what)) * 2;
-    return {to_unit(mix_bits(key + UintN(number * 0x9e3779b9U))),
-            to_unit(mix_bits(key + UintN((number + 1) * 0x9e3779b9U)))};
-  }
-  RayIds ids(std::uint32_t ray) const {
-    return {pixel, sample, 0x60000000U | walk << 10U | (step & 0xFFU) << 2U | ray};
-  }
-};
 
 void PathBatch::light_fog(const PathPacket& path, const FogPart& part, FogNumbers numbers, int depth,
                           RayCounts& counts) {
@@ -112,11 +37,7 @@ void PathBatch::light_fog(const PathPacket& path, const FogPart& part, FogNumber
     }
     left = left * light_through(scene_, light.ray, lit, ids, {part.media, part.fog});
     const Rgb<FloatN> radiance = path.throughput * part.scattering * light.radiance * left * FloatN(share);
-    add_scattered(path, lit, radiance, light.group, depth + 1);
-    if (has_passes_) [[unlikely]] {
-      const MaskN here = float_mask<FloatN>(path.first == IntN(unscattered));
-      add_to_passes(path, select_lanes(here, IntN(in_volume), path.first), lit, radiance, depth + 1);
-    }
+    add_from_fog(path, lit, radiance, light.group, depth);
   };
   for (int round = 0; round < part.rounds; ++round) {
     numbers.round = static_cast<std::uint32_t>(round);
@@ -297,13 +218,24 @@ Hits PathBatch::go_through_fog(PathPacket& path, MediumStack& media, const MaskN
           if (way.depth == 0 && step == 0) part.rounds = 4;
           numbers.part = static_cast<std::uint32_t>(number);
           fogged = fogged | in_fog;
-          FogPart lit = part;
-          lit.lanes = in_fog & float_mask<FloatN>(path.fog_scatterings < IntN(settings_.maxdepth - way.depth));
-          if (any(lit.lanes)) light_fog(path, lit, numbers, way.depth, counts);
-          const MaskN here = scatter_in_fog(path, part, numbers, way.depth);
+          const MaskN may_scatter =
+              in_fog & float_mask<FloatN>(path.fog_scatterings < IntN(settings_.maxdepth - way.depth));
+          MaskN here(false);
+          if (tables.media().has_densities()) [[unlikely]] {
+            FogPart uneven = part;
+            uneven.lanes = in_fog & tables.media().has_density(fog);
+            part.lanes = in_fog & !uneven.lanes;
+            if (any(uneven.lanes)) here = go_through_density(path, uneven, may_scatter, numbers, way.depth, counts);
+          }
+          if (any(part.lanes)) {
+            FogPart lit = part;
+            lit.lanes = part.lanes & may_scatter;
+            if (any(lit.lanes)) light_fog(path, lit, numbers, way.depth, counts);
+            here = here | scatter_in_fog(path, part, numbers, way.depth);
+          }
           if (has_passes_) [[unlikely]]
             set_first(path, here, IntN(in_volume));
-          scatters = scatters | (here & lit.lanes);
+          scatters = scatters | (here & may_scatter);
           ends = ends | here;
           // Those that have been scattered often, or carry little.
           const FloatN survival = min(largest(path.throughput) * path.eta2 * FloatN(2), FloatN(1));

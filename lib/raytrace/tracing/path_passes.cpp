@@ -16,6 +16,15 @@ void PathBatch::set_first(PathPacket& path, const MaskN& lanes, const IntN& scat
   path.first = select_lanes(is_first, scattering, path.first);
 }
 
+void PathBatch::add_from_fog(const PathPacket& path, const MaskN& lanes, const Rgb<FloatN>& radiance,
+                             const IntN& group, int depth) {
+  add_scattered(path, lanes, radiance, group, depth + 1);
+  if (!has_passes_) [[likely]]
+    return;
+  const MaskN here = float_mask<FloatN>(path.first == IntN(unscattered));
+  add_to_passes(path, select_lanes(here, IntN(in_volume), path.first), lanes, radiance, depth + 1);
+}
+
 void PathBatch::add_to_passes(const PathPacket& path, const IntN& first, const MaskN& lanes,
                               const Rgb<FloatN>& radiance, int scatterings, LightPass otherwise) {
   if (none(lanes)) return;
