@@ -1039,6 +1039,62 @@ write(
 """,
 )
 write(
+    "cloud",
+    "Clouds in a low sun over swaths of mist: fogs whose density is that of noise.",
+    room="""\
+  <integrator> <path> <maxdepth>48</maxdepth> </path> </integrator>
+  <viewplane> <hres>320</hres> <vres>240</vres> <samples>160</samples> </viewplane>
+  <camera> <eye x="0" y="1.1" z="12"/> <lookat x="0" y="2.35" z="0"/> <fov>32</fov> </camera>
+""",
+    lights="""\
+  <lights>
+    <skylights>
+      <skylight>
+        <sundirection x="-0.9" y="0.22" z="0.25"/> <turbidity>3</turbidity> <scaleradiance>4</scaleradiance>
+      </skylight>
+    </skylights>
+  </lights>
+""",
+    mattes="""\
+      <matte> <name>meadow</name> <ka>0</ka> <kd>1</kd> <cd red="0.1" green="0.14" blue="0.06"/> </matte>
+""",
+    textures="""\
+    <noises>
+      <noise>
+        <name>billows</name> <color1 red="-2" green="0" blue="0"/> <color2 red="6.5" green="0" blue="0"/>
+        <scale>1.3</scale> <octaves>6</octaves>
+      </noise>
+      <noise>
+        <name>swaths</name> <color1 red="-1.2" green="0" blue="0"/> <color2 red="2.2" green="0" blue="0"/>
+        <scale>2.2</scale> <octaves>4</octaves>
+      </noise>
+    </noises>
+""",
+    materials_more="""\
+    <fogs>
+      <fog>
+        <name>cloud</name> <meanfreepath>0.12</meanfreepath> <anisotropy>0.5</anisotropy>
+        <density texture="billows"/> <densityfade x="2.6" y="1.3" z="2"/>
+      </fog>
+      <fog>
+        <name>mist</name> <meanfreepath>2</meanfreepath> <anisotropy>0.3</anisotropy>
+        <density texture="swaths"/> <densityfade x="0" y="0.9" z="0"/>
+      </fog>
+    </fogs>
+""",
+    floor="""\
+    <planes>
+      <plane> <point x="0" y="-0.5" z="0"/> <normal x="0" y="1" z="0"/> <material>meadow</material> </plane>
+    </planes>
+""",
+    objects="""\
+    <boxes>
+      <box> <min x="-4.6" y="1.7" z="-4"/> <max x="4.8" y="5.2" z="0.5"/> <material>cloud</material> </box>
+      <box> <min x="-30" y="-1.4" z="-40"/> <max x="30" y="0.6" z="8"/> <material>mist</material> </box>
+    </boxes>
+""",
+)
+write(
     "skylight",
     "A clear sky in the late afternoon; the sun is behind, on the left.",
     room="""\
