@@ -77,7 +77,12 @@ std::string room(const std::string& path, const std::string& more_objects = "", 
          "</name><ce red='1' green='0.5' blue='0.2'/><scaleradiance>5</scaleradiance></emissive></emissives><openpbrs>"
          "<openpbr><name>lacquer</name><coat_weight>1</coat_weight><specular_roughness>0.2</specular_roughness>"
          "</openpbr><openpbr><name>wax</name><subsurface_weight>0.8</subsurface_weight></openpbr></openpbrs><fogs><fog>"
-         "<name>smoke</name><meanfreepath>0.6</meanfreepath></fog></fogs></materials><objects><rectangles><rectangle>"
+         "<name>smoke</name><meanfreepath>0.6</meanfreepath></fog><fog><name>flame</name><meanfreepath>0.3</"
+         "meanfreepath>"
+         "<ce red='1' green='0.4' blue='0.1'/><density "
+         "texture='puffs'/></fog></fogs></materials><textures><noises><noise>"
+         "<name>puffs</name><color1 red='-1' green='0' blue='0'/><color2 red='3' green='0' blue='0'/><scale>0.4</scale>"
+         "</noise></noises></textures><objects><rectangles><rectangle>"
          "<corner x='-5' y='0' z='5'/><edge1 x='10' y='0' z='0'/><edge2 x='0' y='0' z='-10'/><material>floor</material>"
          "</rectangle><rectangle><corner x='-1' y='0' z='-4'/><edge1 x='2' y='0' z='0'/><edge2 x='0' y='2.4' z='0'/>"
          "<material>pane</material></rectangle></rectangles><spheres>" +
@@ -88,6 +93,8 @@ std::string room(const std::string& path, const std::string& more_objects = "", 
 
 const std::string smoke_ball =
     "<sphere><center x='2' y='0.5' z='1.2'/><radius>0.5</radius><material>smoke</material></sphere>";
+const std::string flame_ball =
+    "<sphere><center x='2' y='0.5' z='1.2'/><radius>0.5</radius><material>flame</material></sphere>";
 
 /// Fails where the passes do not add up to the picture, or where the picture is not that without passes.
 void check_sums(const SceneDescription& description, const std::string& isa, bool transparent) {
@@ -128,6 +135,7 @@ TEST_CASE("passes add up to the picture, which is the same without them, with ea
         INFO(isa << integrator << transparent);
         check_sums(parsed_scene(room(integrator)), isa, transparent);
         check_sums(parsed_scene(room(integrator, smoke_ball)), isa, transparent);
+        check_sums(parsed_scene(room(integrator, flame_ball)), isa, transparent);
       }
 }
 
@@ -169,6 +177,7 @@ TEST_CASE("each material's light is in the passes of its own") {
   CHECK(lit_passes(picture("pane")) == Names{"specular_direct", "background"});  // the sphere's back is a second one
   CHECK(lit_passes(picture("lamp")) == Names{"emission", "background"});
   CHECK(lit_passes(picture("smoke")) == Names{"volume_direct", "background"});
+  CHECK(lit_passes(picture("flame")) == Names{"volume_direct", "emission", "background"});
   // Out again is a second scattering: of glass an indirect one, below a surface the same.
   CHECK(lit_passes(picture("glass", "<maxdepth>2</maxdepth>")) ==
         Names{"specular_direct", "transmission_indirect", "background"});
