@@ -16,8 +16,8 @@ void PathBatch::set_first(PathPacket& path, const MaskN& lanes, const IntN& scat
   path.first = select_lanes(is_first, scattering, path.first);
 }
 
-void PathBatch::add_from_fog(const PathPacket& path, const MaskN& lanes, const Rgb<FloatN>& radiance,
-                             const IntN& group, int depth) {
+void PathBatch::add_from_fog(const PathPacket& path, const MaskN& lanes, const Rgb<FloatN>& radiance, const IntN& group,
+                             int depth) {
   add_scattered(path, lanes, radiance, group, depth + 1);
   if (!has_passes_) [[likely]]
     return;
