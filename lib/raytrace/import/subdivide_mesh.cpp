@@ -75,7 +75,7 @@ UniqueItems vertices_of(const MeshData& mesh, const MeshPolygons& polygons, cons
 }
 
 /// Of some vertices, and of the surface that they are on. Vertices of `values` may be several in one place.
-struct Channel {
+struct ValueChannel {
   SubdivisionTopology topology{};
   LargeArray<double> values{};
   SubdivisionRules rules{};
@@ -120,7 +120,7 @@ class Subdivider {
                   [&](std::size_t i) { places_[i] = places.number[vertices.first[i]]; });
   }
 
-  void load(Channel& channel, const std::vector<VertexValues>& values, const UniqueItems& vertices) const {
+  void load(ValueChannel& channel, const std::vector<VertexValues>& values, const UniqueItems& vertices) const {
     channel.size = 0;
     for (const VertexValues& one : values) channel.size += one.size;
     channel.values = LargeArray<double>::unset(static_cast<std::size_t>(channel.size) * vertices.first.size());
@@ -139,7 +139,7 @@ class Subdivider {
     if (has_jumps()) step(others_);
   }
 
-  void step(Channel& channel) const {
+  void step(ValueChannel& channel) const {
     const SubdivisionTopology& topology = channel.topology;
     const auto size = static_cast<std::size_t>(channel.size);
     auto values = LargeArray<double>::unset(size * counts_after_step(topology, triangles()).vertices);
@@ -225,7 +225,7 @@ class Subdivider {
   const SubdivisionSettings& settings_;
   MeshPolygons polygons_;
   std::vector<VertexValues> interpolated_;
-  Channel positions_, others_;
+  ValueChannel positions_, others_;
   LargeArray<std::uint32_t> places_;  ///< of each vertex of the others
 };
 
