@@ -17,7 +17,7 @@ namespace raytrace {
 namespace {
 
 /// Between two corners.
-struct Box {
+struct Corners {
   Vec3d lower{1e300, 1e300, 1e300}, upper{-1e300, -1e300, -1e300};
 
   void add(const Vec3d& p) {
@@ -26,7 +26,7 @@ struct Box {
       component(upper, axis) = std::max(component(upper, axis), component(p, axis));
     }
   }
-  bool meets(const Box& other) const {
+  bool meets(const Corners& other) const {
     for (int axis = 0; axis < 3; ++axis)
       if (component(lower, axis) > component(other.upper, axis) ||
           component(upper, axis) < component(other.lower, axis))
@@ -44,10 +44,10 @@ std::string corner_text(const Vec3d& p) {
   return "(" + short_text(p.x) + ", " + short_text(p.y) + ", " + short_text(p.z) + ")";
 }
 
-Box box_of(const MaterialItem<Fog>& fog) {
+Corners box_of(const MaterialItem<Fog>& fog) {
   const DensityGrid::Lattice& lattice = fog.grid.grid->lattice();
   const Affine map = fog.transform.affine() * lattice.world_from_lattice;
-  Box box;
+  Corners box;
   for (unsigned corner = 0; corner < 8; ++corner) {
     const auto side = [&](unsigned axis, double lower, double upper) {
       return (corner >> axis & 1U) != 0 ? upper : lower;
@@ -62,7 +62,7 @@ Box box_of(const MaterialItem<Fog>& fog) {
 /// seen, and the grid's place is written in a file that people cannot read.
 void warn_of_other_place(const SceneDescription& scene, std::uint32_t index, const MaterialItem<Fog>& fog,
                          Diagnostics& diagnostics) {
-  const Box grid = box_of(fog);
+  const Corners grid = box_of(fog);
   const MaterialReference material{static_cast<std::uint32_t>(index_of<Fog>(Materials{})), index};
   std::size_t objects = 0, met = 0;
   const auto look = [&](const ObjectLists& lists) {
@@ -76,7 +76,7 @@ void warn_of_other_place(const SceneDescription& scene, std::uint32_t index, con
             const Vec3d before(dot(along, map.x), dot(along, map.y), dot(along, map.z));
             return T::reach(item.parameters, before) + dot(along, map.origin);
           };
-          Box box;
+          Corners box;
           box.lower = Vec3d(-reach({-1, 0, 0}), -reach({0, -1, 0}), -reach({0, 0, -1}));
           box.upper = Vec3d(reach({1, 0, 0}), reach({0, 1, 0}), reach({0, 0, 1}));
           met += box.meets(grid);
