@@ -177,6 +177,33 @@ TEST_CASE("many fogs in a row let through what one of their depth does") {
   CHECK(std::abs(mean - expected) < 0.01);
 }
 
+TEST_CASE("fogs that end in one plane end there for rays that leave by it, be they of one material or of several") {
+  // Black ones, that overlap; the ray leaves obliquely by the plane y = 2, where all of them end.
+  const auto picture = [](const std::vector<std::string>& materials) {
+    const std::string boxes[] = {"<min x='-2' y='-2' z='-1.4'/><max x='2' y='2' z='1.4'/>",
+                                 "<min x='-1' y='-2' z='-3'/><max x='3' y='2' z='1'/>",
+                                 "<min x='-1' y='-2' z='-2'/><max x='3' y='2' z='1.2'/>"};
+    Fogged scene;
+    scene.fog =
+        "<color red='0' green='0' blue='0'/></fog><fog><name>other</name><meanfreepath>2</meanfreepath><color red='0' "
+        "green='0' blue='0'/></fog><fog><name>third</name><meanfreepath>2</meanfreepath><color red='0' green='0' "
+        "blue='0'/>";
+    scene.background = "<background red='1' green='1' blue='1'/>";
+    scene.eye = "<eye x='0.5' y='0' z='10'/><lookat x='0.5' y='2' z='0'/><fov>0.01</fov>";
+    scene.box.clear();
+    for (std::size_t i = 0; i < materials.size(); ++i)
+      scene.box += "<box>" + boxes[i] + "<material>" + materials[i] + "</material></box>";
+    return scene;
+  };
+  const double expected = std::exp(-1.4 * std::hypot(1.0, 0.2) / mean_free_path);
+  for (const std::string& isa : usable_isas())
+    for (const std::vector<std::string>& materials :
+         {std::vector<std::string>{"fog"}, {"fog", "fog"}, {"fog", "other"}, {"fog", "other", "third"}}) {
+      INFO(isa << ", " << materials.size() << " of them, the last is " << materials.back());
+      CHECK(std::abs(mean_of(picture(materials), isa).red - expected) < 0.006);
+    }
+}
+
 TEST_CASE("clampindirect clamps what fog has scattered twice, however it comes to the light") {
   Fogged scene;
   scene.fog = "<color red='0.9' green='0.9' blue='0.9'/>";

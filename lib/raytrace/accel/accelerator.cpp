@@ -168,7 +168,9 @@ void Accelerator::add_fogs(std::span<const std::uint8_t> fogs) {
   fog_scene_ = new_scene();
   const auto instances = static_cast<std::uint32_t>(table_.geometries().size());
   std::set<std::uint32_t> geometries;
-  for (const auto& object : table_.bounded_objects(fogs)) geometries.insert(object.geometry);
+  const auto objects = table_.bounded_objects(fogs);
+  has_several_fogs_ = objects.size() != 1;  // none: some are planes
+  for (const auto& object : objects) geometries.insert(object.geometry);
   if (geometries.erase(instances) > 0)
     for (const bool move : {false, true})
       if (has_instances(move)) geometries.insert(instances + (move ? 1 : 0));

@@ -78,6 +78,9 @@ class Accelerator {
     return scene_.get();
   }
 
+  /// Whether more than one object is a fog, so that boundaries may lie in each other.
+  bool has_several_fogs() const { return has_several_fogs_; }
+
  private:
   struct Report;
   /// What the tables could tell, without a branch on the shape's type, which would take what fetch_record() gains.
@@ -127,6 +130,7 @@ class Accelerator {
   embree::Scene scene_;
   /// Of those geometries that have fogs, for rays that look for their boundaries; null if there is none.
   embree::Scene fog_scene_;
+  bool has_several_fogs_ = false;
   mutable std::atomic<bool> is_built_{false};
 };
 

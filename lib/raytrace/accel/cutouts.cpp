@@ -30,6 +30,19 @@ std::uint32_t unseen_by(const RayIdentity& query, unsigned first, const CutoutSu
   return is_seen ? 0 : query.seeing >> first;
 }
 
+std::uint32_t crossed_by(const RayIdentity& query, unsigned first, const CutoutSurface& surface) {
+  const bool is_mesh = surface.geometry >= Shapes::size;
+  MaskN same(false);
+  for (const Hits& crossed : query.crossed) {
+    MaskN here = crossed.hit & float_mask<FloatN>(crossed.instance == UintN(surface.instance)) &
+                 float_mask<FloatN>(crossed.geometry == UintN(surface.geometry));
+    if (!is_mesh)
+      here = here & float_mask<FloatN>(crossed.primitive == IntN(static_cast<std::int32_t>(surface.primitive)));
+    same = same | here;
+  }
+  return bits_of<FloatN>(same) >> first;
+}
+
 std::optional<std::int32_t> cutout_material(const RayIdentity& query, const CutoutSurface& surface) {
   const std::int32_t material =
       query.scene.geometry().material_of(surface.instance, surface.geometry, surface.primitive);

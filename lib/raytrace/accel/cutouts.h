@@ -15,6 +15,7 @@
 #include "raytrace/sampling/hash.h"
 #include "raytrace/sampling/ray_ids.h"
 #include "raytrace/scene/camera.h"
+#include "raytrace/scene/hits.h"
 
 namespace raytrace {
 
@@ -38,6 +39,7 @@ struct RayIdentity {
   std::uint32_t* passed_panes = nullptr;  ///< bit i is set where ray i passes a pane, by surfaces_but_panes
   std::uint32_t seeing = 0;  ///< bit i is set where ray i is what the camera sees by: objects invisible to it are not
                              ///< there for the ray; 0 in scenes without any
+  std::span<const Hits> crossed{};  ///< what the rays do not meet, each lane's own; of a mesh all faces
 
   RayIdentity(const SceneTables& of_scene, const Accelerator& its_accelerator, const Ray<FloatN>& its_rays,
               const RayIds& ids, const CameraRays* its_camera = nullptr);
@@ -62,6 +64,9 @@ std::uint32_t passing_rays(const RayIdentity& query, unsigned first, std::uint32
 /// Which of the rays, as bits, do not meet the primitive at all, since its object is not visible to the camera.
 std::uint32_t unseen_by(const RayIdentity& query, unsigned first, const CutoutSurface& surface);
 
+/// The same of what the rays have crossed.
+std::uint32_t crossed_by(const RayIdentity& query, unsigned first, const CutoutSurface& surface);
+
 /// The lanes whose bits are set.
 template <class F>
 Mask<F> mask_of(std::uint32_t bits) {
@@ -78,6 +83,9 @@ F without_passed(const RayIdentity& query, unsigned first, int count, CutoutSurf
   if (query.seeing != 0) [[unlikely]]
     if (const std::uint32_t unseen = unseen_by(query, first, surface); unseen != 0)
       t = select(mask_of<F>(unseen), infinity<F>(), t);
+  if (!query.crossed.empty()) [[unlikely]]
+    if (const std::uint32_t crossed = crossed_by(query, first, surface); crossed != 0)
+      t = select(mask_of<F>(crossed), infinity<F>(), t);
   const std::optional<std::int32_t> material = cutout_material(query, surface);
   if (!material) return t;
   // No shape is crossed more often; what rounding finds beyond that is passed.

@@ -1,5 +1,8 @@
 #include "raytrace/tracing/fog.h"
 
+#include <array>
+#include <span>
+
 #include "raytrace/sampling/hash.h"
 #include "raytrace/tracing/density_walk.h"
 
@@ -33,6 +36,38 @@ void pass_boundaries_at_starts(const TracedScene& scene, Ray<FloatN>& rays, Mask
     reach = reach - left.far;
     const MaskN ahead = lanes & (dot(left.origin - start, rays.direction) > FloatN(0));
     rays.origin = select(ahead, left.origin, rays.origin);
+  }
+}
+
+void cross_others(const TracedScene& scene, const Ray<FloatN>& rays, const Hits& hits, const Vec3<FloatN>& behind,
+                  const RayIds& ids, const MaskN& seeing, MediumStack& media) {
+  const SceneTables& tables = scene.tables();
+  std::array<Hits, 4> crossed;  // as many fogs as paths know that they are in
+  crossed.front() = hits;
+  const Vec3<FloatN>& direction = rays.direction;
+  const FloatN end = dot(behind - rays.origin, direction) / dot(direction, direction);
+  MaskN lanes = hits.hit;
+  Ray<FloatN> left = rays;
+  // What lies where the ray has hit the first of them counts.
+  left.near = max(same_bits<FloatN>(same_bits<UintN>(max(rays.far, FloatN(1e-37F))) - UintN(1u)), FloatN(0));
+  for (std::size_t count = 1; count < crossed.size(); ++count) {
+    left.far = end;
+    RayIdentity identity(tables, scene.accelerator(), left, ids);
+    identity.meets = Meets::boundaries_of_fogs;
+    identity.crossed = std::span<const Hits>(crossed).first(count);
+    identity.set_seeing(seeing);
+    lanes = lanes & (left.near < end);
+    if (none(lanes)) return;
+    Hits& other = crossed[count];
+    other = scene.accelerator().intersect(left, lanes, Coherence::incoherent, nullptr, &identity);
+    lanes = other.hit;
+    if (none(lanes)) return;
+    if (tables.has_motion()) [[unlikely]]
+      other.time = ids.times();
+    const MaskN front = scene.accelerator().surface(left, other).front;
+    const IntN inside = select_lanes(lanes, tables.inside(other), IntN(0));
+    media.add(lanes & front, inside);
+    media.remove(lanes & !front, inside);
   }
 }
 

@@ -16,6 +16,11 @@ struct PointMedia {
 /// How much of a ray's length is at its end: more than what rounding makes of two surfaces in one place.
 inline constexpr float end_of_ray = 0x1p-16F;
 
+/// For rays that cross boundaries of fogs, in the lanes that hit them, and go on from `behind`: crosses all others that
+/// lie between, as where two fogs end in one plane. seeing: as below.
+void cross_others(const TracedScene& scene, const Ray<FloatN>& rays, const Hits& hits, const Vec3<FloatN>& behind,
+                  const RayIds& ids, const MaskN& seeing, MediumStack& media);
+
 /// Goes along rays from boundary to boundary of fogs, as far as they reach, or nearly: what ends at a surface, such as
 /// the fog of a room at its wall, is passed by what comes through that surface alone. media: where the rays start; then
 /// where they end.
@@ -62,6 +67,10 @@ void for_each_part_in_fog(const TracedScene& scene, const Ray<FloatN>& rays, Mas
     if (none(lanes)) return;
     media.add(lanes & enters, inside);
     media.remove(lanes & leaves, inside);
+    if (scene.accelerator().has_several_fogs()) {
+      hits.hit = lanes;
+      cross_others(scene, left, hits, behind, ids, seeing, media);
+    }
     left.origin = select(lanes, behind, left.origin);
     begin = end;
   }
