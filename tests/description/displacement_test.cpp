@@ -2,13 +2,16 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <set>
 #include <sstream>
 #include <string>
 
 #include "raytrace/description/check_scene.h"
+#include "raytrace/description/load_images.h"
 #include "raytrace/description/scene_description.h"
 #include "support/catch.h"
 #include "support/contains.h"
+#include "support/gltf_copies.h"
 #include "support/mesh_edges.h"
 #include "support/temporary_folder.h"
 
@@ -275,6 +278,98 @@ TEST_CASE("data that a program has made become finer once, with their copies") {
   CHECK_FALSE(diagnostics.has_errors());
 }
 
+TEST_CASE("heights have one measure in all of a glTF file, however often it has a mesh") {
+  GltfCopies strips;
+  for (std::size_t i = 0; i < GltfCopies::enough; ++i) strips.add(static_cast<float>(i), 0, 5, 0.5, 0.5, 0.5);
+  const TemporaryFolder folder;
+  write_text(folder.file("strips.gltf"), strips.text());
+  const Loaded scene = loaded("<models><model><file>" + folder.file("strips.gltf") +
+                              "</file><displacement texture='even' height='2'/></model></models>");
+  CHECK(scene.mesh().copies.empty());
+  CHECK(scene.mesh().face_count() == 64 * GltfCopies::enough);
+  std::size_t risen = 0;  // the strips face away from z
+  for (std::size_t i = 0; i < scene.mesh().vertex_count(); ++i)
+    risen += std::abs(place(scene.mesh(), i).z - 3) < 1e-5 ? 1 : 0;
+  CHECK(risen == scene.mesh().vertex_count());
+}
+
+TEST_CASE("a file has its materials once, whatever is done to its faces") {
+  const TemporaryFolder folder;
+  write_text(folder.file("t.mtl"), "newmtl red\nKd 1 0 0\nnewmtl glow\nKe 1 1 1\n");
+  write_text(folder.file("t.obj"),
+             "mtllib t.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl red\nf 1 2 3\nusemtl glow\nf 1 3 4\n");
+  const std::string file = "<model><file>" + folder.file("t.obj") + "</file>";
+  const auto models = [&](const std::string& last) {
+    return loaded("<models>" + file + "</model>" + file + "<subdivision>2</subdivision></model>" + file +
+                  "<displacement texture='even'/></model>" + last + "</models>");
+  };
+  const Loaded scene = models("");
+  REQUIRE(scene.item(0).materials.size() == 2);
+  CHECK(scene.item(0).materials[0] != scene.item(0).materials[1]);
+  CHECK(scene.item(1).materials == scene.item(0).materials);
+  CHECK(scene.item(2).materials == scene.item(0).materials);
+  // Overridden ones, too, are those of the scene alone.
+  write_text(folder.file("t.mtl"), "newmtl clay\nKd 1 0 0\nnewmtl glow\nKe 1 1 1\n");
+  write_text(folder.file("t.obj"),
+             "mtllib t.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl clay\nf 1 2 3\nusemtl glow\nf 1 3 4\n");
+  const Loaded overridden = models(file + "<overridematerials>true</overridematerials></model>");
+  CHECK(overridden.item(3).materials.at(0) != overridden.item(0).materials.at(0));
+  CHECK(overridden.item(3).materials.at(1) == overridden.item(0).materials.at(1));
+}
+
+TEST_CASE("a texture that cannot be read moves nothing, nor does a tile that is missing") {
+  std::string text =
+      scene_text(mesh_text(square + "<subdivision>3</subdivision><displacement texture='ramp' height='2'/>"
+                                    "<midlevel>0.25</midlevel>"));
+  Diagnostics diagnostics("s");
+  std::optional<SceneDescription> scene = parse_scene(text, diagnostics);
+  REQUIRE(scene);
+  const SceneDescription unread = *scene;
+  TextureSettings settings;
+  settings.missing = MissingTexture::warn;
+  REQUIRE(load_images(*scene, diagnostics, 1, settings));
+  REQUIRE(load_meshes(*scene, diagnostics));
+  std::ostringstream out;
+  diagnostics.print(out);
+  CHECK(out.str() ==
+        "s:3:340: warning: the texture 'ramp.exr' cannot be used: there is no such file; it moves nothing\n");
+  const auto z_where = [](const SceneDescription& of, const auto& is_there) {
+    std::set<float> heights;
+    const MeshData& mesh = *std::get<ObjectItems<Mesh>>(of.objects).at(0).data;
+    for (std::size_t i = 0; i < mesh.vertex_count(); ++i)
+      if (is_there(mesh.uvs[2 * i])) heights.insert(mesh.positions[3 * i + 2]);
+    return heights;
+  };
+  CHECK(z_where(*scene, [](float) { return true; }) == std::set<float>{0});
+
+  // Seen as a colour elsewhere, it is magenta there.
+  text.insert(text.find("<cd red"), "<kd texture='ramp'/>");
+  text.erase(text.find("<kd>1</kd>"), 10);
+  Diagnostics of_both("s");
+  scene = parse_scene(text, of_both);
+  REQUIRE(scene);
+  REQUIRE(load_images(*scene, of_both, 1, settings));
+  std::ostringstream both;
+  of_both.print(both);
+  CHECK(contains(both.str(), "there is no such file; it is magenta, and moves nothing\n"));
+
+  // One tile of 0.75 on the left half of what coordinates reach; its far edge is its own.
+  scene = unread;
+  auto& image = std::get<TextureItems<Image>>(scene->textures).at(0);
+  image.parameters.uvscale = {2, 1};
+  Picture picture{1, 1, 1, TexelFormat::floats, {}};
+  picture.pixels = LargeArray<std::byte>::zeros(sizeof(float));
+  constexpr float value = 0.75F;
+  std::memcpy(picture.pixels.data(), &value, sizeof value);
+  std::vector<TexelImage::Tile> tiles;
+  tiles.push_back({0, 0, TexelImage(picture, false, 1)});
+  const auto texels = std::make_shared<const TexelImage>(TexelImage::of_tiles(std::move(tiles)));
+  image.image = {"hash", texels, texels};
+  REQUIRE(load_meshes(*scene, diagnostics));
+  CHECK(z_where(*scene, [](float u) { return u <= 0.5F; }) == std::set<float>{1});
+  CHECK(z_where(*scene, [](float u) { return u > 0.5F; }) == std::set<float>{0});
+}
+
 TEST_CASE("what cannot be finer or displaced is an error where the mesh stands") {
   const auto said = [](const std::string& elements) { return loaded(mesh_text(elements)).messages; };
   CHECK(
@@ -288,7 +383,7 @@ TEST_CASE("what cannot be finer or displaced is an error where the mesh stands")
         "s:5:1: error: the mesh would have 1871708160 faces after 9 subdivisions; at most 268435456 are possible\n");
   // Corners in one place, whatever their numbers.
   CHECK(said("<positions>0 0 0, 0 0 0, 1 0 0</positions><faces>0 1 2,</faces><subdivision>1</subdivision>") ==
-        "s:5:1: error: the mesh has no faces with corners in three places, which can be subdivided\n");
+        "s:5:1: error: the mesh has no face to subdivide: none has corners in three different places\n");
   CHECK(contains(said(square + "<midlevel>0.5</midlevel>"),
                  "warning: <midlevel> changes nothing without a <displacement>"));
   CHECK(contains(said(square), "warning: <subdivisionscheme> changes nothing without a <subdivision>"));

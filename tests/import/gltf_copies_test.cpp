@@ -18,8 +18,8 @@ GltfCopies row_of_strips(std::size_t places) {
   return copies;
 }
 
-MeshData read_copies(const std::string& bytes) {
-  ReadResult read = read_bytes("a.gltf", bytes);
+MeshData read_copies(const std::string& bytes, const MeshReadSettings& settings = {}) {
+  ReadResult read = read_bytes("a.gltf", bytes, settings);
   INFO(read.messages);
   CHECK(read.messages.empty());
   REQUIRE(read.mesh);
@@ -71,6 +71,12 @@ TEST_CASE("few places, and small meshes, are joined") {
   const MeshData halves = read_copies(row_of_strips(GltfCopies::enough).text(2));
   CHECK(halves.copies.empty());
   CHECK(halves.face_count() == GltfCopies::enough * strip_faces);
+}
+
+TEST_CASE("no place is a copy where all faces are wanted in the file's space") {
+  const MeshData mesh = read_copies(row_of_strips(GltfCopies::enough).text(), {.joined = true});
+  CHECK(mesh.copies.empty());
+  CHECK(mesh.face_count() == GltfCopies::enough * strip_faces);
 }
 
 TEST_CASE("places of a mesh that rays cannot be turned back from") {

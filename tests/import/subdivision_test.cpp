@@ -277,6 +277,18 @@ TEST_CASE("what vertices have is linear along seams, smooth elsewhere, and stays
   CHECK(on_seam == 2 * 5);
 }
 
+TEST_CASE("texture coordinates that are far out do not make colours coarse") {
+  const auto fine = [](float farthest) {
+    MeshData mesh = mesh_of(3, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 9, 9, 9, 9, 8, 9, 8, 9, 9},
+                            {0, 2, 1, 0, 3, 2, 0, 1, 3, 1, 2, 3, 4, 5, 6});
+    mesh.uvs = buffer_with<float>({0, 0, 1, 0, 0, 1, 1, 1, 0, 0, 1, 0, farthest, 1});
+    mesh.colors = MeshBuffer<float>(21);
+    for (std::size_t i = 0; i < 21; ++i) mesh.colors[i] = static_cast<float>(i * 7 % 5) / 5;
+    return subdivided(mesh, {.levels = 2});
+  };
+  CHECK(values(fine(1e30F).colors) == values(fine(0).colors));
+}
+
 TEST_CASE("finer faces have the materials and the parts of those that they are of") {
   MeshData mesh = cube();
   mesh.face_materials = buffer_with<std::uint32_t>({0, 1, 2, 3, 4, MeshData::no_material});

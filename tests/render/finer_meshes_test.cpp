@@ -83,7 +83,7 @@ TEST_CASE("a subdivided and displaced square has the picture of the same faces, 
   CHECK(differing <= 4);
 }
 
-TEST_CASE("finer meshes have the same bits however a picture is cut: as lamps, in groups and moving") {
+TEST_CASE("finer meshes have the same bits however a picture is cut: as lamps and in groups") {
   const std::string finer = std::string("<subdivision>3</subdivision><displacement texture='clouds' height='0.4'/>");
   const std::string objects =
       "<meshes><mesh>" + std::string(cube_text) + finer +

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "raytrace/description/load_images.h"
 #include "raytrace/import/unique_items.h"
 #include "raytrace/import/vertex_normals.h"
 #include "raytrace/memory/large_array.h"
@@ -31,12 +32,15 @@ LookUp look_up(const Checker::Parameters& checker) {
 LookUp look_up(const Noise::Parameters&) { return LookUp::space; }
 LookUp look_up(const VertexColor::Parameters&) { return LookUp::nothing; }
 
+/// None where the texture has nothing that could move a vertex.
 template <class Texture>
-TextureValue value_of(const TextureItem<Texture>& item, const TexturePlace& place) {
-  if constexpr (std::is_same_v<Texture, Image>)
-    return texture_value(item.parameters, item.image.number.get(), place);
-  else
+std::optional<TextureValue> value_of(const TextureItem<Texture>& item, const TexturePlace& place) {
+  if constexpr (std::is_same_v<Texture, Image>) {
+    if (item.image.hash == missing_image || item.image.number == nullptr) return std::nullopt;
+    return height_value(item.parameters, *item.image.number, place);
+  } else {
     return texture_value(item.parameters, place);
+  }
 }
 
 /// The longest edges at each vertex: of texture coordinates, along u and along v; of positions, their length.
@@ -138,11 +142,12 @@ class Displacer {
         if (!mesh_.colors.empty())
           place.vertex_color = {mesh_.colors[3 * i], mesh_.colors[3 * i + 1], mesh_.colors[3 * i + 2]};
         if (!mesh_.alphas.empty()) place.vertex_alpha = mesh_.alphas[i];
-        const double value = value_of(texture, place)[static_cast<std::size_t>(displacement_.texture.channel)];
-        values[i] = value;
-        if (!std::isfinite(value)) is_number = false;
+        const std::optional<TextureValue> value = value_of(texture, place);
+        values[i] = value ? (*value)[static_cast<std::size_t>(displacement_.texture.channel)] : displacement_.midlevel;
+        if (!std::isfinite(values[i])) is_number = false;
       });
-      if (!is_number) return "cannot be displaced: the texture " + in_quotes(texture.name) + " is no number somewhere";
+      if (!is_number)
+        return "cannot be displaced: the texture " + in_quotes(texture.name) + " has a value that is not finite";
     }
     return move(values);
   }

@@ -108,6 +108,7 @@ struct ImageTask {
   std::string_view what;  ///< what it is for
   Image::Parameters image;
   std::array<bool, 2> used;  ///< as a colour, as a number
+  std::string_view unread;   ///< what it is if it cannot be read, and need not be
   std::string name;
   SourceLocation location;
   LoadedImage* loaded;
@@ -256,18 +257,29 @@ class ImageLoader {
   std::map<std::tuple<std::string, ColorSpace, std::size_t>, std::shared_ptr<const TexelImage>> tiles_;
 };
 
-/// For each image, whether the scene uses it as a colour, and as a number.
-std::vector<std::array<bool, 2>> image_uses(const SceneDescription& scene) {
-  std::vector<std::array<bool, 2>> uses(std::get<TextureItems<Image>>(scene.textures).size());
+struct ImageUses {
+  std::array<bool, 2> in_materials{};  ///< as a colour, and as a number
+  bool moves = false;                  ///< it displaces a mesh
+
+  std::array<bool, 2> all() const { return {in_materials[0], in_materials[1] || moves}; }
+  std::string_view unread() const {
+    if (!moves) return "it is magenta";
+    return in_materials[0] || in_materials[1] ? "it is magenta, and moves nothing" : "it moves nothing";
+  }
+};
+
+/// What the scene uses each image for.
+std::vector<ImageUses> image_uses(const SceneDescription& scene) {
+  std::vector<ImageUses> uses(std::get<TextureItems<Image>>(scene.textures).size());
   for_each_type(Materials{}, [&]<class T>(std::type_identity<T>) {
     const Fields& fields = element_type<T>().fields;
     for (const auto& item : std::get<MaterialItems<T>>(scene.materials))
       for (const TextureUse& use : item.textures)
         if (use.texture.type == index_of<Image>(Textures{}))
-          uses[use.texture.index][fields[use.field].template is<double>() ? 1 : 0] = true;
+          uses[use.texture.index].in_materials[fields[use.field].template is<double>() ? 1 : 0] = true;
   });
   for_each_displacement(scene, [&](const TextureUse& use) {
-    if (use.texture.type == index_of<Image>(Textures{})) uses[use.texture.index][1] = true;
+    if (use.texture.type == index_of<Image>(Textures{})) uses[use.texture.index].moves = true;
   });
   return uses;
 }
@@ -312,20 +324,23 @@ bool load_images(SceneDescription& scene, Diagnostics& diagnostics, int threads,
   bool fine = true;
   // Where there are errors, materials may name textures that were refused.
   const auto uses = diagnostics.has_errors()
-                        ? std::vector<std::array<bool, 2>>(std::get<TextureItems<Image>>(scene.textures).size())
+                        ? std::vector<ImageUses>(std::get<TextureItems<Image>>(scene.textures).size())
                         : image_uses(scene);
   std::vector<ImageTask> tasks;
   std::size_t i = 0;
   for (TextureItem<Image>& item : std::get<TextureItems<Image>>(scene.textures)) {
     const std::string& file = item.parameters.file.path;
     const std::string name = item.imported ? std::filesystem::path(file).filename().string() : file;
-    tasks.push_back({"texture", item.parameters, uses[i++], name, location_of(item), &item.image});
+    tasks.push_back(
+        {"texture", item.parameters, uses[i].all(), uses[i].unread(), name, location_of(item), &item.image});
+    ++i;
   }
   for (LightItem<EnvironmentLight>& item : std::get<LightItems<EnvironmentLight>>(scene.lights))
     if (const FileName& file = item.parameters.file; !file.path.empty()) {
       Image::Parameters picture;
       picture.file = file;
-      tasks.push_back({"environment", picture, {true, false}, file.path, location_of(item), &item.image});
+      tasks.push_back(
+          {"environment", picture, {true, false}, ImageUses{}.unread(), file.path, location_of(item), &item.image});
     }
   std::vector<bool> is_new(uses.size());
   for (std::size_t image = 0; image < uses.size(); ++image) is_new[image] = tasks[image].loaded->hash.empty();
@@ -337,8 +352,9 @@ bool load_images(SceneDescription& scene, Diagnostics& diagnostics, int threads,
     const SourceLocation location = file.line > 0 ? location_of(file) : task.location;
     diagnostics.add(warns ? Severity::warning : Severity::error, location,
                     "the " + std::string(task.what) + " " + in_quotes(task.name) + " cannot be used: " + error.what() +
-                        (warns ? "; it is magenta" : ""));
-    if (warns) *task.loaded = {"missing", TexelImage::of_color(255, 0, 255), TexelImage::of_color(255, 0, 255)};
+                        (warns ? "; " + std::string(task.unread) : ""));
+    if (warns)
+      *task.loaded = {std::string(missing_image), TexelImage::of_color(255, 0, 255), TexelImage::of_color(255, 0, 255)};
   });
   if (!diagnostics.has_errors()) warn_of_heights(scene, is_new, diagnostics);
   for_each_type(Lights{}, [&]<class Light>(std::type_identity<Light>) {

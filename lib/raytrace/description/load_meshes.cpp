@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "raytrace/description/check_groups.h"
@@ -178,9 +179,10 @@ class MeshLoader {
     const FileName& file = mesh.parameters.file;
     const Mesh::Parameters& values = mesh.parameters;
     MeshReadSettings settings{.animation = values.animation.name, .time = values.time, .variant = values.variant.name};
-    settings.polygons = values.subdivision > 0;
+    const MeshFileKey key = key_of(mesh);
+    settings.polygons = key.has_polygons;
+    settings.joined = key.is_joined;
     const bool overrides = values.overridematerials;
-    const MeshFileKey key = key_of(mesh.parameters);
     const auto [known, is_new] = files_.try_emplace(key);
     LoadedFile& loaded = known->second;
     if (!is_new) return loaded;
@@ -194,9 +196,19 @@ class MeshLoader {
       const auto folder = std::filesystem::absolute(file.path).parent_path();
       if (overrides) warn_of_no_override(file, data->materials);
       for (MeshMaterial& material : data->materials) {
-        const bool is_overridden = settings.overrides(material.name);
-        if (!is_overridden) take_bump_map(material, file, folder);
-        loaded.materials.push_back(is_overridden ? own_materials_.at(material.name) : added_.add(material, folder));
+        if (settings.overrides(material.name)) {
+          loaded.materials.push_back(own_materials_.at(material.name));
+        } else {
+          // However often a file is read, for faces that are cut in one way or another, its materials are the same.
+          const MeshFileKey of_any{key.file, key.animation, key.time, key.variant, false, false, false};
+          const auto [added, is_first] =
+              file_materials_.try_emplace({of_any, loaded.materials.size(), material.name}, no_material);
+          if (is_first) {
+            take_bump_map(material, file, folder);
+            added->second = added_.add(material, folder);
+          }
+          loaded.materials.push_back(added->second);
+        }
         material = {};  // the textures have its pictures
       }
       // Faces without a material have the last one.
@@ -278,6 +290,8 @@ class MeshLoader {
   FileMaterials added_;
   MeshRefiner refiner_{scene_, diagnostics_, threads_};
   std::map<MeshFileKey, LoadedFile> files_;
+  /// By the file, with the number and the name of each.
+  std::map<std::tuple<MeshFileKey, std::size_t, std::string>, MaterialReference> file_materials_;
   const std::set<MeshFileKey> shown_materials_ = files_with_shown_materials(scene_);
   std::map<std::string, std::shared_ptr<const PointCloud>> clouds_;
   std::map<std::string, bool> normal_maps_;                 ///< of pictures that may be such, whether they are

@@ -1,29 +1,39 @@
 // What meshes and models read of their files.
 #pragma once
 
+#include <compare>
 #include <set>
 #include <string>
-#include <tuple>
 
 #include "raytrace/description/scene_description.h"
 
 namespace raytrace {
 
-/// The file, its animation, the time, the variant, whether materials are overridden and whether polygons are kept: what
-/// is the same for several meshes is read once.
-using MeshFileKey = std::tuple<std::string, std::string, double, std::string, bool, bool>;
+/// What is the same for several meshes is read once.
+struct MeshFileKey {
+  std::string file, animation;
+  double time;
+  std::string variant;
+  bool overrides_materials;
+  bool has_polygons, is_joined;  ///< as MeshReadSettings has both
+
+  auto operator<=>(const MeshFileKey&) const = default;
+};
 
 /// Of a mesh or a model.
-template <class Parameters>
-MeshFileKey key_of(const Parameters& parameters) {
+template <class Item>
+MeshFileKey key_of(const Item& item) {
+  const auto& parameters = item.parameters;
   const std::string& animation = parameters.animation.name;
+  const bool is_subdivided = parameters.subdivision > 0, is_displaced = !item.textures.empty();
   // The time is of an animation alone.
   return {parameters.file.path,
           animation,
           animation.empty() ? 0 : parameters.time,
           parameters.variant.name,
           parameters.overridematerials,
-          parameters.subdivision > 0};
+          is_subdivided,
+          is_subdivided || is_displaced};
 }
 
 /// Those of which something in the scene has the materials of the file.
@@ -31,7 +41,7 @@ inline std::set<MeshFileKey> files_with_shown_materials(const SceneDescription& 
   std::set<MeshFileKey> keys;
   const auto add = [&](const auto& items) {
     for (const auto& item : items)
-      if (item.material == no_material) keys.insert(key_of(item.parameters));
+      if (item.material == no_material) keys.insert(key_of(item));
   };
   const auto add_all = [&](const ObjectLists& objects) {
     add(std::get<ObjectItems<Mesh>>(objects));

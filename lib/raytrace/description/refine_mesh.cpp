@@ -76,7 +76,7 @@ std::shared_ptr<const MeshData> MeshRefiner::refined(const ObjectItem<Mesh>& mes
     auto copy = std::make_shared<const MeshData>(finer(*data->copies[i].mesh, key, fault));
     if (!copy->indices.empty()) made.copies.push_back({std::move(copy), data->copies[i].places});
   }
-  if (!fault && made.indices.empty()) fault = "has no faces with corners in three places, which can be subdivided";
+  if (!fault && made.indices.empty()) fault = "has no face to subdivide: none has corners in three different places";
   if (fault)
     diagnostics_.error(location_of(mesh), "the mesh " + *fault);
   else

@@ -40,7 +40,7 @@ bool has_no_area(const Affine& affine) {
 
 }  // namespace
 
-CopyPlan plan_copies(const Model& model) {
+CopyPlan plan_copies(const Model& model, bool all_joined) {
   struct Use {
     std::size_t copies = 0;
     std::uint32_t number = CopyPlan::joined;
@@ -48,6 +48,7 @@ CopyPlan plan_copies(const Model& model) {
   std::map<const std::vector<Primitive>*, Use> uses;
   CopyPlan plan;
   plan.of_instances.assign(model.instances.size(), CopyPlan::joined);
+  if (all_joined) return plan;
   for (const Instance& instance : model.instances)
     if (!is_deformed(instance) && is_invertible(instance.transform)) ++uses[instance.mesh].copies;
   for (std::size_t i = 0; i < model.instances.size(); ++i) {

@@ -20,6 +20,7 @@ struct CopyPlan {
 
 /// Copies are of meshes that are many and large enough for what it costs rays to follow them: they stand still in their
 /// own space, without skins or morphs, and can be turned back into it.
-CopyPlan plan_copies(const Model& model);
+/// all_joined: there are none (MeshReadSettings::joined).
+CopyPlan plan_copies(const Model& model, bool all_joined);
 
 }  // namespace raytrace::gltf

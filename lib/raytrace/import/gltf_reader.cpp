@@ -197,7 +197,7 @@ class ModelWriter {
       : model_(model),
         settings_(settings),
         diagnostics_(diagnostics),
-        plan_(plan_copies(model)),
+        plan_(plan_copies(model, settings.joined)),
         joined_(settings.origin, settings.threads),
         first_copies_(plan_.meshes) {
     arrays_.all_alphas = settings.vertex_alphas;

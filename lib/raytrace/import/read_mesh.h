@@ -9,9 +9,8 @@
 //        are parts. Groups and smoothing groups are not kept; lines, points, curves and free-form surfaces are skipped.
 //   STL  .stl: ASCII and binary.
 //   glTF .gltf, .glb: 2.0, the meshes of the default scene's nodes, in world space, morphed and skinned, as an
-//   animation
-//        has them at a time; materials, of one variant; cameras and lights. Buffers and images may be files, URIs
-//        "data:" or parts of a GLB file. docs/models.md lists the extensions; points and lines are skipped.
+//        animation has them at a time; materials, of one variant; cameras and lights. Buffers and images may be files,
+//        URIs "data:" or parts of a GLB file. docs/models.md lists the extensions; points and lines are skipped.
 //
 // Each may be compressed by gzip, with .gz behind the name.
 //
@@ -61,6 +60,9 @@ struct MeshReadSettings {
   /// Keep quads where most faces are triangles, and which triangles are of one polygon (MeshData::continued), as
   /// subdivided() wants it.
   bool polygons = false;
+  /// Leave no copies in spaces of their own (MeshData::copies): all faces are in the file's space, in which heights and
+  /// textures in space then have one measure.
+  bool joined = false;
   int threads = 0;  ///< at most; 0: all that the machine has
   /// Whether faces have another material in place of the file's of that name, which nothing need be said of then.
   /// Null: none have.

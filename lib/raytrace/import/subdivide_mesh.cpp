@@ -79,7 +79,8 @@ struct ValueChannel {
   SubdivisionTopology topology{};
   LargeArray<double> values{};
   SubdivisionRules rules{};
-  int size = 0;
+  std::vector<int> kinds{};  ///< how many numbers each has
+  int size = 0;              ///< all of them
 };
 
 class Subdivider {
@@ -122,7 +123,10 @@ class Subdivider {
 
   void load(ValueChannel& channel, const std::vector<VertexValues>& values, const UniqueItems& vertices) const {
     channel.size = 0;
-    for (const VertexValues& one : values) channel.size += one.size;
+    for (const VertexValues& one : values) {
+      channel.kinds.push_back(one.size);
+      channel.size += one.size;
+    }
     channel.values = LargeArray<double>::unset(static_cast<std::size_t>(channel.size) * vertices.first.size());
     for_each_item(vertices.first.size(), threads(), [&](std::size_t i) {
       const std::size_t vertex = polygons_.vertices[vertices.first[i]];
@@ -143,7 +147,7 @@ class Subdivider {
     const SubdivisionTopology& topology = channel.topology;
     const auto size = static_cast<std::size_t>(channel.size);
     auto values = LargeArray<double>::unset(size * counts_after_step(topology, triangles()).vertices);
-    SubdivisionStep(topology, channel.rules, channel.values.data(), channel.size, threads())
+    SubdivisionStep(topology, channel.rules, channel.values.data(), channel.kinds, threads())
         .run(false, [&](std::size_t vertex, const SubdivisionStep::Numbers& numbers) {
           std::copy_n(numbers.data(), size, values.data() + size * vertex);
         });
@@ -177,7 +181,7 @@ class Subdivider {
       places = next_places();
       for (const VertexValues& one : interpolated_)
         out.*one.buffer = MeshBuffer<float>(static_cast<std::size_t>(one.size) * counts.vertices);
-      SubdivisionStep(topology, others_.rules, others_.values.data(), others_.size, threads())
+      SubdivisionStep(topology, others_.rules, others_.values.data(), others_.kinds, threads())
           .run(!settings_.flat, [&](std::size_t vertex, const SubdivisionStep::Numbers& numbers) {
             const double* from = numbers.data();
             for (const VertexValues& one : interpolated_)
@@ -187,7 +191,7 @@ class Subdivider {
       others_ = {};
     }
     MeshBuffer<float> of_places(3 * counts_after_step(positions_.topology, triangles()).vertices);
-    SubdivisionStep(positions_.topology, positions_.rules, positions_.values.data(), 3, threads())
+    SubdivisionStep(positions_.topology, positions_.rules, positions_.values.data(), positions_.kinds, threads())
         .run(!settings_.flat, [&](std::size_t vertex, const SubdivisionStep::Numbers& numbers) {
           for (std::size_t k = 0; k < 3; ++k) of_places[3 * vertex + k] = static_cast<float>(numbers[k]);
         });

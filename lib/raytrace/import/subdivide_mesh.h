@@ -2,10 +2,10 @@
 //
 // Faces are subdivided by Catmull and Clark's rules ("Recursively generated B-spline surfaces on arbitrary topological
 // meshes", 1978): a polygon of n corners becomes n quads, and a quad four. A mesh of triangles alone is subdivided by
-// Loop's ("Smooth Subdivision Surfaces Based on Triangles", 1987), a triangle into four, since the others make waves of
-// it. After the last step the vertices move to where infinitely many steps would bring them (Halstead, Kass and DeRose,
-// "Efficient, fair interpolation using Catmull-Clark surfaces", SIGGRAPH 1993), so that a coarse form lies on the same
-// surface as a fine one.
+// Loop's ("Smooth Subdivision Surfaces Based on Triangles", 1987), a triangle into four, since Catmull and
+// Clark's make waves of triangles. After the last step the vertices move to where infinitely many steps would bring
+// them (Halstead, Kass and DeRose, "Efficient, fair interpolation using Catmull-Clark surfaces", SIGGRAPH 1993), so
+// that a coarse form lies on the same surface as a fine one.
 //
 // Vertices of a part at one position are one, whatever else they have: there are no cracks. An edge with another number
 // of faces than two is sharp: it becomes a cubic B-spline of its own, whatever is beside it. A vertex with two such
@@ -14,6 +14,11 @@
 //
 // Texture coordinates, colours and alphas are smoothed by the same rules, but linear along edges where one of them
 // jumps, and at boundaries: OpenSubdiv's "boundaries", Blender's "keep boundaries". Flat faces are linear in all.
+//
+// Precision. What is around a vertex is added up in whole numbers of a unit that is the same in all of a mesh, some
+// 2^-57 of the largest value of that kind (positions, each set of texture coordinates, colours, alphas). With one point
+// 1e12 times as far out as the mesh is large, the others are about 1e-7 of its size off, as floats are anyway; at 1e17
+// times it is a hundredth.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,7 @@
 #include "raytrace/import/subdivision_values.h"
 
+#include <numeric>
+
 namespace raytrace {
 
 namespace {
@@ -16,46 +18,64 @@ double loop_limit_weight(double valence) { return 1 / (0.375 / loop_weight(valen
 }  // namespace
 
 SubdivisionStep::SubdivisionStep(const SubdivisionTopology& topology, const SubdivisionRules& rules,
-                                 const double* values, int size, int threads)
-    : topology_(topology), rules_(rules), values_(values), size_(size), threads_(threads) {
+                                 const double* values, const std::vector<int>& kinds, int threads)
+    : topology_(topology),
+      rules_(rules),
+      values_(values),
+      size_(std::accumulate(kinds.begin(), kinds.end(), 0)),
+      threads_(threads) {
   if (!rules.triangles) {
-    within_faces_ = LargeArray<double>::unset(static_cast<std::size_t>(size) * topology.face_count);
+    within_faces_ = LargeArray<double>::unset(static_cast<std::size_t>(size_) * topology.face_count);
     for_each_item(topology.face_count, threads, [&](std::size_t face) {
       const std::uint32_t first = topology.first_corner(face), count = topology.corners_of(face);
       Numbers mean{};
       for (std::uint32_t i = 0; i < count; ++i) add(mean, 1, at(topology.vertices[first + i]));
-      for (int k = 0; k < size; ++k)
-        within_faces_[static_cast<std::size_t>(size) * face + static_cast<std::size_t>(k)] =
+      for (int k = 0; k < size_; ++k)
+        within_faces_[static_cast<std::size_t>(size_) * face + static_cast<std::size_t>(k)] =
             mean[static_cast<std::size_t>(k)] / count;
     });
   }
-  if (!rules.flat) add_up();
+  if (rules.flat) return;
+  add_up(kinds);
 }
 
-void SubdivisionStep::add_up() {
-  const std::size_t vertices = topology_.vertex_count, count = static_cast<std::size_t>(size_) * vertices;
-  valences_ = LargeArray<std::uint32_t>::zeros(vertices);
-  for_each_item(topology_.corner_count, threads_, [&](std::size_t i) {
-    std::atomic_ref(valences_[topology_.vertices[i]]).fetch_add(1, std::memory_order_relaxed);
-  });
+void SubdivisionStep::set_units(const std::vector<int>& kinds) {
+  const std::size_t vertices = topology_.vertex_count, size = static_cast<std::size_t>(size_);
   // As fine as the largest sum leaves room for: of so many terms, and perhaps one more of a boundary.
   struct Largest {
-    double value = 0;
+    Numbers values{};
     std::uint32_t valence = 0;
   };
   std::vector<Largest> of_chunks(chunk_count(vertices));
   for_each_chunk(vertices, threads_, [&](std::size_t chunk, std::size_t first, std::size_t last) {
     Largest& largest = of_chunks[chunk];
-    for (std::size_t i = first; i < last; ++i) largest.valence = std::max(largest.valence, valences_[i]);
-    for (std::size_t i = static_cast<std::size_t>(size_) * first; i < static_cast<std::size_t>(size_) * last; ++i)
-      largest.value = std::max(largest.value, std::abs(values_[i]));
+    for (std::size_t i = first; i < last; ++i) {
+      largest.valence = std::max(largest.valence, valences_[i]);
+      for (std::size_t k = 0; k < size; ++k)
+        largest.values[k] = std::max(largest.values[k], std::abs(values_[size * i + k]));
+    }
   });
   Largest largest;
-  for (const Largest& one : of_chunks)
-    largest = {std::max(largest.value, one.value), std::max(largest.valence, one.valence)};
-  const int bits = std::ilogb(std::max(largest.value, 1e-300)) + 1 + std::bit_width(largest.valence + 2);
-  units_ = std::ldexp(1.0, 61 - bits);
+  for (const Largest& one : of_chunks) {
+    largest.valence = std::max(largest.valence, one.valence);
+    for (std::size_t k = 0; k < size; ++k) largest.values[k] = std::max(largest.values[k], one.values[k]);
+  }
+  auto first = largest.values.cbegin();
+  for (auto unit = units_.begin(); const int numbers : kinds) {
+    const double value = *std::max_element(first, first + numbers);
+    const int bits = std::ilogb(std::max(value, 1e-300)) + 1 + std::bit_width(largest.valence + 2);
+    unit = std::fill_n(unit, numbers, std::ldexp(1.0, 61 - bits));
+    first += numbers;
+  }
+}
 
+void SubdivisionStep::add_up(const std::vector<int>& kinds) {
+  const std::size_t count = static_cast<std::size_t>(size_) * topology_.vertex_count;
+  valences_ = LargeArray<std::uint32_t>::zeros(topology_.vertex_count);
+  for_each_item(topology_.corner_count, threads_, [&](std::size_t i) {
+    std::atomic_ref(valences_[topology_.vertices[i]]).fetch_add(1, std::memory_order_relaxed);
+  });
+  set_units(kinds);
   sums_of_edges_ = LargeArray<std::int64_t>::zeros(count);
   for_each_item(topology_.edge_count, threads_, [&](std::size_t i) {
     const SubdivisionTopology::Edge& edge = topology_.edges[i];
@@ -77,13 +97,13 @@ void SubdivisionStep::add_up() {
 void SubdivisionStep::add_to(LargeArray<std::int64_t>& sums, std::size_t vertex, const Numbers& numbers) {
   for (std::size_t k = 0; k < static_cast<std::size_t>(size_); ++k)
     std::atomic_ref(sums[static_cast<std::size_t>(size_) * vertex + k])
-        .fetch_add(static_cast<std::int64_t>(std::llrint(numbers[k] * units_)), std::memory_order_relaxed);
+        .fetch_add(static_cast<std::int64_t>(std::llrint(numbers[k] * units_[k])), std::memory_order_relaxed);
 }
 
 SubdivisionStep::Numbers SubdivisionStep::sum_at(const LargeArray<std::int64_t>& sums, std::size_t vertex) const {
   Numbers numbers{};
   for (std::size_t k = 0; k < static_cast<std::size_t>(size_); ++k)
-    numbers[k] = static_cast<double>(sums[static_cast<std::size_t>(size_) * vertex + k]) / units_;
+    numbers[k] = static_cast<double>(sums[static_cast<std::size_t>(size_) * vertex + k]) / units_[k];
   return numbers;
 }
 

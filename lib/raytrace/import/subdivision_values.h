@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <vector>
 
 #include "raytrace/import/subdivision_topology.h"
 #include "raytrace/memory/large_array.h"
@@ -22,15 +23,16 @@ struct SubdivisionRules {
   bool linear_edges = false;  ///< sharp edges stay straight, as fix_sharp_vertices() has their vertices
 };
 
-/// One step for values of `size` numbers a vertex.
+/// One step for values of one kind or several.
 class SubdivisionStep {
  public:
   static constexpr int most_numbers = 12;
   using Numbers = std::array<double, most_numbers>;
 
-  /// values: of each vertex, one after the other; they must stay where they are.
-  SubdivisionStep(const SubdivisionTopology& topology, const SubdivisionRules& rules, const double* values, int size,
-                  int threads);
+  /// kinds: how many numbers each has. values: of each vertex, one after the other; they must stay where they are. What
+  /// one kind has is of no account to another.
+  SubdivisionStep(const SubdivisionTopology& topology, const SubdivisionRules& rules, const double* values,
+                  const std::vector<int>& kinds, int threads);
 
   /// Calls write(vertex, numbers) for each vertex after the step. limit: as after infinitely many more.
   template <class Write>
@@ -47,7 +49,8 @@ class SubdivisionStep {
   }
 
  private:
-  void add_up();
+  void add_up(const std::vector<int>& kinds);
+  void set_units(const std::vector<int>& kinds);
   Numbers at(std::size_t vertex) const { return numbers_at(values_, vertex); }
   Numbers numbers_at(const double* values, std::size_t i) const {
     Numbers numbers{};
@@ -77,7 +80,7 @@ class SubdivisionStep {
   LargeArray<std::uint32_t> valences_;
   LargeArray<std::int64_t> sums_of_faces_;  ///< of within_faces_
   LargeArray<std::int64_t> sums_of_edges_;  ///< of the other ends of its edges; of a crease, of the sharp ones
-  double units_ = 1;                        ///< of the sums, in 1
+  Numbers units_{};                         ///< of the sums of each number, in 1; alike within a kind
 };
 
 }  // namespace raytrace

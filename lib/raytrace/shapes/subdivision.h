@@ -31,11 +31,11 @@ inline constexpr std::string_view subdivision_field = "subdivision", subdivision
 inline constexpr int most_subdivisions = 12;
 
 /// Parameters have
-///   int subdivision = 0;             how often faces are cut, each into four, or a polygon into as many as it has
-///   corners SubdivisionScheme subdivisionscheme = SubdivisionScheme::smooth; double displacement = 1;         the
-///   height of a texture: how far vertices move along their normals, in the mesh's
-///                                    own units, where it is 1 more than
-///   double midlevel = 0;
+///
+///   int subdivision = 0;      how often faces are cut: into four, or a polygon at first into as many as it has corners
+///   SubdivisionScheme subdivisionscheme = SubdivisionScheme::smooth;
+///   double displacement = 1;  how far a texture's 1 moves vertices along their normals, in the mesh's own units
+///   double midlevel = 0;      of the texture, where vertices stay
 template <class Parameters>
 Fields with_subdivision(Fields fields) {
   fields.push_back(optional(subdivision_field, &Parameters::subdivision, Range::not_negative));

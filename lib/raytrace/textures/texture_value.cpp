@@ -171,32 +171,61 @@ TextureValue of_two_colors(const Rgb<double>& a, const Rgb<double>& b, double pa
   return between({a.red, a.green, a.blue, 1}, {b.red, b.green, b.blue, 1}, part);
 }
 
-TextureValue in_image(const Image::Parameters& image, const TexelImage& texels, const TexturePlace::OnSurface& place) {
+/// A place in an image, with how much of it counts.
+struct InImage {
+  Vec2d uv, across, along;
+};
+
+InImage in_image(const Image::Parameters& image, const TexturePlace::OnSurface& place) {
   const double angle = image.uvrotation * std::numbers::pi / 180, c = std::cos(angle), s = std::sin(angle);
   const auto turned = [&](const Vec2d& uv) {
     const double u = uv.x * image.uvscale.x, v = uv.y * image.uvscale.y;
     return Vec2d{c * u - s * v, s * u + c * v};
   };
-  Vec2d uv = turned(place.uv);
-  uv = {uv.x + image.uvoffset.x, uv.y + image.uvoffset.y};
-  const Vec2d across = turned({place.width.x, 0}), along = turned({0, place.width.y});
-  const TexelReader reader(image, texels);
-  if (texels.tiles().empty()) return reader.at(uv, across, along, 0);
-  const double column = std::floor(uv.x), row = std::floor(uv.y);
+  const Vec2d uv = turned(place.uv);
+  return {{uv.x + image.uvoffset.x, uv.y + image.uvoffset.y}, turned({place.width.x, 0}), turned({0, place.width.y})};
+}
+
+/// None where there is no such tile.
+std::optional<TextureValue> in_tile(const Image::Parameters& image, const TexelImage& texels, const InImage& place,
+                                    double column, double row) {
   constexpr int columns = TexelImage::tile_columns;
   const auto rows = static_cast<double>(texels.tiles().size()) / columns;
-  if (!(column >= 0 && column < columns && row >= 0 && row < rows)) return {0, 0, 0, 0};
+  if (!(column >= 0 && column < columns && row >= 0 && row < rows)) return std::nullopt;
   const std::int32_t first = texels.tiles()[static_cast<std::size_t>(column + row * columns)];
-  return first < 0 ? TextureValue{0, 0, 0, 0} : reader.at({uv.x - column, uv.y - row}, across, along, first);
+  if (first < 0) return std::nullopt;
+  const Vec2d in_it{place.uv.x - column, place.uv.y - row};
+  return TexelReader(image, texels).at(in_it, place.across, place.along, first);
+}
+
+TextureValue value_in_image(const Image::Parameters& image, const TexelImage& texels, const InImage& place) {
+  if (texels.tiles().empty()) return TexelReader(image, texels).at(place.uv, place.across, place.along, 0);
+  return in_tile(image, texels, place, std::floor(place.uv.x), std::floor(place.uv.y)).value_or(TextureValue{});
+}
+
+TextureValue scaled_value(const Image::Parameters& image, TextureValue value, const TexturePlace& place) {
+  if (image.vertexalpha) value = scaled_value(value, place.vertex_alpha, 0);
+  return scaled_value(value, image.valuescale, image.valueoffset);
 }
 
 }  // namespace
 
 TextureValue texture_value(const Image::Parameters& image, const TexelImage* texels, const TexturePlace& place) {
   TextureValue value{1, 0, 1, 1};
-  if (texels != nullptr) value = in_image(image, *texels, place.by(image.uvset));
-  if (image.vertexalpha) value = scaled_value(value, place.vertex_alpha, 0);
-  return scaled_value(value, image.valuescale, image.valueoffset);
+  if (texels != nullptr) value = value_in_image(image, *texels, in_image(image, place.by(image.uvset)));
+  return scaled_value(image, value, place);
+}
+
+std::optional<TextureValue> height_value(const Image::Parameters& image, const TexelImage& texels,
+                                         const TexturePlace& place) {
+  const InImage at = in_image(image, place.by(image.uvset));
+  if (texels.tiles().empty()) return scaled_value(image, value_in_image(image, texels, at), place);
+  const double column = std::floor(at.uv.x), row = std::floor(at.uv.y);
+  const int columns_back = at.uv.x == column ? 1 : 0, rows_back = at.uv.y == row ? 1 : 0;
+  for (int i = 0; i <= columns_back; ++i)
+    for (int j = 0; j <= rows_back; ++j)
+      if (const auto value = in_tile(image, texels, at, column - i, row - j)) return scaled_value(image, *value, place);
+  return std::nullopt;
 }
 
 TextureValue texture_value(const Checker::Parameters& checker, const TexturePlace& place) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "raytrace/math/color.h"
 #include "raytrace/math/vec2.h"
@@ -35,6 +36,10 @@ using TextureValue = std::array<double, 4>;
 
 /// texels: as a number or as a colour; null of an image that has not been loaded, which is magenta.
 TextureValue texture_value(const Image::Parameters& image, const TexelImage* texels, const TexturePlace& place);
+/// The same for heights: none where an image with tiles has no tile. A place on the far edge of a tile is of that one,
+/// if there is none beyond.
+std::optional<TextureValue> height_value(const Image::Parameters& image, const TexelImage& texels,
+                                         const TexturePlace& place);
 TextureValue texture_value(const Checker::Parameters& checker, const TexturePlace& place);
 TextureValue texture_value(const Noise::Parameters& noise, const TexturePlace& place);
 TextureValue texture_value(const VertexColor::Parameters& vertices, const TexturePlace& place);
