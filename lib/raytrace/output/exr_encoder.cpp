@@ -177,8 +177,11 @@ class ExrEncoder final : public ImageEncoder {
     // OpenEXR compresses this many rows together, so that threads have work for no more of them.
     constexpr int block_rows = 16;
     const int threads = std::min(settings_.threads, (extent.region.height() + block_rows - 1) / block_rows);
-    const int helpers = threads == 1 ? 0 : threads;  // 0: the calling thread does it
-    make_thread_pool(settings_.threads);
+    // 0: the calling thread does it. A few rows are not worth threads, in which OpenEXR does not survive that it is out
+    // of memory: so the trial of a format is without them.
+    constexpr std::size_t few_pixels = std::size_t{64} * 64;
+    const int helpers = threads == 1 || extent.region.pixels() <= few_pixels ? 0 : threads;
+    if (helpers > 0) make_thread_pool(settings_.threads);
     const Imf::Header header = header_of(extent, channels, metadata, settings_.compressed);
     open_ = std::make_unique<OpenExr>(destination, channels);
     guard([&] { open_->exr.emplace(open_->destination, header, helpers); });
