@@ -82,6 +82,34 @@ class Densities(CommandTest):
             '<densityfile>smoke.vol</densityfile> <transform> <translate x="0" y="0" z="25"/> </transform>',
             (2.5 * 0.5 + 2.5 * 0.75) / 20)  # half of the way between is in the box, which ends at 30
 
+    def test_points_that_are_farther_from_each_other_than_the_fog_is_wide(self):
+        self.put("there/smoke.vol", vol((1, 1.001), box=(-1e6, -1e6, -1e6, 1e6, 1e6, 1e6)))
+        self.check_depth("<densityfile>smoke.vol</densityfile>", 40 * 1.0005 / 20)
+        self.put("there/smoke.vol", vol((1, 1), box=(-1e6, -1e6, -1e6, 1e6, 1e6, 1e6)))
+        self.check_depth("<densityfile>smoke.vol</densityfile>", 40 / 20)
+
+    def test_fogs_count_where_they_are_alone(self):
+        """Fogs of a group each: of all in all instances there would be more than there are numbers of media."""
+        count, seen = 200, 137
+        self.put("there/smoke.vol", vol())
+        self.scene("<densityfile>smoke.vol</densityfile>")
+        with open(self.path("there/scene.xml"), encoding="utf-8") as file:
+            text = file.read()
+        begin, end = text.index("<fog> "), text.index("</fogs>")
+        fog = text[begin:end]
+        box = text[text.index("    <boxes>"):text.index("  </objects>")]
+        text = text.replace(fog, "".join(fog.replace("smoke<", f"smoke{i}<") for i in range(count)))
+        text = text.replace(box, "<instances>" + "".join(
+            f'<instance> <group>g{i}</group> <transform> <translate x="{(i - seen) * 100}" y="{y}" z="0"/> </transform> </instance>'
+            for i in range(count) for y in (500, 0)) + "</instances>")
+        # That one has the fog of another group as well, behind its own.
+        other = box.replace('z="-10"', 'z="-50"').replace('z="30"', 'z="-10"').replace("smoke<", "smoke5<")
+        groups = "".join(f"<group> <name>g{i}</name> <objects> {box.replace('smoke<', f'smoke{i}<')} "
+                         f"{other if i == seen else ''} </objects> </group>" for i in range(count))
+        self.write("there/scene.xml", text.replace("</raytracer>", f"<groups> {groups} </groups> </raytracer>"))
+        wanted = math.exp(-0.5)
+        self.assertAlmostEqual(self.left(), wanted, delta=4 * math.sqrt(wanted * (1 - wanted) / 65536))
+
     def test_a_vdb(self):
         self.has_vdb()
         self.check_depth("<densityfile>smoke.vdb</densityfile>", 0.4 * (8 * 7.5 + 0.5) / 20)
@@ -118,6 +146,35 @@ class Densities(CommandTest):
                       self.succeed("there/scene.xml", "--validate").stderr)
         self.scene('<densityfile>smoke.vol</densityfile> <transform> <translate x="-20" y="0" z="0"/> </transform>')
         self.assertEqual(self.succeed("there/scene.xml", "--validate").stderr, "")
+        # Of an instance's <material>, which is in place of the objects' own.
+        for place in (30, 0):
+            self.put("there/smoke.vol", vol(box=(place, 0, 0, place + 4, 5, 10)))
+            self.scene("<densityfile>smoke.vol</densityfile>")
+            with open(self.path("there/scene.xml"), encoding="utf-8") as file:
+                text = file.read()
+            box = text[text.index("    <boxes>"):text.index("  </objects>")]
+            text = text.replace(box, "<instances> <instance> <group>g</group> <material>smoke</material> </instance> </instances>")
+            text = text.replace("<fogs>", "<emissives> <emissive> <name>lamp</name> <ce red='1' green='1' blue='1'/> </emissive> </emissives> <fogs>")
+            box = box.replace("smoke", "lamp")
+            text = text.replace("</raytracer>", f"<groups> <group> <name>g</name> <objects> {box} </objects> </group> </groups> </raytracer>")
+            self.write("there/scene.xml", text)
+            self.assertEqual("where no object of it is" in self.succeed("there/scene.xml", "--validate").stderr, place == 30)
+
+    def test_what_moves_a_density_while_the_shutter_is_open(self):
+        self.put("there/smoke.vol", vol())
+        keys = '<transform> <translate> <key frame="1" x="0" y="0" z="0"/> <key frame="2" x="1" y="0" z="0"/> </translate> </transform>'
+        shutter = lambda text: text.replace("<fov>", "<shutteropen>0</shutteropen> <shutterclose>1</shutterclose> <fov>")
+        self.scene("<densityfile>smoke.vol</densityfile>" + keys)
+        with open(self.path("there/scene.xml"), encoding="utf-8") as file:
+            text = file.read()
+        self.assertEqual(self.succeed("there/scene.xml", "--validate").stderr, "")
+        self.write("there/scene.xml", shutter(text))
+        self.assertRegex(self.succeed("there/scene.xml", "--validate").stderr,
+                         "scene.xml:6:[0-9]+: warning: the material 'smoke' stands still while the shutter is open")
+        text = text.replace(keys, "").replace("</material> </box>", f"</material> {keys} </box>")
+        self.write("there/scene.xml", shutter(text))
+        self.assertRegex(self.fail_with(1, "there/scene.xml", "--validate"),
+                         r"scene\.xml:9:[0-9]+: error: this <box> moves while the shutter is open, and its fog")
 
     def test_instances_with_such_a_fog_do_not_move_while_the_shutter_is_open(self):
         self.put("there/smoke.vol", vol())
@@ -132,7 +189,7 @@ class Densities(CommandTest):
         self.succeed("there/scene.xml", "--validate")
         self.write("there/scene.xml", text.replace("<fov>", "<shutteropen>0</shutteropen> <shutterclose>1</shutterclose> <fov>"))
         self.assertRegex(self.fail_with(1, "there/scene.xml", "--validate"),
-                         r"there/scene\.xml:9:[0-9]+: error: the <instance> moves while the shutter is open, with a fog that is not")
+                         r"there/scene\.xml:9:[0-9]+: error: this <instance> moves while the shutter is open, and its fog")
 
     def test_the_file_is_known_by_its_bytes(self):
         self.put("there/smoke.vol", vol())

@@ -81,6 +81,7 @@ TEST_CASE("what no .vol may be is refused, and says why") {
   CHECK(contains(error_of(VolFile{}.bytes().substr(0, 47)), "ends within its header"));
   CHECK(contains(error_of(VolFile{}.bytes().substr(0, 95)), "ends before the last"));
   CHECK(contains(with([](VolFile& file) { file.magic[3] = 4; }), "version 4"));
+  CHECK(contains(with([](VolFile& file) { file.magic[3] = '\xc8'; }), "version 200"));
   CHECK(contains(with([](VolFile& file) { file.type = 2; }), "type 2"));
   CHECK(contains(with([](VolFile& file) { file.channels = 2; }), "2 channels"));
   for (const std::int32_t lie : {0, -1, std::numeric_limits<std::int32_t>::min()})
@@ -105,6 +106,66 @@ TEST_CASE("a lattice that is too large is refused before any memory is asked for
   DensityGrid::Lattice lattice;
   lattice.points = {1 << 20, 1 << 20, 1 << 20};
   CHECK_THROWS_AS(DensityGrid(lattice, 1, [](const auto&, float*) {}), GridError);
+}
+
+TEST_CASE("a .vol that is too large is refused by its header, which says what it has") {
+  const TemporaryFolder folder;
+  VolFile vol;
+  vol.x = vol.y = 1;
+  vol.z = 1 << 27;
+  vol.numbers = {};
+  write_text(folder.file("a.vol"), vol.bytes());
+  std::filesystem::resize_file(folder.file("a.vol"), 48 + (std::uintmax_t{4} << 27U));  // zeros, which take no room
+  try {
+    read_vol_grid(folder.file("a.vol"), 2);
+    FAIL("it was read");
+  } catch (const GridError& error) {
+    CHECK(contains(error.what(), "1 x 1 x 134217728 points, where the most are 16777216 cells"));
+  }
+}
+
+TEST_CASE("bricks take no more memory than they may") {
+  DensityGrid::Lattice lattice;
+  lattice.points = {81, 81, 81};
+  lattice.lower = Vec3d(0, 0, 0);
+  lattice.upper = Vec3d(80, 80, 80);
+  int filled = 0;
+  const auto fill = [&](float other) {
+    return [&filled, other](const std::array<int, 3>&, float* numbers) {
+      ++filled;
+      std::fill_n(numbers, DensityGrid::brick_numbers, 1.0F);
+      numbers[0] = other;
+    };
+  };
+  const std::uint64_t brick = 4 * DensityGrid::brick_numbers, all = 2 * 1000 * brick;
+  CHECK(DensityGrid(lattice, 1, fill(2), all).bytes() > 1000 * brick);
+  filled = 0;
+  CHECK_THROWS_AS(DensityGrid(lattice, 1, fill(2), all / 10), GridError);
+  CHECK(filled < 200);  // of 1000: it stops early
+  CHECK_NOTHROW(DensityGrid(lattice, 1, fill(1), 0));
+}
+
+TEST_CASE("tiles of one number are kept once") {
+  GridTiles tiles;
+  std::array<float, GridTiles::tile_numbers> tile{};
+  const auto add = [&](float number, float last) {
+    tile.fill(number);
+    tile.back() = last;
+    tiles.add_tile(tile);
+  };
+  add(0, 0);
+  add(2, 2);
+  add(2, 2);
+  add(2, 3);
+  add(2, 2);
+  add(4, 4);
+  CHECK(tiles.places == std::vector<std::int32_t>{-1, 0, 0, 1, 0, 2});
+  CHECK(tiles.numbers.size() == 3 * tile.size());
+  tiles.most_bytes = 1 << 20;
+  CHECK_THROWS_AS(([&] {
+                    for (int i = 0; i < 1000; ++i) add(1, 2);
+                  }()),
+                  GridError);
 }
 
 TEST_CASE("tiles of OpenVDB are grids, with zeros around") {

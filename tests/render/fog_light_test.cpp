@@ -221,4 +221,25 @@ TEST_CASE("clampindirect clamps what fog has scattered twice, however it comes t
   CHECK(std::abs(clamped / once - 1) < 0.01);
 }
 
+TEST_CASE("fog that is the same everywhere and shines sends what it would absorb, without noise") {
+  Fogged scene;
+  scene.samples = 8;
+  const std::string black = "<color red='0' green='0' blue='0'/><ce red='2' green='1' blue='0.5'/>";
+  for (const double density : {1.0, 0.5, 0.0001}) {
+    scene.fog = black + "<density>" + std::to_string(density) + "</density>";
+    const double wanted = 1 - std::exp(-5 * density / mean_free_path);
+    for (const std::string& isa : usable_isas()) {
+      const Mean mean = mean_of(scene, isa);
+      INFO(isa << ", " << density << ": " << mean.red << " for " << 2 * wanted);
+      CHECK(std::abs(mean.red / (2 * wanted) - 1) < 1e-4);
+      CHECK(std::abs(mean.green / wanted - 1) < 1e-4);
+      CHECK(std::abs(mean.blue / (0.5 * wanted) - 1) < 1e-4);
+    }
+  }
+  // Of what scatters light, the first ray has as much, and paths find more.
+  scene.fog = "<ce red='2' green='1' blue='0.5'/>";
+  scene.path = "<maxdepth>8</maxdepth>";
+  CHECK(mean_of(scene).red > 2 * (1 - std::exp(-5 / mean_free_path)));
+}
+
 }  // namespace raytrace::test

@@ -79,7 +79,10 @@ void check_density(const SceneDescription& scene, const MaterialItem<Fog>& fog, 
   if (length(fog.parameters.densityfade) > 0 && texture == nullptr)
     error("<densityfade> is for a <density> with a texture; it has none");
   if (!fog.transform.empty() && !has_density(fog))
-    error("its <transform> would move a density, and it is the same everywhere; move the object");
+    error(
+        "its <transform> moves a density, and it has neither a <densityfile> nor a texture in its <density>; remove "
+        "it, "
+        "and give one to the object instead");
 }
 
 /// Whether the material is a fog that is not the same everywhere.
@@ -103,6 +106,20 @@ class UnevenGroups {
         return known_[group.name];
       }
     return false;
+  }
+
+  /// The element that moves: what is no instance in the scene's file is in a group of its own, at the same place.
+  std::string_view moved_element(const ObjectItem<Instance>& instance) const {
+    std::string_view element = Instance::element;
+    for (const Group& group : scene_.groups) {
+      if (group.name != instance.parameters.group.name || group.line != instance.line ||
+          group.column != instance.column)
+        continue;
+      for_each_type(Objects{}, [&]<class T>(std::type_identity<T>) {
+        if (!std::get<ObjectItems<T>>(group.objects).empty()) element = T::element;
+      });
+    }
+    return element;
   }
 
  private:
@@ -132,10 +149,9 @@ void check_moving_densities(const SceneDescription& scene, Diagnostics& diagnost
       if (!instance.motion.empty() && groups.has(instance))
         diagnostics.error(
             location_of(instance),
-            std::string("the <instance> moves while the shutter is open, with a fog that is not the same "
-                        "everywhere; "
-                        "such a fog may move from picture to picture alone: render with a shutter that does not "
-                        "open, or keep the instance still"));
+            "this " + tag(groups.moved_element(instance)) +
+                " moves while the shutter is open, and its fog has a density that is not the same everywhere; such a "
+                "fog may move from picture to picture alone: keep the shutter closed, or the object still");
   };
   check(scene.objects);
   for (const Group& group : scene.groups) check(group.objects);
@@ -149,8 +165,8 @@ void check_fogs(const SceneDescription& scene, Diagnostics& diagnostics) {
   for (const auto& plane : std::get<ObjectItems<Plane>>(scene.objects))
     if (is_uneven(scene, plane.material) && density_texture(all[plane.material.index]) != nullptr)
       diagnostics.error(location_of(plane),
-                        std::string("a plane's fog has no end, and a texture is no density without end; put it into a "
-                                    "closed object, such as a <box>"));
+                        std::string("the fog of a plane has no end, and a density that is a texture needs one; put the "
+                                    "fog into a closed object, such as a <box>"));
   const auto add = [&](const ObjectLists& lists, bool in_group) {
     for_each_type(Objects{}, [&]<class T>(std::type_identity<T>) {
       for (const auto& item : std::get<ObjectItems<T>>(lists))

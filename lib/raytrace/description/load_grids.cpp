@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <new>
 #include <stdexcept>
 #include <utility>
 
@@ -65,10 +66,17 @@ void warn_of_other_place(const SceneDescription& scene, std::uint32_t index, con
   const Corners grid = box_of(fog);
   const MaterialReference material{static_cast<std::uint32_t>(index_of<Fog>(Materials{})), index};
   std::size_t objects = 0, met = 0;
-  const auto look = [&](const ObjectLists& lists) {
+  // all: those of an instance that has the fog in place of their materials.
+  const auto look = [&](const auto& self, const ObjectLists& lists, bool all) -> void {
     for_each_type(Objects{}, [&]<class T>(std::type_identity<T>) {
       for (const auto& item : std::get<ObjectItems<T>>(lists)) {
-        if (!(item.material == material)) continue;
+        if (!all && !(item.material == material)) continue;
+        if constexpr (std::is_same_v<T, Instance>)
+          if (!all) {
+            for (const Group& group : scene.groups)
+              if (group.name == item.parameters.group.name) self(self, group.objects, true);
+            continue;
+          }
         ++objects;
         if constexpr (requires { T::reach(item.parameters, Vec3d()); }) {
           const Affine map = item.transform.affine();
@@ -86,8 +94,8 @@ void warn_of_other_place(const SceneDescription& scene, std::uint32_t index, con
       }
     });
   };
-  look(scene.objects);
-  for (const Group& group : scene.groups) look(group.objects);
+  look(look, scene.objects, false);
+  for (const Group& group : scene.groups) look(look, group.objects, false);
   if (objects > 0 && met == 0)
     diagnostics.warning(location_of(fog), "the density of the fog " + in_quotes(fog.name) + " is between " +
                                               corner_text(grid.lower) + " and " + corner_text(grid.upper) +
@@ -102,6 +110,12 @@ bool load_grids(SceneDescription& scene, Diagnostics& diagnostics, int threads,
   bool fine = true;
   std::map<std::pair<std::string, std::string>, std::shared_ptr<const DensityGrid>> grids;  // by hash and name
   auto& fogs = std::get<MaterialItems<Fog>>(scene.materials);
+  const auto refuse = [&](const MaterialItem<Fog>& item, const std::string& why) {
+    const FileName& file = item.parameters.densityfile;
+    fine = false;
+    diagnostics.add(Severity::error, file.line > 0 ? location_of(file) : location_of(item),
+                    "the density " + in_quotes(file.path) + " cannot be used: " + why);
+  };
   for (MaterialItem<Fog>& item : fogs) {
     const FileName& file = item.parameters.densityfile;
     if (file.path.empty() || !item.grid.hash.empty()) continue;
@@ -116,9 +130,9 @@ bool load_grids(SceneDescription& scene, Diagnostics& diagnostics, int threads,
       if (!diagnostics.has_errors())
         warn_of_other_place(scene, static_cast<std::uint32_t>(&item - fogs.data()), item, diagnostics);
     } catch (const std::runtime_error& error) {
-      fine = false;
-      diagnostics.add(Severity::error, file.line > 0 ? location_of(file) : location_of(item),
-                      "the density " + in_quotes(file.path) + " cannot be used: " + on_one_line(error.what()));
+      refuse(item, on_one_line(error.what()));
+    } catch (const std::bad_alloc&) {
+      refuse(item, "there is not enough memory for it");
     }
   }
   return fine;

@@ -21,6 +21,13 @@ namespace raytrace {
 
 namespace {
 
+/// Of those that have one, such as a fog, whose density it moves.
+template <class Item>
+bool has_same_transform(const Item& item, const Item& then) {
+  if constexpr (requires { item.transform; }) return !(item.transform != then.transform);
+  return true;
+}
+
 constexpr const char* slower = "; let the shutter be open for less time";
 
 class MotionFinder {
@@ -265,7 +272,8 @@ class MotionFinder {
     const auto compare = [&](const auto& items, const auto& items_then, const Fields& fields, const std::string& what) {
       for (std::size_t i = 0; i < items.size(); ++i) {
         if (items.size() == items_then.size() &&
-            have_same_values(fields, &items[i].parameters, &items_then[i].parameters))
+            have_same_values(fields, &items[i].parameters, &items_then[i].parameters) &&
+            has_same_transform(items[i], items_then[i]))
           continue;
         if (!warned_.insert({items[i].line, items[i].column}).second) continue;
         std::string which = "this " + what;

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -29,21 +30,28 @@ class DensityGrid {
  public:
   static constexpr int cell_edge = 8, cell_points = cell_edge + 1;
   static constexpr int brick_numbers = cell_points * cell_points * cell_points;
-  /// So many cells at most: 64 MiB of tables, and 2048 points along each axis.
+  /// So many cells at most, whose tables take 192 MiB.
   static constexpr std::int64_t most_cells = std::int64_t{1} << 24U;
 
   struct Lattice {
     std::array<std::int64_t, 3> points{};  ///< along each axis, at least 2; the first is (0, 0, 0)
     Vec3d lower, upper;                    ///< where there is any density, in the lattice
     Affine world_from_lattice{};           ///< of a determinant that is not 0
+    std::int64_t added = 0;                ///< of the points along each axis, those that the file does not have
   };
+  /// How many cells such a lattice has along each axis. Throws GridError if these are too many.
+  static std::array<int, 3> cells_of(const Lattice& lattice);
+  /// Throws GridError if so many bytes are more than half of the memory that is free.
+  static void check_memory(std::uint64_t bytes);
   /// Sets the numbers of 9 x 9 x 9 points from `first` on, x fastest; those beyond the lattice to anything that is no
   /// larger than its largest and no smaller than its least.
   using Fill = std::function<void(const std::array<int, 3>& first, float* numbers)>;
 
   /// Numbers below 0 are 0. fill is called on several threads at once, `threads` at most. Throws GridError for numbers
-  /// that are none or infinite, and for lattices that are too large; std::bad_alloc; and what fill throws.
-  DensityGrid(const Lattice& lattice, int threads, const Fill& fill);
+  /// that are none or infinite, for lattices that are too large, and where bricks, two copies of which there are for a
+  /// while, would take more than most_bytes, or by default half of the memory that is free; std::bad_alloc; and what
+  /// fill throws.
+  DensityGrid(const Lattice& lattice, int threads, const Fill& fill, std::optional<std::uint64_t> most_bytes = {});
 
   const Lattice& lattice() const { return lattice_; }
   const std::array<int, 3>& cells() const { return cells_; }  ///< along each axis
@@ -62,8 +70,6 @@ class DensityGrid {
   double at(const Vec3d& p) const;
 
  private:
-  void check(const Lattice& lattice);
-
   Lattice lattice_;
   std::array<int, 3> cells_{};
   float largest_ = 0;

@@ -7,6 +7,7 @@ std::shared_ptr<const DensityGrid> grid_of_tiles(const GridTiles& tiles, int thr
   // With the zeros around: there the density begins.
   const auto around = [](std::int64_t index) { return static_cast<double>(index - 1); };
   for (std::size_t axis = 0; axis < 3; ++axis) lattice.points[axis] = tiles.last[axis] - tiles.first[axis] + 3;
+  lattice.added = 2;
   lattice.lower = Vec3d(0, 0, 0);
   lattice.upper = Vec3d(static_cast<double>(lattice.points[0] - 1), static_cast<double>(lattice.points[1] - 1),
                         static_cast<double>(lattice.points[2] - 1));

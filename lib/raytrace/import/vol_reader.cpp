@@ -33,7 +33,8 @@ std::shared_ptr<const DensityGrid> read_vol_grid(const std::string& file, int th
   stream.read(header.data(), header.size());
   if (stream.gcount() < 4 || std::memcmp(header.data(), "VOL", 3) != 0)
     throw GridError("it is no file of Mitsuba's format, which begins with VOL");
-  if (header[3] != 3) throw GridError("it is of version " + std::to_string(header[3]) + "; there is only 3");
+  if (header[3] != 3)
+    throw GridError("it is of version " + std::to_string(static_cast<unsigned char>(header[3])) + "; there is only 3");
   if (!stream) throw GridError("it ends within its header");
   const auto whole = [&](std::size_t place) { return little_endian<std::int32_t>(header.data() + place); };
   if (whole(4) != 1)
@@ -42,6 +43,7 @@ std::shared_ptr<const DensityGrid> read_vol_grid(const std::string& file, int th
   if (channels != 1 && channels != 3)
     throw GridError("it has " + std::to_string(channels) + " channels, where there are 1 or 3");
   std::array<std::int64_t, 3> size{whole(8), whole(12), whole(16)};
+  if (bytes < vol_header) throw GridError("it ends within its header");
   std::uintmax_t left = (bytes - vol_header) / 4 / static_cast<std::uintmax_t>(channels);
   for (const std::int64_t points : size) {
     if (points < 1) throw GridError("it has no points");
@@ -58,12 +60,15 @@ std::shared_ptr<const DensityGrid> read_vol_grid(const std::string& file, int th
   const auto count = [&](std::size_t axis) { return static_cast<double>(size[axis]); };
   DensityGrid::Lattice lattice;
   // One more on each side, as the last: beyond the middle of its share nothing changes.
-  for (std::size_t axis = 0; axis < 3; ++axis) lattice.points[axis] = size[axis] + 2;
+  lattice.added = 2;
+  for (std::size_t axis = 0; axis < 3; ++axis) lattice.points[axis] = size[axis] + lattice.added;
   lattice.lower = Vec3d(0.5, 0.5, 0.5);
   lattice.upper = Vec3d(count(0) + 0.5, count(1) + 0.5, count(2) + 0.5);
   const Vec3d edge(extent.x / count(0), extent.y / count(1), extent.z / count(2));
   lattice.world_from_lattice = {{edge.x, 0, 0}, {0, edge.y, 0}, {0, 0, edge.z}, lower + edge * -0.5};
+  DensityGrid::cells_of(lattice);  // before there is memory for as many
   const auto points = static_cast<std::size_t>(size[0] * size[1] * size[2]);
+  DensityGrid::check_memory(std::uint64_t{4} * points * static_cast<std::uint64_t>(channels));
   std::vector<float> numbers(points * static_cast<std::size_t>(channels));
   stream.read(reinterpret_cast<char*>(numbers.data()), static_cast<std::streamsize>(4 * numbers.size()));
   if (!stream) throw GridError("it ends before the last of its numbers");

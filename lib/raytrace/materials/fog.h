@@ -33,7 +33,7 @@ class Fog {
     Rgb<T> color{T(1), T(1), T(1)};  ///< the share of it that is scattered
     T anisotropy = T(0);             ///< the mean cosine between the ways before and after a scattering
     T density = T(1);                ///< by how much more there is of it
-    Rgb<T> ce{T(0), T(0), T(0)};     ///< the radiance of so much of it that nothing shines through: fire
+    Rgb<T> ce{T(0), T(0), T(0)};     ///< what it sends: this radiance, of so much that nothing shines through
   };
   struct Parameters : Values<double> {
     FileName densityfile;   ///< .vdb or .vol
@@ -71,7 +71,7 @@ class Fog {
     if (!file.empty() && !file.ends_with(".vdb") && !file.ends_with(".vol"))
       return error("the fog's <densityfile> is neither a .vdb nor a .vol");
     if (!parameters.densitygrid.name.empty() && !file.ends_with(".vdb"))
-      return error("a <densitygrid> is one of several in a .vdb; name that as <densityfile>");
+      return error("the fog's <densitygrid> names a grid of a .vdb file, and its <densityfile> is none");
     return std::nullopt;
   }
 };

@@ -7,6 +7,7 @@
 #include <new>
 
 #include "raytrace/memory/out_of_memory.h"
+#include "raytrace/memory/process_status.h"
 
 namespace raytrace {
 
@@ -74,6 +75,7 @@ std::unique_ptr<PictureReader> make_openimageio_reader(const std::string& file, 
 GridTiles read_vdb_tiles(const std::string& file, const std::string& name) {
   static auto* const read = symbol<ReadOpenImageIOGrid>("raytrace_read_grid");
   GridTiles grid;
+  grid.most_bytes = available_memory() / 2;
   read(file, name, grid);
   return grid;
 }

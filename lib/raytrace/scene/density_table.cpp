@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <string>
 #include <utility>
 
 #include "raytrace/math/bounds.h"
 #include "raytrace/parallel/for_each_index.h"
+#include "raytrace/scene/scene.h"
+#include "raytrace/text/message.h"
 
 namespace raytrace {
 
@@ -14,8 +18,8 @@ namespace {
 
 /// Points of a texture's lattice, of all together.
 constexpr double most_texture_points = 1 << 24;
-/// So many mean free paths from one point of a lattice to the next are as good as any more.
-constexpr float most_depth_of_edge = 1000;
+/// As many as there are numbers of media, and so many kinds of instances, of each fog.
+constexpr std::size_t most_places = (1U << 16U) - 1, most_first_places = std::size_t{1} << 26U;
 
 const TextureUse* texture_of(const MaterialItem<Fog>& fog) {
   for (const TextureUse& use : fog.textures)
@@ -132,7 +136,63 @@ class TextureLattice {
   std::vector<float> numbers_;
 };
 
+/// How far it is from one plane of the lattice's points to the next, at least.
+double shortest_edge(const Affine& lattice_from_world) {
+  const auto& [x, y, z, origin] = lattice_from_world;
+  return 1 / std::max({length(Vec3d(x.x, y.x, z.x)), length(Vec3d(x.y, y.y, z.y)), length(Vec3d(x.z, y.z, z.z))});
+}
+
+[[noreturn]] void refuse_places(const SceneDescription& scene, const MaterialItem<Fog>& fog) {
+  throw RenderError((scene.file.empty() ? "" : scene.file + ":") + std::to_string(fog.line) + ":" +
+                    std::to_string(fog.column) + ": the fog " + in_quotes(fog.name) +
+                    " is in too many instances: fogs that are not the same everywhere may be in " +
+                    std::to_string(most_places) + " places, all of them together");
+}
+
 }  // namespace
+
+std::vector<DensityTable::WorldFromPlaces> DensityTable::find_places(const std::vector<std::uint8_t>& uneven,
+                                                                     const GeometryTable& geometry,
+                                                                     const Affine& world_from_file) {
+  const auto fogs = static_cast<std::size_t>(fogs_), first = static_cast<std::size_t>(first_fog_);
+  std::vector<std::vector<GeometryTable::PlaceOfGroup>> places(fogs);
+  std::map<std::size_t, std::vector<std::size_t>> fogs_in;  // of each instance
+  for (std::size_t fog = 0; fog < fogs; ++fog) {
+    if (uneven[first + fog] == 0) continue;
+    std::vector<std::uint8_t> wanted(uneven.size());
+    wanted[first + fog] = 1;
+    places[fog] = geometry.places_of_groups(wanted);
+    for (const auto& place : places[fog]) fogs_in[place.instance].push_back(fog);
+  }
+  std::vector<WorldFromPlaces> all(fogs);
+  for (std::size_t fog = 0; fog < fogs; ++fog)
+    if (uneven[first + fog] != 0) all[fog].resize(1 + places[fog].size(), world_from_file);
+  if (fogs_in.empty()) return all;
+  kinds_.resize(1 + geometry.instances().size());
+  ranks_.resize(kinds_.size());
+  std::map<std::vector<std::size_t>, std::int32_t> kinds;
+  std::vector<std::int32_t> counts{0};
+  for (const auto& [instance, its_fogs] : fogs_in) {
+    const auto [kind, is_new] = kinds.try_emplace(its_fogs, static_cast<std::int32_t>(counts.size()));
+    if (is_new) counts.push_back(0);
+    kinds_[1 + instance] = kind->second;
+    ranks_[1 + instance] = counts[static_cast<std::size_t>(kind->second)]++;
+  }
+  if (counts.size() * fogs > most_first_places) throw GridError("there are too many kinds of instances with fogs");
+  first_places_.resize(counts.size() * fogs);
+  std::vector<std::int32_t> next(fogs, 1);
+  for (const auto& [its_fogs, kind] : kinds)
+    for (const std::size_t fog : its_fogs) {
+      first_places_[static_cast<std::size_t>(kind) * fogs + fog] = next[fog];
+      next[fog] += counts[static_cast<std::size_t>(kind)];
+    }
+  for (std::size_t fog = 0; fog < fogs; ++fog)
+    for (const auto& [instance, map] : places[fog]) {
+      const auto kind = static_cast<std::size_t>(kinds_[1 + instance]);
+      all[fog][static_cast<std::size_t>(first_places_[kind * fogs + fog] + ranks_[1 + instance])] = map;
+    }
+  return all;
+}
 
 DensityTable::DensityTable(const SceneDescription& description, std::int32_t first_fog,
                            const std::vector<std::uint8_t>& used_materials, const GeometryTable& geometry,
@@ -144,12 +204,12 @@ DensityTable::DensityTable(const SceneDescription& description, std::int32_t fir
     if (used_materials[material] != 0 && (fogs[i].grid.grid || texture_of(fogs[i]) != nullptr)) uneven[material] = 1;
   }
   if (std::find(uneven.begin(), uneven.end(), 1) == uneven.end()) return;
-  std::vector<Affine> world_from_places{Affine{.origin = Vec3d(0, 0, 0) - origin}};
-  for (const auto& [instance, map] : geometry.places_of_groups(uneven)) {
-    if (instance_places_.empty()) instance_places_.resize(1 + geometry.instances().size());
-    instance_places_[1 + instance] = static_cast<std::int32_t>(world_from_places.size());
-    world_from_places.push_back(map);
-  }
+  first_fog_ = first_fog;
+  fogs_ = static_cast<std::int32_t>(fogs.size());
+  const auto all_places = find_places(uneven, geometry, Affine{.origin = Vec3d(0, 0, 0) - origin});
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < fogs.size(); ++i)
+    if ((count += all_places[i].size()) > most_places) refuse_places(description, fogs[i]);
   places_.resize(used_materials.size());
   for (std::size_t i = 0; i < fogs.size(); ++i) {
     const std::size_t material = static_cast<std::size_t>(first_fog) + i;
@@ -168,12 +228,11 @@ DensityTable::DensityTable(const SceneDescription& description, std::int32_t fir
     }
     const auto extinction =
         static_cast<float>(std::clamp(fog.parameters.density / fog.parameters.meanfreepath, 0.0, 1e17));
-    places_[material] = world_from_places.size() - 1;
-    for (const Affine& world_from_place : world_from_places) {
-      const Affine map = world_from_place * from_lattice;
-      const double edge = std::min({length(map.x), length(map.y), length(map.z)});
-      densities_.push_back(
-          {grid.get(), to_float(map.inverse()), extinction, static_cast<float>(most_depth_of_edge / edge)});
+    places_[material] = all_places[i].size() - 1;
+    for (const Affine& world_from_place : all_places[i]) {
+      const Affine to_lattice = (world_from_place * from_lattice).inverse();
+      const double most = double{Density::most_depth} / shortest_edge(to_lattice);
+      densities_.push_back({grid.get(), to_float(to_lattice), extinction, static_cast<float>(std::min(most, 1e37))});
     }
     grids_.push_back(std::move(grid));
   }

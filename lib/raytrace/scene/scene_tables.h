@@ -234,7 +234,7 @@ class SceneTables {
     if (!densities_.has_instances()) [[likely]]
       return medium;
     const MaskN moved = hits.hit & float_mask<FloatN>(hits.instance != UintN(0u)) & media_.has_density(medium);
-    return medium + densities_.place(select_lanes(moved, hits.instance, UintN(0u)));
+    return medium + densities_.place(moved, material(hits), hits.instance);
   }
   /// Of fogs that are not the same everywhere, by MediumTable::density().
   const DensityTable& densities() const { return densities_; }

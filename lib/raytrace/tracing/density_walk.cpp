@@ -14,7 +14,7 @@ constexpr int most_ends = 1 << 20;
 DensityFlight fly(const Density& density, const Ray<FloatN>& rays, const MaskN& lanes, const FloatN& begin,
                   const FloatN& end, const FloatN& u, const UintN& key) {
   DensityFlight flight;
-  DensityWalk walk(density, rays, lanes, begin, end);
+  DensityWalk walk(density, rays, FloatN(1), lanes, begin, end);
   FlightNumbers numbers(key);
   FloatN depth = depth_of_share(u);  // that is left to fly
   MaskN flying = walk.lanes();
@@ -42,7 +42,7 @@ DensityFlight fly(const Density& density, const Ray<FloatN>& rays, const MaskN& 
 
 FloatN left_by(const Density& density, const Ray<FloatN>& rays, const FloatN& unit, const MaskN& lanes,
                const FloatN& begin, const FloatN& end, const UintN& key) {
-  DensityWalk walk(density, rays, lanes, begin, end);
+  DensityWalk walk(density, rays, unit, lanes, begin, end);
   FlightNumbers numbers(key);
   FloatN left(1), taken(0);  // the latter: the depth of the thinnest
   MaskN flying = walk.lanes();

@@ -20,9 +20,9 @@ namespace raytrace {
 /// Distances are along the rays, extinctions for a unit of length.
 class DensityWalk {
  public:
-  /// The rays' parts from begin to end, in those lanes.
-  DensityWalk(const Density& density, const Ray<FloatN>& rays, const MaskN& lanes, const FloatN& begin,
-              const FloatN& end)
+  /// The rays' parts from begin to end, in those lanes. unit: the length of the rays' directions.
+  DensityWalk(const Density& density, const Ray<FloatN>& rays, const FloatN& unit, const MaskN& lanes,
+              const FloatN& begin, const FloatN& end)
       : density_(density), grid_(*density.grid), base_(begin) {
     const DensityGrid::Lattice& lattice = grid_.lattice();
     origin_ = apply_point(density.lattice_from_world, rays.at(begin));
@@ -43,6 +43,9 @@ class DensityWalk {
     lanes_ = lanes & (begin_ < last_);
     begin_ = select(lanes_, begin_, FloatN(0));
     last_ = select(lanes_, last_, FloatN(0));
+    // Where a ray's part is shorter than the lattice's edges, as much more counts.
+    const FloatN way = max((last_ - begin_) * unit, FloatN(1e-30F));
+    most_counted_ = max(FloatN(density.most_extinction), FloatN(Density::most_depth) / way);
     for (int axis = 0; axis < 3; ++axis) {
       const FloatN place = component(origin_, axis) + component(direction_, axis) * begin_;
       const auto last_cell = static_cast<float>(grid_.cells()[static_cast<std::size_t>(axis)] - 1);
@@ -109,16 +112,18 @@ class DensityWalk {
 
  private:
   FloatN scaled(const FloatN& number) const {
-    return min(number * FloatN(density_.extinction), FloatN(density_.most_extinction));
+    // A flight in a cell of one density ends at once, however large that is.
+    const FloatN most = select(float_mask<FloatN>(brick_ > IntN(-1)), most_counted_, FloatN(1e37F));
+    return min(number * FloatN(density_.extinction), most);
   }
 
   void set_cell() {
     const auto& cells = grid_.cells();
     const IntN number = (to_int(cell_.z) * IntN(cells[1]) + to_int(cell_.y)) * IntN(cells[0]) + to_int(cell_.x);
+    brick_ = gather(grid_.bricks(), number);
     largest_ = gather(grid_.cells_largest(), number);
     most_ = scaled(largest_);
     least_ = scaled(gather(grid_.cells_least(), number));
-    brick_ = gather(grid_.bricks(), number);
     for (int axis = 0; axis < 3; ++axis) {
       const FloatN ahead =
           component(cell_, axis) + select(component(direction_, axis) < FloatN(0), FloatN(0), FloatN(1));
@@ -132,7 +137,7 @@ class DensityWalk {
   const DensityGrid& grid_;
   FloatN base_;                                               ///< what the distances below are from
   Vec3<FloatN> origin_, direction_, inverse_, cell_, sides_;  ///< in the lattice; the last: where the cell is left by
-  FloatN begin_, end_, last_;
+  FloatN begin_, end_, last_, most_counted_;
   MaskN lanes_;
   FloatN largest_, most_, least_;
   IntN brick_;

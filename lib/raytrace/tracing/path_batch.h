@@ -150,6 +150,7 @@ class PathBatch {
   FogLight choose_light(const PathPacket& path, const FogPart& part, const FogNumbers& numbers, const FloatN& u) const;
   FogLight draw_light_in_fog(const PathPacket& path, const FogPart& part, const FogNumbers& numbers,
                              const FloatN& u) const;
+  void add_emission(const PathPacket& path, const FogPart& part, int depth);
   /// The lanes that end within the part, which are scattered there, unless it absorbs them.
   static MaskN scatter_in_fog(PathPacket& path, const FogPart& part, const FogNumbers& numbers, int depth);
 

@@ -162,6 +162,16 @@ PathBatch::FogLight PathBatch::draw_light_in_fog(const PathPacket& path, const F
   return result;
 }
 
+/// What all of the part sends along it, whose share of flights ends there.
+void PathBatch::add_emission(const PathPacket& path, const FogPart& part, int depth) {
+  const FloatN share = share_of_depth(part.extinction * (part.end - part.begin));
+  const Rgb<FloatN> radiance = path.throughput * scene_.tables().media().emission(part.fog) * share;
+  const MaskN sends = part.lanes & (largest(radiance) > FloatN(0));
+  if (none(sends)) return;
+  add_scattered(path, sends, radiance, IntN(0), depth);
+  if (has_passes_) add_to_passes(path, path.first, sends, radiance, depth);
+}
+
 MaskN PathBatch::scatter_in_fog(PathPacket& path, const FogPart& part, const FogNumbers& numbers, int depth) {
   const FloatN distance = part.begin + depth_of_share(numbers(FogDraw::flights).x) / part.extinction;
   const MaskN ends = part.lanes & (distance < part.end);
@@ -231,6 +241,8 @@ Hits PathBatch::go_through_fog(PathPacket& path, MediumStack& media, const MaskN
             FogPart lit = part;
             lit.lanes = part.lanes & may_scatter;
             if (any(lit.lanes)) light_fog(path, lit, numbers, way.depth, counts);
+            if (tables.media().has_emission()) [[unlikely]]
+              add_emission(path, part, way.depth);
             here = here | scatter_in_fog(path, part, numbers, way.depth);
           }
           if (has_passes_) [[unlikely]]

@@ -64,9 +64,7 @@ void read_tiles(OIIO::ImageInput& input, int number, GridTiles& grid) {
         };
         if (!input.read_native_tile(number, 0, first(0, x), first(1, y), first(2, z), tile.data()))
           throw GridError("a part of its numbers cannot be read");
-        const bool is_empty = std::all_of(tile.begin(), tile.end(), [](float value) { return value == 0; });
-        grid.places.push_back(is_empty ? -1 : static_cast<std::int32_t>(grid.numbers.size() / tile.size()));
-        if (!is_empty) grid.numbers.insert(grid.numbers.end(), tile.begin(), tile.end());
+        grid.add_tile(tile);
       }
 }
 
