@@ -48,7 +48,7 @@ const std::string cube =
 
 /// From 0 at the left to 1 at the right.
 std::shared_ptr<const TexelImage> ramp(int width) {
-  Picture picture{width, 1, 1, TexelFormat::floats, {}};
+  Picture picture{{width, 1, 1, TexelFormat::floats}, {}};
   picture.pixels = LargeArray<std::byte>::zeros(static_cast<std::size_t>(width) * sizeof(float));
   for (int i = 0; i < width; ++i) {
     const float value = (static_cast<float>(i) + 0.5F) / static_cast<float>(width);
@@ -357,7 +357,7 @@ TEST_CASE("a texture that cannot be read moves nothing, nor does a tile that is 
   scene = unread;
   auto& image = std::get<TextureItems<Image>>(scene->textures).at(0);
   image.parameters.uvscale = {2, 1};
-  Picture picture{1, 1, 1, TexelFormat::floats, {}};
+  Picture picture{{1, 1, 1, TexelFormat::floats}, {}};
   picture.pixels = LargeArray<std::byte>::zeros(sizeof(float));
   constexpr float value = 0.75F;
   std::memcpy(picture.pixels.data(), &value, sizeof value);

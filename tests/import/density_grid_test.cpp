@@ -219,7 +219,9 @@ TEST_CASE("no density in a cell is beyond what the cell says") {
       const auto cell = [&](double place, std::size_t axis) {
         return std::min(static_cast<int>(place) / DensityGrid::cell_edge, cells[axis] - 1);
       };
-      const auto number = static_cast<std::size_t>((cell(p.z, 2) * cells[1] + cell(p.y, 1)) * cells[0] + cell(p.x, 0));
+      const auto row = cell(p.z, 2) * cells[1] + cell(p.y, 1);
+      const auto place = row * cells[0] + cell(p.x, 0);
+      const auto number = static_cast<std::size_t>(place);
       const double there = grid->at(p);
       CHECK(there <= double{grid->cells_largest()[number]});
       CHECK(there >= double{grid->cells_least()[number]});

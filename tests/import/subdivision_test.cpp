@@ -13,6 +13,12 @@
 namespace raytrace::test {
 namespace {
 
+/// The number of a point of a square grid of so many cells along each edge.
+std::size_t at_point(int column, int row, int edge) {
+  const int point = row * (edge + 1) + column;
+  return static_cast<std::size_t>(point);
+}
+
 template <class T>
 MeshBuffer<T> buffer_with(const std::vector<T>& values) {
   MeshBuffer<T> buffer(values.size());
@@ -51,8 +57,7 @@ MeshData grid(int edge, int corners, const std::vector<float>& heights) {
   std::vector<std::uint32_t> indices;
   for (int y = 0; y <= edge; ++y)
     for (int x = 0; x <= edge; ++x)
-      positions.insert(positions.end(), {static_cast<float>(x), static_cast<float>(y),
-                                         heights[static_cast<std::size_t>(y * (edge + 1) + x)]});
+      positions.insert(positions.end(), {static_cast<float>(x), static_cast<float>(y), heights[at_point(x, y, edge)]});
   for (int y = 0; y < edge; ++y)
     for (int x = 0; x < edge; ++x) {
       const auto at = [&](int i, int j) { return static_cast<std::uint32_t>((y + j) * (edge + 1) + x + i); };
@@ -179,7 +184,7 @@ TEST_CASE("a regular grid of quads becomes the bicubic B-spline of its vertices"
       for (int j = 0; j < 4; ++j) {
         const int column = static_cast<int>(x) - 1 + j, row = static_cast<int>(y) - 1 + k;
         height += weights(x - std::floor(x), j) * weights(y - std::floor(y), k) *
-                  double{heights[static_cast<std::size_t>(row * (edge + 1) + column)]};
+                  double{heights[at_point(column, row, edge)]};
       }
     CHECK(p.z == Approx(height).margin(1e-6));
     ++compared;
@@ -191,12 +196,12 @@ TEST_CASE("a regular grid of triangles becomes the quartic box spline of its ver
   constexpr int edge = 4;
   const std::vector<float> heights = random_heights(edge);
   const MeshData fine = subdivided(grid(edge, 3, heights), {.levels = 3});
-  const auto at = [&](int x, int y) { return double{heights[static_cast<std::size_t>(y * (edge + 1) + x)]}; };
+  const auto at = [&](int x, int y) { return double{heights[at_point(x, y, edge)]}; };
   for (int y = 2; y <= edge - 2; ++y)
     for (int x = 2; x <= edge - 2; ++x) {
       const double ring =
           at(x + 1, y) + at(x - 1, y) + at(x, y + 1) + at(x, y - 1) + at(x + 1, y + 1) + at(x - 1, y - 1);
-      const Vec3d p = position_of(fine, static_cast<std::size_t>(y * (edge + 1) + x));
+      const Vec3d p = position_of(fine, at_point(x, y, edge));
       CHECK(p.z == Approx(at(x, y) / 2 + ring / 12).margin(1e-6));
     }
 }

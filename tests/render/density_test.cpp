@@ -46,7 +46,8 @@ Grid spiky_grid(const std::array<int, 3>& points, const Vec3d& lower, const Vec3
   for (int i = 0; i < points[0] * points[1] * points[2]; ++i)
     numbers.push_back(static_cast<double>(random()) * 0x1p-32 < share ? spike : 0.0F);
   return grid_of(points, lower, upper, [&](int x, int y, int z) {
-    return numbers[static_cast<std::size_t>((z * points[1] + y) * points[0] + x)];
+    const int place = (z * points[1] + y) * points[0] + x;
+    return numbers[static_cast<std::size_t>(place)];
   });
 }
 

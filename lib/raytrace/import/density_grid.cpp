@@ -48,7 +48,8 @@ std::array<int, 3> DensityGrid::cells_of(const Lattice& lattice) {
     const std::int64_t points = lattice.points[axis];
     if (points < 2) throw GridError("it has no points");
     const std::int64_t cells = (points - 2) / cell_edge + 1;
-    if (cells > most_cells || (count *= cells) > most_cells)
+    if (cells <= most_cells) count *= cells;
+    if (std::max<std::int64_t>(cells, count) > most_cells)
       throw GridError(too_many_points(
           {lattice.points[0] - lattice.added, lattice.points[1] - lattice.added, lattice.points[2] - lattice.added}));
     all[axis] = static_cast<int>(cells);

@@ -56,7 +56,8 @@ struct GridTiles {
       if (last[axis] < first[axis]) throw GridError("it has no points");
       first_tile[axis] = tile_of(first[axis]);
       tiles[axis] = tile_of(last[axis]) - first_tile[axis] + 1;
-      if (tiles[axis] > DensityGrid::most_cells || (count *= tiles[axis]) > DensityGrid::most_cells)
+      if (tiles[axis] <= DensityGrid::most_cells) count *= tiles[axis];
+      if (std::max<std::int64_t>(tiles[axis], count) > DensityGrid::most_cells)
         throw GridError(too_many_points({last[0] - first[0] + 1, last[1] - first[1] + 1, last[2] - first[2] + 1}));
     }
   }
