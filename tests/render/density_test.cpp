@@ -42,8 +42,7 @@ Grid grid_of(const std::array<int, 3>& points, const Vec3d& lower, const Vec3d& 
 /// Mostly nothing, here and there much.
 Grid spiky_grid(const std::array<int, 3>& points, const Vec3d& lower, const Vec3d& upper, double share, float spike) {
   std::vector<float> numbers;
-  std::mt19937 random(7);
-  for (int i = 0; i < points[0] * points[1] * points[2]; ++i)
+  for (auto [i, random] = std::pair(0, std::mt19937(7)); i < points[0] * points[1] * points[2]; ++i)
     numbers.push_back(static_cast<double>(random()) * 0x1p-32 < share ? spike : 0.0F);
   return grid_of(points, lower, upper, [&](int x, int y, int z) {
     const int place = (z * points[1] + y) * points[0] + x;
