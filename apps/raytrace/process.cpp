@@ -5,6 +5,7 @@
 #include <pthread.h>
 #include <sys/resource.h>
 #include <tbb/global_control.h>
+#include <tbb/info.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -114,12 +115,21 @@ std::uint64_t untouched_memory() {
   return reserved - std::min(touched + to_be_touched, reserved);
 }
 
-/// What the threads that are still to be started reserve for their stacks: those that work, and as many that write
-/// pictures.
+/// Of OpenEXR's and OpenImageIO's threads, for each worker.
+constexpr std::uint64_t library_stacks = std::uint64_t{2} << 20U;
+
+std::uint64_t worker_stack() { return tbb::global_control::active_value(tbb::global_control::thread_stack_size); }
+
+std::uint64_t kept_stacks = 0;  ///< of threads that ended, which glibc keeps for those to come
+
+/// What the threads that are still to be started will reserve for their stacks. oneTBB starts no more than there are
+/// processors.
 std::uint64_t stacks_to_come(int threads) {
-  constexpr std::uint64_t stack = std::uint64_t{8} << 20U, small_stack = std::uint64_t{1} << 20U;
-  const auto wanted = static_cast<std::uint64_t>(threads);
-  return (wanted - std::min(wanted, process_status("Threads") - 1)) * stack + wanted * small_stack;
+  const int workers = std::min(threads, tbb::info::default_concurrency()) - 1;
+  const std::uint64_t wanted =
+      static_cast<std::uint64_t>(workers) * worker_stack() + static_cast<std::uint64_t>(threads) * library_stacks;
+  const std::uint64_t running = (process_status("Threads") - 1) * worker_stack();
+  return wanted - std::min(wanted, std::max(running, kept_stacks));
 }
 
 /// The least that a group of this process allows, in bytes.
@@ -189,9 +199,7 @@ void run_on_another_stack(const std::function<int()>& program) {
 
 int threads_with_room(int wanted) {
   if (wanted == 1) return 1;  // there already
-  // Of one that traces rays, and of those of OpenEXR and OpenImageIO.
-  constexpr std::size_t library_stacks = std::size_t{2} << 20U;
-  const std::size_t stack = tbb::global_control::active_value(tbb::global_control::thread_stack_size) + library_stacks;
+  const std::size_t stack = worker_stack() + library_stacks;
   pthread_attr_t attributes;
   pthread_attr_init(&attributes);
   pthread_attr_setstacksize(&attributes, stack);
@@ -207,6 +215,8 @@ int threads_with_room(int wanted) {
   }
   pthread_attr_destroy(&attributes);
   const int started = static_cast<int>(threads.size());
+  constexpr std::uint64_t glibc_keeps = std::uint64_t{40} << 20U;  // glibc.pthread.stack_cache_size
+  kept_stacks = std::min(static_cast<std::uint64_t>(started) * stack, glibc_keeps);
   return started == wanted ? wanted : std::max(1, started / 2);
 }
 

@@ -35,8 +35,8 @@ std::string random_name(Random& random) {
 
 void randomize(Random& random, Range range, double& value) { value = random_number(random, range); }
 void randomize(Random& random, Range range, int& value) {
-  // Squares of edges must stay below the limit of a picture.
-  value = static_cast<int>(below(random, 10000)) + (range == Range::positive ? 1 : 0);
+  // Squares of edges must stay below the limit of a picture; the levels of a subdivision are few.
+  value = static_cast<int>(below(random, below(random, 2) == 0 ? 5 : 10000)) + (range == Range::positive ? 1 : 0);
 }
 void randomize(Random& random, Range, bool& value) { value = below(random, 2) == 0; }
 void randomize(Random& random, Range, const ChoiceReference& value) { value.set(below(random, value.words().size())); }
