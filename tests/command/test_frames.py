@@ -271,7 +271,7 @@ class SkipExisting(CommandTest):
         self.assertEqual(self.render("1"), [])
         self.assertEqual(self.render("1"), ["a.1.exr, b.1.png"])
 
-    def test_a_torn_file_is_rendered_again(self):
+    def test_a_truncated_file_is_rendered_again(self):
         self.render("1")
         for length in (0, 20, len(self.read("a.1.exr")) - 10):
             self.write_bytes("a.1.exr", self.read("a.1.exr")[:length])

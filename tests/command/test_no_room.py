@@ -1,4 +1,4 @@
-"""Disks, folders, pipes and memory that fail while a render writes: a clear message, no torn file, nothing lost."""
+"""Disks, folders, pipes and memory that fail while a render writes: a clear message, no truncated file, nothing lost."""
 
 import contextlib
 import os
@@ -66,7 +66,7 @@ class FullDisk(MountTest):
         self.assertEqual(self.read("b.exr"), self.read("c.exr"))
 
     def test_checkpoint(self):
-        """It is told, and the render goes on."""
+        """It is reported, and the render goes on."""
         done = self.run_program("scene.xml", "-q", *LARGE, "-s", support.samples(64), "-o", "b.exr", "--checkpoint",
                                 "disk/c.exr", "--checkpoint-interval", "0.01s")
         self.assertIn("cannot write disk/c.exr: No space left on device", done.stderr)
@@ -87,7 +87,7 @@ class FullDisk(MountTest):
         self.assert_kept()
 
     def test_picture_on_request(self):
-        """One that finds no room is told, and the render goes on."""
+        """One that finds no room is reported, and the render goes on."""
         process = self.start("scene.xml", *LARGE_FILES, "-s", "100000", "-o", "disk/a.exr", "--progress=plain",
                              "--checkpoint", "c.exr")
         self.assertIn("rendered", process.stderr.readline())

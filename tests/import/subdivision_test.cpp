@@ -93,7 +93,7 @@ double volume_of(const MeshData& mesh) {
 }
 
 /// The same mesh with vertices of their own for each face.
-MeshData torn(const MeshData& mesh) {
+MeshData unwelded(const MeshData& mesh) {
   std::vector<float> positions;
   std::vector<std::uint32_t> indices;
   for (const std::uint32_t vertex : mesh.indices) {
@@ -137,7 +137,7 @@ TEST_CASE("a subdivided cube has its known limit points, whatever the level") {
 TEST_CASE("levels of subdivision have their vertices on one surface") {
   MeshData with_uvs = odd_mesh();
   with_uvs.uvs = uvs_by_place(with_uvs);
-  MeshData seam = torn(grid(3, 4, random_heights(3)));
+  MeshData seam = unwelded(grid(3, 4, random_heights(3)));
   seam.uvs = uvs_by_place(seam);
   for (std::size_t i = 0; i < seam.uvs.size() / 2; ++i) seam.uvs[i] += 5;  // some of the faces: others are not beside
   const MeshData* const meshes[] = {&with_uvs, &seam};
@@ -244,7 +244,7 @@ TEST_CASE("flat subdivision keeps the form of a cube, and smooth one has its lim
 TEST_CASE("corners in one place are of one vertex, whatever their texture coordinates, and no crack opens") {
   for (const bool flat : {false, true}) {
     for (const MeshData& whole : {cube(), octahedron()}) {
-      MeshData mesh = torn(whole);
+      MeshData mesh = unwelded(whole);
       mesh.uvs = MeshBuffer<float>(2 * mesh.vertex_count());
       for (std::size_t i = 0; i < mesh.uvs.size(); ++i)
         mesh.uvs[i] = static_cast<float>(i * 37 % 11);  // seams everywhere
@@ -358,7 +358,7 @@ TEST_CASE("polygons of files are subdivided as a whole, and quads among more tri
 }
 
 TEST_CASE("subdivision has the same bits with any number of threads") {
-  MeshData mesh = torn(grid(8, 4, random_heights(8)));
+  MeshData mesh = unwelded(grid(8, 4, random_heights(8)));
   mesh.uvs = uvs_by_place(mesh);
   const MeshData one = subdivided(mesh, {.levels = 5, .threads = 1}),
                  many = subdivided(mesh, {.levels = 5, .threads = 7});

@@ -9,6 +9,12 @@
 
 namespace raytrace {
 
+const TextureUse* density_texture(const MaterialItem<Fog>& fog) {
+  for (const TextureUse& use : fog.textures)
+    if (element_type<Fog>().fields[use.field].name == Fog::density_field) return &use;
+  return nullptr;
+}
+
 namespace {
 
 /// The objects that a fog is in.
@@ -34,13 +40,6 @@ void add_to_fog(FogObjects& objects, const ObjectItem<T>& item) {
     else
       objects.advice += "put it into a closed object, such as a <box>";
   }
-}
-
-/// Of its <density>; null: it has none.
-const TextureUse* density_texture(const MaterialItem<Fog>& fog) {
-  for (const TextureUse& use : fog.textures)
-    if (element_type<Fog>().fields[use.field].name == Fog::density_field) return &use;
-  return nullptr;
 }
 
 bool has_density(const MaterialItem<Fog>& fog) {
@@ -80,9 +79,8 @@ void check_density(const SceneDescription& scene, const MaterialItem<Fog>& fog, 
     error("<densityfade> is for a <density> with a texture; it has none");
   if (!fog.transform.empty() && !has_density(fog))
     error(
-        "its <transform> moves a density, and it has neither a <densityfile> nor a texture in its <density>; remove "
-        "it, "
-        "and give one to the object instead");
+        "its <transform> moves nothing, since it has neither a <densityfile> nor a <density> with a texture; move the "
+        "object");
 }
 
 /// Whether the material is a fog that is not the same everywhere.

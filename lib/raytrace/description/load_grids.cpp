@@ -1,8 +1,6 @@
 #include "raytrace/description/load_grids.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <map>
 #include <memory>
 #include <new>
@@ -10,6 +8,7 @@
 #include <utility>
 
 #include "raytrace/import/grid_tiles.h"
+#include "raytrace/math/bounds.h"
 #include "raytrace/output/openimageio_module.h"
 #include "raytrace/text/message.h"
 
@@ -17,53 +16,34 @@ namespace raytrace {
 
 namespace {
 
-/// Between two corners.
-struct Corners {
-  Vec3d lower{1e300, 1e300, 1e300}, upper{-1e300, -1e300, -1e300};
-
-  void add(const Vec3d& p) {
-    for (int axis = 0; axis < 3; ++axis) {
-      component(lower, axis) = std::min(component(lower, axis), component(p, axis));
-      component(upper, axis) = std::max(component(upper, axis), component(p, axis));
-    }
-  }
-  bool meets(const Corners& other) const {
-    for (int axis = 0; axis < 3; ++axis)
-      if (component(lower, axis) > component(other.upper, axis) ||
-          component(upper, axis) < component(other.lower, axis))
-        return false;
-    return true;
-  }
-};
-
-std::string corner_text(const Vec3d& p) {
-  const auto short_text = [](double number) {
-    std::array<char, 32> text;
-    std::snprintf(text.data(), text.size(), "%.4g", number);
-    return std::string(text.data());
-  };
-  return "(" + short_text(p.x) + ", " + short_text(p.y) + ", " + short_text(p.z) + ")";
+bool overlap(const Bounds& a, const Bounds& b) {
+  return a.lower.x <= b.upper.x && b.lower.x <= a.upper.x && a.lower.y <= b.upper.y && b.lower.y <= a.upper.y &&
+         a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;
 }
 
-Corners box_of(const MaterialItem<Fog>& fog) {
+std::string corner_text(const Vec3f& p) {
+  return formatted("(%.4g, %.4g, %.4g)", double{p.x}, double{p.y}, double{p.z});
+}
+
+/// Of the grid, where the fog has it.
+Bounds bounds_of(const MaterialItem<Fog>& fog) {
   const DensityGrid::Lattice& lattice = fog.grid.grid->lattice();
   const Affine map = fog.transform.affine() * lattice.world_from_lattice;
-  Corners box;
-  for (unsigned corner = 0; corner < 8; ++corner) {
-    const auto side = [&](unsigned axis, double lower, double upper) {
-      return (corner >> axis & 1U) != 0 ? upper : lower;
-    };
-    box.add(map.point(Vec3d(side(0, lattice.lower.x, lattice.upper.x), side(1, lattice.lower.y, lattice.upper.y),
-                            side(2, lattice.lower.z, lattice.upper.z))));
-  }
-  return box;
+  Bounds bounds = empty_bounds;
+  for (const double x : {lattice.lower.x, lattice.upper.x})
+    for (const double y : {lattice.lower.y, lattice.upper.y})
+      for (const double z : {lattice.lower.z, lattice.upper.z}) {
+        const Vec3f corner(map.point(Vec3d(x, y, z)));
+        bounds = join(bounds, {corner, corner});
+      }
+  return bounds;
 }
 
 /// Warns of a fog none of whose objects is where its grid is, as far as that is known before meshes are read: it is not
 /// seen, and the grid's place is written in a file that people cannot read.
 void warn_of_other_place(const SceneDescription& scene, std::uint32_t index, const MaterialItem<Fog>& fog,
                          Diagnostics& diagnostics) {
-  const Corners grid = box_of(fog);
+  const Bounds grid = bounds_of(fog);
   const MaterialReference material{static_cast<std::uint32_t>(index_of<Fog>(Materials{})), index};
   std::size_t objects = 0, met = 0;
   // all: those of an instance that has the fog in place of their materials.
@@ -84,10 +64,9 @@ void warn_of_other_place(const SceneDescription& scene, std::uint32_t index, con
             const Vec3d before(dot(along, map.x), dot(along, map.y), dot(along, map.z));
             return T::reach(item.parameters, before) + dot(along, map.origin);
           };
-          Corners box;
-          box.lower = Vec3d(-reach({-1, 0, 0}), -reach({0, -1, 0}), -reach({0, 0, -1}));
-          box.upper = Vec3d(reach({1, 0, 0}), reach({0, 1, 0}), reach({0, 0, 1}));
-          met += box.meets(grid);
+          const Vec3d lower(-reach({-1, 0, 0}), -reach({0, -1, 0}), -reach({0, 0, -1}));
+          const Vec3d upper(reach({1, 0, 0}), reach({0, 1, 0}), reach({0, 0, 1}));
+          met += overlap({Vec3f(lower), Vec3f(upper)}, grid);
         } else {
           ++met;
         }

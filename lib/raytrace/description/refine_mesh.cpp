@@ -23,20 +23,13 @@ MeshBuffer<T> copy_of(const MeshBuffer<T>& buffer) {
 
 /// A mesh without its copies.
 MeshData copy_of(const MeshData& mesh) {
-  MeshData copy;
-  copy.origin = mesh.origin;
+  MeshData copy = without_faces(mesh);
   copy.corners = mesh.corners;
   for (MeshBuffer<float> MeshData::* const buffer : {&MeshData::positions, &MeshData::normals, &MeshData::uvs,
                                                      &MeshData::uvs2, &MeshData::colors, &MeshData::alphas})
     copy.*buffer = copy_of(mesh.*buffer);
   copy.indices = copy_of(mesh.indices);
   copy.face_materials = copy_of(mesh.face_materials);
-  copy.materials = mesh.materials;
-  copy.parts = mesh.parts;
-  copy.cameras = mesh.cameras;
-  copy.lights = mesh.lights;
-  copy.animation_end = mesh.animation_end;
-  copy.files = mesh.files;
   return copy;
 }
 

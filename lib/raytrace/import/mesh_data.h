@@ -179,6 +179,19 @@ struct MeshData {
   std::size_t face_count() const { return indices.size() / static_cast<std::size_t>(corners); }
 };
 
+/// What a mesh that is made of that one's faces has of it: all but these, their vertices, and copies.
+inline MeshData without_faces(const MeshData& mesh) {
+  MeshData rest;
+  rest.origin = mesh.origin;
+  rest.materials = mesh.materials;
+  rest.parts = mesh.parts;
+  rest.cameras = mesh.cameras;
+  rest.lights = mesh.lights;
+  rest.animation_end = mesh.animation_end;
+  rest.files = mesh.files;
+  return rest;
+}
+
 /// Points with perhaps a radius and a colour each.
 struct PointCloud {
   Vec3d origin{0, 0, 0};        ///< as a mesh's

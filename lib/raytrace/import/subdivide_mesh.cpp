@@ -271,14 +271,7 @@ std::optional<std::string> too_many_subdivisions(const MeshData& mesh, const Sub
 }
 
 MeshData subdivided(const MeshData& mesh, const SubdivisionSettings& settings) {
-  MeshData out;
-  out.origin = mesh.origin;
-  out.materials = mesh.materials;
-  out.parts = mesh.parts;
-  out.cameras = mesh.cameras;
-  out.lights = mesh.lights;
-  out.animation_end = mesh.animation_end;
-  out.files = mesh.files;
+  MeshData out = without_faces(mesh);
   Subdivider(mesh, settings).run(out);
   return out;
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "raytrace/description/check_fogs.h"
 #include "raytrace/math/bounds.h"
 #include "raytrace/parallel/for_each_index.h"
 #include "raytrace/scene/scene.h"
@@ -20,12 +21,6 @@ namespace {
 constexpr double most_texture_points = 1 << 24;
 /// As many as there are numbers of media, and so many kinds of instances, of each fog.
 constexpr std::size_t most_places = (1U << 16U) - 1, most_first_places = std::size_t{1} << 26U;
-
-const TextureUse* texture_of(const MaterialItem<Fog>& fog) {
-  for (const TextureUse& use : fog.textures)
-    if (element_type<Fog>().fields[use.field].name == Fog::density_field) return &use;
-  return nullptr;
-}
 
 /// Between points, so that a texture's finest parts are there.
 double edge_for(const SceneDescription& scene, const TextureReference& texture) {
@@ -201,7 +196,8 @@ DensityTable::DensityTable(const SceneDescription& description, std::int32_t fir
   std::vector<std::uint8_t> uneven(used_materials.size());
   for (std::size_t i = 0; i < fogs.size(); ++i) {
     const std::size_t material = static_cast<std::size_t>(first_fog) + i;
-    if (used_materials[material] != 0 && (fogs[i].grid.grid || texture_of(fogs[i]) != nullptr)) uneven[material] = 1;
+    if (used_materials[material] != 0 && (fogs[i].grid.grid || density_texture(fogs[i]) != nullptr))
+      uneven[material] = 1;
   }
   if (std::find(uneven.begin(), uneven.end(), 1) == uneven.end()) return;
   first_fog_ = first_fog;
@@ -217,7 +213,7 @@ DensityTable::DensityTable(const SceneDescription& description, std::int32_t fir
     const MaterialItem<Fog>& fog = fogs[i];
     std::shared_ptr<const DensityGrid> grid = fog.grid.grid;
     Affine from_lattice;
-    if (const TextureUse* const use = texture_of(fog); use != nullptr) {
+    if (const TextureUse* const use = density_texture(fog); use != nullptr) {
       std::vector<std::uint8_t> wanted(used_materials.size());
       wanted[material] = 1;
       grid = TextureLattice(description, fog, *use, geometry.bounds_in_file(wanted, origin), textures, threads)

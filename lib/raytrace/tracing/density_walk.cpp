@@ -6,7 +6,7 @@ namespace raytrace {
 
 namespace {
 
-/// Flights through what is dark anyway.
+/// Of a flight; one that has had as many is in what no light gets through.
 constexpr int most_ends = 1 << 20;
 
 }  // namespace

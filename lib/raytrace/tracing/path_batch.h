@@ -151,6 +151,12 @@ class PathBatch {
   FogLight draw_light_in_fog(const PathPacket& path, const FogPart& part, const FogNumbers& numbers,
                              const FloatN& u) const;
   void add_emission(const PathPacket& path, const FogPart& part, int depth);
+  /// Light that is drawn for places in fog, in those lanes.
+  DrawnLight draw_light_for(const Vec3<FloatN>& places, const MaskN& lanes, const FogNumbers& numbers) const;
+  /// Adds what comes from a light to where a fog scatters it. scattered: by what the light's radiance is multiplied.
+  /// distance: of the paths to there.
+  void add_fog_light(const PathPacket& path, const FogPart& part, const FogLight& light, const RayIds& ids,
+                     const Rgb<FloatN>& scattered, const FloatN& distance, int depth, RayCounts& counts);
   /// The lanes that end within the part, which are scattered there, unless it absorbs them.
   static MaskN scatter_in_fog(PathPacket& path, const FogPart& part, const FogNumbers& numbers, int depth);
 

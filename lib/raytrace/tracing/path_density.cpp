@@ -67,22 +67,10 @@ MaskN PathBatch::go_through_density(PathPacket& path, const FogPart& part, const
 void PathBatch::light_fog_point(const PathPacket& path, const FogPart& part, const FogPoint& point,
                                 const Rgb<FloatN>& color, const FogNumbers& numbers, int depth, RayCounts& counts) {
   const SceneTables& tables = scene_.tables();
-  PanesAhead panes{IntN(settings_.maxdepth - depth - 1) - path.fog_scatterings, {}, path.distance + point.distance};
   const Rgb<FloatN> scattered = path.throughput * color * FloatN(1 / static_cast<float>(part.rounds));
   const auto add_light = [&](const FogLight& light) {
-    MaskN lit = light.lit;
-    if (none(lit)) return;
-    const RayIds ids = numbers.ids_of_round(light.ray_number);
-    Rgb<FloatN> left(Rgb<float>(1, 1, 1));
-    if (const MaskN may_hide = lit & light.has_shadow; any(may_hide)) {
-      counts.shadow += count_lanes(may_hide);
-      lit = lit & !(tables.has_panes()
-                        ? occluded_behind_panes(scene_, light.ray, may_hide, ids, Coherence::incoherent, panes, left)
-                        : occluded_identified(scene_, light.ray, may_hide, ids, Coherence::incoherent));
-      if (none(lit)) return;
-    }
-    left = left * light_through(scene_, light.ray, lit, ids, {part.media, part.fog});
-    add_from_fog(path, lit, scattered * light.radiance * left, light.group, depth);
+    add_fog_light(path, part, light, numbers.ids_of_round(light.ray_number), scattered, path.distance + point.distance,
+                  depth, counts);
   };
   if (!tables.lights().empty()) add_light(choose_light_at(part, point, scattered, numbers));
   if (tables.environment() != nullptr || !tables.emitters().empty())
@@ -142,14 +130,7 @@ PathBatch::FogLight PathBatch::choose_light_at(const FogPart& part, const FogPoi
 PathBatch::FogLight PathBatch::draw_light_at(const PathPacket& path, const FogPart& part, const FogPoint& point,
                                              const FogNumbers& numbers) const {
   const SceneTables& tables = scene_.tables();
-  SurfaceInteraction<FloatN> from{};
-  from.p = point.place;
-  from.ng = from.ns = Vec3<FloatN>(Vec3f(0, 0, 0));
-  from.error = rounding_error(from.p, FloatN(0));
-  const FloatN time = tables.emitters().has_motion() ? numbers.ids(0).times() : FloatN(0);
-  DrawnLight light =
-      draw_light(tables, from, from.ns, time, numbers(FogDraw::emitter), numbers(FogDraw::emitter_point));
-  light.lit = light.lit & point.lanes;
+  const DrawnLight light = draw_light_for(point.place, point.lanes, numbers);
   FogLight result;
   if (none(light.lit)) return result;
   result.ray_number = 2;

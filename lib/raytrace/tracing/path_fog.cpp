@@ -21,23 +21,10 @@ void PathBatch::light_fog(const PathPacket& path, const FogPart& part, FogNumber
   const SceneTables& tables = scene_.tables();
   const FloatN begin = numbers(FogDraw::light).x, begin_of_drawn = numbers(FogDraw::flights).y;
   const float share = 1 / static_cast<float>(part.rounds);
-  PanesAhead panes{IntN(settings_.maxdepth - depth - 1) - path.fog_scatterings, {}, path.distance};
+  const Rgb<FloatN> scattered = path.throughput * part.scattering;
   const auto add_light = [&](const FogLight& light) {
-    MaskN lit = light.lit;
-    if (none(lit)) return;
-    const RayIds ids = numbers.ids(light.ray_number);
-    Rgb<FloatN> left(Rgb<float>(1, 1, 1));
-    if (const MaskN may_hide = lit & light.has_shadow; any(may_hide)) {
-      counts.shadow += count_lanes(may_hide);
-      panes.distance = path.distance + light.distance;
-      lit = lit & !(tables.has_panes()
-                        ? occluded_behind_panes(scene_, light.ray, may_hide, ids, Coherence::incoherent, panes, left)
-                        : occluded_identified(scene_, light.ray, may_hide, ids, Coherence::incoherent));
-      if (none(lit)) return;
-    }
-    left = left * light_through(scene_, light.ray, lit, ids, {part.media, part.fog});
-    const Rgb<FloatN> radiance = path.throughput * part.scattering * light.radiance * left * FloatN(share);
-    add_from_fog(path, lit, radiance, light.group, depth);
+    add_fog_light(path, part, light, numbers.ids(light.ray_number), scattered * FloatN(share),
+                  path.distance + light.distance, depth, counts);
   };
   for (int round = 0; round < part.rounds; ++round) {
     numbers.round = static_cast<std::uint32_t>(round);
@@ -46,6 +33,37 @@ void PathBatch::light_fog(const PathPacket& path, const FogPart& part, FogNumber
     if (tables.environment() != nullptr || !tables.emitters().empty())
       add_light(draw_light_in_fog(path, part, numbers, in_round(begin_of_drawn)));
   }
+}
+
+void PathBatch::add_fog_light(const PathPacket& path, const FogPart& part, const FogLight& light, const RayIds& ids,
+                              const Rgb<FloatN>& scattered, const FloatN& distance, int depth, RayCounts& counts) {
+  const SceneTables& tables = scene_.tables();
+  MaskN lit = light.lit;
+  if (none(lit)) return;
+  Rgb<FloatN> left(Rgb<float>(1, 1, 1));
+  if (const MaskN may_hide = lit & light.has_shadow; any(may_hide)) {
+    counts.shadow += count_lanes(may_hide);
+    const PanesAhead panes{IntN(settings_.maxdepth - depth - 1) - path.fog_scatterings, {}, distance};
+    lit = lit & !(tables.has_panes()
+                      ? occluded_behind_panes(scene_, light.ray, may_hide, ids, Coherence::incoherent, panes, left)
+                      : occluded_identified(scene_, light.ray, may_hide, ids, Coherence::incoherent));
+    if (none(lit)) return;
+  }
+  left = left * light_through(scene_, light.ray, lit, ids, {part.media, part.fog});
+  add_from_fog(path, lit, scattered * light.radiance * left, light.group, depth);
+}
+
+DrawnLight PathBatch::draw_light_for(const Vec3<FloatN>& places, const MaskN& lanes, const FogNumbers& numbers) const {
+  const SceneTables& tables = scene_.tables();
+  SurfaceInteraction<FloatN> from{};
+  from.p = places;
+  from.ng = from.ns = Vec3<FloatN>(Vec3f(0, 0, 0));
+  from.error = rounding_error(from.p, FloatN(0));
+  const FloatN time = tables.emitters().has_motion() ? numbers.ids(0).times() : FloatN(0);
+  DrawnLight light =
+      draw_light(tables, from, from.ns, time, numbers(FogDraw::emitter), numbers(FogDraw::emitter_point));
+  light.lit = light.lit & lanes;
+  return light;
 }
 
 /// One of all lights that are not drawn from surfaces or the sky, at one of several distances.
@@ -137,14 +155,7 @@ PathBatch::FogLight PathBatch::draw_light_in_fog(const PathPacket& path, const F
                                                  const FloatN& u) const {
   const SceneTables& tables = scene_.tables();
   const FloatN distance = part.flights.sample(u);
-  SurfaceInteraction<FloatN> point{};
-  point.p = part.rays.at(distance);
-  point.ng = point.ns = Vec3<FloatN>(Vec3f(0, 0, 0));
-  point.error = rounding_error(point.p, FloatN(0));
-  const FloatN time = tables.emitters().has_motion() ? numbers.ids(0).times() : FloatN(0);
-  DrawnLight light =
-      draw_light(tables, point, point.ns, time, numbers(FogDraw::emitter), numbers(FogDraw::emitter_point));
-  light.lit = light.lit & part.lanes;
+  const DrawnLight light = draw_light_for(part.rays.at(distance), part.lanes, numbers);
   FogLight result;
   if (none(light.lit)) return result;
   result.ray_number = 2;
