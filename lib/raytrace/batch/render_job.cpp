@@ -121,7 +121,7 @@ SampleRange sample_range(const ViewPlane& viewplane, const RenderJob& job) {
 }
 
 Region crop_window(const ViewPlane& viewplane, const RenderJob& job) {
-  if (!job.crop) return {0, 0, viewplane.hres, viewplane.vres};
+  if (!job.crop) return whole_picture(viewplane);
   if (const auto error = crop_error(*job.crop, viewplane.hres, viewplane.vres))
     throw SettingsError("--crop: " + text_of(*job.crop) + ": " + *error);
   return *job.crop;

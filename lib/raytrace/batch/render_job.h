@@ -86,6 +86,9 @@ void apply_job(const RenderJob& job, SceneDescription& description);
 /// Which of each pixel's samples: a sample offset makes them a part of the picture's.
 SampleRange sample_range(const ViewPlane& viewplane, const RenderJob& job);
 
+/// Its pixels, all of them.
+inline Region whole_picture(const ViewPlane& viewplane) { return {0, 0, viewplane.hres, viewplane.vres}; }
+
 /// What is cut into tiles: the crop, or the whole picture. Throws SettingsError if the crop reaches too far beyond the
 /// picture.
 Region crop_window(const ViewPlane& viewplane, const RenderJob& job);

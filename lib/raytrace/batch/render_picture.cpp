@@ -10,17 +10,18 @@
 
 #include "raytrace/aovs/aov_selection.h"
 #include "raytrace/batch/bands.h"
+#include "raytrace/batch/brightness.h"
 #include "raytrace/batch/check_job.h"
 #include "raytrace/batch/checkpoint.h"
 #include "raytrace/batch/denoise.h"
 #include "raytrace/batch/error_limit.h"
+#include "raytrace/batch/job_film_content.h"
 #include "raytrace/batch/output_files.h"
 #include "raytrace/batch/passes.h"
 #include "raytrace/batch/picture_metadata.h"
 #include "raytrace/batch/provenance.h"
 #include "raytrace/batch/settings_error.h"
 #include "raytrace/description/check_scene.h"
-#include "raytrace/description/light_groups.h"
 #include "raytrace/display/display_client.h"
 #include "raytrace/film/aov_film.h"
 #include "raytrace/film/photons.h"
@@ -120,9 +121,10 @@ class PictureRender {
     settings_.aovs = film_aovs(job_);
     settings_.transparent = job_.transparent;
     settings_.single_splats = job_.denoise;
-    film_content_ = film_content();
+    film_content_ = job_film_content(job_, *scene_, *description_, settings_);
     identity_.film = film_settings(*scene_, *description_, settings_);
     if (const auto warning = rounding_warning(*scene_, identity_.film)) report(MessageLevel::warning, *warning);
+    if (const auto warning = no_light_warning(*description_)) report(MessageLevel::warning, *warning);
     identity_.provenance = provenance_of(*scene_, *description_, job_.threads);
     identity_.tile = job_.tile;
     if (job_.is_one_of_frames) identity_.frame = result_.statistics.frame = job_.frame;
@@ -133,20 +135,6 @@ class PictureRender {
       display_ = std::make_unique<DisplayClient>(*job_.display_server, job_.outputs.front(), extent,
                                                  [this](const auto& text) { report(MessageLevel::warning, text); });
     }
-  }
-
-  /// Means where nobody asks for more: neither for samples to come after a while, nor for pieces to be put together, be
-  /// they stopped or not.
-  FilmContent film_content() const {
-    const Region picture{0, 0, description_->viewplane.hres, description_->viewplane.vres};
-    if (!job_.checkpoint.empty() || job_.time_limit || job_.error_limit || job_.sample_offset || job_.display_server ||
-        !settings_.aovs.empty() || settings_.region != picture || scene_->traces_light_paths() ||
-        light_group_names(*description_).size() > 1)
-      return FilmContent::sums;
-    const bool halves = std::all_of(job_.outputs.begin(), job_.outputs.end(), [&](const std::string& file) {
-      return image_format(file, job_.image_file_settings()).halves();
-    });
-    return halves ? FilmContent::half_means : FilmContent::means;
   }
 
   RenderOutcome render_at_once() {
@@ -190,6 +178,7 @@ class PictureRender {
     const bool written = write_picture(film, job_.outputs, done, false, denoised ? &*denoised : nullptr);
     if (!written || denoising == Denoising::failed) return RenderOutcome::failed;
     checkpoint_.remove(observer_);
+    report_brightness(film);
     return RenderOutcome::written;
   }
 
@@ -354,6 +343,16 @@ class PictureRender {
 
   void report_invalid_samples() const {
     if (invalid_samples_.count > 0) report(MessageLevel::warning, invalid_samples_text(invalid_samples_));
+  }
+
+  /// Of a part, another one may have what is missed.
+  void report_brightness(const Film& film) const {
+    if (film.region() != whole_picture(description_->viewplane) || job_.sample_offset) return;
+    const RenderStatistics& statistics = result_.statistics;
+    const bool clips = statistics.view_transform == name_of(ViewTransform::srgb) &&
+                       any_for_display(job_.outputs, job_.image_file_settings());
+    const auto warning = brightness_warning(film, *scene_, *description_, statistics.exposure, clips);
+    if (warning) report(MessageLevel::warning, *warning);
   }
 
   /// Completes the statistics, and writes them to their file.
