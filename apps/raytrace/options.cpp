@@ -121,11 +121,11 @@ void define_options(OptionParser& parser, Options& options) {
   constexpr int largest = std::numeric_limits<int>::max();
   constexpr int most_threads = 1024;
   parser.group("Input");
-  parser.add_arguments(
-      "SCENE.xml",
-      "Scene files; - reads one from standard input. Or models (.glb, .gltf, .obj, .ply, .stl, .fbx, .dae...), which "
-      "get a camera and lights",
-      options.scenes);
+  parser.add_arguments("SCENE.xml",
+                       "Scene files; - reads one from standard input. Or models (.glb, .gltf, .obj, .ply, .stl, .fbx, "
+                       ".dae, .vdb...), which "
+                       "get a camera and lights",
+                       options.scenes);
   parser.add(
       "--frames", "FRAMES",
       "Render these frames, e.g. 1-10:2,15; #### or %04d in the names of scenes, outputs and statistics is the number, "

@@ -41,6 +41,10 @@ VDB = (
 )
 
 
+def vdb():
+    return zlib.decompress(base64.b64decode(VDB))
+
+
 def vol(numbers=(0.5, 1.5), size=(1, 1, 2), box=(0, 0, 0, 4, 5, 10)):
     return b"VOL\x03" + struct.pack(f"<5i6f{len(numbers)}f", 1, *size, 1, *box, *numbers)
 
@@ -67,7 +71,7 @@ class Densities(CommandTest):
         self.assertAlmostEqual(self.left(), wanted, delta=4 * math.sqrt(wanted * (1 - wanted) / 65536))
 
     def has_vdb(self):
-        self.put("there/smoke.vdb", zlib.decompress(base64.b64decode(VDB)))
+        self.put("there/smoke.vdb", vdb())
         self.scene("<densityfile>smoke.vdb</densityfile>")
         done = self.run_program("there/scene.xml", "--validate")
         if "no reader for OpenVDB" in done.stderr:
@@ -202,3 +206,31 @@ class Densities(CommandTest):
         self.put("there/smoke.vol", vol())
         render("2.exr", "1/2")
         self.succeed("merge", "1.exr", "2.exr", "-o", "all.exr")
+
+    def test_a_file_of_densities_is_a_model(self):
+        self.put("there/smoke.vol", vol((0.5, 1.5)))
+        small = ("-q", "-r", "24x16", "-s", "16", "--float")
+        for options in ((), ("--up", "z", "--floor", "--sun", "30,40"), ("--turntable", "4", "--frames", "2")):
+            self.succeed("there/smoke.vol", "-o", "a.exr", *small, *options)
+            with open(self.path("printed.xml"), "w", encoding="utf-8") as file:
+                file.write(self.succeed("there/smoke.vol", "--print-scene", "-r", "24x16", *options).stdout)
+            self.succeed("printed.xml", "-o", "b.exr", *small)
+            a, b = (Exr(self.read(name)).rows for name in ("a.exr", "b.exr"))
+            self.assertEqual([row["G"] for row in a.values()], [row["G"] for row in b.values()])
+        # It is in the middle of the picture, and nowhere near the sides.
+        self.succeed("there/smoke.vol", "-o", "a.exr", *small, "--transparent", "--environment", "none", "--sun", "30,40")
+        rows = Exr(self.read("a.exr")).rows
+        green = [rows[y]["G"] for y in sorted(rows)]
+        self.assertGreater(green[8][12], 0.05)
+        self.assertEqual((green[0][0], green[15][23]), (0, 0))
+
+    def test_a_model_of_no_density_is_refused(self):
+        self.put("there/smoke.vol", vol((0, 0)))
+        self.assertIn("there/smoke.vol: error: has no density anywhere", self.fail_with(1, "there/smoke.vol", "-o", "a.exr"))
+        self.put("there/smoke.vol", vol()[:-1])
+        self.assertIn("error: the density 'there/smoke.vol' cannot be used", self.fail_with(1, "there/smoke.vol", "-o", "a.exr"))
+        self.put("there/smoke.vol", vol())
+        self.assertIn("error: a file of densities has no animation",
+                      self.fail_with(1, "there/smoke.vol", "-o", "a.exr", "--animation", "Run"))
+        self.assertIn("error: has no camera 'front', nor any other",
+                      self.fail_with(1, "there/smoke.vol", "-o", "a.exr", "--camera", "front"))

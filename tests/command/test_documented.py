@@ -11,6 +11,7 @@ import subprocess
 import unittest
 
 import support
+import test_densities
 from support import SCENE, CommandTest
 
 # Of the pages that show commands, and what they take for granted: scenes, models, and pieces to merge.
@@ -82,6 +83,8 @@ class DocumentedCommands(CommandTest):
             with open(self.path(name), "wb") as file:
                 file.write(glb())
         self.write("chair.dae", DAE)
+        with open(self.path("smoke.vdb"), "wb") as file:
+            file.write(test_densities.vdb())
         os.symlink(os.path.join(support.REPOSITORY, "scenes"), self.path("scenes"))
         for folder in ("bin", "pictures/pieces", "build/release/bin"):
             os.makedirs(self.path(folder))

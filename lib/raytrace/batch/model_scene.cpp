@@ -10,6 +10,7 @@
 #include "raytrace/batch/fit_camera.h"
 #include "raytrace/batch/model_extent.h"
 #include "raytrace/batch/model_lights.h"
+#include "raytrace/batch/model_smoke.h"
 #include "raytrace/description/load_images.h"
 #include "raytrace/import/read_mesh.h"
 #include "raytrace/text/message.h"
@@ -171,7 +172,7 @@ void warn_of_unused_lights(const SceneDescription& description, const ModelStage
 
 }  // namespace
 
-bool is_model(const std::string& file) { return is_mesh_file(file); }
+bool is_model(const std::string& file) { return is_mesh_file(file) || is_smoke(file); }
 
 std::optional<SceneDescription> load_model(const std::string& file, const ModelStage& stage, std::optional<int> frame,
                                            std::optional<std::array<int, 2>> size, Diagnostics& diagnostics,
@@ -184,14 +185,18 @@ std::optional<SceneDescription> load_model(const std::string& file, const ModelS
   description.viewplane.samples = 128;
   description.viewplane.viewtransform = ViewTransform::khronos_neutral;
   description.integrator = Path::Parameters{};
-  ObjectItem<Mesh> mesh;
-  mesh.parameters.file.path = file;
-  mesh.parameters.variant.name = stage.variant;
-  animate(mesh.parameters, stage, frame);
-  if (stage.z_is_up) mesh.transform.steps.push_back({TransformStep::rotate, {1, 0, 0, -90}});
-  std::get<ObjectItems<Mesh>>(description.objects).push_back(mesh);
   if (stage.floor) add_floor_material(description);
-  if (!load_meshes(description, diagnostics, threads, textures)) return std::nullopt;
+  if (is_smoke(file)) {
+    if (!add_smoke(description, file, stage, diagnostics, threads, textures)) return std::nullopt;
+  } else {
+    ObjectItem<Mesh> mesh;
+    mesh.parameters.file.path = file;
+    mesh.parameters.variant.name = stage.variant;
+    animate(mesh.parameters, stage, frame);
+    if (stage.z_is_up) mesh.transform.steps.push_back({TransformStep::rotate, {1, 0, 0, -90}});
+    std::get<ObjectItems<Mesh>>(description.objects).push_back(mesh);
+    if (!load_meshes(description, diagnostics, threads, textures)) return std::nullopt;
+  }
   if (!data_of(description).animation_end) {
     // So that a printed scene does not ask for what is not there.
     auto& parameters = std::get<ObjectItems<Mesh>>(description.objects).front().parameters;

@@ -32,7 +32,7 @@ struct ModelStage {
 };
 
 /// Whether it is one of those files, by its extension: .glb, .gltf, .obj, .ply, .stl, perhaps with .gz behind, or
-/// one of converted_types (import/converted_model.h).
+/// one of converted_types (import/converted_model.h); or a file of densities, .vdb or .vol (model_smoke.h).
 bool is_model(const std::string& file);
 
 /// The model in the file's lights and a sky that is dim beside them, exposed by its own brightness since they may be of

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "raytrace/import/grid_tiles.h"
-#include "raytrace/math/bounds.h"
 #include "raytrace/output/openimageio_module.h"
 #include "raytrace/text/message.h"
 
@@ -25,25 +24,11 @@ std::string corner_text(const Vec3f& p) {
   return formatted("(%.4g, %.4g, %.4g)", double{p.x}, double{p.y}, double{p.z});
 }
 
-/// Of the grid, where the fog has it.
-Bounds bounds_of(const MaterialItem<Fog>& fog) {
-  const DensityGrid::Lattice& lattice = fog.grid.grid->lattice();
-  const Affine map = fog.transform.affine() * lattice.world_from_lattice;
-  Bounds bounds = empty_bounds;
-  for (const double x : {lattice.lower.x, lattice.upper.x})
-    for (const double y : {lattice.lower.y, lattice.upper.y})
-      for (const double z : {lattice.lower.z, lattice.upper.z}) {
-        const Vec3f corner(map.point(Vec3d(x, y, z)));
-        bounds = join(bounds, {corner, corner});
-      }
-  return bounds;
-}
-
 /// Warns of a fog none of whose objects is where its grid is, as far as that is known before meshes are read: it is not
 /// seen, and the grid's place is written in a file that people cannot read.
 void warn_of_other_place(const SceneDescription& scene, std::uint32_t index, const MaterialItem<Fog>& fog,
                          Diagnostics& diagnostics) {
-  const Bounds grid = bounds_of(fog);
+  const Bounds grid = grid_bounds(fog);
   const MaterialReference material{static_cast<std::uint32_t>(index_of<Fog>(Materials{})), index};
   std::size_t objects = 0, met = 0;
   // all: those of an instance that has the fog in place of their materials.
@@ -83,6 +68,19 @@ void warn_of_other_place(const SceneDescription& scene, std::uint32_t index, con
 }
 
 }  // namespace
+
+Bounds grid_bounds(const MaterialItem<Fog>& fog) {
+  const DensityGrid::Lattice& lattice = fog.grid.grid->lattice();
+  const Affine map = fog.transform.affine() * lattice.world_from_lattice;
+  Bounds bounds = empty_bounds;
+  for (const double x : {lattice.lower.x, lattice.upper.x})
+    for (const double y : {lattice.lower.y, lattice.upper.y})
+      for (const double z : {lattice.lower.z, lattice.upper.z}) {
+        const Vec3f corner(map.point(Vec3d(x, y, z)));
+        bounds = join(bounds, {corner, corner});
+      }
+  return bounds;
+}
 
 bool load_grids(SceneDescription& scene, Diagnostics& diagnostics, int threads,
                 const std::function<std::string(const std::string& file)>& hash_of) {
