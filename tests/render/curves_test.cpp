@@ -189,6 +189,7 @@ TEST_CASE("curves are one object each, behind the clouds, and count in the hash 
   CHECK(hash_of(text, "") == hash);
   CHECK(hash_of("0 0 0 1\n0 1 0 1\n0 1 2 1\n", "") != hash);
   CHECK(hash_of("0 0 0 1\n0 1 0 1\n0 1 1 2\n", "") != hash);
+  CHECK(hash_of("1 0 0 1\n1 1 0 1\n1 1 1 1\n", "") != hash);
   for (const std::string more : {"<radius>2</radius>", "<tipscale>0.5</tipscale>", "<basis>linear</basis>"})
     CHECK(hash_of(text, more) != hash);
 }
