@@ -175,6 +175,8 @@ class SceneTables {
   /// them would have to know more: of panes which light paths pass, or of light that is scattered inside.
   bool has_scattering_through() const { return !scattering_through_.empty(); }
   MaskN scatters_through(const Hits& hits, const SurfaceInteraction<FloatN>& surface) const;
+  /// Which lanes hit a fibre, inside of which light goes on as the material alone says (materials/kernels.h).
+  MaskN is_fibre(const Hits& hits) const;
   /// 1 for materials that are fogs, else 0; empty if no object has one.
   std::vector<std::uint8_t> fogs() const;
   /// Whether it has no surface: rays pass it, but paths know its boundary.
@@ -280,7 +282,7 @@ class SceneTables {
     bool is_anisotropic = false, focuses = false, is_pane = false, has_coat = false, has_subsurface = false;
     bool is_layered = false;  ///< a coat's normals may differ from those of the base below it
     bool is_even = false;     ///< it reflects light to all sides, and nothing like a mirror
-    bool refracts = false, scatters_through = false;
+    bool refracts = false, scatters_through = false, is_fibre = false;
 
     bool is_cutout() const { return opacity.value < 1 || opacity.texture; }
     bool has_relief() const { return normalmap.texture || bump.texture; }
@@ -324,7 +326,7 @@ class SceneTables {
   void add_caustics();
   /// path: the integrator's, if it is one.
   void add_panes();
-  void add_scattering_through();
+  void add_scattering_through(bool fibres_alone);
 
   /// answer(table, materials) of each material type among the lanes, each lane's of its own.
   template <class Answer>
@@ -370,6 +372,7 @@ class SceneTables {
   std::vector<std::int32_t> shining_sides_;       ///< of all materials: 0, 1 for the front, 2 for both
   std::vector<std::int32_t> panes_;               ///< 1 for those that are panes, else 0; empty where none are passed
   std::vector<std::int32_t> scattering_through_;  ///< likewise: those that send on light from behind
+  std::vector<std::int32_t> fibres_;              ///< likewise: those that are fibres
   std::vector<std::int32_t> textured_;            ///< 1 for materials with textures, else 0; empty if there are none
   std::vector<std::int32_t> anisotropic_;         ///< likewise: those whose reflection differs along the surface
   RayCone ray_cone_;

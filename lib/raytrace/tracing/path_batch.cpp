@@ -357,7 +357,7 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   if (has_passes_) [[unlikely]]
     add_to_passes(path, lanes, light_of_groups + light, parts, depth);
   if (photons_ != nullptr)
-    if (const MaskN shown = lanes & !(focuses | is_first); any(shown))
+    if (const MaskN shown = lanes & !(focuses | is_first | tables.is_fibre(hits)); any(shown))
       add_photons(path, hits, surface, point, shown, depth);
   clock_.end(Stage::lights);
   if (!goes_on) return;

@@ -26,8 +26,10 @@ void PathBatch::set_way(PathPacket& path, const PathDeparture& from, const BsdfS
   const MaskN through = sample.wi.z < FloatN(0);
   // No light path comes to a face from behind it, whatever the smooth surface there.
   const MaskN above = through | (dot(path.rays.direction, from.vertex.surface.ng) > FloatN(0));
-  const MaskN reflects =
-      (from.is_first | MaskN(photons_ != nullptr)) & above & !(from.focuses | through | sample.specular);
+  // Photons about a point of a fibre are those of a surface that is wider than it is: there, paths go on by themselves.
+  MaskN brought = from.is_first;
+  if (photons_ != nullptr) brought = brought | !scene_.tables().is_fibre(from.vertex.hits);
+  const MaskN reflects = brought & above & !(from.focuses | through | sample.specular);
   const MaskN by_gloss_alone = split_gloss(path, from, sample, lanes & reflects);
   IntN way = select_lanes(reflects, IntN(by_reflection), IntN(any_way));
   way = select_lanes(by_gloss_alone, IntN(by_gloss), way);
