@@ -134,6 +134,12 @@ embree::Scene Accelerator::make_scene(const GeometryTable& table, InstanceCallba
     }
   });
   for (std::size_t i = Shapes::size; i < table.geometries().size(); ++i) {
+    if (const CurveTable* const curves = table.geometries()[i].curves; curves != nullptr) {
+      const embree::Geometry geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER));
+      set_callbacks(geometry.get(), *curves);
+      attach(scene, geometry, i);
+      continue;
+    }
     const MeshTable& mesh = *table.geometries()[i].mesh;
     const embree::Geometry geometry = make_mesh_geometry(device_.get(), mesh);
     set_callbacks(geometry.get(), mesh);
@@ -194,7 +200,7 @@ std::uint64_t Accelerator::bvh_bytes() const {
 std::vector<std::optional<DirectionBuffer>> Accelerator::direction_buffers(
     std::span<const std::optional<BufferOrigin>> origins, int threads) const {
   std::vector<std::optional<DirectionBuffer>> buffers(origins.size());
-  // Faces of meshes are found as soon by Embree.
+  // Faces of meshes and pieces of curves are found as soon by Embree.
   if (!table_.has_shapes_only()) return buffers;
   if (std::none_of(origins.begin(), origins.end(), [](const auto& origin) { return origin.has_value(); }))
     return buffers;

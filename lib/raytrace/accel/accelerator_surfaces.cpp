@@ -101,7 +101,13 @@ void set_surface(const MeshTable& mesh, const IntN& faces, const Ray<FloatN>& ra
 SurfaceInteraction<FloatN> Accelerator::surface(const Ray<FloatN>& rays, const Hits& hits) const {
   SurfaceInteraction<FloatN> result;  // set in all lanes, but for those without a hit
   const auto set = [&](const GeometryTable& table, std::uint32_t geometry, const LaneIndices& primitive,
-                       const Ray<FloatN>& local_rays, SurfaceInteraction<FloatN>& surface) {
+                       const Ray<FloatN>& local_rays, const MaskN& lanes, SurfaceInteraction<FloatN>& surface) {
+    if (const CurveTable* const curves = table.geometry(geometry).curves; curves != nullptr) {
+      curves->set_surface(primitive.lanes(), local_rays, lanes, surface);
+      surface.is_smooth = true;
+      surface.to_smooth_surface = no_offset();
+      return;
+    }
     if (const MeshTable* const mesh = table.geometry(geometry).mesh; mesh != nullptr) {
       set_surface(*mesh, primitive.lanes(), local_rays, hits, surface);
       return;
@@ -112,7 +118,7 @@ SurfaceInteraction<FloatN> Accelerator::surface(const Ray<FloatN>& rays, const H
     surface.front = dot(surface.ng, local_rays.direction) < FloatN(0);
   };
   if (hits.one_primitive) {
-    set(table_, hits.first_geometry, LaneIndices(hits.first_primitive), rays, result);
+    set(table_, hits.first_geometry, LaneIndices(hits.first_primitive), rays, hits.hit, result);
   } else {
     SurfaceInteraction<FloatN> other;
     result.p = result.ng = Vec3<FloatN>(Vec3f(0, 0, 0));
@@ -125,7 +131,7 @@ SurfaceInteraction<FloatN> Accelerator::surface(const Ray<FloatN>& rays, const H
       const std::size_t first = first_lane(here);
       const IntN primitive = select_lanes(here, hits.primitive, IntN(hits.primitive.get(first)));
       other.is_smooth = false;
-      set(table, geometry, primitive, local_rays, other);
+      set(table, geometry, primitive, local_rays, here, other);
       if (other.is_smooth) {
         if (!result.is_smooth) {
           result.ns = Vec3<FloatN>(Vec3f(0, 0, 0));  // 0: the lane has none

@@ -170,7 +170,8 @@ struct CallbackRays {
   }
 };
 
-template <class Shape>
+/// Objects: ShapeObjects or CurvePieces.
+template <class Objects>
 struct Intersect {
   using Arguments = RTCIntersectFunctionNArguments;
 
@@ -178,19 +179,24 @@ struct Intersect {
   static void call(const Arguments* arguments, unsigned first) {
     RTCRayN* const all = RTCRayHitN_RayN(arguments->rayhit, arguments->N);
     CallbackRays<F> packet(arguments, all, first);
-    const auto& record = record_of<Shape>(arguments->geometryUserPtr, arguments->primID);
     F u(0), v(0);
     const F t = packet.meet(packet.active, u, v, arguments->geomID, arguments->primID,
-                            [&](const Ray<F>& rays, const Mask<F>& active, F&, F&) RAYTRACE_INLINE_LAMBDA {
-                              return Kernel<Shape>::template intersect<F>(record, rays, active);
+                            [&](const Ray<F>& rays, const Mask<F>& active, F& u_there, F&) RAYTRACE_INLINE_LAMBDA {
+                              return Objects::template intersect<F>(arguments->geometryUserPtr, arguments->primID, rays,
+                                                                    active, packet.nearest.current_material, u_there);
                             });
     const Mask<F> hit = packet.keep(t < infinity<F>(), t, arguments->geomID, arguments->primID);
-    if (any(hit)) store_lanes<F>(&RTCRayN_tfar(all, arguments->N, first), packet.count, hit, behind(t));
+    if (any(hit)) {
+      store_lanes<F>(&RTCRayN_tfar(all, arguments->N, first), packet.count, hit, behind(t));
+      if constexpr (requires { requires Objects::has_u; })
+        store_lanes<F>(&RTCHitN_u(RTCRayHitN_HitN(arguments->rayhit, arguments->N), arguments->N, first), packet.count,
+                       hit, u);
+    }
     report_hits<F>(arguments->valid + first, packet.count, hit);
   }
 };
 
-template <class Shape>
+template <class Objects>
 struct Occlude {
   using Arguments = RTCOccludedFunctionNArguments;
 
@@ -198,15 +204,17 @@ struct Occlude {
   static void call(const Arguments* arguments, unsigned first) {
     CallbackRays<F> packet(arguments, arguments->ray, first);
     packet.rays.far = packet.distance();
-    const auto& record = record_of<Shape>(arguments->geometryUserPtr, arguments->primID);
+    const std::int32_t material = packet.nearest.current_material;
     Mask<F> hit(false);
     if (packet.nearest.cutouts == nullptr) [[likely]] {
-      hit = occludes<Shape>(record, packet.rays, packet.active);
+      hit = Objects::template occludes<F>(arguments->geometryUserPtr, arguments->primID, packet.rays, packet.active,
+                                          material);
     } else {
       F u(0), v(0);
       hit = packet.meet(packet.active, u, v, arguments->geomID, arguments->primID,
-                        [&](const Ray<F>& rays, const Mask<F>& active, F&, F&) {
-                          return Kernel<Shape>::template intersect<F>(record, rays, active);
+                        [&](const Ray<F>& rays, const Mask<F>& active, F& u_there, F&) {
+                          return Objects::template intersect<F>(arguments->geometryUserPtr, arguments->primID, rays,
+                                                                active, material, u_there);
                         }) < infinity<F>();
     }
     if (any(hit)) store_lanes<F>(&RTCRayN_tfar(arguments->ray, arguments->N, first), packet.count, hit, -infinity<F>());
@@ -313,6 +321,13 @@ void bounds_callback(const RTCBoundsFunctionArguments* arguments) {
              table.is_instanced(primitive) ? empty_bounds : Kernel<Shape>::bounds(table.records[primitive]));
 }
 
+/// Points behind which there is no piece stay out of the BVH.
+inline void curve_bounds(const RTCBoundsFunctionArguments* arguments) {
+  const auto& curves = *static_cast<const CurveTable*>(arguments->geometryUserPtr);
+  const unsigned piece = arguments->primID;
+  set_bounds(*arguments->bounds_o, curves.has_piece(piece) ? curves.piece_bounds(piece) : empty_bounds);
+}
+
 }  // namespace detail
 
 template <class Triangles>
@@ -328,6 +343,15 @@ inline void set_callbacks(RTCGeometry geometry, const MeshTable& mesh) {
   set_filters<detail::MeshFaces>(geometry, &mesh);
 }
 
+/// Those of curves, which must outlive the geometry.
+inline void set_callbacks(RTCGeometry geometry, const CurveTable& curves) {
+  rtcSetGeometryUserData(geometry, const_cast<CurveTable*>(&curves));
+  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(curves.point_count()));
+  rtcSetGeometryBoundsFunction(geometry, &detail::curve_bounds, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, &detail::callback<detail::Intersect<detail::CurvePieces>>);
+  rtcSetGeometryOccludedFunction(geometry, &detail::callback<detail::Occlude<detail::CurvePieces>>);
+}
+
 /// The shape's callbacks, for a geometry of its table's objects, which must outlive it.
 template <class Shape>
 void set_callbacks(RTCGeometry geometry, const ShapeTable<Shape>& table) {
@@ -337,8 +361,8 @@ void set_callbacks(RTCGeometry geometry, const ShapeTable<Shape>& table) {
     rtcSetGeometryUserData(geometry, const_cast<ShapeTable<Shape>*>(&table));
     rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(table.records.size()));
     rtcSetGeometryBoundsFunction(geometry, &detail::bounds_callback<Shape>, nullptr);
-    rtcSetGeometryIntersectFunction(geometry, &detail::callback<detail::Intersect<Shape>>);
-    rtcSetGeometryOccludedFunction(geometry, &detail::callback<detail::Occlude<Shape>>);
+    rtcSetGeometryIntersectFunction(geometry, &detail::callback<detail::Intersect<detail::ShapeObjects<Shape>>>);
+    rtcSetGeometryOccludedFunction(geometry, &detail::callback<detail::Occlude<detail::ShapeObjects<Shape>>>);
   }
 }
 

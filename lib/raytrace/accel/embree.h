@@ -50,6 +50,7 @@ struct Query {
   alignas(64) std::uint32_t primitive[most_rays];
   alignas(64) std::uint32_t instance[most_rays];  ///< as InstanceTable numbers them; 0: none
   std::uint32_t current_instance = 0;             ///< whose scene the query is in
+  std::int32_t current_material = -1;             ///< that it has in place of its objects'; -1: none
   const RayIdentity* cutouts = nullptr;           ///< null: rays pass nothing
 
   explicit Query(bool coherent) {

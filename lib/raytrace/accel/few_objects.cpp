@@ -124,7 +124,7 @@ class Pairs {
 }  // namespace
 
 FewObjects::FewObjects(const GeometryTable& table) : table_(table) {
-  if (!table.instances().empty() || table.primitive_count() > most_objects) return;
+  if (!table.instances().empty() || table.has_curves() || table.primitive_count() > most_objects) return;
   add_shapes<Sphere>();
   spheres_ = table.table<Sphere>().records;
   add_shapes<Triangle>();

@@ -115,8 +115,14 @@ void transform_rays(const InstanceTable& instances, std::uint32_t instance, RTCR
 /// instance's number.
 class InInstance {
  public:
-  InInstance(embree::Query& query, std::uint32_t number) : query_(query) { query.current_instance = number; }
-  ~InInstance() { query_.current_instance = 0; }
+  InInstance(embree::Query& query, std::uint32_t number, std::int32_t material) : query_(query) {
+    query.current_instance = number;
+    query.current_material = material;
+  }
+  ~InInstance() {
+    query_.current_instance = 0;
+    query_.current_material = -1;
+  }
   InInstance(const InInstance&) = delete;
   InInstance& operator=(const InInstance&) = delete;
 
@@ -140,7 +146,7 @@ std::uint32_t ask_instance(const Arguments* arguments, Rays* Arguments::* rays, 
   transform_rays<size>(*callbacks.instances, instance, reinterpret_cast<RTCRayN*>(&packet), valid);
   const std::uint32_t number = callbacks.instances->number(instance);
   embree::Query& query = embree::Query::of(arguments);
-  const InInstance here(query, number);
+  const InInstance here(query, number, callbacks.instances->materials()[instance]);
   if (target.is_shape) {
     const InstanceCallbacks::Shape& shape = callbacks.shape(target);
     Arguments inner = *arguments;
@@ -241,8 +247,8 @@ inline void set_callbacks(RTCGeometry geometry, InstanceGeometry& instances) {
 template <class Shape>
 InstanceCallbacks::Shape shape_callbacks(const ShapeTable<Shape>& table) {
   if constexpr (UserGeometry<Shape>) {
-    return {const_cast<ShapeTable<Shape>*>(&table), &detail::callback<detail::Intersect<Shape>>,
-            &detail::callback<detail::Occlude<Shape>>};
+    return {const_cast<ShapeTable<Shape>*>(&table), &detail::callback<detail::Intersect<detail::ShapeObjects<Shape>>>,
+            &detail::callback<detail::Occlude<detail::ShapeObjects<Shape>>>};
   } else {
     return {};
   }

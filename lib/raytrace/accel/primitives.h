@@ -1,4 +1,4 @@
-// What the callbacks put rays to: the records of shapes, and the faces of meshes.
+// What the callbacks put rays to: the records of shapes, the faces of meshes, and the pieces of curves.
 #pragma once
 
 #include "raytrace/math/ray.h"
@@ -72,6 +72,37 @@ struct MeshFaces {
     u = select(nearer, F(1) - second_u, u);
     v = select(nearer, F(1) - second_v, v);
     return select(nearer, second, t);
+  }
+};
+
+/// The objects of a shape that brings its own intersection.
+template <class Shape>
+struct ShapeObjects {
+  template <class F>
+  RAYTRACE_INLINE static F intersect(void* table, std::uint32_t primitive, const Ray<F>& rays, const Mask<F>& active,
+                                     std::int32_t, F&) {
+    return Kernel<Shape>::template intersect<F>(record_of<Shape>(table, primitive), rays, active);
+  }
+  template <class F>
+  RAYTRACE_INLINE static Mask<F> occludes(void* table, std::uint32_t primitive, const Ray<F>& rays,
+                                          const Mask<F>& active, std::int32_t) {
+    return raytrace::occludes<Shape>(record_of<Shape>(table, primitive), rays, active);
+  }
+};
+
+/// The pieces of curves. Their user pointer is their CurveTable. material: in place of their own, or -1.
+struct CurvePieces {
+  static constexpr bool has_u = true;
+  template <class F>
+  RAYTRACE_INLINE static F intersect(void* table, std::uint32_t piece, const Ray<F>& rays, const Mask<F>& active,
+                                     std::int32_t material, F& u) {
+    return static_cast<const CurveTable*>(table)->intersect<F>(piece, rays, active, material, u);
+  }
+  template <class F>
+  RAYTRACE_INLINE static Mask<F> occludes(void* table, std::uint32_t piece, const Ray<F>& rays, const Mask<F>& active,
+                                          std::int32_t material) {
+    F u(0);
+    return intersect<F>(table, piece, rays, active, material, u) < infinity<F>();
   }
 };
 

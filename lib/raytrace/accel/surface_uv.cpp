@@ -102,6 +102,10 @@ SurfaceUv<FloatN> surface_uv(const GeometryTable& world, const Hits& hits, const
       result = select<FloatN>(here, mesh->uv(triangles, set), result);
       return;
     }
+    if (const CurveTable* const curves = table.geometry(geometry).curves; curves != nullptr) {
+      result = select<FloatN>(here, curves->uv(hits.primitive, point.p, here), result);
+      return;
+    }
     with_type(Shapes{}, geometry, [&]<class Shape>(std::type_identity<Shape>) {
       set_uv<Shape>(table.table<Shape>(), here, hits, point, result);
     });
@@ -158,6 +162,10 @@ SpacePoint<FloatN> in_object(const GeometryTable& world, const Hits& hits, Space
       set(point, here, mapped(map_of_all(mesh->object_from_world()), point));
       return;
     }
+    if (const CurveTable* const curves = table.geometry(geometry).curves; curves != nullptr) {
+      set(point, here, mapped(map_of_all(curves->object_from_world()), point));
+      return;
+    }
     with_type(Shapes{}, geometry, [&]<class Shape>(std::type_identity<Shape>) {
       const auto& frames = table.table<Shape>().uv_frames;
       if (frames.empty()) return;
@@ -192,6 +200,10 @@ Rgb<FloatN> vertex_color(const GeometryTable& world, const Hits& hits) {
         const IntN red = select_lanes(lanes, hits.primitive - IntN(cloud.first), IntN(0)) * IntN(3);
         result = select(lanes, {gather(colors, red), gather(colors + 1, red), gather(colors + 2, red)}, result);
       });
+      return;
+    }
+    if (const CurveTable* const curves = table.geometry(geometry).curves; curves != nullptr && curves->has_colors()) {
+      result = select(here, curves->color(hits.primitive, hits.u, here), result);
       return;
     }
     const MeshTable* const mesh = table.geometry(geometry).mesh;

@@ -114,6 +114,11 @@ class Measurer {
     add_if_farther(box_of(&item, [&](Reaches& box) { add(along_axes, box); }), directions, reaches,
                    [&] { add(directions, reaches); });
   }
+  void add_item(const ObjectItem<Curve>& item, bool, const SightLines& directions, Reaches& reaches) {
+    const auto add = [&](const SightLines& in, Reaches& to) { add_points(*item.data, in, to); };
+    add_if_farther(box_of(&item, [&](Reaches& box) { add(along_axes, box); }), directions, reaches,
+                   [&] { add(directions, reaches); });
+  }
   void add_item(const ObjectItem<Instance>& item, bool lamps, const SightLines& directions, Reaches& reaches) {
     const Group& group = *groups_.at(item.parameters.group.name);
     const bool all = lamps || item.material != no_material;  // which is that of its lamps, too
@@ -139,6 +144,14 @@ class Measurer {
       const Vec3d center = Vec3d{double{p[3 * i]}, double{p[3 * i + 1]}, double{p[3 * i + 2]}} + data.origin;
       const double radius = data.radii.empty() ? item.parameters.radius : double{data.radii[i]};
       add_each(directions, reaches, [&](const SightLine& line) { return line.of<Sphere>({center, radius}); });
+    }
+  }
+
+  static void add_points(const CurveData& data, const SightLines& directions, Reaches& reaches) {
+    for (std::size_t i = 0; i < data.size(); ++i) {
+      const float* const p = data.points.data() + 4 * i;
+      const Vec3d center = Vec3d{double{p[0]}, double{p[1]}, double{p[2]}} + data.origin;
+      add_each(directions, reaches, [&](const SightLine& line) { return line.of<Sphere>({center, double{p[3]}}); });
     }
   }
 

@@ -148,6 +148,8 @@ void refuse_to_overwrite(const SceneDescription& description, const RenderJob& j
     }
     for (const auto& cloud : std::get<ObjectItems<SphereCloud>>(objects))
       files.add({"a cloud of spheres", cloud.parameters.file.path, false});
+    for (const auto& curve : std::get<ObjectItems<Curve>>(objects))
+      if (!curve.parameters.file.path.empty()) files.add({"strands of a curve", curve.parameters.file.path, false});
     for (const auto& model : std::get<ObjectItems<Model>>(objects))
       files.add({"a model", model.parameters.file.path, false});
   };

@@ -106,4 +106,29 @@ OptionalMessage check_point_cloud(const PointCloud& cloud) {
   return std::nullopt;
 }
 
+OptionalMessage check_curve_data(const CurveData& curves) {
+  const std::size_t points = curves.size();
+  if (points == 0) return "has no points";
+  if (curves.points.size() != 4 * points)
+    return "has " + std::to_string(curves.points.size()) + " numbers of points; " + std::to_string(points) +
+           " points take " + std::to_string(4 * points);
+  if (!is_finite(curves.origin)) return "has an origin that is not finite";
+  if (OptionalMessage message = check_size("colors", curves.colors.size(), 3, points, "points")) return message;
+  bool fine = true, is_radius = true, grows = true;
+  for (std::size_t i = 0; i < points; ++i) {
+    const float* const p = &curves.points[4 * i];
+    fine &= std::abs(p[0]) <= farthest && std::abs(p[1]) <= farthest && std::abs(p[2]) <= farthest;
+    is_radius &= p[3] >= 0 && p[3] <= farthest;
+    const float here = curves.along[i], before = i == 0 ? 1 : curves.along[i - 1];
+    const bool goes_on = here > 0 && here <= 1 && here >= before && i > 0;
+    const bool begins = here == 0 && before == 1 && i + 1 < points && curves.along[i + 1] > 0;
+    grows &= goes_on || begins;
+    if (goes_on) fine &= p[-4] != p[0] || p[-3] != p[1] || p[-2] != p[2];
+  }
+  if (!fine) return "has a point that is not finite, beyond 1e18, or where the one before is";
+  if (!is_radius) return "has a radius that is less than 0 or beyond 1e18";
+  if (!grows || curves.along[points - 1] != 1) return "has strands that do not go from 0 to 1";
+  return std::nullopt;
+}
+
 }  // namespace raytrace

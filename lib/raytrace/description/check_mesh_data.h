@@ -1,7 +1,9 @@
-// What renders rely on in meshes and clouds, of those that a program has made in memory. Readers of files keep it.
+// What renders rely on in meshes, clouds and curves, of those that a program has made in memory. Readers of files keep
+// it.
 #pragma once
 
 #include "raytrace/description/parse_value.h"
+#include "raytrace/import/curve_data.h"
 #include "raytrace/import/mesh_data.h"
 
 namespace raytrace {
@@ -10,5 +12,6 @@ namespace raytrace {
 /// takes to read the data once.
 OptionalMessage check_mesh_data(const MeshData& mesh, std::size_t materials);
 OptionalMessage check_point_cloud(const PointCloud& cloud);
+OptionalMessage check_curve_data(const CurveData& curves);
 
 }  // namespace raytrace

@@ -159,6 +159,10 @@ class SceneChecker {
       error("has data without radii; set its <radius>");
   }
 
+  void check_data(const ObjectItem<Curve>& curve) {
+    if (const OptionalMessage message = check_curve_data(*curve.data)) error("has data that " + *message);
+  }
+
   template <class Item>
   void check_references(const SceneDescription& scene, const Item& item) {
     if constexpr (requires { item.transform; }) check_transform(item.transform);

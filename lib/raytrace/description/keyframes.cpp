@@ -11,9 +11,9 @@ namespace raytrace {
 namespace {
 
 /// A component of the keys as a function of the frame.
-class Curve {
+class TimeCurve {
  public:
-  Curve(const std::vector<Key>& keys, std::size_t component) : keys_(keys), component_(component) {}
+  TimeCurve(const std::vector<Key>& keys, std::size_t component) : keys_(keys), component_(component) {}
 
   /// At a frame between keys[i] and keys[i + 1].
   double at(std::size_t i, double frame) const {
@@ -181,7 +181,7 @@ std::array<double, 4> value_at(const std::vector<Key>& keys, double frame) {
   const auto i = static_cast<std::size_t>(next - keys.begin()) - 1;
   std::array<double, 4> components{};
   for (std::size_t component = 0; component < components.size(); ++component)
-    components[component] = Curve(keys, component).at(i, frame);
+    components[component] = TimeCurve(keys, component).at(i, frame);
   return components;
 }
 

@@ -8,6 +8,7 @@
 
 #include "raytrace/description/check_groups.h"
 #include "raytrace/description/check_solids.h"
+#include "raytrace/description/cut_strands.h"
 #include "raytrace/description/file_lights.h"
 #include "raytrace/description/file_materials.h"
 #include "raytrace/description/holds_normals.h"
@@ -19,6 +20,7 @@
 #include "raytrace/description/scene_description.h"
 #include "raytrace/import/empty_files.h"
 #include "raytrace/import/read_mesh.h"
+#include "raytrace/import/read_strands.h"
 #include "raytrace/text/message.h"
 
 namespace raytrace {
@@ -68,10 +70,12 @@ class MeshLoader {
     for (auto& mesh : std::get<ObjectItems<Mesh>>(objects)) load(mesh);
     for (auto& model : std::exchange(std::get<ObjectItems<Model>>(objects), {})) load(std::move(model), objects);
     for (auto& cloud : std::get<ObjectItems<SphereCloud>>(objects)) load(cloud);
+    for (auto& curve : std::get<ObjectItems<Curve>>(objects)) load(curve);
     // Empty files, or those with errors.
     const auto has_no_data = [](const auto& item) { return item.data == nullptr; };
     std::erase_if(std::get<ObjectItems<Mesh>>(objects), has_no_data);
     std::erase_if(std::get<ObjectItems<SphereCloud>>(objects), has_no_data);
+    std::erase_if(std::get<ObjectItems<Curve>>(objects), has_no_data);
   }
 
   /// objects: those that it is one of.
@@ -148,6 +152,73 @@ class MeshLoader {
                       "and stretch an <instance> of that"));
     const MaterialReference own = cloud.material;
     cloud.materials = {own != no_material ? own : cloud.data->colors.empty() ? added_.grey() : added_.painted()};
+  }
+
+  void load(ObjectItem<Curve>& curve) {
+    const auto& [file, points, radius, radiusscale, tipscale, basis] = curve.parameters;
+    const bool is_made = curve.data != nullptr && file.path.empty() && points.empty();  // by a program
+    if (!is_made) curve.data = cut(curve);
+    if (curve.data == nullptr) return;
+    if (!curve.transform.affine().uniform_scale())
+      diagnostics_.error(location_of(curve),
+                         std::string("the strands of a <curve> stay round: its <transform> cannot stretch it; put it "
+                                     "into a <group>, and stretch an <instance> of that"));
+    const MaterialReference own = curve.material;
+    curve.materials = {own != no_material ? own : curve.data->colors.empty() ? added_.grey() : added_.painted()};
+  }
+
+  std::shared_ptr<const CurveData> cut(const ObjectItem<Curve>& curve) {
+    const auto& [file, points, radius, radiusscale, tipscale, basis] = curve.parameters;
+    const bool is_file = !file.path.empty();
+    const SourceLocation place = is_file ? location_of(file) : location_of(curve);
+    const std::string which = is_file ? on_one_line(file.path) : std::string("the curve");
+    if (!is_file)
+      if (const auto fault = Curve::check(curve.parameters)) {
+        diagnostics_.error(place, which + ": " + fault->message);
+        return nullptr;
+      }
+    const auto key = std::tuple(is_file ? file.path : std::string(), radius, radiusscale, tipscale, basis);
+    if (is_file)
+      if (const auto known = curves_.find(key); known != curves_.end()) return known->second;
+    std::optional<Strands> strands = is_file ? read(file, {}, read_strands) : made_strands(points);
+    if (!strands) return nullptr;
+    if (strands->radii.empty() && radius < smallest_size) {
+      diagnostics_.error(place, which + ": has no radii; add <radius> to the <curve>");
+      return nullptr;
+    }
+    CutStrands made = cut_strands(*strands, curve.parameters, threads_);
+    const std::size_t strand_count = strands->ends.size();
+    if (!made.fault.empty())
+      diagnostics_.error(place, which + ": " + made.fault);
+    else if (made.left_out == strand_count)
+      diagnostics_.error(place, which + ": has no strand that can be rendered: " + left_out_reasons);
+    else if (made.left_out > 0)
+      diagnostics_.warning(place, which + ": " + std::to_string(made.left_out) + " of " + std::to_string(strand_count) +
+                                      " strands are left out: " + left_out_reasons);
+    std::shared_ptr<const CurveData> result;
+    if (made.fault.empty() && made.left_out < strand_count)
+      result = std::make_shared<const CurveData>(std::move(made.data));
+    if (is_file) curves_.emplace(key, result);
+    return result;
+  }
+
+  static constexpr const char* left_out_reasons =
+      "they have no length, no radius anywhere, or, of a bspline, less than four points";
+
+  /// Of points that stand in the scene.
+  static Strands made_strands(const NumberGroups& points) {
+    Strands strands;
+    strands.positions = MeshBuffer<float>(points.numbers.size());
+    const auto fill = [&] {
+      for (std::size_t i = 0; i < points.numbers.size(); ++i)
+        strands.positions[i] =
+            static_cast<float>(points.numbers[i] - component(strands.origin, static_cast<int>(i % 3)));
+    };
+    fill();
+    strands.origin = near_origin({strands.positions.data(), strands.positions.size()});
+    if (length(strands.origin) > 0) fill();
+    for (const std::uint32_t end : points.ends) strands.ends.push_back(end / 3);
+    return strands;
   }
 
   /// Of values that stand in a mesh; those of a file have none.
@@ -252,7 +323,7 @@ class MeshLoader {
                              (names.empty() ? "has none" : "are " + names));
   }
 
-  /// reader: read_mesh() or read_point_cloud().
+  /// reader: read_mesh(), read_point_cloud() or read_strands().
   template <class Data>
   std::optional<Data> read(const FileName& file, MeshReadSettings settings,
                            std::optional<Data> (*reader)(const std::string&, const MeshReadSettings&, Diagnostics&)) {
@@ -294,6 +365,8 @@ class MeshLoader {
   std::map<std::tuple<MeshFileKey, std::size_t, std::string>, MaterialReference> file_materials_;
   const std::set<MeshFileKey> shown_materials_ = files_with_shown_materials(scene_);
   std::map<std::string, std::shared_ptr<const PointCloud>> clouds_;
+  /// By the file and how it is cut.
+  std::map<std::tuple<std::string, double, double, double, CurveBasis>, std::shared_ptr<const CurveData>> curves_;
   std::map<std::string, bool> normal_maps_;                 ///< of pictures that may be such, whether they are
   std::map<std::string, MaterialReference> own_materials_;  ///< those of the scene, by name
   std::set<std::string> unlit_;                             // files of models whose lights have been left out

@@ -48,6 +48,7 @@ void report_missing_meshes(const SceneDescription& scene, Diagnostics& diagnosti
     for (const auto& mesh : std::get<ObjectItems<Mesh>>(objects)) look(mesh.parameters.file);
     for (const auto& model : std::get<ObjectItems<Model>>(objects)) look(model.parameters.file);
     for (const auto& cloud : std::get<ObjectItems<SphereCloud>>(objects)) look(cloud.parameters.file);
+    for (const auto& curve : std::get<ObjectItems<Curve>>(objects)) look(curve.parameters.file);
   };
   look_in(scene.objects);
   for (const Group& group : scene.groups) look_in(group.objects);

@@ -16,6 +16,7 @@
 #include "raytrace/cameras/registry.h"
 #include "raytrace/cameras/view_plane.h"
 #include "raytrace/description/variables.h"
+#include "raytrace/import/curve_data.h"
 #include "raytrace/import/density_grid.h"
 #include "raytrace/import/mesh_data.h"
 #include "raytrace/integrators/registry.h"
@@ -162,6 +163,21 @@ struct ObjectItem<SphereCloud> {
 };
 
 template <>
+struct ObjectItem<Curve> {
+  Curve::Parameters parameters;
+  std::string name;
+  MaterialReference material = no_material;  ///< where there is one, of all strands
+  std::uint32_t line = 0;
+  bool shadowcatcher = false, visible = true;
+  Transform transform = {};
+
+  // From load_meshes().
+  std::shared_ptr<const CurveData> data = nullptr;
+  std::vector<MaterialReference> materials = {};  ///< one
+  std::uint32_t column = 0;
+};
+
+template <>
 struct ObjectItem<Mesh> {
   Mesh::Parameters parameters;
   std::string name;
@@ -248,10 +264,11 @@ struct SceneDescription {
   std::vector<IncludedFile> included;  ///< by the lines of items; their names are as the program opens them
 };
 
-/// Reads and validates a scene file ("-": standard input), but not the meshes and clouds that it names. All errors and
-/// warnings go to `diagnostics`; no value if there is an error. A file that cannot be read is an error at line 0. The
-/// files that textures name are loaded, too. threads: so many at most share the work; 0: all that the machine has. The
-/// result does not depend on it. settings: variables that are not used are errors, as those that are not set.
+/// Reads and validates a scene file ("-": standard input), but not the meshes, clouds and strands that it names. All
+/// errors and warnings go to `diagnostics`; no value if there is an error. A file that cannot be read is an error at
+/// line 0. The files that textures name are loaded, too. threads: so many at most share the work; 0: all that the
+/// machine has. The result does not depend on it. settings: variables that are not used are errors, as those that are
+/// not set.
 std::optional<SceneDescription> load_scene(const std::string& file, Diagnostics& diagnostics, int threads = 0,
                                            const SceneSettings& settings = {});
 
@@ -259,10 +276,10 @@ std::optional<SceneDescription> load_scene(const std::string& file, Diagnostics&
 std::optional<SceneDescription> parse_scene(std::string_view text, Diagnostics& diagnostics, int threads = 0,
                                             const SceneSettings& settings = {});
 
-/// Reads the files of meshes and clouds, and makes the meshes whose values stand in the scene; adds materials for what
-/// has none in the scene: those of the file, else a matte grey. Each model becomes a mesh behind the others of its
-/// lists, and the lights of its file become the scene's, behind its own, in the order of the models. What is wrong with
-/// the files goes to `diagnostics`, with the files' names and lines. False if there is an error.
+/// Reads the files of meshes, clouds and curves, and makes the meshes and curves whose values stand in the scene; adds
+/// materials for what has none in the scene: those of the file, else a matte grey. Each model becomes a mesh behind the
+/// others of its lists, and the lights of its file become the scene's, behind its own, in the order of the models. What
+/// is wrong with the files goes to `diagnostics`, with the files' names and lines. False if there is an error.
 bool load_meshes(SceneDescription& description, Diagnostics& diagnostics, int threads = 0,
                  const TextureSettings& textures = {});
 

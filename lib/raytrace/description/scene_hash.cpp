@@ -168,6 +168,13 @@ class SceneHash {
     add_values(data.colors);
   }
 
+  void add(const CurveData& data) {
+    add_values(data.points);
+    add_values(data.along);
+    add_values(data.colors);
+    add(data.is_smooth);
+  }
+
   template <class Value>
   void add(const Value& value) {
     if constexpr (HasComponents<Value>) {

@@ -124,6 +124,7 @@ std::int32_t EmitterTable::material_of(const GeometryTable& table, std::uint32_t
 
 void EmitterTable::add_geometry(const GeometryTable& table, std::uint32_t geometry, Primitives primitives,
                                 const Setting& setting, Making& making) {
+  if (table.geometry(geometry).curves != nullptr) return;  // rays meet their light
   const MeshTable* const mesh = table.geometry(geometry).mesh;
   Range range{setting.instance,
               geometry,

@@ -59,9 +59,16 @@ void GeometryTable::add_objects(const ObjectLists& objects, const Vec3d& origin,
     geometries_.push_back({static_cast<std::uint32_t>(mesh.face_count()), count++, &mesh});
   }
   for (CloudSpheres& cloud : clouds_) cloud.object = count++;
+  for (const auto& item : std::get<ObjectItems<Curve>>(objects)) {
+    const MaterialReference& material = item.materials.front();
+    const CurveTable& curves =
+        curves_.emplace_back(item, origin, materials.first[material.type] + static_cast<std::int32_t>(material.index),
+                             materials.fibres, threads);
+    geometries_.push_back({static_cast<std::uint32_t>(curves.point_count()), count++, nullptr, &curves});
+  }
   for (const Geometry& geometry : geometries_) {
     first_objects_.push_back(geometry.first_object);
-    primitive_masks_.push_back(geometry.mesh == nullptr ? -1 : 0);
+    primitive_masks_.push_back(geometry.is_one_object() ? 0 : -1);
   }
   set_bounds(threads);
   object_materials_.resize(static_cast<std::size_t>(count));
@@ -108,7 +115,7 @@ void GeometryTable::add_shapes(const ObjectLists& objects, const Vec3d& origin) 
       }
     }
     if constexpr (std::is_same_v<Shape, Sphere>) add_clouds(std::get<ObjectItems<SphereCloud>>(objects), origin);
-    geometries_.push_back({static_cast<std::uint32_t>(records.size()), count, nullptr});
+    geometries_.push_back({static_cast<std::uint32_t>(records.size()), count});
     count += static_cast<std::int32_t>(items.size());
   });
 }
@@ -155,6 +162,8 @@ void GeometryTable::set_object_materials(const ObjectLists& objects, std::span<c
   for (const Geometry& geometry : geometries_)
     if (geometry.mesh != nullptr)
       object_materials_[static_cast<std::size_t>(geometry.first_object)] = geometry.mesh->material(std::size_t{0});
+    else if (geometry.curves != nullptr)
+      object_materials_[static_cast<std::size_t>(geometry.first_object)] = geometry.curves->material();
   for (std::size_t i = 0; i < clouds_.size(); ++i) {
     const MaterialReference& material = std::get<ObjectItems<SphereCloud>>(objects)[i].materials.front();
     object_materials_[static_cast<std::size_t>(clouds_[i].object)] =
@@ -182,6 +191,7 @@ void GeometryTable::set_bounds(int threads) {
     }
   });
   for (const MeshTable& mesh : meshes_) bounds_ = join(bounds_, mesh.bounds());
+  for (const CurveTable& curves : curves_) bounds_ = join(bounds_, curves.bounds());
 }
 
 BoundingSphere GeometryTable::bounding_sphere() const {
@@ -218,7 +228,9 @@ std::vector<GeometryTable::BoundedObject> GeometryTable::bounded_objects(
   });
   const auto geometries = static_cast<std::uint32_t>(geometries_.size());
   for (std::uint32_t i = 0; i < geometries; ++i) {
-    const auto& [primitives, first_object, mesh] = geometries_[i];
+    const auto& [primitives, first_object, mesh, curves] = geometries_[i];
+    if (curves != nullptr && is_wanted(curves->material()))
+      objects.push_back({curves->bounds(), curves->bounding_radius(), first_object, i});
     if (mesh == nullptr) continue;
     std::vector<std::uint8_t> used(wanted_materials.size());
     mesh->add_used_materials(used);
@@ -262,8 +274,8 @@ IntN GeometryTable::or_cloud(const IntN& object, const IntN& sphere, const MaskN
 }
 
 IntN GeometryTable::object(std::uint32_t geometry, const IntN& primitive) const {
-  const auto& [primitives, first_object, mesh] = geometries_[geometry];
-  if (mesh != nullptr) return IntN(first_object);
+  const std::int32_t first_object = geometries_[geometry].first_object;
+  if (geometries_[geometry].is_one_object()) return IntN(first_object);
   const IntN single = primitive + IntN(first_object);
   return geometry == sphere_geometry ? or_cloud(single, primitive, MaskN(true)) : single;
 }
@@ -286,6 +298,7 @@ std::optional<std::int32_t> GeometryTable::only_material(const Hits& hits) const
   if (!hits.one_geometry) return std::nullopt;
   if (hits.one_primitive) return own_material(hits.first_geometry, static_cast<std::uint32_t>(hits.first_primitive));
   const Geometry& geometry = geometries_[hits.first_geometry];
+  if (geometry.curves != nullptr) return geometry.curves->material();
   return geometry.mesh != nullptr ? geometry.mesh->only_material() : std::nullopt;
 }
 
@@ -296,8 +309,8 @@ std::int32_t GeometryTable::own_material(std::uint32_t geometry, std::uint32_t p
 }
 
 std::int32_t GeometryTable::own_object(std::uint32_t geometry, std::uint32_t primitive) const {
-  const auto& [primitives, first_object, mesh] = geometries_[geometry];
-  if (mesh != nullptr) return first_object;
+  const std::int32_t first_object = geometries_[geometry].first_object;
+  if (geometries_[geometry].is_one_object()) return first_object;
   const auto number = static_cast<std::int32_t>(primitive);
   const bool in_cloud = geometry == sphere_geometry && !clouds_.empty();
   return in_cloud ? object(geometry, IntN(number)).get(0) : first_object + number;

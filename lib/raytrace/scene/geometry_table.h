@@ -15,6 +15,7 @@
 #include "raytrace/math/gather.h"
 #include "raytrace/math/lanes.h"
 #include "raytrace/math/simd.h"
+#include "raytrace/scene/curve_table.h"
 #include "raytrace/scene/hits.h"
 #include "raytrace/scene/instance_table.h"
 #include "raytrace/scene/mesh_table.h"
@@ -22,12 +23,16 @@
 
 namespace raytrace {
 
-/// One of Embree's geometries: all objects of a shape, each of which is a primitive, or the faces of a mesh, which is
-/// one object.
+/// One of Embree's geometries: all objects of a shape, each of which is a primitive, or the faces of a mesh or the
+/// pieces of curves, which are one object.
 struct Geometry {
   std::uint32_t primitives;
   std::int32_t first_object;  ///< objects are counted through all geometries
-  const MeshTable* mesh;      ///< null: a shape's
+  // Both null: a shape's.
+  const MeshTable* mesh = nullptr;
+  const CurveTable* curves = nullptr;
+
+  bool is_one_object() const { return mesh != nullptr || curves != nullptr; }
 };
 
 /// The spheres of a cloud: those of the table of spheres from `first` on, before `end`.
@@ -40,10 +45,10 @@ struct CloudSpheres {
 
 /// The objects of the world, or of a group.
 ///
-/// Geometry i is that of the shape of index i in the Shapes registry; the meshes follow, in their order. One without
-/// objects has no counterpart in Embree's scene. The spheres of clouds follow the single ones in their table; each
-/// cloud is one object, which follow the meshes. Shapes that their transforms make other shapes are in the shape's
-/// table as they are before them; rays meet them by an instance each.
+/// Geometry i is that of the shape of index i in the Shapes registry; the meshes follow, in their order, and then
+/// curves. One without objects has no counterpart in Embree's scene. The spheres of clouds follow the single ones in
+/// their table; each cloud is one object, which follow the meshes, and are followed by curves. Shapes that their
+/// transforms make other shapes are in the shape's table as they are before them; rays meet them by an instance each.
 class GeometryTable {
  public:
   /// has_object_space: whether textures may ask where a point lay before its object's transform. origin: subtracted
@@ -66,7 +71,8 @@ class GeometryTable {
 
   bool has_clouds() const { return !clouds_.empty(); }
   /// Whether all that has bounds is a shape that rays meet as it stands in its table.
-  bool has_shapes_only() const { return meshes_.empty() && instances_.empty(); }
+  bool has_shapes_only() const { return meshes_.empty() && curves_.empty() && instances_.empty(); }
+  bool has_curves() const { return !curves_.empty(); }
   std::uint64_t primitive_count() const;
   /// Around all objects that have bounds; of negative radius if there are none.
   BoundingSphere bounding_sphere() const;
@@ -167,7 +173,9 @@ class GeometryTable {
   bool has_object_space_;  ///< all transforms of shapes are kept then
   Vec3d origin_;           ///< subtracted from all points
   TupleOf<Shapes, ShapeTable>::type tables_;
-  std::deque<MeshTable> meshes_;  ///< they stay where they are
+  // They stay where they are.
+  std::deque<MeshTable> meshes_;
+  std::deque<CurveTable> curves_;
   std::vector<CloudSpheres> clouds_;
   std::vector<Geometry> geometries_;
   // Of each geometry, side by side: its first object, and 0 if it is one object, else all bits.

@@ -33,6 +33,9 @@ struct MeshMaterials {
   std::array<std::vector<std::uint8_t>, 2> want_tangents{};
   /// Whether instances replace materials by such ones.
   std::array<bool, 2> instances_want_tangents{};
+  /// Of each material by number, 1 if what is of it takes the whole way through a fibre as one: curves are then hit
+  /// from outside alone. Empty: none does.
+  std::vector<std::uint8_t> fibres{};
 };
 
 /// Quads are two triangles: the first with corners 0, 1 and 3, the second with corners 2, 3 and 1. Hits on the second

@@ -21,12 +21,15 @@ void GeometryTable::set_object_sets(const ObjectLists& objects, int threads) {
     for_each_type(Shapes{}, [&]<class Shape>(std::type_identity<Shape>) {
       add(std::get<ObjectItems<Shape>>(objects), geometries_[index_of<Shape>(Shapes{})].first_object);
     });
-    // Meshes' and clouds' numbers follow each other.
+    // The numbers of meshes, clouds and curves follow each other.
     const auto& meshes = std::get<ObjectItems<Mesh>>(objects);
     const auto& clouds = std::get<ObjectItems<SphereCloud>>(objects);
-    const auto behind = static_cast<std::int32_t>(object_materials_.size() - clouds.size());
-    add(meshes, behind - static_cast<std::int32_t>(meshes.size()));
-    add(clouds, behind);
+    const auto& curves = std::get<ObjectItems<Curve>>(objects);
+    const auto first_curve = static_cast<std::int32_t>(object_materials_.size() - curves.size());
+    const auto first_cloud = first_curve - static_cast<std::int32_t>(clouds.size());
+    add(meshes, first_cloud - static_cast<std::int32_t>(meshes.size()));
+    add(clouds, first_cloud);
+    add(curves, first_curve);
     set.has_any = !set.objects.empty();
   };
   set_all(catchers_, [](const auto& item) { return item.shadowcatcher; });

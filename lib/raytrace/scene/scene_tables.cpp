@@ -320,6 +320,13 @@ MeshMaterials SceneTables::mesh_materials(const SceneDescription& description) c
   };
   add_instances(description.objects);
   for (const Group& group : description.groups) add_instances(group.objects);
+  for_each_type(Materials{}, [&]<class Material>(std::type_identity<Material>) {
+    if constexpr (requires { requires Material::is_fibre; }) {
+      const auto type = index_of<Material>(Materials{});
+      result.fibres.resize(details_.size());
+      std::fill(result.fibres.begin() + first_material_[type], result.fibres.begin() + first_material_[type + 1], 1);
+    }
+  });
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include "raytrace/shapes/annulus.h"
 #include "raytrace/shapes/box.h"
 #include "raytrace/shapes/cone.h"
+#include "raytrace/shapes/curve.h"
 #include "raytrace/shapes/cylinder.h"
 #include "raytrace/shapes/disk.h"
 #include "raytrace/shapes/instance.h"
@@ -22,9 +23,10 @@ namespace raytrace {
 
 using Shapes = TypeList<Plane, Sphere, Triangle, Cylinder, Torus, Disk, Rectangle, Box, Cone, Annulus>;
 
-/// All that <objects> holds: the shapes; meshes, which are many triangles or quads each; clouds of many spheres;
-/// instances of groups; models, until load_meshes() has made meshes and lights of them.
+/// All that <objects> holds: the shapes; meshes, which are many triangles or quads each; clouds of many spheres; curves
+/// of many strands; instances of groups; models, until load_meshes() has made meshes and lights of them.
 using Objects =
-    Appended<Appended<Appended<Appended<Shapes, Mesh>::type, SphereCloud>::type, Instance>::type, Model>::type;
+    Appended<Appended<Appended<Appended<Appended<Shapes, Mesh>::type, SphereCloud>::type, Curve>::type, Instance>::type,
+             Model>::type;
 
 }  // namespace raytrace
