@@ -4,6 +4,7 @@ import base64
 import json
 import math
 import os
+import random
 import struct
 import zlib
 
@@ -1732,9 +1733,9 @@ LAMP = """\
 """
 
 
-def studio(name, comment, materials, objects, samples=256):
+def studio(name, comment, materials, objects, samples=256, groups=""):
     style = {**STUDIO, "room": STUDIO["room"].replace("<samples>256", f"<samples>{samples}")}
-    write(name, comment, materials_more=materials + LAMP_MATERIAL, objects=objects + LAMP, **style)
+    write(name, comment, materials_more=materials + LAMP_MATERIAL, objects=objects + LAMP, groups=groups, **style)
 
 
 def row(materials):
@@ -1959,14 +1960,15 @@ def prism_scene():
 prism_scene()
 
 
+def parameter(element, value):
+    """Of a material: a number, or a colour of three."""
+    if isinstance(value, tuple):
+        return "<{} red=\"{}\" green=\"{}\" blue=\"{}\"/>".format(element, *value)
+    return f"<{element}>{value}</{element}>"
+
+
 def openpbr_row(name, comment, materials, more="", samples=256):
-    """A sphere of each, from its parameters: numbers, and colours of three."""
-
-    def parameter(element, value):
-        if isinstance(value, tuple):
-            return "<{} red=\"{}\" green=\"{}\" blue=\"{}\"/>".format(element, *value)
-        return f"<{element}>{value}</{element}>"
-
+    """A sphere of each, from its parameters."""
     studio(
         name,
         comment,
@@ -2147,6 +2149,83 @@ openpbr_row(
         },
     ],
 )
+
+
+def lock(strands, seed):
+    """Points of strands that rise from a disk and fall outwards, as a lock of hair that is held at its root."""
+    numbers = random.Random(seed)
+    lines = []
+    for _ in range(strands):
+        away, angle = 0.2 * math.sqrt(numbers.random()), 2 * math.pi * numbers.random()
+        turn, lean, rise = angle + numbers.gauss(0, 0.25), numbers.gauss(0.42, 0.1), numbers.gauss(1.75, 0.12)
+        wave, phase = numbers.gauss(0.05, 0.015), 2 * math.pi * numbers.random()
+        points = []
+        for i in range(7):
+            t = i / 6
+            out = away * (1 + 0.6 * t) + lean * t**2.2
+            side = wave * math.sin(phase + 7 * t) * t
+            x = math.cos(turn) * out - math.sin(turn) * side
+            z = math.sin(turn) * out + math.cos(turn) * side
+            points.append(f"{x:.3f} {rise * (t - 0.38 * t**3):.3f} {z:.3f}")
+        lines.append("          " + "  ".join(points))
+    return ",\n".join(lines)
+
+
+def hair_row(name, comment, hairs):
+    """The same lock of each of those materials: their fields by name."""
+    materials = "".join(
+        f"      <hair> <name>lock {i}</name> " + " ".join(parameter(*item) for item in fields.items()) + " </hair>\n"
+        for i, fields in enumerate(hairs)
+    )
+    instances = "".join(
+        f'      <instance> <group>lock</group> <transform> <scale x="0.8" y="0.8" z="0.8"/> <rotate x="0" y="1" z="0" angle="{40 * i}"/> '
+        f'<translate x="{(i - (len(hairs) - 1) / 2) * 1.02:.2f}" y="0" z="0.5"/> </transform> <material>lock {i}</material> </instance>\n'
+        for i in range(len(hairs))
+    )
+    groups = f"""\
+  <groups>
+    <group>
+      <name>lock</name>
+      <objects>
+        <curves>
+          <curve>
+            <points>
+{lock(420, 3)}
+            </points>
+            <radius>0.009</radius> <tipscale>0.3</tipscale> <material>lock 0</material>
+          </curve>
+        </curves>
+      </objects>
+    </group>
+  </groups>
+"""
+    studio(
+        name,
+        comment,
+        f"    <hairs>\n{materials}    </hairs>\n",
+        f"    <instances>\n{instances}    </instances>\n",
+        groups=groups,
+    )
+
+
+hair_row(
+    "hair",
+    "Locks of hair of melanin 0.2, 0.5, 0.9, of 0.5 with a melaninredness of 0.9, and of a color.",
+    [
+        {"melanin": 0.2},
+        {"melanin": 0.5},
+        {"melanin": 0.9},
+        {"melanin": 0.5, "melaninredness": 0.9},
+        {"color": (0.1, 0.35, 0.7)},
+    ],
+)
+hair_row(
+    "hair-roughness",
+    "The same hair of roughness and radialroughness 0.1, 0.2, 0.3, 0.5 and 0.9.",
+    [{"melanin": 0.45, "roughness": r, "radialroughness": r} for r in (0.1, 0.2, 0.3, 0.5, 0.9)],
+)
+
+
 write(
     "emissive",
     "Lamps of any shape: a ring, a ball and a panel.",

@@ -226,6 +226,8 @@ ObjectLists random_objects(Random& random, const SceneDescription& scene,
         item.textures = random_uses(random, element_type<T>().fields, textures);
         reset_unused<T>(item);
       }
+      if constexpr (!std::is_same_v<T, Curve>)  // which alone may be of fibres
+        if (item.material.type == index_of<Hair>(Materials{})) continue;
       if constexpr (std::is_same_v<T, Plane>)  // which has no end, as such a fog has
         if (item.material.type == index_of<Fog>(Materials{}) &&
             !std::get<MaterialItems<Fog>>(scene.materials)[item.material.index].textures.empty())

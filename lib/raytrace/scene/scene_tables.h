@@ -171,8 +171,8 @@ class SceneTables {
   bool has_panes_for_surfaces() const { return has_panes_ && !caustics_; }
   bool is_pane(std::int32_t material) const { return has_panes_ && panes_[static_cast<std::size_t>(material)] != 0; }
   MaskN is_pane(const IntN& material) const;
-  /// Whether some surfaces send on light that is drawn behind them, and which. Not in scenes where shadow rays behind
-  /// them would have to know more: of panes which light paths pass, or of light that is scattered inside.
+  /// Whether some surfaces send on light that is drawn behind them, and which. None but fibres in scenes where shadow
+  /// rays behind them would have to know more: of panes which light paths pass, or of light that is scattered inside.
   bool has_scattering_through() const { return !scattering_through_.empty(); }
   MaskN scatters_through(const Hits& hits, const SurfaceInteraction<FloatN>& surface) const;
   /// Which lanes hit a fibre, inside of which light goes on as the material alone says (materials/kernels.h).
@@ -191,7 +191,6 @@ class SceneTables {
     if (!opacity.texture) return FloatN(opacity.value);
     return FloatN(opacity.value) * textures_->number_at(*opacity.texture, point());
   }
-
   /// By which texture coordinates it is looked up, where it is by nothing else.
   std::optional<UvSet> opacity_uvset(std::int32_t material) const {
     const auto& texture = details_[static_cast<std::size_t>(material)].opacity.texture;
@@ -324,7 +323,6 @@ class SceneTables {
   void turn_tangents(const Hits& hits, const TexturePoint<FloatN>& point, Frame<FloatN>& frame) const;
   MeshMaterials mesh_materials(const SceneDescription& description) const;
   void add_caustics();
-  /// path: the integrator's, if it is one.
   void add_panes();
   void add_scattering_through(bool fibres_alone);
 
@@ -356,8 +354,7 @@ class SceneTables {
   std::vector<std::optional<BufferOrigin>> light_origins_;
   std::unique_ptr<const TextureTable> textures_;
   std::array<std::unique_ptr<MaterialTable>, Materials::size> materials_;
-  std::array<std::int32_t, Materials::size + 1>
-      first_material_{};  ///< of each type, all counted together; their number
+  std::array<std::int32_t, Materials::size + 1> first_material_{};  ///< of each type, counted together; their number
   std::unique_ptr<const GeometryTable> geometry_;
   std::optional<const EmitterTable> emitters_;
   std::optional<const CausticTable> caustics_;

@@ -40,7 +40,7 @@ class Kernel<Raycast> {
   class AroundFibres {
    public:
     AroundFibres(const SceneTables& tables, const Hits& hits)
-        : fibres_(tables.is_fibre(hits)), lights_{fibres_, boundary_, distance_}, has_any_(any(fibres_)) {}
+        : fibres_(tables.is_fibre(hits)), lights_{fibres_, fibres_, boundary_, distance_}, has_any_(any(fibres_)) {}
     AroundFibres(const AroundFibres&) = delete;
     AroundFibres& operator=(const AroundFibres&) = delete;
 
