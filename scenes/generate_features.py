@@ -2152,22 +2152,19 @@ openpbr_row(
 
 
 def lock(strands, seed):
-    """Points of strands that rise from a disk and fall outwards, as a lock of hair that is held at its root."""
+    """Points of strands that hang from a line side by side, in one wave, as a hairdresser shows colours."""
     numbers = random.Random(seed)
     lines = []
     for _ in range(strands):
-        away, angle = 0.2 * math.sqrt(numbers.random()), 2 * math.pi * numbers.random()
-        turn, lean, rise = angle + numbers.gauss(0, 0.25), numbers.gauss(0.42, 0.1), numbers.gauss(1.75, 0.12)
-        wave, phase = numbers.gauss(0.05, 0.015), 2 * math.pi * numbers.random()
+        across, depth, length = numbers.uniform(-0.34, 0.34), numbers.gauss(0, 0.05), numbers.gauss(1.95, 0.06)
+        own, phase = numbers.gauss(0, 0.03), numbers.gauss(0, 0.35)
         points = []
-        for i in range(7):
-            t = i / 6
-            out = away * (1 + 0.6 * t) + lean * t**2.2
-            side = wave * math.sin(phase + 7 * t) * t
-            x = math.cos(turn) * out - math.sin(turn) * side
-            z = math.sin(turn) * out + math.cos(turn) * side
-            points.append(f"{x:.3f} {rise * (t - 0.38 * t**3):.3f} {z:.3f}")
-        lines.append("          " + "  ".join(points))
+        for i in range(9):
+            t = i / 8
+            x = across * (1 - 0.35 * t * t) + own * t + 0.05 * t * math.sin(7 * t + phase)
+            z = depth * (1 + t) + 0.34 * math.sin(math.pi * (1.5 * t + 0.15)) + 0.02 * math.sin(9 * t + 3 * phase)
+            points.append(f"{x:.3f} {2.15 - length * t:.3f} {z:.3f}")
+        lines.append("              " + "  ".join(points))
     return ",\n".join(lines)
 
 
@@ -2178,8 +2175,8 @@ def hair_row(name, comment, hairs):
         for i, fields in enumerate(hairs)
     )
     instances = "".join(
-        f'      <instance> <group>lock</group> <transform> <scale x="0.8" y="0.8" z="0.8"/> <rotate x="0" y="1" z="0" angle="{40 * i}"/> '
-        f'<translate x="{(i - (len(hairs) - 1) / 2) * 1.02:.2f}" y="0" z="0.5"/> </transform> <material>lock {i}</material> </instance>\n'
+        f'      <instance> <group>lock</group> <transform> '
+        f'<translate x="{(i - (len(hairs) - 1) / 2) * 0.92:.2f}" y="0" z="0.6"/> </transform> <material>lock {i}</material> </instance>\n'
         for i in range(len(hairs))
     )
     groups = f"""\
@@ -2190,9 +2187,9 @@ def hair_row(name, comment, hairs):
         <curves>
           <curve>
             <points>
-{lock(420, 3)}
+{lock(360, 3)}
             </points>
-            <radius>0.009</radius> <tipscale>0.3</tipscale> <material>lock 0</material>
+            <radius>0.011</radius> <tipscale>0.3</tipscale> <material>lock 0</material>
           </curve>
         </curves>
       </objects>
