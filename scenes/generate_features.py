@@ -430,6 +430,50 @@ write(
     </sphereclouds>
 """,
 )
+
+
+def grass(blades):
+    """Blades that stand in a disk and bend outwards and in the wind, of four points each."""
+    numbers = random.Random(3)
+    strands = []
+    for _ in range(blades):
+        angle, distance = numbers.uniform(0, 2 * math.pi), 0.9 * math.sqrt(numbers.random())
+        x, z = distance * math.cos(angle), distance * math.sin(angle)
+        height, bend = numbers.uniform(1.1, 2), numbers.uniform(0.1, 0.55)
+        away = angle + numbers.uniform(-0.8, 0.8)
+        points = [(x + (bend * math.cos(away) + 0.25) * t * t, height * t * (1 - 0.25 * bend * t), z + bend * math.sin(away) * t * t)
+                  for t in (0, 0.4, 0.75, 1)]
+        strands.append("  ".join(" ".join(f"{value:.3f}" for value in point) for point in points))
+    return ",\n          ".join(strands)
+
+
+write(
+    "curves",
+    "A tuft of grass, of strands that end in points, and a spring of wire.",
+    mattes="""\
+      <matte> <name>grass</name> <ka>0.12</ka> <kd>0.9</kd> <cd red="0.32" green="0.62" blue="0.12"/> </matte>
+""",
+    phongs=GLOSSY,
+    objects=f"""\
+    <curves>
+      <curve>
+        <points>
+          {grass(260)}
+        </points>
+        <radius>0.02</radius> <tipscale>0</tipscale> <material>grass</material>
+        <transform> <translate x="-0.9" y="0" z="0"/> </transform>
+      </curve>
+      <curve>
+        <points>
+          {"  ".join(f"{1.5 + 0.45 * math.cos(i * math.pi / 4):.3f} {0.06 + i * 0.03:.3f} {0.45 * math.sin(i * math.pi / 4):.3f}" for i in range(57))}
+        </points>
+        <radius>0.06</radius> <material>glossy</material>
+      </curve>
+    </curves>
+""",
+)
+
+
 def lantern(file):
     """A lantern as glTF, with the light in it: four posts between a base and a roof, of two materials."""
 

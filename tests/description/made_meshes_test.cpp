@@ -142,6 +142,35 @@ TEST_CASE("a cloud in memory is held against the same") {
   CHECK(contains(errors_of_cloud(1, [](Data& d) { d.colors = buffer_of<float>({1}); }), "has 1 colors"));
 }
 
+TEST_CASE("strands in memory are held against the same") {
+  const auto errors_of = [](const std::function<void(CurveData&)>& change) {
+    CurveData data;
+    data.points = buffer_of<float>({0, 0, 0, 1, 1, 0, 0, 0, 2, 0, 0, 1, 2, 1, 0, 1});
+    data.along = buffer_of<float>({0, 1, 0, 1});
+    change(data);
+    SceneDescription scene = scene_in_clay();
+    ObjectItem<Curve> curve;
+    curve.parameters.file.path = "memory";
+    curve.data = std::make_shared<const CurveData>(std::move(data));
+    curve.materials = {{matte_type, 0}};
+    std::get<ObjectItems<Curve>>(scene.objects).push_back(curve);
+    return errors_in(scene);
+  };
+  using Data = CurveData;
+  CHECK(errors_of([](Data&) {}) == "");
+  CHECK(errors_of([](Data& d) { d.along = {}; }) == "s: error: <curve> [0] has data that has no points\n");
+  CHECK(contains(errors_of([](Data& d) { d.points = buffer_of<float>({0}); }), "4 points take 16"));
+  CHECK(contains(errors_of([](Data& d) { d.points[4] = not_a_number; }), "a point that is not finite"));
+  CHECK(contains(errors_of([](Data& d) { d.points[4] = 0; }), "where the one before is"));
+  CHECK(contains(errors_of([](Data& d) { d.points[3] = -1; }), "a radius that is less than 0"));
+  CHECK(contains(errors_of([](Data& d) { d.origin.x = std::nan(""); }), "an origin that is not finite"));
+  CHECK(contains(errors_of([](Data& d) { d.colors = buffer_of<float>({1}); }), "has 1 colors"));
+  using Along = std::initializer_list<float>;
+  for (const Along along : {Along{0, 1, 0, 0.5F}, Along{0, 0, 0, 1}, Along{0, 0.5F, 0, 1}, Along{0.5F, 1, 0, 1},
+                            Along{0, 1, 1.5F, 1}, Along{0, 1, 0, not_a_number}})
+    CHECK(contains(errors_of([&](Data& d) { d.along = buffer_of<float>(along); }), "do not go from 0 to 1"));
+}
+
 TEST_CASE("a mesh whose values a program has set is loaded, or refused before its values are used") {
   using Values = Mesh::Parameters;
   CHECK(loading_errors([](Values&) {}) == "");

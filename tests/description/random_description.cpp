@@ -220,8 +220,9 @@ ObjectLists random_objects(Random& random, const SceneDescription& scene,
         item.parameters.group.name = scene.groups[below(random, scene.groups.size())].name;
         while (!is_moderate(item.transform.affine())) item.transform = random_transform(random);
       }
-      if constexpr (std::is_same_v<T, SphereCloud> || std::is_same_v<T, Model>)
+      if constexpr (std::is_same_v<T, SphereCloud> || std::is_same_v<T, Model> || std::is_same_v<T, Curve>)
         item.parameters.file.path = random_name(random);
+      if constexpr (std::is_same_v<T, Curve>) item.parameters.points = {};
       if constexpr (requires { item.textures; }) {
         item.textures = random_uses(random, element_type<T>().fields, textures);
         reset_unused<T>(item);

@@ -199,6 +199,10 @@ TEST_CASE("the schema refuses most of the bad scenes, the program all", "[schema
                                     "box_inside_out",
                                     "cone_without_length",
                                     "cone_without_width",
+                                    "curve_of_file_and_points",
+                                    "curve_of_one_point",
+                                    "curve_without_points",
+                                    "curve_without_radius",
                                     "annulus_without_area",
                                     "include_missing"};
   // Nor that one element stands in place of another, or goes with some only.

@@ -186,6 +186,29 @@ ShapeCase torus_case(Random& random, const Vector& place, double size, double le
           {}};
 }
 
+/// Wires, spindles and tips.
+ShapeCase strand_case(Random& random, const Vector& place, double size) {
+  const double thickness = random.log_between(1e-3, 0.3);
+  const Real radius = as_float(size * thickness);
+  const Real scales[] = {0, 0.25L, 0.5L, 1, 2};
+  const Real tip_scale = scales[random.below(5)];
+  Vector tip = in_float(place + size * (random.chance(0.3) ? Vector{0, 1, 0} : random.direction()));
+  // Where floats are coarse, one sphere might be in the other.
+  if (length(tip - place) < 1.5L * radius) tip.y = as_float(place.y + 2 * size);
+  const Vector along = tip - place;
+  const Frame frame(reference::unit(along));
+  return {std::make_shared<reference::RoundCone>(place, tip, radius, tip_scale),
+          place + 0.5L * along,
+          size,
+          [=](Random& r) {
+            if (r.chance(0.2)) return place + radius * r.direction();
+            if (r.chance(0.2)) return tip + radius * tip_scale * r.direction();
+            const Real part = r.unit();
+            return place + part * along + radius * (1 + part * (tip_scale - 1)) * frame.circle(random_angle(r));
+          },
+          {}};
+}
+
 }  // namespace
 
 ShapeCase random_shape_case(const std::string& kind, Random& random) {
@@ -202,6 +225,7 @@ ShapeCase random_shape_case(const std::string& kind, Random& random) {
   if (kind == "cone") return cone_case(random, place, size, false, false);
   if (kind == "capped cone") return cone_case(random, place, size, true, false);
   if (kind == "capped cylinder") return cone_case(random, place, size, true, true);
+  if (kind == "strand") return strand_case(random, place, size);
   if (kind == "torus") return torus_case(random, place, size, 1e-4, 1);
   return torus_case(random, place, size, 1, 10);
 }

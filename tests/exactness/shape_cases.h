@@ -29,8 +29,8 @@ struct ShapeCase {
 };
 
 /// What ray and shape tests are about: "plane", "sphere", "triangle", "disk", "rectangle", "cylinder", "torus",
-/// "spindle" (a torus that meets itself), "box", "cone", "annulus", "capped cylinder", "capped cone". Positions up to
-/// 1e4 from the origin, sizes from 1e-3 to 1e4, drawn apart from each other.
+/// "spindle" (a torus that meets itself), "box", "cone", "annulus", "capped cylinder", "capped cone", "strand" (a curve
+/// of two points). Positions up to 1e4 from the origin, sizes from 1e-3 to 1e4, drawn apart from each other.
 ShapeCase random_shape_case(const std::string& kind, Random& random);
 
 /// Aimed, grazing by 1e-7 to 0.1 of the size on either side, at borders, from inside, from nearby, along the axes of

@@ -204,6 +204,7 @@ TEST_CASE("exactness of cones") { check_shape("cone", {}, {}); }
 TEST_CASE("exactness of annuli") { check_shape("annulus", {}, {}); }
 TEST_CASE("exactness of cylinders with caps") { check_shape("capped cylinder", {}, {}); }
 TEST_CASE("exactness of cones with caps") { check_shape("capped cone", {}, {}); }
+TEST_CASE("exactness of strands") { check_shape("strand", {}, {}); }
 TEST_CASE("exactness of toruses that meet themselves") { check_shape("spindle", {}, {}); }
 
 // Embree solves triangles in float.

@@ -239,6 +239,27 @@ class Torus : public Shape {
   Real swept_, tube_;
 };
 
+/// A strand of two points: the hull of two spheres, neither of which is in the other.
+class RoundCone : public Shape {
+ public:
+  /// tip_scale: of the radius, at `b`.
+  RoundCone(Vector a, Vector b, Real radius, Real tip_scale);
+  Crossings crossings(const Ray& ray) const override;
+  Real distance(Vector point) const override;
+  Vector normal(Vector point) const override;
+  Real smallest_extent() const override { return radius_; }
+  Real largest_extent() const override { return length(b_ - a_) + radius_; }
+  std::string element() const override { return "curve"; }
+  std::string group() const override { return "curves"; }
+  std::string parameters() const override;
+
+ private:
+  Vector foot(Vector point, Real& radius) const;
+
+  Vector a_, b_;
+  Real radius_, tip_scale_;
+};
+
 using ShapePointer = std::shared_ptr<const Shape>;
 
 /// `<name x=".." y=".." z=".."/>` and `<name>..</name>` with digits enough to read back the same double.

@@ -173,11 +173,15 @@ class MeshLoader {
     const bool is_file = !file.path.empty();
     const SourceLocation place = is_file ? location_of(file) : location_of(curve);
     const std::string which = is_file ? on_one_line(file.path) : std::string("the curve");
-    if (!is_file)
-      if (const auto fault = Curve::check(curve.parameters)) {
-        diagnostics_.error(place, which + ": " + fault->message);
+    if (!is_file) {
+      OptionalMessage fault = check_value(points, Range::any);
+      if (!fault)
+        if (const auto found = Curve::check(curve.parameters)) fault = found->message;
+      if (fault) {
+        diagnostics_.error(place, which + ": " + *fault);
         return nullptr;
       }
+    }
     const auto key = std::tuple(is_file ? file.path : std::string(), radius, radiusscale, tipscale, basis);
     if (is_file)
       if (const auto known = curves_.find(key); known != curves_.end()) return known->second;

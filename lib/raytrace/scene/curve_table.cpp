@@ -122,7 +122,8 @@ CurveTable::Place CurveTable::place(std::size_t piece, const Vec3d& p) const {
   place.radius = cone.radius + (cone.end_radius - cone.radius) * place.share;
   const Vec3d center = cone.start + cone.axis * foot, from = p - center;
   const double distance = length(from);
-  place.normal = distance > 0 ? from * (1 / distance) : AxisFrame(cone.axis).right;
+  // At a tip, along the axis.
+  place.normal = distance > 0 ? from * (1 / distance) : cone.axis * (place.share > 0.5 ? 1.0 : -1.0);
   place.position = center + place.normal * place.radius;
   place.tangent =
       normalize(tangent_at(piece, cone.axis) * (1 - place.share) + tangent_at(piece + 1, cone.axis) * place.share);
