@@ -401,7 +401,10 @@ TEST_CASE("hair: no direction and no parameter gives what is no number") {
           Hair::Parameters hair = absorbing({absorption, absorption, absorption}, roughness, roughness);
           hair.ior = ior;
           const HairBsdf bsdf = bsdf_of(hair);
-          Random random(3);
+          for (const Vec3d& along : {Vec3d{1, 0, 0}, Vec3d{-1, 0, 0}}) {
+            CHECK(std::isfinite(bsdf.evaluate(spread(wo), spread(along), local_normal<FloatN>()).red.get(0)));
+            CHECK(std::isfinite(bsdf.pdf(spread(wo), spread(along)).get(0)));
+          }
           for (const double u : {0.0, 0.05, 0.4, 0.8, 1 - 0x1p-24})
             for (const double u1 : {0.0, 0.5, 1 - 0x1p-24}) {
               const auto number = [](double x) { return FloatN(static_cast<float>(x)); };
