@@ -92,6 +92,12 @@ void randomize(Random& random, const ElementType& type, void* parameters) {
 template <class T>
 typename T::Parameters random_parameters(Random& random) {
   typename T::Parameters parameters;
+  if constexpr (std::is_same_v<T, Hair>) {  // which has to say its colour, in one of three ways
+    const std::size_t way = below(random, 3);
+    if (way == 0) parameters.melanin = 0.5;
+    if (way == 1) parameters.color = {0.5, 0.25, 1};
+    if (way == 2) parameters.absorption = {0.5, 2, 4};
+  }
   randomize(random, element_type<T>(), &parameters);
   return parameters;
 }
