@@ -1777,9 +1777,9 @@ LAMP = """\
 """
 
 
-def studio(name, comment, materials, objects, samples=256):
+def studio(name, comment, materials, objects, samples=256, groups=""):
     style = {**STUDIO, "room": STUDIO["room"].replace("<samples>256", f"<samples>{samples}")}
-    write(name, comment, materials_more=materials + LAMP_MATERIAL, objects=objects + LAMP, **style)
+    write(name, comment, materials_more=materials + LAMP_MATERIAL, objects=objects + LAMP, groups=groups, **style)
 
 
 def row(materials):
@@ -2004,14 +2004,15 @@ def prism_scene():
 prism_scene()
 
 
+def parameter(element, value):
+    """Of a material: a number, or a colour of three."""
+    if isinstance(value, tuple):
+        return "<{} red=\"{}\" green=\"{}\" blue=\"{}\"/>".format(element, *value)
+    return f"<{element}>{value}</{element}>"
+
+
 def openpbr_row(name, comment, materials, more="", samples=256):
-    """A sphere of each, from its parameters: numbers, and colours of three."""
-
-    def parameter(element, value):
-        if isinstance(value, tuple):
-            return "<{} red=\"{}\" green=\"{}\" blue=\"{}\"/>".format(element, *value)
-        return f"<{element}>{value}</{element}>"
-
+    """A sphere of each, from its parameters."""
     studio(
         name,
         comment,
@@ -2192,6 +2193,80 @@ openpbr_row(
         },
     ],
 )
+
+
+def lock(strands, seed):
+    """Points of strands that hang from a line side by side, in one wave, as a hairdresser shows colours."""
+    numbers = random.Random(seed)
+    lines = []
+    for _ in range(strands):
+        across, depth, length = numbers.uniform(-0.34, 0.34), numbers.gauss(0, 0.05), numbers.gauss(1.95, 0.06)
+        own, phase = numbers.gauss(0, 0.03), numbers.gauss(0, 0.35)
+        points = []
+        for i in range(9):
+            t = i / 8
+            x = across * (1 - 0.35 * t * t) + own * t + 0.05 * t * math.sin(7 * t + phase)
+            z = depth * (1 + t) + 0.34 * math.sin(math.pi * (1.5 * t + 0.15)) + 0.02 * math.sin(9 * t + 3 * phase)
+            points.append(f"{x:.3f} {2.15 - length * t:.3f} {z:.3f}")
+        lines.append("              " + "  ".join(points))
+    return ",\n".join(lines)
+
+
+def hair_row(name, comment, hairs):
+    """The same lock of each of those materials: their fields by name."""
+    materials = "".join(
+        f"      <hair> <name>lock {i}</name> " + " ".join(parameter(*item) for item in fields.items()) + " </hair>\n"
+        for i, fields in enumerate(hairs)
+    )
+    instances = "".join(
+        f'      <instance> <group>lock</group> <transform> '
+        f'<translate x="{(i - (len(hairs) - 1) / 2) * 0.92:.2f}" y="0" z="0.6"/> </transform> <material>lock {i}</material> </instance>\n'
+        for i in range(len(hairs))
+    )
+    groups = f"""\
+  <groups>
+    <group>
+      <name>lock</name>
+      <objects>
+        <curves>
+          <curve>
+            <points>
+{lock(360, 3)}
+            </points>
+            <radius>0.011</radius> <tipscale>0.3</tipscale> <material>lock 0</material>
+          </curve>
+        </curves>
+      </objects>
+    </group>
+  </groups>
+"""
+    studio(
+        name,
+        comment,
+        f"    <hairs>\n{materials}    </hairs>\n",
+        f"    <instances>\n{instances}    </instances>\n",
+        groups=groups,
+    )
+
+
+hair_row(
+    "hair",
+    "Locks of hair of melanin 0.2, 0.5, 0.9, of 0.5 with a melaninredness of 0.9, and of a color.",
+    [
+        {"melanin": 0.2},
+        {"melanin": 0.5},
+        {"melanin": 0.9},
+        {"melanin": 0.5, "melaninredness": 0.9},
+        {"color": (0.1, 0.35, 0.7)},
+    ],
+)
+hair_row(
+    "hair-roughness",
+    "The same hair of roughness and radialroughness 0.1, 0.2, 0.3, 0.5 and 0.9.",
+    [{"melanin": 0.45, "roughness": r, "radialroughness": r} for r in (0.1, 0.2, 0.3, 0.5, 0.9)],
+)
+
+
 write(
     "emissive",
     "Lamps of any shape: a ring, a ball and a panel.",

@@ -92,6 +92,12 @@ void randomize(Random& random, const ElementType& type, void* parameters) {
 template <class T>
 typename T::Parameters random_parameters(Random& random) {
   typename T::Parameters parameters;
+  if constexpr (std::is_same_v<T, Hair>) {  // which has to say its colour, in one of three ways
+    const std::size_t way = below(random, 3);
+    if (way == 0) parameters.melanin = 0.5;
+    if (way == 1) parameters.color = {0.5, 0.25, 1};
+    if (way == 2) parameters.absorption = {0.5, 2, 4};
+  }
   randomize(random, element_type<T>(), &parameters);
   return parameters;
 }
@@ -227,6 +233,8 @@ ObjectLists random_objects(Random& random, const SceneDescription& scene,
         item.textures = random_uses(random, element_type<T>().fields, textures);
         reset_unused<T>(item);
       }
+      if constexpr (!std::is_same_v<T, Curve>)  // which alone may be of fibres
+        if (item.material.type == index_of<Hair>(Materials{})) continue;
       if constexpr (std::is_same_v<T, Plane>)  // which has no end, as such a fog has
         if (item.material.type == index_of<Fog>(Materials{}) &&
             !std::get<MaterialItems<Fog>>(scene.materials)[item.material.index].textures.empty())

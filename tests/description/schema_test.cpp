@@ -210,12 +210,34 @@ TEST_CASE("the schema refuses most of the bad scenes, the program all", "[schema
                    "whitebalance_too_warm", "fisheye_beyond_all", "fov_and_pixelsize", "fov_and_viewdistance",
                    "fov_too_wide", "lens_of_two_blades", "missing_viewdistance", "too_many_indirectsamples"});
   // Nor what a material's numbers and colours are together.
-  expected.insert({"conductor_of_two_colors", "conductor_of_two_edges", "conductor_too_rough",
-                   "conductor_too_stretched", "conductor_without_color", "dielectric_that_shines",
-                   "dielectric_beyond_dispersion", "dielectric_thin_and_dispersive", "dielectric_thin_and_thick",
-                   "dielectric_too_dense", "dielectric_too_dispersive", "dielectric_too_rough",
-                   "dielectric_without_distance", "openpbr_film_of_nothing", "openpbr_that_shines", "openpbr_too_dense",
-                   "openpbr_too_dispersive", "openpbr_too_rough"});
+  expected.insert({"conductor_of_two_colors",
+                   "conductor_of_two_edges",
+                   "conductor_too_rough",
+                   "conductor_too_stretched",
+                   "conductor_without_color",
+                   "dielectric_that_shines",
+                   "dielectric_beyond_dispersion",
+                   "dielectric_thin_and_dispersive",
+                   "dielectric_thin_and_thick",
+                   "dielectric_too_dense",
+                   "dielectric_too_dispersive",
+                   "dielectric_too_rough",
+                   "dielectric_without_distance",
+                   "openpbr_film_of_nothing",
+                   "openpbr_that_shines",
+                   "openpbr_too_dense",
+                   "openpbr_too_dispersive",
+                   "openpbr_too_rough",
+                   "hair_of_two_colors",
+                   "hair_too_dark",
+                   "hair_too_dense",
+                   "hair_too_red",
+                   "hair_too_rough",
+                   "hair_too_rough_around",
+                   "hair_too_tilted",
+                   "hair_without_color"});
+  // Nor which objects a material may be of.
+  expected.insert({"hair_on_a_sphere", "hair_on_an_instance"});
   // Nor how large a number is at most, or whether there is a texture of a name.
   expected.insert({"displacement_of_unknown_texture", "subdivision_too_often"});
   // Nor what a fog's density is of.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "raytrace/description/check_environment.h"
+#include "raytrace/description/check_fibres.h"
 #include "raytrace/description/check_fogs.h"
 #include "raytrace/description/check_groups.h"
 #include "raytrace/description/check_mesh_data.h"
@@ -33,6 +34,7 @@ class SceneChecker {
     check_groups(scene, diagnostics_);
     check_environment(scene, diagnostics_);
     check_fogs(scene, diagnostics_);
+    check_fibres(scene, diagnostics_);
     for (const Group& group : scene.groups) {
       location_ = location_of(group);
       item_ = {group_element, static_cast<std::size_t>(&group - scene.groups.data())};

@@ -14,7 +14,7 @@ inline IntegratorParameters default_integrator(const SceneDescription& scene) {
     return (!std::get<MaterialItems<Types>>(scene.materials).empty() || ...);
   };
   const bool needs_path =
-      has(TypeList<Emissive, Mirror, Conductor, Dielectric, OpenPbr, Fog>{}) ||
+      has(TypeList<Emissive, Mirror, Conductor, Dielectric, OpenPbr, Fog, Hair>{}) ||
       !std::get<LightItems<EnvironmentLight>>(scene.lights).empty() ||
       !std::get<LightItems<SkyLight>>(scene.lights).empty() ||
       std::any_of(suns.begin(), suns.end(), [](const auto& sun) { return sun.parameters.angle > 0; });

@@ -77,7 +77,7 @@ MaterialReference FileMaterials::add(const MeshMaterial& material, const std::fi
   if (!material.norm.file.empty()) set_texture(added, normalmap_field, image(material.norm, folder));
   with_type(Materials{}, added.type, [&]<class Material>(std::type_identity<Material>) {
     auto& parameters = std::get<MaterialItems<Material>>(scene_.materials)[added.index].parameters;
-    if constexpr (requires { parameters.opacity; }) {
+    if constexpr (requires { parameters.normalmap; }) {
       parameters.opacity = std::max(0.0, material.d.value_or(1));
       parameters.normalmap = material.norm.strength;
     }

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "raytrace/description/check_fibres.h"
 #include "raytrace/description/check_groups.h"
 #include "raytrace/description/check_solids.h"
 #include "raytrace/description/cut_strands.h"
@@ -388,8 +389,9 @@ bool load_meshes(SceneDescription& description, Diagnostics& diagnostics, int th
   if (std::get<TextureItems<Image>>(description.textures).size() > images_before)
     load_images(description, diagnostics, threads, textures);
   if (diagnostics.error_count() > errors_before) return false;
+  check_fibres(description, diagnostics);  // of materials that files' ones were overridden by
   check_solids(description, diagnostics);
-  return true;
+  return diagnostics.error_count() == errors_before;
 }
 
 }  // namespace raytrace

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "raytrace/description/check_environment.h"
+#include "raytrace/description/check_fibres.h"
 #include "raytrace/description/check_fogs.h"
 #include "raytrace/description/check_groups.h"
 #include "raytrace/description/include.h"
@@ -52,6 +53,7 @@ class SceneReader {
     if (groups_complete_) check_groups(scene_, diagnostics_);
     check_environment(scene_, diagnostics_);
     check_fogs(scene_, diagnostics_);
+    check_fibres(scene_, diagnostics_);
     for (const std::string_view key : {ViewPlane::element, camera_key})
       if (!firsts_.contains(key))
         diagnostics_.error(root, [&] { return "the scene has no " + tag(key) + "; add one"; });

@@ -54,6 +54,10 @@
 // One that lets light through rough facets, and whose evaluate(), pdf() and value() know what comes from behind, may
 // say so in the same way by scatters_through(). Then light is drawn for it from behind as well.
 //
+// One of fibres, in which one scattering stands for all that happens in them, has
+//   static constexpr bool is_fibre = true;
+// It is of curves alone, which rays then hit from outside alone. The tangent, x of the local frame, is the fibre's axis.
+//
 // One that lets light straight through, as thin panes do, may say so in the same way by is_pane(). Then shadow rays
 // pass it, and its Bsdf has
 //   Rgb<T> straight(const Vec3<T>& wo) const;    the share of light that comes through, in the local frame
@@ -63,6 +67,7 @@
 #include "raytrace/materials/dielectric_kernel.h"
 #include "raytrace/materials/emissive_kernel.h"
 #include "raytrace/materials/fog_kernel.h"
+#include "raytrace/materials/hair_kernel.h"
 #include "raytrace/materials/matte_kernel.h"
 #include "raytrace/materials/mirror_kernel.h"
 #include "raytrace/materials/openpbr_kernel.h"

@@ -6,6 +6,7 @@
 #include "raytrace/materials/dielectric.h"
 #include "raytrace/materials/emissive.h"
 #include "raytrace/materials/fog.h"
+#include "raytrace/materials/hair.h"
 #include "raytrace/materials/matte.h"
 #include "raytrace/materials/mirror.h"
 #include "raytrace/materials/openpbr.h"
@@ -14,6 +15,6 @@
 
 namespace raytrace {
 
-using Materials = TypeList<Matte, Phong, Emissive, Mirror, Conductor, Dielectric, OpenPbr, Fog>;
+using Materials = TypeList<Matte, Phong, Emissive, Mirror, Conductor, Dielectric, OpenPbr, Fog, Hair>;
 
 }  // namespace raytrace

@@ -19,15 +19,22 @@ inline constexpr std::string_view opacity_field = "opacity", normalmap_field = "
 
 /// A material's own fields, and
 ///   opacity: the share of the rays, camera and shadow rays alike, that meet the surface. The others pass as if there
-///     were none; where a picture cuts leaves out of their squares, a sample sees a leaf or what is behind it;
+///     were none; where a picture cuts leaves out of their squares, a sample sees a leaf or what is behind it.
+template <class Parameters>
+Fields with_opacity(Fields fields) {
+  FieldInfo opacity{opacity_field, false, Range::not_negative};
+  opacity.prefers_alpha = true;
+  fields.emplace_back(opacity, &Parameters::opacity);
+  return fields;
+}
+
+/// The same, and
 ///   normalmap: a texture of shading normals, x along u, y along v and z out of the surface, each from -1 at 0 to 1 at
 ///     1; x and y are multiplied by its strength;
 ///   bump: a texture of heights in space over the surface, multiplied by its height, that shading follows.
 template <class Parameters>
 Fields with_surface_detail(Fields fields) {
-  FieldInfo opacity{opacity_field, false, Range::not_negative};
-  opacity.prefers_alpha = true;
-  fields.emplace_back(opacity, &Parameters::opacity);
+  fields = with_opacity<Parameters>(std::move(fields));
   FieldInfo normalmap{normalmap_field, false};
   normalmap.number_attribute = "strength";
   normalmap.whole_color = true;

@@ -132,7 +132,8 @@ SceneTables::SceneTables(const SceneDescription& description, int threads, const
     has_photons_ = caustics_ && path->caustics == Caustics::photons && path->maxdepth > 2;
   }
   if (path != nullptr && path->maxdepth > 1 && (!caustics_ || media_.has_fog())) add_panes();
-  if (path != nullptr) add_scattering_through();
+  // Shadow rays know nothing of what is inside of clear things in these scenes; fibres have nothing inside.
+  add_scattering_through(path == nullptr || (has_panes_ && caustics_) || media_.scatters());
 }
 
 void SceneTables::add_panes() {
@@ -144,13 +145,23 @@ void SceneTables::add_panes() {
   has_cutouts_ |= has_panes_;
 }
 
-void SceneTables::add_scattering_through() {
-  if ((has_panes_ && caustics_) || media_.scatters()) return;
-  std::vector<std::int32_t> scattering;
-  for (std::size_t i = 0; i < details_.size(); ++i)
-    scattering.push_back(used_materials_[i] != 0 && details_[i].scatters_through ? 1 : 0);
-  if (std::find(scattering.begin(), scattering.end(), 1) != scattering.end())
-    scattering_through_ = std::move(scattering);
+void SceneTables::add_scattering_through(bool fibres_alone) {
+  std::vector<std::int32_t> scattering, fibres;
+  for (std::size_t i = 0; i < details_.size(); ++i) {
+    const bool is_used = used_materials_[i] != 0, is_fibre = is_used && details_[i].is_fibre;
+    scattering.push_back(is_fibre || (is_used && details_[i].scatters_through && !fibres_alone) ? 1 : 0);
+    fibres.push_back(is_fibre ? 1 : 0);
+  }
+  const auto is_any = [](const std::vector<std::int32_t>& marked) {
+    return std::ranges::find(marked, 1) != marked.end();
+  };
+  if (is_any(scattering)) scattering_through_ = std::move(scattering);
+  if (is_any(fibres)) fibres_ = std::move(fibres);
+}
+
+MaskN SceneTables::is_fibre(const Hits& hits) const {
+  if (fibres_.empty()) return MaskN(false);
+  return hits.hit & float_mask<FloatN>(gather(fibres_.data(), material(hits)) != IntN(0));
 }
 
 MaskN SceneTables::scatters_through(const Hits& hits, const SurfaceInteraction<FloatN>& surface) const {
@@ -188,10 +199,13 @@ template <class Material>
 SceneTables::SurfaceDetail SceneTables::surface_detail(const MaterialItem<Material>& item) {
   SurfaceDetail detail{{0}, {1}, {1}};  // of what has no surface
   if constexpr (requires { item.parameters.opacity; })
-    detail = {{static_cast<float>(item.parameters.opacity)},
-              {static_cast<float>(item.parameters.normalmap)},
-              {static_cast<float>(item.parameters.bump)}};
+    detail.opacity.value = static_cast<float>(item.parameters.opacity);
+  if constexpr (requires { item.parameters.normalmap; }) {
+    detail.normalmap.value = static_cast<float>(item.parameters.normalmap);
+    detail.bump.value = static_cast<float>(item.parameters.bump);
+  }
   detail.is_even = requires { Material::is_even; };
+  detail.is_fibre = requires { requires Material::is_fibre; };
   if constexpr (requires { Material::refracts(item.parameters); })
     detail.refracts = Material::refracts(item.parameters);
   if constexpr (requires { Material::has_layers; }) {
@@ -201,7 +215,8 @@ SceneTables::SurfaceDetail SceneTables::surface_detail(const MaterialItem<Materi
   }
   if constexpr (requires { Material::is_anisotropic(item.parameters); }) {
     detail.is_anisotropic = Material::is_anisotropic(item.parameters);
-    detail.tangentrotation.value = static_cast<float>(item.parameters.tangentrotation / 360);
+    if constexpr (requires { item.parameters.tangentrotation; })
+      detail.tangentrotation.value = static_cast<float>(item.parameters.tangentrotation / 360);
   }
   const auto is_textured = [&](std::string_view name) {
     return std::any_of(item.textures.begin(), item.textures.end(),

@@ -171,10 +171,12 @@ class SceneTables {
   bool has_panes_for_surfaces() const { return has_panes_ && !caustics_; }
   bool is_pane(std::int32_t material) const { return has_panes_ && panes_[static_cast<std::size_t>(material)] != 0; }
   MaskN is_pane(const IntN& material) const;
-  /// Whether some surfaces send on light that is drawn behind them, and which. Not in scenes where shadow rays behind
-  /// them would have to know more: of panes which light paths pass, or of light that is scattered inside.
+  /// Whether some surfaces send on light that is drawn behind them, and which. None but fibres in scenes where shadow
+  /// rays behind them would have to know more: of panes which light paths pass, or of light that is scattered inside.
   bool has_scattering_through() const { return !scattering_through_.empty(); }
   MaskN scatters_through(const Hits& hits, const SurfaceInteraction<FloatN>& surface) const;
+  /// Which lanes hit a fibre, inside of which light goes on as the material alone says (materials/kernels.h).
+  MaskN is_fibre(const Hits& hits) const;
   /// 1 for materials that are fogs, else 0; empty if no object has one.
   std::vector<std::uint8_t> fogs() const;
   /// Whether it has no surface: rays pass it, but paths know its boundary.
@@ -189,7 +191,6 @@ class SceneTables {
     if (!opacity.texture) return FloatN(opacity.value);
     return FloatN(opacity.value) * textures_->number_at(*opacity.texture, point());
   }
-
   /// By which texture coordinates it is looked up, where it is by nothing else.
   std::optional<UvSet> opacity_uvset(std::int32_t material) const {
     const auto& texture = details_[static_cast<std::size_t>(material)].opacity.texture;
@@ -280,7 +281,7 @@ class SceneTables {
     bool is_anisotropic = false, focuses = false, is_pane = false, has_coat = false, has_subsurface = false;
     bool is_layered = false;  ///< a coat's normals may differ from those of the base below it
     bool is_even = false;     ///< it reflects light to all sides, and nothing like a mirror
-    bool refracts = false, scatters_through = false;
+    bool refracts = false, scatters_through = false, is_fibre = false;
 
     bool is_cutout() const { return opacity.value < 1 || opacity.texture; }
     bool has_relief() const { return normalmap.texture || bump.texture; }
@@ -322,9 +323,8 @@ class SceneTables {
   void turn_tangents(const Hits& hits, const TexturePoint<FloatN>& point, Frame<FloatN>& frame) const;
   MeshMaterials mesh_materials(const SceneDescription& description) const;
   void add_caustics();
-  /// path: the integrator's, if it is one.
   void add_panes();
-  void add_scattering_through();
+  void add_scattering_through(bool fibres_alone);
 
   /// answer(table, materials) of each material type among the lanes, each lane's of its own.
   template <class Answer>
@@ -354,8 +354,7 @@ class SceneTables {
   std::vector<std::optional<BufferOrigin>> light_origins_;
   std::unique_ptr<const TextureTable> textures_;
   std::array<std::unique_ptr<MaterialTable>, Materials::size> materials_;
-  std::array<std::int32_t, Materials::size + 1>
-      first_material_{};  ///< of each type, all counted together; their number
+  std::array<std::int32_t, Materials::size + 1> first_material_{};  ///< of each type, counted together; their number
   std::unique_ptr<const GeometryTable> geometry_;
   std::optional<const EmitterTable> emitters_;
   std::optional<const CausticTable> caustics_;
@@ -370,6 +369,7 @@ class SceneTables {
   std::vector<std::int32_t> shining_sides_;       ///< of all materials: 0, 1 for the front, 2 for both
   std::vector<std::int32_t> panes_;               ///< 1 for those that are panes, else 0; empty where none are passed
   std::vector<std::int32_t> scattering_through_;  ///< likewise: those that send on light from behind
+  std::vector<std::int32_t> fibres_;              ///< likewise: those that are fibres
   std::vector<std::int32_t> textured_;            ///< 1 for materials with textures, else 0; empty if there are none
   std::vector<std::int32_t> anisotropic_;         ///< likewise: those whose reflection differs along the surface
   RayCone ray_cone_;

@@ -65,6 +65,7 @@ struct ShadowNumbers {
 /// What lights behind a surface need to know of it, which sends their light on in some lanes.
 struct LightsBehind {
   const MaskN& lanes;
+  const MaskN& fibres;  ///< those of them that light comes to from all sides; ng says which is behind
   const MediumBoundary& boundary;
   const FloatN& distance;  ///< that paths came to it
 };
@@ -181,12 +182,13 @@ RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const SceneTa
     MaskN through(false);
     if (behind != nullptr) [[unlikely]] {
       const Vec3<FloatN>& way = shadow_rays.direction;
-      through = behind->lanes & (dot(surface.ns, way) < FloatN(0)) & (dot(surface.ng, way) < FloatN(0));
+      through =
+          behind->lanes & (dot(surface.ng, way) < FloatN(0)) & (behind->fibres | (dot(surface.ns, way) < FloatN(0)));
       const Vec3<FloatN> origin = offset_ray_origin(surface, through);
       const MaskN is_near = through & (shadow_rays.far < infinity<FloatN>());
       shadow_rays.direction = select(is_near, way + (shadow_rays.origin - origin), way);
       shadow_rays.origin = origin;
-      lit = lit | through;
+      lit = lit | through | behind->fibres;
     }
     // Where rays look for boundaries as well, those to spotlights from outside of their cones are too many. So are they
     // where nothing was drawn.
@@ -219,7 +221,8 @@ RAYTRACE_INLINE Rgb<FloatN> direct_light(const TracedScene& scene, const SceneTa
     here.cosine = select(lit, max(dot(surface.ns, here.wi), FloatN(0)), FloatN(0));
     if (surface.has_relief) [[unlikely]]
       here.cosine = here.cosine * relief_shadow(surface, here.wi);
-    if (any(through)) here.cosine = select(lit & through, abs(dot(surface.ns, here.wi)), here.cosine);
+    if (behind != nullptr) [[unlikely]]
+      here.cosine = select(lit & (through | behind->fibres), abs(dot(surface.ns, here.wi)), here.cosine);
     ++count;
   }
   if (count > 0 || last_light - group.first_light <= lights_per_run) shade_run();

@@ -308,7 +308,8 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   const PanesAhead* const panes = tables.has_panes_for_surfaces() && most_panes > 0 ? &ahead : nullptr;
   // Light is drawn from behind for what sends it on.
   const MaskN both_sides = tables.has_scattering_through() ? tables.scatters_through(hits, surface) : MaskN(false);
-  const LightsBehind behind{both_sides, boundary, path.distance};
+  const MaskN fibres = tables.is_fibre(hits);
+  const LightsBehind behind{both_sides, fibres, boundary, path.distance};
   Rgb<FloatN> light = black(), light_of_groups = black();
   LightParts parts;
   for (std::size_t group = 0; group < groups_; ++group) {
@@ -325,7 +326,8 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
     add_scattered(path, lanes, path.throughput * light, IntN(static_cast<std::int32_t>(group)), depth + 1);
     light = black();
   }
-  const PathVertex vertex{hits, surface, point, tables.shading_frame(hits, surface, point), path.distance, both_sides};
+  const PathVertex vertex{hits,          surface,    point, tables.shading_frame(hits, surface, point),
+                          path.distance, both_sides, fibres};
   const Vec3<FloatN> wo = vertex.frame.to_local(surface.wo);
   const bool draws_light = tables.environment() != nullptr || !tables.emitters().empty();
   DrawnLight drawn =
@@ -357,7 +359,7 @@ void PathBatch::extend(PathPacket& path, const MaskN& arrived, int depth, RayCou
   if (has_passes_) [[unlikely]]
     add_to_passes(path, lanes, light_of_groups + light, parts, depth);
   if (photons_ != nullptr)
-    if (const MaskN shown = lanes & !(focuses | is_first); any(shown))
+    if (const MaskN shown = lanes & !(focuses | is_first | fibres); any(shown))
       add_photons(path, hits, surface, point, shown, depth);
   clock_.end(Stage::lights);
   if (!goes_on) return;

@@ -26,8 +26,10 @@ void PathBatch::set_way(PathPacket& path, const PathDeparture& from, const BsdfS
   const MaskN through = sample.wi.z < FloatN(0);
   // No light path comes to a face from behind it, whatever the smooth surface there.
   const MaskN above = through | (dot(path.rays.direction, from.vertex.surface.ng) > FloatN(0));
-  const MaskN reflects =
-      (from.is_first | MaskN(photons_ != nullptr)) & above & !(from.focuses | through | sample.specular);
+  // Photons about a point of a fibre are those of a surface that is wider than it is: there, paths go on by themselves.
+  MaskN brought = from.is_first;
+  if (photons_ != nullptr) brought = brought | !from.vertex.fibres;
+  const MaskN reflects = brought & above & !(from.focuses | through | sample.specular);
   const MaskN by_gloss_alone = split_gloss(path, from, sample, lanes & reflects);
   IntN way = select_lanes(reflects, IntN(by_reflection), IntN(any_way));
   way = select_lanes(by_gloss_alone, IntN(by_gloss), way);
@@ -74,10 +76,12 @@ void PathBatch::scatter(PathPacket& path, const PathDeparture& from, const BsdfS
   if (follows_mirrors_) [[unlikely]]
     stop_following(path, from.lanes & !sample.specular);
   rays.direction = from.vertex.frame.to_world(sample.wi);
-  const MaskN through = sample.wi.z < FloatN(0);
-  // On the true surface the direction is on the same side as on the shaded one.
+  MaskN through = sample.wi.z < FloatN(0);
+  // On the true surface the direction is on the same side as on the shaded one. Fibres send light to all sides.
   const FloatN true_cosine = dot(rays.direction, select(through, surface.ng, surface.true_normal()));
-  MaskN alive = from.lanes & (sample.pdf > FloatN(0)) & (true_cosine * sample.wi.z > FloatN(0));
+  MaskN alive = from.lanes & (sample.pdf > FloatN(0)) & (from.vertex.fibres | (true_cosine * sample.wi.z > FloatN(0)));
+  if (const MaskN& fibres = from.vertex.fibres; any(fibres)) [[unlikely]]
+    through = (fibres & (dot(rays.direction, surface.ng) < FloatN(0))) | (through & !fibres);
   FloatN weight = abs(sample.wi.z) / sample.pdf;
   if (surface.has_relief) weight = select(through, weight, weight * relief_shadow(surface, rays.direction));
   path.throughput = select(alive, path.throughput * sample.f * weight, Rgb<FloatN>(Rgb<float>(0, 0, 0)));

@@ -36,6 +36,23 @@ class Kernel<Raycast> {
                           const RayResult& result, const MaskN& counted);
 
  private:
+  /// Light comes to fibres from all sides; other surfaces know only that from their own.
+  class AroundFibres {
+   public:
+    AroundFibres(const SceneTables& tables, const Hits& hits)
+        : fibres_(tables.is_fibre(hits)), lights_{fibres_, fibres_, boundary_, distance_}, has_any_(any(fibres_)) {}
+    AroundFibres(const AroundFibres&) = delete;
+    AroundFibres& operator=(const AroundFibres&) = delete;
+
+    const LightsBehind* lights() const { return has_any_ ? &lights_ : nullptr; }
+
+   private:
+    MaskN fibres_;
+    MediumBoundary boundary_;
+    FloatN distance_{0};
+    LightsBehind lights_;
+    bool has_any_;
+  };
   /// shade(hits, surface, textures): the radiance where something was hit.
   template <class Shade>
   static RayResult trace(const TracedScene& scene, const Rgb<float>& background, CameraRays& camera,
@@ -74,8 +91,10 @@ inline RayResult Kernel<Raycast>::radiance(const TracedScene& scene, const Rgb<f
                      // What a ray meets on its way to one light says nothing of that to another, nor of the camera
                      // ray's.
                      const ShadowNumbers numbers{camera.pixel, camera.sample, 1};
+                     const AroundFibres around(tables, hits);
                      Rgb<FloatN> radiance = direct_light(scene, tables.light_groups().front(), hits, surface, textures,
-                                                         Coherence::coherent, counted, counts, numbers);
+                                                         Coherence::coherent, counted, counts, numbers, nullptr,
+                                                         nullptr, nullptr, false, around.lights());
                      if (tables.has_emission()) [[unlikely]]
                        radiance += tables.emitted(hits, surface, textures);
                      return radiance;
@@ -91,6 +110,7 @@ inline RayResult Kernel<Raycast>::radiance(const TracedScene& scene, const Rgb<f
   const auto shade = [&](const Hits& hits, const SurfaceInteraction<FloatN>& surface,
                          const TexturePoint<FloatN>* textures) {
     const ShadowNumbers numbers{camera.pixel, camera.sample, 1};
+    const AroundFibres around(tables, hits);
     Rgb<FloatN> emitted(black);
     IntN emitter(0);
     if (tables.has_emission()) {
@@ -102,7 +122,8 @@ inline RayResult Kernel<Raycast>::radiance(const TracedScene& scene, const Rgb<f
       const MaskN shines = float_mask<FloatN>(emitter == IntN(static_cast<std::int32_t>(i)));
       groups[i] = select(shines, emitted, Rgb<FloatN>(black));
       if (!group.is_dark())
-        groups[i] += direct_light(scene, group, hits, surface, textures, Coherence::coherent, counted, counts, numbers);
+        groups[i] += direct_light(scene, group, hits, surface, textures, Coherence::coherent, counted, counts, numbers,
+                                  nullptr, nullptr, nullptr, false, around.lights());
     }
     return Rgb<FloatN>(black);
   };
@@ -122,11 +143,13 @@ inline RayResult Kernel<Raycast>::radiance(const TracedScene& scene, const Rgb<f
   LightParts parts;
   Rgb<FloatN> all = black;
   RayCounts counts;  // of rays that have been counted
+  const AroundFibres around(tables, first.hits);
   for (const SceneTables::LightGroup& group : tables.light_groups())
     all += direct_light(scene, group, first.hits, first.surface, textures, Coherence::coherent, counted, counts,
-                        {camera.pixel, camera.sample, 1}, nullptr, nullptr, nullptr, false, nullptr, &parts);
+                        {camera.pixel, camera.sample, 1}, nullptr, nullptr, nullptr, false, around.lights(), &parts);
   pass(LightPass::diffuse_direct) = select(first.hits.hit, parts.take_diffuse(all), black);
   pass(LightPass::specular_direct) = select(first.hits.hit, parts.gloss, black);
+  pass(LightPass::transmission_direct) = select(first.hits.hit, parts.transmitted, black);
   if (tables.has_emission())
     pass(LightPass::emission) = select(first.hits.hit, tables.emitted(first.hits, first.surface, textures), black);
   return light;

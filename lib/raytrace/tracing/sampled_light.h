@@ -29,6 +29,7 @@ struct PathVertex {
   Frame<FloatN> frame;  ///< about surface.ns
   FloatN distance;      ///< that the path came to it
   MaskN both_sides;     ///< light is drawn for it from behind as well
+  MaskN fibres;         ///< likewise; whatever the normal for shading says, ng says which side it is
 
   /// The normal by which it is drawn.
   Vec3<FloatN> side() const {
@@ -114,12 +115,13 @@ inline DrawnLight draw_light(const SceneTables& tables, const PathVertex& vertex
   light.local_wi = vertex.frame.to_local(light.wi);
   MaskN faces = (light.local_wi.z > FloatN(0)) & (dot(light.wi, surface.true_normal()) > FloatN(0));
   if (any(vertex.both_sides)) {
-    light.through = vertex.both_sides & (light.local_wi.z < FloatN(0)) & (dot(light.wi, surface.ng) < FloatN(0));
+    const MaskN behind = dot(light.wi, surface.ng) < FloatN(0);
+    light.through = vertex.both_sides & behind & (vertex.fibres | (light.local_wi.z < FloatN(0)));
     const Vec3<FloatN> origin = offset_ray_origin(surface, light.through);
     light.ray.direction =
         select(light.through & !light.is_sky, light.ray.direction + (light.ray.origin - origin), light.ray.direction);
     light.ray.origin = origin;
-    faces = faces | light.through;
+    faces = faces | light.through | vertex.fibres;
   }
   light.lit = vertex.hits.hit & light.lit & faces;
   return light;
