@@ -8,7 +8,7 @@
 namespace raytrace::test {
 
 /// Mitsuba 3.9.1, scalar_rgb: its `hair` with ext_ior = 1. Its eval() has the cosine in it, its axis is y. Its
-/// Bessel's function is good to 2e-3.
+/// Bessel's function is good to 5e-3.
 struct MitsubaHair {
   double roughness, radialroughness;
   Rgb<double> absorption;

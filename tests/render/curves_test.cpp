@@ -206,7 +206,7 @@ TEST_CASE("strands without a material have the colours of their file, evenly fro
   std::ofstream(file, std::ios::binary) << bytes;
   const FloatPicture picture =
       rendered(curves_scene(in_list(curve("<file>" + file + "</file>", "")), "albedo", "", 16));
-  const auto at = [&](int column) { return picture.pixels()[static_cast<std::size_t>(24 * 64 + column)]; };
+  const auto at = [&](int column) { return picture.pixels()[std::size_t{24} * 64 + static_cast<std::size_t>(column)]; };
   for (const int column : {16, 32, 48}) {
     INFO(column);
     const double share = ((column + 0.5 - 32) / 64 * 11.7 + 4) / 8;
@@ -218,7 +218,9 @@ TEST_CASE("strands without a material have the colours of their file, evenly fro
 TEST_CASE("u goes from the root to the tip, v around the strand") {
   const FloatPicture picture = rendered(curves_scene(
       in_list(curve("<points>-4 0 0 -2 0 0 4 0 0</points><radius>1</radius><basis>linear</basis>")), "uv", "", 4));
-  const auto at = [&](int column, int row) { return picture.pixels()[static_cast<std::size_t>(row * 64 + column)]; };
+  const auto at = [&](int column, int row) {
+    return picture.pixels()[static_cast<std::size_t>(row) * 64 + static_cast<std::size_t>(column)];
+  };
   for (const int column : {16, 24, 32, 40, 48}) {
     INFO(column);
     // By lengths, and not by points.
