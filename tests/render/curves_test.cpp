@@ -70,7 +70,6 @@ int different_pixels(const FloatPicture& a, const FloatPicture& b, double most) 
 
 TEST_CASE("a straight strand is a cylinder with balls at its ends") {
   const std::string strand = curve("<points>-3 -1 0 -1 0 1 3 2 3</points><radius>0.5</radius><basis>linear</basis>");
-  const std::string ball = "</center><radius>0.5</radius><material>red</material></sphere>";
   const std::string shapes =
       "<cylinders><cylinder><bottom x='-3' y='-1' z='0'/><top x='3' y='2' z='3'/><radius>0.5</radius><material>red"
       "</material></cylinder></cylinders><spheres><sphere><center x='-3' y='-1' z='0'/><radius>0.5</radius><material>"

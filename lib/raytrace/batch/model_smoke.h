@@ -12,9 +12,9 @@ namespace raytrace {
 bool is_smoke(const std::string& file);
 
 /// Adds a fog of the file's density and, as the scene's first mesh, a box around it. The file does not say how thick a
-/// density of 1 is: where it is largest, light goes a fiftieth of the box' diagonal on average. Light is scattered often
-/// in white smoke, so paths are long. False where it cannot be read, or has nothing that the stage asks of it, which
-/// the diagnostics say.
+/// density of 1 is: where it is largest, light goes a fiftieth of the box' diagonal on average. Light is scattered
+/// often in white smoke, so paths are long. False where it cannot be read, or has nothing that the stage asks of it,
+/// which the diagnostics say.
 bool add_smoke(SceneDescription& description, const std::string& file, const ModelStage& stage,
                Diagnostics& diagnostics, int threads, const TextureSettings& textures);
 

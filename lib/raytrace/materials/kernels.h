@@ -56,7 +56,8 @@
 //
 // One of fibres, in which one scattering stands for all that happens in them, has
 //   static constexpr bool is_fibre = true;
-// It is of curves alone, which rays then hit from outside alone. The tangent, x of the local frame, is the fibre's axis.
+// It is of curves alone, which rays then hit from outside alone. The tangent, x of the local frame, is the fibre's
+// axis.
 //
 // One that lets light straight through, as thin panes do, may say so in the same way by is_pane(). Then shadow rays
 // pass it, and its Bsdf has
