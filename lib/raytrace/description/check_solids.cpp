@@ -47,7 +47,7 @@ bool is_flat(const Vec3d& size, const Affine& affine) {
 struct Solid {
   const ObjectItem<Mesh>* mesh;
   Bounds box;  ///< after its transform
-  bool is_flat = false, is_inside_out = false, is_open = false;
+  bool is_flat = false, is_inside_out = false;
 };
 
 bool is_within(const Bounds& inner, const Bounds& outer) {
@@ -84,10 +84,7 @@ Solid solid_of(const ObjectItem<Mesh>& mesh) {
       area_size += length(normal);
       volume += dot(a, normal);
     }
-  const double opening = length(area);
-  const bool is_closed = opening < 1e-4 * area_size;
-  // What is more open is a surface of water, say, below which the scene goes on.
-  solid.is_open = opening > 1e-3 * area_size && opening < 0.5 * area_size;
+  const bool is_closed = length(area) < 1e-4 * area_size;
   solid.is_flat = is_closed && is_flat(Vec3d(own_box.upper) - Vec3d(own_box.lower), affine);
   // A flat one, whose volume is rounding, has no inside.
   solid.is_inside_out = is_closed && volume < -1e-6 * std::pow(area_size, 1.5);
@@ -126,11 +123,6 @@ class SolidChecker {
             std::string("the fronts of the mesh's faces are inside: as glass it is inside out; give its faces the "
                         "other order of corners, counter-clockwise where they are looked at from outside"));
       }
-    if (open_ && count_ == 1)
-      diagnostics.warning(*open_,
-                          "it is of solid glass and has an opening, through which light is in the glass without "
-                          "having entered it; " +
-                              closing_);
     if (!pane_ || !has_lights_without_size(scene_) || !has_path_without_caustics(scene_)) return;
     diagnostics.warning(*pane_, std::string("suns, points and spots do not shine through what is flat and of solid "
                                             "glass; let the material of a pane be thin-walled, or give <path> "
@@ -143,12 +135,7 @@ class SolidChecker {
   void add(const ObjectLists& lists) {
     for_each_type(Objects{}, [&]<class T>(std::type_identity<T>) {
       if constexpr (!std::is_same_v<T, Mesh>)
-        for (const auto& item : std::get<ObjectItems<T>>(lists)) {
-          if (clear(item.material) == Clear::not_solid) continue;
-          ++count_;
-          if constexpr (requires { item.parameters.caps; })
-            if (!item.parameters.caps) set_open(location_of(item), "close it by <caps>true</caps>");
-        }
+        for (const auto& item : std::get<ObjectItems<T>>(lists)) count_ += clear(item.material) != Clear::not_solid;
     });
     for (const auto& box : std::get<ObjectItems<Box>>(lists))
       if (!pane_ && clear(box.material) == Clear::dark &&
@@ -163,23 +150,15 @@ class SolidChecker {
       if (!all_are([](Clear one) { return one != Clear::not_solid; })) continue;
       ++count_;
       solids.push_back(solid_of(mesh));
-      if (solids.back().is_open) set_open(location_of(mesh), "close the mesh, or let its material be thin-walled");
       if (!pane_ && solids.back().is_flat && all_are([](Clear one) { return one == Clear::dark; }))
         pane_ = location_of(mesh);
     }
-  }
-
-  void set_open(const SourceLocation& location, const char* closing) {
-    open_ = location;
-    closing_ = closing;
   }
 
   const SceneDescription& scene_;
   std::size_t count_ = 0;                   ///< of clear solids
   std::vector<std::vector<Solid>> solids_;  ///< those that are meshes, of the scene and of each group
   std::optional<SourceLocation> pane_;      ///< the first
-  std::optional<SourceLocation> open_;      ///< one with an opening
-  std::string closing_;                     ///< what to do about it
 };
 
 }  // namespace

@@ -10,8 +10,6 @@ namespace raytrace {
 ///
 /// Warns of each closed mesh of clear material whose faces have their fronts inside: rays that come from outside would
 /// start within the glass. Not of one that others may be around, as a bottle is around its hollow.
-/// Warns of the one clear object, where there is no other that may close it, that has an opening: a mesh, or a cylinder
-/// or cone without caps. Not of a mesh that is mostly opening, such as water up to the horizon.
 /// Warns of the first that is flat, such as a pane, where suns and points should shine through and nothing brings their
 /// light.
 void check_solids(const SceneDescription& scene, Diagnostics& diagnostics);
