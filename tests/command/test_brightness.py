@@ -63,7 +63,7 @@ class Brightness(CommandTest):
 
     def test_the_exposure_that_is_offered_shows_the_picture(self):
         for color, what in (("1e-5", "the picture is nearly black: its brightest pixel has "),
-                            ("1e5", "nearly all of the picture is brighter than white; ")):
+                            ("1e5", "nearly all of the picture is much brighter than white; ")):
             scene = SCENE.replace('z="9"/>', f'z="9"/> <scaleradiance>{color}</scaleradiance>')
             scene = scene.replace("<radius>3", "<radius>4")
             said = self.said_of(scene)
@@ -71,9 +71,30 @@ class Brightness(CommandTest):
             exposure = re.search(r"--exposure (\S+) shows it", said).group(1)
             self.assertEqual(self.said_of(scene, "--exposure", exposure), "")
 
+    def test_the_exposure_of_a_picture_that_sets_its_own_is_not_spoken_of(self):
+        dim = SCENE.replace('z="9"/>', 'z="9"/> <scaleradiance>1e-5</scaleradiance>')
+        self.assertEqual(self.said_of(dim, "--auto-exposure", "--exposure", "3"), "")
+
+    def test_lights_that_give_nothing_are_none(self):
+        self.assertIn("the scene has no light",
+                      self.said_of(SCENE.replace('z="9"/>', 'z="9"/> <scaleradiance>0</scaleradiance>')))
+
+    def test_black_is_no_fault_where_it_is_meant(self):
+        black = SCENE.replace('<cd red="0.8" green="0.8" blue="0.8"/>', '<cd red="0" green="0" blue="0"/>')
+        self.assertEqual(self.said_of(black, "--integrator", "albedo"), "")
+        # Shadows alone.
+        caught = SCENE.replace('<material>m</material> </sphere>',
+                               '<shadowcatcher>true</shadowcatcher> <material>m</material> </sphere> <sphere> <center x="0" y="0" z="6"/> '
+                               '<radius>0.5</radius> <visible>false</visible> <material>m</material> </sphere>')
+        self.assertEqual(self.said_of(caught, "--transparent"), "")
+        # A white ground.
+        white = SCENE.replace("</samples>", '</samples> <background red="1.1" green="1.1" blue="1.1"/>')
+        self.assertEqual(self.said_of(white.replace("<radius>3", "<radius>0.05")), "")
+
     def test_a_file_of_radiance_cannot_be_too_bright(self):
         bright = SCENE.replace('z="9"/>', 'z="9"/> <scaleradiance>1e5</scaleradiance>').replace("<radius>3", "<radius>4")
         self.assertEqual(self.said_of(bright, output="a.exr"), "")
+        self.assertEqual(self.said_of(bright.replace("1e5", "1e-5"), output="a.exr"), "")
         self.assertEqual(self.said_of(bright.replace("</samples>", "</samples> <viewtransform>agx</viewtransform>")), "")
 
 

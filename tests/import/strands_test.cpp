@@ -104,14 +104,14 @@ TEST_CASE("a .hair file whose numbers lie is refused before memory is taken for 
   CHECK(contains(messages_of([](Hair& h) { h.strands = 1000000000; }), "ends too early: its 1000000000 strands"));
   CHECK(contains(messages_of([](Hair& h) { h.points = 0xffffffff; }), "ends too early"));
   CHECK(contains(messages_of([](Hair& h) { h.colors.pop_back(); }), "take 272 bytes, and it has 268"));
-  CHECK(contains(messages_of([](Hair& h) { h.segments[0] = 7; }), "their segments make more"));
-  CHECK(contains(messages_of([](Hair& h) { h.segments[0] = 0; }), "their segments make 4"));
+  CHECK(contains(messages_of([](Hair& h) { h.segments[0] = 7; }), "and its strands take more"));
+  CHECK(contains(messages_of([](Hair& h) { h.segments[0] = 0; }), "and its strands take 4"));
   CHECK(contains(messages_of([](Hair& h) { h.arrays = 1; }), "has no array of points"));
   CHECK(contains(messages_of([](Hair& h) {
                    h.arrays = 2;
                    h.default_segments = 0xffffffff;
                  }),
-                 "their segments make more"));
+                 "and its strands take more"));
   CHECK(contains(read("a.hair", "HAIR").messages, "is no .hair file"));
   CHECK(contains(read("a.hair", "").messages, "is empty"));
   CHECK(contains(read("a.hair.gz", Hair().bytes()).messages, "the compressed data is damaged"));
@@ -123,13 +123,13 @@ TEST_CASE("strands that cannot be rendered are left out, and counted in one warn
   hair.positions[4] = infinity;
   const auto one = read("a.hair", hair.bytes());
   REQUIRE(one.strands);
-  CHECK(contains(one.messages, "a.hair: warning: 1 strands are left out"));
+  CHECK(contains(one.messages, "a.hair: warning: 1 strand is left out"));
   CHECK(one.strands->ends == std::vector<std::uint32_t>{3});
   CHECK(one.strands->positions[0] == 1);
   CHECK(one.strands->radii.size() == 3);
-  CHECK(contains(messages_of([](Hair& h) { h.thicknesses[1] = -1; }), "1 strands are left out"));
-  CHECK(contains(messages_of([](Hair& h) { h.thicknesses[1] = std::nanf(""); }), "1 strands are left out"));
-  CHECK(contains(messages_of([](Hair& h) { h.segments = {0, 3}; }), "1 strands are left out"));
+  CHECK(contains(messages_of([](Hair& h) { h.thicknesses[1] = -1; }), "1 strand is left out"));
+  CHECK(contains(messages_of([](Hair& h) { h.thicknesses[1] = std::nanf(""); }), "1 strand is left out"));
+  CHECK(contains(messages_of([](Hair& h) { h.segments = {0, 3}; }), "1 strand is left out"));
   CHECK(contains(messages_of([&](Hair& h) { h.positions[0] = h.positions[6] = infinity; }),
                  "error: has no strands that can be rendered"));
   CHECK(contains(messages_of([](Hair& h) {
@@ -142,7 +142,7 @@ TEST_CASE("strands that cannot be rendered are left out, and counted in one warn
 TEST_CASE("text has a point a line, and empty lines between strands") {
   const auto [strands, messages] = read("a.txt", "0 0 0 1\n0 1 0 0.5\n\n\n 1 0 0 2 \r\n1 1 0 2\r\n\r\n1 5 5 1\n\n");
   REQUIRE(strands);
-  CHECK(contains(messages, "1 strands are left out: of a single point"));
+  CHECK(contains(messages, "1 strand is left out: of a single point"));
   CHECK(strands->ends == std::vector<std::uint32_t>{2, 4});
   CHECK(all_of(strands->positions) == Floats{0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0});
   CHECK(all_of(strands->radii) == Floats{1, 0.5F, 2, 2});

@@ -159,6 +159,9 @@ TEST_CASE("radii are those of the scene where it has one, scaled, and narrower a
   CHECK(contains(messages_of(curves_scene(in_list(curve("<points>1 2 3 4</points><radius>1</radius>")))),
                  "a strand of 4 numbers"));
   CHECK(contains(messages_of(curves_scene(in_list(curve("")))), "needs <file> or <points>"));
+  CHECK(
+      contains(messages_of(curves_scene(in_list(curve(points + "<radius>1e17</radius><radiusscale>20</radiusscale>")))),
+               "has no strand that can be rendered"));
   std::ofstream(file) << "-3 0 0\n3 0 0\n\n1 1 1\n1 1 1\n";
   CHECK(contains(messages_of(curves_scene(in_list(curve(of_file)))), "has no radii; add <radius> to the <curve>"));
   CHECK(contains(messages_of(curves_scene(in_list(curve(of_file + "<radius>1</radius>"))), false),

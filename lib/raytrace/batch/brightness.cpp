@@ -17,8 +17,9 @@ namespace {
 
 /// Shown as 3 of 255 in sRGB: nothing can be made out.
 constexpr double nearly_black = 0.001;
-/// Pictures of bright things before white may well have less than this.
-constexpr double nearly_all = 0.98;
+/// Pictures of bright things before white may well have less than this; and their white is hardly so many times as
+/// bright as what is shown as white.
+constexpr double nearly_all = 0.98, much_brighter = 2;
 
 bool is_black(const Rgb<double>& color) { return color.red == 0 && color.green == 0 && color.blue == 0; }
 
@@ -58,10 +59,12 @@ bool is_all_behind(const SceneDescription& description) {
       description.camera);
 }
 
-std::string cause_of_black(const Scene& scene, const SceneDescription& description) {
+/// None where all is well: black normals, say.
+std::optional<std::string> cause_of_black(const Scene& scene, const SceneDescription& description) {
   if (!has_object_in_view(scene, description))
     return is_all_behind(description) ? "all objects are behind the camera; move its <eye> or <lookat>"
                                       : "no object is in view; move the camera's <eye> or <lookat>";
+  if (!shows_light(description)) return std::nullopt;
   return "no light reaches what is in view; a light or the camera may be inside an object: --integrator normals shows "
          "what is in view";
 }
@@ -83,6 +86,7 @@ bool has_shining_object(const ObjectLists& objects) {
 struct Extremes {
   double brightest = 0;  ///< the largest colour channel, in radiance
   bool nearly_all_above_white = false;
+  bool has_shadows = false;  ///< a transparent picture's pixels that are not empty
 };
 
 /// white: the radiance that is shown as white. Looks at no more pixels than it takes to know that both are moderate.
@@ -95,7 +99,8 @@ Extremes extremes_of(const Film& film, double white) {
     for (int x = region.x0; x < region.x1; ++x) {
       const Pixel pixel = film.pixel(x, y);
       extremes.brightest = std::max({extremes.brightest, double{pixel.red}, double{pixel.green}, double{pixel.blue}});
-      if (!(std::min({pixel.red, pixel.green, pixel.blue}) > white)) ++below;
+      extremes.has_shadows = extremes.has_shadows || (film.settings().transparent && pixel.alpha > 0);
+      if (!(std::min({pixel.red, pixel.green, pixel.blue}) > much_brighter * white)) ++below;
       if (below > most_below && extremes.brightest >= nearly_black * white) return extremes;
     }
   extremes.nearly_all_above_white = below <= most_below;
@@ -109,7 +114,8 @@ std::optional<std::string> no_light_warning(const SceneDescription& description)
   bool shines = has_shining_object(description.objects);
   for (const Group& group : description.groups) shines = shines || has_shining_object(group.objects);
   for_each_type(Lights{}, [&]<class T>(std::type_identity<T>) {
-    shines = shines || !std::get<LightItems<T>>(description.lights).empty();
+    for (const auto& item : std::get<LightItems<T>>(description.lights))
+      shines = shines || item.parameters.scaleradiance > 0;
   });
   if (shines) return std::nullopt;
   return "the picture will be black: the scene has no light; add one to <lights>, or an object of an <emissive> "
@@ -117,17 +123,20 @@ std::optional<std::string> no_light_warning(const SceneDescription& description)
 }
 
 std::optional<std::string> brightness_warning(const Film& film, const Scene& scene, const SceneDescription& description,
-                                              double exposure, bool clips) {
-  const Extremes extremes = extremes_of(film, std::exp2(-exposure));
-  if (extremes.brightest <= 0)
-    return no_light_warning(description) ? std::nullopt
-                                         : std::optional("the picture is black: " + cause_of_black(scene, description));
-  if (!shows_light(description)) return std::nullopt;
-  if (extremes.brightest * std::exp2(exposure) < nearly_black)
+                                              const std::optional<ShownAs>& shown) {
+  const double white = shown ? std::exp2(-shown->exposure) : 1;
+  const Extremes extremes = extremes_of(film, white);
+  if (extremes.brightest <= 0) {
+    if (no_light_warning(description) || extremes.has_shadows) return std::nullopt;
+    const std::optional<std::string> cause = cause_of_black(scene, description);
+    return cause ? std::optional("the picture is black: " + *cause) : std::nullopt;
+  }
+  if (!shows_light(description) || !shown) return std::nullopt;
+  if (extremes.brightest < nearly_black * white)
     return formatted("the picture is nearly black: its brightest pixel has %.2g; --exposure %g shows it",
                      extremes.brightest, automatic_exposure(film));
-  if (clips && extremes.nearly_all_above_white)
-    return formatted("nearly all of the picture is brighter than white; --exposure %g shows it",
+  if (shown->clips && extremes.nearly_all_above_white)
+    return formatted("nearly all of the picture is much brighter than white; --exposure %g shows it",
                      automatic_exposure(film));
   return std::nullopt;
 }

@@ -15,12 +15,17 @@ namespace raytrace {
 /// will be black. Known before a ray is traced.
 std::optional<std::string> no_light_warning(const SceneDescription& description);
 
+/// How a whole picture is shown.
+struct ShownAs {
+  double exposure = 0;  ///< in stops
+  bool clips = true;    ///< what is brighter than white is shown as white (ViewTransform::srgb)
+};
+
 /// Why a whole picture is black, of a scene that no_light_warning() says nothing of; or that it is much brighter or
-/// darker than what is shown, with the exposure that shows it. Of a black one it traces a ray per pixel, to know
-/// whether an object is in view.
-///   exposure: in stops, that it is shown with
-///   clips: whether what is brighter than white is shown as white (ViewTransform::srgb)
+/// darker than what is shown, with the exposure that shows it. Of a black one it renders a sample per pixel, to know
+/// whether an object is in view. A transparent picture may be black where shadows are all that it shows.
+///   shown: none if no file is for display, or if the picture's own brightness sets the exposure
 std::optional<std::string> brightness_warning(const Film& film, const Scene& scene, const SceneDescription& description,
-                                              double exposure, bool clips);
+                                              const std::optional<ShownAs>& shown);
 
 }  // namespace raytrace

@@ -60,7 +60,13 @@ bool add_smoke(SceneDescription& description, const std::string& file, const Mod
   const Bounds bounds = grid_bounds(fog);
   const Vec3d size = Vec3d(bounds.upper) - Vec3d(bounds.lower);
   constexpr double free_paths_across = 50;
-  fog.parameters.meanfreepath = with_two_digits(length(size) / free_paths_across * double{largest});
+  const double free_path = with_two_digits(length(size) / free_paths_across * double{largest});
+  if (!(free_path >= smallest_size && free_path <= largest_number)) {
+    diagnostics.error({}, formatted("has densities of up to %g in a box of %g, which are not those of smoke",
+                                    double{largest}, length(size)));
+    return false;
+  }
+  fog.parameters.meanfreepath = free_path;
   ObjectItem<Mesh> mesh;
   set_box(mesh.parameters, bounds);
   mesh.material = material;

@@ -349,9 +349,10 @@ class PictureRender {
   void report_brightness(const Film& film) const {
     if (film.region() != whole_picture(description_->viewplane) || job_.sample_offset) return;
     const RenderStatistics& statistics = result_.statistics;
-    const bool clips = statistics.view_transform == name_of(ViewTransform::srgb) &&
-                       any_for_display(job_.outputs, job_.image_file_settings());
-    const auto warning = brightness_warning(film, *scene_, *description_, statistics.exposure, clips);
+    std::optional<ShownAs> shown;
+    if (!is_exposed_by_itself() && any_for_display(job_.outputs, job_.image_file_settings()))
+      shown = {statistics.exposure, statistics.view_transform == name_of(ViewTransform::srgb)};
+    const auto warning = brightness_warning(film, *scene_, *description_, shown);
     if (warning) report(MessageLevel::warning, *warning);
   }
 

@@ -114,6 +114,7 @@ OptionalMessage check_curve_data(const CurveData& curves) {
            " points take " + std::to_string(4 * points);
   if (!is_finite(curves.origin)) return "has an origin that is not finite";
   if (OptionalMessage message = check_size("colors", curves.colors.size(), 3, points, "points")) return message;
+  constexpr float farthest = 5e17F;  // what reaches beyond 5e17, Embree leaves out
   bool fine = true, is_radius = true, grows = true;
   for (std::size_t i = 0; i < points; ++i) {
     const float* const p = &curves.points[4 * i];
@@ -125,8 +126,8 @@ OptionalMessage check_curve_data(const CurveData& curves) {
     grows &= goes_on || begins;
     if (goes_on) fine &= p[-4] != p[0] || p[-3] != p[1] || p[-2] != p[2];
   }
-  if (!fine) return "has a point that is not finite, beyond 1e18, or where the one before is";
-  if (!is_radius) return "has a radius that is less than 0 or beyond 1e18";
+  if (!fine) return "has a point that is not finite, beyond 5e17, or where the one before is";
+  if (!is_radius) return "has a radius that is less than 0 or beyond 5e17";
   if (!grows || curves.along[points - 1] != 1) return "has strands that do not go from 0 to 1";
   return std::nullopt;
 }

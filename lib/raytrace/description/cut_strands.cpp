@@ -16,6 +16,9 @@ namespace {
 /// Of the radius, how far pieces may be from the curve; and by how much they may turn.
 constexpr double most_deviation = 0.02, most_turn = 5 * 3.14159265358979323846 / 180;
 
+/// Of coordinates and of radii: what reaches beyond 1e18, Embree leaves out.
+constexpr double most_size = 5e17;
+
 struct StrandPoint {
   Vec3d position{};
   double radius = 0;
@@ -88,7 +91,11 @@ class StrandCutter {
     }
     add(is_spline ? spline_segment(segments - 1).at(1) : points_.back());
     const bool has_radius = std::any_of(cut_.begin(), cut_.end(), [](const StrandPoint& p) { return p.radius > 0; });
-    if (cut_.size() < 2 || !has_radius) cut_.clear();
+    const bool fits = std::all_of(cut_.begin(), cut_.end(), [](const StrandPoint& p) {
+      const Vec3d& at = p.position;
+      return std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z), p.radius}) <= most_size;
+    });
+    if (cut_.size() < 2 || !has_radius || !fits) cut_.clear();
     return cut_;
   }
 

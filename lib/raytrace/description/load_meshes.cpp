@@ -196,10 +196,10 @@ class MeshLoader {
     if (!made.fault.empty())
       diagnostics_.error(place, which + ": " + made.fault);
     else if (made.left_out == strand_count)
-      diagnostics_.error(place, which + ": has no strand that can be rendered: " + left_out_reasons);
+      diagnostics_.error(place, which + ": has no strand that can be rendered; " + left_out_reasons);
     else if (made.left_out > 0)
       diagnostics_.warning(place, which + ": " + std::to_string(made.left_out) + " of " + std::to_string(strand_count) +
-                                      " strands are left out: " + left_out_reasons);
+                                      " strands are left out; " + left_out_reasons);
     std::shared_ptr<const CurveData> result;
     if (made.fault.empty() && made.left_out < strand_count)
       result = std::make_shared<const CurveData>(std::move(made.data));
@@ -208,7 +208,7 @@ class MeshLoader {
   }
 
   static constexpr const char* left_out_reasons =
-      "they have no length, no radius anywhere, or, of a bspline, less than four points";
+      "a strand needs a length, a radius somewhere, at most 5e17 of each, and, as a bspline, four points";
 
   /// Of points that stand in the scene.
   static Strands made_strands(const NumberGroups& points) {

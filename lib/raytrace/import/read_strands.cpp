@@ -12,6 +12,7 @@
 #include "raytrace/import/mesh_file.h"
 #include "raytrace/import/mesh_text.h"
 #include "raytrace/parameters/fields.h"
+#include "raytrace/text/message.h"
 
 namespace raytrace {
 
@@ -63,9 +64,9 @@ class StrandWriter {
     if (!strands_.radii.empty()) strands_.radii.shorten_to(kept_);
     if (!strands_.colors.empty()) strands_.colors.shorten_to(3 * kept_);
     if (left_out_ > 0)
-      diagnostics.warning({}, std::to_string(left_out_) +
-                                  " strands are left out: of a single point, with a point that is not finite or too "
-                                  "far away, or with a radius that is none");
+      diagnostics.warning({}, counted(left_out_, "strand") + (left_out_ == 1 ? " is" : " are") +
+                                  " left out: of a single point, with a point that is not finite or too far away, or "
+                                  "with a radius that is negative or no number");
     if (kept_ > 0) return true;
     diagnostics.error({}, left_out_ == 0 ? no_strands : "has no strands that can be rendered");
     return false;
@@ -132,8 +133,7 @@ std::optional<Strands> read_hair(std::string_view bytes, const MeshReadSettings&
   std::size_t needed = 0;
   for (std::size_t i = 0; i < strands && needed <= count; ++i) needed += segments_of(i) + 1;
   if (needed != count)
-    return refuse(diagnostics, "its strands do not have the " + std::to_string(count) +
-                                   " points that it has: their segments make " +
+    return refuse(diagnostics, "its header says " + counted(count, "point") + ", and its strands take " +
                                    (needed > count ? "more" : std::to_string(needed)));
   Strands result;
   result.positions = MeshBuffer<float>(3 * count);
@@ -180,9 +180,10 @@ std::optional<Strands> read_text_strands(std::string_view text, const MeshReadSe
     bool fine = found == numbers && (numbers == 3 || numbers == 4);
     for (std::size_t i = 0; i < found && fine; ++i) fine = words.number(value);
     if (!fine) {
-      const char* const wanted = numbers == 3 ? "x y z, as those before" : "x y z radius";
-      diagnostics.error({static_cast<std::uint32_t>(line), 0}, std::string("is no point of a strand: a line has ") +
-                                                                   wanted + ", and an empty one is between strands");
+      const std::string wanted =
+          std::string(numbers == 3 ? "x y z" : "x y z radius") + (count > 0 ? ", as those before" : "");
+      diagnostics.error({static_cast<std::uint32_t>(line), 0},
+                        "is no point of a strand: a line has " + wanted + ", and an empty one is between strands");
     }
     ++count;
     return fine;

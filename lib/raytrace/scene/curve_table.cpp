@@ -88,7 +88,7 @@ void CurveTable::move(const Affine& affine, double scale, int threads) {
       const float* const p = data_->points.data() + 4 * i;
       const Vec3d moved = affine.point({p[0], p[1], p[2]});
       // As far as Embree takes them.
-      const auto limited = [](double x) { return static_cast<float>(std::clamp(x, -1e18, 1e18)); };
+      const auto limited = [](double x) { return static_cast<float>(std::clamp(x, -5e17, 5e17)); };
       const float values[] = {limited(moved.x), limited(moved.y), limited(moved.z), limited(p[3] * scale)};
       std::copy_n(values, 4, &moved_[4 * i]);
     }
@@ -178,7 +178,8 @@ Rgb<FloatN> CurveTable::color(const IntN& pieces, const FloatN& share, const Mas
   LaneVectors colors;
   for (const std::size_t lane : SetLanes(lanes)) {
     const float* const c = data_->colors.data() + 3 * static_cast<std::size_t>(pieces.get(lane));
-    const double t = share.get(lane);
+    const double share_there = share.get(lane);
+    const double t = std::isfinite(share_there) ? share_there : 0;  // of a piece without length
     colors.set(lane, Vec3d(c[0], c[1], c[2]) * (1 - t) + Vec3d(c[3], c[4], c[5]) * t);
   }
   const Vec3<FloatN> all = colors.load();
