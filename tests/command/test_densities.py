@@ -224,6 +224,11 @@ class Densities(CommandTest):
         self.assertGreater(green[8][12], 0.05)
         self.assertEqual((green[0][0], green[15][23]), (0, 0))
 
+    def test_capitals_make_no_difference(self):
+        self.put("there/SMOKE.VOL", vol((0.5, 1.5)))
+        self.succeed("there/SMOKE.VOL", "-q", "-r", "8x8", "-s", "4", "-o", "a.exr")
+        self.check_depth("<densityfile>SMOKE.VOL</densityfile>", 0.5)
+
     def test_a_model_of_no_density_is_refused(self):
         self.put("there/smoke.vol", vol((0, 0)))
         self.assertIn("there/smoke.vol: error: has no density anywhere", self.fail_with(1, "there/smoke.vol", "-o", "a.exr"))

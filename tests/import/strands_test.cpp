@@ -28,11 +28,6 @@ ReadStrands read(const std::string& name, const std::string& bytes, const MeshRe
 
 using Floats = std::vector<float>;
 
-template <class T>
-std::vector<T> all_of(const MeshBuffer<T>& buffer) {
-  return {buffer.begin(), buffer.end()};
-}
-
 /// A .hair file of two strands, of 2 and 3 points.
 struct Hair {
   std::uint32_t strands = 2, points = 5, arrays = 1 | 2 | 4 | 16, default_segments = 0;
@@ -72,9 +67,9 @@ TEST_CASE("a .hair file has the strands of its arrays, thicknesses being diamete
   REQUIRE(strands);
   CHECK(messages == "");
   CHECK(strands->ends == std::vector<std::uint32_t>{2, 5});
-  CHECK(all_of(strands->positions) == Hair().positions);
-  CHECK(all_of(strands->radii) == Floats{1, 0.5F, 1, 0.5F, 0});
-  CHECK(all_of(strands->colors) == Hair().colors);
+  CHECK(values(strands->positions) == Hair().positions);
+  CHECK(values(strands->radii) == Floats{1, 0.5F, 1, 0.5F, 0});
+  CHECK(values(strands->colors) == Hair().colors);
 
   Hair evenly;
   evenly.arrays = 2;
@@ -88,7 +83,7 @@ TEST_CASE("a .hair file has the strands of its arrays, thicknesses being diamete
   const auto other = read("A.HAIR", evenly.bytes(), {.origin = {1, 0, 0}});
   REQUIRE(other.strands);
   CHECK(other.strands->ends == std::vector<std::uint32_t>{2, 4});
-  CHECK(all_of(other.strands->radii) == Floats{1.5F, 1.5F, 1.5F, 1.5F});
+  CHECK(values(other.strands->radii) == Floats{1.5F, 1.5F, 1.5F, 1.5F});
   CHECK(other.strands->colors.empty());
   CHECK(other.strands->positions[0] == -1);
   CHECK(other.strands->positions[6] == 0);
@@ -144,8 +139,8 @@ TEST_CASE("text has a point a line, and empty lines between strands") {
   REQUIRE(strands);
   CHECK(contains(messages, "1 strand is left out: of a single point"));
   CHECK(strands->ends == std::vector<std::uint32_t>{2, 4});
-  CHECK(all_of(strands->positions) == Floats{0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0});
-  CHECK(all_of(strands->radii) == Floats{1, 0.5F, 2, 2});
+  CHECK(values(strands->positions) == Floats{0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0});
+  CHECK(values(strands->radii) == Floats{1, 0.5F, 2, 2});
   const auto bare = read("a.curves", "0 0 0\n0 1e400 0\n\n0 0 0\n0 1 0");
   REQUIRE(bare.strands);
   CHECK(bare.strands->radii.empty());

@@ -8,6 +8,7 @@
 #include "raytrace/description/load_grids.h"
 #include "raytrace/description/load_images.h"
 #include "raytrace/math/bounds.h"
+#include "raytrace/text/extension.h"
 #include "raytrace/text/message.h"
 
 namespace raytrace {
@@ -37,7 +38,7 @@ double with_two_digits(double value) { return std::stod(formatted("%.2g", value)
 
 }  // namespace
 
-bool is_smoke(const std::string& file) { return file.ends_with(".vdb") || file.ends_with(".vol"); }
+bool is_smoke(const std::string& file) { return has_extension(file, ".vdb") || has_extension(file, ".vol"); }
 
 bool add_smoke(SceneDescription& description, const std::string& file, const ModelStage& stage,
                Diagnostics& diagnostics, int threads, const TextureSettings& textures) {

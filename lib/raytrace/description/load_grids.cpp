@@ -9,6 +9,7 @@
 
 #include "raytrace/import/grid_tiles.h"
 #include "raytrace/output/openimageio_module.h"
+#include "raytrace/text/extension.h"
 #include "raytrace/text/message.h"
 
 namespace raytrace {
@@ -101,8 +102,8 @@ bool load_grids(SceneDescription& scene, Diagnostics& diagnostics, int threads,
       const std::string hash = hash_of(file.path);
       auto& grid = grids[{hash, name}];
       if (!grid)
-        grid = file.path.ends_with(".vol") ? read_vol_grid(file.path, threads)
-                                           : grid_of_tiles(read_vdb_tiles(file.path, name), threads);
+        grid = has_extension(file.path, ".vol") ? read_vol_grid(file.path, threads)
+                                                : grid_of_tiles(read_vdb_tiles(file.path, name), threads);
       item.grid = {hash, grid};
       if (!diagnostics.has_errors())
         warn_of_other_place(scene, static_cast<std::uint32_t>(&item - fogs.data()), item, diagnostics);

@@ -147,33 +147,20 @@ inline constexpr MaterialReference no_material{0xffffffff, 0xffffffff};
 
 // What files hold, or may hold.
 
-template <>
-struct ObjectItem<SphereCloud> {
-  SphereCloud::Parameters parameters;
+/// Of points or strands, which are one object.
+template <class Object>
+  requires std::is_same_v<Object, SphereCloud> || std::is_same_v<Object, Curve>
+struct ObjectItem<Object> {
+  typename Object::Parameters parameters;
   std::string name;
-  MaterialReference material = no_material;  ///< where there is one, of all spheres
+  MaterialReference material = no_material;  ///< where there is one, of all of it
   std::uint32_t line = 0;
   bool shadowcatcher = false, visible = true;
   Transform transform = {};
 
   // From load_meshes().
-  std::shared_ptr<const PointCloud> data = nullptr;
+  std::shared_ptr<const typename Object::Data> data = nullptr;
   std::vector<MaterialReference> materials = {};  ///< those of the data, at least one
-  std::uint32_t column = 0;
-};
-
-template <>
-struct ObjectItem<Curve> {
-  Curve::Parameters parameters;
-  std::string name;
-  MaterialReference material = no_material;  ///< where there is one, of all strands
-  std::uint32_t line = 0;
-  bool shadowcatcher = false, visible = true;
-  Transform transform = {};
-
-  // From load_meshes().
-  std::shared_ptr<const CurveData> data = nullptr;
-  std::vector<MaterialReference> materials = {};  ///< one
   std::uint32_t column = 0;
 };
 

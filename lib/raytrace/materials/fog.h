@@ -21,6 +21,7 @@
 #include <optional>
 
 #include "raytrace/parameters/fields.h"
+#include "raytrace/text/extension.h"
 
 namespace raytrace {
 
@@ -68,9 +69,9 @@ class Fog {
       return error("the fog's <color> is above 1: light would grow inside");
     if (std::abs(parameters.anisotropy) > 1) return error("the fog's <anisotropy> is not between -1 and 1");
     const std::string& file = parameters.densityfile.path;
-    if (!file.empty() && !file.ends_with(".vdb") && !file.ends_with(".vol"))
+    if (!file.empty() && !has_extension(file, ".vdb") && !has_extension(file, ".vol"))
       return error("the fog's <densityfile> is neither a .vdb nor a .vol");
-    if (!parameters.densitygrid.name.empty() && !file.ends_with(".vdb"))
+    if (!parameters.densitygrid.name.empty() && !has_extension(file, ".vdb"))
       return error("the fog's <densitygrid> names a grid of a .vdb file, and its <densityfile> is none");
     return std::nullopt;
   }

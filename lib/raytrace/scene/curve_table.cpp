@@ -178,8 +178,7 @@ Rgb<FloatN> CurveTable::color(const IntN& pieces, const FloatN& share, const Mas
   LaneVectors colors;
   for (const std::size_t lane : SetLanes(lanes)) {
     const float* const c = data_->colors.data() + 3 * static_cast<std::size_t>(pieces.get(lane));
-    const double share_there = share.get(lane);
-    const double t = std::isfinite(share_there) ? share_there : 0;  // of a piece without length
+    const double t = share.get(lane);
     colors.set(lane, Vec3d(c[0], c[1], c[2]) * (1 - t) + Vec3d(c[3], c[4], c[5]) * t);
   }
   const Vec3<FloatN> all = colors.load();

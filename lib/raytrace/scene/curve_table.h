@@ -150,7 +150,7 @@ RAYTRACE_INLINE F CurveTable::intersect(std::uint32_t piece, const Ray<F>& ray, 
   const D height = dot(from, axis);
   const D foot = min(max(height - length(from - axis * height) * D(cone.sine / cone.cosine), D(cone.first_foot)),
                      D(cone.last_foot));
-  u = (foot * D(1 / cone.length)).to_float();
+  u = (foot * D(cone.length > 0 ? 1 / cone.length : 0)).to_float();
   return select(active, t.to_float(), infinity<F>());
 }
 
